@@ -1,0 +1,392 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/*
+ * pose_wall: how a tunnelling machine stands in its roadway, from one 3D LiDAR.
+ *
+ * Per frame the engine gives seven quantities: roll and pitch (from the floor), yaw (from the side walls) and
+ * the distances from two points of the machine's centre line (s_front ahead, s_back behind) to the left and the
+ * right wall. Each carries its own standard deviation, protection level, state, reasons and age.
+ *
+ *     pose_wall_config config;
+ *     pose_wall_config_init(&config);                        defaults of every key
+ *     pose_wall_config_set(&config, "forward_axis", "+X");   as in pose_wall.yaml
+ *     uint64_t bytes;
+ *     pose_wall_memory_needed(&config, &bytes);              a block of this size, aligned to
+ *                                                            POSE_WALL_BLOCK_ALIGNMENT, is all the memory there is
+ *     pose_wall_engine *engine;
+ *     pose_wall_open(&config, block, bytes, &engine);
+ *     for every frame: pose_wall_process(engine, &cloud, &result);
+ *                                                            nothing to close: free the block
+ *
+ * FRAMES   lidar: as the sensor delivers. base: lidar moved by the extrinsic of the config, +Z up; everything
+ *          reported is in base or in the levelled frame. levelled (_level): same origin as base, turned by
+ *          R_level = Ry(pitch) * Rx(roll), which takes the floor's normal to +Z.
+ * SIGNS    roll = atan2(n_y, n_z), pitch = atan2(-n_x, sqrt(n_y^2 + n_z^2)) with n the floor's upward normal in
+ *          base, about base X and Y whatever forward_axis is. yaw is the angle about +Z from the machine's forward
+ *          axis to the road: a machine turned LEFT by 5 degrees reports yaw = -5 degrees. Distances are >= 0.
+ * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
+ * MEMORY   only the caller's block. No call here allocates, blocks, prints, reads a clock or throws.
+ * THREADS  one engine belongs to one thread at a time; different engines are independent. There are no globals.
+ * TIME     every loop over live data has a cap from the config: the worst case is bounded by points_max, the two
+ *          iteration caps and the size of the incoming cloud.
+ * ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a negative pose_wall_status. A refused
+ *          call changes nothing. "I was called wrongly" is a status; "I looked and could not measure" is not an
+ *          error: the call returns POSE_WALL_OK and the states and reasons in the result tell it.
+ * FLOATS   IEEE 754 without fast-math; the same build and input give the same bits, whatever the block held before.
+ */
+
+#ifndef POSE_WALL_H
+#define POSE_WALL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---------------------------------------------------------------------------------------------- versions */
+
+#define POSE_WALL_VERSION_MAJOR 0
+#define POSE_WALL_VERSION_MINOR 1
+#define POSE_WALL_VERSION_PATCH 0
+
+/* Raised when a struct or function of this header changes incompatibly. */
+#define POSE_WALL_ABI_VERSION 1
+
+/* "0.1.0"; static storage. */
+const char* pose_wall_version(void);
+/* POSE_WALL_ABI_VERSION of the library that is linked; compare it with the header's. */
+uint32_t pose_wall_abi_version(void);
+
+/* ---------------------------------------------------------------------------------------------- status */
+
+/* Numbers are pinned by a test and never reused. */
+enum pose_wall_status {
+  POSE_WALL_OK = 0,
+
+  /* wrong calls */
+  POSE_WALL_E_NULL = -1,         /* a required pointer is NULL */
+  POSE_WALL_E_STRUCT_SIZE = -2,  /* struct_size is not one this library knows (init function not called?) */
+  POSE_WALL_E_BLOCK_SMALL = -3,  /* block smaller than pose_wall_memory_needed() says */
+  POSE_WALL_E_BLOCK_ALIGN = -4,  /* block not aligned to POSE_WALL_BLOCK_ALIGNMENT */
+  POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine */
+  POSE_WALL_E_INDEX = -6,        /* index out of range */
+  POSE_WALL_E_BUFFER_SMALL = -7, /* text does not fit the caller's buffer */
+
+  /* configuration */
+  POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
+  POSE_WALL_E_VALUE_TYPE = -21,  /* value cannot be read as the key's type, or is not one of its choices */
+  POSE_WALL_E_VALUE_RANGE = -22, /* value outside the key's range, or not finite */
+  POSE_WALL_E_CONFIG_RULE = -23, /* two keys contradict each other; see pose_wall_config_check() */
+  POSE_WALL_E_TEXT_LONG = -24,   /* text value longer than POSE_WALL_TEXT_MAX - 1 */
+
+  /* clouds */
+  POSE_WALL_E_CLOUD_FIELD = -40, /* x, y or z missing, or a field of a type that cannot be read */
+  POSE_WALL_E_CLOUD_STEP = -41,  /* a field reaches past point_step, or a row past row_step */
+  POSE_WALL_E_CLOUD_SIZE = -42   /* data_bytes does not hold width x height points */
+};
+
+/* One English sentence, static storage; "unknown status" for anything else. */
+const char* pose_wall_status_text(int32_t status);
+
+/* ---------------------------------------------------------------------------------------------- config */
+
+#define POSE_WALL_TEXT_MAX 64
+#define POSE_WALL_CONFIG_NUMBERS 160
+#define POSE_WALL_CONFIG_TEXTS 3
+
+/* All settings. Treat the members as private: write through the functions below, which know every key's name,
+ * type, unit and range from the one table in src/config_keys.def. Copy it freely. */
+typedef struct pose_wall_config {
+  uint32_t struct_size; /* set by pose_wall_config_init */
+  uint32_t layout;      /* set by pose_wall_config_init: tells configs of another table from this one's */
+  double number[POSE_WALL_CONFIG_NUMBERS];
+  char text[POSE_WALL_CONFIG_TEXTS][POSE_WALL_TEXT_MAX];
+} pose_wall_config;
+
+enum pose_wall_key_type {
+  POSE_WALL_KEY_NUMBER = 1,  /* one decimal number */
+  POSE_WALL_KEY_INTEGER = 2, /* one whole number */
+  POSE_WALL_KEY_CHOICE = 3,  /* one of `choices` (words separated by '|') */
+  POSE_WALL_KEY_TEXT = 4,    /* up to POSE_WALL_TEXT_MAX - 1 bytes */
+  POSE_WALL_KEY_BOX = 5      /* six numbers: x_min x_max y_min y_max z_min z_max; empty text: no box */
+};
+
+/* What the table knows of a key. All pointers are static storage. */
+typedef struct pose_wall_key_info {
+  const char* name;
+  const char* unit;         /* "m", "rad", "deg", "s", "1", ... ; "" for texts and choices */
+  const char* choices;      /* for POSE_WALL_KEY_CHOICE, else "" */
+  const char* default_text; /* as it would be written in pose_wall.yaml */
+  const char* group;        /* heading: "input", "frames", "filter", "ground", "walls", "quality", "temporal" */
+  const char* help;         /* what it is, what a larger value buys and costs */
+  double minimum;           /* inclusive; of each number of a box */
+  double maximum;
+  uint32_t type; /* pose_wall_key_type */
+  uint32_t reserved;
+} pose_wall_key_info;
+
+/* Fills every key with its default. Fails iff: NULL. */
+int32_t pose_wall_config_init(pose_wall_config* config);
+
+/* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"; numbers of a box
+ * are separated by spaces or commas, brackets around them are allowed). On failure the config is unchanged.
+ * Fails iff: NULL, not initialised, key unknown, value of the wrong type, out of range, text too long. */
+int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value);
+
+/* The same for a key of one number or integer. */
+int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value);
+
+/* Reads a key of one number or integer. */
+int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value);
+
+/* Reads a box into value[6]. All zero: no box. */
+int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key, double value[6]);
+
+/* Reads a text or choice key into buffer, with its closing zero. Fails also iff it does not fit. */
+int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer, uint64_t bytes);
+
+/* The table, for help texts and checks: count, and row by index in data-flow order. */
+uint32_t pose_wall_config_key_count(void);
+int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info);
+
+/* A rule over several keys that does not hold: which keys, and what is asked of them. Static storage. */
+typedef struct pose_wall_rule_fault {
+  const char* key;
+  const char* other_key; /* or "" */
+  const char* rule;      /* "range_min must be smaller than range_max" */
+} pose_wall_rule_fault;
+
+/* Checks the rules over several keys. Returns POSE_WALL_OK or POSE_WALL_E_CONFIG_RULE with the first broken rule in
+ * *fault (fault may be NULL). pose_wall_memory_needed and pose_wall_open check by the same rules. */
+int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault);
+
+/* ---------------------------------------------------------------------------------------------- clouds */
+
+/* Numbers of sensor_msgs/PointField. */
+enum pose_wall_field_type {
+  POSE_WALL_FIELD_NONE = 0, /* field absent */
+  POSE_WALL_FIELD_INT8 = 1,
+  POSE_WALL_FIELD_UINT8 = 2,
+  POSE_WALL_FIELD_INT16 = 3,
+  POSE_WALL_FIELD_UINT16 = 4,
+  POSE_WALL_FIELD_INT32 = 5,
+  POSE_WALL_FIELD_UINT32 = 6,
+  POSE_WALL_FIELD_FLOAT32 = 7,
+  POSE_WALL_FIELD_FLOAT64 = 8
+};
+
+typedef struct pose_wall_field {
+  uint32_t offset; /* bytes from the start of a point */
+  uint32_t type;   /* pose_wall_field_type */
+} pose_wall_field;
+
+/* One frame as it comes, a sensor_msgs/PointCloud2 taken by reference: nothing is copied or kept after the call.
+ * Any field order, any alignment, padding between points and rows, either byte order. */
+typedef struct pose_wall_cloud {
+  uint32_t struct_size; /* sizeof(pose_wall_cloud) */
+  uint32_t big_endian;  /* 0 or 1: byte order of the fields */
+  const void* data;     /* may be NULL iff width x height is 0 */
+  uint64_t data_bytes;
+  uint32_t width;      /* points per row */
+  uint32_t height;     /* rows */
+  uint32_t point_step; /* bytes from point to point */
+  uint32_t row_step;   /* bytes from row to row; 0: width x point_step */
+  int64_t stamp_ns;
+  pose_wall_field x; /* metres in the lidar frame; FLOAT32 or FLOAT64 */
+  pose_wall_field y;
+  pose_wall_field z;
+  pose_wall_field intensity; /* any type; used only with intensity_weight > 0 */
+  pose_wall_field time;      /* reserved: not read by this version */
+} pose_wall_cloud;
+
+/* Describes `count` points of three consecutive native floats each, `point_step` bytes apart. Fails iff: cloud NULL,
+ * or data NULL with count > 0. */
+int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
+                              int64_t stamp_ns);
+
+/* ---------------------------------------------------------------------------------------------- result */
+
+/* The seven quantities, in the order of pose_wall_result.quantity. */
+enum pose_wall_quantity {
+  POSE_WALL_ROLL = 0,
+  POSE_WALL_PITCH = 1,
+  POSE_WALL_YAW = 2,
+  POSE_WALL_D_LF = 3, /* left wall at s_front */
+  POSE_WALL_D_LB = 4, /* left wall at s_back */
+  POSE_WALL_D_RF = 5, /* right wall at s_front */
+  POSE_WALL_D_RB = 6, /* right wall at s_back */
+  POSE_WALL_QUANTITIES = 7
+};
+
+enum pose_wall_state {
+  POSE_WALL_INVALID = 0,  /* never measured, or held for too long; value stays readable, confidence 0 */
+  POSE_WALL_HELD = 1,     /* not measured in this frame: the last good value, with a growing protection level */
+  POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: the protection level says how much */
+  POSE_WALL_VALID = 3     /* measured in this frame, every gate passed, protection level within the alert limit */
+};
+
+/* Why a value is not valid, or what a reader should know of it. Bits; pinned by a test. */
+enum pose_wall_reason {
+  /* the frame */
+  POSE_WALL_R_NO_POINTS = 1 << 0,   /* too few points survive the filters */
+  POSE_WALL_R_LEAF_GROWN = 1 << 1,  /* voxel leaf enlarged to stay within points_max (a note, not a fault) */
+  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp equals the last frame's: treated as a repeat, state is kept */
+  POSE_WALL_R_STAMP_BACK = 1 << 3,  /* stamp older than the last frame's: ages restart from this stamp */
+  POSE_WALL_R_STAMP_LEAP = 1 << 4,  /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
+  POSE_WALL_R_FROZEN = 1 << 5,      /* the very points of the last frame again: a frozen sensor */
+  /* the floor */
+  POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
+  POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
+  POSE_WALL_R_FLOOR_THIN = 1 << 8,        /* its points lie nearly on one line, or cover too small an area */
+  POSE_WALL_R_FLOOR_ROUGH = 1 << 9,       /* residuals or unevenness too large for the alert limit */
+  POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 10,  /* another level (bench, pile, reflection) explains the view nearly as well */
+  /* the walls */
+  POSE_WALL_R_WALL_NOT_FOUND = 1 << 11,
+  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 12,  /* fewer than wall_inlier_min */
+  POSE_WALL_R_WALL_SHORT = 1 << 13,        /* supported over less than wall_length_min along the road */
+  POSE_WALL_R_WALL_LEANS = 1 << 14,        /* leans more than wall_lean_max_deg */
+  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 15, /* points lie behind it where it should be solid: pipes, props, conveyor */
+  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 16,    /* another plane on this side explains the view nearly as well */
+  POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 17,
+  POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 18, /* beyond yaw_max_deg, where side and face become ambiguous */
+  POSE_WALL_R_CROSS_ROAD = 1 << 19,       /* a better pair of walls runs across the machine than along it */
+  POSE_WALL_R_CURVED = 1 << 20,           /* wall or floor bends significantly */
+  POSE_WALL_R_EXTRAPOLATED = 1 << 21,     /* no wall seen at the sampling point: the plane is prolonged to it */
+  /* the outcome */
+  POSE_WALL_R_LEVEL_MISSING = 1 << 22, /* walls not searched: this frame has no floor to level by */
+  POSE_WALL_R_ALERT_LIMIT = 1 << 23,   /* protection level above the alert limit */
+  POSE_WALL_R_INNOVATION = 1 << 24,    /* jumped further from the last value than the machine can move */
+  POSE_WALL_R_RATE_LIMITED = 1 << 25,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
+  POSE_WALL_R_HOLD_EXPIRED = 1 << 26,  /* held value's protection level passed the alert limit, or hold_max passed */
+  POSE_WALL_R_WALL_TOO_NEAR = 1 << 27, /* returns nearer than range_min block the view to this side */
+  POSE_WALL_R_NEVER_MEASURED = 1 << 28
+};
+#define POSE_WALL_REASON_COUNT 29
+
+/* Short lower-case names for logs and CSV, static storage: "wall_short", "valid", "d_lf". */
+const char* pose_wall_reason_name(uint32_t bit_index);
+/* One English sentence for people. */
+const char* pose_wall_reason_text(uint32_t bit_index);
+const char* pose_wall_state_name(uint32_t state);
+const char* pose_wall_quantity_name(uint32_t quantity);
+
+typedef struct pose_wall_value {
+  double value;            /* what a controller acts on: smoothed, or held. NaN if never measured */
+  double raw;              /* this frame's own measurement before smoothing; NaN if none */
+  double sigma;            /* standard deviation of raw (held: of the last raw) */
+  double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured */
+  double confidence; /* 0..1: min(1, alert limit / protection level) scaled; 0 when invalid; only falls while held */
+  double age_s;      /* since the frame it was measured in; 0 when measured in this one */
+  uint32_t state;    /* pose_wall_state */
+  uint32_t reasons;  /* pose_wall_reason bits */
+} pose_wall_value;
+
+/* A fitted plane n . p + d = 0 of this frame. */
+typedef struct pose_wall_plane {
+  double normal[3]; /* unit; floor: base frame, pointing up. walls: levelled frame, pointing to the machine */
+  double d_m;       /* floor: height of the base origin above it. walls: distance of the origin */
+  double rms_m;     /* of the inliers */
+  double lean_rad; /* walls: tilt from the vertical of the levelled frame, + leaning away from the machine at the top */
+  double along_min_m; /* walls: supported span along the road direction, from the base origin */
+  double along_max_m;
+  double area_m2; /* supported area */
+  uint32_t found; /* 0: the other members are zero */
+  uint32_t inliers;
+  uint32_t iterations; /* hypotheses scored */
+  uint32_t reasons;
+} pose_wall_plane;
+
+/* Stages of the pipeline, in order; index of pose_wall_result.stage_ns. */
+enum pose_wall_stage {
+  POSE_WALL_STAGE_VOXEL = 0, /* ingest, extrinsic, filter, first voxel pass */
+  POSE_WALL_STAGE_OUTLIERS = 1,
+  POSE_WALL_STAGE_GROUND = 2,
+  POSE_WALL_STAGE_BAND = 3, /* levelling, wall band, second voxel pass */
+  POSE_WALL_STAGE_WALLS = 4,
+  POSE_WALL_STAGE_OUTPUT = 5, /* yaw, distances, quality, smoothing */
+  POSE_WALL_STAGES = 6
+};
+const char* pose_wall_stage_name(uint32_t stage);
+
+typedef struct pose_wall_result {
+  uint32_t struct_size; /* set by the caller to sizeof(pose_wall_result) before the call */
+  uint32_t frame_reasons;
+  int64_t stamp_ns;     /* the frame's */
+  uint64_t frame_index; /* counts processed frames from 0 */
+  double confidence;    /* the smallest of the seven */
+  pose_wall_value quantity[POSE_WALL_QUANTITIES];
+  pose_wall_plane floor;
+  pose_wall_plane left;
+  pose_wall_plane right;
+  double R_level_base[9];               /* row-major; identity when there is no floor */
+  double left_right_yaw_difference_rad; /* yaw by the left wall minus yaw by the right one; NaN unless both.
+                                           Half of it shows a common range bias when the walls are parallel */
+  double voxel_leaf_m;                  /* used in this frame */
+  int64_t stage_ns[POSE_WALL_STAGES];   /* 0 without a clock, see pose_wall_set_clock */
+  uint32_t points_in;
+  uint32_t dropped_not_finite;
+  uint32_t dropped_zero; /* exactly at the sensor: a no-return */
+  uint32_t dropped_near;
+  uint32_t dropped_far;
+  uint32_t dropped_body;
+  uint32_t voxels;
+  uint32_t outliers;
+  uint32_t ground_candidates;
+  uint32_t wall_points;
+} pose_wall_result;
+
+/* ---------------------------------------------------------------------------------------------- engine */
+
+#define POSE_WALL_BLOCK_ALIGNMENT 64
+
+typedef struct pose_wall_engine pose_wall_engine;
+
+/* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails as
+ * pose_wall_config_check, and for NULL. */
+int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
+
+/* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
+ * The config is copied. Fails iff: NULL, broken rule, block too small or misaligned. *engine is set only on success.
+ * There is nothing to close. Cost: one pass over the block. */
+int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes, pose_wall_engine** engine);
+
+/* Forgets all that was measured, as if just opened. */
+int32_t pose_wall_reset(pose_wall_engine* engine);
+
+/* Gives the engine a clock for stage_ns: a function that returns monotonic nanoseconds. NULL takes it away. The
+ * engine's results never depend on it. */
+typedef int64_t (*pose_wall_clock)(void* user);
+int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user);
+
+/* One frame in, one result out. Set result->struct_size = sizeof *result first. A malformed cloud description is
+ * refused with a status and leaves engine and result unchanged; a cloud of garbage points is processed, and the result
+ * says what could not be measured. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
+int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud, pose_wall_result* result);
+
+enum pose_wall_label {
+  POSE_WALL_LABEL_OTHER = 0,
+  POSE_WALL_LABEL_FLOOR = 1,
+  POSE_WALL_LABEL_LEFT = 2,
+  POSE_WALL_LABEL_RIGHT = 3
+};
+
+/* The voxel centroids of the last processed frame, base frame, with what became of them: for pictures and logs.
+ * Pointers into the block, valid until the next call on this engine. */
+typedef struct pose_wall_points {
+  const float* x_base_m;
+  const float* y_base_m;
+  const float* z_base_m;
+  const uint8_t* label; /* pose_wall_label */
+  uint32_t count;
+  uint32_t reserved;
+} pose_wall_points;
+int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_H */
