@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+
+# pose_wall_test_kind(<kind> [WHITE_BOX] TIMEOUT <seconds> [NEEDS <target>])
+# The executable pose_wall_<kind>_tests from <kind>/*_test.cpp, one ctest entry per case, labelled with the kind.
+# Nothing is made when the folder is empty or a needed target is not part of this build.
+function(pose_wall_test_kind kind)
+  cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX" "TIMEOUT;NEEDS" "")
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  if(kind_NEEDS AND NOT TARGET ${kind_NEEDS})
+    message(STATUS "Tests of kind '${kind}' left out: this build has no ${kind_NEEDS}")
+    return()
+  endif()
+
+  set(target pose_wall_${kind}_tests)
+  add_executable(${target} ${sources})
+  pose_wall_compile_strictly(${target})
+  # The objects come first: they define every pose_wall_*, so that tools which link the archive add no second copy.
+  if(kind_WHITE_BOX)
+    target_link_libraries(${target} PRIVATE pose_wall_objects)
+  else()
+    target_link_libraries(${target} PRIVATE pose_wall::pose_wall)
+  endif()
+  target_link_libraries(${target} PRIVATE pose_wall_test_support GTest::gtest_main)
+  foreach(library IN ITEMS pose_wall_tools pose_wall_sim)
+    if(TARGET ${library})
+      target_link_libraries(${target} PRIVATE ${library})
+    endif()
+  endforeach()
+  gtest_discover_tests(${target}
+    TEST_PREFIX "${kind}." DISCOVERY_TIMEOUT 60
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+    PROPERTIES LABELS ${kind} TIMEOUT ${kind_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+endfunction()

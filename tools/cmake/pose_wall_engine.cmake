@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+
+# pose_wall_engine_library(SOURCES a.cpp b.cpp ...)
+#
+# Makes two targets from the engine's sources:
+#   pose_wall_objects  the objects as compiled, for white-box tests and stage benchmarks (internal names visible)
+#   pose_wall          the archive users link (alias pose_wall::pose_wall): all objects in one, in which only
+#                      pose_wall_* is global. Otherwise the weak Eigen and std symbols in here would be merged by the
+#                      linker with those of a user's program, built with other flags.
+function(pose_wall_engine_library)
+  cmake_parse_arguments(PARSE_ARGV 0 engine "" "" "SOURCES")
+  find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+
+  add_library(pose_wall_objects OBJECT ${engine_SOURCES})
+  pose_wall_compile_strictly(pose_wall_objects)
+  pose_wall_engine_flags(pose_wall_objects)
+  set_target_properties(pose_wall_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(pose_wall_objects
+    PUBLIC ${PROJECT_SOURCE_DIR}/include
+    INTERFACE ${PROJECT_SOURCE_DIR}/src
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  # SYSTEM: Eigen's own headers are not held to our warnings.
+  target_link_libraries(pose_wall_objects PUBLIC Eigen3::Eigen)
+
+  pose_wall_one_object(pose_wall_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o)
+  add_library(pose_wall STATIC ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o)
+  add_library(pose_wall::pose_wall ALIAS pose_wall)
+  # C: whoever links the archive needs no C++ runtime.
+  set_target_properties(pose_wall PROPERTIES LINKER_LANGUAGE C ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_include_directories(pose_wall INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(pose_wall INTERFACE m)
+endfunction()
+
+# What keeps the heap, the C++ runtime and other bits on other machines out of the engine.
+function(pose_wall_engine_flags target)
+  target_compile_options(${target} PRIVATE
+    -fno-exceptions -fno-rtti -fno-threadsafe-statics
+    -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections
+    $<$<CONFIG:Release>:-O3>
+    # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
+    $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
+  # These change what a header means or the bits it computes: who includes engine headers must compile alike. A failed
+  # Eigen assertion traps in every build type; Eigen's own would bring assert(), and with it stdio and abort().
+  target_compile_options(${target} PUBLIC
+    -ffp-contract=off -fno-math-errno "-Deigen_assert(condition)=((condition)?(void)0:__builtin_trap())")
+  target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
+endfunction()
+
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  set(POSE_WALL_AARCH64 ON)
+else()
+  set(POSE_WALL_AARCH64 OFF)
+endif()
+
+# Merges the objects of a target and makes hidden symbols local. --force-group-allocation dissolves COMDAT groups: a
+# group whose signature is local could not be merged any more.
+function(pose_wall_one_object objects output)
+  if(NOT CMAKE_LINKER OR NOT CMAKE_OBJCOPY)
+    message(FATAL_ERROR "pose_wall needs GNU ld and objcopy (package binutils) to build its archive; "
+                        "CMAKE_LINKER is '${CMAKE_LINKER}', CMAKE_OBJCOPY is '${CMAKE_OBJCOPY}'")
+  endif()
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
+    COMMAND ${CMAKE_OBJCOPY} --localize-hidden ${output}
+    DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
+    COMMENT "Merging the engine into one object, pose_wall_* global"
+    COMMAND_EXPAND_LISTS VERBATIM)
+  set_source_files_properties(${output} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+endfunction()
