@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Settings as the engine reads them: one named member per row of config_keys.def. The public pose_wall_config stores
+// the same rows by index, so that it can be set by name and checked against the table.
+
+#pragma once
+
+#include <cstdint>
+
+#include "pose_wall.h"
+
+namespace pose_wall {
+
+struct Box {
+  double x_min, x_max, y_min, y_max, z_min, z_max;
+
+  // A box without volume holds nothing; that is how "no box" is stored.
+  bool holds_something() const { return x_max > x_min && y_max > y_min && z_max > z_min; }
+  bool contains(double x, double y, double z) const {
+    return x >= x_min && x <= x_max && y >= y_min && y <= y_max && z >= z_min && z <= z_max;
+  }
+};
+
+struct Settings {
+#define POSE_WALL_TEXT(name, group, text, help)
+#define POSE_WALL_CHOICE(name, group, index, choices, help) std::int32_t name;
+#define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) double name;
+#define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help) std::uint32_t name;
+#define POSE_WALL_BOX(name, group, unit, limit, help) Box name;
+#include "config_keys.def"
+#undef POSE_WALL_TEXT
+#undef POSE_WALL_CHOICE
+#undef POSE_WALL_NUMBER
+#undef POSE_WALL_COUNT
+#undef POSE_WALL_BOX
+};
+
+// POSE_WALL_OK, or why this is no usable config (struct_size, or a broken rule over several keys).
+std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* fault);
+
+Settings read_settings(const pose_wall_config& config);
+
+// What the C ABI's pose_wall_config_* functions do, once their pointers are known to be there.
+std::int32_t config_init(pose_wall_config* config);
+std::int32_t config_set(pose_wall_config* config, const char* key, const char* value);
+std::int32_t config_set_number(pose_wall_config* config, const char* key, double value);
+std::int32_t config_get_number(const pose_wall_config& config, const char* key, double* value);
+std::int32_t config_get_box(const pose_wall_config& config, const char* key, double* value);
+std::int32_t config_get_text(const pose_wall_config& config, const char* key, char* buffer, std::uint64_t bytes);
+std::uint32_t config_key_count();
+std::int32_t config_key(std::uint32_t index, pose_wall_key_info* info);
+
+}  // namespace pose_wall

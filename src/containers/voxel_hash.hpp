@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "containers/arena.hpp"
+#include "containers/span.hpp"
+
+namespace pose_wall {
+
+// Three cell numbers in one key, 21 bits each, ordered as (x, y, z). Cells from -2^20 to 2^20 - 1.
+constexpr std::int32_t kCellBias = 1 << 20;
+
+inline std::uint64_t cell_key(std::int32_t x, std::int32_t y, std::int32_t z) {
+  return (static_cast<std::uint64_t>(x + kCellBias) << 42) | (static_cast<std::uint64_t>(y + kCellBias) << 21) |
+         static_cast<std::uint64_t>(z + kCellBias);
+}
+
+// Key to index, open addressing with linear probing over a power-of-two table at most half full. Indices are given out
+// in the order of first insertion. clear() costs nothing: a slot counts only when its epoch is the current one.
+class VoxelHash {
+ public:
+  static constexpr std::uint32_t kFull = 0xFFFFFFFFU;
+
+  // capacity: how many keys; the table has at least twice as many slots.
+  void lay_out(Arena& arena, std::uint32_t capacity) {
+    capacity_ = capacity;
+    bits_ = 1;
+    while ((1U << bits_) < 2 * capacity) ++bits_;
+    slots_ = arena.take<Slot>(1U << bits_);
+    keys_ = arena.take<std::uint64_t>(capacity);
+  }
+
+  // Once after lay_out in a real block: the block holds garbage, and an epoch must not be right by chance.
+  void reset() {
+    slots_.fill(Slot{0, 0});
+    epoch_ = 0;
+    clear();
+  }
+
+  void clear() {
+    count_ = 0;
+    last_key_ = ~0ULL;
+    if (++epoch_ == 0) {  // after 2^32 clears
+      slots_.fill(Slot{0, 0});
+      epoch_ = 1;
+    }
+  }
+
+  // Index of the key, new or old; kFull where a new key does not fit. Points arrive in scan order, so the last key is
+  // often the next one too.
+  std::uint32_t insert(std::uint64_t key) {
+    if (key == last_key_) return last_index_;
+    for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask()) {
+      Slot& s = slots_[slot];
+      if (s.epoch != epoch_) {
+        if (count_ == capacity_) return kFull;
+        s = Slot{epoch_, count_};
+        keys_[count_] = key;
+        return remember(key, count_++);
+      }
+      if (keys_[s.index] == key) return remember(key, s.index);
+    }
+  }
+
+  // Index of the key, or kFull where it is not in the table.
+  std::uint32_t find(std::uint64_t key) const {
+    for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask()) {
+      const Slot& s = slots_[slot];
+      if (s.epoch != epoch_) return kFull;
+      if (keys_[s.index] == key) return s.index;
+    }
+  }
+
+  std::uint32_t count() const { return count_; }
+  std::uint32_t capacity() const { return capacity_; }
+  std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
+
+ private:
+  struct Slot {
+    std::uint32_t epoch;
+    std::uint32_t index;
+  };
+
+  std::uint32_t mask() const { return (1U << bits_) - 1; }
+  // Fibonacci hashing: the high bits of the product depend on all bits of the key.
+  std::uint32_t home(std::uint64_t key) const {
+    return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15ULL) >> (64 - bits_));
+  }
+  std::uint32_t remember(std::uint64_t key, std::uint32_t index) {
+    last_key_ = key;
+    last_index_ = index;
+    return index;
+  }
+
+  Span<Slot> slots_;
+  Span<std::uint64_t> keys_;
+  std::uint64_t last_key_ = ~0ULL;
+  std::uint32_t last_index_ = 0;
+  std::uint32_t capacity_ = 0;
+  std::uint32_t count_ = 0;
+  std::uint32_t epoch_ = 0;
+  std::uint32_t bits_ = 1;
+};
+
+}  // namespace pose_wall

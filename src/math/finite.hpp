@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "pose_wall relies on NaN and infinity: do not build it with -ffast-math or -ffinite-math-only"
+#endif
+
+namespace pose_wall {
+
+// By the bits, so that no compiler flag can take the test away.
+inline bool is_finite(double value) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return (bits & 0x7FF0000000000000ULL) != 0x7FF0000000000000ULL;
+}
+
+inline double not_a_number() {
+  const std::uint64_t bits = 0x7FF8000000000000ULL;  // the same bits on every machine
+  double value;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+}  // namespace pose_wall
