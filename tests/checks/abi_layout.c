@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/* Prints where every member of the public structs lies, in C99. check_abi.cmake compares it with abi_layout.txt, on
+ * every machine the same file; a struct whose members do not fill it (implicit padding) ends with status 1. */
+
+#include <stdio.h>
+
+#include "pose_wall.h"
+
+static size_t filled = 0;
+
+static void member(const char* name, size_t offset, size_t bytes) {
+  printf("  %-30s %5u %5u\n", name, (unsigned)offset, (unsigned)bytes);
+  filled += bytes;
+}
+
+static int struct_end(const char* name, size_t bytes) {
+  printf("%s %u\n", name, (unsigned)bytes);
+  if (filled != bytes) printf("%s: members fill %u bytes only\n", name, (unsigned)filled);
+  const int padded = filled != bytes;
+  filled = 0;
+  return padded;
+}
+
+#define MEMBER(type, name) member(#name, offsetof(type, name), sizeof(((type*)0)->name))
+
+static int config_layout(void) {
+  MEMBER(pose_wall_config, struct_size);
+  MEMBER(pose_wall_config, layout);
+  MEMBER(pose_wall_config, number);
+  MEMBER(pose_wall_config, text);
+  return struct_end("pose_wall_config", sizeof(pose_wall_config));
+}
+
+static int cloud_layout(void) {
+  int padded = 0;
+  MEMBER(pose_wall_field, offset);
+  MEMBER(pose_wall_field, type);
+  padded += struct_end("pose_wall_field", sizeof(pose_wall_field));
+  MEMBER(pose_wall_cloud, struct_size);
+  MEMBER(pose_wall_cloud, big_endian);
+  MEMBER(pose_wall_cloud, data);
+  MEMBER(pose_wall_cloud, data_bytes);
+  MEMBER(pose_wall_cloud, width);
+  MEMBER(pose_wall_cloud, height);
+  MEMBER(pose_wall_cloud, point_step);
+  MEMBER(pose_wall_cloud, row_step);
+  MEMBER(pose_wall_cloud, stamp_ns);
+  MEMBER(pose_wall_cloud, x);
+  MEMBER(pose_wall_cloud, y);
+  MEMBER(pose_wall_cloud, z);
+  MEMBER(pose_wall_cloud, intensity);
+  MEMBER(pose_wall_cloud, time);
+  return padded + struct_end("pose_wall_cloud", sizeof(pose_wall_cloud));
+}
+
+static int value_layout(void) {
+  MEMBER(pose_wall_value, value);
+  MEMBER(pose_wall_value, raw);
+  MEMBER(pose_wall_value, sigma);
+  MEMBER(pose_wall_value, protection_level);
+  MEMBER(pose_wall_value, confidence);
+  MEMBER(pose_wall_value, age_s);
+  MEMBER(pose_wall_value, state);
+  MEMBER(pose_wall_value, reasons);
+  return struct_end("pose_wall_value", sizeof(pose_wall_value));
+}
+
+static int plane_layout(void) {
+  MEMBER(pose_wall_plane, normal);
+  MEMBER(pose_wall_plane, d_m);
+  MEMBER(pose_wall_plane, rms_m);
+  MEMBER(pose_wall_plane, lean_rad);
+  MEMBER(pose_wall_plane, along_min_m);
+  MEMBER(pose_wall_plane, along_max_m);
+  MEMBER(pose_wall_plane, area_m2);
+  MEMBER(pose_wall_plane, found);
+  MEMBER(pose_wall_plane, inliers);
+  MEMBER(pose_wall_plane, iterations);
+  MEMBER(pose_wall_plane, reasons);
+  return struct_end("pose_wall_plane", sizeof(pose_wall_plane));
+}
+
+static int result_layout(void) {
+  MEMBER(pose_wall_result, struct_size);
+  MEMBER(pose_wall_result, frame_reasons);
+  MEMBER(pose_wall_result, stamp_ns);
+  MEMBER(pose_wall_result, frame_index);
+  MEMBER(pose_wall_result, confidence);
+  MEMBER(pose_wall_result, quantity);
+  MEMBER(pose_wall_result, floor);
+  MEMBER(pose_wall_result, left);
+  MEMBER(pose_wall_result, right);
+  MEMBER(pose_wall_result, R_level_base);
+  MEMBER(pose_wall_result, left_right_yaw_difference_rad);
+  MEMBER(pose_wall_result, voxel_leaf_m);
+  MEMBER(pose_wall_result, stage_ns);
+  MEMBER(pose_wall_result, points_in);
+  MEMBER(pose_wall_result, dropped_not_finite);
+  MEMBER(pose_wall_result, dropped_zero);
+  MEMBER(pose_wall_result, dropped_near);
+  MEMBER(pose_wall_result, dropped_far);
+  MEMBER(pose_wall_result, dropped_body);
+  MEMBER(pose_wall_result, voxels);
+  MEMBER(pose_wall_result, outliers);
+  MEMBER(pose_wall_result, ground_candidates);
+  MEMBER(pose_wall_result, wall_points);
+  return struct_end("pose_wall_result", sizeof(pose_wall_result));
+}
+
+static int pointers_layout(void) {
+  int padded = 0;
+  MEMBER(pose_wall_key_info, name);
+  MEMBER(pose_wall_key_info, unit);
+  MEMBER(pose_wall_key_info, choices);
+  MEMBER(pose_wall_key_info, default_text);
+  MEMBER(pose_wall_key_info, group);
+  MEMBER(pose_wall_key_info, help);
+  MEMBER(pose_wall_key_info, minimum);
+  MEMBER(pose_wall_key_info, maximum);
+  MEMBER(pose_wall_key_info, type);
+  MEMBER(pose_wall_key_info, reserved);
+  padded += struct_end("pose_wall_key_info", sizeof(pose_wall_key_info));
+  MEMBER(pose_wall_points, x_base_m);
+  MEMBER(pose_wall_points, y_base_m);
+  MEMBER(pose_wall_points, z_base_m);
+  MEMBER(pose_wall_points, label);
+  MEMBER(pose_wall_points, count);
+  MEMBER(pose_wall_points, reserved);
+  return padded + struct_end("pose_wall_points", sizeof(pose_wall_points));
+}
+
+int main(void) {
+  const int padded =
+      config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout() + pointers_layout();
+  return padded == 0 ? 0 : 1;
+}

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""Includes go one way: math, containers <- estimation <- types <- stages <- engine <- c_api; stages meet only in
+types.hpp; the engine takes nothing but Eigen and small parts of the standard library; tools see it by its header.
+
+usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
+
+import pathlib
+import re
+import sys
+
+# layer -> what it may include, besides itself
+MAY_INCLUDE = {
+    "math": set(),
+    "containers": {"math", "public"},
+    "estimation": {"math", "containers"},
+    "config": {"math", "public"},
+    "types": {"math", "containers", "estimation", "config", "public"},
+    "stages": {"math", "containers", "estimation", "types", "public"},
+    "engine": {"math", "containers", "estimation", "config", "types", "stages", "public"},
+    "c_api": {"math", "containers", "config", "types", "engine", "public"},
+}
+# Files of src/ itself belong to a layer by how their names begin.
+ROOT_FILES = {"config": "config", "number_text": "config", "types": "types", "engine": "engine", "c_api": "c_api"}
+# No heap, no clock, no printing, no threads: what is not listed here does not get in.
+ENGINE_HEADERS = {
+    "algorithm", "array", "cfloat", "climits", "cmath", "cstddef", "cstdint", "cstring", "initializer_list",
+    "iterator", "limits", "new", "numeric", "tuple", "type_traits", "utility",
+    "Eigen/Core", "Eigen/Cholesky", "Eigen/Dense", "Eigen/Eigenvalues", "Eigen/Geometry", "Eigen/LU", "Eigen/SVD",
+}
+PUBLIC_HEADERS = {"pose_wall.h", "pose_wall.hpp"}
+C_HEADERS = {"stddef.h", "stdint.h"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
+
+
+def sources(folder):
+    return sorted(p for p in folder.rglob("*") if p.suffix in {".c", ".h", ".cpp", ".hpp", ".def"})
+
+
+def includes(path):
+    return INCLUDE.findall(path.read_text(encoding="utf-8"))
+
+
+def layer_of(relative):
+    """Layer of a path below src/: its folder, or what ROOT_FILES says."""
+    if len(relative.parts) > 1:
+        return relative.parts[0]
+    return next((layer for start, layer in ROOT_FILES.items() if relative.stem.startswith(start)), relative.stem)
+
+
+def stage_of(relative):
+    """stages/walls.cpp, stages/walls_search.hpp and stages/walls/search.hpp are all of the stage "walls"."""
+    return relative.parts[1].split(".")[0].split("_")[0]
+
+
+def engine_fault(src, path, bracket, name):
+    """Why a file of the engine may not include `name`, or None."""
+    relative = path.relative_to(src)
+    layer = layer_of(relative)
+    if layer not in MAY_INCLUDE:
+        return f"belongs to no layer; layers are {', '.join(MAY_INCLUDE)}"
+    if name in PUBLIC_HEADERS:
+        return None if "public" in MAY_INCLUDE[layer] else f"{layer} may not include the public header"
+    if bracket == "<":
+        return None if name in ENGINE_HEADERS | C_HEADERS else f"<{name}> is not on the engine's list of headers"
+    target = src / name if (src / name).exists() else (path.parent / name).resolve()
+    if not target.is_relative_to(src.resolve()) and not target.is_relative_to(src):
+        return f'"{name}" is not a file of src/'
+    target = target.relative_to(src if target.is_relative_to(src) else src.resolve())
+    if layer == "stages" and layer_of(target) == "stages":
+        same = stage_of(target) == stage_of(relative)
+        return None if same else f"stage {stage_of(relative)} includes stage {stage_of(target)}; they meet in types.hpp"
+    if layer_of(target) != layer and layer_of(target) not in MAY_INCLUDE[layer]:
+        allowed = ", ".join(sorted(MAY_INCLUDE[layer])) or "nothing"
+        return f'{layer} includes "{name}" of {layer_of(target)}; it may include {allowed}'
+    return None
+
+
+def faults(root):
+    src, include, tools = root / "src", root / "include", root / "tools"
+    for path in sources(src):
+        for bracket, name in includes(path):
+            fault = engine_fault(src, path, bracket, name)
+            if fault:
+                yield path, fault
+    for bracket, name in includes(include / "pose_wall.h"):
+        if name not in C_HEADERS:
+            yield include / "pose_wall.h", f"includes {name}; it may include {', '.join(sorted(C_HEADERS))}"
+    for path in sources(tools):
+        for bracket, name in includes(path):
+            inside = not (tools / name).exists() and not (path.parent / name).exists() and (src / name).exists()
+            if inside or "src/" in name or name.startswith("Eigen/"):
+                yield path, f"includes {name}; tools see the engine only through pose_wall.h and pose_wall.hpp"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    if not sources(root / "src"):
+        sys.exit(f"{root}/src holds no sources: nothing was checked")
+    found = sorted({f"{path.relative_to(root)}: {fault}" for path, fault in faults(root)})
+    counted = f"{len(sources(root / 'src'))} files of src/ and {len(sources(root / 'tools'))} of tools/"
+    print("\n".join(found) or f"{counted}: includes go one way")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

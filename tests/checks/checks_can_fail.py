@@ -1,0 +1,231 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""Runs every check of this folder on a small broken project and asks that it fails and names the fault, and on the
+same project unbroken and asks that it passes."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+CHECKS = pathlib.Path(__file__).parent
+LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
+HEADER = LICENCE + "#include <stdint.h>\nuint32_t pose_wall_abi_version(void);\n"
+SOURCE = LICENCE + '#include "pose_wall.h"\nuint32_t pose_wall_abi_version(void) { return 1; }\n'
+EXAMPLE = LICENCE + '#include "pose_wall.h"\nint main(void) { return pose_wall_abi_version() == 1 ? 0 : 1; }\n'
+
+
+def tool(name, fallback):
+    return os.environ.get(name) or shutil.which(fallback)
+
+
+class BrokenProject(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.write("include/pose_wall.h", HEADER)
+        self.write("src/c_api.cpp", SOURCE)
+        for folder_name in ("tools", "tests", "bench"):
+            self.write(f"{folder_name}/empty.cpp", LICENCE)
+
+    def write(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text, encoding="utf-8")
+
+    def run_check(self, *command):
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def passes(self, *command):
+        status, text = self.run_check(*command)
+        self.assertEqual(status, 0, text)
+
+    def fails(self, fault, *command):
+        status, text = self.run_check(*command)
+        self.assertNotEqual(status, 0, text)
+        self.assertIn(fault, text)
+
+
+class Layers(BrokenProject):
+    def check(self):
+        return CHECKS / "check_layers.py", self.root
+
+    def include(self, path, line):
+        self.write(path, LICENCE + line + "\n")
+
+    def test_passes(self):
+        self.include("src/stages/walls.cpp", '#include "types.hpp"\n#include "stages/walls_search.hpp"')
+        self.include("src/stages/walls_search.hpp", "#include <Eigen/Core>")
+        self.include("src/types.hpp", "#include <cstdint>")
+        self.passes(*self.check())
+
+    def test_stage_includes_stage(self):
+        self.include("src/stages/ground.hpp", "")
+        self.include("src/stages/walls.cpp", '#include "stages/ground.hpp"')
+        self.fails("stage walls includes stage ground", *self.check())
+
+    def test_stage_includes_stage_by_neighbouring_path(self):
+        self.include("src/stages/ground.hpp", "")
+        self.include("src/stages/walls.cpp", '#include "ground.hpp"')
+        self.fails("stage walls includes stage ground", *self.check())
+
+    def test_estimation_includes_stage(self):
+        self.include("src/stages/ground.hpp", "")
+        self.include("src/estimation/irls.cpp", '#include "stages/ground.hpp"')
+        self.fails("estimation includes", *self.check())
+
+    def test_stage_includes_engine(self):
+        self.include("src/engine.hpp", "")
+        self.include("src/stages/ground.cpp", '#include "engine.hpp"')
+        self.fails("stages includes", *self.check())
+
+    def test_iostream(self):
+        self.include("src/math/angles.hpp", "#include <iostream>")
+        self.fails("<iostream> is not on the engine's list", *self.check())
+
+    def test_unknown_folder(self):
+        self.include("src/helpers/things.hpp", "#include <cmath>")
+        self.fails("belongs to no layer", *self.check())
+
+    def test_tool_includes_engine(self):
+        self.include("src/math/angles.hpp", "")
+        self.include("tools/main.cpp", '#include "math/angles.hpp"')
+        self.fails("tools see the engine only through", *self.check())
+
+    def test_tool_includes_engine_by_path(self):
+        self.include("tools/main.cpp", '#include "../src/engine.hpp"')
+        self.fails("tools see the engine only through", *self.check())
+
+    def test_public_header_includes_more(self):
+        self.write("include/pose_wall.h", HEADER + "#include <stdio.h>\n")
+        self.fails("includes stdio.h", *self.check())
+
+    def test_nothing_to_check(self):
+        (self.root / "src/c_api.cpp").unlink()
+        self.fails("nothing was checked", *self.check())
+
+
+class House(BrokenProject):
+    def check(self):
+        return CHECKS / "check_house.py", self.root
+
+    def test_passes(self):
+        self.passes(*self.check())
+
+    def test_no_licence(self):
+        self.write("src/engine.cpp", "int x;\n")
+        self.fails("src/engine.cpp:1: does not begin", *self.check())
+
+    def test_long_line(self):
+        self.write("src/engine.cpp", LICENCE + "// " + "x" * 118 + "\n")
+        self.fails("src/engine.cpp:3: 121 characters", *self.check())
+
+    def test_unfinished(self):
+        self.write("src/engine.cpp", LICENCE + "// TO" + "DO\n")
+        self.fails("src/engine.cpp:3: unfinished", *self.check())
+
+    def test_machine_path(self):
+        self.write("src/engine.cpp", LICENCE + "// /ho" + "me/somebody\n")
+        self.fails("src/engine.cpp:3: a path of one machine", *self.check())
+
+    def test_heaps(self):
+        for path in self.root.rglob("*.*"):
+            if path.is_file():
+                path.write_text(LICENCE + "//\n" * 160, encoding="utf-8")
+        self.fails("the median file has 162 lines", *self.check())
+
+
+class Format(BrokenProject):
+    def setUp(self):
+        super().setUp()
+        if not shutil.which("clang-format") and not shutil.which("clang-format-14"):
+            self.skipTest("clang-format is not installed")
+        self.write("src/c_api.cpp", LICENCE)
+        shutil.copy(CHECKS.parent.parent / ".clang-format", self.root)
+
+    def test_passes(self):
+        self.passes(CHECKS / "check_format.sh", self.root)
+
+    def test_other_style(self):
+        self.write("src/engine.cpp", LICENCE + "int  x ;\n")
+        self.fails("src/engine.cpp:3", CHECKS / "check_format.sh", self.root)
+
+
+class Archive(BrokenProject):
+    def archive(self, source):
+        self.write("part.c", source)
+        part, archive = self.root / "part.o", self.root / "lib.a"
+        archive.unlink(missing_ok=True)
+        compiler = [tool("CC", "cc"), "-c", "-O1", f"-I{self.root}/include", self.root / "part.c", "-o", part]
+        self.passes(*compiler)
+        self.passes("ar", "rcs", archive, part)
+        return archive
+
+    def symbols(self, source):
+        header, allowed = self.root / "include/pose_wall.h", CHECKS / "symbols_allowed.txt"
+        return CHECKS / "check_symbols.sh", tool("NM", "nm"), self.archive(source), header, allowed
+
+    def link(self, source, example):
+        self.write("example.c", example)
+        archive = self.archive(source)
+        return (CHECKS / "check_c_link.sh", tool("CC", "cc"), tool("READELF", "readelf"), self.root / "include",
+                archive, self.root / "example.c")
+
+    def test_passes(self):
+        self.passes(*self.symbols(SOURCE))
+        self.passes(*self.link(SOURCE, EXAMPLE))
+
+    def test_heap(self):
+        heap = "#include <stdlib.h>\nstatic void* volatile kept;\n" + SOURCE
+        heap = heap.replace("return 1;", "kept = malloc(4); return kept == NULL;")
+        self.fails("imported but not on the list of allowed symbols: malloc", *self.symbols(heap))
+
+    def test_foreign_global(self):
+        helper = SOURCE + "int helper(void) { return 1; }\n"
+        self.fails("defined but not named pose_wall_*: helper", *self.symbols(helper))
+
+    def test_not_defined(self):
+        self.write("include/pose_wall.h", HEADER + "void pose_wall_forgotten(void);\n")
+        self.fails("declared in pose_wall.h but not defined: pose_wall_forgotten", *self.symbols(SOURCE))
+
+    def test_not_declared(self):
+        extra = SOURCE + "void pose_wall_secret(void);\nvoid pose_wall_secret(void) {}\n"
+        self.fails("defined but not declared in pose_wall.h: pose_wall_secret", *self.symbols(extra))
+
+    def test_needs_more_than_c(self):
+        runtime = SOURCE.replace("return 1;", "return (uint32_t)_ZSt9terminatev();")
+        runtime = "extern int _ZSt9terminatev(void);\n" + runtime
+        self.fails("undefined reference", *self.link(runtime, EXAMPLE))
+
+    def test_example_fails(self):
+        self.fails("the example failed", *self.link(SOURCE, EXAMPLE.replace("? 0 : 1", "? 1 : 0")))
+
+    def test_example_is_not_c99(self):
+        self.fails("error", *self.link(SOURCE, EXAMPLE.replace("int main", "inline static auto_t main")))
+
+
+class Abi(BrokenProject):
+    def layout(self, printed, expected):
+        self.write("printed", printed)
+        self.write("expected", expected)
+        program, file = f"-DPROGRAM=cat;{self.root}/printed", f"-DEXPECTED={self.root}/expected"
+        return tool("CMAKE", "cmake"), program, file, "-P", CHECKS / "check_abi.cmake"
+
+    def test_passes(self):
+        self.passes(*self.layout("pose_wall_field 8\n", "pose_wall_field 8\n"))
+
+    def test_moved(self):
+        self.fails("are laid out otherwise", *self.layout("pose_wall_field 8\n", "pose_wall_field 12\n"))
+
+    def test_program_fails(self):
+        command = list(self.layout("", ""))
+        command[1] = "-DPROGRAM=false"
+        self.fails("implicit padding", *command)
+
+
+if __name__ == "__main__":
+    unittest.main()
