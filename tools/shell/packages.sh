@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+# shellcheck shell=bash
+#
+# For sourcing, after steps.sh: need_packages PACKAGE... installs those that are missing, and says which.
+
+# shellcheck disable=SC2034  # read by those who source this
+packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev libcli11-dev libyaml-dev liblzf-dev
+  libfmt-dev"
+# shellcheck disable=SC2034
+packages_to_test="libgtest-dev python3"
+
+need_packages() {
+  local missing="" as_root="" package
+  if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
+    echo "This is not Debian or Ubuntu: please see that you have what these packages hold: $*"
+    return
+  fi
+  for package in "$@"; do
+    if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null)" != installed ]; then
+      missing="$missing $package"
+    fi
+  done
+  [ -n "$missing" ] || return 0
+
+  echo "Missing packages:$missing"
+  if [ "$(id -u)" -ne 0 ]; then
+    as_root=sudo
+    # With a terminal sudo may ask for the password; without one it must do without.
+    if ! command -v sudo > /dev/null || { [ ! -t 0 ] && ! sudo -n true 2> /dev/null; }; then
+      echo "Installing them needs root. Please run this, then start again:"
+      echo "  apt-get update && apt-get install --no-install-recommends$missing"
+      exit 1
+    fi
+    sudo -v
+  fi
+  step "Updating the package lists" $as_root apt-get update
+  # shellcheck disable=SC2086  # a list of words
+  step "Installing packages" $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+}
+
+need_cmake() {
+  local version
+  version=$(cmake --version | sed -n '1s/[^0-9]*//p')
+  if [ "$(printf '%s\n' 3.25 "$version" | sort -V | head -n 1)" != 3.25 ]; then
+    echo "pose_wall needs CMake 3.25 or newer (Debian 12, Ubuntu 24.04); here is $version."
+    exit 1
+  fi
+}
