@@ -20,8 +20,8 @@ constexpr std::uint32_t kRadixSize = 1U << kRadixBits;
 constexpr std::uint32_t kRadixPasses = 6;  // 66 bits cover the key
 
 // Sorts by key, least digit first. A digit that is the same in all keys costs no pass, so keys of a small scene
-// sort in three or four.  is as long as ;  holds kRadixSize counters. Returns the span that
-// holds the result: items or spare.
+// sort in three or four. spare is as long as items; histogram holds kRadixSize counters. Returns the span that holds
+// the result: items or spare.
 inline Span<KeyedIndex> radix_sort(Span<KeyedIndex> items, Span<KeyedIndex> spare, Span<std::uint32_t> histogram) {
   for (std::uint32_t pass = 0; pass < kRadixPasses; ++pass) {
     const std::uint32_t shift = pass * kRadixBits;

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "containers/arena.hpp"
+#include "containers/point_set.hpp"
+#include "containers/voxel_hash.hpp"
+
+namespace pose_wall {
+
+// Points sorted into cubic cells, for "who is near": the points within one cell edge of a point lie in its own and the
+// 26 cells around.
+class CellIndex {
+ public:
+  void lay_out(Arena& arena, std::uint32_t capacity);
+  void reset() { hash_.reset(); }
+
+  void build(const PointSet& points, double edge_m);
+
+  // The cell that holds a coordinate.
+  std::int32_t cell(float coordinate_m) const;
+  // Indices of the points in a cell; empty where there are none.
+  Span<const std::uint32_t> points_in(std::int32_t x, std::int32_t y, std::int32_t z) const;
+
+ private:
+  VoxelHash hash_;
+  Span<std::uint32_t> start_;    // of each cell in members_, and the end of the last
+  Span<std::uint32_t> cell_of_;  // per point
+  Span<std::uint32_t> members_;
+  float cells_per_metre_ = 1.0F;
+};
+
+}  // namespace pose_wall

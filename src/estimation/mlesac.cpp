@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "estimation/mlesac.hpp"
+
+#include <cmath>
+
+#include "math/elementary.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kBins = 32;
+constexpr double kSpanInSigmas = 4.0;  // residuals beyond are outliers without further ado
+constexpr int kEmRounds = 8;
+
+struct Histogram {
+  std::uint32_t bins[kBins] = {};
+  std::uint32_t beyond = 0;
+};
+
+Histogram histogram_of_residuals(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane,
+                                 double sigma_m) {
+  Histogram h;
+  const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());
+  const float nz = static_cast<float>(plane.n.z()), d = static_cast<float>(plane.d);
+  const float bins_per_m = static_cast<float>(kBins / (kSpanInSigmas * sigma_m));
+  for (const std::uint32_t i : indices) {
+    const float r = nx * points.x[i] + ny * points.y[i] + nz * points.z[i] + d;
+    const float place = std::fabs(r) * bins_per_m;
+    if (place < static_cast<float>(kBins)) {
+      ++h.bins[static_cast<std::uint32_t>(place)];
+    } else {
+      ++h.beyond;
+    }
+  }
+  return h;
+}
+
+}  // namespace
+
+double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m) {
+  const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());
+  const float nz = static_cast<float>(plane.n.z()), d = static_cast<float>(plane.d);
+  const float limit = static_cast<float>(threshold_m * threshold_m);
+  // Eight sums in a fixed order: compilers can vectorise them, and the result does not depend on whether they do.
+  constexpr std::uint32_t kLanes = 8;
+  float sums[kLanes] = {};
+  const std::uint32_t n = points.count;
+  const std::uint32_t whole = n - n % kLanes;
+  for (std::uint32_t i = 0; i < whole; i += kLanes) {
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t k = i + lane;
+      const float r = nx * points.x[k] + ny * points.y[k] + nz * points.z[k] + d;
+      const float r2 = r * r;
+      sums[lane] += r2 < limit ? r2 : limit;
+    }
+  }
+  for (std::uint32_t k = whole; k < n; ++k) {
+    const float r = nx * points.x[k] + ny * points.y[k] + nz * points.z[k] + d;
+    const float r2 = r * r;
+    sums[k - whole] += r2 < limit ? r2 : limit;
+  }
+  double sum = 0.0;
+  for (const float lane_sum : sums) sum += static_cast<double>(lane_sum);
+  return n > 0 ? sum / (static_cast<double>(limit) * static_cast<double>(n)) : 1.0;
+}
+
+MlesacScore mlesac_score(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane, double sigma_m,
+                         double outlier_span_m) {
+  if (indices.size() == 0) return {0.0, 0.0};
+  const Histogram h = histogram_of_residuals(points, indices, plane, sigma_m);
+  const double n = static_cast<double>(indices.size());
+  // Density of |r| at each bin's centre relative to the uniform density.
+  double ratio[kBins];
+  for (std::uint32_t b = 0; b < kBins; ++b) {
+    const double z = (static_cast<double>(b) + 0.5) * (kSpanInSigmas / kBins);
+    const double gaussian = exponential(-0.5 * z * z) / (std::sqrt(0.5 * kPi) * sigma_m);
+    ratio[b] = gaussian * outlier_span_m;
+  }
+  double share = 0.5;
+  for (int round = 0; round < kEmRounds; ++round) {
+    double inside = 0.0;
+    for (std::uint32_t b = 0; b < kBins; ++b) {
+      const double p = share * ratio[b];
+      inside += static_cast<double>(h.bins[b]) * p / (p + (1.0 - share));
+    }
+    share = inside / n;
+    if (!(share > 1e-4)) share = 1e-4;
+    if (!(share < 0.9999)) share = 0.9999;
+  }
+  double log_likelihood = static_cast<double>(h.beyond) * natural_log(1.0 - share);
+  for (std::uint32_t b = 0; b < kBins; ++b) {
+    if (h.bins[b] != 0) {
+      log_likelihood += static_cast<double>(h.bins[b]) * natural_log(share * ratio[b] + (1.0 - share));
+    }
+  }
+  return {-log_likelihood / n, share};
+}
+
+}  // namespace pose_wall

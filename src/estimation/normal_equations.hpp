@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <Eigen/Core>
+
+namespace pose_wall {
+
+// Weighted least squares of r = a + b u + c v, summed up point by point.
+class NormalEquations {
+ public:
+  void add(double u, double v, double r, double w) {
+    const double wu = w * u, wv = w * v;
+    w_ += w;
+    wu_ += wu;
+    wv_ += wv;
+    wuu_ += wu * u;
+    wuv_ += wu * v;
+    wvv_ += wv * v;
+    wr_ += w * r;
+    wur_ += wu * r;
+    wvr_ += wv * r;
+  }
+
+  double weight() const { return w_; }
+
+  Eigen::Matrix3d information() const {
+    Eigen::Matrix3d m;
+    m << w_, wu_, wv_, wu_, wuu_, wuv_, wv_, wuv_, wvv_;
+    return m;
+  }
+  Eigen::Vector3d right_side() const { return {wr_, wur_, wvr_}; }
+
+  // False where the points do not span the plane: their spread across their main direction is below spread_min_m.
+  bool solve(double spread_min_m, Eigen::Vector3d* solution) const;
+  // Standard deviation of the points across their main direction, metres.
+  double smaller_spread_m() const;
+
+ private:
+  double w_ = 0, wu_ = 0, wv_ = 0, wuu_ = 0, wuv_ = 0, wvv_ = 0, wr_ = 0, wur_ = 0, wvr_ = 0;
+};
+
+}  // namespace pose_wall

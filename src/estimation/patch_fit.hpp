@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The last step of every plane fit, and where its covariance comes from.
+//
+// Rock is rough over decimetres: the residuals of neighbouring points are one piece of rock, not independent draws,
+// and a covariance that counts points is an order of magnitude too small. So points are first averaged over patches of
+// half a metre. A patch mean varies for two reasons: the noise of its points, which averages out, and the rock, which
+// does not:  var(mean_j) = tau^2 + s_j^2 / W_j.  This is the random-effects model; tau^2 comes from the method of
+// moments (DerSimonian and Laird 1986). On a flat wall tau^2 is 0 and the fit weighs by points, near the
+// Cramer-Rao bound; on rough rock every patch weighs alike. What correlation is left between patches is measured by
+// lag and enters a sandwich covariance (Conley 1999).
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "containers/arena.hpp"
+#include "containers/span.hpp"
+
+namespace pose_wall {
+
+struct PatchFit {
+  bool solved = false;
+  Eigen::Vector3d correction = Eigen::Vector3d::Zero();     // offset m, slope along u, slope along v
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // of the correction
+  Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();   // change of the correction per metre of range bias
+  double tau_m = 0.0;                                        // roughness between patches
+  double noise_m = 0.0;                                      // of one measured point
+  double dof = 0.0;                                          // independent patches less the three parameters
+  std::uint32_t patches = 0;
+  bool bends = false;  // a quadratic surface fits significantly better
+  // Quadratic minus plane, as coefficients of 1, u, v, uu, uv, vv. Zero unless bends.
+  Eigen::Matrix<double, 6, 1> bend = Eigen::Matrix<double, 6, 1>::Zero();
+
+  // Variance of the corrected plane's height at (u, v).
+  double variance_at(double u_m, double v_m) const;
+  // How far the surface leaves the plane there, by the quadratic.
+  double bend_at(double u_m, double v_m) const;
+  double bend_slope_u_at(double u_m, double v_m) const;
+  double bend_slope_v_at(double u_m, double v_m) const;
+};
+
+class PatchGrid {
+ public:
+  static constexpr std::uint32_t kSide = 64;
+
+  void lay_out(Arena& arena);
+
+  // Patches of patch_m, or larger where the extent needs more than kSide of them.
+  void begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m);
+  // residual_m: signed distance of a centroid from the plane; weight: points it stands for times its robust weight;
+  // bias: change of the residual per metre of range bias (ray direction . normal).
+  void add(double u_m, double v_m, double residual_m, double weight, double bias);
+  PatchFit fit();
+
+ private:
+  struct Patch {
+    double w, wu, wv, wr, wrr, wb;
+    std::uint32_t count;
+    std::uint32_t cell;
+  };
+  // A patch with points, averaged.
+  struct Mean {
+    double u, v, r, b;
+    double noise_variance;  // s_j^2 / W_j
+    double information;     // 1 / (tau^2 + noise_variance)
+    double error;           // r minus the current fit
+    std::int32_t iu, iv;
+  };
+
+  std::uint32_t collect_means(PatchFit* out);
+  bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
+  double between_patch_variance(std::uint32_t n, const Eigen::Matrix3d& inverse) const;
+  void sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& inverse, PatchFit* out);
+  void test_bend(std::uint32_t n, PatchFit* out);
+
+  Span<Patch> cells_;
+  Span<Mean> means_;
+  Span<std::int32_t> mean_of_cell_;  // index into means_, -1 for an empty cell
+  double u_min_ = 0, v_min_ = 0, cells_per_m_ = 1, patch_m_ = 1;
+};
+
+}  // namespace pose_wall

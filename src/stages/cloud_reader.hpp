@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The one place where raw bytes of a cloud become numbers.
+
+#pragma once
+
+#include <cstdint>
+
+#include "pose_wall.h"
+
+namespace pose_wall {
+
+// POSE_WALL_OK when every point of the description lies inside its data and every field can be read.
+std::int32_t check_cloud(const pose_wall_cloud& cloud);
+
+// Bytes of a field's type; 0 for an unknown type.
+std::uint32_t field_bytes(std::uint32_t type);
+
+// Reads one field of a point as a number. The type is known and the field lies inside the point (check_cloud).
+double read_field(const unsigned char* point, const pose_wall_field& field, bool swap_bytes);
+
+// True where the cloud's byte order is not this machine's.
+bool needs_swap(const pose_wall_cloud& cloud);
+
+// x, y and z are native floats: the common case, read without a switch per field.
+bool is_plain_xyz32(const pose_wall_cloud& cloud);
+
+// The row's first byte; row < height.
+const unsigned char* row_of(const pose_wall_cloud& cloud, std::uint32_t row);
+
+}  // namespace pose_wall

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Stage 2: lone voxels go.
+
+#pragma once
+
+#include "config.hpp"
+#include "containers/cell_index.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+// Drops centroids with fewer than outlier_min_neighbors others within outlier_radius, keeping the order of the rest.
+// Returns how many went. keep: scratch, one byte per point.
+std::uint32_t remove_outliers(const Settings& settings, CellIndex* cells, Span<std::uint8_t> keep, PointSet* points);
+
+}  // namespace pose_wall

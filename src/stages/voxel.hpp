@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Stage 1: raw cloud to voxel centroids in base.
+
+#pragma once
+
+#include "config.hpp"
+#include "containers/voxel_grid.hpp"
+#include "pose_wall.h"
+#include "types.hpp"
+
+namespace pose_wall {
+
+// Filters (finite, not zero, range_min..range_max from the sensor, outside the body boxes), moves points to base and
+// averages them per voxel. When a frame needs more voxels than there is room for, it starts again with a larger leaf:
+// the leaf depends on the set of points alone, not on their order.
+VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
+                         const Axes& axes, VoxelGrid* grid, PointSet* cloud_base);
+
+}  // namespace pose_wall

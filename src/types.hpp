@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Plain data that flows between the stages. Frames: _base, _level (base turned by R_level_base, same origin).
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "containers/point_set.hpp"
+#include "estimation/plane.hpp"
+
+namespace pose_wall {
+
+// The machine's axes in base; left = Z x forward.
+struct Axes {
+  Eigen::Vector3d forward_base;
+  Eigen::Vector3d left_base;
+};
+
+// lidar to base.
+struct Extrinsic {
+  Eigen::Matrix3d R_base_lidar;
+  Eigen::Vector3d sensor_base_m;
+};
+
+enum Quadrant : std::uint32_t { kAhead = 0, kLeft = 1, kBehind = 2, kRight = 3, kQuadrants = 4 };
+
+// What the reading loop counted; every point of the cloud is in exactly one of kept and dropped_*.
+struct IngestCounts {
+  std::uint32_t points_in = 0;
+  std::uint32_t kept = 0;
+  std::uint32_t dropped_not_finite = 0;
+  std::uint32_t dropped_zero = 0;
+  std::uint32_t dropped_near = 0;
+  std::uint32_t dropped_far = 0;
+  std::uint32_t dropped_body = 0;
+  // Of the kept and of the too near ones, by the machine's side they lie on.
+  std::uint32_t kept_by_quadrant[kQuadrants] = {};
+  std::uint32_t near_by_quadrant[kQuadrants] = {};
+};
+
+struct VoxelResult {
+  IngestCounts counts;
+  double leaf_m = 0.0;
+  bool leaf_grown = false;
+  bool fits = false;  // false: even the largest leaf overflows; there are no points then
+  std::uint64_t fingerprint = 0;
+};
+
+// A plane with all that its fit knows about itself.
+struct PlaneFit {
+  Plane plane;  // floor: base frame, normal up. wall: levelled frame, normal towards the machine
+  bool found = false;
+  std::uint32_t reasons = 0;     // pose_wall_reason bits that forbid or weaken it
+  bool refused = false;          // a gate said no
+  std::uint32_t inliers = 0;
+  std::uint32_t iterations = 0;
+  double rms_m = 0.0;
+};
+
+struct FloorResult {
+  PlaneFit fit;
+  double roll_sigma_rad = 0.0;
+  double pitch_sigma_rad = 0.0;
+  double roll_bound_rad = 0.0;  // systematic part of the protection level: range bias, unevenness, rival floors
+  double pitch_bound_rad = 0.0;
+  double dof = 1.0;             // independent patches beyond the fitted parameters
+  double area_m2 = 0.0;
+  double roi_radius_m = 0.0;
+  std::uint32_t candidates = 0;
+};
+
+struct LevelResult {
+  Eigen::Matrix3d R_level_base = Eigen::Matrix3d::Identity();
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double floor_z_level_m = 0.0;  // z of the floor in the levelled frame: height above floor = z - floor_z
+};
+
+// One side's wall. u: metres along the road from the foot of the origin, v: metres up from the origin's level.
+struct WallResult {
+  PlaneFit fit;
+  Eigen::Vector3d along_level = Eigen::Vector3d::Zero();  // horizontal unit vector, towards the machine's front
+  double lean_rad = 0.0;
+  double yaw_rad = 0.0;        // by this wall alone
+  double yaw_sigma_rad = 0.0;
+  double yaw_bias_rad_per_m = 0.0;  // signed response to a constant range error
+  double yaw_bound_rad = 0.0;       // misfit and rivals
+  double distance_m[2] = {0.0, 0.0};  // at s_front, s_back
+  double distance_sigma_m[2] = {0.0, 0.0};
+  double distance_bound_m[2] = {0.0, 0.0};
+  bool extrapolated[2] = {false, false};
+  double dof = 1.0;
+  double along_min_m = 0.0;
+  double along_max_m = 0.0;
+  double area_m2 = 0.0;
+};
+
+}  // namespace pose_wall
