@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "config_file/load_config.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "config_file/key_table.hpp"
+#include "config_file/yaml_entries.hpp"
+#include "terminal/did_you_mean.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+// Far above any real config; keeps a wrong path (a recording) from being read whole.
+constexpr std::uintmax_t kFileBytesMax = 1024 * 1024;
+
+class ConfigLoader {
+ public:
+  void apply_file(const std::string& file) {
+    std::map<std::string, std::size_t> lines;
+    for (const YamlEntry& entry : entries_of(file)) {
+      const std::string where = fmt::format("{}:{}", file, entry.line);
+      const auto [first, is_new] = lines.emplace(entry.key, entry.line);
+      if (is_new) {
+        apply(where, entry.key, entry.value, entry.is_sequence);
+      } else {
+        fault("{}: {}: set a second time; the first is at line {}", where, entry.key, first->second);
+      }
+    }
+  }
+
+  void apply_setting(const std::string& setting) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      fault("--set {}: KEY=VALUE is expected", setting);
+      return;
+    }
+    apply("--set", setting.substr(0, equals), setting.substr(equals + 1), false);
+  }
+
+  void check_rules() {
+    pose_wall_rule_fault broken{};
+    if (!faults_.empty() || loaded_.config.check(&broken) == POSE_WALL_OK) return;
+    std::string keys = fmt::format("{} ({})", broken.key, loaded_.origin(broken.key));
+    const std::string other = broken.other_key;
+    if (!other.empty()) keys += fmt::format(" and {} ({})", other, loaded_.origin(other));
+    fault("{}: {}", keys, broken.rule);
+  }
+
+  LoadedConfig take() {
+    if (!faults_.empty()) throw ConfigError(faults_);
+    return std::move(loaded_);
+  }
+
+ private:
+  std::vector<YamlEntry> entries_of(const std::string& file) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error) {
+      fault("{}: {}", file, error.message());
+      return {};
+    }
+    if (size > kFileBytesMax) {
+      fault("{}: {} bytes; a config file has at most {}", file, size, kFileBytesMax);
+      return {};
+    }
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+      fault("{}: cannot be opened for reading", file);
+      return {};
+    }
+    try {
+      return parse_yaml_entries({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
+    } catch (const YamlError& problem) {
+      fault("{}: {}", file, problem.what());
+      return {};
+    }
+  }
+
+  void apply(const std::string& where, const std::string& key, const std::string& value, bool is_sequence) {
+    const std::optional<pose_wall_key_info> known = find_config_key(key);
+    if (!known) {
+      fault("{}: unknown key '{}'{}", where, key, did_you_mean(key, config_key_names()));
+      return;
+    }
+    if (is_sequence && known->type != POSE_WALL_KEY_BOX) {
+      fault("{}: {}: a list is not allowed here; allowed: {}", where, key, allowed_text(*known));
+      return;
+    }
+    const std::int32_t status = loaded_.config.set(key.c_str(), value.c_str());
+    if (status == POSE_WALL_OK) {
+      loaded_.origins[key] = where;
+    } else {
+      fault("{}: {}: '{}' is refused ({}); allowed: {}", where, key, value, pose_wall_status_text(status),
+            allowed_text(*known));
+      // A choice needs more than its words: z_axis is fixed, and its help says what to turn instead.
+      if (known->type == POSE_WALL_KEY_CHOICE) faults_ += fmt::format(" ({})", known->help);
+    }
+  }
+
+  template <typename... Values>
+  void fault(fmt::format_string<Values...> form, Values&&... values) {
+    if (!faults_.empty()) faults_ += '\n';
+    faults_ += fmt::format(form, std::forward<Values>(values)...);
+  }
+
+  LoadedConfig loaded_;
+  std::string faults_;
+};
+
+}  // namespace
+
+std::string LoadedConfig::origin(const std::string& key) const {
+  const auto set = origins.find(key);
+  return set != origins.end() ? set->second : "default";
+}
+
+LoadedConfig load_config(const std::optional<std::string>& file, const std::vector<std::string>& settings) {
+  ConfigLoader loader;
+  if (file) loader.apply_file(*file);
+  for (const std::string& setting : settings) loader.apply_setting(setting);
+  loader.check_rules();
+  return loader.take();
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The engine's settings from a pose_wall.yaml and from --set KEY=VALUE, each with where it came from.
+
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "pose_wall.hpp"
+
+namespace pose_wall::tools {
+
+struct LoadedConfig {
+  api::Config config;
+  std::map<std::string, std::string> origins;  // keys that were set: "pose_wall.yaml:12" or "--set"
+
+  // Where a key's value comes from; "default" for a key that was not set.
+  std::string origin(const std::string& key) const;
+};
+
+// One line per fault, each naming file and line (or --set), key, value and what is allowed.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Defaults, then the file, then each KEY=VALUE in turn; then the rules over several keys. All faults are collected
+// before anything is thrown. Throws ConfigError.
+LoadedConfig load_config(const std::optional<std::string>& file, const std::vector<std::string>& settings);
+
+}  // namespace pose_wall::tools

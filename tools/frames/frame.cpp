@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "frames/frame.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace pose_wall::tools {
+namespace {
+
+const PointField* find_once(const std::vector<PointField>& fields, std::string_view name) {
+  const PointField* found = nullptr;
+  for (const PointField& field : fields) {
+    if (field.name != name) continue;
+    if (found != nullptr) throw FrameError(fmt::format("field '{}' appears twice", name));
+    found = &field;
+  }
+  return found;
+}
+
+pose_wall_field required_coordinate(const std::vector<PointField>& fields, std::string_view name) {
+  const PointField* field = find_once(fields, name);
+  if (field == nullptr) {
+    std::string names;
+    for (const PointField& present : fields) names += fmt::format("{}{}", names.empty() ? "" : ", ", present.name);
+    throw FrameError(fmt::format("field '{}' is missing; fields present: {}", name, names.empty() ? "none" : names));
+  }
+  if (field->where.type != POSE_WALL_FIELD_FLOAT32 && field->where.type != POSE_WALL_FIELD_FLOAT64) {
+    throw FrameError(fmt::format("field '{}' must be a float of 4 or 8 bytes", name));
+  }
+  return field->where;
+}
+
+pose_wall_field optional_field(const std::vector<PointField>& fields, std::string_view name) {
+  const PointField* field = find_once(fields, name);
+  return field != nullptr ? field->where : pose_wall_field{0, POSE_WALL_FIELD_NONE};
+}
+
+pose_wall_field time_field(const std::vector<PointField>& fields) {
+  for (const std::string_view name : {"time", "t", "timestamp"}) {
+    const pose_wall_field field = optional_field(fields, name);
+    if (field.type != POSE_WALL_FIELD_NONE) return field;
+  }
+  return {0, POSE_WALL_FIELD_NONE};
+}
+
+}  // namespace
+
+Frame describe_frame(Bytes bytes, const PointLayout& layout) {
+  Frame frame;
+  frame.bytes = std::move(bytes);
+  pose_wall_cloud& cloud = frame.cloud;
+  cloud.struct_size = sizeof cloud;
+  cloud.big_endian = layout.big_endian ? 1U : 0U;
+  cloud.data = frame.bytes.data() + layout.data_offset;
+  cloud.data_bytes = std::uint64_t{layout.count} * layout.point_step;
+  cloud.width = layout.count;
+  cloud.height = 1;
+  cloud.point_step = layout.point_step;
+  // A row of 2^27 or more points has a row_step beyond 32 bits; 0 lets the engine multiply in 64.
+  cloud.row_step = 0;
+  cloud.x = required_coordinate(layout.fields, "x");
+  cloud.y = required_coordinate(layout.fields, "y");
+  cloud.z = required_coordinate(layout.fields, "z");
+  cloud.intensity = optional_field(layout.fields, "intensity");
+  cloud.time = time_field(layout.fields);
+  return frame;
+}
+
+std::uint32_t count_points(std::uint64_t declared, std::uint64_t available, std::uint32_t point_step) {
+  const std::uint64_t held = available / point_step;
+  if (declared > held) {
+    throw FrameError(fmt::format("the header declares {} points of {} bytes, but the {} bytes that follow hold {}",
+                                 declared, point_step, available, held));
+  }
+  if (declared > std::numeric_limits<std::uint32_t>::max()) {
+    throw FrameError(
+        fmt::format("{} points; at most {} are allowed", declared, std::numeric_limits<std::uint32_t>::max()));
+  }
+  return static_cast<std::uint32_t>(declared);
+}
+
+bool host_is_big_endian() {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 0;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "frames/frame_stamps.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace pose_wall::tools {
+
+std::optional<std::int64_t> stamp_from_name(const std::filesystem::path& path) {
+  const std::string name = path.stem().string();
+  const bool digits = std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits || name.size() < 16) return std::nullopt;
+  std::int64_t stamp_ns = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), stamp_ns);
+  if (error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
+  return stamp_ns;
+}
+
+std::int64_t FrameStamps::next(const std::filesystem::path& path) {
+  if (const std::optional<std::int64_t> named_ns = stamp_from_name(path)) {
+    base_ns_ = *named_ns;
+    frames_since_base_ = 1;
+    return base_ns_;
+  }
+  return base_ns_ + std::llround(static_cast<double>(frames_since_base_++) * 1e9 / rate_hz_);
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "frames/pcd_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <utility>
+
+#include "frames/pcd_ascii.hpp"
+#include "frames/pcd_compressed.hpp"
+#include "frames/pcd_header.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+PointLayout layout_of(const PcdHeader& header) {
+  PointLayout layout;
+  layout.point_step = header.point_step;
+  for (const PcdField& field : header.fields) {
+    if (field.name != "_") layout.fields.push_back({field.name, {field.offset, engine_field_type(field)}});
+  }
+  return layout;
+}
+
+Frame read_binary(Bytes bytes, const PcdHeader& header) {
+  PointLayout layout = layout_of(header);
+  layout.data_offset = header.data_offset;
+  const std::uint64_t available = bytes.size() - header.data_offset;
+  layout.count = count_points(points_or_held(header, available), available, header.point_step);
+  return describe_frame(std::move(bytes), layout);
+}
+
+Frame read_compressed(const Bytes& bytes, const PcdHeader& header) {
+  PointLayout layout = layout_of(header);
+  Bytes points = decompress_pcd_points(bytes, header);
+  layout.count = static_cast<std::uint32_t>(points.size() / header.point_step);
+  return describe_frame(std::move(points), layout);
+}
+
+}  // namespace
+
+Frame read_pcd(Bytes bytes) {
+  const PcdHeader header = parse_pcd_header(bytes);
+  switch (header.encoding) {
+    case PcdEncoding::kAscii:
+      return parse_pcd_ascii(bytes, header);
+    case PcdEncoding::kBinary:
+      return read_binary(std::move(bytes), header);
+    case PcdEncoding::kBinaryCompressed:
+      return read_compressed(bytes, header);
+  }
+  throw FrameError("PCD header: unknown encoding");
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "results/frame_runner.hpp"
+
+#include <chrono>
+#include <string>
+
+#include "config_file/load_config.hpp"
+#include "frames/load_frame.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+std::int64_t steady_ns(void* /*user*/) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+double millis_since(std::int64_t start_ns) {
+  return static_cast<double>(steady_ns(nullptr) - start_ns) * 1e-6;
+}
+
+}  // namespace
+
+FrameRunner::FrameRunner(const api::Config& config, double rate_hz) : stamps_(rate_hz) {
+  const std::int32_t status = engine_.open(config);
+  if (status != POSE_WALL_OK) throw ConfigError(std::string("the engine: ") + pose_wall_status_text(status));
+  engine_.set_clock(steady_ns);
+}
+
+FrameOutcome FrameRunner::run(const std::filesystem::path& path) {
+  FrameOutcome outcome;
+  outcome.frame = next_frame_++;
+  outcome.source = path.string();
+  outcome.stamp_ns = stamps_.next(path);
+  try {
+    const std::int64_t load_start_ns = steady_ns(nullptr);
+    Frame frame = load_frame(path);
+    outcome.load_ms = millis_since(load_start_ns);
+    frame.cloud.stamp_ns = outcome.stamp_ns;
+    pose_wall_result result = api::make_result();
+    const std::int64_t start_ns = steady_ns(nullptr);
+    const std::int32_t status = engine_.process(frame.cloud, result);
+    outcome.total_ms = millis_since(start_ns);
+    if (status != POSE_WALL_OK) throw FrameError(pose_wall_status_text(status));
+    outcome.result = result;
+  } catch (const std::exception& error) {
+    outcome.error = error.what();
+  }
+  return outcome;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Reads a frame file and puts it through the engine, with times.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "frames/frame_stamps.hpp"
+#include "pose_wall.hpp"
+#include "results/result_csv.hpp"
+
+namespace pose_wall::tools {
+
+class FrameRunner {
+ public:
+  // Throws ConfigError when the engine refuses the config.
+  FrameRunner(const api::Config& config, double rate_hz);
+
+  // Frames are numbered in the order of the calls. Never throws: what is wrong with a frame stands in the outcome.
+  FrameOutcome run(const std::filesystem::path& path);
+
+  std::size_t block_bytes() const { return engine_.block_bytes(); }
+
+ private:
+  api::Engine engine_;
+  FrameStamps stamps_;
+  std::uint64_t next_frame_ = 0;
+};
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The table that `pose_wall run` writes: one row per frame.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pose_wall.h"
+
+namespace pose_wall::tools {
+
+// What became of one frame.
+struct FrameOutcome {
+  std::uint64_t frame = 0;  // position in the list of inputs
+  std::string source;
+  std::int64_t stamp_ns = 0;
+  std::optional<pose_wall_result> result;  // none: the frame could not be read, or the engine refused its layout
+  std::string error;                       // then why
+  double load_ms = 0.0;
+  double total_ms = 0.0;  // in the engine
+};
+
+std::vector<std::string> result_head();
+std::vector<std::string> result_cells(const FrameOutcome& outcome);
+
+// The lowest of the seven states.
+std::uint32_t worst_state(const pose_wall_result& result);
+
+// Of the frame and of all seven values.
+std::uint32_t all_reasons(const pose_wall_result& result);
+
+// Names of reason bits, joined by '|'.
+std::string reason_names(std::uint32_t reasons);
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "results/result_output.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <iostream>
+#include <system_error>
+
+#include "csv/csv_table.hpp"
+
+namespace pose_wall::tools {
+
+ResultOutput::ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs)
+    : name_(path.empty() ? "standard output" : path), stream_(path.empty() ? &std::cout : &file_) {
+  if (!path.empty()) {
+    for (const std::filesystem::path& input : inputs) {
+      std::error_code ignored;
+      if (std::filesystem::equivalent(path, input, ignored)) {
+        throw OutputError(fmt::format("--output {}: this is an input; it would be overwritten", path));
+      }
+    }
+    errno = 0;
+    file_.open(path, std::ios::binary | std::ios::trunc);
+    if (!file_) {
+      throw OutputError(
+          fmt::format("--output {}: cannot be written: {}", path, std::generic_category().message(errno)));
+    }
+  }
+  *stream_ << csv_line(result_head()) << std::flush;
+  if (!*stream_) throw OutputError(fmt::format("{}: cannot be written", name_));
+}
+
+bool ResultOutput::write(const FrameOutcome& outcome) {
+  *stream_ << csv_line(result_cells(outcome)) << std::flush;
+  return static_cast<bool>(*stream_);
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "results/run_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "terminal/text_table.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr double kDegPerRad = 57.29577951308232;
+constexpr std::size_t kReasonsShown = 5;
+
+bool is_angle(std::size_t quantity) {
+  return quantity <= POSE_WALL_YAW;
+}
+
+std::string amount(std::size_t quantity, double value) {
+  if (!std::isfinite(value)) return "-";
+  return is_angle(quantity) ? fmt::format("{:.3f}°", value * kDegPerRad) : fmt::format("{:.3f} m", value);
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  if (whole == 0) return "-";
+  return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double last = static_cast<double>(values.size() - 1);
+  const auto rank = static_cast<std::ptrdiff_t>(std::llround(fraction * last));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+void RunSummary::add(const FrameOutcome& outcome) {
+  ++frames_;
+  if (!outcome.result) {
+    ++unreadable_;
+    return;
+  }
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    const pose_wall_value& value = outcome.result->quantity[q];
+    ++quantities_[q].states[std::min<std::uint32_t>(value.state, POSE_WALL_VALID)];
+    if (value.state == POSE_WALL_INVALID) continue;
+    quantities_[q].values.push_back(value.value);
+    quantities_[q].protection_levels.push_back(value.protection_level);
+  }
+  const std::uint32_t reasons = all_reasons(*outcome.result);
+  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) reasons_[bit] += reasons >> bit & 1U;
+  times_ms_.push_back(outcome.total_ms);
+}
+
+std::string RunSummary::text(double wall_s) const {
+  std::string text = quantities_text() + '\n' + times_text(wall_s) + reasons_text();
+  if (unreadable_ > 0) text += fmt::format("unreadable: {} of {} frames\n", unreadable_, frames_);
+  return text;
+}
+
+std::string RunSummary::quantities_text() const {
+  TextTable table({"", "valid", "degraded", "held", "invalid", "median", "protection level"});
+  const std::size_t measured = frames_ - unreadable_;
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    const Quantity& quantity = quantities_[q];
+    table.add_row(
+        {pose_wall_quantity_name(static_cast<std::uint32_t>(q)), percent(quantity.states[POSE_WALL_VALID], measured),
+         percent(quantity.states[POSE_WALL_DEGRADED], measured), percent(quantity.states[POSE_WALL_HELD], measured),
+         percent(quantity.states[POSE_WALL_INVALID], measured), amount(q, quantile(quantity.values, 0.5)),
+         amount(q, quantile(quantity.protection_levels, 0.5))});
+  }
+  return table.text();
+}
+
+std::string RunSummary::times_text(double wall_s) const {
+  if (times_ms_.empty()) return fmt::format("{} frames, none processed\n", frames_);
+  const double engine_s = std::accumulate(times_ms_.begin(), times_ms_.end(), 0.0) * 1e-3;
+  const auto count = static_cast<double>(times_ms_.size());
+  return fmt::format(
+      "{} frames; engine: median {:.2f} ms, 95 % {:.2f} ms, max {:.2f} ms, {:.1f} frames/s; with reading: {:.1f} "
+      "frames/s\n",
+      frames_, quantile(times_ms_, 0.5), quantile(times_ms_, 0.95), quantile(times_ms_, 1.0),
+      engine_s > 0.0 ? count / engine_s : 0.0, wall_s > 0.0 ? static_cast<double>(frames_) / wall_s : 0.0);
+}
+
+std::string RunSummary::reasons_text() const {
+  std::vector<std::uint32_t> order(reasons_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [this](std::uint32_t a, std::uint32_t b) { return reasons_[a] > reasons_[b]; });
+  order.resize(std::min(order.size(), kReasonsShown));
+  std::string text;
+  for (const std::uint32_t bit : order) {
+    if (reasons_[bit] == 0) break;
+    text +=
+        fmt::format("{:>6} frames: {} ({})\n", reasons_[bit], pose_wall_reason_name(bit), pose_wall_reason_text(bit));
+  }
+  return text.empty() ? text : "most frequent reasons:\n" + text;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What a run over many frames came to: states, medians, times and reasons, for the table at its end.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "results/result_csv.hpp"
+
+namespace pose_wall::tools {
+
+class RunSummary {
+ public:
+  void add(const FrameOutcome& outcome);
+
+  std::size_t frames() const { return frames_; }
+  std::size_t unreadable() const { return unreadable_; }
+
+  // `wall_s`: time that the whole run took, reading included.
+  std::string text(double wall_s) const;
+
+ private:
+  struct Quantity {
+    std::array<std::size_t, 4> states{};  // by pose_wall_state
+    std::vector<double> values;           // of frames in which it was not invalid
+    std::vector<double> protection_levels;
+  };
+
+  std::string quantities_text() const;
+  std::string times_text(double wall_s) const;
+  std::string reasons_text() const;
+
+  std::size_t frames_ = 0;
+  std::size_t unreadable_ = 0;
+  std::array<Quantity, POSE_WALL_QUANTITIES> quantities_;
+  std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons_{};
+  std::vector<double> times_ms_;
+};
+
+// The value below which `fraction` of the values lie (nearest rank); NaN when there are none.
+double quantile(std::vector<double> values, double fraction);
+
+}  // namespace pose_wall::tools

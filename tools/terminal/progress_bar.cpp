@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "terminal/progress_bar.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr std::size_t kBarCells = 30;
+constexpr std::size_t kNoteMax = 32;
+
+}  // namespace
+
+bool is_terminal(int stream) {
+  return ::isatty(stream) == 1;
+}
+
+ProgressBar::ProgressBar(std::size_t total, bool enabled) : total_(total), enabled_(enabled) {}
+
+ProgressBar::~ProgressBar() {
+  clear();
+}
+
+void ProgressBar::advance(const std::string& note) {
+  ++done_;
+  if (!enabled_) return;
+  const Clock::time_point now = Clock::now();
+  if (done_ < total_ && drawn_ && now - drawn_at_ < std::chrono::milliseconds(100)) return;
+  drawn_at_ = now;
+  draw(note);
+}
+
+void ProgressBar::print_above(const std::string& line) {
+  clear();
+  fmt::print(stderr, "{}\n", line);
+}
+
+void ProgressBar::draw(const std::string& note) {
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - started_).count();
+  const double per_second = elapsed_s > 0.0 ? static_cast<double>(done_) / elapsed_s : 0.0;
+  const double left_s = per_second > 0.0 ? static_cast<double>(total_ - done_) / per_second : 0.0;
+  const std::size_t filled = total_ > 0 ? kBarCells * done_ / total_ : kBarCells;
+  std::string bar;
+  for (std::size_t i = 0; i < kBarCells; ++i) bar += i < filled ? "█" : "░";
+  fmt::print(stderr, "\r\x1b[K{} {}/{}  {:.1f} frames/s  {:.0f} s left  {}", bar, done_, total_, per_second, left_s,
+             note.substr(0, kNoteMax));
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressBar::clear() {
+  if (!drawn_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace pose_wall::tools

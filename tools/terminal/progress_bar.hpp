@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A line at the bottom of a terminal that says how far the work is.
+
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace pose_wall::tools {
+
+// True when the stream number (1: stdout, 2: stderr) is a terminal that a person looks at.
+bool is_terminal(int stream);
+
+// Writes to stderr, and nothing at all unless enabled.
+class ProgressBar {
+ public:
+  ProgressBar(std::size_t total, bool enabled);
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  ~ProgressBar();  // takes the line away
+
+  // Redraws at most ten times a second, and for the last step.
+  void advance(const std::string& note);
+
+  // Prints a line of its own above the bar, also when the bar is not enabled.
+  void print_above(const std::string& line);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw(const std::string& note);
+  void clear();
+
+  std::size_t total_;
+  std::size_t done_ = 0;
+  bool enabled_;
+  bool drawn_ = false;
+  Clock::time_point started_ = Clock::now();
+  Clock::time_point drawn_at_{};
+};
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "truth/comparison.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <optional>
+
+namespace pose_wall::tools {
+namespace {
+
+struct ResultColumns {
+  std::size_t value, raw, sigma, protection_level, state;
+};
+
+std::size_t required_column(const CsvTable& table, const char* which, const std::string& name) {
+  const std::optional<std::size_t> column = table.find_column(name);
+  if (!column) {
+    throw CsvError(fmt::format("the {} have no column '{}'; columns: {}", which, name, fmt::join(table.head(), ", ")));
+  }
+  return *column;
+}
+
+ResultColumns result_columns(const CsvTable& results, const std::string& name) {
+  const auto column = [&](const char* ending) { return required_column(results, "results", name + ending); };
+  return {column(""), column("_raw"), column("_sigma"), column("_pl"), column("_state")};
+}
+
+std::string common_row_key(const CsvTable& results, const CsvTable& truth) {
+  for (const char* key : {"frame", "stamp_ns"}) {
+    if (results.find_column(key) && truth.find_column(key)) return key;
+  }
+  throw CsvError("rows cannot be matched: results and truth need a column 'frame' or 'stamp_ns' in common");
+}
+
+std::map<std::string, std::size_t> rows_by(const CsvTable& table, const char* which, const std::string& key) {
+  const std::size_t column = required_column(table, which, key);
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (!rows.emplace(table.cell(row, column), row).second) {
+      throw CsvError(fmt::format("the {} have {} {} twice", which, key, table.cell(row, column)));
+    }
+  }
+  return rows;
+}
+
+// A row of a frame that could not be read has no state; it counts as not measured.
+std::uint32_t state_number(const std::string& name) {
+  for (std::uint32_t state = POSE_WALL_INVALID; state <= POSE_WALL_VALID; ++state) {
+    if (name == pose_wall_state_name(state)) return state;
+  }
+  if (name.empty()) return POSE_WALL_INVALID;
+  throw CsvError(fmt::format("'{}' is no state; valid, degraded, held and invalid are", name));
+}
+
+Measured measured_at(const CsvTable& results, std::size_t row, const ResultColumns& columns) {
+  return {results.number(row, columns.value), results.number(row, columns.raw), results.number(row, columns.sigma),
+          results.number(row, columns.protection_level), state_number(results.cell(row, columns.state))};
+}
+
+using RowPairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+RowPairs match_rows(const CsvTable& results, const CsvTable& truth, Comparison& comparison) {
+  comparison.matched_by = common_row_key(results, truth);
+  const auto result_rows = rows_by(results, "results", comparison.matched_by);
+  const auto truth_rows = rows_by(truth, "truth rows", comparison.matched_by);
+  RowPairs pairs;
+  for (const auto& [key, row] : result_rows) {
+    const auto same = truth_rows.find(key);
+    if (same != truth_rows.end()) pairs.emplace_back(row, same->second);
+  }
+  comparison.matched = pairs.size();
+  comparison.result_rows_alone = result_rows.size() - pairs.size();
+  comparison.truth_rows_alone = truth_rows.size() - pairs.size();
+  if (pairs.empty()) {
+    throw CsvError(fmt::format("no row in common: {} result rows and {} truth rows share no {}", result_rows.size(),
+                               truth_rows.size(), comparison.matched_by));
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, const AlertLimits& limits) {
+  Comparison comparison;
+  const RowPairs pairs = match_rows(results, truth, comparison);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const std::string name = pose_wall_quantity_name(q);
+    const std::optional<std::size_t> truth_column = truth.find_column(name);
+    if (!truth_column) continue;
+    const bool is_angle = q <= POSE_WALL_YAW;
+    const ResultColumns columns = result_columns(results, name);
+    ErrorStatistics statistics(is_angle, is_angle ? limits.angle_rad : limits.distance_m);
+    for (const auto& [result_row, truth_row] : pairs) {
+      statistics.add(measured_at(results, result_row, columns), truth.number(truth_row, *truth_column));
+    }
+    comparison.quantities.push_back({name, is_angle, statistics});
+  }
+  if (comparison.quantities.empty()) {
+    throw CsvError(
+        fmt::format("the truth has none of the columns roll, pitch, yaw, d_lf, d_lb, d_rf, d_rb; columns: {}",
+                    fmt::join(truth.head(), ", ")));
+  }
+  return comparison;
+}
+
+}  // namespace pose_wall::tools

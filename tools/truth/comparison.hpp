@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A table of results beside a table of truth, row by row.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "csv/csv_table.hpp"
+#include "pose_wall.h"
+#include "truth/error_statistics.hpp"
+
+namespace pose_wall::tools {
+
+struct AlertLimits {
+  double angle_rad = 0.0;
+  double distance_m = 0.0;
+};
+
+struct QuantityComparison {
+  std::string name;
+  bool is_angle;
+  ErrorStatistics statistics;
+};
+
+struct Comparison {
+  std::string matched_by;  // "frame" or "stamp_ns"
+  std::size_t matched = 0;
+  std::size_t result_rows_alone = 0;
+  std::size_t truth_rows_alone = 0;
+  std::vector<QuantityComparison> quantities;  // those that the truth has
+};
+
+// Rows belong together by `frame`, or by `stamp_ns` when either table has no `frame`. Throws CsvError for missing
+// columns, a row number that appears twice, or tables that share no row.
+Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, const AlertLimits& limits);
+
+}  // namespace pose_wall::tools

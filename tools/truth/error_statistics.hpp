@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// How far measured values are from the truth, per quantity: errors, and whether the stated bounds held.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pose_wall::tools {
+
+// One quantity of one frame. NaN where there is no number.
+struct Measured {
+  double value;
+  double raw;
+  double sigma;
+  double protection_level;
+  std::uint32_t state;  // pose_wall_state
+};
+
+// Of a list of errors; NaN for an empty list.
+struct ErrorFigures {
+  std::size_t count = 0;
+  double rmse = 0.0;
+  double bias = 0.0;
+  double absolute_95 = 0.0;  // 95 % of the errors are within it
+  double absolute_max = 0.0;
+};
+
+ErrorFigures error_figures(const std::vector<double>& errors);
+
+// Into (-pi, pi].
+double wrap_angle(double angle_rad);
+
+class ErrorStatistics {
+ public:
+  // Errors of angles are wrapped. The alert limit is in the quantity's own unit.
+  ErrorStatistics(bool is_angle, double alert_limit) : is_angle_(is_angle), alert_limit_(alert_limit) {}
+
+  // A frame with a truth that is NaN (no wall there) does not count.
+  void add(const Measured& measured, double truth);
+
+  std::size_t frames() const { return frames_; }
+  std::size_t measured() const { return raw_errors_.size(); }
+  std::size_t valid() const { return valid_; }
+
+  ErrorFigures raw() const { return error_figures(raw_errors_); }
+  // Of frames in which the value was not invalid, held ones included.
+  ErrorFigures value() const { return error_figures(value_errors_); }
+
+  // Errors beyond the protection level: the bound that was promised did not hold.
+  std::size_t raw_beyond_protection() const { return raw_beyond_protection_; }
+  std::size_t value_beyond_protection() const { return value_beyond_protection_; }
+  // Errors beyond the alert limit in frames that claimed to be valid: the worst failure there is.
+  std::size_t valid_beyond_alert() const { return valid_beyond_alert_; }
+
+  // Mean of (raw error / sigma)^2: 1 for a true sigma, more for a boastful one. NaN when nothing was measured.
+  double mean_z2() const;
+
+ private:
+  bool is_angle_;
+  double alert_limit_;
+  std::size_t frames_ = 0;
+  std::size_t valid_ = 0;
+  std::size_t raw_beyond_protection_ = 0;
+  std::size_t value_beyond_protection_ = 0;
+  std::size_t valid_beyond_alert_ = 0;
+  double z2_sum_ = 0.0;
+  std::size_t z2_count_ = 0;
+  std::vector<double> raw_errors_;
+  std::vector<double> value_errors_;
+};
+
+}  // namespace pose_wall::tools

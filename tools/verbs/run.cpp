@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_wall run: frames in, a table of results out.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config_file/load_config.hpp"
+#include "config_file/resolved_frames.hpp"
+#include "frames/input_list.hpp"
+#include "frames/text_cursor.hpp"
+#include "results/frame_runner.hpp"
+#include "results/result_output.hpp"
+#include "results/run_summary.hpp"
+#include "terminal/progress_bar.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+struct RunOptions {
+  std::string config_file;
+  std::vector<std::string> settings;
+  std::vector<std::string> inputs;
+  std::string output;
+  double rate_hz = 10.0;
+  bool quiet = false;
+};
+
+// Accepts what is inside, so that "nan" is refused.
+std::string rate_fault(const std::string& word) {
+  const std::optional<double> rate_hz = parse_number<double>(word);
+  if (rate_hz && *rate_hz >= 0.001 && *rate_hz <= 1e6) return "";
+  return fmt::format("'{}' is refused; a number from 0.001 to 1000000 is allowed", word);
+}
+
+void print_start(const RunOptions& options, const LoadedConfig& loaded, const FrameRunner& runner, std::size_t frames) {
+  fmt::print(stderr, "pose_wall {}: {} frames, config {}, {:.1f} MB for the engine\n{}", pose_wall_version(), frames,
+             options.config_file.empty() ? "defaults" : options.config_file,
+             static_cast<double>(runner.block_bytes()) * 1e-6,
+             resolved_frames_text(resolve_frames(loaded.config), "  "));
+}
+
+// False when the output could not be written.
+bool process_frames(const RunOptions& options, const FrameInputs& inputs, FrameRunner& runner, ResultOutput& output,
+                    RunSummary& summary) {
+  // A bar between rows of the table on the same terminal would spoil both.
+  const bool show_bar = !options.quiet && is_terminal(2) && !(output.is_stdout() && is_terminal(1));
+  ProgressBar bar(inputs.files.size(), show_bar);
+  for (const auto& file : inputs.files) {
+    const FrameOutcome outcome = runner.run(file);
+    if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
+    summary.add(outcome);
+    if (!output.write(outcome)) return false;
+    bar.advance(file.filename().string());
+  }
+  return true;
+}
+
+int run(const RunOptions& options) {
+  const std::optional<std::string> config_file =
+      options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
+  const LoadedConfig loaded = load_config(config_file, options.settings);
+  const FrameInputs inputs = collect_inputs(options.inputs);
+  FrameRunner runner(loaded.config, options.rate_hz);
+  ResultOutput output(options.output, inputs.files);
+  if (!options.quiet) print_start(options, loaded, runner, inputs.files.size());
+  for (const std::string& error : inputs.errors) fmt::print(stderr, "pose_wall run: {}\n", error);
+
+  const auto started = std::chrono::steady_clock::now();
+  RunSummary summary;
+  const bool written = process_frames(options, inputs, runner, output, summary);
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (!written) fmt::print(stderr, "pose_wall run: {} could not be written to the end\n", output.name());
+  if (!options.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
+  return written && inputs.errors.empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* verb = app.add_subcommand("run", "Measure attitude and wall distances in frames of a LiDAR");
+  verb->add_option("INPUT", options->inputs,
+                   "Frame files (.pcd, .bin of KITTI, .ply) or folders of them, sorted by plain name order")
+      ->required();
+  verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
+  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("-o,--output", options->output, "CSV file for the results; default: standard output");
+  verb->add_option("-r,--rate", options->rate_hz, "Frames per second, for frames without stamps")
+      ->capture_default_str()
+      ->check(rate_fault, "0.001 to 1000000");
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
+  verb->footer(
+      "Example:\n  pose_wall run --config config/pose_wall.yaml --set forward_axis=+Y --output out.csv frames/\n"
+      "A file name of 16 to 19 digits is the frame's stamp in nanoseconds; other frames are 1/rate apart.\n"
+      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config.");
+  verb->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace pose_wall::tools

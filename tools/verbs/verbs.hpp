@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The verbs of the command: each adds its options to the app and sets the exit code when it is called.
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace pose_wall::tools {
+
+// Exit codes of every verb.
+constexpr int kExitDone = 0;
+constexpr int kExitUnreadable = 1;  // an input could not be read, or a result not written
+constexpr int kExitUsage = 2;       // bad usage or config
+
+void add_run(CLI::App& app, int& exit_code);
+void add_sim(CLI::App& app, int& exit_code);
+void add_demo(CLI::App& app, int& exit_code);
+void add_eval(CLI::App& app, int& exit_code);
+void add_check_config(CLI::App& app, int& exit_code);
+
+}  // namespace pose_wall::tools
