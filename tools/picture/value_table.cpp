@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "picture/palette.hpp"
+#include "picture/parts.hpp"
+
+namespace pose_wall::tools::picture {
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+constexpr double kRow = 31.0;
+constexpr std::size_t kReasonsShown = 2;
+
+struct Columns {
+  double name, value, protection, truth, state, reasons;
+};
+
+Columns columns_of(const Box& box) {
+  const double x = box.corner.x;
+  return {x + 20.0, x + 158.0, x + 246.0, x + 330.0, x + 352.0, x + 446.0};
+}
+
+std::string figure(uint32_t quantity, double value, bool with_sign) {
+  if (!std::isfinite(value)) return "–";
+  const bool angle = quantity <= POSE_WALL_YAW;
+  if (!angle) return fmt::format("{:.3f} m", value);
+  return with_sign ? fmt::format("{:+.2f}°", value * kDegrees) : fmt::format("{:.2f}°", value * kDegrees);
+}
+
+std::string reasons_text(uint32_t reasons) {
+  std::string text;
+  std::size_t shown = 0;
+  for (uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
+    if ((reasons & (1u << bit)) == 0) continue;
+    if (shown == kReasonsShown) return text + " …";
+    text += (shown++ > 0 ? ", " : "") + std::string(pose_wall_reason_name(bit));
+  }
+  return text;
+}
+
+void draw_head(Svg& svg, const Columns& columns, double y, bool with_truth) {
+  const TextStyle end{kFaintInk, 11.5, Anchor::kEnd};
+  const TextStyle start{kFaintInk, 11.5};
+  svg.text({columns.name, y}, "quantity", start);
+  svg.text({columns.value, y}, "value", end);
+  svg.text({columns.protection, y}, "± protection", end);
+  if (with_truth) svg.text({columns.truth, y}, "truth", end);
+  svg.text({columns.state, y}, "state", start);
+  svg.text({columns.reasons, y}, "reasons", start);
+}
+
+void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scene, uint32_t quantity) {
+  const pose_wall_value& value = scene.result->quantity[quantity];
+  const std::string_view colour = state_colour(value.state);
+  svg.text({columns.name, y}, pose_wall_quantity_name(quantity), {kInk, 14.0, Anchor::kStart, true});
+  svg.text({columns.value, y}, figure(quantity, value.value, true), {kInk, 14.0, Anchor::kEnd, true});
+  svg.text({columns.protection, y}, figure(quantity, value.protection_level, false), {kInk, 13.0, Anchor::kEnd});
+  if (scene.truth != nullptr) {
+    svg.text({columns.truth, y}, figure(quantity, scene.truth[quantity], true), {kFaintInk, 13.0, Anchor::kEnd});
+  }
+  svg.rectangle({columns.state, y - 15.0}, 80.0, 20.0, colour, 10.0);
+  svg.text({columns.state + 40.0, y - 0.5}, pose_wall_state_name(value.state), {kPanel, 12.0, Anchor::kMiddle, true});
+  svg.text({columns.reasons, y - 0.5}, reasons_text(value.reasons), {kFaintInk, 10.5});
+}
+
+}  // namespace
+
+void draw_value_table(Svg& svg, const Box& box, const FrameScene& scene) {
+  draw_panel(svg, box, "The seven values of this frame");
+  const Columns columns = columns_of(box);
+  double y = box.corner.y + 54.0;
+  draw_head(svg, columns, y, scene.truth != nullptr);
+  y += 10.0;
+  for (uint32_t quantity = 0; quantity < POSE_WALL_QUANTITIES; ++quantity) {
+    svg.line({columns.name, y}, {box.right() - 20.0, y}, {kGrid, 1.0});
+    draw_row(svg, columns, y + 21.0, scene, quantity);
+    y += kRow;
+  }
+}
+
+}  // namespace pose_wall::tools::picture
