@@ -17,7 +17,7 @@ MAY_INCLUDE = {
     "estimation": {"math", "containers"},
     "config": {"math", "public"},
     "types": {"math", "containers", "estimation", "config", "public"},
-    "stages": {"math", "containers", "estimation", "types", "public"},
+    "stages": {"math", "containers", "estimation", "config", "types", "public"},
     "engine": {"math", "containers", "estimation", "config", "types", "stages", "public"},
     "c_api": {"math", "containers", "config", "types", "engine", "public"},
 }
