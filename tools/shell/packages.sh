@@ -6,7 +6,7 @@
 
 # shellcheck disable=SC2034  # read by those who source this
 packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev libcli11-dev libyaml-dev liblzf-dev
-  libfmt-dev"
+  libfmt-dev nlohmann-json3-dev"
 # shellcheck disable=SC2034
 packages_to_test="libgtest-dev python3"
 
@@ -36,7 +36,8 @@ need_packages() {
   fi
   step "Updating the package lists" $as_root apt-get update
   # shellcheck disable=SC2086  # a list of words
-  step "Installing packages" $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+  step "Installing packages" $as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y --no-install-recommends $missing
 }
 
 need_cmake() {
