@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_wall demo: a simulated roadway, the engine on it, and a picture of how the machine stands.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "demo/demo_run.hpp"
+#include "demo/demo_setup.hpp"
+#include "demo/live_table.hpp"
+#include "results/result_output.hpp"
+#include "terminal/progress_bar.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+struct DemoVerb {
+  DemoOptions demo;
+  std::string output = "out";
+  std::uint32_t frames = 100;
+};
+
+constexpr std::uint32_t kRowsShown = 12;
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw OutputError(path.string() + " cannot be written");
+}
+
+std::filesystem::path output_folder(const std::string& name) {
+  std::error_code error;
+  std::filesystem::create_directories(name, error);
+  if (error) throw OutputError(fmt::format("{} cannot be made a folder: {}", name, error.message()));
+  return name;
+}
+
+std::string scene_name(const DemoVerb& verb) {
+  return verb.demo.scene.empty() ? "heading" : verb.demo.scene;
+}
+
+// Processes all frames; the last one is returned for the picture.
+DemoFrame process_frames(const DemoVerb& verb, DemoRun& run, ResultOutput& output, std::vector<TruthRow>& truth) {
+  const LiveTable table(is_terminal(1));
+  fmt::print("{}", table.head());
+  const std::uint32_t stride = std::max(1u, verb.frames / kRowsShown);
+  DemoFrame frame;
+  for (std::uint32_t i = 0; i < verb.frames; ++i) {
+    frame = run.next();
+    truth.push_back(frame.truth);
+    if (!output.write(frame.outcome)) throw OutputError(output.name() + " cannot be written to the end");
+    if (i % stride == 0 || i + 1 == verb.frames) {
+      fmt::print("{}", table.rows(i, frame.time_s, *frame.outcome.result, frame.truth.value, frame.outcome.total_ms));
+      std::fflush(stdout);
+    }
+  }
+  fmt::print("{}\n", table.key());
+  return frame;
+}
+
+int demo(const DemoVerb& verb) {
+  const sim::Setup setup = demo_setup(verb.demo);
+  DemoRun run(setup, demo_config(verb.demo, setup), verb.demo.seed);
+  const std::filesystem::path folder = output_folder(verb.output);
+  ResultOutput output((folder / "demo.csv").string(), {});
+
+  fmt::print("Simulated roadway '{}', sensor {}, {} frames\n\n", scene_name(verb), verb.demo.sensor, verb.frames);
+  std::vector<TruthRow> truth;
+  const DemoFrame last = process_frames(verb, run, output, truth);
+  write_truth_csv(folder / "truth.csv", truth);
+  const std::filesystem::path picture = folder / "demo.svg";
+  write_text(picture,
+             run.picture(last, fmt::format("simulated roadway '{}', sensor {}, frame {}, {:.1f} s", scene_name(verb),
+                                           verb.demo.sensor, last.outcome.frame, last.time_s)));
+
+  fmt::print("{}\n", run.error_table());
+  fmt::print("median per frame: engine {:.1f} ms, simulator {:.1f} ms\n", run.median_engine_ms(),
+             run.median_render_ms());
+  fmt::print("results: {}, truth: {}\n", (folder / "demo.csv").string(), (folder / "truth.csv").string());
+  fmt::print("picture: {}\n", std::filesystem::absolute(picture).string());
+  return kExitDone;
+}
+
+int demo_or_complaint(const DemoVerb& verb) {
+  try {
+    return demo(verb);
+  } catch (const OutputError& error) {
+    fmt::print(stderr, "pose_wall demo: {}\n", error.what());
+    return kExitUnreadable;
+  }
+}
+
+}  // namespace
+
+void add_demo(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<DemoVerb>();
+  CLI::App* verb = app.add_subcommand("demo", "Simulate a roadway, measure in it, draw a picture");
+  verb->add_option(
+      "--scene", options->demo.scene,
+      "Scene of the simulator (pose_wall sim --help names them); default: a heading with the machine at work");
+  verb->add_option("--sensor", options->demo.sensor, "Sensor model of the simulator")->capture_default_str();
+  verb->add_option("-n,--frames", options->frames, "How many frames")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 100000u));
+  verb->add_option("--seed", options->demo.seed, "Another number: other rock, other noise")->capture_default_str();
+  verb->add_option("-c,--config", options->demo.config_file, "Settings of the engine, as config/pose_wall.yaml");
+  verb->add_option("-s,--set", options->demo.settings, "Setting of the engine, KEY=VALUE; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--simulate", options->demo.simulation, "Number of the simulator, KEY=VALUE; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("-o,--output", options->output, "Folder for demo.svg, demo.csv and truth.csv")
+      ->capture_default_str();
+  verb->footer("Example:\n  pose_wall demo --sensor os0-128 --frames 200 --output out");
+  verb->callback([options, &exit_code] { exit_code = demo_or_complaint(*options); });
+}
+
+}  // namespace pose_wall::tools
