@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The data of all benchmarks: a rough heading, simulated, the machine creeping in it. The same frames on every machine
+// with the same maths library.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pose_wall.hpp"
+#include "sim/simulator.hpp"
+
+namespace pose_wall::bench {
+
+// Made once per sensor and count, and kept.
+const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count);
+// The truth of the same frames.
+const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count);
+
+// The engine's settings for these frames: defaults, a box around the machine's body, looser gates for sparse sensors.
+api::Config config(const std::string& sensor);
+
+pose_wall_cloud cloud_of(const tools::sim::Frame& frame, std::int64_t stamp_ns);
+
+}  // namespace pose_wall::bench
