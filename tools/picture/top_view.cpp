@@ -48,11 +48,13 @@ Viewport view_of(const Box& box, const FrameScene& scene, const DrawnFrame& fram
 
 void draw_grid(Svg& svg, const Box& box, const Viewport& view) {
   const Range along = view.right_m();
-  for (double metre = std::ceil(along.low / 5.0) * 5.0; metre <= along.high; metre += 5.0) {
+  constexpr int kStep_m = 5;
+  const int last = static_cast<int>(along.high) / kStep_m;
+  for (int metre = -last * kStep_m; metre <= last * kStep_m; metre += kStep_m) {
     const double x = view(metre, 0.0).x;
     svg.line({x, box.corner.y + 30.0}, {x, box.bottom() - 22.0}, {kGrid, 1.0});
-    svg.text({x, box.bottom() - 8.0}, metre == 0.0 ? "0 m" : fmt::format("{:+.0f} m", metre),
-             {kFaintInk, 11.0, Anchor::kMiddle});
+    const std::string words = metre == 0 ? "0 m" : fmt::format("{:+} m", metre);
+    svg.text({x, box.bottom() - 8.0}, words, {kFaintInk, 11.0, Anchor::kMiddle});
   }
 }
 
