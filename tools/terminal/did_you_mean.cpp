@@ -3,8 +3,6 @@
 
 #include "terminal/did_you_mean.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -47,7 +45,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
   const std::string nearest = nearest_word(word, known);
-  return nearest.empty() ? nearest : fmt::format("; did you mean '{}'?", nearest);
+  return nearest.empty() ? nearest : "; did you mean '" + nearest + "'?";
 }
 
 }  // namespace pose_wall::tools

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "frames/pcd_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace pose_wall::tools {
+
+void write_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, std::size_t count) {
+  std::ofstream out(file, std::ios::binary);
+  out << fmt::format(
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\n"
+      "COUNT 1 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
+      count);
+  out.write(reinterpret_cast<const char*>(xyz_intensity), static_cast<std::streamsize>(4 * sizeof(float) * count));
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace pose_wall::tools {
+
+// Binary PCD with the fields x y z intensity, four native floats per point, as one row. Throws std::runtime_error that
+// names the file.
+void write_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, std::size_t count);
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/beam_caster.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/machine_body.hpp"
+
+namespace pose_wall::tools::sim {
+namespace {
+
+constexpr double kEdgeStep_m = 0.05;  // ranges nearer to each other than this are one surface
+
+std::vector<Primitive> things_of(const Setup& setup, const World& world, const MachinePose& pose) {
+  std::vector<Primitive> things = world.objects();
+  const std::vector<Primitive> body = machine_body(setup, pose, place(setup, pose));
+  things.insert(things.end(), body.begin(), body.end());
+  return things;
+}
+
+bool within(double time_s, double from_s, double to_s) {
+  return time_s >= from_s && time_s < to_s;
+}
+
+bool in_sector(double azimuth_deg, double from_deg, double to_deg) {
+  const auto turn = [from_deg](double angle_deg) { return std::fmod(angle_deg - from_deg + 720.0, 360.0); };
+  return from_deg != to_deg && turn(azimuth_deg) <= turn(to_deg);
+}
+
+bool has_sectors(const Faults& f) {
+  return f.blocked_from_deg != f.blocked_to_deg || f.blocked_2_from_deg != f.blocked_2_to_deg ||
+         f.shimmer_from_deg != f.shimmer_to_deg;
+}
+
+Matrix R_machine_base(const Machine& machine) {
+  Matrix m;
+  m << forward_axis(machine).transpose(), left_axis(machine).transpose(), Vector::UnitZ().transpose();
+  return m;
+}
+
+}  // namespace
+
+BeamCaster::BeamCaster(const Setup& setup, const World& world, const MachinePose& pose, std::uint64_t frame_seed)
+    : setup_(setup),
+      world_(world),
+      random_(frame_seed),
+      R_road_lidar_(place(setup, pose).R_road_base * R_base_lidar(setup.mount)),
+      R_machine_lidar_(R_machine_base(setup.machine) * R_base_lidar(setup.mount)),
+      origin_(place(setup, pose).R_road_base * lidar_origin_base(setup.mount) + place(setup, pose).origin_road),
+      things_(things_of(setup, world, pose)),
+      index_(things_, origin_),
+      water_below_(normal_quantile(setup.floor.puddle_coverage)),
+      grazing_cosine_(std::sin(setup.sensor.grazing_limit_deg * kRadPerDeg)),
+      wall_lost_(within(pose.time_s, setup.faults.lost_from_s, setup.faults.lost_to_s)),
+      partial_(within(pose.time_s, setup.sequence.partial_from_s, setup.sequence.partial_to_s)),
+      needs_azimuth_(partial_ || has_sectors(setup.faults)) {}
+
+BeamCaster::Returns BeamCaster::cast(const Vector& direction_lidar) {
+  const Faults& f = setup_.faults;
+  double azimuth_deg = 0.0;
+  if (needs_azimuth_) {
+    const Vector d = R_machine_lidar_ * direction_lidar;
+    azimuth_deg = std::atan2(d.y(), d.x()) / kRadPerDeg;
+    if (in_sector(azimuth_deg, f.blocked_from_deg, f.blocked_to_deg) ||
+        in_sector(azimuth_deg, f.blocked_2_from_deg, f.blocked_2_to_deg) ||
+        (partial_ && azimuth_deg + 180.0 > 360.0 * setup_.sequence.partial_share)) {
+      return {};
+    }
+  }
+  const Ray ray{origin_, R_road_lidar_ * direction_lidar};
+  Returns returns{meet(ray), {}};
+  if (setup_.sensor.divergence_deg > 0.0) mix_edge(ray, &returns);
+  disturb(azimuth_deg, &returns.first);
+  if (returns.second.label != Label::kNone) disturb(azimuth_deg, &returns.second);
+  return returns;
+}
+
+Return BeamCaster::meet(const Ray& ray) {
+  const Hit hit = world_.trace(ray, setup_.sensor.range_ceiling_m, things_, index_);
+  const Return r{hit.t_m, hit.cosine, hit.label, hit.side};
+  if (r.label == Label::kNone || r.cosine < grazing_cosine_) return {};
+  if (r.label == Label::kFloor) return meet_floor(ray, r);
+  return r;
+}
+
+Return BeamCaster::meet_floor(const Ray& ray, const Return& floor) {
+  const Floor& f = setup_.floor;
+  if (f.puddle_coverage <= 0.0 || world_.wetness(ray.at(floor.range_m)) >= water_below_) {
+    return f.floor_return >= 1.0 || random_.chance(f.floor_return) ? floor : Return{};
+  }
+  const double draw = random_.uniform();
+  if (draw < f.puddle_return) return floor;
+  return draw < f.puddle_return + f.puddle_ghost ? mirrored(ray, floor.range_m) : Return{};
+}
+
+// Water sends the beam on; the sensor takes the whole way for a straight one, so the point lies below the floor.
+Return BeamCaster::mirrored(const Ray& ray, double range_m) const {
+  const Vector& up = world_.floor().n;
+  const Ray onward{ray.at(range_m), ray.direction - 2.0 * up.dot(ray.direction) * up};
+  Hit hit = world_.trace_rock(onward, setup_.sensor.range_ceiling_m - range_m);
+  for (const Primitive& thing : things_) {
+    double cosine = 1.0;
+    const double t = thing.hit(onward, &cosine);
+    if (t < hit.t_m) hit = {t, cosine, thing.label, 0};
+  }
+  if (hit.label == Label::kNone || hit.label == Label::kFloor) return {};
+  return {range_m + hit.t_m, hit.cosine, Label::kGhost, hit.side};
+}
+
+// A second ray near the edge of the beam: at edges, the beam's energy falls on both surfaces.
+void BeamCaster::mix_edge(const Ray& ray, Returns* returns) {
+  const double spread = 0.5 * setup_.sensor.divergence_deg * kRadPerDeg;
+  const Vector nudge(random_.gaussian(), random_.gaussian(), random_.gaussian());
+  const Return other = meet({ray.origin, (ray.direction + spread * nudge).normalized()});
+  Return& first = returns->first;
+  if (other.label == Label::kNone || first.label == Label::kNone) return;
+  if (std::abs(other.range_m - first.range_m) < kEdgeStep_m) return;
+  if (setup_.sensor.dual_returns != 0.0) {
+    returns->second = other;
+  } else {
+    const double share = random_.uniform();
+    first.range_m += share * (other.range_m - first.range_m);
+  }
+}
+
+bool BeamCaster::lost(const Return& r) {
+  const Faults& f = setup_.faults;
+  if (random_.chance(f.dropout)) return true;
+  if (r.side == 0) return false;
+  return (has_side(f.wet_side, r.side) && random_.chance(f.wet_dropout)) ||
+         (wall_lost_ && has_side(f.lost_side, r.side));
+}
+
+void BeamCaster::disturb(double azimuth_deg, Return* r) {
+  const Faults& f = setup_.faults;
+  const Sensor& s = setup_.sensor;
+  if (r->label != Label::kNone && lost(*r)) *r = {};
+  for (const auto& [share, reach_m] : {std::pair{f.dust, f.dust_range_m}, std::pair{f.drops, f.drops_range_m}}) {
+    if (!random_.chance(share)) continue;
+    const double range_m = -reach_m * std::log(1.0 - random_.uniform());
+    if (range_m < r->range_m) *r = {range_m, 0.1, Label::kDust, 0};
+  }
+  if (r->label == Label::kNone) return;
+  const bool shimmer = needs_azimuth_ && in_sector(azimuth_deg, f.shimmer_from_deg, f.shimmer_to_deg);
+  r->range_m += s.range_bias_m + s.range_noise_m * (shimmer ? f.shimmer_factor : 1.0) * random_.gaussian();
+  if (s.range_quantum_m > 0.0) r->range_m = s.range_quantum_m * std::round(r->range_m / s.range_quantum_m);
+  if (!(r->range_m >= s.range_floor_m && r->range_m <= s.range_ceiling_m)) *r = {};
+}
+
+}  // namespace pose_wall::tools::sim

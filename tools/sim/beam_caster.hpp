@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// One frame's beams: what each meets, and what the sensor makes of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/pose.hpp"
+#include "sim/random.hpp"
+#include "sim/world.hpp"
+
+namespace pose_wall::tools::sim {
+
+struct Return {
+  double range_m = kNever;
+  double cosine = 1.0;
+  Label label = Label::kNone;
+  int side = 0;
+};
+
+class BeamCaster {
+ public:
+  BeamCaster(const Setup& setup, const World& world, const MachinePose& pose, std::uint64_t frame_seed);
+
+  // One return, or two with dual_returns; label kNone for none. Directions in the lidar frame.
+  struct Returns {
+    Return first;
+    Return second;
+  };
+  Returns cast(const Vector& direction_lidar);
+
+ private:
+  Return meet(const Ray& ray);
+  Return meet_floor(const Ray& ray, const Return& floor);
+  Return mirrored(const Ray& ray, double range_m) const;
+  void mix_edge(const Ray& ray, Returns* returns);
+  bool lost(const Return& r);
+  void disturb(double azimuth_deg, Return* r);
+
+  const Setup& setup_;
+  const World& world_;
+  Random random_;
+  Matrix R_road_lidar_;
+  Matrix R_machine_lidar_;  // x forward, y left
+  Vector origin_;
+  std::vector<Primitive> things_;
+  SectorIndex index_;
+  double water_below_;
+  double grazing_cosine_;
+  bool wall_lost_;
+  bool partial_;
+  bool needs_azimuth_;
+};
+
+}  // namespace pose_wall::tools::sim

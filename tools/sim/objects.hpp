@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/primitives.hpp"
+#include "sim/setup.hpp"
+
+namespace pose_wall::tools::sim {
+
+// What stands in the road and stays there.
+std::vector<Primitive> road_objects(const Setup& setup, std::uint64_t seed);
+// The narrow place: part of the rock, though built of boxes.
+std::vector<Primitive> narrow_place(const Setup& setup);
+
+}  // namespace pose_wall::tools::sim

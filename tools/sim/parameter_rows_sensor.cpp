@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/parameter_rows.hpp"
+
+#define SENSOR(...) POSE_WALL_SIM_NUMBER(sensor, Sensor, __VA_ARGS__)
+#define FAULT(...) POSE_WALL_SIM_NUMBER(faults, Faults, __VA_ARGS__)
+#define SEQUENCE(...) POSE_WALL_SIM_NUMBER(sequence, Sequence, __VA_ARGS__)
+
+namespace pose_wall::tools::sim {
+namespace {
+
+const std::vector<Parameter> kRows = {
+    SENSOR(rings, "1", 0.0, 512.0, "of a rotating sensor; 0: non-repetitive pattern"),
+    SENSOR(columns, "1", 0.0, 8192.0, "of a rotating sensor"),
+    SENSOR(pattern_points, "1", 0.0, 1e6, "beams per frame of a non-repetitive pattern"),
+    SENSOR(elevation_min_deg, "deg", -90.0, 90.0, "lowest beam"),
+    SENSOR(elevation_max_deg, "deg", -90.0, 90.0, "highest beam"),
+    SENSOR(range_noise_m, "m", 0.0, 1.0, "standard deviation of a range"),
+    SENSOR(range_bias_m, "m", -1.0, 1.0, "added to every range"),
+    SENSOR(range_quantum_m, "m", 0.0, 1.0, "ranges come in steps of this; 0: no steps"),
+    SENSOR(range_floor_m, "m", 0.0, 10.0, "the sensor sees nothing nearer"),
+    SENSOR(range_ceiling_m, "m", 1.0, 1000.0, "the sensor sees nothing farther"),
+    SENSOR(divergence_deg, "deg", 0.0, 5.0, "width of a beam: at edges ranges mix; 0: no mixing"),
+    POSE_WALL_SIM_WORDS(sensor, Sensor, dual_returns, kSwitchWords, 1.0,
+                        "edges give two points instead of a mixed one"),
+    SENSOR(grazing_limit_deg, "deg", 0.0, 45.0, "flatter hits give no return"),
+    SENSOR(unit_scale, "1", 0.001, 1000.0, "1000: a driver that delivers millimetres"),
+
+    FAULT(dropout, "1", 0.0, 1.0, "share of returns that are lost"),
+    FAULT(dust, "1", 0.0, 1.0, "share of beams that end in dust"),
+    FAULT(dust_range_m, "m", 0.05, 50.0, "mean of the exponentially distributed ranges"),
+    FAULT(drops, "1", 0.0, 1.0, "share of beams that end in water drops"),
+    FAULT(drops_range_m, "m", 0.05, 50.0, "mean of the exponentially distributed ranges"),
+    POSE_WALL_SIM_WORDS(faults, Faults, wet_side, kSideWords, 3.0, "dark, wet wall"),
+    FAULT(wet_dropout, "1", 0.0, 1.0, "share of its returns that are lost"),
+    FAULT(blocked_from_deg, "deg", -360.0, 360.0, "mud on the window: from this azimuth (0 forward, + left) ..."),
+    FAULT(blocked_to_deg, "deg", -360.0, 360.0, "... counter-clockwise to this one; equal: none"),
+    FAULT(blocked_2_from_deg, "deg", -360.0, 360.0, "a second sector"),
+    FAULT(blocked_2_to_deg, "deg", -360.0, 360.0, "see blocked_2_from_deg"),
+    FAULT(shimmer_from_deg, "deg", -360.0, 360.0, "hot exhaust: sector of larger noise"),
+    FAULT(shimmer_to_deg, "deg", -360.0, 360.0, "see shimmer_from_deg"),
+    FAULT(shimmer_factor, "1", 1.0, 100.0, "times range_noise_m"),
+    POSE_WALL_SIM_WORDS(faults, Faults, lost_side, kSideWords, 3.0, "wall without any return for a while"),
+    FAULT(lost_from_s, "s", 0.0, 1e5, "from this time"),
+    FAULT(lost_to_s, "s", 0.0, 1e5, "to this time"),
+
+    SEQUENCE(rate_hz, "Hz", 0.1, 1000.0, "frames per second"),
+    SEQUENCE(stamp_jitter_s, "s", 0.0, 1.0, "standard deviation of the stamps"),
+    SEQUENCE(stamp_jump_s, "s", -1e5, 1e5, "added to the stamps from stamp_jump_at_s on"),
+    SEQUENCE(stamp_jump_at_s, "s", 0.0, 1e5, "see stamp_jump_s"),
+    SEQUENCE(stamp_still_from_s, "s", 0.0, 1e5, "the stamp stands still from here ..."),
+    SEQUENCE(stamp_still_to_s, "s", 0.0, 1e5, "... to here; equal: never"),
+    SEQUENCE(freeze_from_s, "s", 0.0, 1e5, "the sensor repeats its cloud from here ..."),
+    SEQUENCE(freeze_to_s, "s", 0.0, 1e5, "... to here; equal: never"),
+    SEQUENCE(partial_from_s, "s", 0.0, 1e5, "frames are cut off from here ..."),
+    SEQUENCE(partial_to_s, "s", 0.0, 1e5, "... to here; equal: never"),
+    SEQUENCE(partial_share, "1", 0.0, 1.0,
+             "share of the circle, from behind counter-clockwise, that a cut frame holds"),
+};
+
+}  // namespace
+
+std::vector<Parameter> sensor_parameters() {
+  return kRows;
+}
+
+}  // namespace pose_wall::tools::sim

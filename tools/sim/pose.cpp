@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/pose.hpp"
+
+#include <cmath>
+
+#include "sim/section.hpp"
+
+namespace pose_wall::tools::sim {
+
+Matrix rotation_x(double a) {
+  return Eigen::AngleAxisd(a, Vector::UnitX()).toRotationMatrix();
+}
+Matrix rotation_y(double a) {
+  return Eigen::AngleAxisd(a, Vector::UnitY()).toRotationMatrix();
+}
+Matrix rotation_z(double a) {
+  return Eigen::AngleAxisd(a, Vector::UnitZ()).toRotationMatrix();
+}
+
+Matrix R_level_base(double roll_rad, double pitch_rad) {
+  return rotation_y(pitch_rad) * rotation_x(roll_rad);
+}
+
+Vector forward_axis(const Machine& machine) {
+  switch (static_cast<int>(machine.forward_axis)) {
+    case 0:
+      return Vector::UnitX();
+    case 1:
+      return -Vector::UnitX();
+    case 2:
+      return Vector::UnitY();
+    default:
+      return -Vector::UnitY();
+  }
+}
+
+Vector left_axis(const Machine& machine) {
+  return Vector::UnitZ().cross(forward_axis(machine));
+}
+
+Matrix R_base_lidar(const Mount& m) {
+  return rotation_z((m.mount_yaw_deg + m.mount_error_yaw_deg) * kRadPerDeg) *
+         rotation_y((m.mount_pitch_deg + m.mount_error_pitch_deg) * kRadPerDeg) *
+         rotation_x((m.mount_roll_deg + m.mount_error_roll_deg) * kRadPerDeg);
+}
+
+Vector lidar_origin_base(const Mount& m) {
+  return {m.mount_x_m + m.mount_error_x_m, m.mount_y_m + m.mount_error_y_m, m.mount_z_m + m.mount_error_z_m};
+}
+
+MachinePose pose_at(const Setup& setup, double time_s) {
+  const Machine& m = setup.machine;
+  const double phase = 2.0 * M_PI * time_s / m.sway_period_s;
+  const double step_deg = time_s >= m.turn_step_at_s ? m.turn_step_deg : 0.0;
+  MachinePose pose;
+  pose.time_s = time_s;
+  pose.along_m = m.speed_mps * time_s;
+  pose.lateral_m = m.lateral_m + m.drift_mps * time_s;
+  pose.base_height_m = m.base_height_m;
+  pose.turned_left_rad = (m.turned_left_deg + m.turn_rate_dps * time_s + step_deg) * kRadPerDeg;
+  pose.roll_rad = (m.roll_deg + m.sway_roll_deg * std::sin(phase)) * kRadPerDeg;
+  pose.pitch_rad = (m.pitch_deg + m.sway_pitch_deg * std::cos(phase)) * kRadPerDeg;
+  return pose;
+}
+
+// The turn about the floor's normal is chosen so that the levelled forward axis stands turned_left from the road.
+Placement place(const Setup& setup, const MachinePose& pose) {
+  const CentreLine line(setup.road.curve_radius_m);
+  const Vector up = floor_plane(setup.road).n;
+  Matrix R_road_floor;
+  R_road_floor.col(2) = up;
+  const Vector along = line.tangent(pose.along_m);
+  R_road_floor.col(0) = (along - along.dot(up) * up).normalized();
+  R_road_floor.col(1) = up.cross(R_road_floor.col(0));
+
+  const Matrix level = R_level_base(pose.roll_rad, pose.pitch_rad);
+  const Vector forward = level * forward_axis(setup.machine);
+  const double turn = pose.turned_left_rad - std::atan2(forward.y(), forward.x());
+
+  Vector foot = line.point(pose.along_m, pose.lateral_m, 0.0);
+  foot.z() = floor_height_m(setup.road, foot);
+  return {R_road_floor * rotation_z(turn) * level, foot + pose.base_height_m * up};
+}
+
+}  // namespace pose_wall::tools::sim

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Where the machine stands, and how its axes lie, at a moment of the run.
+#pragma once
+
+#include <cstdint>
+
+#include "sim/centre_line.hpp"
+#include "sim/setup.hpp"
+
+namespace pose_wall::tools::sim {
+
+struct MachinePose {
+  double along_m = 0.0;
+  double lateral_m = 0.0;
+  double base_height_m = 0.0;
+  double turned_left_rad = 0.0;
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double time_s = 0.0;
+};
+
+// Point_road = R * point_base + origin.
+struct Placement {
+  Matrix R_road_base;
+  Vector origin_road;
+};
+
+MachinePose pose_at(const Setup& setup, double time_s);
+Placement place(const Setup& setup, const MachinePose& pose);
+
+Matrix rotation_x(double angle_rad);
+Matrix rotation_y(double angle_rad);
+Matrix rotation_z(double angle_rad);
+// Ry(pitch) Rx(roll) takes the floor's normal in base to +Z.
+Matrix R_level_base(double roll_rad, double pitch_rad);
+Vector forward_axis(const Machine& machine);
+Vector left_axis(const Machine& machine);
+// Of the sensor as it really is mounted, errors included.
+Matrix R_base_lidar(const Mount& mount);
+Vector lidar_origin_base(const Mount& mount);
+
+}  // namespace pose_wall::tools::sim

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "sim/check_setup.hpp"
+#include "sim/parameters.hpp"
+#include "sim/random.hpp"
+#include "sim/sensors.hpp"
+#include "terminal/did_you_mean.hpp"
+
+namespace pose_wall::tools::sim {
+namespace {
+
+constexpr int kDraws = 50;
+
+const Parameter& parameter(const char* key) {
+  const Parameter* const p = find_parameter(key);
+  if (p == nullptr) throw std::logic_error(std::string("the table of scenes names the unknown key ") + key);
+  return *p;
+}
+
+bool is_whole(const Parameter& p) {
+  return *p.words != '\0' || std::string_view(p.name).find("_count") != std::string_view::npos;
+}
+
+void draw(Setup& setup, const char* key, double low, double high, bool either_sign, Random& random) {
+  const Parameter& p = parameter(key);
+  const double drawn =
+      is_whole(p) ? low + std::floor(random.uniform() * (high - low + 1.0)) : random.uniform(low, high);
+  const bool negate = either_sign && random.chance(0.5);
+  p.field(setup) = std::clamp(negate ? -drawn : drawn, p.minimum, p.maximum);
+}
+
+[[noreturn]] void unknown(const char* what, std::string_view name, const std::vector<std::string>& known) {
+  throw std::invalid_argument(std::string("unknown ") + what + " '" + std::string(name) + "'" +
+                              did_you_mean(name, known) + "; `pose_wall sim --list` shows them all");
+}
+
+}  // namespace
+
+const SceneChoice* find_scene(std::string_view name) {
+  for (const SceneChoice& scene : scenes()) {
+    if (scene.name == name) return &scene;
+  }
+  return nullptr;
+}
+
+void apply_scene(Setup& setup, const SceneChoice& scene) {
+  for (const SceneValue& value : scene.values) set_parameter(setup, value.key, value.fixed);
+}
+
+void apply_scene_at_random(Setup& setup, const SceneChoice& scene, std::uint64_t seed) {
+  Random random(seed, 0x5ce7e);
+  for (int i = 0; i < kDraws; ++i) {
+    Setup drawn = setup;
+    for (const NominalRange& r : nominal_ranges()) draw(drawn, r.key, r.low, r.high, false, random);
+    for (const SceneValue& v : scene.values) draw(drawn, v.key, v.low, v.high, v.either_sign, random);
+    try {
+      setup = checked(drawn);
+      return;
+    } catch (const std::invalid_argument&) {
+      if (i + 1 == kDraws) throw;
+    }
+  }
+}
+
+Setup make_setup(std::string_view scene, std::string_view sensor, bool random, std::uint64_t seed) {
+  const SensorModel* const model = find_sensor(sensor);
+  const SceneChoice* const choice = find_scene(scene);
+  std::vector<std::string> names;
+  if (model == nullptr) {
+    for (const SensorModel& m : sensor_models()) names.push_back(m.sensor.name);
+    unknown("sensor", sensor, names);
+  }
+  if (choice == nullptr) {
+    for (const SceneChoice& s : scenes()) names.emplace_back(s.name);
+    unknown("scene", scene, names);
+  }
+  Setup setup;
+  setup.sensor = model->sensor;
+  if (random) {
+    apply_scene_at_random(setup, *choice, seed);
+  } else {
+    apply_scene(setup, *choice);
+  }
+  return setup;
+}
+
+}  // namespace pose_wall::tools::sim

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Named scenes: what the road holds, and from which ranges its sizes may be drawn.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "sim/setup.hpp"
+
+namespace pose_wall::tools::sim {
+
+struct SceneValue {
+  const char* key;
+  const char* fixed;  // without --random
+  double low;         // with it: uniform between these; words by their index, counts are rounded
+  double high;
+  bool either_sign = false;  // the drawn number may also be negated
+};
+
+struct NominalRange {
+  const char* key;
+  double low;
+  double high;
+};
+
+struct SceneChoice {
+  const char* name;
+  const char* help;
+  const char* expected;  // what a good instrument does in it
+  std::vector<SceneValue> values;
+};
+
+const std::vector<SceneChoice>& scenes();
+// nullptr if there is none of this name.
+const SceneChoice* find_scene(std::string_view name);
+
+// Ranges that --random draws the road's and the machine's nominal numbers from, before those of the scene.
+const std::vector<NominalRange>& nominal_ranges();
+
+void apply_scene(Setup& setup, const SceneChoice& scene);
+// Deterministic in the seed. Sizes that cannot go together are drawn again.
+void apply_scene_at_random(Setup& setup, const SceneChoice& scene, std::uint64_t seed);
+
+// Both by name; throw std::invalid_argument for unknown names, with the nearest one. The random draw is made when
+// random is true.
+Setup make_setup(std::string_view scene, std::string_view sensor, bool random, std::uint64_t seed);
+
+}  // namespace pose_wall::tools::sim

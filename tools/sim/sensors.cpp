@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/sensors.hpp"
+
+#include <cmath>
+
+namespace pose_wall::tools::sim {
+namespace {
+
+Sensor rotating(const char* name, double rings, double columns, double elevation_deg, double noise_m, double reach_m) {
+  Sensor sensor;
+  sensor.name = name;
+  sensor.rings = rings;
+  sensor.columns = columns;
+  sensor.elevation_min_deg = -elevation_deg;
+  sensor.elevation_max_deg = elevation_deg;
+  sensor.range_noise_m = noise_m;
+  sensor.range_ceiling_m = reach_m;
+  return sensor;
+}
+
+Sensor non_repetitive() {
+  Sensor sensor = rotating("mid360", 0.0, 0.0, 0.0, 0.02, 40.0);
+  sensor.pattern_points = 20000.0;
+  sensor.elevation_min_deg = -7.0;
+  sensor.elevation_max_deg = 52.0;
+  return sensor;
+}
+
+Vector direction(double azimuth_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
+          std::sin(elevation_rad)};
+}
+
+std::vector<Vector> ring_beams(const Sensor& sensor) {
+  const auto rings = static_cast<int>(sensor.rings);
+  const auto columns = static_cast<int>(sensor.columns);
+  const double span_deg = sensor.elevation_max_deg - sensor.elevation_min_deg;
+  std::vector<Vector> beams;
+  beams.reserve(static_cast<std::size_t>(rings) * static_cast<std::size_t>(columns));
+  for (int ring = 0; ring < rings; ++ring) {
+    const double elevation_deg =
+        sensor.elevation_min_deg + (rings > 1 ? span_deg * ring / (rings - 1) : 0.5 * span_deg);
+    for (int column = 0; column < columns; ++column) {
+      beams.push_back(direction(-2.0 * M_PI * column / columns, elevation_deg * kRadPerDeg));
+    }
+  }
+  return beams;
+}
+
+// The R2 low-discrepancy sequence (Roberts 2018): even cover in every frame, never the same twice.
+std::vector<Vector> pattern_beams(const Sensor& sensor, std::uint32_t frame_index) {
+  constexpr double kStepAzimuth = 0.7548776662466927;
+  constexpr double kStepElevation = 0.5698402909980532;
+  const auto count = static_cast<std::size_t>(sensor.pattern_points);
+  const double span_deg = sensor.elevation_max_deg - sensor.elevation_min_deg;
+  std::vector<Vector> beams;
+  beams.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto n = static_cast<double>(frame_index % 10000u) * static_cast<double>(count) + static_cast<double>(i);
+    double whole = 0.0;
+    const double azimuth = 2.0 * M_PI * std::modf(n * kStepAzimuth, &whole);
+    const double elevation_deg = sensor.elevation_min_deg + span_deg * std::modf(n * kStepElevation, &whole);
+    beams.push_back(direction(azimuth, elevation_deg * kRadPerDeg));
+  }
+  return beams;
+}
+
+}  // namespace
+
+const std::vector<SensorModel>& sensor_models() {
+  static const std::vector<SensorModel> models = {
+      {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise"},
+      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0), "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise"},
+      {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0), "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise"},
+      {non_repetitive(), "non-repetitive, -7 to 52 deg, 20000 points per frame, 2 cm noise"},
+  };
+  return models;
+}
+
+const SensorModel* find_sensor(std::string_view name) {
+  for (const SensorModel& model : sensor_models()) {
+    if (model.sensor.name == name) return &model;
+  }
+  return nullptr;
+}
+
+std::vector<Vector> beam_directions(const Sensor& sensor, std::uint32_t frame_index) {
+  return sensor.rings > 0.0 ? ring_beams(sensor) : pattern_beams(sensor, frame_index);
+}
+
+}  // namespace pose_wall::tools::sim

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/centre_line.hpp"
+#include "sim/setup.hpp"
+
+namespace pose_wall::tools::sim {
+
+struct SensorModel {
+  Sensor sensor;
+  std::string help;
+};
+
+const std::vector<SensorModel>& sensor_models();
+// nullptr if there is none of this name.
+const SensorModel* find_sensor(std::string_view name);
+
+// Unit directions of a frame's beams in the lidar frame. Ring by ring for rotating sensors, where every frame has the
+// same; a non-repetitive pattern goes on where the last frame ended.
+std::vector<Vector> beam_directions(const Sensor& sensor, std::uint32_t frame_index);
+
+}  // namespace pose_wall::tools::sim

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/simulator.hpp"
+
+#include <cmath>
+
+#include "sim/beam_caster.hpp"
+#include "sim/check_setup.hpp"
+#include "sim/sensors.hpp"
+
+namespace pose_wall::tools::sim {
+namespace {
+
+constexpr double kFirstStamp_s = 1000.0;
+
+float intensity(const Return& r) {
+  const double albedo = r.label == Label::kDust ? 0.1 : (r.label == Label::kSteel || r.side == 0 ? 0.6 : 0.45);
+  return static_cast<float>(std::round(255.0 * albedo * (0.2 + 0.8 * r.cosine)));
+}
+
+void append(const Return& r, const Vector& direction, double unit_scale, Frame* frame) {
+  if (r.label == Label::kNone) return;
+  const Vector p = r.range_m * unit_scale * direction;
+  for (int axis = 0; axis < 3; ++axis) frame->xyz_intensity.push_back(static_cast<float>(p[axis]));
+  frame->xyz_intensity.push_back(intensity(r));
+  frame->labels.push_back(r.label);
+}
+
+// A frozen sensor repeats the frame at which it froze.
+std::uint32_t seen_frame(const Sequence& sequence, std::uint32_t frame_index) {
+  const double time_s = frame_index / sequence.rate_hz;
+  if (time_s < sequence.freeze_from_s || time_s >= sequence.freeze_to_s) return frame_index;
+  return static_cast<std::uint32_t>(std::ceil(sequence.freeze_from_s * sequence.rate_hz));
+}
+
+}  // namespace
+
+Simulator::Simulator(const Setup& setup, std::uint64_t seed)
+    : setup_(checked(setup)),
+      seed_(seed),
+      world_(setup, mix(seed)),
+      mean_rock_(World::mean(setup)),
+      beams_(beam_directions(setup.sensor, 0)) {}
+
+MachinePose Simulator::pose(std::uint32_t frame_index) const {
+  return pose_at(setup_, frame_index / setup_.sequence.rate_hz);
+}
+
+Frame Simulator::render(std::uint32_t frame_index) const {
+  const std::uint32_t seen = seen_frame(setup_.sequence, frame_index);
+  const bool repeats = setup_.sensor.rings > 0.0;
+  const std::vector<Vector> own_beams = repeats ? std::vector<Vector>{} : beam_directions(setup_.sensor, seen);
+  const std::vector<Vector>& beams = repeats ? beams_ : own_beams;
+
+  Frame frame;
+  frame.stamp_ns = stamp_ns(frame_index);
+  frame.xyz_intensity.reserve(4 * beams.size());
+  frame.labels.reserve(beams.size());
+  BeamCaster caster(setup_, world_, pose(seen), mix(seed_) ^ mix(seen + 1u));
+  for (const Vector& direction : beams) {
+    const BeamCaster::Returns returns = caster.cast(direction);
+    append(returns.first, direction, setup_.sensor.unit_scale, &frame);
+    append(returns.second, direction, setup_.sensor.unit_scale, &frame);
+  }
+  return frame;
+}
+
+TruthRow Simulator::truth(std::uint32_t frame_index) const {
+  TruthRow row = truth_of(setup_, mean_rock_, pose(frame_index));
+  row.frame = frame_index;
+  row.stamp_ns = stamp_ns(frame_index);
+  return row;
+}
+
+std::int64_t Simulator::stamp_ns(std::uint32_t frame_index) const {
+  const Sequence& q = setup_.sequence;
+  double time_s = frame_index / q.rate_hz;
+  const bool jumped = q.stamp_jump_s != 0.0 && time_s >= q.stamp_jump_at_s;
+  if (time_s >= q.stamp_still_from_s && time_s < q.stamp_still_to_s) {
+    time_s = q.stamp_still_from_s;
+  } else if (q.stamp_jitter_s > 0.0) {
+    time_s += q.stamp_jitter_s * Random(seed_, frame_index + 1u).gaussian();
+  }
+  return std::llround((kFirstStamp_s + time_s + (jumped ? q.stamp_jump_s : 0.0)) * 1e9);
+}
+
+}  // namespace pose_wall::tools::sim

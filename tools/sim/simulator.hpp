@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Frames of a LiDAR in a roadway, with the truth of each. The same setup and seed give the same bits.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/truth.hpp"
+
+namespace pose_wall::tools::sim {
+
+struct Frame {
+  std::vector<float> xyz_intensity;  // lidar frame, four floats per point; no-returns are left out
+  std::vector<Label> labels;         // one per point
+  std::int64_t stamp_ns = 0;
+  std::size_t count() const { return labels.size(); }
+};
+
+class Simulator {
+ public:
+  // Throws std::invalid_argument where parts of the setup contradict each other (see check_setup).
+  Simulator(const Setup& setup, std::uint64_t seed);
+
+  const Setup& setup() const { return setup_; }
+  MachinePose pose(std::uint32_t frame_index) const;
+  // May be called from several threads at once.
+  Frame render(std::uint32_t frame_index) const;
+  TruthRow truth(std::uint32_t frame_index) const;
+
+ private:
+  std::int64_t stamp_ns(std::uint32_t frame_index) const;
+
+  Setup setup_;
+  std::uint64_t seed_;
+  World world_;
+  World mean_rock_;
+  std::vector<Vector> beams_;  // of the first frame; all frames' for rotating sensors
+};
+
+}  // namespace pose_wall::tools::sim

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/world.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pose_wall::tools::sim {
+namespace {
+
+constexpr std::size_t kMostSurfaces = 10;
+
+bool needs_tile(const Setup& setup) {
+  const Floor& f = setup.floor;
+  return setup.rock.roughness_m > 0.0 || setup.rock.wave_m > 0.0 || f.floor_roughness_m > 0.0 || f.hump_m > 0.0 ||
+         f.rut_depth_m > 0.0 || f.muck_side != kSideNone || f.puddle_coverage > 0.0;
+}
+
+void hit_things(const Ray& ray, const std::vector<Primitive>& things, const SectorIndex& index, Hit* best) {
+  for (const std::uint16_t i : index.candidates(ray.direction)) {
+    double cosine = 1.0;
+    const double t = things[i].hit(ray, &cosine);
+    if (t < best->t_m) *best = {t, cosine, things[i].label, 0};
+  }
+}
+
+double smallest_bound(const Recess& recess, const Ray& ray, double t_max, const Surface** bound) {
+  double best = t_max;
+  for (const Surface& surface : recess.bounds) {
+    const double start = surface.enter(ray, surface.relief.reach_m());
+    if (start >= best) continue;
+    const double t = surface.hit(ray, start);
+    if (t < best) {
+      best = t;
+      *bound = &surface;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+World::World(const Setup& setup, std::uint64_t seed)
+    : line_(setup.road.curve_radius_m), rock_(setup.rock), floor_(floor_plane(setup.road)) {
+  if (needs_tile(setup)) tile_ = std::make_unique<NoiseTile>(seed);
+  puddles_ = NoiseLayer::make(1.0, setup.floor.puddle_size_m, mix(seed + 60u));
+  surfaces_ = road_surfaces(setup, tile_.get(), seed);
+  recesses_ = road_recesses(setup, tile_.get(), seed);
+  objects_ = road_objects(setup, seed);
+  const std::vector<Primitive> narrow = narrow_place(setup);
+  objects_.insert(objects_.end(), narrow.begin(), narrow.end());
+}
+
+World World::mean(const Setup& setup) {
+  Setup bare = setup;
+  bare.road.face_distance_m = 0.0;
+  bare.road.rear_distance_m = 0.0;
+  bare.rock.steel_pitch_m = 0.0;
+  bare.floor = Floor{};
+  bare.openings.crosscut_side = kSideNone;
+  World world;
+  world.line_ = CentreLine(bare.road.curve_radius_m);
+  world.rock_ = bare.rock;
+  world.floor_ = floor_plane(bare.road);
+  world.surfaces_ = road_surfaces(bare, nullptr, 0);
+  world.recesses_ = road_recesses(bare, nullptr, 0);
+  world.objects_ = narrow_place(bare);
+  return world;
+}
+
+double World::wetness(const Vector& p) const {
+  return tile_ ? puddles_.at(*tile_, p.x(), p.y()) : 0.0;
+}
+
+Hit World::trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const {
+  Hit best = trace_rock(ray, t_max_m);
+  if (!index.empty()) hit_things(ray, things, index, &best);
+  return best;
+}
+
+// Surfaces in the order in which the ray comes into their reach; those it reaches after the best hit are not searched.
+Hit World::trace_rock(const Ray& ray, double t_max_m) const {
+  std::array<double, kMostSurfaces> start{};
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const RoadSurface& s = surfaces_[i];
+    start[i] = s.surface.enter(ray, std::max(s.surface.relief.reach_m(), s.steel ? rock_.steel_depth_m : 0.0));
+  }
+  Hit best;
+  best.t_m = t_max_m;
+  for (;;) {
+    const auto* const first = std::min_element(start.begin(), start.begin() + surfaces_.size());
+    if (*first >= best.t_m) break;
+    const RoadSurface& s = surfaces_[static_cast<std::size_t>(first - start.begin())];
+    hit_wall_or_recess(s, ray, s.steel ? s.surface.enter(ray, s.surface.relief.reach_m()) : *first, &best);
+    start[static_cast<std::size_t>(first - start.begin())] = kNever;
+  }
+  if (best.label == Label::kNone) best.t_m = kNever;
+  return best;
+}
+
+void World::hit_wall_or_recess(const RoadSurface& wall, const Ray& ray, double t_start, Hit* best) const {
+  double t = wall.surface.hit(ray, t_start);
+  if (t == kNever) return;
+  if (wall.side != 0 && !recesses_.empty()) {
+    const Vector p = ray.at(t);
+    const double s = line_.s_of(p);
+    for (const Recess& r : recesses_) {
+      if (r.side != wall.side || s <= r.s_from_m || s >= r.s_to_m || p.z() >= r.height_m) continue;
+      const Surface* bound = nullptr;
+      t = smallest_bound(r, ray, best->t_m, &bound);
+      if (bound == nullptr) return;
+      *best = {t, std::abs(bound->normal(ray.at(t)).dot(ray.direction)), Label::kOpening, wall.side};
+      return;
+    }
+  }
+  const double steel = wall.steel ? hit_steel(wall, ray, t) : kNever;
+  if (std::min(t, steel) >= best->t_m) return;
+  if (steel < t) {
+    *best = {steel, 0.7, Label::kSteel, wall.side};
+  } else {
+    *best = {t, std::abs(wall.surface.normal(ray.at(t)).dot(ray.direction)), wall.label, wall.side};
+  }
+}
+
+// Ribs of one depth: the ray meets the inner face of one, or the flank of the next one along the road, or none.
+double World::hit_steel(const RoadSurface& behind, const Ray& ray, double t_behind) const {
+  const double t_face = behind.surface.enter(ray, rock_.steel_depth_m);
+  if (t_face >= t_behind) return kNever;
+  const Vector p = ray.at(t_face);
+  const double s = line_.s_of(p);
+  const double from_rib = s - std::round(s / rock_.steel_pitch_m) * rock_.steel_pitch_m;
+  const double half = 0.5 * rock_.steel_width_m;
+  if (std::abs(from_rib) <= half) return t_face > 0.0 ? t_face : kNever;
+  const double advance = line_.tangent(s).dot(ray.direction);
+  if (advance == 0.0) return kNever;
+  const double next_rib = advance > 0.0 ? (from_rib > 0.0 ? rock_.steel_pitch_m : 0.0) - half - from_rib
+                                        : from_rib - half + (from_rib < 0.0 ? rock_.steel_pitch_m : 0.0);
+  const double t_flank = t_face + next_rib / std::abs(advance);
+  return t_flank < t_behind ? t_flank : kNever;
+}
+
+}  // namespace pose_wall::tools::sim

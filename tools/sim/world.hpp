@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <memory>
+
+#include "sim/objects.hpp"
+#include "sim/section.hpp"
+
+namespace pose_wall::tools::sim {
+
+struct Hit {
+  double t_m = kNever;
+  double cosine = 1.0;  // of the incidence on the mean surface
+  Label label = Label::kNone;
+  int side = 0;  // of the wall that was hit
+};
+
+// All that stays where it is in the road frame.
+class World {
+ public:
+  World(const Setup& setup, std::uint64_t seed);
+
+  // The bare rock without relief, objects, crosscuts, heaps and faces: what truth is measured to.
+  static World mean(const Setup& setup);
+
+  const std::vector<Primitive>& objects() const { return objects_; }
+  Hit trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const;
+  Hit trace_rock(const Ray& ray, double t_max_m) const;
+  const Plane& floor() const { return floor_; }
+  // Smooth field over the floor, normally distributed, that decides where water stands.
+  double wetness(const Vector& p) const;
+
+ private:
+  World() = default;
+  void hit_wall_or_recess(const RoadSurface& wall, const Ray& ray, double t_start, Hit* best) const;
+  double hit_steel(const RoadSurface& behind, const Ray& ray, double t_behind) const;
+
+  CentreLine line_{0.0};
+  Rock rock_;
+  Plane floor_{};
+  std::unique_ptr<NoiseTile> tile_;
+  NoiseLayer puddles_;
+  std::vector<RoadSurface> surfaces_;
+  std::vector<Recess> recesses_;
+  std::vector<Primitive> objects_;
+};
+
+}  // namespace pose_wall::tools::sim

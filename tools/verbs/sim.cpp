@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_wall sim: frames of a roadway that does not exist, with the truth of each.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "frames/pcd_writer.hpp"
+#include "sim/parameters.hpp"
+#include "sim/run_files.hpp"
+#include "sim/scenes.hpp"
+#include "sim/sensors.hpp"
+#include "sim/simulator.hpp"
+#include "terminal/progress_bar.hpp"
+#include "terminal/text_table.hpp"
+#include "truth/truth_csv.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+struct SimOptions {
+  std::string scene = "clean";
+  std::string sensor = "os1-64";
+  std::uint32_t frames = 10;
+  std::optional<double> rate_hz;
+  std::uint64_t seed = 1;
+  std::vector<std::string> settings;
+  bool random = false;
+  bool list = false;
+  bool quiet = false;
+  std::string output;
+};
+
+void print_list() {
+  TextTable scenes({"scene", "what it holds", "what a good instrument does"});
+  for (const sim::SceneChoice& s : sim::scenes()) scenes.add_row({s.name, s.help, s.expected});
+  TextTable sensors({"sensor", "what it is"});
+  for (const sim::SensorModel& m : sim::sensor_models()) sensors.add_row({m.sensor.name, m.help});
+  TextTable keys({"key", "default", "unit", "allowed", "meaning"});
+  sim::Setup defaults;
+  for (const sim::Parameter& p : sim::parameters()) {
+    const std::string allowed = *p.words != '\0' ? p.words : fmt::format("{:g} to {:g}", p.minimum, p.maximum);
+    keys.add_row({p.name, sim::parameter_text(p, p.field(defaults)), p.unit, allowed, p.help});
+  }
+  fmt::print("{}\n{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n", scenes.text(3),
+             sensors.text(2), keys.text(5));
+}
+
+sim::Setup resolve_setup(const SimOptions& options) {
+  sim::Setup setup = sim::make_setup(options.scene, options.sensor, options.random, options.seed);
+  if (options.rate_hz) sim::set_parameter(setup, "rate_hz", fmt::format("{}", *options.rate_hz));
+  for (const std::string& assignment : options.settings) sim::set_parameter(setup, assignment);
+  return setup;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
+}
+
+void write_frames(const SimOptions& options, const sim::Simulator& simulator) {
+  ProgressBar bar(options.frames, !options.quiet && is_terminal(2));
+  std::vector<TruthRow> truth;
+  for (std::uint32_t i = 0; i < options.frames; ++i) {
+    const sim::Frame frame = simulator.render(i);
+    const std::filesystem::path file = sim::frame_file(options.output, i);
+    write_pcd_binary(file, frame.xyz_intensity.data(), frame.count());
+    truth.push_back(simulator.truth(i));
+    bar.advance(file.filename().string());
+  }
+  write_truth_csv(std::filesystem::path(options.output) / "truth.csv", truth);
+}
+
+int simulate(const SimOptions& options) {
+  if (options.list) {
+    print_list();
+    return kExitDone;
+  }
+  if (options.output.empty()) throw std::invalid_argument("--output DIR is needed");
+  const sim::Simulator simulator(resolve_setup(options), options.seed);
+  try {
+    std::filesystem::create_directories(std::filesystem::path(options.output) / "frames");
+    write_text(std::filesystem::path(options.output) / "pose_wall.yaml",
+               sim::engine_settings(simulator.setup(),
+                                    fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
+                                                options.seed, options.random ? ", random sizes" : "")));
+    write_frames(options, simulator);
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "pose_wall sim: {}\n", error.what());
+    return kExitUnreadable;
+  }
+  if (!options.quiet) fmt::print(stderr, "{}: {} frames, truth.csv, pose_wall.yaml\n", options.output, options.frames);
+  return kExitDone;
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<SimOptions>();
+  CLI::App* verb = app.add_subcommand("sim", "Simulate LiDAR frames of a roadway, with the truth of each");
+  verb->add_option("--scene", options->scene, "What the road holds; see --list")->capture_default_str();
+  verb->add_option("--sensor", options->sensor, "Which LiDAR; see --list")->capture_default_str();
+  verb->add_option("-n,--frames", options->frames, "How many frames")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  verb->add_option("-r,--rate", options->rate_hz, "Frames per second; the same as --set rate_hz");
+  verb->add_option("--seed", options->seed, "Of rock, noise and --random: the same seed gives the same bits")
+      ->capture_default_str();
+  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the scene; may be repeated")->allow_extra_args(false);
+  verb->add_flag("--random", options->random, "Draw the sizes from the scene's ranges, by the seed");
+  verb->add_flag("--list", options->list, "Print scenes, sensors and keys");
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
+  verb->add_option("-o,--output", options->output, "Folder for frames/*.pcd, truth.csv and pose_wall.yaml");
+  verb->footer(
+      "Example:\n  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
+      "  pose_wall run --config /tmp/road/pose_wall.yaml --output out.csv /tmp/road/frames\n"
+      "  pose_wall eval out.csv /tmp/road/truth.csv");
+  verb->callback([options, &exit_code] { exit_code = simulate(*options); });
+}
+
+}  // namespace pose_wall::tools
