@@ -241,30 +241,29 @@ enum pose_wall_reason {
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
   POSE_WALL_R_FLOOR_THIN = 1 << 8,        /* its points lie nearly on one line, or cover too small an area */
-  POSE_WALL_R_FLOOR_ROUGH = 1 << 9,       /* residuals or unevenness too large for the alert limit */
-  POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 10,  /* another level (bench, pile, reflection) explains the view nearly as well */
+  POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 9,   /* another level (bench, pile, reflection) explains the view nearly as well */
   /* the walls */
-  POSE_WALL_R_WALL_NOT_FOUND = 1 << 11,
-  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 12,  /* fewer than wall_inlier_min */
-  POSE_WALL_R_WALL_SHORT = 1 << 13,        /* supported over less than wall_length_min along the road */
-  POSE_WALL_R_WALL_LEANS = 1 << 14,        /* leans more than wall_lean_max_deg */
-  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 15, /* points lie behind it where it should be solid: pipes, props, conveyor */
-  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 16,    /* another plane on this side explains the view nearly as well */
-  POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 17,
-  POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 18, /* beyond yaw_max_deg, where side and face become ambiguous */
-  POSE_WALL_R_CROSS_ROAD = 1 << 19,       /* a better pair of walls runs across the machine than along it */
-  POSE_WALL_R_CURVED = 1 << 20,           /* wall or floor bends significantly */
-  POSE_WALL_R_EXTRAPOLATED = 1 << 21,     /* no wall seen at the sampling point: the plane is prolonged to it */
+  POSE_WALL_R_WALL_NOT_FOUND = 1 << 10,
+  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min */
+  POSE_WALL_R_WALL_SHORT = 1 << 12,        /* supported over less than wall_length_min along the road */
+  POSE_WALL_R_WALL_LEANS = 1 << 13,        /* leans more than wall_lean_max_deg */
+  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* points lie behind it where it should be solid: pipes, props, conveyor */
+  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well */
+  POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 16,
+  POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 17, /* beyond yaw_max_deg, where side and face become ambiguous */
+  POSE_WALL_R_CROSS_ROAD = 1 << 18,       /* a better pair of walls runs across the machine than along it */
+  POSE_WALL_R_CURVED = 1 << 19,           /* wall or floor bends significantly */
+  POSE_WALL_R_EXTRAPOLATED = 1 << 20,     /* no wall seen at the sampling point: the plane is prolonged to it */
   /* the outcome */
-  POSE_WALL_R_LEVEL_MISSING = 1 << 22, /* walls not searched: this frame has no floor to level by */
-  POSE_WALL_R_ALERT_LIMIT = 1 << 23,   /* protection level above the alert limit */
-  POSE_WALL_R_INNOVATION = 1 << 24,    /* jumped further from the last value than the machine can move */
-  POSE_WALL_R_RATE_LIMITED = 1 << 25,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
-  POSE_WALL_R_HOLD_EXPIRED = 1 << 26,  /* held value's protection level passed the alert limit, or hold_max passed */
-  POSE_WALL_R_WALL_TOO_NEAR = 1 << 27, /* returns nearer than range_min block the view to this side */
-  POSE_WALL_R_NEVER_MEASURED = 1 << 28
+  POSE_WALL_R_LEVEL_MISSING = 1 << 21, /* walls not searched: this frame has no floor to level by */
+  POSE_WALL_R_ALERT_LIMIT = 1 << 22,   /* protection level above the alert limit */
+  POSE_WALL_R_INNOVATION = 1 << 23,    /* jumped further from the last value than the machine can move */
+  POSE_WALL_R_RATE_LIMITED = 1 << 24,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
+  POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held value's protection level passed the alert limit, or hold_max passed */
+  POSE_WALL_R_WALL_TOO_NEAR = 1 << 26, /* returns nearer than range_min block the view to this side */
+  POSE_WALL_R_NEVER_MEASURED = 1 << 27
 };
-#define POSE_WALL_REASON_COUNT 29
+#define POSE_WALL_REASON_COUNT 28
 
 /* Short lower-case names for logs and CSV, static storage: "wall_short", "valid", "d_lf". */
 const char* pose_wall_reason_name(uint32_t bit_index);
@@ -278,10 +277,10 @@ typedef struct pose_wall_value {
   double raw;              /* this frame's own measurement before smoothing; NaN if none */
   double sigma;            /* standard deviation of raw (held: of the last raw) */
   double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured */
-  double confidence; /* 0..1: min(1, alert limit / protection level) scaled; 0 when invalid; only falls while held */
-  double age_s;      /* since the frame it was measured in; 0 when measured in this one */
-  uint32_t state;    /* pose_wall_state */
-  uint32_t reasons;  /* pose_wall_reason bits */
+  double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
+  double age_s;            /* since the frame it was measured in; 0 when measured in this one */
+  uint32_t state;          /* pose_wall_state */
+  uint32_t reasons;        /* pose_wall_reason bits */
 } pose_wall_value;
 
 /* A fitted plane n . p + d = 0 of this frame. */

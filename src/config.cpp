@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "math/elementary.hpp"
 #include "number_text.hpp"
 
 namespace pose_wall {
@@ -52,14 +53,15 @@ enum TextSlot : std::uint32_t {
 static_assert(kNumbersUsed <= POSE_WALL_CONFIG_NUMBERS, "raise POSE_WALL_CONFIG_NUMBERS");
 static_assert(kTextsUsed <= POSE_WALL_CONFIG_TEXTS, "raise POSE_WALL_CONFIG_TEXTS");
 
-constexpr const char* first_choice(const char* choices) { return choices; }
+constexpr const char* first_choice(const char* choices) {
+  return choices;
+}
 
 constexpr Row kRows[] = {
 #define POSE_WALL_TEXT(name, group, text, help) \
   {{#name, "", "", text, group, help, 0.0, 0.0, POSE_WALL_KEY_TEXT, 0}, kText_##name, 0.0},
-#define POSE_WALL_CHOICE(name, group, index, choices, help)                                                    \
-  {{#name, "", choices, first_choice(choices), group, help, 0.0, 0.0, POSE_WALL_KEY_CHOICE, 0}, kNumber_##name, \
-   index},
+#define POSE_WALL_CHOICE(name, group, index, choices, help) \
+  {{#name, "", choices, first_choice(choices), group, help, 0.0, 0.0, POSE_WALL_KEY_CHOICE, 0}, kNumber_##name, index},
 #define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) \
   {{#name, unit, "", text, group, help, minimum, maximum, POSE_WALL_KEY_NUMBER, 0}, kNumber_##name, value},
 #define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help) \
@@ -105,7 +107,9 @@ const char* choice_at(const char* choices, std::uint32_t index) {
   return choices;
 }
 
-bool in_range(const Row& row, double value) { return value >= row.info.minimum && value <= row.info.maximum; }
+bool in_range(const Row& row, double value) {
+  return value >= row.info.minimum && value <= row.info.maximum;
+}
 
 std::int32_t set_number(pose_wall_config* config, const Row& row, double value) {
   if (!in_range(row, value)) return POSE_WALL_E_VALUE_RANGE;
@@ -235,8 +239,7 @@ Settings read_settings(const pose_wall_config& config) {
 #define POSE_WALL_TEXT(name, group, text, help)
 #define POSE_WALL_CHOICE(name, group, index, choices, help) \
   s.name = static_cast<std::int32_t>(config.number[kNumber_##name]);
-#define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) \
-  s.name = config.number[kNumber_##name];
+#define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) s.name = config.number[kNumber_##name];
 #define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help) \
   s.name = static_cast<std::uint32_t>(config.number[kNumber_##name]);
 #define POSE_WALL_BOX(name, group, unit, limit, help) s.name = box_at(config, kNumber_##name);
@@ -247,6 +250,10 @@ Settings read_settings(const pose_wall_config& config) {
 #undef POSE_WALL_COUNT
 #undef POSE_WALL_BOX
   return s;
+}
+
+double alert_limit(std::uint32_t quantity, const Settings& settings) {
+  return quantity <= POSE_WALL_YAW ? radians(settings.alert_limit_angle_deg) : settings.alert_limit_distance;
 }
 
 std::int32_t config_init(pose_wall_config* config) {
@@ -317,7 +324,9 @@ std::int32_t config_get_text(const pose_wall_config& config, const char* key, ch
   return POSE_WALL_OK;
 }
 
-std::uint32_t config_key_count() { return kRowCount; }
+std::uint32_t config_key_count() {
+  return kRowCount;
+}
 
 std::int32_t config_key(std::uint32_t index, pose_wall_key_info* info) {
   if (index >= kRowCount) return POSE_WALL_E_INDEX;

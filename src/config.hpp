@@ -41,6 +41,9 @@ std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* 
 
 Settings read_settings(const pose_wall_config& config);
 
+// The alert limit of one of the seven quantities, in its own unit (rad or m).
+double alert_limit(std::uint32_t quantity, const Settings& settings);
+
 // What the C ABI's pose_wall_config_* functions do, once their pointers are known to be there.
 std::int32_t config_init(pose_wall_config* config);
 std::int32_t config_set(pose_wall_config* config, const char* key, const char* value);

@@ -17,7 +17,9 @@ struct Mantissa {
   bool any = false;
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 void read_digits(const char** cursor, bool behind_point, Mantissa* mantissa) {
   for (; is_digit(**cursor); ++*cursor) {

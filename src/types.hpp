@@ -10,6 +10,7 @@
 
 #include "containers/point_set.hpp"
 #include "estimation/plane.hpp"
+#include "pose_wall.h"
 
 namespace pose_wall {
 
@@ -53,8 +54,8 @@ struct VoxelResult {
 struct PlaneFit {
   Plane plane;  // floor: base frame, normal up. wall: levelled frame, normal towards the machine
   bool found = false;
-  std::uint32_t reasons = 0;     // pose_wall_reason bits that forbid or weaken it
-  bool refused = false;          // a gate said no
+  std::uint32_t reasons = 0;  // pose_wall_reason bits that forbid or weaken it
+  bool refused = false;       // a gate said no
   std::uint32_t inliers = 0;
   std::uint32_t iterations = 0;
   double rms_m = 0.0;
@@ -66,7 +67,7 @@ struct FloorResult {
   double pitch_sigma_rad = 0.0;
   double roll_bound_rad = 0.0;  // systematic part of the protection level: range bias, unevenness, rival floors
   double pitch_bound_rad = 0.0;
-  double dof = 1.0;             // independent patches beyond the fitted parameters
+  double dof = 1.0;  // independent patches beyond the fitted parameters
   double area_m2 = 0.0;
   double roi_radius_m = 0.0;
   std::uint32_t candidates = 0;
@@ -84,10 +85,10 @@ struct WallResult {
   PlaneFit fit;
   Eigen::Vector3d along_level = Eigen::Vector3d::Zero();  // horizontal unit vector, towards the machine's front
   double lean_rad = 0.0;
-  double yaw_rad = 0.0;        // by this wall alone
+  double yaw_rad = 0.0;  // by this wall alone
   double yaw_sigma_rad = 0.0;
-  double yaw_bias_rad_per_m = 0.0;  // signed response to a constant range error
-  double yaw_bound_rad = 0.0;       // misfit and rivals
+  double yaw_bias_rad_per_m = 0.0;    // signed response to a constant range error
+  double yaw_bound_rad = 0.0;         // misfit and rivals
   double distance_m[2] = {0.0, 0.0};  // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};
   double distance_bound_m[2] = {0.0, 0.0};
@@ -96,6 +97,32 @@ struct WallResult {
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double area_m2 = 0.0;
+};
+
+// One of the seven quantities, as this frame measured it.
+struct Measurement {
+  bool measured = false;
+  bool weak = false;  // measured, but never better than degraded
+  double raw = 0.0;
+  double sigma = 0.0;
+  double protection = 0.0;
+  std::uint32_t reasons = 0;
+};
+
+struct Measurements {
+  Measurement quantity[POSE_WALL_QUANTITIES];
+  double left_right_yaw_difference_rad = 0.0;
+  bool has_yaw_difference = false;
+};
+
+// What a frame says of itself, apart from its geometry.
+struct FrameTiming {
+  double dt_s = 0.0;  // since the last frame, 0 for the first
+  bool first = false;
+  bool still = false;  // the last frame's stamp again
+  bool back = false;   // older than the last frame's
+  bool leap = false;   // more than stamp_gap_max ahead
+  std::uint32_t reasons = 0;
 };
 
 }  // namespace pose_wall

@@ -33,9 +33,13 @@ double PatchFit::bend_at(double u, double v) const {
   return bend[0] + bend[1] * u + bend[2] * v + bend[3] * u * u + bend[4] * u * v + bend[5] * v * v;
 }
 
-double PatchFit::bend_slope_u_at(double u, double v) const { return bend[1] + 2.0 * bend[3] * u + bend[4] * v; }
+double PatchFit::bend_slope_u_at(double u, double v) const {
+  return bend[1] + 2.0 * bend[3] * u + bend[4] * v;
+}
 
-double PatchFit::bend_slope_v_at(double u, double v) const { return bend[2] + bend[4] * u + 2.0 * bend[5] * v; }
+double PatchFit::bend_slope_v_at(double u, double v) const {
+  return bend[2] + bend[4] * u + 2.0 * bend[5] * v;
+}
 
 void PatchGrid::lay_out(Arena& arena) {
   cells_ = arena.take<Patch>(kSide * kSide);

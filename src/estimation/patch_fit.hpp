@@ -23,7 +23,7 @@ namespace pose_wall {
 
 struct PatchFit {
   bool solved = false;
-  Eigen::Vector3d correction = Eigen::Vector3d::Zero();     // offset m, slope along u, slope along v
+  Eigen::Vector3d correction = Eigen::Vector3d::Zero();      // offset m, slope along u, slope along v
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // of the correction
   Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();   // change of the correction per metre of range bias
   double tau_m = 0.0;                                        // roughness between patches

@@ -56,7 +56,7 @@ double arc_tangent_unit(double x) {
 }
 
 struct Quadrant {
-  int index;        // 0..3
+  int index;         // 0..3
   double remainder;  // in [-pi/4, pi/4]
 };
 

@@ -10,7 +10,9 @@ namespace pose_wall {
 
 constexpr double kPi = 3.14159265358979323846;
 
-constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
+constexpr double radians(double degrees) {
+  return degrees * (kPi / 180.0);
+}
 
 // Angles of a config: |x| up to a few turns.
 double sine(double x);

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "math/finite.hpp"
-#include "stages/cloud_reader.hpp"
+#include "stages/voxel_cloud_reader.hpp"
 
 namespace pose_wall {
 namespace {

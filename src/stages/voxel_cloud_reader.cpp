@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "stages/cloud_reader.hpp"
+#include "stages/voxel_cloud_reader.hpp"
 
 #include <cstring>
 
@@ -17,7 +17,9 @@ double load(const unsigned char* bytes, bool swap_bytes) {
   return static_cast<double>(value);
 }
 
-bool is_floating(std::uint32_t type) { return type == POSE_WALL_FIELD_FLOAT32 || type == POSE_WALL_FIELD_FLOAT64; }
+bool is_floating(std::uint32_t type) {
+  return type == POSE_WALL_FIELD_FLOAT32 || type == POSE_WALL_FIELD_FLOAT64;
+}
 
 bool fits_point(const pose_wall_field& field, std::uint32_t point_step) {
   return static_cast<std::uint64_t>(field.offset) + field_bytes(field.type) <= point_step;

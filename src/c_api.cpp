@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The only extern "C" file: checks arguments, translates, calls.
+
+#include <cstring>
+
+#include "config.hpp"
+#include "engine.hpp"
+#include "names.hpp"
+#include "pose_wall.h"
+#include "stages/voxel_cloud_reader.hpp"
+
+#define POSE_WALL_TEXT_OF(number) POSE_WALL_TEXT_OF_(number)
+#define POSE_WALL_TEXT_OF_(number) #number
+
+#if defined(__GNUC__)
+#define POSE_WALL_EXPORT __attribute__((visibility("default")))
+#else
+#define POSE_WALL_EXPORT
+#endif
+
+using pose_wall::Engine;
+
+namespace {
+
+Engine* engine_of(pose_wall_engine* handle) {
+  return reinterpret_cast<Engine*>(handle);
+}
+const Engine* engine_of(const pose_wall_engine* handle) {
+  return reinterpret_cast<const Engine*>(handle);
+}
+
+bool is_aligned(const void* block) {
+  return reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT == 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT const char* pose_wall_version(void) {
+  return POSE_WALL_TEXT_OF(POSE_WALL_VERSION_MAJOR) "." POSE_WALL_TEXT_OF(
+      POSE_WALL_VERSION_MINOR) "." POSE_WALL_TEXT_OF(POSE_WALL_VERSION_PATCH);
+}
+
+POSE_WALL_EXPORT uint32_t pose_wall_abi_version(void) {
+  return POSE_WALL_ABI_VERSION;
+}
+
+POSE_WALL_EXPORT const char* pose_wall_status_text(int32_t status) {
+  return pose_wall::status_text(status);
+}
+POSE_WALL_EXPORT const char* pose_wall_reason_name(uint32_t bit_index) {
+  return pose_wall::reason_name(bit_index);
+}
+POSE_WALL_EXPORT const char* pose_wall_reason_text(uint32_t bit_index) {
+  return pose_wall::reason_text(bit_index);
+}
+POSE_WALL_EXPORT const char* pose_wall_state_name(uint32_t state) {
+  return pose_wall::state_name(state);
+}
+POSE_WALL_EXPORT const char* pose_wall_quantity_name(uint32_t quantity) {
+  return pose_wall::quantity_name(quantity);
+}
+POSE_WALL_EXPORT const char* pose_wall_stage_name(uint32_t stage) {
+  return pose_wall::stage_name(stage);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_init(pose_wall_config* config) {
+  return config != nullptr ? pose_wall::config_init(config) : POSE_WALL_E_NULL;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value) {
+  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
+  return pose_wall::config_set(config, key, value);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value) {
+  if (config == nullptr || key == nullptr) return POSE_WALL_E_NULL;
+  return pose_wall::config_set_number(config, key, value);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value) {
+  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
+  return pose_wall::config_get_number(*config, key, value);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key, double value[6]) {
+  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
+  return pose_wall::config_get_box(*config, key, value);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer,
+                                                   uint64_t bytes) {
+  if (config == nullptr || key == nullptr || buffer == nullptr) return POSE_WALL_E_NULL;
+  return pose_wall::config_get_text(*config, key, buffer, bytes);
+}
+
+POSE_WALL_EXPORT uint32_t pose_wall_config_key_count(void) {
+  return pose_wall::config_key_count();
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info) {
+  return info != nullptr ? pose_wall::config_key(index, info) : POSE_WALL_E_NULL;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault) {
+  return config != nullptr ? pose_wall::check_config(*config, fault) : POSE_WALL_E_NULL;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count,
+                                               uint32_t point_step, int64_t stamp_ns) {
+  if (cloud == nullptr || (data == nullptr && count > 0)) return POSE_WALL_E_NULL;
+  *cloud = pose_wall_cloud{};
+  cloud->struct_size = sizeof(*cloud);
+  cloud->data = data;
+  cloud->data_bytes = static_cast<std::uint64_t>(count) * point_step;
+  cloud->width = count;
+  cloud->height = 1;
+  cloud->point_step = point_step;
+  cloud->stamp_ns = stamp_ns;
+  cloud->x = {0, POSE_WALL_FIELD_FLOAT32};
+  cloud->y = {4, POSE_WALL_FIELD_FLOAT32};
+  cloud->z = {8, POSE_WALL_FIELD_FLOAT32};
+  cloud->big_endian = 0;
+  if (pose_wall::needs_swap(*cloud)) cloud->big_endian = 1;  // native floats on a big-endian machine
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes) {
+  if (config == nullptr || bytes == nullptr) return POSE_WALL_E_NULL;
+  const int32_t status = pose_wall::check_config(*config, nullptr);
+  if (status != POSE_WALL_OK) return status;
+  *bytes = Engine::lay_out(nullptr, pose_wall::read_settings(*config), nullptr);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes,
+                                        pose_wall_engine** engine) {
+  if (config == nullptr || block == nullptr || engine == nullptr) return POSE_WALL_E_NULL;
+  uint64_t needed = 0;
+  const int32_t status = pose_wall_memory_needed(config, &needed);
+  if (status != POSE_WALL_OK) return status;
+  if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
+  if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
+  const pose_wall::Settings settings = pose_wall::read_settings(*config);
+  Engine* placed = nullptr;
+  Engine::lay_out(block, settings, &placed);
+  placed->open(settings);
+  *engine = reinterpret_cast<pose_wall_engine*>(placed);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_reset(pose_wall_engine* engine) {
+  if (engine == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  engine_of(engine)->reset();
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user) {
+  if (engine == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  engine_of(engine)->set_clock(clock, user);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud,
+                                           pose_wall_result* result) {
+  if (engine == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  if (cloud->struct_size != sizeof(*cloud) || result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  const int32_t status = pose_wall::check_cloud(*cloud);
+  if (status != POSE_WALL_OK) return status;
+  *result = pose_wall_result{};
+  result->struct_size = sizeof(*result);
+  engine_of(engine)->process(*cloud, result);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points) {
+  if (engine == nullptr || points == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  *points = engine_of(engine)->points();
+  return POSE_WALL_OK;
+}
+
+}  // extern "C"

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "engine.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "math/rotation.hpp"
+#include "report.hpp"
+#include "stages/level.hpp"
+#include "stages/outliers.hpp"
+#include "stages/quality.hpp"
+#include "stages/voxel.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kPointsMin = 100;
+
+Axes axes_of(std::int32_t forward_choice) {
+  // In the order of the key's choices: +X, -X, +Y, -Y.
+  const Eigen::Vector3d forward[] = {Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
+                                     -Eigen::Vector3d::UnitY()};
+  const Eigen::Vector3d& f = forward[forward_choice];
+  return {f, Eigen::Vector3d(-f.y(), f.x(), 0.0)};
+}
+
+Extrinsic extrinsic_of(const Settings& s) {
+  return {rotation_zyx(s.extrinsic_roll, s.extrinsic_pitch, s.extrinsic_yaw),
+          Eigen::Vector3d(s.extrinsic_x, s.extrinsic_y, s.extrinsic_z)};
+}
+
+// Every quantity that hangs on this fit is unmeasured, and says why.
+void refuse(std::uint32_t reason, PlaneFit* fit) {
+  fit->refused = true;
+  fit->reasons |= reason;
+}
+
+void refuse_all(std::uint32_t reason, FrameFindings* found) {
+  refuse(reason, &found->floor.fit);
+  for (WallResult& wall : found->walls.side) refuse(reason, &wall.fit);
+}
+
+}  // namespace
+
+void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
+  grid.lay_out(arena, points_max);
+  cells.lay_out(arena, points_max);
+  marks = arena.take<std::uint8_t>(points_max);
+  cloud_base.lay_out(arena, points_max);
+  band_level.lay_out(arena, points_max);
+  ground.lay_out(arena, points_max);
+  walls.lay_out(arena, points_max);
+}
+
+void Scratch::reset() {
+  grid.reset();
+  cells.reset();
+  cloud_base.count = 0;
+  band_level.count = 0;
+}
+
+std::uint64_t Engine::lay_out(void* block, const Settings& settings, Engine** out) {
+  Arena arena(block);
+  Engine* engine = arena.take_one<Engine>();
+  Scratch measured;
+  Scratch& scratch = engine != nullptr ? engine->scratch_ : measured;
+  scratch.lay_out(arena, settings.points_max);
+  if (out != nullptr) *out = engine;
+  return arena.bytes();
+}
+
+void Engine::open(const Settings& settings) {
+  settings_ = settings;
+  axes_ = axes_of(settings.forward_axis);
+  extrinsic_ = extrinsic_of(settings);
+  reset();
+  self_ = this;
+  magic_ = kMagic;
+}
+
+void Engine::reset() {
+  scratch_.reset();
+  memory_ = Memory{};
+}
+
+void Engine::set_clock(pose_wall_clock clock, void* user) {
+  clock_ = clock;
+  clock_user_ = user;
+}
+
+void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
+  FrameFindings found;
+  found.stamp_ns = cloud.stamp_ns;
+  // Each frame draws the same numbers, so that a frame's result does not hang on how many came before it.
+  Random random(settings_.random_seed);
+  std::int64_t at[POSE_WALL_STAGES + 1] = {now()};
+  const auto stage_done = [&](pose_wall_stage stage) { at[stage + 1] = now(); };
+
+  found.voxels = build_voxels(cloud, settings_, extrinsic_, axes_, &scratch_.grid, &scratch_.cloud_base);
+  result->voxels = scratch_.cloud_base.count;
+  stage_done(POSE_WALL_STAGE_VOXEL);
+  found.outliers = remove_outliers(settings_, &scratch_.cells, scratch_.marks, &scratch_.cloud_base);
+  stage_done(POSE_WALL_STAGE_OUTLIERS);
+  find_floor_if_any(&random, &found);
+  stage_done(POSE_WALL_STAGE_GROUND);
+  level_and_cut(&found);
+  stage_done(POSE_WALL_STAGE_BAND);
+  find_walls_if_level(&random, &found);
+  stage_done(POSE_WALL_STAGE_WALLS);
+  conclude(&found, result);
+  stage_done(POSE_WALL_STAGE_OUTPUT);
+
+  for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) result->stage_ns[stage] = at[stage + 1] - at[stage];
+}
+
+void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
+  if (found->voxels.leaf_grown) found->reasons |= POSE_WALL_R_LEAF_GROWN;
+  if (scratch_.cloud_base.count < kPointsMin) {
+    found->reasons |= POSE_WALL_R_NO_POINTS;
+    refuse_all(POSE_WALL_R_NO_POINTS, found);
+    return;
+  }
+  found->floor = find_floor(scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m,
+                            memory_.has_floor ? &memory_.last_floor : nullptr, random, &scratch_.ground);
+}
+
+void Engine::level_and_cut(FrameFindings* found) {
+  scratch_.band_level.count = 0;
+  if (found->floor.fit.refused) return;
+  found->level = level_by(found->floor.fit.plane);
+  cut_wall_band(scratch_.cloud_base, found->level, settings_, &scratch_.grid, &scratch_.band_level);
+  found->wall_points = scratch_.band_level.count;
+}
+
+void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
+  if (found->floor.fit.refused) {
+    for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
+    return;
+  }
+  const WallScene scene = wall_scene(scratch_.band_level, settings_, found->level, axes_, extrinsic_.sensor_base_m);
+  const Plane* const last[2] = {memory_.has_wall[0] ? &memory_.last_wall[0] : nullptr,
+                                memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
+  found->walls = find_walls(scene, last, random, &scratch_.walls);
+  refuse_blocked_sides(found->voxels.counts, &found->walls.side);
+}
+
+void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
+  const FrameTiming timing = time_frame(memory_.temporal, found->stamp_ns, settings_);
+  found->reasons |= timing.reasons;
+  found->measured = measure_quantities(found->floor, found->level, found->walls.side, settings_);
+  doubt_repeats(timing, found);
+  smooth_and_hold(found->measured, timing, found->stamp_ns, settings_, &memory_.temporal, &result->quantity);
+  report_findings(*found, result);
+  result->frame_index = memory_.frames++;
+  result->confidence = 1.0;
+  for (const pose_wall_value& v : result->quantity) {
+    if (v.confidence < result->confidence) result->confidence = v.confidence;
+  }
+  label_points(*found);
+  remember(*found);
+}
+
+// The very same points under a new stamp: no LiDAR does that, its driver or network does. Under the old stamp it is
+// the same frame once more, and there is nothing new to measure.
+void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
+  const bool repeated = memory_.frames > 0 && found->voxels.fingerprint == memory_.fingerprint;
+  memory_.repeats = repeated ? memory_.repeats + 1 : 0;
+  memory_.fingerprint = found->voxels.fingerprint;
+  const bool frozen = repeated && !timing.still;
+  if (frozen) found->reasons |= POSE_WALL_R_FROZEN;
+  std::uint32_t reasons = timing.reasons;
+  if (frozen) reasons |= POSE_WALL_R_FROZEN;
+  const bool unmeasured = timing.still || (frozen && memory_.repeats > settings_.frozen_frames);
+  for (Measurement& m : found->measured.quantity) {
+    m.reasons |= reasons;
+    m.weak = m.weak || frozen;
+    if (unmeasured) m.measured = false;
+  }
+}
+
+void Engine::remember(const FrameFindings& found) {
+  memory_.has_floor = !found.floor.fit.refused;
+  memory_.last_floor = found.floor.fit.plane;
+  for (int side = 0; side < 2; ++side) {
+    memory_.has_wall[side] = !found.walls.side[side].fit.refused;
+    memory_.last_wall[side] = found.walls.side[side].fit.plane;
+  }
+}
+
+void Engine::label_points(const FrameFindings& found) {
+  const PointSet& cloud = scratch_.cloud_base;
+  for (std::uint32_t i = 0; i < cloud.count; ++i) {
+    const Eigen::Vector3d p = cloud.at(i);
+    scratch_.marks[i] = POSE_WALL_LABEL_OTHER;
+    if (found.floor.fit.refused) continue;
+    if (std::fabs(found.floor.fit.plane.signed_distance(p)) <= settings_.ground_ransac_thresh) {
+      scratch_.marks[i] = POSE_WALL_LABEL_FLOOR;
+      continue;
+    }
+    const Eigen::Vector3d p_level = found.level.R_level_base * p;
+    const double height = p_level.z() - found.level.floor_z_level_m;
+    if (!(height >= settings_.wall_z_min && height <= settings_.wall_z_max)) continue;
+    for (int side = 0; side < 2; ++side) {
+      const WallResult& wall = found.walls.side[side];
+      if (wall.fit.refused || !(std::fabs(wall.fit.plane.signed_distance(p_level)) <= settings_.wall_ransac_thresh))
+        continue;
+      scratch_.marks[i] = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
+    }
+  }
+}
+
+pose_wall_points Engine::points() const {
+  const PointSet& c = scratch_.cloud_base;
+  return {c.x.data(), c.y.data(), c.z.data(), scratch_.marks.data(), c.count, 0};
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The pipeline, and all that it remembers.
+
+#pragma once
+
+#include "config.hpp"
+#include "containers/arena.hpp"
+#include "containers/cell_index.hpp"
+#include "containers/voxel_grid.hpp"
+#include "pose_wall.h"
+#include "report.hpp"
+#include "stages/ground.hpp"
+#include "stages/temporal.hpp"
+#include "stages/walls.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+// Buffers of one frame. Nothing in here is read before it was written in the same frame.
+struct Scratch {
+  VoxelGrid grid;
+  CellIndex cells;
+  Span<std::uint8_t> marks;  // per point: keep flags, later labels
+  PointSet cloud_base;
+  PointSet band_level;
+  GroundScratch ground;
+  WallsScratch walls;
+
+  void lay_out(Arena& arena, std::uint32_t points_max);
+  // Once, over a block that holds garbage.
+  void reset();
+};
+
+// What one frame leaves for the next.
+struct Memory {
+  TemporalState temporal;
+  Plane last_floor;
+  Plane last_wall[2];
+  bool has_floor = false;
+  bool has_wall[2] = {false, false};
+  std::uint64_t fingerprint = 0;
+  std::uint32_t repeats = 0;  // how often the last cloud has come again
+  std::uint64_t frames = 0;
+};
+
+// Where everything lies in the caller's block:
+//
+//   | Engine | grid | cells | marks | cloud_base | band_level | ground | walls |
+//
+// Engine is written at open and lives on; the hash slots of grid and cells are cleared at open; the rest is scratch
+// that each frame writes before it reads.
+class Engine {
+ public:
+  // Measures (block NULL) or places an engine.
+  static std::uint64_t lay_out(void* block, const Settings& settings, Engine** out);
+
+  void open(const Settings& settings);
+  void reset();
+  void set_clock(pose_wall_clock clock, void* user);
+  bool is_open() const { return magic_ == kMagic && self_ == this; }
+  void process(const pose_wall_cloud& cloud, pose_wall_result* result);
+  pose_wall_points points() const;
+
+ private:
+  static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;
+
+  void find_floor_if_any(Random* random, FrameFindings* found);
+  void level_and_cut(FrameFindings* found);
+  void find_walls_if_level(Random* random, FrameFindings* found);
+  void conclude(FrameFindings* found, pose_wall_result* result);
+  void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
+  void remember(const FrameFindings& found);
+  void label_points(const FrameFindings& found);
+  std::int64_t now() const { return clock_ != nullptr ? clock_(clock_user_) : 0; }
+
+  std::uint64_t magic_ = 0;
+  const Engine* self_ = nullptr;
+  Settings settings_{};
+  Axes axes_{};
+  Extrinsic extrinsic_{};
+  pose_wall_clock clock_ = nullptr;
+  void* clock_user_ = nullptr;
+  Memory memory_;
+  Scratch scratch_;
+};
+
+}  // namespace pose_wall

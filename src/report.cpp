@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "report.hpp"
+
+#include "math/finite.hpp"
+
+namespace pose_wall {
+namespace {
+
+pose_wall_plane plane_of(const PlaneFit& fit) {
+  pose_wall_plane p{};
+  p.reasons = fit.reasons;
+  p.iterations = fit.iterations;
+  if (!fit.found) return p;
+  for (int k = 0; k < 3; ++k) p.normal[k] = fit.plane.n[k];
+  p.d_m = fit.plane.d;
+  p.rms_m = fit.rms_m;
+  p.found = 1;
+  p.inliers = fit.inliers;
+  return p;
+}
+
+pose_wall_plane plane_of(const WallResult& wall) {
+  pose_wall_plane p = plane_of(wall.fit);
+  if (p.found == 0) return p;
+  p.lean_rad = wall.lean_rad;
+  p.along_min_m = wall.along_min_m;
+  p.along_max_m = wall.along_max_m;
+  p.area_m2 = wall.area_m2;
+  return p;
+}
+
+void report_counts(const FrameFindings& found, pose_wall_result* result) {
+  const IngestCounts& c = found.voxels.counts;
+  result->points_in = c.points_in;
+  result->dropped_not_finite = c.dropped_not_finite;
+  result->dropped_zero = c.dropped_zero;
+  result->dropped_near = c.dropped_near;
+  result->dropped_far = c.dropped_far;
+  result->dropped_body = c.dropped_body;
+  result->outliers = found.outliers;
+  result->ground_candidates = found.floor.candidates;
+  result->wall_points = found.wall_points;
+  result->voxel_leaf_m = found.voxels.leaf_m;
+}
+
+}  // namespace
+
+void report_findings(const FrameFindings& found, pose_wall_result* result) {
+  result->stamp_ns = found.stamp_ns;
+  result->frame_reasons = found.reasons | found.floor.fit.reasons;
+  result->floor = plane_of(found.floor.fit);
+  result->floor.area_m2 = result->floor.found != 0 ? found.floor.area_m2 : 0.0;
+  result->left = plane_of(found.walls.side[0]);
+  result->right = plane_of(found.walls.side[1]);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      result->R_level_base[3 * row + column] = found.level.R_level_base(row, column);
+    }
+  }
+  result->left_right_yaw_difference_rad =
+      found.measured.has_yaw_difference ? found.measured.left_right_yaw_difference_rad : not_a_number();
+  report_counts(found, result);
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/ground.hpp"
+
+#include <cmath>
+
+#include "estimation/irls.hpp"
+#include "estimation/mlesac.hpp"
+#include "estimation/protection.hpp"
+#include "math/elementary.hpp"
+#include "math/rotation.hpp"
+#include "stages/ground_fit.hpp"
+#include "stages/ground_search.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kRadiusGrowth = 1.5;
+constexpr int kRadiusSteps = 10;
+constexpr std::uint32_t kCandidatesMin = 60;
+constexpr double kAreaMin_m2 = 1.0;
+constexpr double kAcrossSpreadMin_m = 0.2;
+constexpr double kGhostShare = 0.4;
+constexpr double kRivalShare = 0.5;
+constexpr double kOutlierSpan_m = 4.0;
+// A floor this good needs no wider look: the wider, the less "local" the floor is.
+constexpr double kGoodEnough = 0.7;
+
+struct Candidate {
+  Plane plane;
+  FloorEvidence evidence;
+  bool ghost = false;
+};
+
+std::uint32_t within_radius(const PointSet& cloud, double radius_m, Span<std::uint32_t> out) {
+  const float limit = static_cast<float>(radius_m * radius_m);
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < cloud.count; ++i) {
+    if (cloud.x[i] * cloud.x[i] + cloud.y[i] * cloud.y[i] <= limit) out[count++] = i;
+  }
+  return count;
+}
+
+// The lowest percentile by z, off a histogram of centimetres.
+std::uint32_t lowest_part(const PointSet& cloud, Span<const std::uint32_t> candidates, double percentile,
+                          Span<std::uint32_t> out) {
+  constexpr std::uint32_t kBins = 2048;
+  constexpr float kFloor_m = -10.24F;
+  std::uint32_t bins[kBins] = {};
+  const auto bin_of = [&](std::uint32_t i) {
+    const float place = (cloud.z[i] - kFloor_m) * 100.0F;
+    if (!(place > 0.0F)) return 0U;
+    return place < static_cast<float>(kBins) ? static_cast<std::uint32_t>(place) : kBins - 1;
+  };
+  for (const std::uint32_t i : candidates) ++bins[bin_of(i)];
+  const double wanted = percentile / 100.0 * static_cast<double>(candidates.size());
+  double below = 0.0;
+  std::uint32_t limit = 0;
+  for (; limit < kBins && below < wanted; ++limit) below += static_cast<double>(bins[limit]);
+  std::uint32_t count = 0;
+  for (const std::uint32_t i : candidates) {
+    if (bin_of(i) < limit) out[count++] = i;
+  }
+  return count;
+}
+
+// Refines what the search left, merges what became alike, and looks at each as a floor.
+std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const Settings& s, const Axes& axes,
+                    const Eigen::Vector3d& sensor, FloorShortlist* list, GroundScratch* scratch,
+                    Candidate (&out)[kFloorShortlist]) {
+  const IrlsSettings quick{2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2};
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < list->count(); ++k) {
+    const IrlsResult refined =
+        irls_tukey(cloud, all, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, scratch->residuals);
+    if (!refined.solved || !may_be_floor(refined.plane, s, sensor)) continue;
+    bool repeats = false;
+    for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);
+    if (repeats) continue;
+    if (mlesac_score(cloud, all, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
+    scratch->grid.mark(cloud, all, refined.plane, s.ground_ransac_thresh);
+    out[count++] = {refined.plane, scratch->grid.evidence(axes), false};
+  }
+  return count;
+}
+
+// Planes below another one, seen through its open floor, are reflections in wet ground.
+void mark_ghosts(const PointSet& cloud, Span<const std::uint32_t> all, const Settings& s, const Eigen::Vector3d& sensor,
+                 GroundScratch* scratch, Span<Candidate> candidates) {
+  for (const Candidate& above : candidates) {
+    if (above.evidence.area_m2 < kAreaMin_m2) continue;
+    bool marked = false;
+    for (Candidate& below : candidates) {
+      if (!(below.plane.signed_distance(sensor) > above.plane.signed_distance(sensor) + 0.1)) continue;
+      if (!marked) scratch->grid.mark(cloud, all, above.plane, s.ground_ransac_thresh);
+      marked = true;
+      below.ghost = below.ghost || share_seen_through(scratch->grid, above.plane, below.plane, cloud, all, sensor,
+                                                      s.ground_ransac_thresh) > kGhostShare;
+    }
+  }
+}
+
+const Candidate* best_of(Span<const Candidate> candidates, const Candidate* except) {
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates) {
+    if (&c == except || c.ghost) continue;
+    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
+  }
+  return best;
+}
+
+// A rival floor nearly as good: the truth may be either, so the protection levels reach to it.
+void reach_to_rival(const Candidate& best, const Candidate* rival, FloorResult* out) {
+  if (rival == nullptr || rival->evidence.score_m2 < kRivalShare * best.evidence.score_m2) return;
+  const RollPitch a = roll_pitch_of_up(best.plane.n), b = roll_pitch_of_up(rival->plane.n);
+  out->roll_bound_rad += std::fabs(a.roll_rad - b.roll_rad);
+  out->pitch_bound_rad += std::fabs(a.pitch_rad - b.pitch_rad);
+  out->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+}
+
+void gate(const Settings& s, const Candidate& best, FloorResult* out) {
+  const auto refuse_unless = [&](bool holds, std::uint32_t reason) {
+    if (holds) return;
+    out->fit.refused = true;
+    out->fit.reasons |= reason;
+  };
+  refuse_unless(out->fit.inliers >= s.ground_inlier_min, POSE_WALL_R_FLOOR_FEW_INLIERS);
+  refuse_unless(best.evidence.area_m2 >= kAreaMin_m2, POSE_WALL_R_FLOOR_THIN);
+  refuse_unless(best.evidence.across_spread_m >= kAcrossSpreadMin_m, POSE_WALL_R_FLOOR_THIN);
+}
+
+FloorResult floor_within(double radius_m, const PointSet& cloud, const Settings& s, const Axes& axes,
+                         const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
+                         GroundScratch* scratch) {
+  FloorResult none;
+  none.fit.refused = true;
+  none.fit.reasons = POSE_WALL_R_FLOOR_NOT_FOUND;
+  none.roi_radius_m = radius_m;
+  const std::uint32_t n = within_radius(cloud, radius_m, scratch->candidates);
+  none.candidates = n;
+  if (n < kCandidatesMin) return none;
+  const Span<const std::uint32_t> all = scratch->candidates.first(n);
+  const std::uint32_t low = lowest_part(cloud, all, s.ground_z_percentile, scratch->low);
+
+  FloorShortlist list;
+  const GroundSearchInput in{cloud, all, scratch->low.first(low), sensor, last_floor};
+  none.fit.iterations = search_floor(in, s, random, &scratch->subset, &list);
+  Candidate candidates[kFloorShortlist];
+  const std::uint32_t count = weigh(cloud, all, s, axes, sensor, &list, scratch, candidates);
+  mark_ghosts(cloud, all, s, sensor, scratch, Span<Candidate>(candidates, count));
+  const Candidate* best = best_of(Span<const Candidate>(candidates, count), nullptr);
+  if (best == nullptr) return none;
+
+  FloorResult out = fit_floor(cloud, all, radius_m, best->plane, s, sensor, scratch);
+  out.fit.iterations = none.fit.iterations;
+  out.candidates = n;
+  out.roi_radius_m = radius_m;
+  out.area_m2 = best->evidence.area_m2;
+  reach_to_rival(*best, best_of(Span<const Candidate>(candidates, count), best), &out);
+  gate(s, *best, &out);
+  return out;
+}
+
+double worse_level(const FloorResult& f, const Settings& s) {
+  if (f.fit.refused) return 1e9;
+  const double k = protection_factor(s.protection_factor, f.dof);
+  const double roll = k * f.roll_sigma_rad + f.roll_bound_rad, pitch = k * f.pitch_sigma_rad + f.pitch_bound_rad;
+  return roll > pitch ? roll : pitch;
+}
+
+}  // namespace
+
+void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
+  candidates = arena.take<std::uint32_t>(points_max);
+  low = arena.take<std::uint32_t>(points_max);
+  residuals = arena.take<float>(points_max);
+  subset.lay_out(arena, kGroundSubset);
+  grid.lay_out(arena);
+  patches.lay_out(arena);
+}
+
+FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, const Axes& axes,
+                       const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
+                       GroundScratch* scratch) {
+  FloorResult best;
+  double radius_m = settings.ground_roi_radius;
+  for (int step = 0; step < kRadiusSteps; ++step) {
+    const FloorResult here =
+        floor_within(radius_m, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
+    if (step == 0 || worse_level(here, settings) < worse_level(best, settings)) best = here;
+    const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
+    if (worse_level(best, settings) <= good_enough || radius_m >= settings.ground_roi_radius_max) break;
+    radius_m *= kRadiusGrowth;
+    if (radius_m > settings.ground_roi_radius_max) radius_m = settings.ground_roi_radius_max;
+  }
+  return best;
+}
+
+}  // namespace pose_wall

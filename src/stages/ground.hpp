@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Stage 3: the floor, and with it roll and pitch.
+
+#pragma once
+
+#include "config.hpp"
+#include "containers/arena.hpp"
+#include "estimation/patch_fit.hpp"
+#include "math/random.hpp"
+#include "stages/ground_evidence.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+struct GroundScratch {
+  Span<std::uint32_t> candidates;
+  Span<std::uint32_t> low;
+  Span<float> residuals;
+  PointSet subset;
+  FloorGrid grid;
+  PatchGrid patches;
+
+  void lay_out(Arena& arena, std::uint32_t points_max);
+};
+
+// Looks for the floor within ground_roi_radius, and in growing steps up to ground_roi_radius_max where it is not seen
+// well enough to be valid. last_floor: the last frame's plane or nullptr, scored like any other hypothesis.
+FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, const Axes& axes,
+                       const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
+                       GroundScratch* scratch);
+
+}  // namespace pose_wall

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/ground_fit.hpp"
+
+#include <cmath>
+
+#include "estimation/irls.hpp"
+#include "estimation/tangent_frame.hpp"
+#include "estimation/tukey.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kGateInThresholds = 3.0;
+constexpr double kScaleMin_m = 0.003;
+constexpr double kPatch_m = 0.5;
+constexpr int kRounds = 5;
+constexpr int kSelections = 2;
+
+IrlsSettings irls_settings(const Settings& s) {
+  return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds};
+}
+
+// Points near the plane, except where a wall or heap rises from it: those pull the floor up on one side.
+Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> candidates, const Plane& plane,
+                                 double gate_m, const FloorGrid& grid, Span<std::uint32_t> out) {
+  std::uint32_t count = 0;
+  for (const std::uint32_t i : candidates) {
+    const Eigen::Vector3d p = cloud.at(i);
+    const double height = plane.signed_distance(p);
+    if (!(height >= -gate_m && height <= gate_m)) continue;
+    const Eigen::Vector3d foot = p - height * plane.n;
+    if (!grid.blocked(foot.x(), foot.y())) out[count++] = i;
+  }
+  return Span<const std::uint32_t>(out.data(), count);
+}
+
+// Gradients of roll and pitch by the normal; see roll_pitch_of_up().
+struct Gradients {
+  Eigen::Vector3d roll, pitch;
+
+  explicit Gradients(const Eigen::Vector3d& n) {
+    const double s2 = n.y() * n.y() + n.z() * n.z();
+    const double s = std::sqrt(s2);
+    roll = Eigen::Vector3d(0.0, n.z(), -n.y()) / s2;
+    pitch = Eigen::Vector3d(-s, n.x() * n.y() / s, n.x() * n.z() / s);
+  }
+};
+
+// How an angle answers to the fit's correction (offset, slope u, slope v): the normal moves by -slope u - slope v.
+Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f) {
+  return {0.0, -gradient.dot(f.u), -gradient.dot(f.v)};
+}
+
+void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const IrlsResult& irls,
+                  const TangentFrame& f, double reach, const Eigen::Vector3d& sensor_base_m, PatchGrid* patches) {
+  patches->begin(-reach, reach, -reach, reach, kPatch_m);
+  for (const std::uint32_t i : chosen) {
+    const Eigen::Vector3d p = cloud.at(i);
+    const double r = irls.plane.signed_distance(p);
+    const double w = tukey_weight(r, irls.scale_m) * static_cast<double>(cloud.weight[i]);
+    if (!(w > 0.0)) continue;
+    const Eigen::Vector3d ray = (p - sensor_base_m).normalized();
+    const Eigen::Vector3d q = p - f.origin;
+    patches->add(f.u.dot(q), f.v.dot(q), r, w, ray.dot(irls.plane.n));
+  }
+}
+
+void count_inliers(const PointSet& cloud, Span<const std::uint32_t> chosen, double thresh_m, PlaneFit* fit) {
+  double squares = 0.0;
+  for (const std::uint32_t i : chosen) {
+    const double r = fit->plane.signed_distance(cloud.at(i));
+    if (!(r >= -thresh_m && r <= thresh_m)) continue;
+    squares += r * r;
+    ++fit->inliers;
+  }
+  fit->rms_m = fit->inliers > 0 ? std::sqrt(squares / static_cast<double>(fit->inliers)) : 0.0;
+}
+
+void set_uncertainty(const PatchFit& patch, const TangentFrame& f, const Plane& plane, const Settings& s,
+                     FloorResult* out) {
+  const Gradients gradients(plane.n);
+  const Eigen::Vector3d roll = response(gradients.roll, f), pitch = response(gradients.pitch, f);
+  out->roll_sigma_rad = std::sqrt(roll.dot(patch.covariance * roll));
+  out->pitch_sigma_rad = std::sqrt(pitch.dot(patch.covariance * pitch));
+  // Where the floor bends, the tilt under the machine (u = v = 0) is not that of the whole fit.
+  const Eigen::Vector3d bend(0.0, patch.bend_slope_u_at(0.0, 0.0), patch.bend_slope_v_at(0.0, 0.0));
+  out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(patch.bias_response)) + std::fabs(roll.dot(bend));
+  out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(patch.bias_response)) + std::fabs(pitch.dot(bend));
+  out->dof = patch.dof;
+  if (patch.bends) out->fit.reasons |= POSE_WALL_R_CURVED;
+}
+
+}  // namespace
+
+FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> candidates, double radius_m,
+                      const Plane& start, const Settings& settings, const Eigen::Vector3d& sensor_base_m,
+                      GroundScratch* scratch) {
+  FloorResult out;
+  const IrlsSettings irls_s = irls_settings(settings);
+  const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
+  IrlsResult irls;
+  irls.plane = start;
+  Span<const std::uint32_t> chosen;
+  for (int selection = 0; selection < kSelections; ++selection) {
+    scratch->grid.mark(cloud_base, candidates, irls.plane, settings.ground_ransac_thresh);
+    // The low points have done their work; their room holds the selection.
+    chosen = select(cloud_base, candidates, irls.plane, irls_s.gate_m, scratch->grid, scratch->low);
+    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, irls_s, scratch->residuals);
+    if (!irls.solved) break;
+  }
+  out.fit.plane = irls.plane;
+  const TangentFrame frame = tangent_frame(irls.plane, Eigen::Vector3d::Zero(), u_hint);
+  // In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
+  fill_patches(cloud_base, chosen, irls, frame, 2.0 * radius_m, sensor_base_m, &scratch->patches);
+  const PatchFit patch = irls.solved ? scratch->patches.fit() : PatchFit{};
+  if (!patch.solved) {
+    out.fit.refused = true;
+    out.fit.reasons |= POSE_WALL_R_FLOOR_THIN;
+    return out;
+  }
+  out.fit.plane = corrected(irls.plane, frame, patch.correction);
+  out.fit.found = true;
+  count_inliers(cloud_base, chosen, settings.ground_ransac_thresh, &out.fit);
+  set_uncertainty(patch, frame, out.fit.plane, settings, &out);
+  return out;
+}
+
+}  // namespace pose_wall

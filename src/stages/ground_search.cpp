@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/ground_search.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "estimation/mlesac.hpp"
+#include "math/elementary.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kTriangleMin_m2 = 0.10;  // twice the area of the three points: slivers give wild normals
+constexpr std::uint32_t kDrawsPerIteration = 8;
+
+// Half from the low points, half from all, so that a floor counts as a whole even where the machine leans and the
+// lowest points are one side of it only.
+void fill_subset(const GroundSearchInput& in, Random* random, PointSet* subset) {
+  for (std::uint32_t k = 0; k < kGroundSubset; ++k) {
+    const Span<const std::uint32_t> from = k % 2 == 0 ? in.low : in.candidates;
+    const std::uint32_t i = from[random->below(from.size())];
+    subset->x[k] = in.points_base.x[i];
+    subset->y[k] = in.points_base.y[i];
+    subset->z[k] = in.points_base.z[i];
+  }
+  subset->count = kGroundSubset;
+}
+
+// The plane through three drawn points, normal up; false for slivers.
+bool draw_plane(const PointSet& points, Span<const std::uint32_t> from, Random* random, Plane* plane) {
+  const Eigen::Vector3d a = points.at(from[random->below(from.size())]);
+  const Eigen::Vector3d b = points.at(from[random->below(from.size())]);
+  const Eigen::Vector3d c = points.at(from[random->below(from.size())]);
+  const Eigen::Vector3d cross = (b - a).cross(c - a);
+  const double area = std::sqrt(cross.squaredNorm());
+  if (!(area >= kTriangleMin_m2)) return false;
+  plane->n = cross.z() >= 0.0 ? Eigen::Vector3d(cross / area) : Eigen::Vector3d(cross / -area);
+  plane->d = -plane->n.dot(a);
+  return true;
+}
+
+}  // namespace
+
+bool may_be_floor(const Plane& plane, const Settings& settings, const Eigen::Vector3d& sensor_base_m) {
+  const double height_m = plane.signed_distance(sensor_base_m);
+  return plane.n.z() >= cosine(radians(settings.ground_tilt_max_deg)) && height_m >= settings.ground_height_min &&
+         height_m <= settings.ground_height_max;
+}
+
+bool same_floor(const Plane& a, const Plane& b) {
+  constexpr double kReach_m = 2.0;
+  constexpr double kApart_m = 0.08;
+  const double places[][2] = {{0.0, 0.0}, {kReach_m, 0.0}, {-kReach_m, 0.0}, {0.0, kReach_m}, {0.0, -kReach_m}};
+  for (const auto& p : places) {
+    const double za = -(a.n.x() * p[0] + a.n.y() * p[1] + a.d) / a.n.z();
+    const double zb = -(b.n.x() * p[0] + b.n.y() * p[1] + b.d) / b.n.z();
+    if (!(std::fabs(za - zb) <= kApart_m)) return false;
+  }
+  return true;
+}
+
+std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings, Random* random, PointSet* subset,
+                           FloorShortlist* list) {
+  list->clear();
+  if (in.low.size() < 3) return 0;
+  fill_subset(in, random, subset);
+  const double thresh_m = settings.ground_ransac_thresh;
+  std::uint32_t scored = 0;
+  const auto score = [&](const Plane& plane) {
+    list->offer({plane, truncated_cost(*subset, plane, thresh_m)}, same_floor);
+    ++scored;
+  };
+  if (in.last_floor != nullptr) score(*in.last_floor);
+  const std::uint32_t draws = settings.ground_iterations * kDrawsPerIteration;
+  for (std::uint32_t draw = 0; draw < draws && scored < settings.ground_iterations; ++draw) {
+    Plane plane;
+    // One draw in four from all points: where reflections lie lowest, the low points hold no floor.
+    const Span<const std::uint32_t> from = draw % 4 == 3 ? in.candidates : in.low;
+    if (draw_plane(in.points_base, from, random, &plane) && may_be_floor(plane, settings, in.sensor_base_m)) {
+      score(plane);
+    }
+  }
+  return scored;
+}
+
+}  // namespace pose_wall

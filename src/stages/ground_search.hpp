@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Hypotheses for the floor: drawn, scored on a subset, and kept as a short list of different surfaces.
+
+#pragma once
+
+#include "config.hpp"
+#include "containers/point_set.hpp"
+#include "estimation/shortlist.hpp"
+#include "math/random.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+constexpr std::uint32_t kFloorShortlist = 8;
+constexpr std::uint32_t kGroundSubset = 512;
+using FloorShortlist = Shortlist<kFloorShortlist>;
+
+struct GroundSearchInput {
+  const PointSet& points_base;
+  Span<const std::uint32_t> candidates;  // all points within the region of interest
+  Span<const std::uint32_t> low;         // the lowest part of them
+  const Eigen::Vector3d& sensor_base_m;
+  const Plane* last_floor;  // hypothesis 0: scored like any other; nullptr if none
+};
+
+// Fills the list; returns how many hypotheses were scored. subset: scratch of kGroundSubset points.
+std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings, Random* random, PointSet* subset,
+                           FloorShortlist* list);
+
+// A plane within the allowed tilt of base, below the sensor by an allowed height.
+bool may_be_floor(const Plane& plane, const Settings& settings, const Eigen::Vector3d& sensor_base_m);
+
+// Whether two planes are the same surface around the machine.
+bool same_floor(const Plane& a, const Plane& b);
+
+}  // namespace pose_wall

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/level.hpp"
+
+#include "math/rotation.hpp"
+
+namespace pose_wall {
+
+LevelResult level_by(const Plane& floor_base) {
+  const RollPitch angles = roll_pitch_of_up(floor_base.n);
+  // R_level takes the normal to +Z, so the floor lies level at z = -d.
+  return {level_rotation(floor_base.n), angles.roll_rad, angles.pitch_rad, -floor_base.d};
+}
+
+void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+                   PointSet* band_level) {
+  const double z_min = level.floor_z_level_m + settings.wall_z_min;
+  const double z_max = level.floor_z_level_m + settings.wall_z_max;
+  grid->begin(settings.wall_voxel_leaf);
+  for (std::uint32_t i = 0; i < cloud_base.count; ++i) {
+    const Eigen::Vector3d p = level.R_level_base * cloud_base.at(i);
+    if (!(p.z() >= z_min && p.z() <= z_max)) continue;
+    // There is room: never more cells than points, and both grids have the same capacity.
+    grid->add(p.x(), p.y(), p.z(), static_cast<std::uint32_t>(cloud_base.weight[i] * kWeightOne + 0.5F));
+  }
+  grid->extract(band_level);
+}
+
+}  // namespace pose_wall

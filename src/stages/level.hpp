@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Stage 4: from the floor's plane to the levelled frame and the wall band.
+
+#pragma once
+
+#include "config.hpp"
+#include "containers/voxel_grid.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+LevelResult level_by(const Plane& floor_base);
+
+// Levelled points between wall_z_min and wall_z_max above the floor, averaged once more.
+void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+                   PointSet* band_level);
+
+}  // namespace pose_wall

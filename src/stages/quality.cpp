@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/quality.hpp"
+
+#include <cmath>
+
+#include "estimation/protection.hpp"
+#include "math/elementary.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kWeakFloor = POSE_WALL_R_FLOOR_AMBIGUOUS;
+constexpr std::uint32_t kWeakWall = POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH;
+// Walls that differ by more than this many standard deviations are not parallel: the road has no one direction.
+constexpr double kSplayInSigmas = 3.0;
+// No part of the chain is better known than this.
+constexpr double kSigmaMinAngle_rad = 5e-5;
+constexpr double kSigmaMinDistance_m = 5e-4;
+
+double with_floor(double sigma, double least) {
+  return std::sqrt(sigma * sigma + least * least);
+}
+
+Measurement measurement(double raw, double sigma, double bound, double dof, const Settings& s) {
+  Measurement m;
+  m.measured = true;
+  m.raw = raw;
+  m.sigma = sigma;
+  m.protection = protection_factor(s.protection_factor, dof) * sigma + bound;
+  return m;
+}
+
+void measure_floor(const FloorResult& floor, const LevelResult& level, const Settings& s, Measurement* roll,
+                   Measurement* pitch) {
+  if (!floor.fit.refused) {
+    *roll = measurement(level.roll_rad, with_floor(floor.roll_sigma_rad, kSigmaMinAngle_rad), floor.roll_bound_rad,
+                        floor.dof, s);
+    *pitch = measurement(level.pitch_rad, with_floor(floor.pitch_sigma_rad, kSigmaMinAngle_rad), floor.pitch_bound_rad,
+                         floor.dof, s);
+  }
+  for (Measurement* m : {roll, pitch}) {
+    m->reasons |= floor.fit.reasons;
+    m->weak = (floor.fit.reasons & kWeakFloor) != 0;
+  }
+}
+
+void measure_distances(const WallResult& wall, const Settings& s, Measurement* front, Measurement* back) {
+  Measurement* const ends[2] = {front, back};
+  for (int end = 0; end < 2; ++end) {
+    Measurement& m = *ends[end];
+    if (!wall.fit.refused) {
+      m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m),
+                      wall.distance_bound_m[end], wall.dof, s);
+      if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
+    }
+    m.reasons |= wall.fit.reasons;
+    m.weak = (m.reasons & (kWeakWall | POSE_WALL_R_EXTRAPOLATED)) != 0;
+  }
+}
+
+// A leaning wall seen by a floor that is off by a little: the tilt turns part of the lean into yaw.
+double yaw_sigma_of(const WallResult& wall, const FloorResult& floor) {
+  const double tilt = floor.roll_sigma_rad > floor.pitch_sigma_rad ? floor.roll_sigma_rad : floor.pitch_sigma_rad;
+  const double by_lean = tilt * sine(wall.lean_rad) / cosine(wall.lean_rad);
+  return with_floor(std::sqrt(wall.yaw_sigma_rad * wall.yaw_sigma_rad + by_lean * by_lean), kSigmaMinAngle_rad);
+}
+
+Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const Settings& s) {
+  const double bias = s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+  return measurement(wall.yaw_rad, yaw_sigma_of(wall, floor), wall.yaw_bound_rad + bias, wall.dof, s);
+}
+
+// Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
+// in the mean as far as the weights are alike; the signed responses say how far.
+Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const Settings& s) {
+  const double sigma[2] = {yaw_sigma_of(walls[0], floor), yaw_sigma_of(walls[1], floor)};
+  const double information[2] = {1.0 / (sigma[0] * sigma[0]), 1.0 / (sigma[1] * sigma[1])};
+  const double sum = information[0] + information[1];
+  const double w[2] = {information[0] / sum, information[1] / sum};
+  const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
+  const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
+  double bound = s.range_bias_max * std::fabs(bias);
+  bound += w[0] * walls[0].yaw_bound_rad + w[1] * walls[1].yaw_bound_rad;
+  const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
+  const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
+  const double expected = kSplayInSigmas * std::sqrt(sigma[0] * sigma[0] + sigma[1] * sigma[1]) + biased_apart;
+  if (difference > expected) bound += 0.5 * difference;
+  const double dof = walls[0].dof + walls[1].dof;
+  return measurement(raw, std::sqrt(1.0 / sum), bound, dof, s);
+}
+
+Measurement measure_yaw(const FloorResult& floor, const WallResult (&walls)[2], const Settings& s) {
+  const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
+  Measurement m;
+  if (left && right) {
+    m = yaw_by_both(walls, floor, s);
+  } else if (left || right) {
+    m = yaw_by_one(walls[left ? 0 : 1], floor, s);
+  }
+  std::uint32_t doubts = 0;
+  for (const WallResult& wall : walls) {
+    // With one wall left, the reasons of the other do not speak against yaw; with none, they explain it.
+    if (!wall.fit.refused || !m.measured) doubts |= wall.fit.reasons;
+  }
+  m.reasons |= doubts;
+  m.weak = (doubts & kWeakWall) != 0;
+  return m;
+}
+
+}  // namespace
+
+void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
+  constexpr double kShareOfCloud = 0.02;
+  const Quadrant sides[2] = {kLeft, kRight};
+  for (int side = 0; side < 2; ++side) {
+    const std::uint32_t near = counts.near_by_quadrant[sides[side]], kept = counts.kept_by_quadrant[sides[side]];
+    if (near <= kept || static_cast<double>(near) < kShareOfCloud * static_cast<double>(counts.points_in)) continue;
+    (*walls)[side].fit.refused = true;
+    (*walls)[side].fit.reasons |= POSE_WALL_R_WALL_TOO_NEAR;
+  }
+}
+
+Measurements measure_quantities(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],
+                                const Settings& settings) {
+  Measurements out;
+  Measurement* const q = out.quantity;
+  measure_floor(floor, level, settings, &q[POSE_WALL_ROLL], &q[POSE_WALL_PITCH]);
+  q[POSE_WALL_YAW] = measure_yaw(floor, walls, settings);
+  measure_distances(walls[0], settings, &q[POSE_WALL_D_LF], &q[POSE_WALL_D_LB]);
+  measure_distances(walls[1], settings, &q[POSE_WALL_D_RF], &q[POSE_WALL_D_RB]);
+  out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;
+  out.left_right_yaw_difference_rad = walls[0].yaw_rad - walls[1].yaw_rad;
+  for (std::uint32_t i = 0; i < POSE_WALL_QUANTITIES; ++i) {
+    if (q[i].measured && !(q[i].protection <= alert_limit(i, settings))) q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
+  }
+  return out;
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Stage 6b: smoothing, holding and the states. The only memory across frames besides last planes.
+
+#pragma once
+
+#include "config.hpp"
+#include "pose_wall.h"
+#include "types.hpp"
+
+namespace pose_wall {
+
+// What is remembered of one quantity.
+struct Track {
+  bool has_value = false;
+  double value = 0.0;  // smoothed
+  double raw = 0.0;    // of the last frame it was measured in
+  double sigma = 0.0;
+  double protection = 0.0;  // of value, in that frame
+  double raw_protection = 0.0;
+  double age_s = 0.0;    // since that frame
+  bool expired = false;  // held for too long, or the clock jumped while holding
+  // After a jump the old value stays in the protection level until the new one has been seen again and again.
+  std::uint32_t to_confirm = 0;
+  double trusted = 0.0;
+  double trusted_protection = 0.0;
+  double trusted_age_s = 0.0;
+};
+
+struct TemporalState {
+  Track track[POSE_WALL_QUANTITIES];
+  bool has_stamp = false;
+  std::int64_t stamp_ns = 0;
+};
+
+// Places the frame in time. Does not change the state.
+FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const Settings& settings);
+
+// Takes the frame's measurements into the state and fills values, one per quantity.
+void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
+                     const Settings& settings, TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES]);
+
+}  // namespace pose_wall

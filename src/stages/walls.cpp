@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "math/elementary.hpp"
+#include "stages/walls_select.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kSeenThroughMax = 0.5;
+constexpr double kSeenThroughDoubt = 0.25;
+constexpr double kRefineSlack_deg = 5.0;
+
+void mark(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along, WallGrid* grid) {
+  grid->mark(scene.band_level, plane, along, scene.z_min_level_m, scene.z_max_level_m, scene.sensor_level_m,
+             scene.settings.wall_ransac_thresh);
+}
+
+std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
+  std::uint32_t faults = 0;
+  if (!(evidence.inliers >= s.wall_inlier_min)) faults |= POSE_WALL_R_WALL_FEW_INLIERS;
+  if (!(evidence.length_m >= s.wall_length_min)) faults |= POSE_WALL_R_WALL_SHORT;
+  if (!(evidence.seen_through <= kSeenThroughMax)) faults |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  if (!(std::fabs(lean_of(plane)) <= radians(s.wall_lean_max_deg))) faults |= POSE_WALL_R_WALL_LEANS;
+  return faults;
+}
+
+// Refines the short list, merges what became alike, and weighs what is left.
+void weigh(const WallScene& scene, const SideView& view, WallSearch* search, WallsScratch* scratch,
+           WallCandidates* out) {
+  const SameWall same{view};
+  out->count = 0;
+  for (std::uint32_t k = 0; k < search->list().count(); ++k) {
+    Plane plane = search->list()[k].plane;
+    if (!refine_hypothesis(scene, view, &scratch->fit, &plane)) continue;
+    if (!may_be_wall(plane, view, radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi)) continue;
+    bool repeats = false;
+    for (std::uint32_t j = 0; j < out->count; ++j) repeats = repeats || same(out->item[j].plane, plane);
+    if (repeats) continue;
+    mark(scene, plane, along_of(plane, view.along_level), &scratch->grid);
+    const WallEvidence evidence = scratch->grid.evidence();
+    out->item[out->count++] = {plane, evidence, faults_of(plane, evidence, scene.settings)};
+  }
+}
+
+// Both sides of a direction: drawn each by itself, then each with the other's direction.
+void search_both(const WallScene& scene, const SideView (&views)[2], const Plane* const last[2], Random* random,
+                 WallsScratch* scratch, WallCandidates (&out)[2], std::uint32_t (&scored)[2]) {
+  for (int side = 0; side < 2; ++side) {
+    scratch->search[side].begin(scene.band_level, views[side], scene.settings, random);
+    if (last[side] != nullptr) scratch->search[side].offer(*last[side]);
+    scratch->search[side].draw();
+  }
+  for (int side = 0; side < 2; ++side) {
+    WallShortlist& other = scratch->search[1 - side].list();
+    if (other.count() > 0) scratch->search[side].offer_offsets(other[0].plane.n);
+  }
+  for (int side = 0; side < 2; ++side) {
+    weigh(scene, views[side], &scratch->search[side], scratch, &out[side]);
+    scored[side] = scratch->search[side].scored();
+  }
+}
+
+// The truth may be the rival: the protection levels reach to it.
+void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallResult* wall) {
+  const double yaw = yaw_of(along_of(rival, scene.forward_level), scene.forward_level);
+  wall->yaw_bound_rad += std::fabs(yaw - wall->yaw_rad);
+  for (int end = 0; end < 2; ++end) {
+    const double distance = distance_at(rival, scene.sample_level_m[side][end]);
+    wall->distance_bound_m[end] += std::fabs(distance - wall->distance_m[end]);
+  }
+  wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
+}
+
+WallResult measure(const WallScene& scene, const WallChoice& choice, int side, WallsScratch* scratch) {
+  const WallCandidate& chosen = *choice.side[side];
+  mark(scene, chosen.plane, along_of(chosen.plane, scene.forward_level), &scratch->grid);
+  WallResult wall = fit_wall(scene, chosen.plane, side, scratch->grid, &scratch->fit);
+  wall.area_m2 = chosen.evidence.area_m2;
+  wall.along_min_m = chosen.evidence.along_min_m;
+  wall.along_max_m = chosen.evidence.along_max_m;
+  if (choice.rival[side] != nullptr) reach_to_rival(scene, choice.rival[side]->plane, side, &wall);
+  if (chosen.evidence.seen_through > kSeenThroughDoubt) wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  if (!(wall.fit.inliers >= scene.settings.wall_inlier_min)) {
+    wall.fit.refused = true;
+    wall.fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
+  }
+  if (!(std::fabs(wall.yaw_rad) <= radians(scene.settings.yaw_max_deg))) {
+    wall.fit.refused = true;
+    wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
+  }
+  return wall;
+}
+
+}  // namespace
+
+void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
+  for (WallSearch& s : search) s.lay_out(arena, points_max);
+  grid.lay_out(arena);
+  fit.lay_out(arena, points_max);
+}
+
+WallScene wall_scene(const PointSet& band_level, const Settings& settings, const LevelResult& level, const Axes& axes,
+                     const Eigen::Vector3d& sensor_base_m) {
+  const Eigen::Matrix3d& R = level.R_level_base;
+  Eigen::Vector3d forward = R * axes.forward_base;
+  forward.z() = 0.0;
+  forward.normalize();
+  WallScene scene{band_level,        settings, forward, Eigen::Vector3d::UnitZ().cross(forward),
+                  R * sensor_base_m, {},       0.0,     0.0};
+  const double offsets_m[2] = {settings.lateral_offset_left, settings.lateral_offset_right};
+  const double along_m[2] = {settings.s_front, settings.s_back};
+  for (int side = 0; side < 2; ++side) {
+    for (int end = 0; end < 2; ++end) {
+      scene.sample_level_m[side][end] = R * (along_m[end] * axes.forward_base + offsets_m[side] * axes.left_base);
+    }
+  }
+  scene.z_min_level_m = level.floor_z_level_m + settings.wall_z_min;
+  scene.z_max_level_m = level.floor_z_level_m + settings.wall_z_max;
+  return scene;
+}
+
+WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {
+  const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
+  const SideView sides[2] = {{f, l}, {f, -l}};
+  const SideView ends[2] = {{l, f}, {l, -f}};
+  const Plane* const nothing[2] = {nullptr, nullptr};
+  WallCandidates beside[2], across[2];
+  std::uint32_t scored[2] = {}, scored_across[2] = {};
+  search_both(scene, sides, last, random, scratch, beside, scored);
+  search_both(scene, ends, nothing, random, scratch, across, scored_across);
+  const WallChoice choice = choose_walls(beside[0], beside[1], across[0], across[1], scene.settings);
+
+  WallsResult out;
+  for (int side = 0; side < 2; ++side) {
+    if (choice.side[side] != nullptr) out.side[side] = measure(scene, choice, side, scratch);
+    out.side[side].fit.iterations = scored[side];
+    out.side[side].fit.refused = out.side[side].fit.refused || choice.refused[side];
+    out.side[side].fit.reasons |= choice.reasons[side];
+  }
+  return out;
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_evidence.hpp"
+
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr double kRow_m = 0.3;
+// Points this far behind the plane passed through it. Below, they are the rock's own roughness.
+constexpr double kBehindInThresholds = 3.0;
+
+void count_up(std::uint16_t* counter) {
+  if (*counter != 0xFFFF) ++*counter;
+}
+
+}  // namespace
+
+void WallGrid::lay_out(Arena& arena) {
+  hits_ = arena.take<std::uint16_t>(kColumns * kRowsMax);
+  through_ = arena.take<std::uint16_t>(kColumns * kRowsMax);
+}
+
+std::int32_t WallGrid::column_of(double along_m) const {
+  return static_cast<std::int32_t>(std::floor(along_m / kColumn_m)) + static_cast<std::int32_t>(kColumns / 2);
+}
+
+std::int32_t WallGrid::row_of(double z_level_m) const {
+  return static_cast<std::int32_t>(std::floor((z_level_m - z_min_) / row_m_));
+}
+
+bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) const {
+  const std::int32_t column = column_of(along_m), row = row_of(z_level_m);
+  if (column < 0 || column >= static_cast<std::int32_t>(kColumns)) return false;
+  if (row < 0 || row >= static_cast<std::int32_t>(rows_)) return false;
+  *cell = static_cast<std::uint32_t>(row) * kColumns + static_cast<std::uint32_t>(column);
+  return true;
+}
+
+void WallGrid::mark(const PointSet& band_level, const Plane& wall, const Eigen::Vector3d& along_level, double z_min_m,
+                    double z_max_m, const Eigen::Vector3d& sensor_level_m, double thresh_m) {
+  hits_.fill(0);
+  through_.fill(0);
+  inliers_ = 0;
+  z_min_ = z_min_m;
+  row_m_ = (z_max_m - z_min_m) / kRowsMax > kRow_m ? (z_max_m - z_min_m) / kRowsMax : kRow_m;
+  rows_ = static_cast<std::uint32_t>(std::ceil((z_max_m - z_min_m) / row_m_ - 1e-9));
+  const double sensor_inside_m = wall.signed_distance(sensor_level_m);
+  const double behind_m = kBehindInThresholds * thresh_m;
+  for (std::uint32_t i = 0; i < band_level.count; ++i) {
+    const Eigen::Vector3d p = band_level.at(i);
+    const double r = wall.signed_distance(p);
+    std::uint32_t cell = 0;
+    if (r >= -thresh_m && r <= thresh_m) {
+      ++inliers_;
+      if (cell_of(along_level.dot(p), p.z(), &cell)) count_up(&hits_[cell]);
+    } else if (r < -behind_m && sensor_inside_m > 0.0) {
+      const Eigen::Vector3d crossing =
+          sensor_level_m + (p - sensor_level_m) * (sensor_inside_m / (sensor_inside_m - r));
+      if (cell_of(along_level.dot(crossing), crossing.z(), &cell)) count_up(&through_[cell]);
+    }
+  }
+}
+
+void WallGrid::count_rows(std::uint32_t column, std::uint32_t* solid_rows, std::uint32_t* open_rows) const {
+  *solid_rows = 0;
+  *open_rows = 0;
+  for (std::uint32_t row = 0; row < rows_; ++row) {
+    const std::uint32_t cell = row * kColumns + column;
+    *solid_rows += solid(cell) ? 1U : 0U;
+    *open_rows += open(cell) ? 1U : 0U;
+  }
+}
+
+bool WallGrid::column_is_solid(std::uint32_t column) const {
+  std::uint32_t solid_rows = 0, open_rows = 0;
+  count_rows(column, &solid_rows, &open_rows);
+  return solid_rows > 0 && solid_rows >= open_rows;
+}
+
+WallEvidence WallGrid::evidence() const {
+  WallEvidence out;
+  std::uint32_t solid_cells = 0, own_open_cells = 0, columns = 0;
+  for (std::uint32_t column = 0; column < kColumns; ++column) {
+    std::uint32_t solid_rows = 0, open_rows = 0;
+    count_rows(column, &solid_rows, &open_rows);
+    if (solid_rows == 0) continue;  // nothing of the plane here: an opening speaks against nothing
+    solid_cells += solid_rows;
+    own_open_cells += open_rows;
+    if (solid_rows < open_rows) continue;
+    const double along = (static_cast<double>(column) - kColumns / 2) * kColumn_m;
+    if (columns == 0) out.along_min_m = along;
+    out.along_max_m = along + kColumn_m;
+    ++columns;
+  }
+  out.inliers = inliers_;
+  out.length_m = static_cast<double>(columns) * kColumn_m;
+  out.area_m2 = static_cast<double>(solid_cells) * kColumn_m * row_m_;
+  if (solid_cells > 0) {
+    out.seen_through = static_cast<double>(own_open_cells) / static_cast<double>(solid_cells + own_open_cells);
+  }
+  const double solidity = 1.0 - out.seen_through;
+  out.score_m2 = out.area_m2 * solidity * solidity;
+  return out;
+}
+
+double WallGrid::gap_to_solid_m(double along_m) const {
+  constexpr double kNone_m = 1e3;
+  double nearest = kNone_m;
+  for (std::uint32_t column = 0; column < kColumns; ++column) {
+    if (!column_is_solid(column)) continue;
+    const double low = (static_cast<double>(column) - kColumns / 2) * kColumn_m;
+    double gap = 0.0;
+    if (along_m < low) gap = low - along_m;
+    if (along_m > low + kColumn_m) gap = along_m - low - kColumn_m;
+    if (gap < nearest) nearest = gap;
+  }
+  return nearest;
+}
+
+bool WallGrid::solid_at(double along_m, double z_level_m) const {
+  std::uint32_t cell = 0;
+  return cell_of(along_m, z_level_m, &cell) && solid(cell) &&
+         column_is_solid(static_cast<std::uint32_t>(cell % kColumns));
+}
+
+}  // namespace pose_wall

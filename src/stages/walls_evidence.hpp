@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What speaks for a plane being a wall, and what against it: area that is solid, and area that is seen through.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "containers/arena.hpp"
+#include "containers/point_set.hpp"
+#include "estimation/plane.hpp"
+
+namespace pose_wall {
+
+struct WallEvidence {
+  double score_m2 = 0.0;      // solid area, reduced by what is seen through
+  double area_m2 = 0.0;       // solid area
+  double seen_through = 0.0;  // share of the plane's own columns that is seen through, 0..1
+  double length_m = 0.0;      // solid columns along the road
+  double along_min_m = 0.0;
+  double along_max_m = 0.0;
+  std::uint32_t inliers = 0;
+};
+
+// A plane cut into cells along the road and up. A cell is solid when points lie on the plane there, and seen through
+// when rays pass the plane there and end well behind it. A wall is solid wherever it is seen at all; a pipe, a row of
+// props or a conveyor is solid in some rows or columns and seen through in the others. How many points there are does
+// not matter, so neither does how near or shiny a thing is.
+class WallGrid {
+ public:
+  static constexpr std::uint32_t kColumns = 128;
+  static constexpr std::uint32_t kRowsMax = 16;
+  static constexpr double kColumn_m = 0.5;
+
+  void lay_out(Arena& arena);
+
+  // z_min_m, z_max_m: the wall band in the levelled frame. along: horizontal, in the plane's direction.
+  void mark(const PointSet& band_level, const Plane& wall, const Eigen::Vector3d& along_level, double z_min_m,
+            double z_max_m, const Eigen::Vector3d& sensor_level_m, double thresh_m);
+  WallEvidence evidence() const;
+
+  // Distance along the road from a place to the nearest solid column; large where there is none.
+  double gap_to_solid_m(double along_m) const;
+  // Whether the plane is solid where this point lies.
+  bool solid_at(double along_m, double z_level_m) const;
+
+ private:
+  std::int32_t column_of(double along_m) const;
+  std::int32_t row_of(double z_level_m) const;
+  bool cell_of(double along_m, double z_level_m, std::uint32_t* cell) const;
+  bool solid(std::uint32_t cell) const { return hits_[cell] >= 2 && hits_[cell] >= through_[cell]; }
+  bool open(std::uint32_t cell) const { return through_[cell] >= 2 && through_[cell] > hits_[cell]; }
+  void count_rows(std::uint32_t column, std::uint32_t* solid_rows, std::uint32_t* open_rows) const;
+  bool column_is_solid(std::uint32_t column) const;
+
+  Span<std::uint16_t> hits_;
+  Span<std::uint16_t> through_;
+  double z_min_ = 0.0, row_m_ = 0.3;
+  std::uint32_t rows_ = 1;
+  std::uint32_t inliers_ = 0;
+};
+
+}  // namespace pose_wall

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_select.hpp"
+
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr double kRivalShare = 0.5;
+// A second wall that is not parallel casts doubt on the first unless it is this much weaker.
+constexpr double kDoubtShare = 0.5;
+constexpr double kAcrossCos = 0.7;  // planes across the road are at more than 45 degrees to the side walls
+constexpr double kLoneCrossShare = 1.5;
+
+struct Pair {
+  const WallCandidate* a = nullptr;
+  const WallCandidate* b = nullptr;
+  double score = 0.0;
+};
+
+// Parallel pairs only; the nearer to parallel, the better.
+Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parallel_cos) {
+  Pair best;
+  for (std::uint32_t i = 0; i < as.count; ++i) {
+    if (as.item[i].faults != 0) continue;
+    for (std::uint32_t j = 0; j < bs.count; ++j) {
+      if (bs.item[j].faults != 0) continue;
+      const double cosine = std::fabs(as.item[i].plane.n.dot(bs.item[j].plane.n));
+      if (!(cosine > parallel_cos)) continue;
+      const double parallel = 0.5 + 0.5 * (cosine - parallel_cos) / (1.0 - parallel_cos);
+      const double score = (as.item[i].evidence.score_m2 + bs.item[j].evidence.score_m2) * parallel;
+      if (score > best.score) best = {&as.item[i], &bs.item[j], score};
+    }
+  }
+  return best;
+}
+
+const WallCandidate* best_single(const WallCandidates& list) {
+  const WallCandidate* best = nullptr;
+  for (std::uint32_t i = 0; i < list.count; ++i) {
+    const WallCandidate& c = list.item[i];
+    if (c.faults == 0 && (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2)) best = &c;
+  }
+  return best;
+}
+
+// Why a side has no wall: the gates that its best plane fails.
+std::uint32_t faults_of(const WallCandidates& list) {
+  const WallCandidate* best = nullptr;
+  for (std::uint32_t i = 0; i < list.count; ++i) {
+    if (best == nullptr || list.item[i].evidence.score_m2 > best->evidence.score_m2) best = &list.item[i];
+  }
+  return POSE_WALL_R_WALL_NOT_FOUND | (best != nullptr ? best->faults : 0U);
+}
+
+const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate* chosen) {
+  const WallCandidate* best = nullptr;
+  for (std::uint32_t i = 0; i < list.count; ++i) {
+    const WallCandidate& c = list.item[i];
+    if (&c == chosen || c.faults != 0 || c.evidence.score_m2 < kRivalShare * chosen->evidence.score_m2) continue;
+    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
+  }
+  return best;
+}
+
+void refuse_both(std::uint32_t reason, WallChoice* out) {
+  for (int side = 0; side < 2; ++side) {
+    out->refused[side] = true;
+    out->reasons[side] |= reason;
+  }
+}
+
+// No parallel pair: one wall alone, unless the other side's plane casts doubt on it.
+void choose_single(const WallCandidates* const lists[2], WallChoice* out) {
+  const WallCandidate* best[2] = {best_single(*lists[0]), best_single(*lists[1])};
+  if (best[0] != nullptr && best[1] != nullptr) {
+    const double a = best[0]->evidence.score_m2, b = best[1]->evidence.score_m2;
+    const int weaker = a < b ? 0 : 1;
+    if ((a < b ? a / b : b / a) >= kDoubtShare) {
+      refuse_both(POSE_WALL_R_WALLS_NOT_PARALLEL, out);
+      return;
+    }
+    best[weaker] = nullptr;
+    out->reasons[weaker] |= POSE_WALL_R_WALLS_NOT_PARALLEL;
+  }
+  for (int side = 0; side < 2; ++side) out->side[side] = best[side];
+}
+
+// Whether the planes ahead and behind make a better roadway than the chosen sides.
+bool stands_across(const WallChoice& sides, double sides_score, const WallCandidates& ahead,
+                   const WallCandidates& behind, const Settings& s) {
+  const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
+  const auto across = [&](const WallCandidates& list) {
+    WallCandidates out;
+    for (std::uint32_t i = 0; i < list.count; ++i) {
+      if (std::fabs(list.item[i].plane.n.dot(side.n)) < kAcrossCos) out.item[out.count++] = list.item[i];
+    }
+    return out;
+  };
+  const WallCandidates a = across(ahead), b = across(behind);
+  if (best_pair(a, b, s.wall_parallel_cos).score > sides_score) return true;
+  if (sides.side[0] != nullptr && sides.side[1] != nullptr) return false;
+  for (const WallCandidate* lone : {best_single(a), best_single(b)}) {
+    if (lone != nullptr && lone->evidence.score_m2 > kLoneCrossShare * sides_score) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,
+                        const WallCandidates& behind, const Settings& settings) {
+  WallChoice out;
+  const WallCandidates* const lists[2] = {&left, &right};
+  const Pair pair = best_pair(left, right, settings.wall_parallel_cos);
+  double score = pair.score;
+  if (pair.a != nullptr) {
+    out.side[0] = pair.a;
+    out.side[1] = pair.b;
+  } else {
+    choose_single(lists, &out);
+    for (const WallCandidate* c : out.side) score += c != nullptr ? c->evidence.score_m2 : 0.0;
+  }
+  for (int side = 0; side < 2; ++side) {
+    if (out.side[side] == nullptr) {
+      if (!out.refused[side]) out.reasons[side] |= faults_of(*lists[side]);
+      out.refused[side] = true;
+    } else {
+      out.rival[side] = rival_of(*lists[side], out.side[side]);
+    }
+  }
+  const bool any = out.side[0] != nullptr || out.side[1] != nullptr;
+  if (any && stands_across(out, score, ahead, behind, settings)) refuse_both(POSE_WALL_R_CROSS_ROAD, &out);
+  return out;
+}
+
+}  // namespace pose_wall

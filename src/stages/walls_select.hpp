@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Which of the planes found around the machine are the two side walls.
+
+#pragma once
+
+#include "stages/walls_evidence.hpp"
+#include "stages/walls_fit.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+struct WallCandidate {
+  Plane plane;
+  WallEvidence evidence;
+  std::uint32_t faults = 0;  // pose_wall_reason bits of the gates it fails
+};
+
+struct WallCandidates {
+  WallCandidate item[kWallShortlist];
+  std::uint32_t count = 0;
+};
+
+struct WallChoice {
+  const WallCandidate* side[2] = {nullptr, nullptr};   // left, right
+  const WallCandidate* rival[2] = {nullptr, nullptr};  // another wall on that side that is nearly as good
+  std::uint32_t reasons[2] = {0, 0};                   // why a side has none, or is to be doubted
+  bool refused[2] = {false, false};
+};
+
+// ahead and behind: the planes across the road. A pair of them that makes a better roadway than the sides do means
+// that the machine stands across, and that what looks like side walls are faces.
+WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,
+                        const WallCandidates& behind, const Settings& settings);
+
+}  // namespace pose_wall
