@@ -228,6 +228,9 @@ struct Setup {
   Sequence sequence;
 };
 
+// Inside a GoogleTest case the name Setup means a private member of its fixture.
+using SceneSetup = Setup;
+
 inline bool has_side(double choice, int side_sign) {
   return (static_cast<int>(choice) & (side_sign > 0 ? kSideLeft : kSideRight)) != 0;
 }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The table of keys and the table of scenes: every entry can be set, and what cannot be is refused with a reason.
+
+#include "sim/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "sim/check_setup.hpp"
+#include "sim/scenes.hpp"
+
+namespace pose_wall::tools::sim {
+namespace {
+
+std::string refusal(const std::string& assignment) {
+  SceneSetup setup;
+  try {
+    set_parameter(setup, assignment);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SimParameters, NamesAndFieldsAreOwnedByOneRowEach) {
+  SceneSetup setup;
+  std::set<std::string> names;
+  std::set<const double*> fields;
+  for (const Parameter& p : parameters()) {
+    EXPECT_TRUE(names.insert(p.name).second) << p.name;
+    EXPECT_TRUE(fields.insert(&p.field(setup)).second) << p.name;
+  }
+}
+
+TEST(SimParameters, DefaultsAreInRangeAndReadBack) {
+  SceneSetup setup;
+  for (const Parameter& p : parameters()) {
+    const double value = p.field(setup);
+    EXPECT_NO_THROW(set_parameter(setup, p.name, parameter_text(p, value))) << p.name;
+    EXPECT_DOUBLE_EQ(p.field(setup), value) << p.name;
+  }
+}
+
+TEST(SimParameters, RefusalsSayWhatIsAllowed) {
+  EXPECT_NE(refusal("widht_m=3").find("did you mean 'width_m'"), std::string::npos);
+  EXPECT_NE(refusal("width_m=0.1").find("0.5 to 1000 m"), std::string::npos);
+  EXPECT_NE(refusal("width_m=nan").find("outside"), std::string::npos);
+  EXPECT_NE(refusal("width_m=wide").find("not a number"), std::string::npos);
+  EXPECT_NE(refusal("pipe_side=lef").find("did you mean 'left'"), std::string::npos);
+  EXPECT_NE(refusal("width_m").find("KEY=VALUE"), std::string::npos);
+  EXPECT_EQ(refusal("forward_axis=-Y"), "");
+}
+
+TEST(SimScenes, UnknownNamesAreRefusedWithTheNearest) {
+  EXPECT_THROW(make_setup("clean", "vlp17x", false, 1), std::invalid_argument);
+  try {
+    make_setup("steel_set", "vlp16", false, 1);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'steel_sets'"), std::string::npos);
+  }
+}
+
+TEST(SimScenes, RandomSizesStayInRangeDifferBySeedAndRepeat) {
+  for (const SceneChoice& scene : scenes()) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      SceneSetup setup = make_setup(scene.name, "vlp16", true, seed);
+      SceneSetup again = make_setup(scene.name, "vlp16", true, seed);
+      EXPECT_NO_THROW(checked(setup)) << scene.name;
+      for (const Parameter& p : parameters()) {
+        EXPECT_GE(p.field(setup), p.minimum) << scene.name << " " << p.name;
+        EXPECT_LE(p.field(setup), p.maximum) << scene.name << " " << p.name;
+        EXPECT_EQ(p.field(setup), p.field(again)) << scene.name << " " << p.name;
+      }
+    }
+  }
+  SceneSetup a = make_setup("rough", "vlp16", true, 1);
+  EXPECT_NE(a.rock.roughness_m, make_setup("rough", "vlp16", true, 2).rock.roughness_m);
+}
+
+TEST(SimScenes, ContradictionsAreNamed) {
+  SceneSetup setup;
+  setup.road.arch_springing_m = 1.5;
+  setup.road.lean_left_deg = 3.0;
+  try {
+    checked(setup);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("lean_left_deg"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::sim
