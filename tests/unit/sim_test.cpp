@@ -106,6 +106,20 @@ TEST(SimRender, RoughnessHasItsSize) {
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), 0.05, 0.008);
 }
 
+TEST(SimRender, RoughRockHasNoHoles) {
+  SceneSetup setup = quiet_setup();
+  setup.rock.roughness_m = 0.05;
+  setup.floor.floor_roughness_m = 0.03;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Points points(setup, 0, seed);
+    for (const Vector& p : points.base) {
+      EXPECT_LE(std::abs(p.y()), 2.5 + 3.5 * 0.05 + 1e-3);
+      EXPECT_LE(p.z(), 2.1 + 3.5 * 0.05 + 1e-3);
+      EXPECT_GE(p.z(), -1.4 - 3.5 * 0.03 - 1e-3);
+    }
+  }
+}
+
 TEST(SimRender, RoughnessStaysWhereItIsWhileTheMachineMoves) {
   SceneSetup setup = quiet_setup();
   setup.rock.roughness_m = 0.05;

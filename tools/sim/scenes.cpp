@@ -11,6 +11,7 @@
 #include "sim/check_setup.hpp"
 #include "sim/parameters.hpp"
 #include "sim/random.hpp"
+#include "sim/scene_rows.hpp"
 #include "sim/sensors.hpp"
 #include "terminal/did_you_mean.hpp"
 
@@ -43,6 +44,27 @@ void draw(Setup& setup, const char* key, double low, double high, bool either_si
 }
 
 }  // namespace
+
+const std::vector<NominalRange>& nominal_ranges() {
+  static const std::vector<NominalRange> ranges = {
+      {"width_m", 3.8, 6.5},       {"height_m", 2.8, 4.5},           {"base_height_m", 1.0, 1.8},
+      {"lateral_m", -0.6, 0.6},    {"turned_left_deg", -12.0, 12.0}, {"roll_deg", -5.0, 5.0},
+      {"pitch_deg", -5.0, 5.0},    {"speed_mps", -0.3, 0.3},         {"turn_rate_dps", -1.0, 1.0},
+      {"sway_roll_deg", 0.0, 0.5}, {"sway_pitch_deg", 0.0, 0.5},     {"sway_period_s", 2.0, 6.0},
+  };
+  return ranges;
+}
+
+const std::vector<SceneChoice>& scenes() {
+  static const std::vector<SceneChoice> table = [] {
+    std::vector<SceneChoice> all;
+    for (const auto& part : {walls_scenes(), openings_scenes(), floors_scenes(), machine_scenes()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }();
+  return table;
+}
 
 const SceneChoice* find_scene(std::string_view name) {
   for (const SceneChoice& scene : scenes()) {

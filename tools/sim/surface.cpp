@@ -10,7 +10,7 @@ namespace pose_wall::tools::sim {
 namespace {
 
 constexpr int kMarchSteps = 96;
-constexpr int kRefineSteps = 3;
+constexpr int kRefineSteps = 2;
 
 // How far the ray stands above the relief.
 template <typename Shape>
@@ -43,7 +43,8 @@ double march(const Shape& shape, const Relief& relief, const Ray& ray, double t_
   const double shortest = std::max(relief.step_m(), span / (kMarchSteps / 2));
   double t = t_start;
   double g = gap(shape, relief, ray, t);
-  if (g <= 0.0) return kNever;
+  // At the slab's top the ray can only touch a summit; a start below the relief is a start in the rock.
+  if (g <= 0.0) return t_start > 0.0 ? t_start : kNever;
   for (int i = 0; i < kMarchSteps && t < t_start + span; ++i) {
     const double next = t + std::max(g * advance, shortest);
     const double next_g = gap(shape, relief, ray, next);

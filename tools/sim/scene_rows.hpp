@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The parts of the table of scenes.
+#pragma once
+
+#include "sim/scenes.hpp"
+
+namespace pose_wall::tools::sim {
+
+std::vector<SceneChoice> walls_scenes();
+std::vector<SceneChoice> openings_scenes();
+std::vector<SceneChoice> floors_scenes();
+std::vector<SceneChoice> machine_scenes();
+
+}  // namespace pose_wall::tools::sim
