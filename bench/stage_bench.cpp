@@ -101,7 +101,7 @@ void stage_1_voxels(benchmark::State& state) {
   for (auto _ : state) pipeline().voxels();
   pipeline().outliers();  // the later stages' cloud is without them
   state.counters["points"] = pipeline().cloud.width;
-  state.counters["voxels"] = pipeline().scratch.cloud_base.count;
+  state.counters["voxels"] = pipeline().all_voxels.count;
 }
 
 void stage_2_outliers(benchmark::State& state) {

@@ -19,10 +19,11 @@ MAY_INCLUDE = {
     "types": {"math", "containers", "estimation", "config", "public"},
     "stages": {"math", "containers", "estimation", "config", "types", "public"},
     "engine": {"math", "containers", "estimation", "config", "types", "stages", "public"},
-    "c_api": {"math", "containers", "config", "types", "engine", "public"},
+    "c_api": {"math", "containers", "config", "types", "stages", "engine", "public"},
 }
 # Files of src/ itself belong to a layer by how their names begin.
-ROOT_FILES = {"config": "config", "number_text": "config", "types": "types", "engine": "engine", "c_api": "c_api"}
+ROOT_FILES = {"config": "config", "number_text": "config", "types": "types", "report": "engine", "engine": "engine",
+              "names": "c_api", "c_api": "c_api"}
 # No heap, no clock, no printing, no threads: what is not listed here does not get in.
 ENGINE_HEADERS = {
     "algorithm", "array", "cfloat", "climits", "cmath", "cstddef", "cstdint", "cstring", "initializer_list",

@@ -18,12 +18,13 @@
 namespace pose_wall::tools {
 namespace {
 
-// A rough heading with a conveyor of pipes along one wall, the face ahead and the machine creeping towards it.
+// A rough heading with pipes along one wall, muck along the other, the face ahead and the machine creeping towards it.
 constexpr const char* kHeading[] = {
     "width_m=5.2",      "height_m=3.4",           "lean_left_deg=3",   "lean_right_deg=2",   "face_distance_m=9",
     "roughness_m=0.02", "floor_roughness_m=0.01", "pipe_side=right",   "muck_side=left",     "muck_height_m=0.3",
-    "muck_width_m=0.7", "lateral_m=0.25",         "turned_left_deg=5", "turn_rate_dps=-0.9", "speed_mps=0.12",
-    "roll_deg=0.8",     "pitch_deg=-1.5",         "sway_roll_deg=0.4", "sway_pitch_deg=0.3", "body=1"};
+    "muck_width_m=0.7", "lateral_m=0.25",         "turned_left_deg=4", "turn_rate_dps=-0.5", "speed_mps=0.12",
+    "roll_deg=0.8",     "pitch_deg=-1.5",         "sway_roll_deg=0.4", "sway_pitch_deg=0.3", "sway_period_s=8",
+    "body=yes"};
 
 std::string axis_word(const sim::Setup& setup) {
   static constexpr std::array<const char*, 4> kWords = {"+X", "-X", "+Y", "-Y"};

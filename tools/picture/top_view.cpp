@@ -67,7 +67,7 @@ void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const po
   svg.line(at(along.low), at(along.high), {colour, 1.2, "3 6"});
   const double from_m = std::max(along.low, wall.along_min_m);
   const double to_m = std::min(along.high, wall.along_max_m);
-  if (from_m < to_m) svg.line(at(from_m), at(to_m), {colour, 3.6});
+  if (from_m < to_m) svg.line(at(from_m), at(to_m), {colour, 2.6});
 
   const double outwards = wall.left_at(0.0, 0.0) > 0.0 ? -1.0 : 1.0;
   const Pixel foot = at(along.low + 0.35);
