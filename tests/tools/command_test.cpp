@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the command keeps its contract: columns, rows for unreadable frames, exit statuses. Does not prove: that the
+// values are right.
+
+#include "command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <initializer_list>
+#include <vector>
+
+#include "csv/csv_table.hpp"
+#include "results/result_csv.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::raw;
+using test::TempFolder;
+
+struct Ran {
+  int exit_status;
+  std::string errors;
+};
+
+Ran command(std::vector<std::string> words) {
+  words.insert(words.begin(), "pose_wall");
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  ::testing::internal::CaptureStderr();
+  const int exit_status = run_command(static_cast<int>(argv.size()), argv.data());
+  return {exit_status, ::testing::internal::GetCapturedStderr()};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string kitti_point(float x) {
+  return raw(x) + raw(2.0F) + raw(3.0F) + raw(0.5F);
+}
+
+CsvTable read(const std::string& file) {
+  std::ifstream stream(file);
+  return CsvTable::parse(stream);
+}
+
+TEST(ResultCsv, StartsWithTheColumnsOfTheContract) {
+  std::vector<std::string> expected = {"frame", "source", "stamp_ns", "confidence", "status", "reason", "total_ms"};
+  for (const std::string q : {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"}) {
+    for (const char* ending : {"", "_raw", "_sigma", "_pl", "_state"}) expected.push_back(q + ending);
+  }
+  std::vector<std::string> head = result_head();
+  head.resize(expected.size());
+  EXPECT_EQ(head, expected);
+}
+
+TEST(RunVerb, OneRowPerFrameAndStampsByRate) {
+  const TempFolder folder;
+  for (const char* name : {"f/a.bin", "f/b.bin", "f/c.bin"}) folder.write(name, kitti_point(1) + kitti_point(2));
+  const Ran ran = command({"run", "--rate", "20", "--output", folder.file("o.csv"), folder.file("f")});
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "forward_axis +X")) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "3 frames; engine: median")) << ran.errors;
+  const CsvTable table = read(folder.file("o.csv"));
+  ASSERT_EQ(table.rows(), 3U);
+  EXPECT_EQ(table.number(2, *table.find_column("stamp_ns")), 100000000.0);
+  EXPECT_EQ(table.number(2, *table.find_column("points_in")), 2.0);
+  EXPECT_EQ(table.cell(1, *table.find_column("source")), folder.file("f/b.bin"));
+}
+
+TEST(RunVerb, UnreadableFramesKeepTheirRowAndTheOthersAreProcessed) {
+  const TempFolder folder;
+  const std::string good = folder.write("good.bin", kitti_point(1));
+  const std::string torn = folder.write("torn.bin", "abc");
+  const Ran ran = command(
+      {"run", "-q", "-o", folder.file("o.csv"), torn, good, folder.file("missing.pcd"), folder.write("notes.txt", "")});
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.errors, torn + ": KITTI .bin: 3 bytes")) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "missing.pcd: no such file")) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "unknown ending '.txt'")) << ran.errors;
+  const CsvTable table = read(folder.file("o.csv"));
+  ASSERT_EQ(table.rows(), 4U);
+  const std::size_t status = *table.find_column("status");
+  EXPECT_EQ(table.cell(0, status), "unreadable");
+  EXPECT_NE(table.cell(1, status), "unreadable");
+  EXPECT_EQ(table.cell(2, status), "unreadable");
+  EXPECT_EQ(table.cell(0, *table.find_column("roll_state")), "");
+  EXPECT_EQ(table.cell(1, *table.find_column("frame")), "1");
+}
+
+TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
+  const TempFolder folder;
+  const std::string good = folder.write("good.bin", kitti_point(1));
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"run"}, "INPUT"},
+      {{"run", "--set", "voxel_leef=1", good}, "did you mean 'voxel_leaf'"},
+      {{"run", "--config", folder.file("none.yaml"), good}, "none.yaml"},
+      {{"run", "--rate", "nan", good}, "'nan' is refused"},
+      {{"run", "--rate", "0", good}, "'0' is refused"},
+      {{"run", "--output", folder.file("no/folder/o.csv"), good}, "cannot be written"},
+      {{"run", "--output", good, good}, "this is an input"},
+      {{"run", "--outptu", "x", good}, "did you mean '--output'"},
+      {{"rum", good}, "did you mean 'run'"},
+      {{"check-config", "--set", "range_min=9", "--set", "range_max=2"}, "range_min"},
+  };
+  for (const auto& [words, part] : cases) {
+    const Ran ran = command(words);
+    EXPECT_EQ(ran.exit_status, 2) << words.front();
+    EXPECT_TRUE(contains(ran.errors, part)) << part << " | " << ran.errors;
+  }
+  EXPECT_EQ(read(folder.write("kept.csv", "a\n1\n")).rows(), 1U);
+  EXPECT_EQ(command({"run", "-q", "-o", folder.file("kept.csv"), "--set", "range_min=x", good}).exit_status, 2);
+  EXPECT_EQ(read(folder.file("kept.csv")).rows(), 1U) << "a refused config must not empty an older result";
+}
+
+TEST(EvalVerb, ResultsOfRunCanBeCompared) {
+  const TempFolder folder;
+  folder.write("f/a.bin", kitti_point(1));
+  ASSERT_EQ(command({"run", "-q", "-o", folder.file("o.csv"), folder.file("f")}).exit_status, 0);
+  const std::string truth =
+      folder.write("truth.csv", "frame,stamp_ns,roll,pitch,yaw,d_lf,d_lb,d_rf,d_rb\n0,0,0,0,0,2,2,2,\n");
+  ::testing::internal::CaptureStdout();
+  const Ran ran = command({"eval", folder.file("o.csv"), truth, "--json"});
+  const std::string page = ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(page, "\"valid_beyond_alert\"")) << page;
+  EXPECT_EQ(command({"eval", folder.file("none.csv"), truth}).exit_status, 1);
+  EXPECT_EQ(command({"eval", truth, truth}).exit_status, 1) << "the truth has no roll_raw";
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

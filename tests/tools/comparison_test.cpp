@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: errors against truth are computed as their names say, angles wrapped, and tables that do not fit are refused.
+
+#include "truth/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "results/run_summary.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPi = 3.14159265358979323846;
+
+CsvTable table(const std::string& text) {
+  std::istringstream stream(text);
+  return CsvTable::parse(stream);
+}
+
+TEST(Quantile, NearestRank) {
+  EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2.0);
+  EXPECT_EQ(quantile({3, 1, 2}, 1.0), 3.0);
+  EXPECT_EQ(quantile({5}, 0.95), 5.0);
+  EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+}
+
+TEST(ErrorFigures, ByHand) {
+  const ErrorFigures figures = error_figures({3.0, -4.0, 1.0});
+  EXPECT_EQ(figures.count, 3U);
+  EXPECT_DOUBLE_EQ(figures.bias, 0.0);
+  EXPECT_DOUBLE_EQ(figures.rmse, std::sqrt(26.0 / 3.0));
+  EXPECT_DOUBLE_EQ(figures.absolute_max, 4.0);
+  EXPECT_TRUE(std::isnan(error_figures({}).rmse));
+}
+
+TEST(WrapAngle, IntoHalfOpenTurn) {
+  EXPECT_NEAR(wrap_angle(2 * kPi + 0.1), 0.1, 1e-12);
+  EXPECT_NEAR(wrap_angle(-kPi - 0.1), kPi - 0.1, 1e-12);
+  EXPECT_GT(wrap_angle(-kPi), 0.0);
+}
+
+TEST(ErrorStatistics, CountsWhatItPromises) {
+  ErrorStatistics distances(false, 0.10);
+  distances.add({1.02, 1.01, 0.01, 0.05, POSE_WALL_VALID}, 1.0);    // fine
+  distances.add({1.20, 1.20, 0.01, 0.05, POSE_WALL_VALID}, 1.0);    // beyond everything while valid
+  distances.add({1.20, kNaN, 0.01, 0.30, POSE_WALL_HELD}, 1.0);     // held, within its own bound
+  distances.add({9.99, kNaN, kNaN, kNaN, POSE_WALL_INVALID}, 1.0);  // says it is invalid
+  distances.add({1.0, 1.0, 0.01, 0.05, POSE_WALL_VALID}, kNaN);     // no truth
+  EXPECT_EQ(distances.frames(), 4U);
+  EXPECT_EQ(distances.measured(), 2U);
+  EXPECT_EQ(distances.valid(), 2U);
+  EXPECT_EQ(distances.value().count, 3U);
+  EXPECT_EQ(distances.raw_beyond_protection(), 1U);
+  EXPECT_EQ(distances.value_beyond_protection(), 1U);
+  EXPECT_EQ(distances.valid_beyond_alert(), 1U);
+  EXPECT_NEAR(distances.mean_z2(), (1.0 + 400.0) / 2.0, 1e-9);
+}
+
+TEST(ErrorStatistics, AMissingProtectionLevelProtectsNothing) {
+  ErrorStatistics distances(false, 0.10);
+  distances.add({1.0, 1.0, 0.01, kNaN, POSE_WALL_VALID}, 1.0);
+  EXPECT_EQ(distances.raw_beyond_protection(), 1U);
+}
+
+const char* kHead = "frame,stamp_ns,roll,roll_raw,roll_sigma,roll_pl,roll_state\n";
+
+TEST(CompareWithTruth, MatchesByFrameAndWrapsAngles) {
+  const CsvTable results = table(std::string(kHead) + "0,0,3.14,3.14,0.01,0.1,valid\n1,5,,,,,\n7,9,1,1,1,1,held\n");
+  const CsvTable truth = table("frame,roll\n1,0\n0,-3.14\n2,0\n");
+  const Comparison comparison = compare_with_truth(results, truth, {0.02, 0.1});
+  EXPECT_EQ(comparison.matched, 2U);
+  EXPECT_EQ(comparison.result_rows_alone, 1U);
+  EXPECT_EQ(comparison.truth_rows_alone, 1U);
+  ASSERT_EQ(comparison.quantities.size(), 1U);
+  const ErrorStatistics& roll = comparison.quantities[0].statistics;
+  EXPECT_EQ(roll.frames(), 2U);
+  EXPECT_EQ(roll.measured(), 1U);
+  EXPECT_NEAR(roll.raw().bias, 6.28 - 2 * kPi, 1e-9);
+}
+
+TEST(CompareWithTruth, TablesThatDoNotFitAreRefused) {
+  const std::string row = "0,0,1,1,1,1,valid\n";
+  const CsvTable good = table(kHead + row);
+  const auto refusal_of = [](const CsvTable& results, const CsvTable& truth) -> std::string {
+    try {
+      compare_with_truth(results, truth, {1, 1});
+      return "";
+    } catch (const CsvError& error) {
+      return error.what();
+    }
+  };
+  const std::pair<std::string, const char*> cases[] = {
+      {refusal_of(good, table("frame,yaw\n0,1\n")), "results have no column 'yaw'"},
+      {refusal_of(good, table("index,roll\n0,1\n")), "'frame' or 'stamp_ns' in common"},
+      {refusal_of(good, table("frame,roll\n4,1\n")), "no row in common"},
+      {refusal_of(good, table("frame,speed\n0,1\n")), "none of the columns"},
+      {refusal_of(good, table("frame,roll\n0,1\n0,2\n")), "frame 0 twice"},
+      {refusal_of(table(std::string(kHead) + "0,0,1,1,1,1,good\n"), table("frame,roll\n0,1\n")), "'good' is no state"},
+  };
+  for (const auto& [message, part] : cases)
+    EXPECT_NE(message.find(part), std::string::npos) << part << " | " << message;
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

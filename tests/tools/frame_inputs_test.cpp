@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: KITTI files are described in place; endings decide the reader; folders and stamps come out as documented.
+
+#include <gtest/gtest.h>
+
+#include "frames/frame_stamps.hpp"
+#include "frames/input_list.hpp"
+#include "frames/kitti_reader.hpp"
+#include "frames/load_frame.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::bytes_of;
+using test::number_at;
+using test::raw;
+using test::refusal;
+using test::TempFolder;
+
+const std::string kPoint = raw(1.0F) + raw(2.0F) + raw(3.0F) + raw(0.5F);
+
+std::string load_refusal(const std::string& path) {
+  try {
+    load_frame(path);
+    return "";
+  } catch (const FrameError& error) {
+    return error.what();
+  }
+}
+
+TEST(KittiReader, FourFloatsPerPoint) {
+  const Frame frame = read_kitti(bytes_of(kPoint + kPoint));
+  EXPECT_EQ(frame.cloud.width, 2U);
+  EXPECT_EQ(number_at(frame, frame.cloud.z, 1), 3.0);
+  EXPECT_EQ(number_at(frame, frame.cloud.intensity, 1), 0.5);
+  EXPECT_EQ(read_kitti({}).cloud.width, 0U);
+  EXPECT_NE(refusal(read_kitti, kPoint + "x").find("17 bytes are not a multiple of 16"), std::string::npos);
+}
+
+TEST(LoadFrame, EndingDecidesAndFaultsAreSaid) {
+  const TempFolder folder;
+  EXPECT_EQ(load_frame(folder.write("a.BIN", kPoint)).cloud.width, 1U);
+  EXPECT_NE(load_refusal(folder.write("a.txt", kPoint)).find(".pcd, .bin (KITTI), .ply"), std::string::npos);
+  EXPECT_EQ(load_refusal(folder.file("missing.pcd")), "no such file");
+  std::filesystem::create_directories(folder.file("folder.ply"));
+  EXPECT_EQ(load_refusal(folder.file("folder.ply")), "not a regular file");
+}
+
+TEST(InputList, FoldersGiveTheirFramesInNameOrderAndFilesStay) {
+  const TempFolder folder;
+  for (const char* name : {"9.pcd", "10.pcd", "notes.txt", "b.bin", "B.ply", "inner/1.pcd"}) folder.write(name, "");
+  const FrameInputs inputs = collect_inputs({"missing.pcd", folder.path(), folder.file("notes.txt")});
+  std::vector<std::string> names;
+  for (const auto& file : inputs.files) names.push_back(file.filename().string());
+  EXPECT_EQ(names, (std::vector<std::string>{"missing.pcd", "10.pcd", "9.pcd", "B.ply", "b.bin", "notes.txt"}));
+  EXPECT_TRUE(inputs.errors.empty());
+}
+
+TEST(InputList, AnEmptyFolderIsAnErrorThatNamesTheEndings) {
+  const TempFolder folder;
+  folder.write("notes.txt", "");
+  const FrameInputs inputs = collect_inputs({folder.path()});
+  ASSERT_EQ(inputs.errors.size(), 1U);
+  EXPECT_NE(inputs.errors.front().find(folder.path()), std::string::npos);
+  EXPECT_NE(inputs.errors.front().find(".pcd, .bin (KITTI), .ply"), std::string::npos);
+}
+
+TEST(FrameStamps, OnlyNamesOfSixteenToNineteenDigitsAreStamps) {
+  EXPECT_EQ(stamp_from_name("a/1700000000123456789.pcd"), 1700000000123456789);
+  EXPECT_EQ(stamp_from_name("1700000000123456.bin"), 1700000000123456);
+  EXPECT_FALSE(stamp_from_name("170000000012345.pcd"));
+  EXPECT_FALSE(stamp_from_name("99999999999999999999.pcd"));
+  EXPECT_FALSE(stamp_from_name("9999999999999999999.pcd")) << "does not fit 63 bits";
+  EXPECT_FALSE(stamp_from_name("1700000000123456789a.pcd"));
+  EXPECT_FALSE(stamp_from_name(""));
+}
+
+TEST(FrameStamps, OtherFramesFollowAtTheRateWithoutDrift) {
+  FrameStamps stamps(3.0);
+  EXPECT_EQ(stamps.next("a.pcd"), 0);
+  EXPECT_EQ(stamps.next("b.pcd"), 333333333);
+  EXPECT_EQ(stamps.next("c.pcd"), 666666667);
+  EXPECT_EQ(stamps.next("d.pcd"), 1000000000);
+  EXPECT_EQ(stamps.next("1700000000000000000.pcd"), 1700000000000000000);
+  EXPECT_EQ(stamps.next("f.pcd"), 1700000000333333333);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

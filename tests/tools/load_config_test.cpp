@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: every fault of a config file is named with file, line, key, value and what is allowed, all in one go; values
+// reach the engine as they are written; origins are kept.
+
+#include "config_file/load_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "config_file/key_table.hpp"
+#include "config_file/resolved_frames.hpp"
+#include "config_file/yaml_entries.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::TempFolder;
+using Settings = std::vector<std::string>;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string refusal_of(const std::optional<std::string>& file, const Settings& settings) {
+  try {
+    load_config(file, settings);
+    return "";
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+}
+
+std::string refusal_of_text(const std::string& yaml, const Settings& settings = {}) {
+  const TempFolder folder;
+  return refusal_of(folder.write("c.yaml", yaml), settings);
+}
+
+TEST(LoadConfig, PlusSignsAndListsReachTheEngineAsText) {
+  const TempFolder folder;
+  const std::string file = folder.write("c.yaml",
+                                        "# comment\nforward_axis: +Y   # ahead\ns_front: +2.5\n"
+                                        "body_box_1: [-1, 1.5, -1, 1, -1, 1]\nbody_box_2:\nlidar_frame: 'os 0'\n");
+  const LoadedConfig loaded = load_config(file, {"s_back=-3", "range_max=12.5"});
+  const auto text = [&loaded](const char* key) {
+    return config_value_text(*loaded.config.get(), *find_config_key(key));
+  };
+  EXPECT_EQ(text("forward_axis"), "+Y");
+  EXPECT_EQ(text("s_front"), "2.5");
+  EXPECT_EQ(text("s_back"), "-3");
+  EXPECT_EQ(text("body_box_1"), "-1 1.5 -1 1 -1 1");
+  EXPECT_EQ(text("body_box_2"), "");
+  EXPECT_EQ(text("lidar_frame"), "os 0");
+  EXPECT_EQ(loaded.origin("s_front"), file + ":3");
+  EXPECT_EQ(loaded.origin("s_back"), "--set");
+  EXPECT_EQ(loaded.origin("voxel_leaf"), "default");
+}
+
+TEST(LoadConfig, EmptyFilesAndNoFileGiveTheDefaults) {
+  EXPECT_EQ(refusal_of_text(""), "");
+  EXPECT_EQ(refusal_of_text("# nothing but a comment\n"), "");
+  EXPECT_EQ(refusal_of(std::nullopt, {}), "");
+}
+
+TEST(LoadConfig, EveryFaultIsNamedAtOnce) {
+  const std::string message = refusal_of_text(
+      "voxel_leef: 0.05\nrange_min: 50\nrange_max: [1, 2]\nforward_axis: +Z\nrange_min: 0.3\nsome_word: 1\n",
+      {"points_max=7.5", "nonsense", "=3", "voxle_leaf=1"});
+  for (const char* part :
+       {"c.yaml:1: unknown key 'voxel_leef'; did you mean 'voxel_leaf'?", "c.yaml:2: range_min: '50' is refused",
+        "allowed: a number from 0.05 to 10 m", "c.yaml:3: range_max: a list is not allowed here",
+        "c.yaml:4: forward_axis: '+Z' is refused", "allowed: one of +X, -X, +Y, -Y",
+        "c.yaml:5: range_min: set a second time; the first is at line 2", "c.yaml:6: unknown key 'some_word'\n",
+        "--set: points_max: '7.5' is refused", "--set nonsense: KEY=VALUE is expected",
+        "--set =3: KEY=VALUE is expected", "--set: unknown key 'voxle_leaf'; did you mean 'voxel_leaf'?"}) {
+    EXPECT_TRUE(contains(message, part)) << part << "\nin\n" << message;
+  }
+}
+
+TEST(LoadConfig, BrokenRulesNameTheLinesOfBothKeys) {
+  const std::string message = refusal_of_text("voxel_leaf: 0.1\nrange_min: 5\n", {"range_max=4"});
+  EXPECT_TRUE(contains(message, "c.yaml:2)")) << message;
+  EXPECT_TRUE(contains(message, "range_max (--set)")) << message;
+}
+
+TEST(LoadConfig, AnUpsideDownSensorIsSentToTheExtrinsic) {
+  const std::string message = refusal_of_text("z_axis: -Z\n");
+  EXPECT_TRUE(contains(message, "only +Z") && contains(message, "extrinsic_roll")) << message;
+}
+
+TEST(LoadConfig, FilesThatAreNoConfig) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"a: [1\n", "not YAML"},
+      {"- 1\n- 2\n", "'key: value'"},
+      {"just words\n", "'key: value'"},
+      {"a:\n  b: 3\n", "line 2: a: one value is expected"},
+      {"a: [[1]]\n", "nothing nested"},
+      {"a: &x 1\nb: *x\n", "aliases"},
+      {"a: 1\n---\nb: 2\n", "second document"},
+      {"[1, 2]: 3\n", "a key is expected"},
+      {"a: \"x\\0y\"\n", "zero byte"},
+      {"\x01\x02\x03", "not YAML"},
+  };
+  for (const auto& [yaml, part] : cases) {
+    const std::string message = refusal_of_text(yaml);
+    EXPECT_TRUE(contains(message, part)) << yaml << " | " << message;
+  }
+  const TempFolder folder;
+  EXPECT_TRUE(contains(refusal_of(folder.file("missing.yaml"), {}), "No such file"));
+  EXPECT_TRUE(contains(refusal_of(folder.path(), {}), "Is a directory"));
+  EXPECT_TRUE(contains(refusal_of(folder.write("big.yaml", std::string(2000000, '#')), {}), "at most"));
+}
+
+TEST(ResolvedFrames, LeftIsUpCrossForwardForAllFourAxes) {
+  struct Case {
+    const char* axis;
+    Vector3 forward, left;
+  };
+  for (const Case& c : {Case{"+X", {1, 0, 0}, {0, 1, 0}}, Case{"-X", {-1, 0, 0}, {0, -1, 0}},
+                        Case{"+Y", {0, 1, 0}, {-1, 0, 0}}, Case{"-Y", {0, -1, 0}, {1, 0, 0}}}) {
+    api::Config config;
+    ASSERT_EQ(config.set("forward_axis", c.axis), POSE_WALL_OK);
+    ASSERT_EQ(config.set("lateral_offset_left", 0.5), POSE_WALL_OK);
+    const ResolvedFrames frames = resolve_frames(config);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(frames.forward_base[i], c.forward[i]);
+      EXPECT_EQ(frames.left_base[i], c.left[i]);
+      EXPECT_EQ(frames.sampling_points_base_m[0][i], 2.0 * c.forward[i] + 0.5 * c.left[i]);
+      EXPECT_EQ(frames.sampling_points_base_m[3][i], -2.0 * c.forward[i]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "pose_wall.h"
+#include "terminal/did_you_mean.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+std::vector<std::string> verb_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
+}
+
+// CLI11 only says that an argument was not expected; the word that was meant is more help.
+bool is_unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  const std::string word = argv[1];
+  const std::vector<std::string> names = verb_names(app);
+  for (const std::string& name : names) {
+    if (word == name) return false;
+  }
+  fmt::print(stderr, "pose_wall: unknown verb '{}'{}\nVerbs: {}. See pose_wall --help.\n", word,
+             did_you_mean(word, names), fmt::join(names, ", "));
+  return true;
+}
+
+std::string unknown_option_hint(const CLI::App& app) {
+  for (const CLI::App* verb : app.get_subcommands()) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : verb->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    for (const std::string& word : verb->remaining()) {
+      const std::string hint = did_you_mean(word.substr(0, word.find('=')), names);
+      if (word.rfind("--", 0) == 0 && !hint.empty()) return hint;
+    }
+  }
+  return "";
+}
+
+int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
+  const std::vector<CLI::App*> verbs = app.get_subcommands();
+  const std::string verb = verbs.empty() ? "" : " " + verbs.front()->get_name();
+  fmt::print(stderr, "pose_wall{}: {}{}\nSee pose_wall{} --help.\n", verb, error.what(), unknown_option_hint(app),
+             verb);
+  return kExitUsage;
+}
+
+void add_verbs(CLI::App& app, int& exit_code) {
+  app.require_subcommand(1);
+  app.set_version_flag("--version", fmt::format("pose_wall {} (ABI {})", pose_wall_version(), pose_wall_abi_version()));
+  add_run(app, exit_code);
+  add_sim(app, exit_code);
+  add_demo(app, exit_code);
+  add_eval(app, exit_code);
+  add_check_config(app, exit_code);
+  app.footer(
+      "Examples:\n"
+      "  pose_wall demo                                               a simulated roadway, measured, with a picture\n"
+      "  pose_wall sim --scene clean --frames 50 --output road        frames with their truth\n"
+      "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
+      "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
+      "  pose_wall check-config road/pose_wall.yaml                   what the settings come to\n"
+      "Each verb has its own --help.");
+}
+
+}  // namespace
+
+int run_command(int argc, const char* const* argv) {
+  CLI::App app(
+      "How a tunnelling machine stands in its roadway, from one 3D LiDAR: roll, pitch, yaw and four wall "
+      "distances per frame.",
+      "pose_wall");
+  int exit_code = kExitDone;
+  add_verbs(app, exit_code);
+  if (is_unknown_verb(app, argc, argv)) return kExitUsage;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return report_parse_error(app, error);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "pose_wall {}: {}\n", app.get_subcommands().front()->get_name(), error.what());
+    return kExitUsage;
+  }
+  return exit_code;
+}
+
+}  // namespace pose_wall::tools
