@@ -18,7 +18,12 @@ tools::DemoOptions options(const std::string& sensor) {
   tools::DemoOptions demo;
   demo.sensor = sensor;
   demo.seed = kSeed;
-  if (sensor == "vlp-16") demo.settings = {"ground_inlier_min=120", "wall_inlier_min=120", "outlier_radius=0.4"};
+  // Sparse clouds need looser gates.
+  if (sensor == "vlp16" || sensor == "mid360") {
+    demo.settings = {"ground_inlier_min=120", "wall_inlier_min=120", "outlier_radius=0.4"};
+  }
+  // This one looks up; hung upside down it sees the floor.
+  if (sensor == "mid360") demo.simulation = {"mount_roll_deg=180"};
   return demo;
 }
 

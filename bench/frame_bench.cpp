@@ -52,8 +52,8 @@ void frame_through_the_engine(benchmark::State& state, const std::string& sensor
   state.counters["measured_of_7"] = benchmark::Counter(measured, benchmark::Counter::kAvgIterations);
 }
 
-BENCHMARK_CAPTURE(frame_through_the_engine, vlp_16, "vlp-16")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame_through_the_engine, mid_360, "mid-360")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_through_the_engine, vlp_16, "vlp16")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_through_the_engine, mid_360, "mid360")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(frame_through_the_engine, os1_64, "os1-64")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(frame_through_the_engine, os0_128, "os0-128")->Unit(benchmark::kMillisecond);
 

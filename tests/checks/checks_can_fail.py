@@ -212,8 +212,8 @@ class Abi(BrokenProject):
     def layout(self, printed, expected):
         self.write("printed", printed)
         self.write("expected", expected)
-        program, file = f"-DPROGRAM=cat;{self.root}/printed", f"-DEXPECTED={self.root}/expected"
-        return tool("CMAKE", "cmake"), program, file, "-P", CHECKS / "check_abi.cmake"
+        program, file = f"-DPROGRAM={self.root}/printed", f"-DEXPECTED={self.root}/expected"
+        return tool("CMAKE", "cmake"), program, file, "-DEMULATOR=cat", "-P", CHECKS / "check_abi.cmake"
 
     def test_passes(self):
         self.passes(*self.layout("pose_wall_field 8\n", "pose_wall_field 8\n"))
@@ -223,7 +223,7 @@ class Abi(BrokenProject):
 
     def test_program_fails(self):
         command = list(self.layout("", ""))
-        command[1] = "-DPROGRAM=false"
+        command[3] = "-DEMULATOR=false"
         self.fails("implicit padding", *command)
 
 
