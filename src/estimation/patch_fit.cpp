@@ -184,10 +184,11 @@ void PatchGrid::sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& in
   }
   for_each_pair([&](const Mean& p, const Mean& o, int lag) {
     if (correlation[lag] <= 0.0) return;
-    const double ww = p.information * o.information * correlation[lag];
+    const double covariance = correlation[lag] * tau2, ww = p.information * o.information;
     const Eigen::Vector3d a(1.0, p.u, p.v), b(1.0, o.u, o.v);
-    middle += ww * tau2 * (a * b.transpose() + b * a.transpose());
-    cross += 2.0 * ww;
+    middle += ww * covariance * (a * b.transpose() + b * a.transpose());
+    // Only the rock's part is shared between patches; the noise of their points is their own.
+    cross += 2.0 * ww * covariance * std::sqrt(ww);
   });
   out->covariance = inverse * middle * inverse;
   // Correlation can only cost; where the estimated one would promise more than independence, independence stands.

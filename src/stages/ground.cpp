@@ -22,6 +22,7 @@ constexpr std::uint32_t kCandidatesMin = 60;
 constexpr double kAreaMin_m2 = 1.0;
 constexpr double kAcrossSpreadMin_m = 0.2;
 constexpr double kGhostShare = 0.4;
+constexpr double kBelowShareMax = 0.3;
 constexpr double kRivalShare = 0.5;
 constexpr double kOutlierSpan_m = 4.0;
 // A floor this good needs no wider look: the wider, the less "local" the floor is.
@@ -33,10 +34,11 @@ struct Candidate {
   bool ghost = false;
 };
 
-std::uint32_t within_radius(const PointSet& cloud, double radius_m, Span<std::uint32_t> out) {
+std::uint32_t within_radius(const PointSet& cloud, Span<const std::uint32_t> open, double radius_m,
+                            Span<std::uint32_t> out) {
   const float limit = static_cast<float>(radius_m * radius_m);
   std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < cloud.count; ++i) {
+  for (const std::uint32_t i : open) {
     if (cloud.x[i] * cloud.x[i] + cloud.y[i] * cloud.y[i] <= limit) out[count++] = i;
   }
   return count;
@@ -79,6 +81,7 @@ std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const 
     for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);
     if (repeats) continue;
     if (mlesac_score(cloud, all, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
+    if (!(share_below(cloud, s.ground_roi_radius_max, refined.plane) <= kBelowShareMax)) continue;
     scratch->grid.mark(cloud, all, refined.plane, s.ground_ransac_thresh);
     out[count++] = {refined.plane, scratch->grid.evidence(axes), false};
   }
@@ -119,25 +122,28 @@ void reach_to_rival(const Candidate& best, const Candidate* rival, FloorResult* 
   out->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
 }
 
-void gate(const Settings& s, const Candidate& best, FloorResult* out) {
+void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& best, FloorResult* out) {
   const auto refuse_unless = [&](bool holds, std::uint32_t reason) {
     if (holds) return;
     out->fit.refused = true;
     out->fit.reasons |= reason;
   };
+  // The fit may have wandered off on a few points of something else.
+  const bool stayed = may_be_floor(out->fit.plane, s, sensor) && same_floor(out->fit.plane, best.plane);
+  refuse_unless(stayed, POSE_WALL_R_FLOOR_NOT_FOUND);
   refuse_unless(out->fit.inliers >= s.ground_inlier_min, POSE_WALL_R_FLOOR_FEW_INLIERS);
   refuse_unless(best.evidence.area_m2 >= kAreaMin_m2, POSE_WALL_R_FLOOR_THIN);
   refuse_unless(best.evidence.across_spread_m >= kAcrossSpreadMin_m, POSE_WALL_R_FLOOR_THIN);
 }
 
-FloorResult floor_within(double radius_m, const PointSet& cloud, const Settings& s, const Axes& axes,
-                         const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
+FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std::uint32_t> open, const Settings& s,
+                         const Axes& axes, const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
   FloorResult none;
   none.fit.refused = true;
   none.fit.reasons = POSE_WALL_R_FLOOR_NOT_FOUND;
   none.roi_radius_m = radius_m;
-  const std::uint32_t n = within_radius(cloud, radius_m, scratch->candidates);
+  const std::uint32_t n = within_radius(cloud, open, radius_m, scratch->candidates);
   none.candidates = n;
   if (n < kCandidatesMin) return none;
   const Span<const std::uint32_t> all = scratch->candidates.first(n);
@@ -158,7 +164,7 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, const Settings&
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
   reach_to_rival(*best, best_of(Span<const Candidate>(candidates, count), best), &out);
-  gate(s, *best, &out);
+  gate(s, sensor, *best, &out);
   return out;
 }
 
@@ -172,6 +178,7 @@ double worse_level(const FloorResult& f, const Settings& s) {
 }  // namespace
 
 void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
+  open = arena.take<std::uint32_t>(points_max);
   candidates = arena.take<std::uint32_t>(points_max);
   low = arena.take<std::uint32_t>(points_max);
   residuals = arena.take<float>(points_max);
@@ -183,11 +190,13 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
 FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
                        GroundScratch* scratch) {
+  const std::uint32_t open =
+      scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->open);
   FloorResult best;
   double radius_m = settings.ground_roi_radius;
   for (int step = 0; step < kRadiusSteps; ++step) {
-    const FloorResult here =
-        floor_within(radius_m, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
+    const FloorResult here = floor_within(radius_m, cloud_base, scratch->open.first(open), settings, axes,
+                                          sensor_base_m, last_floor, random, scratch);
     if (step == 0 || worse_level(here, settings) < worse_level(best, settings)) best = here;
     const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
     if (worse_level(best, settings) <= good_enough || radius_m >= settings.ground_roi_radius_max) break;

@@ -15,8 +15,9 @@
 namespace pose_wall {
 
 struct GroundScratch {
-  Span<std::uint32_t> candidates;
-  Span<std::uint32_t> low;
+  Span<std::uint32_t> open;        // points with nothing standing on them, within the greatest radius
+  Span<std::uint32_t> candidates;  // of those, within the radius that is tried
+  Span<std::uint32_t> low;         // of those, the lowest part; later the selection of the fit
   Span<float> residuals;
   PointSet subset;
   FloorGrid grid;

@@ -10,46 +10,77 @@
 namespace pose_wall {
 namespace {
 
-// What stands on a floor cell between these heights makes it a wall's foot, a heap or a person.
-constexpr double kRisingFrom_m = 0.12;
-constexpr double kRisingTo_m = 0.80;
 constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide
+constexpr double kHeightBin_m = 0.125;
+constexpr double kHeightBins = 64.0;
+constexpr double kBelowSensor_m = 5.5;  // the lowest bin; the highest ends 2.5 m above the sensor
+// What stands on a point or hangs under it: in six bins, from the second on. One bin alone may be dust.
+constexpr std::uint64_t kSixBins = 0x3F;
+constexpr int kFirstBin = 2;
+constexpr int kSixthBin = 7;
+constexpr int kBinsNeeded = 2;
 
-void count_up(std::uint16_t* counter) {
-  if (*counter != 0xFFFF) ++*counter;
+int bits_set(std::uint64_t bits) {
+  int count = 0;
+  for (; bits != 0; bits &= bits - 1) ++count;
+  return count;
 }
 
 }  // namespace
 
 void FloorGrid::lay_out(Arena& arena) {
-  on_plane_ = arena.take<std::uint16_t>(kSide * kSide);
-  rising_ = arena.take<std::uint16_t>(kSide * kSide);
+  heights_ = arena.take<std::uint64_t>(kSide * kSide);
+  marked_ = arena.take<std::uint8_t>(kSide * kSide);
 }
 
 std::int32_t FloorGrid::cell_of(double coordinate_m) {
   return static_cast<std::int32_t>(std::floor(coordinate_m / kCell_m)) + kSide / 2;
 }
 
-void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> candidates, const Plane& plane,
-                     double thresh_m) {
-  on_plane_.fill(0);
-  rising_.fill(0);
-  for (const std::uint32_t i : candidates) {
-    const Eigen::Vector3d p = points_base.at(i);
-    const double height = plane.signed_distance(p);
-    const bool on = height >= -thresh_m && height <= thresh_m;
-    const bool rising = height >= kRisingFrom_m && height <= kRisingTo_m;
-    if (!on && !rising) continue;
-    // In plan along the plane's normal, so that a leaning view does not put a wall's top over another cell.
-    const Eigen::Vector3d foot = p - height * plane.n;
-    const std::int32_t ix = cell_of(foot.x()), iy = cell_of(foot.y());
-    if (inside(ix, iy)) count_up(&(on ? on_plane_ : rising_)[static_cast<std::uint32_t>(iy * kSide + ix)]);
+std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
+                                   Span<std::uint32_t> out) {
+  heights_.fill(0);
+  const float limit = static_cast<float>(radius_m * radius_m);
+  const double lowest_m = sensor_z_base_m - kBelowSensor_m;
+  struct Place {
+    std::uint32_t cell;
+    int bin;
+  };
+  // False for points outside the radius or the grid's height.
+  const auto locate = [&](std::uint32_t i, Place* place) {
+    const float x = points_base.x[i], y = points_base.y[i];
+    const double bin = (static_cast<double>(points_base.z[i]) - lowest_m) / kHeightBin_m;
+    const std::int32_t ix = cell_of(static_cast<double>(x)), iy = cell_of(static_cast<double>(y));
+    if (!(x * x + y * y <= limit) || !(bin >= 0.0 && bin < kHeightBins) || !inside(ix, iy)) return false;
+    *place = {index(ix, iy), static_cast<int>(bin)};
+    return true;
+  };
+  Place place{};
+  for (std::uint32_t i = 0; i < points_base.count; ++i) {
+    if (locate(i, &place)) heights_[place.cell] |= 1ULL << place.bin;
   }
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < points_base.count; ++i) {
+    if (!locate(i, &place)) continue;
+    const std::uint64_t heights = heights_[place.cell];
+    const int from_above = place.bin + kFirstBin, from_below = place.bin - kSixthBin;
+    const std::uint64_t above = from_above < 64 ? (heights >> from_above) & kSixBins : 0;
+    const std::uint64_t below = from_below >= 0 ? (heights >> from_below) & kSixBins
+                                                : heights & (from_below > -6 ? kSixBins >> -from_below : 0);
+    if (bits_set(above) < kBinsNeeded && bits_set(below) < kBinsNeeded) out[count++] = i;
+  }
+  return count;
 }
 
-bool FloorGrid::open(std::int32_t ix, std::int32_t iy) const {
-  const std::uint32_t c = static_cast<std::uint32_t>(iy * kSide + ix);
-  return on_plane_[c] > 0 && 2 * rising_[c] < on_plane_[c];
+void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m) {
+  marked_.fill(0);
+  for (const std::uint32_t i : open) {
+    const Eigen::Vector3d p = points_base.at(i);
+    const double height = plane.signed_distance(p);
+    if (!(height >= -thresh_m && height <= thresh_m)) continue;
+    const std::int32_t ix = cell_of(p.x()), iy = cell_of(p.y());
+    if (inside(ix, iy)) marked_[index(ix, iy)] = 1;
+  }
 }
 
 FloorEvidence FloorGrid::evidence(const Axes& axes) const {
@@ -58,7 +89,7 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
   NormalEquations spread;
   for (std::int32_t iy = 0; iy < kSide; ++iy) {
     for (std::int32_t ix = 0; ix < kSide; ++ix) {
-      if (!open(ix, iy)) continue;
+      if (marked_[index(ix, iy)] == 0) continue;
       const double x = (static_cast<double>(ix - kSide / 2) + 0.5) * kCell_m;
       const double y = (static_cast<double>(iy - kSide / 2) + 0.5) * kCell_m;
       const double across = axes.left_base.x() * x + axes.left_base.y() * y;
@@ -71,27 +102,38 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
   return out;
 }
 
-bool FloorGrid::open_near(double x_base_m, double y_base_m) const {
+bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
   const std::int32_t cx = cell_of(x_base_m), cy = cell_of(y_base_m);
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      if (inside(cx + dx, cy + dy) && open(cx + dx, cy + dy)) return true;
+      if (inside(cx + dx, cy + dy) && marked_[index(cx + dx, cy + dy)] != 0) return true;
     }
   }
   return false;
 }
 
-bool FloorGrid::blocked(double x_base_m, double y_base_m) const {
-  const std::int32_t ix = cell_of(x_base_m), iy = cell_of(y_base_m);
-  return inside(ix, iy) && !open(ix, iy);
+double share_below(const PointSet& points_base, double radius_m, const Plane& plane) {
+  // The floor may fall away from its local plane by this much, and more the farther away.
+  constexpr double kBelow_m = 0.2;
+  constexpr double kFall = 0.03;
+  const float limit = static_cast<float>(radius_m * radius_m);
+  std::uint32_t within = 0, below = 0;
+  for (std::uint32_t i = 0; i < points_base.count; ++i) {
+    const float x = points_base.x[i], y = points_base.y[i];
+    if (!(x * x + y * y <= limit)) continue;
+    ++within;
+    const double margin_m = kBelow_m + kFall * std::sqrt(static_cast<double>(x * x + y * y));
+    if (plane.signed_distance(points_base.at(i)) < -margin_m) ++below;
+  }
+  return within > 0 ? static_cast<double>(below) / static_cast<double>(within) : 0.0;
 }
 
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,
-                          const PointSet& points_base, Span<const std::uint32_t> candidates,
+                          const PointSet& points_base, Span<const std::uint32_t> open,
                           const Eigen::Vector3d& sensor_base_m, double thresh_m) {
   const double sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   std::uint32_t on_below = 0, through = 0;
-  for (const std::uint32_t i : candidates) {
+  for (const std::uint32_t i : open) {
     const Eigen::Vector3d p = points_base.at(i);
     if (!(std::fabs(below.signed_distance(p)) <= thresh_m)) continue;
     ++on_below;
@@ -99,7 +141,7 @@ double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, co
     if (!(height < -2.0 * thresh_m)) continue;
     const Eigen::Vector3d crossing =
         sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
-    if (marked.open_near(crossing.x(), crossing.y())) ++through;
+    if (marked.marked_near(crossing.x(), crossing.y())) ++through;
   }
   return on_below > 0 ? static_cast<double>(through) / static_cast<double>(on_below) : 0.0;
 }

@@ -21,8 +21,7 @@ struct FloorEvidence {
   double across_spread_m = 0.0;  // standard deviation of the open cells across their main direction
 };
 
-// A grid in plan around the base origin. A cell is open floor when it holds points on the plane and none of a wall or
-// heap rising from it. A slab cut through two walls has points enough, but every one of them has more wall above it.
+// A grid in plan around the base origin.
 class FloorGrid {
  public:
   static constexpr std::int32_t kSide = 160;
@@ -30,27 +29,35 @@ class FloorGrid {
 
   void lay_out(Arena& arena);
 
-  void mark(const PointSet& points_base, Span<const std::uint32_t> candidates, const Plane& plane, double thresh_m);
-  FloorEvidence evidence(const Axes& axes) const;
+  // Indices of the points within the radius that have nothing standing on them or hanging under them: no points from a
+  // quarter of a metre to a metre above or below in the same cell. Floor is open and so is roof; walls, heaps, people
+  // and machines are not. Without this, a slab cut through two walls beats a sparsely seen floor by its points.
+  std::uint32_t find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
+                          Span<std::uint32_t> out);
 
-  // Whether the marked plane has open floor at or next to this place.
-  bool open_near(double x_base_m, double y_base_m) const;
-  // Whether something rises from the floor in the cell of this place.
-  bool blocked(double x_base_m, double y_base_m) const;
+  // Marks the cells in which a plane has points.
+  void mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m);
+  // Of the marked plane.
+  FloorEvidence evidence(const Axes& axes) const;
+  // Whether the marked plane has floor at or next to this place.
+  bool marked_near(double x_base_m, double y_base_m) const;
 
  private:
   static std::int32_t cell_of(double coordinate_m);
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
-  bool open(std::int32_t ix, std::int32_t iy) const;
+  static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
-  Span<std::uint16_t> on_plane_;
-  Span<std::uint16_t> rising_;
+  Span<std::uint64_t> heights_;  // per cell, a bit for each eighth of a metre that holds points
+  Span<std::uint8_t> marked_;
 };
+
+// Share of all points within the radius that lie below the plane. Nothing does below a floor, but for reflections.
+double share_below(const PointSet& points_base, double radius_m, const Plane& plane);
 
 // Share of the points on 'below' whose ray from the sensor passes through open floor of the plane marked in the grid:
 // no light comes through a floor, so such a plane is a reflection in wet ground.
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,
-                          const PointSet& points_base, Span<const std::uint32_t> candidates,
+                          const PointSet& points_base, Span<const std::uint32_t> open,
                           const Eigen::Vector3d& sensor_base_m, double thresh_m);
 
 }  // namespace pose_wall

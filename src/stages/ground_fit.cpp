@@ -22,16 +22,13 @@ IrlsSettings irls_settings(const Settings& s) {
   return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds};
 }
 
-// Points near the plane, except where a wall or heap rises from it: those pull the floor up on one side.
-Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> candidates, const Plane& plane,
-                                 double gate_m, const FloorGrid& grid, Span<std::uint32_t> out) {
+// Second selection: by height over the plane.
+Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const Plane& plane,
+                                 double gate_m, Span<std::uint32_t> out) {
   std::uint32_t count = 0;
-  for (const std::uint32_t i : candidates) {
-    const Eigen::Vector3d p = cloud.at(i);
-    const double height = plane.signed_distance(p);
-    if (!(height >= -gate_m && height <= gate_m)) continue;
-    const Eigen::Vector3d foot = p - height * plane.n;
-    if (!grid.blocked(foot.x(), foot.y())) out[count++] = i;
+  for (const std::uint32_t i : open) {
+    const double height = plane.signed_distance(cloud.at(i));
+    if (height >= -gate_m && height <= gate_m) out[count++] = i;
   }
   return Span<const std::uint32_t>(out.data(), count);
 }
@@ -68,14 +65,16 @@ void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const
 }
 
 void count_inliers(const PointSet& cloud, Span<const std::uint32_t> chosen, double thresh_m, PlaneFit* fit) {
-  double squares = 0.0;
+  double squares = 0.0, measured = 0.0, voxels = 0.0;
   for (const std::uint32_t i : chosen) {
     const double r = fit->plane.signed_distance(cloud.at(i));
     if (!(r >= -thresh_m && r <= thresh_m)) continue;
     squares += r * r;
-    ++fit->inliers;
+    voxels += 1.0;
+    measured += static_cast<double>(cloud.weight[i]);
   }
-  fit->rms_m = fit->inliers > 0 ? std::sqrt(squares / static_cast<double>(fit->inliers)) : 0.0;
+  fit->inliers = static_cast<std::uint32_t>(measured);
+  fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
 }
 
 void set_uncertainty(const PatchFit& patch, const TangentFrame& f, const Plane& plane, const Settings& s,
@@ -94,9 +93,8 @@ void set_uncertainty(const PatchFit& patch, const TangentFrame& f, const Plane& 
 
 }  // namespace
 
-FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> candidates, double radius_m,
-                      const Plane& start, const Settings& settings, const Eigen::Vector3d& sensor_base_m,
-                      GroundScratch* scratch) {
+FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open, double radius_m, const Plane& start,
+                      const Settings& settings, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
   FloorResult out;
   const IrlsSettings irls_s = irls_settings(settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
@@ -104,9 +102,8 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> cand
   irls.plane = start;
   Span<const std::uint32_t> chosen;
   for (int selection = 0; selection < kSelections; ++selection) {
-    scratch->grid.mark(cloud_base, candidates, irls.plane, settings.ground_ransac_thresh);
     // The low points have done their work; their room holds the selection.
-    chosen = select(cloud_base, candidates, irls.plane, irls_s.gate_m, scratch->grid, scratch->low);
+    chosen = select(cloud_base, open, irls.plane, irls_s.gate_m, scratch->low);
     irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, irls_s, scratch->residuals);
     if (!irls.solved) break;
   }

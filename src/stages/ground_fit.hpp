@@ -11,9 +11,8 @@
 
 namespace pose_wall {
 
-// start: the chosen hypothesis. candidates: the points to select from, all within radius_m in plan.
-FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> candidates, double radius_m,
-                      const Plane& start, const Settings& settings, const Eigen::Vector3d& sensor_base_m,
-                      GroundScratch* scratch);
+// start: the chosen hypothesis. open: the points to select from, all within radius_m in plan.
+FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open, double radius_m, const Plane& start,
+                      const Settings& settings, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch);
 
 }  // namespace pose_wall

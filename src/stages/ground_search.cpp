@@ -19,7 +19,7 @@ constexpr std::uint32_t kDrawsPerIteration = 8;
 // lowest points are one side of it only.
 void fill_subset(const GroundSearchInput& in, Random* random, PointSet* subset) {
   for (std::uint32_t k = 0; k < kGroundSubset; ++k) {
-    const Span<const std::uint32_t> from = k % 2 == 0 ? in.low : in.candidates;
+    const Span<const std::uint32_t> from = k % 2 == 0 ? in.low : in.open;
     const std::uint32_t i = from[random->below(from.size())];
     subset->x[k] = in.points_base.x[i];
     subset->y[k] = in.points_base.y[i];
@@ -76,8 +76,8 @@ std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings
   const std::uint32_t draws = settings.ground_iterations * kDrawsPerIteration;
   for (std::uint32_t draw = 0; draw < draws && scored < settings.ground_iterations; ++draw) {
     Plane plane;
-    // One draw in four from all points: where reflections lie lowest, the low points hold no floor.
-    const Span<const std::uint32_t> from = draw % 4 == 3 ? in.candidates : in.low;
+    // Every other draw from all points: where reflections lie lowest, the low points hold no floor.
+    const Span<const std::uint32_t> from = draw % 2 == 1 ? in.open : in.low;
     if (draw_plane(in.points_base, from, random, &plane) && may_be_floor(plane, settings, in.sensor_base_m)) {
       score(plane);
     }

@@ -19,8 +19,8 @@ using FloorShortlist = Shortlist<kFloorShortlist>;
 
 struct GroundSearchInput {
   const PointSet& points_base;
-  Span<const std::uint32_t> candidates;  // all points within the region of interest
-  Span<const std::uint32_t> low;         // the lowest part of them
+  Span<const std::uint32_t> open;  // all open points within the region of interest
+  Span<const std::uint32_t> low;   // the lowest part of them
   const Eigen::Vector3d& sensor_base_m;
   const Plane* last_floor;  // hypothesis 0: scored like any other; nullptr if none
 };

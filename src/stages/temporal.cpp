@@ -32,11 +32,9 @@ double gain(double dt_s, double tau_s) {
 void check_innovation(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
   const double allowed = m.protection + t->raw_protection + fastest(quantity, s) * t->age_s;
   if (!(std::fabs(m.raw - t->raw) <= allowed)) {
-    if (t->to_confirm == 0) {
-      t->trusted = t->value;
-      t->trusted_protection = t->protection;
-      t->trusted_age_s = t->age_s;
-    }
+    t->trusted = t->value;
+    t->trusted_protection = t->own_protection;
+    t->trusted_age_s = t->age_s;
     t->to_confirm = kConfirmations;
   } else if (t->to_confirm > 0) {
     --t->to_confirm;
@@ -71,7 +69,8 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   t->raw_protection = m.protection;
   t->age_s = 0.0;
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
-  t->protection = m.protection + std::fabs(t->value - m.raw);
+  t->own_protection = m.protection + std::fabs(t->value - m.raw);
+  t->protection = t->own_protection;
   if (t->to_confirm > 0) {
     const double reach = t->trusted_protection + fastest(quantity, s) * t->trusted_age_s;
     t->protection = larger(t->protection, std::fabs(t->value - t->trusted) + reach);

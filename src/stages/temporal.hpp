@@ -17,11 +17,12 @@ struct Track {
   double value = 0.0;  // smoothed
   double raw = 0.0;    // of the last frame it was measured in
   double sigma = 0.0;
-  double protection = 0.0;  // of value, in that frame
+  double protection = 0.0;      // of value in that frame
+  double own_protection = 0.0;  // the same without what a jump adds
   double raw_protection = 0.0;
   double age_s = 0.0;    // since that frame
   bool expired = false;  // held for too long, or the clock jumped while holding
-  // After a jump the old value stays in the protection level until the new one has been seen again and again.
+  // After a jump the value before it stays in the protection level until the new one has come again and again.
   std::uint32_t to_confirm = 0;
   double trusted = 0.0;
   double trusted_protection = 0.0;

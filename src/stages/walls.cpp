@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
+#include "stages/walls_parallel.hpp"
 #include "stages/walls_select.hpp"
 
 namespace pose_wall {
@@ -143,6 +144,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     out.side[side].fit.refused = out.side[side].fit.refused || choice.refused[side];
     out.side[side].fit.reasons |= choice.reasons[side];
   }
+  share_direction(scene, &out.side);
   return out;
 }
 

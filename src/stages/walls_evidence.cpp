@@ -43,7 +43,7 @@ void WallGrid::mark(const PointSet& band_level, const Plane& wall, const Eigen::
                     double z_max_m, const Eigen::Vector3d& sensor_level_m, double thresh_m) {
   hits_.fill(0);
   through_.fill(0);
-  inliers_ = 0;
+  inliers_ = 0.0;
   z_min_ = z_min_m;
   row_m_ = (z_max_m - z_min_m) / kRowsMax > kRow_m ? (z_max_m - z_min_m) / kRowsMax : kRow_m;
   rows_ = static_cast<std::uint32_t>(std::ceil((z_max_m - z_min_m) / row_m_ - 1e-9));
@@ -54,7 +54,7 @@ void WallGrid::mark(const PointSet& band_level, const Plane& wall, const Eigen::
     const double r = wall.signed_distance(p);
     std::uint32_t cell = 0;
     if (r >= -thresh_m && r <= thresh_m) {
-      ++inliers_;
+      inliers_ += static_cast<double>(band_level.weight[i]);
       if (cell_of(along_level.dot(p), p.z(), &cell)) count_up(&hits_[cell]);
     } else if (r < -behind_m && sensor_inside_m > 0.0) {
       const Eigen::Vector3d crossing =
@@ -95,7 +95,7 @@ WallEvidence WallGrid::evidence() const {
     out.along_max_m = along + kColumn_m;
     ++columns;
   }
-  out.inliers = inliers_;
+  out.inliers = static_cast<std::uint32_t>(inliers_);
   out.length_m = static_cast<double>(columns) * kColumn_m;
   out.area_m2 = static_cast<double>(solid_cells) * kColumn_m * row_m_;
   if (solid_cells > 0) {

@@ -21,7 +21,7 @@ struct WallEvidence {
   double length_m = 0.0;      // solid columns along the road
   double along_min_m = 0.0;
   double along_max_m = 0.0;
-  std::uint32_t inliers = 0;
+  std::uint32_t inliers = 0;  // measured points on the plane
 };
 
 // A plane cut into cells along the road and up. A cell is solid when points lie on the plane there, and seen through
@@ -59,7 +59,7 @@ class WallGrid {
   Span<std::uint16_t> through_;
   double z_min_ = 0.0, row_m_ = 0.3;
   std::uint32_t rows_ = 1;
-  std::uint32_t inliers_ = 0;
+  double inliers_ = 0.0;  // measured points
 };
 
 }  // namespace pose_wall

@@ -62,14 +62,16 @@ void fill_patches(const WallScene& scene, Span<const std::uint32_t> chosen, cons
 
 void count_inliers(const WallScene& scene, Span<const std::uint32_t> chosen, PlaneFit* fit) {
   const double thresh_m = scene.settings.wall_ransac_thresh;
-  double squares = 0.0;
+  double squares = 0.0, measured = 0.0, voxels = 0.0;
   for (const std::uint32_t i : chosen) {
     const double r = fit->plane.signed_distance(scene.band_level.at(i));
     if (!(r >= -thresh_m && r <= thresh_m)) continue;
     squares += r * r;
-    ++fit->inliers;
+    voxels += 1.0;
+    measured += static_cast<double>(scene.band_level.weight[i]);
   }
-  fit->rms_m = fit->inliers > 0 ? std::sqrt(squares / static_cast<double>(fit->inliers)) : 0.0;
+  fit->inliers = static_cast<std::uint32_t>(measured);
+  fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
 }
 
 // Turning the plane by its slope along u turns the yaw by as much; the sign follows from which way u points.
@@ -163,6 +165,8 @@ WallResult fit_wall(const WallScene& scene, const Plane& start, int side, const 
   if (patch.bends) out.fit.reasons |= POSE_WALL_R_CURVED;
   count_inliers(scene, chosen, &out.fit);
   set_yaw(scene, patch, frame, &out);
+  // Where offset and slope are uncorrelated.
+  out.pivot_level_m = frame.origin - frame.u * (patch.covariance(0, 1) / patch.covariance(1, 1));
   set_distances(scene, side, patch, frame, grid, &out);
   return out;
 }
