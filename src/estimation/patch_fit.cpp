@@ -18,7 +18,6 @@ constexpr double kPriorPoints = 10.0;
 constexpr std::uint32_t kPatchesMin = 8;
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
 constexpr double kNoiseMin_m = 0.001;
-constexpr int kLags = 5;
 // The quadratic must explain this much more (chi-square with 3 degrees of freedom: 1 in 10^4 by chance).
 constexpr double kBendChi2 = 21.1;
 
@@ -137,41 +136,47 @@ double PatchGrid::between_patch_variance(std::uint32_t n, const Eigen::Matrix3d&
   return excess > 0.0 && scale > 0.0 ? excess / scale : 0.0;
 }
 
-void PatchGrid::sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& inverse, PatchFit* out) {
-  // Correlation of the rock by distance between patches, from products of errors.
-  double products[kLags + 1] = {};
-  double pairs[kLags + 1] = {};
-  const auto lag_of = [](std::int32_t du, std::int32_t dv) {
-    return static_cast<int>(std::sqrt(static_cast<double>(du * du + dv * dv)) + 0.5);
+// Each unordered pair of patches up to kLags apart, once.
+template <typename Visit>
+void PatchGrid::for_each_pair(std::uint32_t n, const Visit& visit) const {
+  const auto patch_at = [this](std::int32_t iu, std::int32_t iv) {
+    constexpr auto kEnd = static_cast<std::int32_t>(kSide);
+    const bool inside = iu >= 0 && iu < kEnd && iv >= 0 && iv < kEnd;
+    return inside ? mean_of_cell_[static_cast<std::uint32_t>(iv) * kSide + static_cast<std::uint32_t>(iu)] : -1;
   };
-  const auto for_each_pair = [&](const auto& visit) {  // each unordered pair of patches up to kLags apart, once
-    for (std::uint32_t i = 0; i < n; ++i) {
-      for (std::int32_t dv = 0; dv <= kLags; ++dv) {
-        for (std::int32_t du = dv == 0 ? 1 : -kLags; du <= kLags; ++du) {
-          const std::int32_t iu = means_[i].iu + du, iv = means_[i].iv + dv;
-          const int lag = lag_of(du, dv);
-          if (lag > kLags || iu < 0 || iu >= static_cast<std::int32_t>(kSide) || iv >= static_cast<std::int32_t>(kSide))
-            continue;
-          const std::int32_t j = mean_of_cell_[static_cast<std::uint32_t>(iv) * kSide + static_cast<std::uint32_t>(iu)];
-          if (j >= 0) visit(means_[i], means_[static_cast<std::uint32_t>(j)], lag);
-        }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::int32_t dv = 0; dv <= kLags; ++dv) {
+      for (std::int32_t du = dv == 0 ? 1 : -kLags; du <= kLags; ++du) {
+        const int lag = static_cast<int>(std::sqrt(static_cast<double>(du * du + dv * dv)) + 0.5);
+        const std::int32_t j = patch_at(means_[i].iu + du, means_[i].iv + dv);
+        if (lag <= kLags && j >= 0) visit(means_[i], means_[static_cast<std::uint32_t>(j)], lag);
       }
     }
-  };
-  for_each_pair([&](const Mean& a, const Mean& b, int lag) {
+  }
+}
+
+// Correlation of the rock by distance between patches, from products of errors.
+PatchGrid::Correlation PatchGrid::correlation_of_errors(std::uint32_t n, double tau2) const {
+  double products[kLags + 1] = {};
+  double pairs[kLags + 1] = {};
+  for_each_pair(n, [&](const Mean& a, const Mean& b, int lag) {
     products[lag] += a.error * b.error;
     pairs[lag] += 1.0;
   });
-  double correlation[kLags + 1] = {};
+  Correlation correlation;
   double upper = 0.95;
   for (int lag = 1; lag <= kLags; ++lag) {
     // Errors about a fitted plane sum to nearly nothing, which pulls every lag down by about 3 / n.
     const double measured =
         pairs[lag] > 0.0 && tau2 > 0.0 ? products[lag] / (pairs[lag] * tau2) + 3.0 / static_cast<double>(n) : 0.0;
-    correlation[lag] = measured < 0.0 ? 0.0 : (measured > upper ? upper : measured);
-    upper = correlation[lag];
+    correlation.at_lag[lag] = measured < 0.0 ? 0.0 : (measured > upper ? upper : measured);
+    upper = correlation.at_lag[lag];
   }
+  return correlation;
+}
 
+void PatchGrid::sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& inverse, PatchFit* out) {
+  const Correlation correlation = correlation_of_errors(n, tau2);
   Eigen::Matrix3d middle = Eigen::Matrix3d::Zero();
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   double sum = 0.0, squares = 0.0, cross = 0.0;
@@ -182,9 +187,9 @@ void PatchGrid::sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& in
     sum += p.information;
     squares += p.information * p.information;
   }
-  for_each_pair([&](const Mean& p, const Mean& o, int lag) {
-    if (correlation[lag] <= 0.0) return;
-    const double covariance = correlation[lag] * tau2, ww = p.information * o.information;
+  for_each_pair(n, [&](const Mean& p, const Mean& o, int lag) {
+    if (correlation.at_lag[lag] <= 0.0) return;
+    const double covariance = correlation.at_lag[lag] * tau2, ww = p.information * o.information;
     const Eigen::Vector3d a(1.0, p.u, p.v), b(1.0, o.u, o.v);
     middle += ww * covariance * (a * b.transpose() + b * a.transpose());
     // Only the rock's part is shared between patches; the noise of their points is their own.

@@ -69,10 +69,17 @@ class PatchGrid {
     double error;           // r minus the current fit
     std::int32_t iu, iv;
   };
+  static constexpr int kLags = 5;  // patches further apart count as independent
+  struct Correlation {
+    double at_lag[kLags + 1] = {};
+  };
 
   std::uint32_t collect_means(PatchFit* out);
   bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
   double between_patch_variance(std::uint32_t n, const Eigen::Matrix3d& inverse) const;
+  template <typename Visit>
+  void for_each_pair(std::uint32_t n, const Visit& visit) const;
+  Correlation correlation_of_errors(std::uint32_t n, double tau2) const;
   void sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& inverse, PatchFit* out);
   void test_bend(std::uint32_t n, PatchFit* out);
 

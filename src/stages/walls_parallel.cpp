@@ -13,6 +13,13 @@ namespace {
 // What the fits do not know of: scans skewed by motion, walls that are not planes. Keeps one wall from ruling alone.
 constexpr double kModelError_rad = 0.0035;
 
+// A doubtful wall must not turn a good one.
+bool can_share(const WallResult& wall) {
+  constexpr std::uint32_t kDoubtful =
+      POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED;
+  return !wall.fit.refused && (wall.fit.reasons & kDoubtful) == 0;
+}
+
 // 1 up to the limit, falling to 0 at twice the limit.
 double share_of(double difference_rad, double limit_rad) {
   if (!(limit_rad > 0.0)) return 0.0;
@@ -45,7 +52,7 @@ void turn(const WallScene& scene, int side, double angle_rad, WallResult* wall) 
 void share_direction(const WallScene& scene, WallResult (*walls)[2]) {
   WallResult& left = (*walls)[0];
   WallResult& right = (*walls)[1];
-  if (left.fit.refused || right.fit.refused) return;
+  if (!can_share(left) || !can_share(right)) return;
   const double difference = left.yaw_rad - right.yaw_rad;
   const double share = share_of(difference, radians(scene.settings.wall_parallel_within_deg));
   const double model2 = kModelError_rad * kModelError_rad;
