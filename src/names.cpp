@@ -54,7 +54,7 @@ const char* status_text(std::int32_t status) {
   }
 }
 
-const char* reason_name(std::uint32_t bit_index) {
+const char* reason_name(std::uint32_t bit_index) {  // NOLINT(readability-function-size): a table
   switch (bit_of(bit_index)) {
     case POSE_WALL_R_NO_POINTS:
       return "no_points";
@@ -117,7 +117,7 @@ const char* reason_name(std::uint32_t bit_index) {
   }
 }
 
-const char* reason_text(std::uint32_t bit_index) {
+const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-function-size): a table
   switch (bit_of(bit_index)) {
     case POSE_WALL_R_NO_POINTS:
       return "too few points survive the filters";

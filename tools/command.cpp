@@ -45,7 +45,7 @@ std::string unknown_option_hint(const CLI::App& app) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
     for (const std::string& word : verb->remaining()) {
-      const std::string hint = did_you_mean(word.substr(0, word.find('=')), names);
+      std::string hint = did_you_mean(word.substr(0, word.find('=')), names);
       if (word.rfind("--", 0) == 0 && !hint.empty()) return hint;
     }
   }

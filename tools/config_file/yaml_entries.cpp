@@ -39,7 +39,7 @@ class EventStream {
 
   std::string scalar() const {
     const auto& scalar = event_.data.scalar;
-    const std::string text(reinterpret_cast<const char*>(scalar.value), scalar.length);
+    std::string text(reinterpret_cast<const char*>(scalar.value), scalar.length);
     if (text.find('\0') != std::string::npos) {
       throw YamlError(fmt::format("line {}: a zero byte is not allowed in a value", line()));
     }

@@ -29,7 +29,7 @@ const Setup& checked(const Setup& setup) {
   demand(!arched || r.arch_springing_m < r.height_m, "arch_springing_m must be below height_m");
   demand(!curved || !(arched || splays), "a curve (curve_radius_m) has a flat roof and no splay");
   demand(!curved || std::abs(r.curve_radius_m) > r.width_m, "curve_radius_m must exceed width_m");
-  demand(setup.floor.muck_side == kSideNone || setup.floor.muck_width_m < 0.5 * r.width_m,
+  demand(setup.floor.muck_side == static_cast<double>(kSideNone) || setup.floor.muck_width_m < 0.5 * r.width_m,
          "muck_width_m must be below half of width_m");
   demand(r.roof == 0.0 || m.base_height_m < r.height_m, "base_height_m must be below height_m");
   demand(std::abs(m.lateral_m) < 0.5 * r.width_m, "lateral_m must be within half of width_m");

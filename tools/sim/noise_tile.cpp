@@ -23,7 +23,8 @@ Kernel make_kernel() {
   double sum_of_squares = 0.0;
   for (int k = -kKernelReach; k <= kKernelReach; ++k) {
     const double weight = std::exp(-0.5 * (k / kKernelWidthCells) * (k / kKernelWidthCells));
-    kernel[static_cast<std::size_t>(k + kKernelReach)] = static_cast<float>(weight);
+    const int cell = k + kKernelReach;
+    kernel[static_cast<std::size_t>(cell)] = static_cast<float>(weight);
     sum_of_squares += weight * weight;
   }
   for (float& weight : kernel) weight /= static_cast<float>(std::sqrt(sum_of_squares));

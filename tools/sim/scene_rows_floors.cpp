@@ -5,7 +5,7 @@
 
 namespace pose_wall::tools::sim {
 
-std::vector<SceneChoice> floors_scenes() {
+std::vector<SceneChoice> floors_scenes() {  // NOLINT(readability-function-size): a table
   return {
       // floors
       {"cross_fall",

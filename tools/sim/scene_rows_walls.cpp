@@ -5,7 +5,7 @@
 
 namespace pose_wall::tools::sim {
 
-std::vector<SceneChoice> walls_scenes() {
+std::vector<SceneChoice> walls_scenes() {  // NOLINT(readability-function-size): a table
   return {
       // walls that are walls
       {"clean", "flat walls, floor and roof", "valid", {}},

@@ -15,7 +15,7 @@ constexpr std::size_t kMostSurfaces = 10;
 bool needs_tile(const Setup& setup) {
   const Floor& f = setup.floor;
   return setup.rock.roughness_m > 0.0 || setup.rock.wave_m > 0.0 || f.floor_roughness_m > 0.0 || f.hump_m > 0.0 ||
-         f.rut_depth_m > 0.0 || f.muck_side != kSideNone || f.puddle_coverage > 0.0;
+         f.rut_depth_m > 0.0 || f.muck_side != static_cast<double>(kSideNone) || f.puddle_coverage > 0.0;
 }
 
 void hit_things(const Ray& ray, const std::vector<Primitive>& things, const SectorIndex& index, Hit* best) {

@@ -47,6 +47,7 @@ std::string TextTable::text(std::size_t left_columns) const {
   };
   append_row(head_);
   std::vector<std::string> rule;
+  rule.reserve(widths.size());
   for (const std::size_t width : widths) rule.emplace_back(width, '-');
   append_row(rule);
   for (const auto& row : rows_) append_row(row);
