@@ -38,7 +38,8 @@ function(pose_wall_engine_flags target)
   target_compile_options(${target} PRIVATE
     -fno-exceptions -fno-rtti -fno-threadsafe-statics
     -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections
-    $<$<CONFIG:Release>:-O3>
+    # a subproject of a build without a build type gets a quick engine, too
+    $<$<OR:$<CONFIG:Release>,$<STREQUAL:$<CONFIG>,>>:-O3>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
     $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
   # These change what a header means or the bits it computes: who includes engine headers must compile alike. A failed
