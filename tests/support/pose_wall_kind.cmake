@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# pose_wall_test_kind(<kind> [WHITE_BOX] TIMEOUT <seconds> [NEEDS <target>])
+# pose_wall_test_kind(<kind> [WHITE_BOX] [NATIVE] TIMEOUT <seconds> [NEEDS <target>])
 # The executable pose_wall_<kind>_tests from <kind>/*_test.cpp, one ctest entry per case, labelled with the kind.
-# Nothing is made when the folder is empty or a needed target is not part of this build.
+# Nothing is made when the folder is empty, a needed target is not part of this build, or a NATIVE kind is cross built.
 function(pose_wall_test_kind kind)
-  cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX" "TIMEOUT;NEEDS" "")
+  cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX;NATIVE" "TIMEOUT;NEEDS" "")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/*_test.cpp)
+  if(CMAKE_CROSSCOMPILING)
+    if(kind_NATIVE)
+      return()
+    endif()
+    # The simulator runs on no controller, and slowly under emulation.
+    list(FILTER sources EXCLUDE REGEX "/sim_[^/]*$")
+    math(EXPR kind_TIMEOUT "10 * ${kind_TIMEOUT}")
+  endif()
   if(NOT sources)
     return()
   endif()
