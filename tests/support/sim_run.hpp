@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The simulator's frames through the engine, each beside its truth.
+
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sim/scenes.hpp"
+#include "sim/simulator.hpp"
+#include "support/clouds.hpp"
+#include "support/engine_under_test.hpp"
+
+namespace pose_wall::test {
+
+namespace sim = pose_wall::tools::sim;
+
+constexpr double kRadPerDeg = 0.017453292519943295;
+
+// What the engine is to be told of the simulated machine.
+inline pose_wall_config config_for(const sim::SceneSetup& setup, pose_wall_config config = config_with()) {
+  static const char* const kAxes[] = {"+X", "-X", "+Y", "-Y"};
+  set(&config, "forward_axis", kAxes[static_cast<int>(setup.machine.forward_axis)]);
+  set(&config, "extrinsic_x", setup.mount.mount_x_m);
+  set(&config, "extrinsic_y", setup.mount.mount_y_m);
+  set(&config, "extrinsic_z", setup.mount.mount_z_m);
+  set(&config, "extrinsic_roll", setup.mount.mount_roll_deg * kRadPerDeg);
+  set(&config, "extrinsic_pitch", setup.mount.mount_pitch_deg * kRadPerDeg);
+  set(&config, "extrinsic_yaw", setup.mount.mount_yaw_deg * kRadPerDeg);
+  set(&config, "s_front", setup.machine.s_front_m);
+  set(&config, "s_back", setup.machine.s_back_m);
+  return config;
+}
+
+inline pose_wall_cloud cloud_of(const sim::Frame& frame) {
+  pose_wall_cloud cloud;
+  pose_wall_cloud_xyz32(&cloud, frame.xyz_intensity.data(), static_cast<std::uint32_t>(frame.count()),
+                        4 * sizeof(float), frame.stamp_ns);
+  return cloud;
+}
+
+inline Points points_of(const sim::Frame& frame) {
+  Points points(frame.count());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float* p = &frame.xyz_intensity[4 * i];
+    points[i] = {p[0], p[1], p[2]};
+  }
+  return points;
+}
+
+struct JudgedFrame {
+  pose_wall_result result;
+  tools::TruthRow truth;
+
+  double raw_error(std::uint32_t q) const { return result.quantity[q].raw - truth.value[q]; }
+  double error(std::uint32_t q) const { return result.quantity[q].value - truth.value[q]; }
+  bool is(std::uint32_t q, std::uint32_t state) const { return result.quantity[q].state == state; }
+};
+
+inline std::vector<JudgedFrame> run_frames(const sim::SceneSetup& setup, std::uint64_t seed, std::uint32_t count,
+                                           const pose_wall_config& base = config_with()) {
+  const sim::Simulator simulator(setup, seed);
+  EngineUnderTest engine(config_for(setup, base));
+  std::vector<JudgedFrame> out;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const sim::Frame frame = simulator.render(i);
+    out.push_back({engine.process(cloud_of(frame)), simulator.truth(i)});
+  }
+  return out;
+}
+
+}  // namespace pose_wall::test

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: spans and point sets borrow, and copy what they say.
+
+#include "containers/point_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+TEST(Span, BorrowsWithoutOwning) {
+  int numbers[] = {1, 2, 3, 4};
+  const Span<int> span(numbers, 4);
+  span[2] = 7;
+  EXPECT_EQ(numbers[2], 7);
+  EXPECT_EQ(span.first(2).size(), 2U);
+  const Span<const int> constant = span;
+  int sum = 0;
+  for (const int n : constant) sum += n;
+  EXPECT_EQ(sum, 14);
+  EXPECT_EQ(Span<int>().size(), 0U);
+}
+
+TEST(PointSet, SetCopyAndReadBack) {
+  test::OwnedPoints points(3);
+  points.add(1.5, -2.25, 3.75, 4.0F);
+  points.add(0.0, 0.0, 0.0);
+  PointSet& set = points.set();
+  set.copy(1, 0);
+  EXPECT_EQ(set.at(1), Eigen::Vector3d(1.5, -2.25, 3.75));
+  EXPECT_EQ(set.weight[1], 4.0F);
+  EXPECT_EQ(set.capacity(), 3U);
+  EXPECT_EQ(set.count, 2U);
+}
+
+}  // namespace
+}  // namespace pose_wall
