@@ -129,7 +129,7 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
 void Engine::level_and_cut(FrameFindings* found) {
   scratch_.band_level.count = 0;
   if (found->floor.fit.refused) return;
-  found->level = level_by(found->floor.fit.plane);
+  found->level = level_by(found->floor.fit.plane, axes_);
   cut_wall_band(scratch_.cloud_base, found->level, settings_, &scratch_.grid, &scratch_.band_level);
   found->wall_points = scratch_.band_level.count;
 }

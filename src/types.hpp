@@ -77,6 +77,7 @@ struct LevelResult {
   Eigen::Matrix3d R_level_base = Eigen::Matrix3d::Identity();
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
+  double forward_up = 0.0;       // z of the machine's forward axis in the levelled frame: sine of its elevation
   double floor_z_level_m = 0.0;  // z of the floor in the levelled frame: height above floor = z - floor_z
 };
 
@@ -93,6 +94,7 @@ struct WallResult {
   double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};
   double distance_bound_m[2] = {0.0, 0.0};
+  double layer_sigma_m = 0.0;  // what ribs and cables may have moved the surface, part of the standard deviations
   bool extrapolated[2] = {false, false};
   double dof = 1.0;
   double along_min_m = 0.0;

@@ -203,6 +203,8 @@ void PatchGrid::sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& in
   out->bias_response = inverse * bias;
   const double effective = sum * sum / (squares + cross);
   out->dof = effective > 4.0 ? effective - 3.0 : 1.0;
+  // Three of the independent pieces went into the fit and make the rest look smoother than the rock is.
+  out->covariance *= (out->dof + 3.0) / out->dof;
 }
 
 void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
@@ -226,6 +228,10 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
   if (solver.info() != Eigen::Success || !(gain >= 0.0) || !(gain <= 1.01 * plane_chi2)) return;
   const double per_patch = static_cast<double>(n) / (out->dof + 3.0);  // correlated patches count for fewer
   out->bends = gain > kBendChi2 * per_patch;
+  Vector6 e = Vector6::Zero();
+  e[5] = 1.0;
+  out->curvature_v = bend[5];
+  out->curvature_v_sigma = std::sqrt(per_patch * solver.solve(e)[5]);
   if (out->bends) out->bend = bend;
 }
 

@@ -31,6 +31,9 @@ struct PatchFit {
   double dof = 0.0;                                          // independent patches less the three parameters
   std::uint32_t patches = 0;
   bool bends = false;  // a quadratic surface fits significantly better
+  // Curvature along v (half the second derivative, 1/m) and its standard deviation, whether significant or not.
+  double curvature_v = 0.0;
+  double curvature_v_sigma = 0.0;
   // Quadratic minus plane, as coefficients of 1, u, v, uu, uv, vv. Zero unless bends.
   Eigen::Matrix<double, 6, 1> bend = Eigen::Matrix<double, 6, 1>::Zero();
 

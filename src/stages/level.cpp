@@ -7,10 +7,15 @@
 
 namespace pose_wall {
 
-LevelResult level_by(const Plane& floor_base) {
+LevelResult level_by(const Plane& floor_base, const Axes& axes) {
   const RollPitch angles = roll_pitch_of_up(floor_base.n);
-  // R_level takes the normal to +Z, so the floor lies level at z = -d.
-  return {level_rotation(floor_base.n), angles.roll_rad, angles.pitch_rad, -floor_base.d};
+  LevelResult level;
+  level.R_level_base = level_rotation(floor_base.n);
+  level.roll_rad = angles.roll_rad;
+  level.pitch_rad = angles.pitch_rad;
+  level.forward_up = (level.R_level_base * axes.forward_base).z();
+  level.floor_z_level_m = -floor_base.d;  // R_level takes the normal to +Z
+  return level;
 }
 
 void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,

@@ -11,7 +11,7 @@
 
 namespace pose_wall {
 
-LevelResult level_by(const Plane& floor_base);
+LevelResult level_by(const Plane& floor_base, const Axes& axes);
 
 // Levelled points between wall_z_min and wall_z_max above the floor, averaged once more.
 void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,

@@ -16,8 +16,10 @@ constexpr std::uint32_t kWeakWall = POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WAL
 // Walls that differ by more than this many standard deviations are not parallel: the road has no one direction.
 constexpr double kSplayInSigmas = 3.0;
 // No part of the chain is better known than this.
-constexpr double kSigmaMinAngle_rad = 5e-5;
-constexpr double kSigmaMinDistance_m = 5e-4;
+constexpr double kSigmaMinAngle_rad = 1e-5;
+constexpr double kSigmaMinDistance_m = 1e-4;
+// Ribs move a wall to one side by a bounded amount: two of their standard deviations, not five.
+constexpr double kLayerFactor = 2.0;
 
 double with_floor(double sigma, double least) {
   return std::sqrt(sigma * sigma + least * least);
@@ -52,7 +54,8 @@ void measure_distances(const WallResult& wall, const Settings& s, Measurement* f
     Measurement& m = *ends[end];
     if (!wall.fit.refused) {
       m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m),
-                      wall.distance_bound_m[end], wall.dof, s);
+                      wall.distance_bound_m[end] + kLayerFactor * wall.layer_sigma_m, wall.dof, s);
+      m.sigma = with_floor(m.sigma, wall.layer_sigma_m);
       if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
     }
     m.reasons |= wall.fit.reasons;
@@ -60,29 +63,45 @@ void measure_distances(const WallResult& wall, const Settings& s, Measurement* f
   }
 }
 
-// A leaning wall seen by a floor that is off by a little: the tilt turns part of the lean into yaw.
-double yaw_sigma_of(const WallResult& wall, const FloorResult& floor) {
-  const double tilt = floor.roll_sigma_rad > floor.pitch_sigma_rad ? floor.roll_sigma_rad : floor.pitch_sigma_rad;
-  const double by_lean = tilt * sine(wall.lean_rad) / cosine(wall.lean_rad);
-  return with_floor(std::sqrt(wall.yaw_sigma_rad * wall.yaw_sigma_rad + by_lean * by_lean), kSigmaMinAngle_rad);
+// How much of an error of the floor turns into yaw: a leaning wall, or a machine that looks up or down, turns part of a
+// tilt about the road into a turn about the vertical.
+double tilt_to_yaw(const WallResult& wall, const LevelResult& level) {
+  const double lean = sine(wall.lean_rad) / cosine(wall.lean_rad);
+  const double up = level.forward_up;
+  return std::fabs(lean) + std::fabs(up) / std::sqrt(1.0 - up * up);
 }
 
-Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const Settings& s) {
+double larger(double a, double b) {
+  return a > b ? a : b;
+}
+
+double yaw_sigma_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
+  const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_to_yaw(wall, level);
+  return with_floor(with_floor(wall.yaw_sigma_rad, tilt), kSigmaMinAngle_rad);
+}
+
+double yaw_bound_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
+  return wall.yaw_bound_rad + larger(floor.roll_bound_rad, floor.pitch_bound_rad) * tilt_to_yaw(wall, level);
+}
+
+Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const LevelResult& level, const Settings& s) {
   const double bias = s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
-  return measurement(wall.yaw_rad, yaw_sigma_of(wall, floor), wall.yaw_bound_rad + bias, wall.dof, s);
+  return measurement(wall.yaw_rad, yaw_sigma_of(wall, floor, level), yaw_bound_of(wall, floor, level) + bias, wall.dof,
+                     s);
 }
 
 // Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
 // in the mean as far as the weights are alike; the signed responses say how far.
-Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const Settings& s) {
-  const double sigma[2] = {yaw_sigma_of(walls[0], floor), yaw_sigma_of(walls[1], floor)};
+Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const LevelResult& level,
+                        const Settings& s) {
+  const double sigma[2] = {yaw_sigma_of(walls[0], floor, level), yaw_sigma_of(walls[1], floor, level)};
   const double information[2] = {1.0 / (sigma[0] * sigma[0]), 1.0 / (sigma[1] * sigma[1])};
   const double sum = information[0] + information[1];
   const double w[2] = {information[0] / sum, information[1] / sum};
   const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
   const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
   double bound = s.range_bias_max * std::fabs(bias);
-  bound += w[0] * walls[0].yaw_bound_rad + w[1] * walls[1].yaw_bound_rad;
+  bound += w[0] * yaw_bound_of(walls[0], floor, level) + w[1] * yaw_bound_of(walls[1], floor, level);
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double expected = kSplayInSigmas * std::sqrt(sigma[0] * sigma[0] + sigma[1] * sigma[1]) + biased_apart;
@@ -91,13 +110,14 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   return measurement(raw, std::sqrt(1.0 / sum), bound, dof, s);
 }
 
-Measurement measure_yaw(const FloorResult& floor, const WallResult (&walls)[2], const Settings& s) {
+Measurement measure_yaw(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],
+                        const Settings& s) {
   const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
   Measurement m;
   if (left && right) {
-    m = yaw_by_both(walls, floor, s);
+    m = yaw_by_both(walls, floor, level, s);
   } else if (left || right) {
-    m = yaw_by_one(walls[left ? 0 : 1], floor, s);
+    m = yaw_by_one(walls[left ? 0 : 1], floor, level, s);
   }
   std::uint32_t doubts = 0;
   for (const WallResult& wall : walls) {
@@ -127,7 +147,7 @@ Measurements measure_quantities(const FloorResult& floor, const LevelResult& lev
   Measurements out;
   Measurement* const q = out.quantity;
   measure_floor(floor, level, settings, &q[POSE_WALL_ROLL], &q[POSE_WALL_PITCH]);
-  q[POSE_WALL_YAW] = measure_yaw(floor, walls, settings);
+  q[POSE_WALL_YAW] = measure_yaw(floor, level, walls, settings);
   measure_distances(walls[0], settings, &q[POSE_WALL_D_LF], &q[POSE_WALL_D_LB]);
   measure_distances(walls[1], settings, &q[POSE_WALL_D_RF], &q[POSE_WALL_D_RB]);
   out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;

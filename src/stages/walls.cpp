@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
+#include "stages/walls_measure.hpp"
 #include "stages/walls_parallel.hpp"
 #include "stages/walls_select.hpp"
 
@@ -16,11 +17,6 @@ namespace {
 constexpr double kSeenThroughMax = 0.5;
 constexpr double kSeenThroughDoubt = 0.25;
 constexpr double kRefineSlack_deg = 5.0;
-
-void mark(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along, WallGrid* grid) {
-  grid->mark(scene.band_level, plane, along, scene.z_min_level_m, scene.z_max_level_m, scene.sensor_level_m,
-             scene.settings.wall_ransac_thresh);
-}
 
 std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
   std::uint32_t faults = 0;
@@ -38,12 +34,12 @@ void weigh(const WallScene& scene, const SideView& view, WallSearch* search, Wal
   out->count = 0;
   for (std::uint32_t k = 0; k < search->list().count(); ++k) {
     Plane plane = search->list()[k].plane;
-    if (!refine_hypothesis(scene, view, &scratch->fit, &plane)) continue;
+    if (!refine_hypothesis(scene, view.along_level, &scratch->fit, &plane)) continue;
     if (!may_be_wall(plane, view, radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < out->count; ++j) repeats = repeats || same(out->item[j].plane, plane);
     if (repeats) continue;
-    mark(scene, plane, along_of(plane, view.along_level), &scratch->grid);
+    mark_wall(scene, plane, along_of(plane, view.along_level), MarkWidth::kThreshold, &scratch->grid);
     const WallEvidence evidence = scratch->grid.evidence();
     out->item[out->count++] = {plane, evidence, faults_of(plane, evidence, scene.settings)};
   }
@@ -80,8 +76,8 @@ void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallRe
 
 WallResult measure(const WallScene& scene, const WallChoice& choice, int side, WallsScratch* scratch) {
   const WallCandidate& chosen = *choice.side[side];
-  mark(scene, chosen.plane, along_of(chosen.plane, scene.forward_level), &scratch->grid);
-  WallResult wall = fit_wall(scene, chosen.plane, side, scratch->grid, &scratch->fit);
+  const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
+  WallResult wall = measure_wall(scene, surface, side, scratch->grid);
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
   wall.along_max_m = chosen.evidence.along_max_m;
@@ -104,26 +100,6 @@ void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   for (WallSearch& s : search) s.lay_out(arena, points_max);
   grid.lay_out(arena);
   fit.lay_out(arena, points_max);
-}
-
-WallScene wall_scene(const PointSet& band_level, const Settings& settings, const LevelResult& level, const Axes& axes,
-                     const Eigen::Vector3d& sensor_base_m) {
-  const Eigen::Matrix3d& R = level.R_level_base;
-  Eigen::Vector3d forward = R * axes.forward_base;
-  forward.z() = 0.0;
-  forward.normalize();
-  WallScene scene{band_level,        settings, forward, Eigen::Vector3d::UnitZ().cross(forward),
-                  R * sensor_base_m, {},       0.0,     0.0};
-  const double offsets_m[2] = {settings.lateral_offset_left, settings.lateral_offset_right};
-  const double along_m[2] = {settings.s_front, settings.s_back};
-  for (int side = 0; side < 2; ++side) {
-    for (int end = 0; end < 2; ++end) {
-      scene.sample_level_m[side][end] = R * (along_m[end] * axes.forward_base + offsets_m[side] * axes.left_base);
-    }
-  }
-  scene.z_min_level_m = level.floor_z_level_m + settings.wall_z_min;
-  scene.z_max_level_m = level.floor_z_level_m + settings.wall_z_max;
-  return scene;
 }
 
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {

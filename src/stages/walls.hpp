@@ -6,7 +6,8 @@
 #pragma once
 
 #include "math/random.hpp"
-#include "stages/walls_fit.hpp"
+#include "stages/walls_search.hpp"
+#include "stages/walls_surface.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
@@ -25,9 +26,5 @@ struct WallsResult {
 
 // last: the planes of the last frame by side, or nullptr; scored like any other hypothesis.
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch);
-
-// The scene of a levelled machine: axes, sensor and sampling points turned by R_level.
-WallScene wall_scene(const PointSet& band_level, const Settings& settings, const LevelResult& level, const Axes& axes,
-                     const Eigen::Vector3d& sensor_base_m);
 
 }  // namespace pose_wall

@@ -9,8 +9,6 @@ namespace pose_wall {
 namespace {
 
 constexpr double kRow_m = 0.3;
-// Points this far behind the plane passed through it. Below, they are the rock's own roughness.
-constexpr double kBehindInThresholds = 3.0;
 
 void count_up(std::uint16_t* counter) {
   if (*counter != 0xFFFF) ++*counter;
@@ -40,7 +38,7 @@ bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) co
 }
 
 void WallGrid::mark(const PointSet& band_level, const Plane& wall, const Eigen::Vector3d& along_level, double z_min_m,
-                    double z_max_m, const Eigen::Vector3d& sensor_level_m, double thresh_m) {
+                    double z_max_m, const Eigen::Vector3d& sensor_level_m, const Reach& reach) {
   hits_.fill(0);
   through_.fill(0);
   inliers_ = 0.0;
@@ -48,15 +46,14 @@ void WallGrid::mark(const PointSet& band_level, const Plane& wall, const Eigen::
   row_m_ = (z_max_m - z_min_m) / kRowsMax > kRow_m ? (z_max_m - z_min_m) / kRowsMax : kRow_m;
   rows_ = static_cast<std::uint32_t>(std::ceil((z_max_m - z_min_m) / row_m_ - 1e-9));
   const double sensor_inside_m = wall.signed_distance(sensor_level_m);
-  const double behind_m = kBehindInThresholds * thresh_m;
   for (std::uint32_t i = 0; i < band_level.count; ++i) {
     const Eigen::Vector3d p = band_level.at(i);
     const double r = wall.signed_distance(p);
     std::uint32_t cell = 0;
-    if (r >= -thresh_m && r <= thresh_m) {
+    if (r >= -reach.hit_m && r <= reach.hit_m) {
       inliers_ += static_cast<double>(band_level.weight[i]);
       if (cell_of(along_level.dot(p), p.z(), &cell)) count_up(&hits_[cell]);
-    } else if (r < -behind_m && sensor_inside_m > 0.0) {
+    } else if (r < -reach.behind_m && sensor_inside_m > 0.0) {
       const Eigen::Vector3d crossing =
           sensor_level_m + (p - sensor_level_m) * (sensor_inside_m / (sensor_inside_m - r));
       if (cell_of(along_level.dot(crossing), crossing.z(), &cell)) count_up(&through_[cell]);

@@ -36,9 +36,14 @@ class WallGrid {
 
   void lay_out(Arena& arena);
 
-  // z_min_m, z_max_m: the wall band in the levelled frame. along: horizontal, in the plane's direction.
+  // z_min_m, z_max_m: the wall band in the levelled frame. along: horizontal, in the plane's direction. Points within
+  // hit_m of the plane make it solid, rays that end more than behind_m behind it pass through it.
+  struct Reach {
+    double hit_m;
+    double behind_m;
+  };
   void mark(const PointSet& band_level, const Plane& wall, const Eigen::Vector3d& along_level, double z_min_m,
-            double z_max_m, const Eigen::Vector3d& sensor_level_m, double thresh_m);
+            double z_max_m, const Eigen::Vector3d& sensor_level_m, const Reach& reach);
   WallEvidence evidence() const;
 
   // Distance along the road from a place to the nearest solid column; large where there is none.

@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include "stages/walls_fit.hpp"
+#include "stages/walls_scene.hpp"
 #include "types.hpp"
 
 namespace pose_wall {

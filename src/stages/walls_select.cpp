@@ -37,22 +37,26 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parall
   return best;
 }
 
-const WallCandidate* best_single(const WallCandidates& list) {
+const WallCandidate* best_single(const WallCandidates& list, double length_min_m) {
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
-    if (c.faults == 0 && (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2)) best = &c;
+    if (c.faults != 0 || !(c.evidence.length_m >= length_min_m)) continue;
+    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
 }
 
 // Why a side has no wall: the gates that its best plane fails.
-std::uint32_t faults_of(const WallCandidates& list) {
+std::uint32_t faults_of(const WallCandidates& list, double length_min_m) {
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     if (best == nullptr || list.item[i].evidence.score_m2 > best->evidence.score_m2) best = &list.item[i];
   }
-  return POSE_WALL_R_WALL_NOT_FOUND | (best != nullptr ? best->faults : 0U);
+  if (best == nullptr) return POSE_WALL_R_WALL_NOT_FOUND;
+  std::uint32_t reasons = POSE_WALL_R_WALL_NOT_FOUND | best->faults;
+  if (!(best->evidence.length_m >= length_min_m)) reasons |= POSE_WALL_R_WALL_SHORT;
+  return reasons;
 }
 
 const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate* chosen) {
@@ -73,8 +77,8 @@ void refuse_both(std::uint32_t reason, WallChoice* out) {
 }
 
 // No parallel pair: one wall alone, unless the other side's plane casts doubt on it.
-void choose_single(const WallCandidates* const lists[2], WallChoice* out) {
-  const WallCandidate* best[2] = {best_single(*lists[0]), best_single(*lists[1])};
+void choose_single(const WallCandidates* const lists[2], double length_min_m, WallChoice* out) {
+  const WallCandidate* best[2] = {best_single(*lists[0], length_min_m), best_single(*lists[1], length_min_m)};
   if (best[0] != nullptr && best[1] != nullptr) {
     const double a = best[0]->evidence.score_m2, b = best[1]->evidence.score_m2;
     const int weaker = a < b ? 0 : 1;
@@ -102,7 +106,7 @@ bool stands_across(const WallChoice& sides, double sides_score, const WallCandid
   const WallCandidates a = across(ahead), b = across(behind);
   if (best_pair(a, b, s.wall_parallel_cos).score > sides_score) return true;
   if (sides.side[0] != nullptr && sides.side[1] != nullptr) return false;
-  for (const WallCandidate* lone : {best_single(a), best_single(b)}) {
+  for (const WallCandidate* lone : {best_single(a, s.wall_length_min), best_single(b, s.wall_length_min)}) {
     if (lone != nullptr && lone->evidence.score_m2 > kLoneCrossShare * sides_score) return true;
   }
   return false;
@@ -120,12 +124,12 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
     out.side[0] = pair.a;
     out.side[1] = pair.b;
   } else {
-    choose_single(lists, &out);
+    choose_single(lists, settings.wall_alone_length_min, &out);
     for (const WallCandidate* c : out.side) score += c != nullptr ? c->evidence.score_m2 : 0.0;
   }
   for (int side = 0; side < 2; ++side) {
     if (out.side[side] == nullptr) {
-      if (!out.refused[side]) out.reasons[side] |= faults_of(*lists[side]);
+      if (!out.refused[side]) out.reasons[side] |= faults_of(*lists[side], settings.wall_alone_length_min);
       out.refused[side] = true;
     } else {
       out.rival[side] = rival_of(*lists[side], out.side[side]);

@@ -6,7 +6,8 @@
 #pragma once
 
 #include "stages/walls_evidence.hpp"
-#include "stages/walls_fit.hpp"
+#include "stages/walls_scene.hpp"
+#include "stages/walls_search.hpp"
 #include "types.hpp"
 
 namespace pose_wall {

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// A chosen wall, refined, and what it says of yaw and distances.
+// Where the walls are looked at from, and how a plane is read as a wall.
 
 #pragma once
 
+#include <Eigen/Core>
+
 #include "config.hpp"
-#include "estimation/patch_fit.hpp"
-#include "stages/walls_evidence.hpp"
-#include "stages/walls_search.hpp"
+#include "containers/point_set.hpp"
+#include "estimation/plane.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
 
-// Where the walls are looked at from: the levelled machine.
+// The levelled machine in the wall band.
 struct WallScene {
   const PointSet& band_level;
   const Settings& settings;
@@ -25,13 +26,8 @@ struct WallScene {
   double z_max_level_m;
 };
 
-struct WallFitScratch {
-  Span<std::uint32_t> chosen;
-  Span<float> residuals;
-  PatchGrid patches;
-
-  void lay_out(Arena& arena, std::uint32_t points_max);
-};
+WallScene wall_scene(const PointSet& band_level, const Settings& settings, const LevelResult& level, const Axes& axes,
+                     const Eigen::Vector3d& sensor_base_m);
 
 // Horizontal direction of a wall, towards the machine's front.
 Eigen::Vector3d along_of(const Plane& wall, const Eigen::Vector3d& forward_level);
@@ -44,12 +40,5 @@ double lean_of(const Plane& wall);
 
 // Distance of the plane at a sampling point (d = |n . P + d|).
 double distance_at(const Plane& wall, const Eigen::Vector3d& sample_level_m);
-
-// A few rounds of Tukey from a drawn hypothesis, its lean set free. False where nothing holds it.
-bool refine_hypothesis(const WallScene& scene, const SideView& view, WallFitScratch* scratch, Plane* plane);
-
-// The full fit. grid: marked with the plane already. side: 0 left, 1 right.
-WallResult fit_wall(const WallScene& scene, const Plane& start, int side, const WallGrid& grid,
-                    WallFitScratch* scratch);
 
 }  // namespace pose_wall

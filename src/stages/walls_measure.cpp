@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_measure.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr double kExtrapolated_m = 0.75;
+
+void count_inliers(const WallScene& scene, Span<const std::uint32_t> chosen, PlaneFit* fit) {
+  const double thresh_m = scene.settings.wall_ransac_thresh;
+  double squares = 0.0, measured = 0.0, voxels = 0.0;
+  for (const std::uint32_t i : chosen) {
+    const double r = fit->plane.signed_distance(scene.band_level.at(i));
+    if (!(r >= -thresh_m && r <= thresh_m)) continue;
+    squares += r * r;
+    voxels += 1.0;
+    measured += static_cast<double>(scene.band_level.weight[i]);
+  }
+  fit->inliers = static_cast<std::uint32_t>(measured);
+  fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
+}
+
+// Turning the plane by its slope along u turns the yaw by as much; the sign follows from which way u points.
+void set_yaw(const WallScene& scene, const PatchFit& patch, const TangentFrame& f, WallResult* out) {
+  const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(out->fit.plane.n);
+  const double sign = turned.dot(f.u) > 0.0 ? 1.0 : -1.0;
+  out->yaw_rad = yaw_of(out->along_level, scene.forward_level);
+  out->yaw_sigma_rad = std::sqrt(patch.covariance(1, 1));
+  out->yaw_bias_rad_per_m = -sign * patch.bias_response[1];
+  out->yaw_bound_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
+}
+
+// Where the wall was cut off below or above a sampling point, the plane is prolonged to it; this is how far the surface
+// seen at that height lies from the plane.
+double offset_at_height(const WallScene& scene, const Plane& plane, double z_level_m) {
+  constexpr double kWindow_m = 0.3;
+  constexpr double kGate_m = 0.4;
+  double sum = 0.0, count = 0.0;
+  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
+    const double r = plane.signed_distance(p);
+    if (!(std::fabs(p.z() - z_level_m) <= kWindow_m) || !(std::fabs(r) <= kGate_m)) continue;
+    sum += r;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::fabs(sum / count) : kGate_m;
+}
+
+// A histogram of distances and the first at which enough have come together.
+class Distances {
+ public:
+  void add(double distance_m) {
+    if (!(distance_m >= 0.0 && distance_m < kBins * kBin_m)) return;
+    ++bins_[static_cast<std::uint32_t>(distance_m / kBin_m)];
+    ++count_;
+  }
+  std::uint32_t count() const { return count_; }
+  // The distance that `rank` of them do not exceed.
+  double at_rank(std::uint32_t rank) const {
+    std::uint32_t below = 0, b = 0;
+    while (b + 1 < kBins && below + bins_[b] < rank) below += bins_[b++];
+    return (static_cast<double>(b) + 0.5) * kBin_m;
+  }
+
+ private:
+  static constexpr std::uint32_t kBins = 200;
+  static constexpr double kBin_m = 0.05;
+  std::uint32_t bins_[kBins] = {};
+  std::uint32_t count_ = 0;
+};
+
+// These distances are read off few points of surfaces nobody fitted.
+double with_margin(double other_m) {
+  return other_m > 0.0 ? 1.25 * other_m + 0.05 : 0.0;
+}
+
+constexpr std::uint32_t kOtherPointsMin = 10;
+constexpr double kOff_m = 0.1;
+
+// Where the wall is not seen near a sampling point because something stands before it from top to bottom, that may be
+// the wall itself, standing out: by how much it is nearer to the sampling point than the plane. 0 where nothing is.
+double stands_out_at(const WallScene& scene, const WallGrid& grid, const WallResult& wall,
+                     const Eigen::Vector3d& sample_level_m, double distance_m) {
+  constexpr double kWindow_m = 2.0;
+  const double along_m = wall.along_level.dot(sample_level_m);
+  const double to_machine_m = wall.fit.plane.signed_distance(sample_level_m);
+  Distances nearer;
+  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
+    const double r = wall.fit.plane.signed_distance(p), beside_m = wall.along_level.dot(p) - along_m;
+    if (!(r >= kOff_m && r <= to_machine_m - kOff_m) || !(std::fabs(beside_m) <= kWindow_m)) continue;
+    const double lateral_m = to_machine_m - r;
+    const double away_m = std::sqrt(lateral_m * lateral_m + beside_m * beside_m);
+    if (away_m < distance_m && grid.gap_to_solid_m(along_m + beside_m) > 0.0) nearer.add(away_m);
+  }
+  return nearer.count() >= kOtherPointsMin ? distance_m - nearer.at_rank(kOtherPointsMin) : 0.0;
+}
+
+// Where the plane is open at a sampling point, how far behind it the view ends: the wall steps back there, or a road
+// branches off. 0 where it is not open.
+double steps_back_at(const WallScene& scene, const WallResult& wall, const Eigen::Vector3d& sample_level_m) {
+  constexpr double kWindow_m = 0.5;
+  const double along_m = wall.along_level.dot(sample_level_m);
+  Distances behind;
+  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
+    const double r = wall.fit.plane.signed_distance(p);
+    if (r < -kOff_m && std::fabs(wall.along_level.dot(p) - along_m) <= kWindow_m) behind.add(-r);
+  }
+  return behind.count() >= kOtherPointsMin ? behind.at_rank(behind.count() / 2) : 0.0;
+}
+
+// Solid at the sampling point and a little to both sides of it.
+bool solid_around(const WallGrid& grid, double along_m) {
+  constexpr double kBeside_m = 0.3;
+  return !(grid.gap_to_solid_m(along_m - kBeside_m) > 0.0) && !(grid.gap_to_solid_m(along_m + kBeside_m) > 0.0);
+}
+
+void set_distances(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
+                   WallResult* out) {
+  const TangentFrame& f = surface.frame;
+  const PatchFit& patch = surface.patch;
+  for (int end = 0; end < 2; ++end) {
+    const Eigen::Vector3d& sample = scene.sample_level_m[side][end];
+    const double u = f.u.dot(sample - f.origin), v = f.v.dot(sample - f.origin);
+    const double bias = patch.bias_response[0] + patch.bias_response[1] * u + patch.bias_response[2] * v;
+    out->distance_m[end] = distance_at(out->fit.plane, sample);
+    out->distance_sigma_m[end] = std::sqrt(patch.variance_at(u, v));
+    double& bound = out->distance_bound_m[end];
+    bound = scene.settings.range_bias_max * std::fabs(bias) + std::fabs(patch.bend_at(u, v));
+    const bool in_band = sample.z() >= scene.z_min_level_m && sample.z() <= scene.z_max_level_m;
+    if (in_band && !surface.heights.contain(sample.z())) {
+      bound += offset_at_height(scene, out->fit.plane, sample.z());
+    }
+    const double along_m = out->along_level.dot(sample);
+    const double out_m = stands_out_at(scene, grid, *out, sample, out->distance_m[end]);
+    const double back_m = solid_around(grid, along_m) ? 0.0 : steps_back_at(scene, *out, sample);
+    out->extrapolated[end] = out_m > 0.0 || back_m > 0.0 || grid.gap_to_solid_m(along_m) > kExtrapolated_m;
+    bound += with_margin(out_m) + with_margin(back_m);
+  }
+}
+
+}  // namespace
+
+WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid) {
+  WallResult out;
+  const PatchFit& patch = surface.patch;
+  if (!patch.solved) {
+    out.fit.refused = true;
+    out.fit.reasons = POSE_WALL_R_WALL_SHORT;
+    return out;
+  }
+  out.fit.found = true;
+  out.fit.plane = corrected(surface.irls.plane, surface.frame, patch.correction);
+  out.along_level = along_of(out.fit.plane, scene.forward_level);
+  out.lean_rad = lean_of(out.fit.plane);
+  out.dof = patch.dof;
+  out.layer_sigma_m = surface.layer_sigma_m;
+  if (patch.bends) out.fit.reasons |= POSE_WALL_R_CURVED;
+  count_inliers(scene, surface.chosen, &out.fit);
+  set_yaw(scene, patch, surface.frame, &out);
+  // Where offset and slope are uncorrelated.
+  out.pivot_level_m = surface.frame.origin - surface.frame.u * (patch.covariance(0, 1) / patch.covariance(1, 1));
+  set_distances(scene, surface, side, grid, &out);
+  return out;
+}
+
+}  // namespace pose_wall

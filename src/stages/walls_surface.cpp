@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_surface.hpp"
+
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr double kScaleMin_m = 0.003;
+constexpr double kFirstGateInThresholds = 5.0;  // wide enough to see the lean of a wall cut by a vertical hypothesis
+// wide enough to see the lean of a wall cut by a vertical hypothesis
+constexpr double kGateInThresholds = 4.0;
+// Points this far behind a plane passed through it. Below, they are the rock's own roughness.
+constexpr double kBehindInThresholds = 3.0;
+// What the split into two layers may leave of the nearer one in the surface, of its share times its step; measured on
+// simulated steel sets.
+constexpr double kLayerLeftOver = 0.5;
+constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
+// rough rock: the scale follows the rock
+constexpr double kPatch_m = 0.5;
+constexpr double kCut_m = 0.25;
+constexpr double kSpanMin_m = 0.9;
+constexpr double kCurvatureInSigmas = 3.5;
+constexpr double kBulgeMin_m = 0.04;
+constexpr int kCutsMax = 6;
+constexpr int kQuickRounds = 3;
+constexpr int kRounds = 8;
+
+IrlsSettings fit_settings(const Settings& s) {
+  const double thresh_m = s.wall_ransac_thresh;
+  return {kGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds};
+}
+
+void fill_patches(const WallScene& scene, const WallSurface& surface, PatchGrid* patches) {
+  const TangentFrame& f = surface.frame;
+  const Span<const std::uint32_t> chosen = surface.chosen;
+  double u_min = 0.0, u_max = 0.0, v_min = 0.0, v_max = 0.0;
+  for (const std::uint32_t i : chosen) {
+    const Eigen::Vector3d q = scene.band_level.at(i) - f.origin;
+    const double u = f.u.dot(q), v = f.v.dot(q);
+    u_min = u < u_min ? u : u_min;
+    u_max = u > u_max ? u : u_max;
+    v_min = v < v_min ? v : v_min;
+    v_max = v > v_max ? v : v_max;
+  }
+  patches->begin(u_min, u_max, v_min, v_max, kPatch_m);
+  for (const std::uint32_t i : chosen) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
+    const double r = surface.irls.plane.signed_distance(p);
+    const double w = surface.weight(r) * static_cast<double>(scene.band_level.weight[i]);
+    if (!(w > 1e-6)) continue;
+    const Eigen::Vector3d ray = (p - scene.sensor_level_m).normalized();
+    const Eigen::Vector3d q = p - f.origin;
+    patches->add(f.u.dot(q), f.v.dot(q), r, w, ray.dot(surface.irls.plane.n));
+  }
+}
+
+// Ribs and cables stand out of the rock by more than its roughness: once they are told apart, the fit is repeated on
+// the rock alone.
+void split_layers(const WallScene& scene, const Eigen::Vector3d& along, WallFitScratch* scratch, WallSurface* fit) {
+  const IrlsSettings settings = fit_settings(scene.settings);
+  const Span<float> residuals = scratch->residuals.first(fit->chosen.size());
+  signed_distances(scene.band_level, fit->chosen, fit->irls.plane, residuals);
+  TwoLayers layers = find_two_layers(residuals, settings.gate_m, settings.scale_min_m);
+  if (!layers.found) {
+    const double lean_m = lean_towards_sensor(residuals, settings.gate_m);
+    fit->layer_sigma_m = lean_m > 0.0 ? lean_m : 0.0;
+    return;
+  }
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < fit->chosen.size(); ++k) {
+    if (layers.surface_probability(static_cast<double>(residuals[k])) >= 0.5) scratch->chosen[count++] = fit->chosen[k];
+  }
+  fit->chosen = fit->chosen.first(count);
+  Plane start = fit->irls.plane;
+  start.d -= layers.centre_m;
+  fit->irls = irls_tukey(scene.band_level, fit->chosen, start, along, settings, scratch->residuals);
+  layers.centre_m = 0.0;  // by the new plane
+  fit->layers = layers;
+  fit->layer_sigma_m = kLayerLeftOver * layers.share * layers.step_m;
+}
+
+WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
+                        const Heights& heights, const WallGrid& grid, WallFitScratch* scratch) {
+  const IrlsSettings settings = fit_settings(scene.settings);
+  WallSurface fit;
+  fit.heights = heights;
+  // Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
+  const Span<const std::uint32_t> near = points_near(scene.band_level, start, settings.gate_m, scratch->chosen);
+  std::uint32_t count = 0;
+  for (const std::uint32_t i : near) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
+    if (heights.contain(p.z()) && grid.solid_at(along.dot(p), p.z())) scratch->chosen[count++] = i;
+  }
+  fit.chosen = near.first(count);
+  fit.irls = irls_tukey(scene.band_level, fit.chosen, start, along, settings, scratch->residuals);
+  if (!fit.irls.solved) return fit;
+  split_layers(scene, along, scratch, &fit);
+  fit.frame = tangent_frame(fit.irls.plane, Eigen::Vector3d::Zero(), along);
+  if (!fit.irls.solved) return fit;
+  fill_patches(scene, fit, &scratch->patches);
+  fit.patch = scratch->patches.fit();
+  return fit;
+}
+
+// Mean distance from the plane, positive towards the machine, of the points between two heights.
+double mean_residual(const WallScene& scene, const WallSurface& fit, const Heights& heights) {
+  double sum = 0.0, weight = 0.0;
+  for (const std::uint32_t i : fit.chosen) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
+    if (!heights.contain(p.z())) continue;
+    const double r = fit.irls.plane.signed_distance(p);
+    const double w = fit.weight(r);
+    sum += w * r;
+    weight += w;
+  }
+  return weight > 0.0 ? sum / weight : 0.0;
+}
+
+// An arched roof begins within the band, a heap ends in it: where the wall bends towards the machine at its top or its
+// foot, that end is cut off. True where it was, and the fit is to be repeated.
+bool cut_bent_rows(const WallScene& scene, const WallSurface& fit, Heights* heights) {
+  const double span_m = heights->max_m - heights->min_m;
+  if (span_m - kCut_m < kSpanMin_m) return false;
+  const bool significant = fit.patch.curvature_v > kCurvatureInSigmas * fit.patch.curvature_v_sigma;
+  const bool matters = fit.patch.curvature_v * span_m * span_m > kBulgeMin_m;
+  if (!significant || !matters) return false;
+  const double top = mean_residual(scene, fit, {heights->max_m - kCut_m, heights->max_m});
+  const double foot = mean_residual(scene, fit, {heights->min_m, heights->min_m + kCut_m});
+  (top >= foot ? heights->max_m : heights->min_m) += top >= foot ? -kCut_m : kCut_m;
+  return true;
+}
+
+}  // namespace
+
+void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
+  chosen = arena.take<std::uint32_t>(points_max);
+  residuals = arena.take<float>(points_max);
+  patches.lay_out(arena);
+}
+
+Span<const std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m,
+                                      Span<std::uint32_t> out) {
+  const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());
+  const float nz = static_cast<float>(plane.n.z()), d = static_cast<float>(plane.d);
+  const float gate = static_cast<float>(gate_m);
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < points.count; ++i) {
+    const float r = nx * points.x[i] + ny * points.y[i] + nz * points.z[i] + d;
+    if (r >= -gate && r <= gate) out[count++] = i;
+  }
+  return Span<const std::uint32_t>(out.data(), count);
+}
+
+bool refine_hypothesis(const WallScene& scene, const Eigen::Vector3d& along_level, WallFitScratch* scratch,
+                       Plane* plane) {
+  const double thresh_m = scene.settings.wall_ransac_thresh;
+  for (const double gate : {kFirstGateInThresholds * thresh_m, 3.0 * thresh_m}) {
+    const Span<const std::uint32_t> near = points_near(scene.band_level, *plane, gate, scratch->chosen);
+    const IrlsSettings quick{3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds};
+    const IrlsResult refined = irls_tukey(scene.band_level, near, *plane, along_level, quick, scratch->residuals);
+    if (!refined.solved) return false;
+    *plane = refined.plane;
+  }
+  return true;
+}
+
+void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level, MarkWidth width,
+               WallGrid* grid) {
+  const double thresh_m = scene.settings.wall_ransac_thresh;
+  const WallGrid::Reach reach = width == MarkWidth::kThreshold
+                                    ? WallGrid::Reach{thresh_m, kBehindInThresholds * thresh_m}
+                                    : WallGrid::Reach{kGateInThresholds * thresh_m, kGateInThresholds * thresh_m};
+  grid->mark(scene.band_level, plane, along_level, scene.z_min_level_m, scene.z_max_level_m, scene.sensor_level_m,
+             reach);
+}
+
+WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch) {
+  const Eigen::Vector3d along = along_of(start, scene.forward_level);
+  mark_wall(scene, start, along, MarkWidth::kFit, grid);
+  Heights heights{scene.z_min_level_m, scene.z_max_level_m};
+  WallSurface fit;
+  for (int cut = 0; cut <= kCutsMax; ++cut) {
+    fit = fit_between(scene, start, along, heights, *grid, scratch);
+    if (!fit.patch.solved || !cut_bent_rows(scene, fit, &heights)) break;
+  }
+  mark_wall(scene, fit.irls.plane, along, MarkWidth::kThreshold, grid);
+  return fit;
+}
+
+}  // namespace pose_wall
