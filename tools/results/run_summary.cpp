@@ -100,8 +100,8 @@ std::string RunSummary::reasons_text() const {
   std::string text;
   for (const std::uint32_t bit : order) {
     if (reasons_[bit] == 0) break;
-    text +=
-        fmt::format("{:>6} frames: {} ({})\n", reasons_[bit], pose_wall_reason_name(bit), pose_wall_reason_text(bit));
+    text += fmt::format("{:>6} frame{} {} ({})\n", reasons_[bit],
+                        reasons_[bit] == 1 ? ": " : "s:", pose_wall_reason_name(bit), pose_wall_reason_text(bit));
   }
   return text.empty() ? text : "most frequent reasons:\n" + text;
 }

@@ -57,14 +57,15 @@ void print_memory(const LoadedConfig& loaded) {
 // The manual of all keys, under the headings of the table.
 void print_keys() {
   const char* kManualIndent = "    ";
+  const api::Config defaults;
   std::string group;
   for (const pose_wall_key_info& key : config_keys()) {
     if (group != key.group) {
       group = key.group;
       fmt::print("\n{}\n", group);
     }
-    const bool has_default = key.default_text[0] != '\0';
-    fmt::print("  {}\n{}default {}; allowed: {}\n{}", key.name, kManualIndent, has_default ? key.default_text : "none",
+    const std::string value = config_value_text(*defaults.get(), key);
+    fmt::print("  {}\n{}default {}; allowed: {}\n{}", key.name, kManualIndent, value.empty() ? "none" : value,
                allowed_text(key), wrapped(key.help, 4, 100));
   }
 }
