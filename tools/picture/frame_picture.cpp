@@ -54,7 +54,7 @@ void draw_legend(Svg& svg, const Box& box) {
   for (const uint32_t state : {POSE_WALL_VALID, POSE_WALL_DEGRADED, POSE_WALL_HELD, POSE_WALL_INVALID}) {
     entry(state_colour(state), pose_wall_state_name(state), 98.0);
   }
-  svg.text({box.right(), y}, "thick: supported by points, dotted: prolonged. ± is the protection level",
+  svg.text({box.right(), y}, "thick: from first to last inlier, dotted: prolonged. ± is the protection level",
            {kFaintInk, 12.0, Anchor::kEnd});
 }
 

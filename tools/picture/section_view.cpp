@@ -50,7 +50,8 @@ void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const po
   svg.line(at(band_up_m.low), at(band_up_m.high), {colour, 3.6});
   const Pixel top = at(band_up_m.high);
   const bool left = wall.left_at(0.0, 0.0) > 0.0;
-  svg.text({top.x + (left ? 12.0 : -12.0), top.y - 8.0}, fmt::format("lean {:+.1f}°", plane.lean_rad * kDegrees),
+  const double lean_deg = std::round(plane.lean_rad * kDegrees * 10.0) / 10.0 + 0.0;  // + 0.0: never "-0.0"
+  svg.text({top.x + (left ? 12.0 : -12.0), top.y - 8.0}, fmt::format("lean {:+.1f}°", lean_deg),
            {colour, 12.5, left ? Anchor::kStart : Anchor::kEnd, true, kPanel});
 }
 
