@@ -3,12 +3,11 @@
 
 #include "containers/voxel_grid.hpp"
 
-#include <cmath>
-
 namespace pose_wall {
 namespace {
 
 constexpr double kStepsPerMetre = 16384.0;
+constexpr double kOriginSteps = 8388608.0;  // 512 m
 
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E3779B97F4A7C15ULL;
@@ -32,9 +31,10 @@ void VoxelGrid::begin(double leaf_m) {
 }
 
 VoxelGrid::Cell VoxelGrid::cell_of(double coordinate_m) const {
-  const double steps = std::floor(coordinate_m * kStepsPerMetre + 0.5);
-  std::int32_t index = static_cast<std::int32_t>(std::floor(steps * cells_per_step_));
-  std::int32_t offset = static_cast<std::int32_t>(steps) - index * leaf_steps_;
+  // Counted from far below every coordinate, so that cutting off the fraction rounds down: no call to floor().
+  const std::int32_t steps = static_cast<std::int32_t>(coordinate_m * kStepsPerMetre + (kOriginSteps + 0.5));
+  std::int32_t index = static_cast<std::int32_t>(static_cast<double>(steps) * cells_per_step_);
+  std::int32_t offset = steps - index * leaf_steps_;
   // The product may round to the wrong side of a cell's border; whole numbers put it right.
   if (offset < 0) {
     --index;
@@ -63,7 +63,7 @@ bool VoxelGrid::add(double x_m, double y_m, double z_m, std::uint32_t weight_six
 
 double VoxelGrid::centroid(std::uint64_t sum, std::uint64_t weight, std::int32_t cell) const {
   const double within = static_cast<double>(sum) / static_cast<double>(weight);
-  return (static_cast<double>(cell) * static_cast<double>(leaf_steps_) + within) / kStepsPerMetre;
+  return (static_cast<double>(cell) * static_cast<double>(leaf_steps_) + within - kOriginSteps) / kStepsPerMetre;
 }
 
 void VoxelGrid::extract(PointSet* out) {

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kRadiusGrowth = 1.5;
 constexpr int kRadiusSteps = 10;
+constexpr std::uint32_t kQuickPointsMax = 2000;
 constexpr std::uint32_t kCandidatesMin = 60;
 constexpr double kAreaMin_m2 = 1.0;
 constexpr double kAcrossSpreadMin_m = 0.2;
@@ -72,10 +73,13 @@ std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const 
                     const Eigen::Vector3d& sensor, FloorShortlist* list, GroundScratch* scratch,
                     Candidate (&out)[kFloorShortlist]) {
   const IrlsSettings quick{2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2};
+  // The low points have done their work; their room holds a part of all, enough to refine a hypothesis.
+  for (std::uint32_t i = 0; i < all.size(); ++i) scratch->low[i] = all[i];
+  const Span<const std::uint32_t> part = thinned(scratch->low.first(all.size()), kQuickPointsMax);
   std::uint32_t count = 0;
   for (std::uint32_t k = 0; k < list->count(); ++k) {
     const IrlsResult refined =
-        irls_tukey(cloud, all, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, scratch->residuals);
+        irls_tukey(cloud, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, scratch->residuals);
     if (!refined.solved || !may_be_floor(refined.plane, s, sensor)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);

@@ -26,6 +26,7 @@ constexpr double kCurvatureInSigmas = 3.5;
 constexpr double kBulgeMin_m = 0.04;
 constexpr int kCutsMax = 6;
 constexpr int kQuickRounds = 3;
+constexpr std::uint32_t kQuickPointsMax = 800;
 constexpr int kRounds = 8;
 
 IrlsSettings fit_settings(const Settings& s) {
@@ -141,8 +142,7 @@ void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   patches.lay_out(arena);
 }
 
-Span<const std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m,
-                                      Span<std::uint32_t> out) {
+Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m, Span<std::uint32_t> out) {
   const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());
   const float nz = static_cast<float>(plane.n.z()), d = static_cast<float>(plane.d);
   const float gate = static_cast<float>(gate_m);
@@ -151,14 +151,15 @@ Span<const std::uint32_t> points_near(const PointSet& points, const Plane& plane
     const float r = nx * points.x[i] + ny * points.y[i] + nz * points.z[i] + d;
     if (r >= -gate && r <= gate) out[count++] = i;
   }
-  return Span<const std::uint32_t>(out.data(), count);
+  return out.first(count);
 }
 
 bool refine_hypothesis(const WallScene& scene, const Eigen::Vector3d& along_level, WallFitScratch* scratch,
                        Plane* plane) {
   const double thresh_m = scene.settings.wall_ransac_thresh;
   for (const double gate : {kFirstGateInThresholds * thresh_m, 3.0 * thresh_m}) {
-    const Span<const std::uint32_t> near = points_near(scene.band_level, *plane, gate, scratch->chosen);
+    const Span<std::uint32_t> near =
+        thinned(points_near(scene.band_level, *plane, gate, scratch->chosen), kQuickPointsMax);
     const IrlsSettings quick{3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds};
     const IrlsResult refined = irls_tukey(scene.band_level, near, *plane, along_level, quick, scratch->residuals);
     if (!refined.solved) return false;

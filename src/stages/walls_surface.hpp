@@ -47,8 +47,7 @@ struct WallSurface {
 };
 
 // Indices of the points within gate_m of the plane.
-Span<const std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m,
-                                      Span<std::uint32_t> out);
+Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m, Span<std::uint32_t> out);
 
 // A few rounds of Tukey from a drawn hypothesis, its lean set free. False where nothing holds it.
 bool refine_hypothesis(const WallScene& scene, const Eigen::Vector3d& along_level, WallFitScratch* scratch,
