@@ -202,7 +202,7 @@ void PatchGrid::sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& in
   }
   out->bias_response = inverse * bias;
   const double effective = sum * sum / (squares + cross);
-  out->dof = effective > 4.0 ? effective - 3.0 : 1.0;
+  out->dof = effective > 5.0 ? effective - 3.0 : 2.0;
   // Three of the independent pieces went into the fit and make the rest look smoother than the rock is.
   out->covariance *= (out->dof + 3.0) / out->dof;
 }
