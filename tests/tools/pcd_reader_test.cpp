@@ -140,6 +140,9 @@ TEST(PcdReader, DamagedCompressionIsRefused) {
   body[8] = static_cast<char>(0xFF);  // a reference to before the start
   EXPECT_TRUE(contains(refusal(read_pcd, xyz_header("1", "binary_compressed") + body), "damaged"));
   EXPECT_TRUE(contains(refusal(read_pcd, xyz_header("1", "binary_compressed") + "abc"), "8 bytes of sizes"));
+  const std::string whole = packed_body(xyz(1, 2, 3));
+  const std::string torn = whole.substr(0, whole.size() - 1);
+  EXPECT_TRUE(contains(refusal(read_pcd, xyz_header("1", "binary_compressed") + torn), "13 bytes announced, 12 bytes"));
 }
 
 struct BadHeader {
