@@ -291,9 +291,9 @@ typedef struct pose_wall_plane {
   double lean_rad; /* walls: tilt from the vertical of the levelled frame, + leaning away from the machine at the top */
   double along_min_m; /* walls: supported span along the road direction, from the base origin */
   double along_max_m;
-  double area_m2; /* supported area */
-  uint32_t found; /* 0: the other members are zero */
-  uint32_t inliers;
+  double area_m2;      /* supported area */
+  uint32_t found;      /* 0: the other members are zero */
+  uint32_t inliers;    /* measured points on the plane: each voxel counts the points it stands for */
   uint32_t iterations; /* hypotheses scored */
   uint32_t reasons;
 } pose_wall_plane;
@@ -334,7 +334,7 @@ typedef struct pose_wall_result {
   uint32_t voxels;
   uint32_t outliers;
   uint32_t ground_candidates;
-  uint32_t wall_points;
+  uint32_t wall_points; /* voxels of the wall band */
 } pose_wall_result;
 
 /* ---------------------------------------------------------------------------------------------- engine */

@@ -23,7 +23,7 @@ struct Row {
 // How many slots of number[] and text[] each kind of row takes, counted while the table is laid out.
 enum NumberSlot : std::uint32_t {
 #define POSE_WALL_TEXT(name, group, text, help)
-#define POSE_WALL_CHOICE(name, group, index, choices, help) kNumber_##name,
+#define POSE_WALL_CHOICE(name, group, index, text, choices, help) kNumber_##name,
 #define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) kNumber_##name,
 #define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help) kNumber_##name,
 #define POSE_WALL_BOX(name, group, unit, limit, help) \
@@ -38,7 +38,7 @@ enum NumberSlot : std::uint32_t {
 };
 enum TextSlot : std::uint32_t {
 #define POSE_WALL_TEXT(name, group, text, help) kText_##name,
-#define POSE_WALL_CHOICE(name, group, index, choices, help)
+#define POSE_WALL_CHOICE(name, group, index, text, choices, help)
 #define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help)
 #define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help)
 #define POSE_WALL_BOX(name, group, unit, limit, help)
@@ -60,8 +60,8 @@ constexpr const char* first_choice(const char* choices) {
 constexpr Row kRows[] = {
 #define POSE_WALL_TEXT(name, group, text, help) \
   {{#name, "", "", text, group, help, 0.0, 0.0, POSE_WALL_KEY_TEXT, 0}, kText_##name, 0.0},
-#define POSE_WALL_CHOICE(name, group, index, choices, help) \
-  {{#name, "", choices, first_choice(choices), group, help, 0.0, 0.0, POSE_WALL_KEY_CHOICE, 0}, kNumber_##name, index},
+#define POSE_WALL_CHOICE(name, group, index, text, choices, help) \
+  {{#name, "", choices, text, group, help, 0.0, 0.0, POSE_WALL_KEY_CHOICE, 0}, kNumber_##name, index},
 #define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) \
   {{#name, unit, "", text, group, help, minimum, maximum, POSE_WALL_KEY_NUMBER, 0}, kNumber_##name, value},
 #define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help) \
@@ -237,7 +237,7 @@ std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* 
 Settings read_settings(const pose_wall_config& config) {
   Settings s{};
 #define POSE_WALL_TEXT(name, group, text, help)
-#define POSE_WALL_CHOICE(name, group, index, choices, help) \
+#define POSE_WALL_CHOICE(name, group, index, text, choices, help) \
   s.name = static_cast<std::int32_t>(config.number[kNumber_##name]);
 #define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) s.name = config.number[kNumber_##name];
 #define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help) \

@@ -24,7 +24,7 @@ struct Box {
 
 struct Settings {
 #define POSE_WALL_TEXT(name, group, text, help)
-#define POSE_WALL_CHOICE(name, group, index, choices, help) std::int32_t name;
+#define POSE_WALL_CHOICE(name, group, index, text, choices, help) std::int32_t name;
 #define POSE_WALL_NUMBER(name, group, unit, value, text, minimum, maximum, help) double name;
 #define POSE_WALL_COUNT(name, group, unit, value, text, minimum, maximum, help) std::uint32_t name;
 #define POSE_WALL_BOX(name, group, unit, limit, help) Box name;

@@ -20,7 +20,10 @@ constexpr double kRadiusGrowth = 1.5;
 constexpr int kRadiusSteps = 10;
 constexpr std::uint32_t kQuickPointsMax = 2000;
 constexpr std::uint32_t kCandidatesMin = 60;
-constexpr double kAreaMin_m2 = 1.0;
+constexpr double kAreaMin_m2 = 2.0;
+// A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
+constexpr double kSmallArea_m2 = 5.0;
+constexpr double kEqualShare = 0.7;
 constexpr double kAcrossSpreadMin_m = 0.2;
 constexpr double kGhostShare = 0.4;
 constexpr double kBelowShareMax = 0.3;
@@ -140,6 +143,11 @@ void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& bes
   refuse_unless(best.evidence.across_spread_m >= kAcrossSpreadMin_m, POSE_WALL_R_FLOOR_THIN);
 }
 
+bool stands_alone(const Candidate& best, const Candidate* rival) {
+  return rival == nullptr || best.evidence.area_m2 >= kSmallArea_m2 ||
+         rival->evidence.score_m2 < kEqualShare * best.evidence.score_m2;
+}
+
 FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std::uint32_t> open, const Settings& s,
                          const Axes& axes, const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
@@ -167,7 +175,9 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   out.candidates = n;
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
-  reach_to_rival(*best, best_of(Span<const Candidate>(candidates, count), best), &out);
+  const Candidate* rival = best_of(Span<const Candidate>(candidates, count), best);
+  reach_to_rival(*best, rival, &out);
+  out.fit.refused = out.fit.refused || !stands_alone(*best, rival);
   gate(s, sensor, *best, &out);
   return out;
 }

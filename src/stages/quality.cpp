@@ -105,7 +105,8 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double expected = kSplayInSigmas * std::sqrt(sigma[0] * sigma[0] + sigma[1] * sigma[1]) + biased_apart;
-  if (difference > expected) bound += 0.5 * difference;
+  // The road's own direction lies between the walls'; the mean may lie at either.
+  if (difference > expected) bound += larger(w[0], w[1]) * difference;
   const double dof = walls[0].dof + walls[1].dof;
   return measurement(raw, std::sqrt(1.0 / sum), bound, dof, s);
 }

@@ -17,6 +17,8 @@ namespace {
 constexpr double kSeenThroughMax = 0.5;
 constexpr double kSeenThroughDoubt = 0.25;
 constexpr double kRefineSlack_deg = 5.0;
+constexpr double kOnWallInThresholds = 3.0;
+constexpr double kExplainedMin = 0.25;
 
 std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
   std::uint32_t faults = 0;
@@ -94,6 +96,23 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   return wall;
 }
 
+// Share of the band that lies on the chosen walls. In a cavern or a hall full of things, two flat spots may happen to
+// be parallel, but they explain next to nothing of what is seen.
+double explained_share(const WallScene& scene, const WallChoice& choice) {
+  const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
+  std::uint32_t explained = 0;
+  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
+    bool on_wall = false;
+    for (const WallCandidate* wall : choice.side) {
+      on_wall = on_wall || (wall != nullptr && std::fabs(wall->plane.signed_distance(p)) <= reach_m);
+    }
+    explained += on_wall ? 1U : 0U;
+  }
+  return scene.band_level.count > 0 ? static_cast<double>(explained) / static_cast<double>(scene.band_level.count)
+                                    : 0.0;
+}
+
 }  // namespace
 
 void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
@@ -113,12 +132,17 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   search_both(scene, ends, nothing, random, scratch, across, scored_across);
   const WallChoice choice = choose_walls(beside[0], beside[1], across[0], across[1], scene.settings);
 
+  const bool explained = explained_share(scene, choice) >= kExplainedMin;
   WallsResult out;
   for (int side = 0; side < 2; ++side) {
     if (choice.side[side] != nullptr) out.side[side] = measure(scene, choice, side, scratch);
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.refused = out.side[side].fit.refused || choice.refused[side];
     out.side[side].fit.reasons |= choice.reasons[side];
+    if (!explained) {
+      out.side[side].fit.refused = true;
+      out.side[side].fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND;
+    }
   }
   share_direction(scene, &out.side);
   return out;

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kSearchReach_m = 200.0;
 
-bool is_plane_at(const Setup& setup, int side, double base_height_m) {
+bool is_plane_at(const Setup& setup, int side, double height_m) {
   const Openings& o = setup.openings;
-  const bool below_arch = setup.road.arch_springing_m <= 0.0 || base_height_m < setup.road.arch_springing_m;
+  const bool below_arch = setup.road.arch_springing_m <= 0.0 || height_m < setup.road.arch_springing_m;
   return setup.road.curve_radius_m == 0.0 && below_arch && !has_side(o.widening_side, side) &&
          !has_side(o.narrow_side, side);
 }
@@ -69,10 +69,10 @@ TruthRow truth_of(const Setup& setup, const World& mean_rock, const MachinePose&
       const Vector P = R_level * (s * forward_axis(m));
       double distance = kNoTruth;
       if (has_side(setup.road.walls, side)) {
-        if (is_plane_at(setup, side, pose.base_height_m)) {
+        if (is_plane_at(setup, side, pose.base_height_m + P.z())) {
           distance = distance_to_plane(setup, side, at, R_level, P);
         } else {
-          const Vector from = at.origin_road + R_road_level * P.cwiseProduct(Vector(1.0, 1.0, 0.0));
+          const Vector from = at.origin_road + R_road_level * P;
           const SectorIndex index(mean_rock.objects(), from);
           distance =
               distance_to_rock(mean_rock, index, from, R_road_level * ahead_level, side * (R_road_level * left_level));

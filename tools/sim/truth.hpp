@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // What a perfect instrument would report. Straight walls: the formulas of the specification on the mean planes. Where
-// a wall is no plane at the height of the base origin (curve, arch, widening, narrow place): the distance from the
-// sampling point's place to the nearest mean rock on that side in the levelled horizontal plane through the base
-// origin; yaw by the centre line's tangent.
+// a wall is no plane at the height of the sampling point (curve, arch, widening, narrow place): the distance from the
+// sampling point to the nearest mean rock on that side in the levelled horizontal plane through it; yaw by the centre
+// line's tangent.
 #pragma once
 
 #include "sim/pose.hpp"
