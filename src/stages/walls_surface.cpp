@@ -106,18 +106,23 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   return fit;
 }
 
-// Mean distance from the plane, positive towards the machine, of the points between two heights.
-double mean_residual(const WallScene& scene, const WallSurface& fit, const Heights& heights) {
-  double sum = 0.0, weight = 0.0;
+// Lean of the surface between two heights: the plane's, less the slope of the distances from it.
+double lean_between(const WallScene& scene, const WallSurface& fit, const Heights& heights) {
+  double w = 0.0, z = 0.0, zz = 0.0, r = 0.0, zr = 0.0;
   for (const std::uint32_t i : fit.chosen) {
     const Eigen::Vector3d p = scene.band_level.at(i);
     if (!heights.contain(p.z())) continue;
-    const double r = fit.irls.plane.signed_distance(p);
-    const double w = fit.weight(r);
-    sum += w * r;
-    weight += w;
+    const double residual = fit.irls.plane.signed_distance(p);
+    const double weight = fit.weight(residual);
+    w += weight;
+    z += weight * p.z();
+    zz += weight * p.z() * p.z();
+    r += weight * residual;
+    zr += weight * p.z() * residual;
   }
-  return weight > 0.0 ? sum / weight : 0.0;
+  const double spread = w * zz - z * z;
+  const double slope = spread > 1e-9 * w * w ? (w * zr - z * r) / spread : 0.0;
+  return lean_of(fit.irls.plane) - slope;
 }
 
 // An arched roof begins within the band, a heap ends in it: where the wall bends towards the machine at its top or its
@@ -128,9 +133,15 @@ bool cut_bent_rows(const WallScene& scene, const WallSurface& fit, Heights* heig
   const bool significant = fit.patch.curvature_v > kCurvatureInSigmas * fit.patch.curvature_v_sigma;
   const bool matters = fit.patch.curvature_v * span_m * span_m > kBulgeMin_m;
   if (!significant || !matters) return false;
-  const double top = mean_residual(scene, fit, {heights->max_m - kCut_m, heights->max_m});
-  const double foot = mean_residual(scene, fit, {heights->min_m, heights->min_m + kCut_m});
-  (top >= foot ? heights->max_m : heights->min_m) += top >= foot ? -kCut_m : kCut_m;
+  // A wall stands more upright than an arch or a heap: the half that leans more loses its end.
+  const double middle = 0.5 * (heights->min_m + heights->max_m);
+  const double lower = lean_between(scene, fit, {heights->min_m, middle});
+  const double upper = lean_between(scene, fit, {middle, heights->max_m});
+  if (std::fabs(upper) >= std::fabs(lower)) {
+    heights->max_m -= kCut_m;
+  } else {
+    heights->min_m += kCut_m;
+  }
   return true;
 }
 
