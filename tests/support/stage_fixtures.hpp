@@ -26,8 +26,11 @@ class Placed {
     Arena arena(block_.data());
     object_.lay_out(arena, args...);
   }
+  Placed(Placed&&) = default;
+  Placed& operator=(Placed&&) = default;
   Placed(const Placed&) = delete;
   Placed& operator=(const Placed&) = delete;
+  ~Placed() = default;
 
   T* operator->() { return &object_; }
   T& operator*() { return object_; }

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: every call that is refused says why by the status in the header, and changes nothing: no config, no result,
+// no engine, no pointer.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "support/clouds.hpp"
+#include "support/engine_under_test.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+// A room of points: enough for a result that is not all zeros.
+Points room() {
+  Points points;
+  for (int i = -80; i <= 80; ++i) {
+    for (int j = 0; j < 25; ++j) {
+      const float along = 0.1F * static_cast<float>(i), up = 0.1F * static_cast<float>(j) - 1.4F;
+      points.push_back({along, 2.5F, up});
+      points.push_back({along, -2.5F, up});
+      points.push_back({along, 0.2F * static_cast<float>(j - 12), -1.4F});
+    }
+  }
+  return points;
+}
+
+template <typename T, typename Call>
+std::int32_t unchanged_by(T* object, const Call& call) {
+  std::vector<unsigned char> before(sizeof(T));
+  std::memcpy(before.data(), object, sizeof(T));
+  const std::int32_t status = call();
+  EXPECT_EQ(std::memcmp(before.data(), object, sizeof(T)), 0) << "status " << status;
+  return status;
+}
+
+TEST(AbiRefusals, NullPointersEverywhere) {
+  pose_wall_config config = config_with();
+  pose_wall_key_info info;
+  std::uint64_t bytes = 7;
+  double number = 7.0;
+  char text[8] = "seven";
+  EXPECT_EQ(pose_wall_config_init(nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_set(nullptr, "a", "b"), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_set(&config, nullptr, "b"), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_set(&config, "a", nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_set_number(nullptr, "a", 1), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_set_number(&config, nullptr, 1), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_number(nullptr, "a", &number), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_number(&config, nullptr, &number), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_number(&config, "range_min", nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_box(&config, "body_box_1", nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_text(&config, "lidar_frame", nullptr, 8), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_text(nullptr, "lidar_frame", text, 8), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_key(0, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_key(9999, &info), POSE_WALL_E_INDEX);
+  EXPECT_EQ(pose_wall_config_check(nullptr, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_memory_needed(nullptr, &bytes), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_memory_needed(&config, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_cloud_xyz32(nullptr, text, 1, 12, 0), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_reset(nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_set_clock(nullptr, nullptr, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_last_points(nullptr, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(bytes, 7U);
+  EXPECT_EQ(number, 7.0);
+  EXPECT_STREQ(text, "seven");
+}
+
+TEST(AbiRefusals, CloudsOfNoDataAreLeftAlone) {
+  pose_wall_cloud cloud;
+  std::memset(&cloud, 0x5A, sizeof cloud);
+  EXPECT_EQ(unchanged_by(&cloud, [&] { return pose_wall_cloud_xyz32(&cloud, nullptr, 1, 12, 0); }), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, 0), POSE_WALL_OK);
+}
+
+TEST(AbiRefusals, BlocksTooSmallOrMisaligned) {
+  const pose_wall_config config = config_with();
+  std::uint64_t bytes = 0;
+  ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
+  AlignedBlock block(bytes + 64, Dirt::kZeros);
+  pose_wall_engine* engine = nullptr;
+  const auto open = [&](void* place, std::uint64_t size) {
+    return unchanged_by(&engine, [&] { return pose_wall_open(&config, place, size, &engine); });
+  };
+  EXPECT_EQ(open(block.data(), bytes - 1), POSE_WALL_E_BLOCK_SMALL);
+  EXPECT_EQ(open(block.data(), 0), POSE_WALL_E_BLOCK_SMALL);
+  EXPECT_EQ(open(nullptr, bytes), POSE_WALL_E_NULL);
+  for (const std::size_t off : {1U, 8U, 32U, 63U}) {
+    EXPECT_EQ(open(static_cast<unsigned char*>(block.data()) + off, bytes), POSE_WALL_E_BLOCK_ALIGN) << off;
+  }
+  for (std::uint64_t i = 0; i < block.size(); ++i) {
+    ASSERT_EQ(static_cast<unsigned char*>(block.data())[i], 0) << "a refused open wrote into the block";
+  }
+  EXPECT_EQ(pose_wall_open(&config, block.data(), bytes, &engine), POSE_WALL_OK);
+}
+
+TEST(AbiRefusals, BrokenConfigsOpenNothing) {
+  const pose_wall_config broken = config_with({{"s_front", "-3"}});
+  pose_wall_config uninitialised;
+  std::memset(&uninitialised, 0, sizeof uninitialised);
+  AlignedBlock block(64, Dirt::kZeros);
+  pose_wall_engine* engine = nullptr;
+  std::uint64_t bytes = 7;
+  EXPECT_EQ(pose_wall_memory_needed(&broken, &bytes), POSE_WALL_E_CONFIG_RULE);
+  EXPECT_EQ(pose_wall_open(&broken, block.data(), 1U << 30, &engine), POSE_WALL_E_CONFIG_RULE);
+  EXPECT_EQ(pose_wall_memory_needed(&uninitialised, &bytes), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_open(&uninitialised, block.data(), 1U << 30, &engine), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(bytes, 7U);
+  EXPECT_EQ(engine, nullptr);
+}
+
+TEST(AbiRefusals, WhatIsNoEngine) {
+  AlignedBlock block(1 << 20, Dirt::kRandom);
+  auto* const engine = static_cast<pose_wall_engine*>(block.data());
+  const Points points = room();
+  const pose_wall_cloud cloud = cloud_of(points, 0);
+  pose_wall_result result{};
+  result.struct_size = sizeof result;
+  pose_wall_points last;
+  EXPECT_EQ(unchanged_by(&result, [&] { return pose_wall_process(engine, &cloud, &result); }), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_reset(engine), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_set_clock(engine, nullptr, nullptr), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_last_points(engine, &last), POSE_WALL_E_ENGINE);
+}
+
+// An engine that was moved by memcpy would point into its old block.
+TEST(AbiRefusals, ACopiedBlockIsNoEngine) {
+  const pose_wall_config config = config_with({{"points_max", "5000"}});
+  std::uint64_t bytes = 0;
+  ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
+  AlignedBlock block(bytes, Dirt::kRandom), copy(bytes, Dirt::kZeros);
+  pose_wall_engine* engine = nullptr;
+  ASSERT_EQ(pose_wall_open(&config, block.data(), bytes, &engine), POSE_WALL_OK);
+  std::memcpy(copy.data(), block.data(), bytes);
+  EXPECT_EQ(pose_wall_reset(static_cast<pose_wall_engine*>(copy.data())), POSE_WALL_E_ENGINE);
+}
+
+struct BadCloud {
+  const char* what;
+  std::int32_t status;
+  void (*spoil)(pose_wall_cloud*);
+};
+
+const BadCloud kBadClouds[] = {
+    {"struct_size 0", POSE_WALL_E_STRUCT_SIZE, [](auto* c) { c->struct_size = 0; }},
+    {"struct_size larger", POSE_WALL_E_STRUCT_SIZE, [](auto* c) { c->struct_size += 8; }},
+    {"no data", POSE_WALL_E_NULL, [](auto* c) { c->data = nullptr; }},
+    {"no x", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->x.type = POSE_WALL_FIELD_NONE; }},
+    {"y an integer", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->y.type = POSE_WALL_FIELD_INT32; }},
+    {"z unknown", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->z.type = 77; }},
+    {"byte order", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->big_endian = 5; }},
+    {"z past the point", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->z.offset = 9; }},
+    {"offset wraps", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->x.offset = 0xFFFFFFFF; }},
+    {"point_step 0", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->point_step = 0; }},
+    {"row_step small", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->row_step = 5; }},
+    {"data short", POSE_WALL_E_CLOUD_SIZE, [](auto* c) { --c->data_bytes; }},
+    {"width huge", POSE_WALL_E_CLOUD_SIZE, [](auto* c) { c->width = 0xFFFFFFFF; }},
+    {"height huge", POSE_WALL_E_CLOUD_SIZE, [](auto* c) { c->height = 0xFFFFFFFF; }},
+};
+
+TEST(AbiRefusals, MalformedCloudsLeaveResultAndEngineAsTheyWere) {
+  const Points points = room();
+  EngineUnderTest disturbed(config_with()), undisturbed(config_with());
+  disturbed.process(cloud_of(points, 0));
+  undisturbed.process(cloud_of(points, 0));
+  pose_wall_result result;
+  for (const BadCloud& bad : kBadClouds) {
+    pose_wall_cloud cloud = cloud_of(points, 50000000);
+    bad.spoil(&cloud);
+    std::memset(&result, 0x5A, sizeof result);
+    result.struct_size = sizeof result;
+    const std::int32_t status =
+        unchanged_by(&result, [&] { return pose_wall_process(disturbed.get(), &cloud, &result); });
+    EXPECT_EQ(status, bad.status) << bad.what;
+  }
+  // The next good frame is as if nothing had happened.
+  const pose_wall_result a = disturbed.process(cloud_of(points, 100000000));
+  const pose_wall_result b = undisturbed.process(cloud_of(points, 100000000));
+  EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+  EXPECT_EQ(a.frame_index, 1U);
+}
+
+TEST(AbiRefusals, AResultThatWasNotInitialisedIsLeftAlone) {
+  EngineUnderTest engine(config_with());
+  const Points points = room();
+  const pose_wall_cloud cloud = cloud_of(points, 0);
+  pose_wall_result result;
+  for (const std::uint32_t size : {std::uint32_t{0}, static_cast<std::uint32_t>(sizeof result) - 1,
+                                   static_cast<std::uint32_t>(sizeof result) + 8}) {
+    std::memset(&result, 0x5A, sizeof result);
+    result.struct_size = size;
+    EXPECT_EQ(unchanged_by(&result, [&] { return pose_wall_process(engine.get(), &cloud, &result); }),
+              POSE_WALL_E_STRUCT_SIZE);
+  }
+}
+
+// Whatever the result held before, every byte of it is written.
+TEST(AbiCalls, AResultIsBuiltAfresh) {
+  const Points points = room();
+  EngineUnderTest a(config_with()), b(config_with());
+  const pose_wall_cloud cloud = cloud_of(points, 0);
+  pose_wall_result clean{}, dirty;
+  clean.struct_size = sizeof clean;
+  std::memset(&dirty, 0xFF, sizeof dirty);
+  dirty.struct_size = sizeof dirty;
+  ASSERT_EQ(pose_wall_process(a.get(), &cloud, &clean), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_process(b.get(), &cloud, &dirty), POSE_WALL_OK);
+  EXPECT_EQ(std::memcmp(&clean, &dirty, sizeof clean), 0);
+}
+
+TEST(AbiCalls, MemoryHangsOnPointsMaxOnly) {
+  const auto needed = [](const pose_wall_config& config) {
+    std::uint64_t bytes = 0;
+    EXPECT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
+    return bytes;
+  };
+  const std::uint64_t usual = needed(config_with());
+  EXPECT_EQ(needed(config_with({{"voxel_leaf", "0.02"}, {"wall_iterations", "2000"}, {"forward_axis", "-Y"}})), usual);
+  EXPECT_GT(needed(config_with({{"points_max", "120000"}})), usual);
+  EXPECT_LT(needed(config_with({{"points_max", "5000"}})), usual);
+  // Both ends of the range open.
+  for (const char* points_max : {"5000", "400000"}) EngineUnderTest engine(config_with({{"points_max", points_max}}));
+}
+
+TEST(AbiCalls, AnEmptyCloudIsNoError) {
+  EngineUnderTest engine(config_with());
+  const pose_wall_result r = engine.process(cloud_of(Points(), 123));
+  EXPECT_EQ(r.points_in, 0U);
+  EXPECT_EQ(r.stamp_ns, 123);
+  EXPECT_NE(r.frame_reasons & POSE_WALL_R_NO_POINTS, 0U);
+  EXPECT_EQ(r.confidence, 0.0);
+  for (const pose_wall_value& v : r.quantity) EXPECT_EQ(v.state, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+}
+
+}  // namespace
+}  // namespace pose_wall::test

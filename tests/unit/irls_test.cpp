@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a plane is found again under a third of outliers, weights are capped, and what spans no plane is refused.
+
+#include "estimation/irls.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr IrlsSettings kSettings{0.15, 0.003, 0.05, 10};
+constexpr std::uint32_t kPoints = 3000;
+
+Plane leaning() {
+  Plane plane;
+  plane.n = Eigen::Vector3d(0.1, -0.99, 0.05).normalized();
+  plane.d = 2.5;
+  return plane;
+}
+
+// Points on the plane over 8 x 2 m with noise, and a share of outliers on the sensor's side.
+void fill(double outliers, double sigma, test::OwnedPoints* points) {
+  test::Noise noise(3);
+  const Plane plane = leaning();
+  const Eigen::Vector3d u = plane.n.cross(Eigen::Vector3d::UnitZ()).normalized(), v = plane.n.cross(u);
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const bool outlier = i < outliers * kPoints;
+    const double off = outlier ? noise.uniform(0.05, 0.3) : noise.normal(sigma);
+    points->add(-plane.d * plane.n + noise.uniform(-4, 4) * u + noise.uniform(-1, 1) * v + off * plane.n);
+  }
+}
+
+IrlsResult fit(test::OwnedPoints* points, const Plane& start) {
+  std::vector<float> residuals(points->all().size());
+  return irls_tukey(points->set(), points->all(), start, Eigen::Vector3d::UnitX(), kSettings,
+                    Span<float>(residuals.data(), static_cast<std::uint32_t>(residuals.size())));
+}
+
+double angle_between(const Plane& a, const Plane& b) {
+  return std::acos(std::min(1.0, a.n.dot(b.n)));
+}
+
+// 3000 points of 1 cm over 8 m: slope 0.01 / (2.3 sqrt(2000)) = 0.1 mrad, offset 0.2 mm; five times that. Outliers
+// that start at 5 cm leave the Tukey weights of a 1 cm scale (cutoff 4.7 cm) untouched.
+TEST(Irls, RecoversThePlaneUnderAThirdOfOutliers) {
+  for (const double outliers : {0.0, 0.3}) {
+    test::OwnedPoints points(kPoints);
+    fill(outliers, 0.01, &points);
+    Plane start = leaning();
+    start.n = (start.n + Eigen::Vector3d(0.005, 0.0, 0.01)).normalized();
+    start.d += 0.02;
+    const IrlsResult got = fit(&points, start);
+    ASSERT_TRUE(got.solved);
+    EXPECT_LT(angle_between(got.plane, leaning()), 0.001) << outliers;
+    EXPECT_NEAR(got.plane.d, 2.5, 0.003) << outliers;
+    EXPECT_LT(got.scale_m, 0.02) << outliers;
+  }
+}
+
+TEST(Irls, ThePerfectPlaneStaysWhereItIs) {
+  test::OwnedPoints points(kPoints);
+  fill(0.0, 0.0, &points);
+  const IrlsResult got = fit(&points, leaning());
+  ASSERT_TRUE(got.solved);
+  EXPECT_LT(angle_between(got.plane, leaning()), 1e-6);
+  EXPECT_EQ(got.scale_m, kSettings.scale_min_m);
+}
+
+TEST(Irls, RefusesALineAPointAndNothing) {
+  const Plane floor{Eigen::Vector3d::UnitZ(), 0.0};
+  test::OwnedPoints line(1000), point(1000), none(1), far(1000);
+  for (int i = 0; i < 1000; ++i) {
+    line.add(0.01 * i, 0.02 * i, 0.0);
+    point.add(1.0, 2.0, 0.0);
+    far.add(0.1 * (i % 30), 0.1 * (i / 30), 5.0);
+  }
+  EXPECT_FALSE(fit(&line, floor).solved);
+  EXPECT_FALSE(fit(&point, floor).solved);
+  EXPECT_FALSE(fit(&none, floor).solved);
+  EXPECT_FALSE(fit(&far, floor).solved) << "nothing within the gate";
+}
+
+TEST(Irls, ARefusalLeavesAFinitePlane) {
+  test::OwnedPoints point(10);
+  for (int i = 0; i < 10; ++i) point.add(1.0, 2.0, 0.0);
+  const IrlsResult got = fit(&point, Plane{Eigen::Vector3d::UnitZ(), 0.0});
+  EXPECT_TRUE(std::isfinite(got.plane.d) && std::isfinite(got.plane.n.sum()));
+}
+
+// One voxel that stands for a thousand points must not weigh like them.
+TEST(Irls, OneHeavyPointDoesNotPullThePlane) {
+  test::OwnedPoints points(1000);
+  test::Noise noise(5);
+  for (int i = 0; i < 900; ++i) points.add(noise.uniform(-4, 4), noise.uniform(-4, 4), 0.0);
+  for (int i = 0; i < 20; ++i) points.add(0.1 * i, 0.0, 0.01, 1000.0F);
+  const IrlsResult got = fit(&points, Plane{Eigen::Vector3d::UnitZ(), 0.0});
+  ASSERT_TRUE(got.solved);
+  // Capped at 8 each, the twenty hold at most 160 of 1060: 1.5 mm.
+  EXPECT_LT(std::fabs(got.plane.d), 0.0016);
+}
+
+TEST(Irls, SignedDistances) {
+  test::OwnedPoints points(2);
+  points.add(1, 1, 0.5);
+  points.add(0, 0, -0.25);
+  float residuals[2];
+  signed_distances(points.set(), points.all(), Plane{Eigen::Vector3d::UnitZ(), 0.0}, Span<float>(residuals, 2));
+  EXPECT_EQ(residuals[0], 0.5F);
+  EXPECT_EQ(residuals[1], -0.25F);
+}
+
+}  // namespace
+}  // namespace pose_wall

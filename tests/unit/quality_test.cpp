@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: fits become measurements by the stated arithmetic: weighted mean of both walls, range bias, splay, what makes
+// a value weak, and that nothing is measured from what was refused.
+
+#include "stages/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "math/elementary.hpp"
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+FloorResult good_floor() {
+  FloorResult f;
+  f.fit.found = true;
+  f.roll_sigma_rad = 0.0004;
+  f.pitch_sigma_rad = 0.0006;
+  f.dof = 40.0;
+  return f;
+}
+
+WallResult good_wall(double yaw = 0.02, double sigma = 0.001) {
+  WallResult w;
+  w.fit.found = true;
+  w.yaw_rad = yaw;
+  w.yaw_sigma_rad = sigma;
+  w.dof = 40.0;
+  w.distance_m[0] = 2.4;
+  w.distance_m[1] = 2.6;
+  w.distance_sigma_m[0] = 0.004;
+  w.distance_sigma_m[1] = 0.005;
+  return w;
+}
+
+struct Scene {
+  FloorResult floor = good_floor();
+  LevelResult level;
+  WallResult walls[2] = {good_wall(), good_wall()};
+  Settings settings = test::settings_with({{"range_bias_max", "0.03"}, {"protection_factor", "5"}});
+
+  Measurements measured() const { return measure_quantities(floor, level, walls, settings); }
+};
+
+TEST(Quality, GoodFitsMeasureAllSeven) {
+  Scene scene;
+  scene.level.roll_rad = 0.1;
+  scene.level.pitch_rad = -0.2;
+  const Measurements m = scene.measured();
+  const double expected[] = {0.1, -0.2, 0.02, 2.4, 2.6, 2.4, 2.6};
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    EXPECT_TRUE(m.quantity[q].measured) << q;
+    EXPECT_FALSE(m.quantity[q].weak) << q;
+    EXPECT_NEAR(m.quantity[q].raw, expected[q], 1e-12) << q;
+    EXPECT_GT(m.quantity[q].sigma, 0.0) << q;
+    EXPECT_GT(m.quantity[q].protection, 5.0 * m.quantity[q].sigma) << q;
+    EXPECT_EQ(m.quantity[q].reasons, 0U) << q;
+  }
+  EXPECT_TRUE(m.has_yaw_difference);
+  EXPECT_EQ(m.left_right_yaw_difference_rad, 0.0);
+}
+
+TEST(Quality, RefusedFitsMeasureNothingAndSayWhy) {
+  Scene scene;
+  scene.floor.fit.refused = true;
+  scene.floor.fit.reasons = POSE_WALL_R_FLOOR_THIN;
+  scene.walls[0].fit.refused = true;
+  scene.walls[0].fit.reasons = POSE_WALL_R_WALL_SHORT;
+  const Measurements m = scene.measured();
+  for (const std::uint32_t q : {POSE_WALL_ROLL, POSE_WALL_PITCH}) {
+    EXPECT_FALSE(m.quantity[q].measured);
+    EXPECT_EQ(m.quantity[q].reasons, static_cast<std::uint32_t>(POSE_WALL_R_FLOOR_THIN));
+  }
+  for (const std::uint32_t q : {POSE_WALL_D_LF, POSE_WALL_D_LB}) {
+    EXPECT_FALSE(m.quantity[q].measured);
+    EXPECT_EQ(m.quantity[q].reasons, static_cast<std::uint32_t>(POSE_WALL_R_WALL_SHORT));
+  }
+  EXPECT_TRUE(m.quantity[POSE_WALL_YAW].measured) << "by the wall that is left";
+  EXPECT_TRUE(m.quantity[POSE_WALL_D_RF].measured);
+  EXPECT_FALSE(m.has_yaw_difference);
+}
+
+TEST(Quality, WithoutWallsNoYawAndBothReasons) {
+  Scene scene;
+  for (WallResult& w : scene.walls) w.fit.refused = true;
+  scene.walls[0].fit.reasons = POSE_WALL_R_WALL_SHORT;
+  scene.walls[1].fit.reasons = POSE_WALL_R_WALL_NOT_FOUND;
+  const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
+  EXPECT_FALSE(yaw.measured);
+  EXPECT_EQ(yaw.reasons, static_cast<std::uint32_t>(POSE_WALL_R_WALL_SHORT | POSE_WALL_R_WALL_NOT_FOUND));
+}
+
+// A sigma floor of 0.05 mrad and the floor's tilt play no part here beyond a few per cent.
+TEST(Quality, YawIsTheMeanByInformation) {
+  Scene scene;
+  scene.walls[0] = good_wall(0.010, 0.001);
+  scene.walls[1] = good_wall(0.013, 0.002);
+  const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
+  EXPECT_NEAR(yaw.raw, 0.010 * 0.8 + 0.013 * 0.2, 1e-4);
+  EXPECT_NEAR(yaw.sigma, 0.001 * 2.0 / std::sqrt(5.0), 5e-5);
+}
+
+TEST(Quality, ARangeBiasOfBothWallsCancelsAndOfOneCounts) {
+  Scene both;
+  both.walls[0].yaw_bias_rad_per_m = 0.2;
+  both.walls[1].yaw_bias_rad_per_m = -0.2;
+  Scene one = both;
+  one.walls[1].fit.refused = true;
+  Scene none;
+  const double without = none.measured().quantity[POSE_WALL_YAW].protection;
+  EXPECT_NEAR(both.measured().quantity[POSE_WALL_YAW].protection, without, 1e-9);
+  EXPECT_GE(one.measured().quantity[POSE_WALL_YAW].protection, 0.03 * 0.2);
+}
+
+TEST(Quality, WallsThatDifferWidenTheLevelToReachEither) {
+  Scene scene;
+  scene.walls[0].yaw_rad = 0.00;
+  scene.walls[1].yaw_rad = 0.06;
+  const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
+  for (const WallResult& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.protection);
+}
+
+TEST(Quality, WhatIsDoubtfulIsWeak) {
+  for (const std::uint32_t reason : {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_R_WALL_SEEN_THROUGH}) {
+    Scene scene;
+    scene.walls[1].fit.reasons = reason;
+    const Measurements m = scene.measured();
+    EXPECT_TRUE(m.quantity[POSE_WALL_D_RF].weak && m.quantity[POSE_WALL_D_RB].weak && m.quantity[POSE_WALL_YAW].weak);
+    EXPECT_FALSE(m.quantity[POSE_WALL_D_LF].weak) << "the other side is not in doubt";
+  }
+  Scene far;
+  far.walls[0].extrapolated[0] = true;
+  const Measurements m = far.measured();
+  EXPECT_TRUE(m.quantity[POSE_WALL_D_LF].weak);
+  EXPECT_NE(m.quantity[POSE_WALL_D_LF].reasons & POSE_WALL_R_EXTRAPOLATED, 0U);
+  EXPECT_FALSE(m.quantity[POSE_WALL_D_LB].weak);
+  Scene floor;
+  floor.floor.fit.reasons = POSE_WALL_R_FLOOR_AMBIGUOUS;
+  EXPECT_TRUE(floor.measured().quantity[POSE_WALL_ROLL].weak);
+}
+
+TEST(Quality, BoundsAddToTheLevel) {
+  Scene plain, bound;
+  bound.walls[0].distance_bound_m[0] = 0.05;
+  bound.floor.roll_bound_rad = 0.01;
+  EXPECT_NEAR(
+      bound.measured().quantity[POSE_WALL_D_LF].protection - plain.measured().quantity[POSE_WALL_D_LF].protection, 0.05,
+      1e-12);
+  EXPECT_NEAR(
+      bound.measured().quantity[POSE_WALL_ROLL].protection - plain.measured().quantity[POSE_WALL_ROLL].protection, 0.01,
+      1e-12);
+}
+
+TEST(Quality, FewPatchesWidenTheLevel) {
+  Scene many, few;
+  few.walls[0].dof = 3.0;
+  EXPECT_GT(few.measured().quantity[POSE_WALL_D_LF].protection,
+            1.5 * many.measured().quantity[POSE_WALL_D_LF].protection);
+}
+
+TEST(Quality, BeyondTheAlertLimitIsSaid) {
+  Scene scene;
+  scene.walls[0].distance_sigma_m[0] = 0.05;
+  scene.walls[1].distance_sigma_m[0] = std::nan("");
+  const Measurements m = scene.measured();
+  EXPECT_NE(m.quantity[POSE_WALL_D_LF].reasons & POSE_WALL_R_ALERT_LIMIT, 0U);
+  EXPECT_NE(m.quantity[POSE_WALL_D_RF].reasons & POSE_WALL_R_ALERT_LIMIT, 0U) << "NaN is within no limit";
+  EXPECT_EQ(m.quantity[POSE_WALL_D_LB].reasons & POSE_WALL_R_ALERT_LIMIT, 0U);
+}
+
+TEST(Quality, ASideFullOfNearReturnsIsRefused) {
+  WallResult walls[2] = {good_wall(), good_wall()};
+  IngestCounts counts;
+  counts.points_in = 10000;
+  counts.near_by_quadrant[kLeft] = 2000;
+  counts.kept_by_quadrant[kLeft] = 500;
+  counts.near_by_quadrant[kRight] = 100;  // housing, a hand: not what blocks a side
+  counts.kept_by_quadrant[kRight] = 50;
+  refuse_blocked_sides(counts, &walls);
+  EXPECT_TRUE(walls[0].fit.refused);
+  EXPECT_NE(walls[0].fit.reasons & POSE_WALL_R_WALL_TOO_NEAR, 0U);
+  EXPECT_FALSE(walls[1].fit.refused);
+}
+
+}  // namespace
+}  // namespace pose_wall

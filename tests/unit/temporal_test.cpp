@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: states, ages, protection levels and flags follow the specification frame by frame, for measurements, gaps,
+// jumps, weak values and stamps that stand still, jump back or leap ahead; and that no NaN stands where a number is
+// promised, nor a number where there is none.
+
+#include "stages/temporal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::int64_t kMs = 1000000;
+constexpr double kRoundingS = 1e-9;
+
+// One quantity's life, frame by frame.
+class Life {
+ public:
+  explicit Life(std::initializer_list<test::KeyValue> settings = {}, std::uint32_t quantity = POSE_WALL_D_LF)
+      : settings_(test::settings_with(settings)), quantity_(quantity) {}
+
+  pose_wall_value measured(std::int64_t stamp_ms, double raw, double protection = 0.02, bool weak = false) {
+    Measurements m;
+    Measurement& q = m.quantity[quantity_];
+    q.measured = true;
+    q.raw = raw;
+    q.sigma = protection / 5.0;
+    q.protection = protection;
+    q.weak = weak;
+    return frame(stamp_ms, m);
+  }
+  pose_wall_value missing(std::int64_t stamp_ms) {
+    Measurements m;
+    m.quantity[quantity_].reasons = POSE_WALL_R_WALL_NOT_FOUND;
+    return frame(stamp_ms, m);
+  }
+  const FrameTiming& timing() const { return timing_; }
+  const Settings& settings() const { return settings_; }
+
+ private:
+  pose_wall_value frame(std::int64_t stamp_ms, const Measurements& m) {
+    const std::int64_t stamp = stamp_ms * kMs;
+    timing_ = time_frame(state_, stamp, settings_);
+    pose_wall_value values[POSE_WALL_QUANTITIES];
+    smooth_and_hold(m, timing_, stamp, settings_, &state_, &values);
+    for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+      if (q != quantity_) {
+        EXPECT_EQ(values[q].state, POSE_WALL_INVALID) << "an untouched quantity came to life";
+      }
+    }
+    check(values[quantity_], m.quantity[quantity_]);
+    return values[quantity_];
+  }
+
+  static void check(const pose_wall_value& v, const Measurement& m) {
+    const bool live = v.state == POSE_WALL_VALID || v.state == POSE_WALL_DEGRADED;
+    EXPECT_EQ(live, m.measured);
+    EXPECT_EQ(std::isnan(v.raw), !live);
+    EXPECT_EQ(v.state == POSE_WALL_INVALID, v.confidence == 0.0);
+    EXPECT_GE(v.confidence, 0.0);
+    EXPECT_LE(v.confidence, 1.0);
+    EXPECT_GE(v.age_s, 0.0);
+    if (v.state != POSE_WALL_INVALID) {
+      EXPECT_TRUE(std::isfinite(v.value) && std::isfinite(v.sigma) && std::isfinite(v.protection_level));
+    }
+    if (v.state == POSE_WALL_VALID) {
+      EXPECT_EQ(v.reasons & POSE_WALL_R_ALERT_LIMIT, 0U);
+    }
+  }
+
+  Settings settings_;
+  std::uint32_t quantity_;
+  TemporalState state_;
+  FrameTiming timing_;
+};
+
+TEST(Temporal, NeverMeasuredIsInvalidAndHasNoNumber) {
+  Life life;
+  for (int i = 0; i < 3; ++i) {
+    const pose_wall_value v = life.missing(100 * i);
+    EXPECT_EQ(v.state, POSE_WALL_INVALID);
+    EXPECT_TRUE(std::isnan(v.value) && std::isnan(v.raw) && std::isnan(v.sigma) && std::isnan(v.protection_level));
+    EXPECT_NE(v.reasons & POSE_WALL_R_NEVER_MEASURED, 0U);
+    EXPECT_NE(v.reasons & POSE_WALL_R_WALL_NOT_FOUND, 0U) << "why it was not measured stays readable";
+  }
+}
+
+TEST(Temporal, TheFirstMeasurementIsTakenAsItIs) {
+  Life life;
+  const pose_wall_value v = life.measured(0, 2.5);
+  EXPECT_EQ(v.state, POSE_WALL_VALID);
+  EXPECT_EQ(v.value, 2.5);
+  EXPECT_EQ(v.raw, 2.5);
+  EXPECT_EQ(v.age_s, 0.0);
+  EXPECT_EQ(v.protection_level, 0.02);
+  EXPECT_NEAR(v.confidence, 0.10 / 0.12, 1e-12);
+}
+
+// First order: after five time constants 99 % of a small step is there; the level covers the lag all the way.
+TEST(Temporal, SmoothingFollowsWithTheTimeConstantAndTheLevelCoversTheLag) {
+  Life life({{"temporal_smoothing_tau", "0.3"}});
+  life.measured(0, 2.00);
+  pose_wall_value v{};
+  for (int i = 1; i <= 15; ++i) {
+    v = life.measured(100 * i, 2.03);
+    EXPECT_GE(v.value, 2.0);
+    EXPECT_LE(v.value, 2.03);
+    EXPECT_GE(v.protection_level, std::fabs(v.value - 2.03) + 0.02 - 1e-12);
+    if (i == 3) {
+      EXPECT_NEAR(v.value, 2.0 + 0.03 * (1 - std::exp(-1.0)), 0.004) << "one time constant";
+    }
+  }
+  EXPECT_NEAR(v.value, 2.03, 0.0007);
+}
+
+TEST(Temporal, SmoothingGoesByTheStampsNotByTheFrames) {
+  Life slow, fast;
+  slow.measured(0, 2.0);
+  fast.measured(0, 2.0);
+  const double by_slow = slow.measured(200, 2.05).value;
+  fast.measured(50, 2.05);
+  fast.measured(100, 2.05);
+  fast.measured(150, 2.05);
+  const double by_fast = fast.measured(200, 2.05).value;
+  // Backward Euler at 0.2 and 0.05 s against the same 0.3 s: 0.40 and 0.46 of the step.
+  EXPECT_NEAR(by_slow, by_fast, 0.05 * 0.1);
+}
+
+TEST(Temporal, WithoutATimeConstantTheValueIsRaw) {
+  Life life({{"temporal_smoothing_tau", "0"}});
+  life.measured(0, 2.0);
+  EXPECT_EQ(life.measured(100, 2.04).value, 2.04);
+}
+
+TEST(Temporal, HeldValuesKeepTheirNumberAndLoseConfidence) {
+  Life life({{"hold_rate_distance", "0.02"}});
+  const pose_wall_value good = life.measured(0, 2.0);
+  double last = good.confidence;
+  for (int i = 1; i <= 10; ++i) {
+    const pose_wall_value v = life.missing(100 * i);
+    EXPECT_EQ(v.state, POSE_WALL_HELD);
+    EXPECT_EQ(v.value, good.value);
+    EXPECT_NEAR(v.age_s, 0.1 * i, kRoundingS);
+    EXPECT_NEAR(v.protection_level, good.protection_level + 0.02 * 0.1 * i, 1e-9);
+    EXPECT_LT(v.confidence, last);
+    EXPECT_NE(v.reasons & POSE_WALL_R_WALL_NOT_FOUND, 0U);
+    last = v.confidence;
+  }
+}
+
+TEST(Temporal, HoldEndsAtTheAlertLimit) {
+  Life life({{"hold_rate_distance", "0.1"}, {"hold_max", "60"}});
+  life.measured(0, 2.0);
+  // 0.02 + 0.1 t passes 0.10 after 0.8 s.
+  EXPECT_EQ(life.missing(790).state, POSE_WALL_HELD);
+  const pose_wall_value expired = life.missing(820);
+  EXPECT_EQ(expired.state, POSE_WALL_INVALID);
+  EXPECT_NE(expired.reasons & POSE_WALL_R_HOLD_EXPIRED, 0U);
+  EXPECT_EQ(expired.value, 2.0) << "the last number stays readable";
+  EXPECT_EQ(expired.confidence, 0.0);
+}
+
+TEST(Temporal, HoldEndsAtItsGreatestTime) {
+  Life life({{"hold_rate_distance", "0"}, {"hold_max", "1.5"}});
+  life.measured(0, 2.0);
+  EXPECT_EQ(life.missing(1000).state, POSE_WALL_HELD);
+  EXPECT_EQ(life.missing(1490).state, POSE_WALL_HELD);
+  EXPECT_EQ(life.missing(1510).state, POSE_WALL_INVALID);
+  EXPECT_EQ(life.missing(1520).state, POSE_WALL_INVALID) << "what has expired does not come back by itself";
+}
+
+TEST(Temporal, AfterExpiryAMeasurementStartsAfresh) {
+  Life life({{"hold_max", "0.5"}});
+  life.measured(0, 2.0);
+  life.missing(600);
+  const pose_wall_value v = life.measured(700, 3.0);
+  EXPECT_EQ(v.value, 3.0) << "not smoothed with the value before the gap";
+  EXPECT_EQ(v.state, POSE_WALL_VALID);
+  EXPECT_EQ(v.age_s, 0.0);
+}
+
+TEST(Temporal, WeakIsDegradedHoweverSmallItsLevel) {
+  Life life;
+  EXPECT_EQ(life.measured(0, 2.0, 0.001, true).state, POSE_WALL_DEGRADED);
+  EXPECT_EQ(life.measured(100, 2.0, 0.001, false).state, POSE_WALL_VALID);
+}
+
+TEST(Temporal, BeyondTheAlertLimitIsDegraded) {
+  Life life;
+  const pose_wall_value v = life.measured(0, 2.0, 0.11);
+  EXPECT_EQ(v.state, POSE_WALL_DEGRADED);
+  EXPECT_NE(v.reasons & POSE_WALL_R_ALERT_LIMIT, 0U);
+}
+
+TEST(Temporal, AJumpIsDoubtedUntilItHasComeAgain) {
+  Life life({{"hold_rate_distance", "0.2"}});
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(life.measured(100 * i, 2.0).state, POSE_WALL_VALID);
+  const pose_wall_value jumped = life.measured(1000, 2.8);
+  EXPECT_NE(jumped.state, POSE_WALL_VALID);
+  EXPECT_NE(jumped.reasons & POSE_WALL_R_INNOVATION, 0U);
+  // The old value may be the true one: the level reaches to it.
+  EXPECT_GE(jumped.protection_level, std::fabs(jumped.value - 2.0));
+  int valid_after = -1;
+  for (int i = 1; i <= 30 && valid_after < 0; ++i) {
+    if (life.measured(1000 + 100 * i, 2.8).state == POSE_WALL_VALID) valid_after = i;
+  }
+  EXPECT_GE(valid_after, 3);
+  EXPECT_LE(valid_after, 15) << "recovery in a few good frames";
+}
+
+TEST(Temporal, AJumpThereAndBackIsNeverValidWhereItIsWrong) {
+  Life life({{"hold_rate_distance", "0.2"}});
+  for (int i = 0; i < 10; ++i) life.measured(100 * i, 2.0);
+  for (int i = 10; i < 40; ++i) {
+    const bool wrong = i % 5 == 0;
+    const pose_wall_value v = life.measured(100 * i, wrong ? 2.8 : 2.0);
+    if (v.state == POSE_WALL_VALID) {
+      EXPECT_LE(std::fabs(v.value - 2.0), v.protection_level);
+    }
+  }
+}
+
+TEST(Temporal, YawFollowsByItsLimitPerFrame) {
+  Life life({{"yaw_rate_limit_deg", "3"}, {"temporal_smoothing_tau", "0"}}, POSE_WALL_YAW);
+  constexpr double kDeg = M_PI / 180.0;
+  life.measured(0, 0.0, 0.5 * kDeg);
+  double value = 0.0;
+  for (int i = 1; i <= 4; ++i) {
+    const pose_wall_value v = life.measured(100 * i, 10.0 * kDeg, 0.5 * kDeg);
+    EXPECT_LE(v.value - value, 3.0 * kDeg + 1e-12);
+    EXPECT_EQ((v.reasons & POSE_WALL_R_RATE_LIMITED) != 0, i <= 3) << i;
+    EXPECT_EQ(v.raw, 10.0 * kDeg) << "raw is untouched";
+    if (v.state == POSE_WALL_VALID) {
+      EXPECT_LE(10.0 * kDeg - v.value, v.protection_level);
+    }
+    value = v.value;
+  }
+  EXPECT_NEAR(value, 10.0 * kDeg, 1e-12);
+}
+
+TEST(Temporal, OtherAnglesAreNotLimited) {
+  Life life({{"yaw_rate_limit_deg", "3"}, {"temporal_smoothing_tau", "0"}}, POSE_WALL_ROLL);
+  life.measured(0, 0.0, 0.005);
+  EXPECT_EQ(life.measured(100, 0.2, 0.005).value, 0.2);
+}
+
+TEST(TemporalStamps, FlagsOfTheFrame) {
+  Life life({{"stamp_gap_max", "1.0"}});
+  life.measured(1000, 2.0);
+  EXPECT_TRUE(life.timing().first);
+  life.measured(1100, 2.0);
+  EXPECT_EQ(life.timing().reasons, 0U);
+  EXPECT_NEAR(life.timing().dt_s, 0.1, kRoundingS);
+  life.missing(1100);
+  EXPECT_EQ(life.timing().reasons, static_cast<std::uint32_t>(POSE_WALL_R_STAMP_STILL));
+  life.measured(600, 2.0);
+  EXPECT_EQ(life.timing().reasons, static_cast<std::uint32_t>(POSE_WALL_R_STAMP_BACK));
+  life.measured(1599, 2.0);
+  EXPECT_EQ(life.timing().reasons, 0U);
+  life.measured(2700, 2.0);
+  EXPECT_EQ(life.timing().reasons, static_cast<std::uint32_t>(POSE_WALL_R_STAMP_LEAP));
+}
+
+TEST(TemporalStamps, StandingStillDoesNotAge) {
+  Life life;
+  life.measured(0, 2.0);
+  life.missing(100);
+  for (int i = 0; i < 50; ++i) EXPECT_NEAR(life.missing(100).age_s, 0.1, kRoundingS);
+  EXPECT_NEAR(life.missing(200).age_s, 0.2, kRoundingS);
+}
+
+TEST(TemporalStamps, BackEndsWhatIsHeldAndRestartsWhatIsMeasured) {
+  Life held;
+  held.measured(5000, 2.0);
+  const pose_wall_value v = held.missing(1000);
+  EXPECT_EQ(v.state, POSE_WALL_INVALID) << "nobody knows how old it is";
+  EXPECT_GE(v.age_s, 0.0);
+  Life live;
+  live.measured(5000, 2.0);
+  const pose_wall_value again = live.measured(1000, 2.2);
+  EXPECT_EQ(again.value, 2.2) << "nothing from before is mixed in";
+  EXPECT_EQ(again.age_s, 0.0);
+  EXPECT_EQ(live.missing(1100).state, POSE_WALL_HELD) << "ages go on from the new stamp";
+}
+
+TEST(TemporalStamps, ALeapStartsSmoothingAfresh) {
+  Life life({{"stamp_gap_max", "1.0"}});
+  life.measured(0, 2.0);
+  EXPECT_EQ(life.measured(30000, 2.4).value, 2.4);
+}
+
+TEST(TemporalStamps, ALeapWhileHeldExpires) {
+  Life life;
+  life.measured(0, 2.0);
+  EXPECT_EQ(life.missing(3600 * 1000).state, POSE_WALL_INVALID);
+}
+
+TEST(TemporalStamps, TheGreatestStampsDoNotOverflow) {
+  const Settings settings = test::settings_with();
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min(),
+                         kMost = std::numeric_limits<std::int64_t>::max();
+  for (const auto& [from, to] :
+       {std::pair(kLeast, kMost), std::pair(kMost, kLeast), std::pair(std::int64_t{0}, kLeast)}) {
+    TemporalState state;
+    state.has_stamp = true;
+    state.stamp_ns = from;
+    const FrameTiming t = time_frame(state, to, settings);
+    EXPECT_TRUE(std::isfinite(t.dt_s));
+    EXPECT_EQ(t.back, to < from);
+    EXPECT_EQ(t.leap, to > from);
+  }
+}
+
+// Whatever comes: the checks inside Life hold in every frame, and a valid value is never far from every measurement.
+TEST(Temporal, ARandomLifeKeepsItsPromises) {
+  std::mt19937 random(7);
+  const auto upto = [&](double most) { return most * static_cast<double>(random() % 1000) / 1000.0; };
+  for (int run = 0; run < 200; ++run) {
+    Life life({{"hold_max", "1.0"}}, static_cast<std::uint32_t>(run % POSE_WALL_QUANTITIES));
+    std::int64_t stamp = 0;
+    for (int i = 0; i < 60; ++i) {
+      const std::int64_t steps[] = {100, 100, 100, 50, 0, -300, 5000};
+      stamp += steps[random() % 7];
+      if (random() % 3 == 0) {
+        life.missing(stamp);
+      } else {
+        const double raw = upto(1.0);
+        life.measured(stamp, raw, upto(0.2), random() % 5 == 0);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall

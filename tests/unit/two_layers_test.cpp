@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a second layer in front of a surface is found where there is one, with the surface behind it; rough rock
+// alone has none.
+
+#include "estimation/two_layers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kGate_m = 0.25, kSigmaMin_m = 0.005;
+
+std::vector<float> residuals(double share, double step, double sigma, double centre, std::uint32_t seed) {
+  test::Noise noise(seed);
+  std::vector<float> r(4000);
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const bool nearer = static_cast<double>(i) < share * 4000.0;
+    r[i] = static_cast<float>(centre + (nearer ? step : 0.0) + noise.normal(sigma));
+  }
+  return r;
+}
+
+TwoLayers found_in(const std::vector<float>& r) {
+  return find_two_layers(Span<const float>(r.data(), static_cast<std::uint32_t>(r.size())), kGate_m, kSigmaMin_m);
+}
+
+// 4000 residuals of 2 cm: means to 0.5 mm, shares to 1 %; bins of the histogram below a centimetre.
+TEST(TwoLayers, RibsInFrontOfASurfaceAreFound) {
+  for (const double share : {0.12, 0.3, 0.5}) {
+    for (const double centre : {0.0, -0.04}) {
+      const TwoLayers t = found_in(residuals(share, 0.12, 0.02, centre, 1));
+      ASSERT_TRUE(t.found) << share << " " << centre;
+      EXPECT_NEAR(t.centre_m, centre, 0.005);
+      EXPECT_NEAR(t.step_m, 0.12, 0.01);
+      EXPECT_NEAR(t.share, share, 0.05);
+      EXPECT_NEAR(t.sigma_m, 0.02, 0.005);
+      EXPECT_GT(t.surface_probability(centre), 0.95);
+      EXPECT_LT(t.surface_probability(centre + 0.12), 0.05);
+    }
+  }
+}
+
+TEST(TwoLayers, OneRoughSurfaceHasNoSecondLayer) {
+  for (const double sigma : {0.005, 0.02, 0.05}) {
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+      EXPECT_FALSE(found_in(residuals(0.0, 0.0, sigma, 0.0, seed)).found) << sigma;
+    }
+  }
+}
+
+TEST(TwoLayers, TooFewOrNoResiduals) {
+  EXPECT_FALSE(found_in({}).found);
+  EXPECT_FALSE(found_in(std::vector<float>(50, 0.0F)).found);
+  EXPECT_FALSE(found_in(std::vector<float>(5000, 9.0F)).found);
+}
+
+TEST(TwoLayers, LeanTowardsTheSensorIsNoneForRockAndPositiveForWhatStandsOut) {
+  const auto lean = [](const std::vector<float>& r) {
+    return lean_towards_sensor(Span<const float>(r.data(), static_cast<std::uint32_t>(r.size())), kGate_m);
+  };
+  EXPECT_NEAR(lean(residuals(0.0, 0.0, 0.03, 0.0, 1)), 0.0, 0.003);
+  EXPECT_GT(lean(residuals(0.25, 0.08, 0.03, 0.0, 1)), 0.004);
+  EXPECT_EQ(lean({}), 0.0);
+}
+
+}  // namespace
+}  // namespace pose_wall

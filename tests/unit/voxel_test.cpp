@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: every point of a cloud has exactly one fate and is counted under it; the extrinsic and the byte layout are
+// applied; a cloud with more voxels than there is room for gets a larger leaf, the same for any order of its points.
+
+#include "stages/voxel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "math/rotation.hpp"
+#include "support/clouds.hpp"
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+struct Voxels {
+  VoxelResult result;
+  std::vector<Eigen::Vector3d> points;
+};
+
+Extrinsic at_origin() {
+  return {Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
+}
+
+Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic = at_origin()) {
+  const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  test::Placed<VoxelGrid> grid(settings.points_max);
+  test::Placed<PointSet> out(settings.points_max);
+  grid->reset();
+  Voxels v;
+  v.result = build_voxels(cloud, settings, extrinsic, axes, grid.get(), out.get());
+  for (std::uint32_t i = 0; i < out->count; ++i) v.points.push_back(out->at(i));
+  return v;
+}
+
+TEST(Voxel, EveryPointIsCountedOnce) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+  const test::Points points = {
+      {5, 0, 0},     {0, 5, 0},     {-5, 0, 0},     {0, -5, 0}, {5, 0.001F, 0},  // kept
+      {kNan, 1, 1},  {1, -kInf, 1}, {1, 1, kInf},                                // not finite
+      {0, 0, 0},     {-0.0F, 0, 0},                                              // a no-return
+      {0, 0.29F, 0}, {0, -0.1F, 0}, {1e-30F, 0, 0},                              // near
+      {30.1F, 0, 0}, {1e30F, 0, 0}, {0, 3e38F, 0},                               // far
+      {2, 2, 2},                                                                 // in the body box
+  };
+  const Settings settings = test::settings_with({{"body_box_1", "1.5 2.5 1.5 2.5 1.5 2.5"}});
+  const IngestCounts c = voxels_of(test::cloud_of(points, 0), settings).result.counts;
+  EXPECT_EQ(c.points_in, points.size());
+  EXPECT_EQ(c.kept, 5U);
+  EXPECT_EQ(c.dropped_not_finite, 3U);
+  EXPECT_EQ(c.dropped_zero + c.dropped_near, 5U);
+  EXPECT_EQ(c.dropped_zero, 2U);
+  EXPECT_EQ(c.dropped_far, 3U);
+  EXPECT_EQ(c.dropped_body, 1U);
+  EXPECT_EQ(c.kept_by_quadrant[kAhead], 2U);
+  EXPECT_EQ(c.kept_by_quadrant[kLeft], 1U);
+  EXPECT_EQ(c.kept_by_quadrant[kBehind], 1U);
+  EXPECT_EQ(c.kept_by_quadrant[kRight], 1U);
+  EXPECT_EQ(c.near_by_quadrant[kLeft], 1U);
+  EXPECT_EQ(c.near_by_quadrant[kRight], 1U);
+}
+
+TEST(Voxel, PointsAreMovedToBase) {
+  const Extrinsic extrinsic{rotation_zyx(0.1, -0.2, 2.0), Eigen::Vector3d(1.0, -2.0, 0.5)};
+  const Eigen::Vector3d lidar(4.0, 3.0, -1.0);
+  const test::Points points = {{4, 3, -1}};
+  const Voxels v = voxels_of(test::cloud_of(points, 0), test::settings_with(), extrinsic);
+  ASSERT_EQ(v.points.size(), 1U);
+  const Eigen::Vector3d expected = extrinsic.R_base_lidar * lidar + extrinsic.sensor_base_m;
+  EXPECT_LT((v.points[0] - expected).norm(), 1e-4);  // quantised to 0.06 mm
+}
+
+TEST(Voxel, RangeIsFromTheSensorAndBoxesAreInBase) {
+  const Extrinsic far_away{Eigen::Matrix3d::Identity(), Eigen::Vector3d(15.0, 0.0, 0.0)};
+  const test::Points points = {{0.2F, 0, 0}, {29, 0, 0}, {-14, 0, 0}};
+  const Settings settings = test::settings_with({{"body_box_1", "0.5 1.5 -1 1 -1 1"}});
+  const IngestCounts c = voxels_of(test::cloud_of(points, 0), settings, far_away).result.counts;
+  EXPECT_EQ(c.dropped_near, 1U);
+  EXPECT_EQ(c.kept, 1U);
+  EXPECT_EQ(c.dropped_body, 1U);  // at 1 m in base
+}
+
+TEST(Voxel, AnyLayoutGivesTheSameVoxels) {
+  test::Noise noise(1);
+  test::Points points;
+  for (int i = 0; i < 3000; ++i) {
+    points.push_back({static_cast<float>(noise.uniform(-9, 9)), static_cast<float>(noise.uniform(-9, 9)),
+                      static_cast<float>(noise.uniform(-2, 2))});
+  }
+  const std::uint64_t expected = voxels_of(test::cloud_of(points, 0), test::settings_with()).result.fingerprint;
+  for (const bool float64 : {false, true}) {
+    for (const bool big_endian : {false, true}) {
+      for (const std::uint32_t offset : {0U, 18U}) {
+        const test::EncodedCloud e = test::encode(points, {float64, big_endian, offset, 0, 3, 30, 7}, 0);
+        EXPECT_EQ(voxels_of(e.cloud, test::settings_with()).result.fingerprint, expected);
+      }
+    }
+  }
+}
+
+TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
+  test::Noise noise(2);
+  test::Points points;
+  for (int i = 0; i < 40000; ++i) {
+    points.push_back({static_cast<float>(noise.uniform(-9, 9)), static_cast<float>(noise.uniform(-9, 9)),
+                      static_cast<float>(noise.uniform(-2, 2))});
+  }
+  const Settings settings = test::settings_with({{"points_max", "5000"}});
+  const Voxels first = voxels_of(test::cloud_of(points, 0), settings);
+  EXPECT_TRUE(first.result.leaf_grown);
+  EXPECT_TRUE(first.result.fits);
+  EXPECT_GT(first.result.leaf_m, settings.voxel_leaf);
+  EXPECT_LE(first.points.size(), 5000U);
+  EXPECT_GT(first.points.size(), 2000U) << "grown further than needed";
+  EXPECT_EQ(first.result.counts.points_in, 40000U) << "each point is counted once, however many passes there are";
+  test::shuffle(&points, 1);
+  const Voxels second = voxels_of(test::cloud_of(points, 0), settings);
+  EXPECT_EQ(second.result.fingerprint, first.result.fingerprint);
+  EXPECT_EQ(second.result.leaf_m, first.result.leaf_m);
+}
+
+TEST(Voxel, AnEmptyCloudHasNoVoxels) {
+  const Voxels v = voxels_of(test::cloud_of({}, 0), test::settings_with());
+  EXPECT_TRUE(v.points.empty());
+  EXPECT_EQ(v.result.counts.points_in, 0U);
+  EXPECT_FALSE(v.result.leaf_grown);
+}
+
+// Brightness shifts a centroid and nothing else: no point goes for being dark.
+TEST(Voxel, IntensityWeighsButNeverDrops) {
+  struct Point {
+    float x, y, z, intensity;
+  };
+  const Point points[] = {
+      {0.51F, 0.52F, 0.52F, 1000.0F}, {0.511F, 0.52F, 0.52F, 0.0F}, {3, 3, 1, -5.0F}, {4, 4, 1, std::nanf("")}};
+  pose_wall_cloud cloud;
+  pose_wall_cloud_xyz32(&cloud, points, 4, sizeof(Point), 0);
+  cloud.intensity = {12, POSE_WALL_FIELD_FLOAT32};
+  const Voxels plain = voxels_of(cloud, test::settings_with());
+  const Voxels weighted = voxels_of(cloud, test::settings_with({{"intensity_weight", "1.0"}}));
+  ASSERT_EQ(plain.points.size(), 3U);
+  ASSERT_EQ(weighted.points.size(), 3U);
+  EXPECT_NEAR(plain.points[0].x(), 0.5105, 1e-4);
+  EXPECT_LT(weighted.points[0].x(), 0.5103);
+}
+
+}  // namespace
+}  // namespace pose_wall

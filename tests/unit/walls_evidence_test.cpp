@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the grid on a plane tells solid wall from things seen through, and measures length and area in whole cells.
+
+#include "stages/walls_evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/band_fixture.hpp"
+
+namespace pose_wall {
+namespace {
+
+using test::BandFixture;
+
+class Marked {
+ public:
+  explicit Marked(BandFixture* band, double y_m = 2.5) {
+    const WallScene s = band->scene();
+    grid_->mark(s.band_level, Plane{Eigen::Vector3d(0, -1, 0), y_m}, Eigen::Vector3d::UnitX(), s.z_min_level_m,
+                s.z_max_level_m, s.sensor_level_m, {0.05, 0.15});
+  }
+  WallEvidence evidence() { return grid_->evidence(); }
+  WallGrid* operator->() { return grid_.get(); }
+
+ private:
+  test::Placed<WallGrid> grid_;
+};
+
+TEST(WallGrid, ASolidWall) {
+  BandFixture band;
+  band.add_wall(2.5, {-4.0, 4.0, 0.3, 2.4});
+  const WallEvidence e = Marked(&band).evidence();
+  EXPECT_NEAR(e.length_m, 8.0, 0.6);  // a column at each end
+  EXPECT_NEAR(e.along_min_m, -4.0, 0.51);
+  EXPECT_NEAR(e.along_max_m, 4.0, 0.51);
+  EXPECT_NEAR(e.area_m2, 8.0 * 2.25, 0.15 * 8.0 * 2.25);
+  EXPECT_EQ(e.seen_through, 0.0);
+  EXPECT_EQ(e.score_m2, e.area_m2);
+  EXPECT_NEAR(e.inliers, 4.0 * band.points().set().count, 0.01 * e.inliers) << "each point stands for four";
+}
+
+TEST(WallGrid, NothingThere) {
+  BandFixture band;
+  const WallEvidence e = Marked(&band).evidence();
+  EXPECT_EQ(e.score_m2, 0.0);
+  EXPECT_EQ(e.length_m, 0.0);
+  EXPECT_EQ(e.inliers, 0U);
+}
+
+TEST(WallGrid, APipeIsSeenThrough) {
+  BandFixture band;
+  // The wall behind, but for the shadow of the pipe.
+  band.add_wall(2.5, {-8.0, 8.0, 0.3, 1.2});
+  band.add_wall(2.5, {-8.0, 8.0, 1.6, 2.4});
+  // The pipe is nearer and so holds more points.
+  for (int copy = 0; copy < 3; ++copy) band.add_wall(1.9, {-6.0, 6.0, 1.3, 1.5});
+  const WallEvidence pipe = Marked(&band, 1.9).evidence(), wall = Marked(&band, 2.5).evidence();
+  EXPECT_GT(pipe.seen_through, 0.5);
+  EXPECT_LT(wall.seen_through, 0.1);
+  EXPECT_LT(pipe.score_m2, 0.2 * wall.score_m2);
+}
+
+TEST(WallGrid, GapsAreMeasuredToTheNearestSolidColumn) {
+  BandFixture band;
+  band.add_wall(2.5, {-6.0, -2.0, 0.3, 2.4});
+  band.add_wall(2.5, {3.0, 6.0, 0.3, 2.4});
+  Marked grid(&band);
+  EXPECT_EQ(grid->gap_to_solid_m(-4.0), 0.0);
+  EXPECT_NEAR(grid->gap_to_solid_m(0.5), 2.5, 0.51);
+  EXPECT_NEAR(grid->gap_to_solid_m(8.0), 2.0, 0.51);
+  EXPECT_TRUE(grid->solid_at(-4.1, 0.1));
+  EXPECT_FALSE(grid->solid_at(0.5, 0.1));
+  EXPECT_FALSE(grid->solid_at(-4.1, 50.0));
+  EXPECT_FALSE(grid->solid_at(1e6, 0.1));
+  BandFixture empty;
+  EXPECT_GT(Marked(&empty)->gap_to_solid_m(0.0), 100.0);
+}
+
+TEST(WallGrid, PointsFarOutsideTheGridDoNoHarm) {
+  BandFixture band;
+  band.add_wall(2.5, {-4.0, 4.0, 0.3, 2.4});
+  const double before = Marked(&band).evidence().score_m2;
+  for (const double x : {-400.0, -33.0, 33.0, 400.0}) band.points().add(x, 2.5, 0.0);
+  EXPECT_EQ(Marked(&band).evidence().score_m2, before);
+}
+
+}  // namespace
+}  // namespace pose_wall

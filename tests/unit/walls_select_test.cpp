@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: out of candidates on four sides the parallel pair with the most evidence is chosen, doubtful or crossing
+// ones are refused with the reason, and a rival is named.
+
+#include "stages/walls_select.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+WallCandidate candidate(double azimuth_rad, double d, double score_m2, std::uint32_t faults = 0) {
+  WallCandidate c;
+  c.plane.n = Eigen::Vector3d(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
+  c.plane.d = d;
+  c.evidence.score_m2 = c.evidence.area_m2 = score_m2;
+  c.evidence.length_m = 12.0;
+  c.faults = faults;
+  return c;
+}
+
+// Normals point to the machine.
+WallCandidate left_wall(double d, double score, double turned = 0.0, std::uint32_t faults = 0) {
+  return candidate(-M_PI / 2 + turned, d, score, faults);
+}
+WallCandidate right_wall(double d, double score, double turned = 0.0, std::uint32_t faults = 0) {
+  return candidate(M_PI / 2 + turned, d, score, faults);
+}
+
+WallCandidates list(std::initializer_list<WallCandidate> items) {
+  WallCandidates l;
+  for (const WallCandidate& c : items) l.item[l.count++] = c;
+  return l;
+}
+
+struct Choice {
+  WallCandidates left, right, ahead, behind;
+  Settings settings = test::settings_with();
+  WallChoice choose() const { return choose_walls(left, right, ahead, behind, settings); }
+};
+
+TEST(WallSelect, TheParallelPairWins) {
+  Choice c;
+  c.left = list({left_wall(2.5, 20.0), left_wall(2.0, 25.0, 0.6)});
+  c.right = list({right_wall(2.5, 20.0)});
+  const WallChoice chosen = c.choose();
+  EXPECT_EQ(chosen.side[0], &c.left.item[0]) << "not the larger one that is not parallel";
+  EXPECT_EQ(chosen.side[1], &c.right.item[0]);
+  EXPECT_FALSE(chosen.refused[0] || chosen.refused[1]);
+}
+
+TEST(WallSelect, FaultyOnesAreNeverChosenAndSayWhy) {
+  Choice c;
+  c.left = list({left_wall(2.5, 50.0, 0.0, POSE_WALL_R_WALL_SEEN_THROUGH)});
+  c.right = list({right_wall(2.5, 20.0)});
+  const WallChoice chosen = c.choose();
+  EXPECT_EQ(chosen.side[0], nullptr);
+  EXPECT_TRUE(chosen.refused[0]);
+  EXPECT_NE(chosen.reasons[0] & POSE_WALL_R_WALL_SEEN_THROUGH, 0U);
+  EXPECT_EQ(chosen.side[1], &c.right.item[0]);
+}
+
+TEST(WallSelect, TwoThatAreNotParallelCastDoubtOnEachOther) {
+  Choice c;
+  c.left = list({left_wall(2.5, 20.0)});
+  c.right = list({right_wall(2.5, 18.0, 0.6)});
+  const WallChoice chosen = c.choose();
+  EXPECT_TRUE(chosen.refused[0] && chosen.refused[1]);
+  EXPECT_NE(chosen.reasons[0] & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
+  EXPECT_NE(chosen.reasons[1] & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
+}
+
+TEST(WallSelect, AMuchWeakerOneCastsNoDoubt) {
+  Choice c;
+  c.left = list({left_wall(2.5, 20.0)});
+  c.right = list({right_wall(2.5, 2.0, 0.6)});
+  const WallChoice chosen = c.choose();
+  EXPECT_EQ(chosen.side[0], &c.left.item[0]);
+  EXPECT_FALSE(chosen.refused[0]);
+  EXPECT_TRUE(chosen.refused[1]);
+}
+
+TEST(WallSelect, ABetterRoadwayAcrossRefusesBoth) {
+  Choice c;
+  c.left = list({left_wall(6.0, 8.0)});
+  c.right = list({right_wall(6.0, 8.0)});
+  c.ahead = list({candidate(M_PI, 2.0, 30.0)});
+  c.behind = list({candidate(0.0, 2.0, 30.0)});
+  const WallChoice chosen = c.choose();
+  EXPECT_TRUE(chosen.refused[0] && chosen.refused[1]);
+  EXPECT_NE(chosen.reasons[0] & POSE_WALL_R_CROSS_ROAD, 0U);
+}
+
+TEST(WallSelect, AFaceAloneRefusesNoPair) {
+  Choice c;
+  c.left = list({left_wall(2.5, 15.0)});
+  c.right = list({right_wall(2.5, 15.0)});
+  c.ahead = list({candidate(M_PI, 4.0, 40.0)});
+  const WallChoice chosen = c.choose();
+  EXPECT_FALSE(chosen.refused[0] || chosen.refused[1]);
+}
+
+TEST(WallSelect, ARivalNearlyAsGoodIsNamed) {
+  Choice c;
+  c.left = list({left_wall(2.5, 20.0), left_wall(2.1, 19.0)});
+  c.right = list({right_wall(2.5, 20.0)});
+  const WallChoice chosen = c.choose();
+  EXPECT_EQ(chosen.side[0], &c.left.item[0]);
+  EXPECT_EQ(chosen.rival[0], &c.left.item[1]);
+  EXPECT_EQ(chosen.rival[1], nullptr);
+}
+
+TEST(WallSelect, NothingAnywhere) {
+  const WallChoice chosen = Choice().choose();
+  for (int side = 0; side < 2; ++side) {
+    EXPECT_EQ(chosen.side[side], nullptr);
+    EXPECT_TRUE(chosen.refused[side]);
+    EXPECT_NE(chosen.reasons[side] & POSE_WALL_R_WALL_NOT_FOUND, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the walls stage finds the two sides of a road and what they say of yaw and distances, and does not take for a
+// side what is none: a face, a short patch, a leaning plane, things seen through, walls that run apart.
+
+#include "stages/walls.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/band_fixture.hpp"
+
+namespace pose_wall {
+namespace {
+
+using test::BandFixture;
+using test::kLongWall;
+
+// 160 x 21 points of 1 cm on each wall, voxels not involved: offset 0.2 mm, direction 0.05 mrad. Ten times that.
+constexpr double kDistance_m = 0.002, kYaw_rad = 0.0005;
+
+bool is_good(const WallResult& wall) {
+  return wall.fit.found && !wall.fit.refused;
+}
+
+TEST(Walls, BothSidesOfAStraightRoad) {
+  BandFixture band;
+  band.add_wall(2.5, kLongWall);
+  band.add_wall(-2.0, kLongWall);
+  const WallsResult r = band.walls();
+  ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1]));
+  for (int end = 0; end < 2; ++end) {
+    EXPECT_NEAR(r.side[0].distance_m[end], 2.5, kDistance_m);
+    EXPECT_NEAR(r.side[1].distance_m[end], 2.0, kDistance_m);
+    EXPECT_FALSE(r.side[0].extrapolated[end]);
+  }
+  for (const WallResult& wall : r.side) {
+    EXPECT_NEAR(wall.yaw_rad, 0.0, kYaw_rad);
+    EXPECT_NEAR(wall.lean_rad, 0.0, 0.005);
+    EXPECT_NEAR(wall.along_min_m, -8.0, 0.6);
+    EXPECT_NEAR(wall.along_max_m, 8.0, 0.6);
+    EXPECT_GT(wall.fit.inliers, 5000U);
+  }
+  EXPECT_LT(r.side[0].fit.plane.n.y(), -0.99);
+  EXPECT_GT(r.side[1].fit.plane.n.y(), 0.99);
+}
+
+TEST(Walls, ATurnedRoadTurnsYawAndDistances) {
+  for (const double turned : {-0.6, -0.1, 0.3, 0.6}) {
+    BandFixture band;
+    band.add_wall(2.5, kLongWall, turned);
+    band.add_wall(-2.0, kLongWall, turned);
+    const WallsResult r = band.walls();
+    ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1])) << turned;
+    EXPECT_NEAR(r.side[0].yaw_rad, turned, kYaw_rad);
+    EXPECT_NEAR(r.side[1].yaw_rad, turned, kYaw_rad);
+    // The line through (0, y) in direction (cos, sin), from (s, 0).
+    EXPECT_NEAR(r.side[0].distance_m[0], 2.5 * std::cos(turned) + 2.0 * std::sin(turned), kDistance_m);
+    EXPECT_NEAR(r.side[0].distance_m[1], 2.5 * std::cos(turned) - 2.0 * std::sin(turned), kDistance_m);
+    EXPECT_NEAR(r.side[1].distance_m[0], std::fabs(2.0 * std::cos(turned) - 2.0 * std::sin(turned)), kDistance_m);
+  }
+}
+
+TEST(Walls, LeanIsEstimatedNotForcedToZero) {
+  BandFixture band;
+  band.add_wall(2.5, kLongWall, 0.0, 0.01, 0.10);
+  band.add_wall(-2.5, kLongWall, 0.0, 0.01, -0.07);
+  const WallsResult r = band.walls();
+  ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1]));
+  EXPECT_NEAR(r.side[0].lean_rad, 0.10, 0.003);
+  EXPECT_NEAR(r.side[1].lean_rad, -0.07, 0.003);
+  EXPECT_NEAR(r.side[0].distance_m[0], 2.5 * std::cos(0.10), kDistance_m);
+}
+
+TEST(Walls, AWallThatLeansTooMuchIsRefused) {
+  BandFixture band({{"wall_lean_max_deg", "5"}});
+  band.add_wall(2.5, kLongWall, 0.0, 0.01, 0.2);
+  band.add_wall(-2.5, kLongWall);
+  const WallsResult r = band.walls();
+  EXPECT_FALSE(is_good(r.side[0]));
+  EXPECT_TRUE(is_good(r.side[1]));
+}
+
+TEST(Walls, NoPointsNoWalls) {
+  BandFixture band;
+  for (const WallResult& wall : band.walls().side) {
+    EXPECT_FALSE(is_good(wall));
+    EXPECT_TRUE(wall.fit.refused);
+    EXPECT_NE(wall.fit.reasons & POSE_WALL_R_WALL_NOT_FOUND, 0U);
+  }
+}
+
+TEST(Walls, AFaceAheadIsNoSide) {
+  BandFixture band;
+  band.add_wall(2.5, {-8.0, 4.0, 0.3, 2.4});
+  band.add_wall(-2.5, {-8.0, 4.0, 0.3, 2.4});
+  band.add_face(4.0, -4.5, 4.5);
+  const WallsResult r = band.walls();
+  ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1]));
+  EXPECT_NEAR(r.side[0].yaw_rad, 0.0, 2 * kYaw_rad);
+  EXPECT_NEAR(r.side[1].distance_m[0], 2.5, kDistance_m);
+}
+
+TEST(Walls, OnlyAFaceMakesNoWallsAtAll) {
+  BandFixture band;
+  band.add_face(3.0, -6.0, 6.0);
+  for (const WallResult& wall : band.walls().side) EXPECT_FALSE(is_good(wall));
+}
+
+TEST(Walls, AShortPatchIsRefused) {
+  BandFixture band;
+  band.add_wall(2.5, {-0.5, 0.5, 0.3, 2.4});
+  const WallResult left = band.walls().side[0];
+  EXPECT_TRUE(left.fit.refused);
+  EXPECT_NE(left.fit.reasons, 0U);
+}
+
+TEST(Walls, FewPointsAreRefused) {
+  BandFixture band({{"wall_inlier_min", "50000"}});
+  band.add_wall(2.5, kLongWall);
+  const WallResult left = band.walls().side[0];
+  EXPECT_TRUE(left.fit.refused);
+  EXPECT_NE(left.fit.reasons & POSE_WALL_R_WALL_FEW_INLIERS, 0U);
+}
+
+TEST(Walls, OneWallIsNotMadeTwo) {
+  BandFixture band;
+  band.add_wall(-2.5, kLongWall);
+  const WallsResult r = band.walls();
+  EXPECT_FALSE(is_good(r.side[0]));
+  ASSERT_TRUE(is_good(r.side[1]));
+  EXPECT_NEAR(r.side[1].distance_m[0], 2.5, kDistance_m);
+}
+
+TEST(Walls, ARailInFrontIsNotTheWall) {
+  BandFixture band;
+  band.add_wall(2.5, kLongWall);
+  band.add_wall(-2.5, kLongWall);
+  // A pipe as a strip of two decimetres, half a metre before the left wall, with the wall seen over and under it.
+  for (int copy = 0; copy < 4; ++copy) band.add_wall(2.0, {-8.0, 8.0, 1.0, 1.2});
+  const WallResult left = band.walls().side[0];
+  if (is_good(left)) {
+    EXPECT_NEAR(left.distance_m[0], 2.5, left.distance_bound_m[0] + 0.02);
+  }
+}
+
+TEST(Walls, BeyondTheLastWallIsExtrapolation) {
+  BandFixture band;
+  band.add_wall(2.5, {-8.0, 0.5, 0.3, 2.4});
+  band.add_wall(-2.5, kLongWall);
+  const WallsResult r = band.walls();
+  ASSERT_TRUE(is_good(r.side[0]));
+  EXPECT_TRUE(r.side[0].extrapolated[0]);
+  EXPECT_FALSE(r.side[0].extrapolated[1]);
+  EXPECT_FALSE(r.side[1].extrapolated[0]);
+  EXPECT_GT(r.side[0].distance_sigma_m[0], r.side[0].distance_sigma_m[1]);
+}
+
+TEST(Walls, TheLastFramesPlaneIsNeverTrusted) {
+  BandFixture band;
+  band.add_wall(2.5, kLongWall);
+  band.add_wall(-2.5, kLongWall);
+  const Plane wrong_left{Eigen::Vector3d(0, -1, 0), 1.2}, wrong_right{Eigen::Vector3d(0, 1, 0), 1.2};
+  const WallsResult r = band.walls(&wrong_left, &wrong_right);
+  ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1]));
+  EXPECT_NEAR(r.side[0].distance_m[0], 2.5, kDistance_m);
+  EXPECT_NEAR(r.side[1].distance_m[0], 2.5, kDistance_m);
+  BandFixture empty;
+  EXPECT_FALSE(is_good(empty.walls(&wrong_left, &wrong_right).side[0]));
+}
+
+TEST(Walls, WorkIsBoundedByTheConfig) {
+  BandFixture band({{"wall_iterations", "60"}});
+  band.add_wall(2.5, kLongWall);
+  band.add_wall(-2.5, kLongWall);
+  // Draws, the last frame's plane and a few offsets of the other side's direction.
+  for (const WallResult& wall : band.walls().side) EXPECT_LE(wall.fit.iterations, 60U + 16U);
+}
+
+}  // namespace
+}  // namespace pose_wall
