@@ -26,7 +26,7 @@ constexpr double kSmallArea_m2 = 5.0;
 constexpr double kEqualShare = 0.7;
 constexpr double kAcrossSpreadMin_m = 0.2;
 constexpr double kGhostShare = 0.4;
-constexpr double kBelowShareMax = 0.3;
+constexpr double kBelowShareMax = 0.05;
 constexpr double kRivalShare = 0.5;
 constexpr double kOutlierSpan_m = 4.0;
 // A floor this good needs no wider look: the wider, the less "local" the floor is.
@@ -88,8 +88,9 @@ std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const 
     for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);
     if (repeats) continue;
     if (mlesac_score(cloud, all, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
-    if (!(share_below(cloud, s.ground_roi_radius_max, refined.plane) <= kBelowShareMax)) continue;
     scratch->grid.mark(cloud, all, refined.plane, s.ground_ransac_thresh);
+    const double below = share_below(scratch->grid, refined.plane, cloud, s.ground_roi_radius_max, sensor);
+    if (!(below <= kBelowShareMax)) continue;
     out[count++] = {refined.plane, scratch->grid.evidence(axes), false};
   }
   return count;

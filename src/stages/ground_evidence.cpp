@@ -112,18 +112,37 @@ bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
   return false;
 }
 
-double share_below(const PointSet& points_base, double radius_m, const Plane& plane) {
+bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const {
+  constexpr int kSteps = 8;
+  constexpr double kStep_m = 0.5;
+  const double dx = place_base_m.x() - sensor_base_m.x(), dy = place_base_m.y() - sensor_base_m.y();
+  const double away = std::sqrt(dx * dx + dy * dy);
+  if (!(away > 0.0)) return marked_near(place_base_m.x(), place_base_m.y());
+  for (int step = 0; step <= kSteps; ++step) {
+    const double reach = static_cast<double>(step) * kStep_m / away;
+    if (marked_near(place_base_m.x() + reach * dx, place_base_m.y() + reach * dy)) return true;
+  }
+  return false;
+}
+
+double share_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
+                   const Eigen::Vector3d& sensor_base_m) {
   // The floor may fall away from its local plane by this much, and more the farther away.
   constexpr double kBelow_m = 0.2;
   constexpr double kFall = 0.03;
   const float limit = static_cast<float>(radius_m * radius_m);
+  const double sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   std::uint32_t within = 0, below = 0;
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     const float x = points_base.x[i], y = points_base.y[i];
     if (!(x * x + y * y <= limit)) continue;
     ++within;
-    const double margin_m = kBelow_m + kFall * std::sqrt(static_cast<double>(x * x + y * y));
-    if (plane.signed_distance(points_base.at(i)) < -margin_m) ++below;
+    const Eigen::Vector3d p = points_base.at(i);
+    const double height = marked_plane.signed_distance(p);
+    if (!(height < -(kBelow_m + kFall * std::sqrt(static_cast<double>(x * x + y * y))))) continue;
+    const Eigen::Vector3d crossing =
+        sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
+    if (!marked.marked_behind(sensor_base_m, crossing)) ++below;
   }
   return within > 0 ? static_cast<double>(below) / static_cast<double>(within) : 0.0;
 }

@@ -41,6 +41,8 @@ class FloorGrid {
   FloorEvidence evidence(const Axes& axes) const;
   // Whether the marked plane has floor at or next to this place.
   bool marked_near(double x_base_m, double y_base_m) const;
+  // The same, or farther out in the same direction from the sensor: a place inside the floor, be it a puddle.
+  bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
 
  private:
   static std::int32_t cell_of(double coordinate_m);
@@ -51,8 +53,10 @@ class FloorGrid {
   Span<std::uint8_t> marked_;
 };
 
-// Share of all points within the radius that lie below the plane. Nothing does below a floor, but for reflections.
-double share_below(const PointSet& points_base, double radius_m, const Plane& plane);
+// Share of all points within the radius that lie below the marked plane without being reflections in it. Nothing does
+// below a floor; below a deck, a bench or a table there is floor, seen past the edge.
+double share_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
+                   const Eigen::Vector3d& sensor_base_m);
 
 // Share of the points on 'below' whose ray from the sensor passes through open floor of the plane marked in the grid:
 // no light comes through a floor, so such a plane is a reflection in wet ground.

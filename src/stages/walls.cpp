@@ -18,7 +18,7 @@ constexpr double kSeenThroughMax = 0.5;
 constexpr double kSeenThroughDoubt = 0.25;
 constexpr double kRefineSlack_deg = 5.0;
 constexpr double kOnWallInThresholds = 3.0;
-constexpr double kExplainedMin = 0.25;
+constexpr double kExplainedMin = 0.3;
 
 std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
   std::uint32_t faults = 0;

@@ -9,6 +9,9 @@ namespace pose_wall {
 namespace {
 
 constexpr double kRivalShare = 0.5;
+constexpr double kBehindShare = 0.3;
+// Both walls of a pair together: two flat spots of two metres each may be parallel by chance.
+constexpr double kPairLengthMin_m = 6.0;
 // A second wall that is not parallel casts doubt on the first unless it is this much weaker.
 constexpr double kDoubtShare = 0.5;
 constexpr double kAcrossCos = 0.7;  // planes across the road are at more than 45 degrees to the side walls
@@ -29,6 +32,7 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parall
       if (bs.item[j].faults != 0) continue;
       const double cosine = std::fabs(as.item[i].plane.n.dot(bs.item[j].plane.n));
       if (!(cosine > parallel_cos)) continue;
+      if (!(as.item[i].evidence.length_m + bs.item[j].evidence.length_m >= kPairLengthMin_m)) continue;
       const double parallel = 0.5 + 0.5 * (cosine - parallel_cos) / (1.0 - parallel_cos);
       const double score = (as.item[i].evidence.score_m2 + bs.item[j].evidence.score_m2) * parallel;
       if (score > best.score) best = {&as.item[i], &bs.item[j], score};
@@ -59,11 +63,22 @@ std::uint32_t faults_of(const WallCandidates& list, double length_min_m) {
   return reasons;
 }
 
+// Whether a plane lies parallel behind the chosen one: a vehicle or a curtain hides most of the wall behind it, and
+// little of that wall is enough to doubt what stands before it.
+bool lies_behind(const Plane& rival, const Plane& chosen) {
+  constexpr double kParallelCos = 0.995;
+  constexpr double kBehind_m = 0.2;
+  return rival.n.dot(chosen.n) > kParallelCos && rival.d > chosen.d + kBehind_m;
+}
+
+// Few points are no excuse here: they are enough to cast doubt.
 const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate* chosen) {
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
-    if (&c == chosen || c.faults != 0 || c.evidence.score_m2 < kRivalShare * chosen->evidence.score_m2) continue;
+    if (&c == chosen || (c.faults & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS)) != 0) continue;
+    const double share = lies_behind(c.plane, chosen->plane) ? kBehindShare : kRivalShare;
+    if (!(c.evidence.score_m2 >= share * chosen->evidence.score_m2)) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
