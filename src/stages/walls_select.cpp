@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kRivalShare = 0.5;
 constexpr double kBehindShare = 0.3;
+// A lone wall is solid over at least this share of its span; a boulder and a far spot in line with it are not.
+constexpr double kFilledShare = 0.5;
 // Both walls of a pair together: two flat spots of two metres each may be parallel by chance.
 constexpr double kPairLengthMin_m = 6.0;
 // A second wall that is not parallel casts doubt on the first unless it is this much weaker.
@@ -45,7 +47,9 @@ const WallCandidate* best_single(const WallCandidates& list, double length_min_m
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
+    const double span_m = c.evidence.along_max_m - c.evidence.along_min_m;
     if (c.faults != 0 || !(c.evidence.length_m >= length_min_m)) continue;
+    if (!(c.evidence.length_m >= kFilledShare * span_m)) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;

@@ -5,10 +5,12 @@
 
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "sim/machine_body.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
 #include "support/clouds.hpp"
@@ -20,7 +22,14 @@ namespace sim = pose_wall::tools::sim;
 
 constexpr double kRadPerDeg = 0.017453292519943295;
 
-// What the engine is to be told of the simulated machine.
+inline void set_box(pose_wall_config* config, const char* key, const std::array<double, 6>& box) {
+  std::string text;
+  for (const double number : box) text += std::to_string(number) + " ";
+  set(config, key, text.c_str());
+}
+
+// What the engine is to be told of the simulated machine: axes, mounting, and the boxes that hold body and boom. (A
+// boom that swings is in no box.)
 inline pose_wall_config config_for(const sim::SceneSetup& setup, pose_wall_config config = config_with()) {
   static const char* const kAxes[] = {"+X", "-X", "+Y", "-Y"};
   set(&config, "forward_axis", kAxes[static_cast<int>(setup.machine.forward_axis)]);
@@ -30,6 +39,9 @@ inline pose_wall_config config_for(const sim::SceneSetup& setup, pose_wall_confi
   set(&config, "extrinsic_roll", setup.mount.mount_roll_deg * kRadPerDeg);
   set(&config, "extrinsic_pitch", setup.mount.mount_pitch_deg * kRadPerDeg);
   set(&config, "extrinsic_yaw", setup.mount.mount_yaw_deg * kRadPerDeg);
+  if (setup.machine.body != 0.0) set_box(&config, "body_box_1", sim::body_box_base_m(setup.machine));
+  const bool boom_stays = setup.machine.boom != 0.0 && setup.machine.boom_sweep_deg == 0.0;
+  if (boom_stays) set_box(&config, "body_box_2", sim::boom_box_base_m(setup.machine));
   set(&config, "s_front", setup.machine.s_front_m);
   set(&config, "s_back", setup.machine.s_back_m);
   return config;
