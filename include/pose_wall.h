@@ -24,7 +24,9 @@
  *          R_level = Ry(pitch) * Rx(roll), which takes the floor's normal to +Z.
  * SIGNS    roll = atan2(n_y, n_z), pitch = atan2(-n_x, sqrt(n_y^2 + n_z^2)) with n the floor's upward normal in
  *          base, about base X and Y whatever forward_axis is. yaw is the angle about +Z from the machine's forward
- *          axis to the road: a machine turned LEFT by 5 degrees reports yaw = -5 degrees. Distances are >= 0.
+ *          axis to the road: a machine turned LEFT by 5 degrees reports yaw = -5 degrees. In words, with forward +X:
+ *          roll > 0 is right side down, pitch > 0 is nose down; with -X both turn round for the driver; with +Y or -Y
+ *          roll is the driver's pitch and pitch the driver's roll. Distances are >= 0.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
  * MEMORY   only the caller's block. No call here allocates, blocks, prints, reads a clock or throws.
  * THREADS  one engine belongs to one thread at a time; different engines are independent. There are no globals.
@@ -68,7 +70,7 @@ enum pose_wall_status {
 
   /* wrong calls */
   POSE_WALL_E_NULL = -1,         /* a required pointer is NULL */
-  POSE_WALL_E_STRUCT_SIZE = -2,  /* struct_size is not one this library knows (init function not called?) */
+  POSE_WALL_E_STRUCT_SIZE = -2,  /* struct_size unknown: set it to sizeof, or call the init function */
   POSE_WALL_E_BLOCK_SMALL = -3,  /* block smaller than pose_wall_memory_needed() says */
   POSE_WALL_E_BLOCK_ALIGN = -4,  /* block not aligned to POSE_WALL_BLOCK_ALIGNMENT */
   POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine */
@@ -222,7 +224,8 @@ enum pose_wall_quantity {
 };
 
 enum pose_wall_state {
-  POSE_WALL_INVALID = 0,  /* never measured, or held for too long; value stays readable, confidence 0 */
+  POSE_WALL_INVALID = 0,  /* never measured, or held until its protection level passed the alert limit or hold_max was
+                             over; the last value stays readable, confidence 0 */
   POSE_WALL_HELD = 1,     /* not measured in this frame: the last good value, with a growing protection level */
   POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: the protection level says how much */
   POSE_WALL_VALID = 3     /* measured in this frame, every gate passed, protection level within the alert limit */
@@ -273,9 +276,10 @@ const char* pose_wall_state_name(uint32_t state);
 const char* pose_wall_quantity_name(uint32_t quantity);
 
 typedef struct pose_wall_value {
-  double value;            /* what a controller acts on: smoothed, or held. NaN if never measured */
-  double raw;              /* this frame's own measurement before smoothing; NaN if none */
-  double sigma;            /* standard deviation of raw (held: of the last raw) */
+  double value; /* what a controller acts on: smoothed, or held. NaN if never measured */
+  double raw;   /* this frame's own measurement before smoothing; NaN if none */
+  double sigma; /* standard deviation of raw: its random part, on rough rock too (held: of the last raw). Biases that
+                   the engine can bound but not know (range bias, rival surfaces) are in protection_level only */
   double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured */
   double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
   double age_s;            /* since the frame it was measured in; 0 when measured in this one */

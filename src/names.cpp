@@ -22,7 +22,7 @@ const char* status_text(std::int32_t status) {
     case POSE_WALL_E_NULL:
       return "a required pointer is NULL";
     case POSE_WALL_E_STRUCT_SIZE:
-      return "struct_size is not one this library knows (init function not called?)";
+      return "struct_size unknown: set it to sizeof, or call the init function";
     case POSE_WALL_E_BLOCK_SMALL:
       return "block smaller than pose_wall_memory_needed() says";
     case POSE_WALL_E_BLOCK_ALIGN:

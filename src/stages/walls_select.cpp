@@ -111,20 +111,25 @@ void choose_single(const WallCandidates* const lists[2], double length_min_m, Wa
   for (int side = 0; side < 2; ++side) out->side[side] = best[side];
 }
 
-// Whether the planes ahead and behind make a better roadway than the chosen sides.
+// Whether the planes ahead and behind make a better roadway than the chosen sides. Against one wall alone, planes of
+// few points count too: they are enough to doubt which way the road runs.
 bool stands_across(const WallChoice& sides, double sides_score, const WallCandidates& ahead,
                    const WallCandidates& behind, const Settings& s) {
+  const bool alone = sides.side[0] == nullptr || sides.side[1] == nullptr;
   const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
   const auto across = [&](const WallCandidates& list) {
     WallCandidates out;
     for (std::uint32_t i = 0; i < list.count; ++i) {
-      if (std::fabs(list.item[i].plane.n.dot(side.n)) < kAcrossCos) out.item[out.count++] = list.item[i];
+      if (!(std::fabs(list.item[i].plane.n.dot(side.n)) < kAcrossCos)) continue;
+      out.item[out.count] = list.item[i];
+      if (alone) out.item[out.count].faults &= ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
+      ++out.count;
     }
     return out;
   };
   const WallCandidates a = across(ahead), b = across(behind);
   if (best_pair(a, b, s.wall_parallel_cos).score > sides_score) return true;
-  if (sides.side[0] != nullptr && sides.side[1] != nullptr) return false;
+  if (!alone) return false;
   for (const WallCandidate* lone : {best_single(a, s.wall_length_min), best_single(b, s.wall_length_min)}) {
     if (lone != nullptr && lone->evidence.score_m2 > kLoneCrossShare * sides_score) return true;
   }

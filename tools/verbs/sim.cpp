@@ -69,6 +69,12 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
 }
 
+// A longer run into the same folder left frames that this run's truth knows nothing of.
+void remove_later_frames(const SimOptions& options) {
+  std::uint32_t i = options.frames;
+  while (std::filesystem::remove(sim::frame_file(options.output, i))) ++i;
+}
+
 void write_frames(const SimOptions& options, const sim::Simulator& simulator) {
   ProgressBar bar(options.frames, !options.quiet && is_terminal(2));
   std::vector<TruthRow> truth;
@@ -79,6 +85,7 @@ void write_frames(const SimOptions& options, const sim::Simulator& simulator) {
     truth.push_back(simulator.truth(i));
     bar.advance(file.filename().string());
   }
+  remove_later_frames(options);
   write_truth_csv(std::filesystem::path(options.output) / "truth.csv", truth);
 }
 
