@@ -87,7 +87,7 @@ enum pose_wall_status {
   /* clouds */
   POSE_WALL_E_CLOUD_FIELD = -40, /* x, y or z missing, or a field of a type that cannot be read */
   POSE_WALL_E_CLOUD_STEP = -41,  /* a field reaches past point_step, or a row past row_step */
-  POSE_WALL_E_CLOUD_SIZE = -42   /* data_bytes does not hold width x height points */
+  POSE_WALL_E_CLOUD_SIZE = -42   /* data_bytes does not hold width x height points, or those are more than 2^26 */
 };
 
 /* One English sentence, static storage; "unknown status" for anything else. */
@@ -236,10 +236,12 @@ enum pose_wall_reason {
   /* the frame */
   POSE_WALL_R_NO_POINTS = 1 << 0,   /* too few points survive the filters */
   POSE_WALL_R_LEAF_GROWN = 1 << 1,  /* voxel leaf enlarged to stay within points_max (a note, not a fault) */
-  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp equals the last frame's: treated as a repeat, state is kept */
-  POSE_WALL_R_STAMP_BACK = 1 << 3,  /* stamp older than the last frame's: ages restart from this stamp */
-  POSE_WALL_R_STAMP_LEAP = 1 << 4,  /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
-  POSE_WALL_R_FROZEN = 1 << 5,      /* the very points of the last frame again: a frozen sensor */
+  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp equals the last frame's: taken as the same frame again, values are held;
+                                       after the second such frame they expire */
+  POSE_WALL_R_STAMP_BACK =
+      1 << 3, /* stamp older than the last frame's: what is held expires, smoothing starts afresh */
+  POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
+  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of the last frame again: a frozen sensor */
   /* the floor */
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
@@ -295,8 +297,9 @@ typedef struct pose_wall_plane {
   double lean_rad; /* walls: tilt from the vertical of the levelled frame, + leaning away from the machine at the top */
   double along_min_m; /* walls: supported span along the road direction, from the base origin */
   double along_max_m;
-  double area_m2;      /* supported area */
-  uint32_t found;      /* 0: the other members are zero */
+  double area_m2; /* supported area */
+  uint32_t found; /* 0: of the other members only iterations and reasons are set. 1: a plane was fitted; whether it was
+                     used, the states of the quantities tell */
   uint32_t inliers;    /* measured points on the plane: each voxel counts the points it stands for */
   uint32_t iterations; /* hypotheses scored */
   uint32_t reasons;

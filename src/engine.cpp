@@ -12,6 +12,7 @@
 #include "stages/outliers.hpp"
 #include "stages/quality.hpp"
 #include "stages/voxel.hpp"
+#include "stages/walls_parallel.hpp"
 
 namespace pose_wall {
 namespace {
@@ -101,7 +102,8 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   found.voxels = build_voxels(cloud, settings_, extrinsic_, axes_, &scratch_.grid, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
-  found.outliers = remove_outliers(settings_, &scratch_.cells, scratch_.marks, &scratch_.cloud_base);
+  found.outliers =
+      remove_outliers(settings_, found.voxels.leaf_m, &scratch_.cells, scratch_.marks, &scratch_.cloud_base);
   stage_done(POSE_WALL_STAGE_OUTLIERS);
   find_floor_if_any(&random, &found);
   stage_done(POSE_WALL_STAGE_GROUND);
@@ -144,6 +146,7 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
                                 memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);
   refuse_blocked_sides(found->voxels.counts, &found->walls.side);
+  share_direction(scene, &found->walls.side);
 }
 
 void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
@@ -165,7 +168,8 @@ void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
 // The very same points under a new stamp: no LiDAR does that, its driver or network does. Under the old stamp it is
 // the same frame once more, and there is nothing new to measure.
 void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
-  const bool repeated = memory_.frames > 0 && found->voxels.fingerprint == memory_.fingerprint;
+  const bool has_points = scratch_.cloud_base.count >= kPointsMin;
+  const bool repeated = memory_.frames > 0 && has_points && found->voxels.fingerprint == memory_.fingerprint;
   memory_.repeats = repeated ? memory_.repeats + 1 : 0;
   memory_.fingerprint = found->voxels.fingerprint;
   const bool frozen = repeated && !timing.still;

@@ -48,7 +48,7 @@ const char* status_text(std::int32_t status) {
     case POSE_WALL_E_CLOUD_STEP:
       return "a field reaches past point_step, or a row past row_step";
     case POSE_WALL_E_CLOUD_SIZE:
-      return "data_bytes does not hold width x height points";
+      return "data_bytes does not hold width x height points, or those are more than 2^26";
     default:
       return "unknown status";
   }

@@ -8,6 +8,7 @@
 #include "estimation/irls.hpp"
 #include "estimation/tangent_frame.hpp"
 #include "estimation/tukey.hpp"
+#include "math/elementary.hpp"
 
 namespace pose_wall {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr double kGateInThresholds = 3.0;
 constexpr double kScaleMin_m = 0.003;
 constexpr double kPatch_m = 0.5;
+// A bend is told where it takes up this much of the alert limit.
+constexpr double kBendMatters = 0.2;
 constexpr int kRounds = 5;
 constexpr int kSelections = 2;
 
@@ -88,7 +91,8 @@ void set_uncertainty(const PatchFit& patch, const TangentFrame& f, const Plane& 
   out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(patch.bias_response)) + std::fabs(roll.dot(bend));
   out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(patch.bias_response)) + std::fabs(pitch.dot(bend));
   out->dof = patch.dof;
-  if (patch.bends) out->fit.reasons |= POSE_WALL_R_CURVED;
+  const double bent = std::fabs(roll.dot(bend)) + std::fabs(pitch.dot(bend));
+  if (bent > kBendMatters * radians(s.alert_limit_angle_deg)) out->fit.reasons |= POSE_WALL_R_CURVED;
 }
 
 }  // namespace

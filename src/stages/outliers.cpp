@@ -44,10 +44,12 @@ class NeighbourCounter {
 
 }  // namespace
 
-std::uint32_t remove_outliers(const Settings& settings, CellIndex* cells, Span<std::uint8_t> keep, PointSet* points) {
+std::uint32_t remove_outliers(const Settings& settings, double leaf_m, CellIndex* cells, Span<std::uint8_t> keep,
+                              PointSet* points) {
   if (settings.outlier_min_neighbors == 0) return 0;
-  cells->build(*points, settings.outlier_radius);
-  const NeighbourCounter counter(*points, *cells, settings.outlier_radius, settings.outlier_min_neighbors);
+  const double radius_m = settings.outlier_radius > 2.0 * leaf_m ? settings.outlier_radius : 2.0 * leaf_m;
+  cells->build(*points, radius_m);
+  const NeighbourCounter counter(*points, *cells, radius_m, settings.outlier_min_neighbors);
   for (std::uint32_t i = 0; i < points->count; ++i) keep[i] = counter.has_enough(i) ? 1 : 0;
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < points->count; ++i) {

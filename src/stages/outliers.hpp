@@ -11,8 +11,10 @@
 
 namespace pose_wall {
 
-// Drops centroids with fewer than outlier_min_neighbors others within outlier_radius, keeping the order of the rest.
+// Drops centroids with fewer than outlier_min_neighbors others within outlier_radius (two leaves where the leaf has
+// grown, or none would have any), keeping the order of the rest.
 // Returns how many went. keep: scratch, one byte per point.
-std::uint32_t remove_outliers(const Settings& settings, CellIndex* cells, Span<std::uint8_t> keep, PointSet* points);
+std::uint32_t remove_outliers(const Settings& settings, double leaf_m, CellIndex* cells, Span<std::uint8_t> keep,
+                              PointSet* points);
 
 }  // namespace pose_wall

@@ -7,12 +7,13 @@
 
 #include "estimation/protection.hpp"
 #include "math/elementary.hpp"
+#include "math/finite.hpp"
 
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kWeakFloor = POSE_WALL_R_FLOOR_AMBIGUOUS;
-constexpr std::uint32_t kWeakWall = POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH;
+constexpr std::uint32_t kWeakFloor = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_CURVED;
+constexpr std::uint32_t kWeakWall = POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED;
 // Walls that differ by more than this many standard deviations are not parallel: the road has no one direction.
 constexpr double kSplayInSigmas = 3.0;
 // No part of the chain is better known than this.
@@ -27,10 +28,11 @@ double with_floor(double sigma, double least) {
 
 Measurement measurement(double raw, double sigma, double bound, double dof, const Settings& s) {
   Measurement m;
-  m.measured = true;
   m.raw = raw;
   m.sigma = sigma;
   m.protection = protection_factor(s.protection_factor, dof) * sigma + bound;
+  // What has no bound is no measurement.
+  m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.protection);
   return m;
 }
 
@@ -75,40 +77,51 @@ double larger(double a, double b) {
   return a > b ? a : b;
 }
 
-double yaw_sigma_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
-  const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_to_yaw(wall, level);
-  return with_floor(with_floor(wall.yaw_sigma_rad, tilt), kSigmaMinAngle_rad);
-}
-
 double yaw_bound_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
   return wall.yaw_bound_rad + larger(floor.roll_bound_rad, floor.pitch_bound_rad) * tilt_to_yaw(wall, level);
 }
 
+// Adds what the floor's tilt turns into yaw: one error, whatever the number of walls.
+Measurement yaw_measurement(double raw, double walls_variance, double bound, double dof, double tilt_share,
+                            const FloorResult& floor, const Settings& s) {
+  const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_share;
+  const double variance = walls_variance + tilt * tilt;
+  // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
+  const double both = walls_variance * walls_variance / dof + tilt * tilt * tilt * tilt / floor.dof;
+  const double dof_of_sum = both > 0.0 ? variance * variance / both : dof;
+  return measurement(raw, with_floor(std::sqrt(variance), kSigmaMinAngle_rad), bound, dof_of_sum, s);
+}
+
 Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const LevelResult& level, const Settings& s) {
   const double bias = s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
-  return measurement(wall.yaw_rad, yaw_sigma_of(wall, floor, level), yaw_bound_of(wall, floor, level) + bias, wall.dof,
-                     s);
+  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, yaw_bound_of(wall, floor, level) + bias,
+                         wall.dof, tilt_to_yaw(wall, level), floor, s);
 }
 
 // Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
 // in the mean as far as the weights are alike; the signed responses say how far.
 Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const LevelResult& level,
                         const Settings& s) {
-  const double sigma[2] = {yaw_sigma_of(walls[0], floor, level), yaw_sigma_of(walls[1], floor, level)};
-  const double information[2] = {1.0 / (sigma[0] * sigma[0]), 1.0 / (sigma[1] * sigma[1])};
-  const double sum = information[0] + information[1];
-  const double w[2] = {information[0] / sum, information[1] / sum};
+  double variance[2] = {}, information = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const double sigma = with_floor(walls[side].yaw_sigma_rad, kSigmaMinAngle_rad);
+    variance[side] = sigma * sigma;
+    information += 1.0 / variance[side];
+  }
+  const double w[2] = {1.0 / (variance[0] * information), 1.0 / (variance[1] * information)};
   const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
   const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
   double bound = s.range_bias_max * std::fabs(bias);
   bound += w[0] * yaw_bound_of(walls[0], floor, level) + w[1] * yaw_bound_of(walls[1], floor, level);
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
-  const double expected = kSplayInSigmas * std::sqrt(sigma[0] * sigma[0] + sigma[1] * sigma[1]) + biased_apart;
+  const double expected = kSplayInSigmas * std::sqrt(variance[0] + variance[1]) + biased_apart;
   // The road's own direction lies between the walls'; the mean may lie at either.
   if (difference > expected) bound += larger(w[0], w[1]) * difference;
-  const double dof = walls[0].dof + walls[1].dof;
-  return measurement(raw, std::sqrt(1.0 / sum), bound, dof, s);
+  // A wall that looks precise by chance must not lend the other its degrees of freedom.
+  const double dof = 1.0 / (w[0] * w[0] / walls[0].dof + w[1] * w[1] / walls[1].dof);
+  const double tilt_share = larger(tilt_to_yaw(walls[0], level), tilt_to_yaw(walls[1], level));
+  return yaw_measurement(raw, 1.0 / information, bound, dof, tilt_share, floor, s);
 }
 
 Measurement measure_yaw(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],

@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::uint32_t kConfirmations = 3;
+constexpr std::uint32_t kStillFramesMax = 2;
 
 double larger(double a, double b) {
-  return a > b ? a : b;
+  return !(a <= b) ? a : b;
 }
 
 double fastest(std::uint32_t quantity, const Settings& s) {
@@ -27,18 +28,18 @@ double gain(double dt_s, double tau_s) {
   return dt_s >= 0.0 && tau_s > 0.0 ? dt_s / (tau_s + dt_s) : 1.0;
 }
 
-// A jump further than machine and errors allow: either this value or the old one is wrong. Both stay possible until
-// the new one has come again kConfirmations times.
+// A jump from the last good value further than machine and errors allow: either this value or that one is wrong. Both
+// stay possible until the new one has come again kConfirmations times.
 void check_innovation(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
-  const double allowed = m.protection + t->raw_protection + fastest(quantity, s) * t->age_s;
-  if (!(std::fabs(m.raw - t->raw) <= allowed)) {
-    t->trusted = t->value;
-    t->trusted_protection = t->own_protection;
-    t->trusted_age_s = t->age_s;
-    t->to_confirm = kConfirmations;
-  } else if (t->to_confirm > 0) {
-    --t->to_confirm;
+  const double rate = fastest(quantity, s);
+  const double from_good = m.protection + t->good.raw_protection + rate * t->good.age_s;
+  if (!t->good.exists || std::fabs(m.raw - t->good.raw) <= from_good) {
+    t->to_confirm = 0;
+    return;
   }
+  const double from_last = m.protection + t->raw_protection + rate * t->age_s;
+  const bool comes_again = t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
+  t->to_confirm = comes_again ? t->to_confirm - 1 : kConfirmations;
 }
 
 // Moves the smoothed value towards the raw one; true where the yaw limit held it back.
@@ -56,34 +57,36 @@ bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Tra
 void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
   out->reasons = m.reasons;
+  check_innovation(m, quantity, s, t);
   if (afresh) {
-    *t = Track{};
     t->value = m.raw;
-  } else {
-    check_innovation(m, quantity, s, t);
-    if (follow(m, quantity, s, t)) out->reasons |= POSE_WALL_R_RATE_LIMITED;
+  } else if (follow(m, quantity, s, t)) {
+    out->reasons |= POSE_WALL_R_RATE_LIMITED;
   }
   t->has_value = true;
+  t->expired = false;
   t->raw = m.raw;
   t->sigma = m.sigma;
   t->raw_protection = m.protection;
   t->age_s = 0.0;
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
-  t->own_protection = m.protection + std::fabs(t->value - m.raw);
-  t->protection = t->own_protection;
+  t->protection = m.protection + std::fabs(t->value - m.raw);
   if (t->to_confirm > 0) {
-    const double reach = t->trusted_protection + fastest(quantity, s) * t->trusted_age_s;
-    t->protection = larger(t->protection, std::fabs(t->value - t->trusted) + reach);
+    const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
+    t->protection = larger(t->protection, std::fabs(t->value - t->good.raw) + reach);
     out->reasons |= POSE_WALL_R_INNOVATION;
   }
-  const double alert = alert_limit(quantity, s);
-  const bool good = !m.weak && t->to_confirm == 0 && t->protection <= alert;
-  if (!(t->protection <= alert)) out->reasons |= POSE_WALL_R_ALERT_LIMIT;
-  out->state = good ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
+  const bool within = t->protection <= alert_limit(quantity, s);
+  if (!within) out->reasons |= POSE_WALL_R_ALERT_LIMIT;
+  const bool valid = within && !m.weak && t->to_confirm == 0;
+  if (valid) t->good = {true, m.raw, m.protection, t->value, t->protection, 0.0};
+  out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->raw = m.raw;
+  out->value = t->value;
   out->protection_level = t->protection;
 }
 
+// What is held is the last good value where there is one: a weak frame since then does not replace it.
 void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t, pose_wall_value* out) {
   out->reasons = m.reasons;
   out->raw = not_a_number();
@@ -92,8 +95,15 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
     out->state = POSE_WALL_INVALID;
     return;
   }
-  out->protection_level = t->protection + fastest(quantity, s) * t->age_s;
-  t->expired = t->expired || !(out->protection_level <= alert_limit(quantity, s)) || !(t->age_s <= s.hold_max);
+  const double rate = fastest(quantity, s);
+  const double last_level = t->protection + rate * t->age_s;
+  const double good_level = t->good.value_protection + rate * t->good.age_s;
+  const bool hold_good = t->good.exists && good_level < last_level;
+  out->value = hold_good ? t->good.value : t->value;
+  out->age_s = hold_good ? t->good.age_s : t->age_s;
+  out->protection_level = hold_good ? good_level : last_level;
+  const bool within = out->protection_level <= alert_limit(quantity, s) && out->age_s <= s.hold_max;
+  t->expired = t->expired || !within;
   if (t->expired) out->reasons |= POSE_WALL_R_HOLD_EXPIRED;
   out->state = t->expired ? POSE_WALL_INVALID : POSE_WALL_HELD;
 }
@@ -127,6 +137,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
                      const Settings& settings, TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
   state->has_stamp = true;
   state->stamp_ns = stamp_ns;
+  state->still_frames = timing.still ? state->still_frames + 1 : 0;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Track& t = state->track[q];
     const Measurement& m = measured.quantity[q];
@@ -134,20 +145,18 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     out = blank();
     if (timing.dt_s > 0.0) {
       t.age_s += timing.dt_s;
-      t.trusted_age_s += timing.dt_s;
+      t.good.age_s += timing.dt_s;
     }
-    // After a jump back nobody knows how much time has passed: what is held has no bound any more.
-    if (timing.back) t.expired = true;
+    // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
+    // bound any more.
+    if (timing.back || state->still_frames > kStillFramesMax) t.expired = true;
+    if (timing.back) t.good.exists = false;
     if (m.measured) {
       set_measured(m, q, !t.has_value || t.expired || timing.leap, settings, &t, &out);
     } else {
       set_held(m, q, settings, &t, &out);
     }
-    if (t.has_value) {
-      out.value = t.value;
-      out.sigma = t.sigma;
-      out.age_s = t.age_s;
-    }
+    if (t.has_value) out.sigma = t.sigma;
     const double alert = alert_limit(q, settings);
     out.confidence = out.state == POSE_WALL_INVALID ? 0.0 : alert / (alert + out.protection_level);
   }

@@ -11,27 +11,35 @@
 
 namespace pose_wall {
 
+// The last time a quantity was valid.
+struct LastGood {
+  bool exists = false;
+  double raw = 0.0;
+  double raw_protection = 0.0;
+  double value = 0.0;  // smoothed
+  double value_protection = 0.0;
+  double age_s = 0.0;
+};
+
 // What is remembered of one quantity.
 struct Track {
   bool has_value = false;
   double value = 0.0;  // smoothed
   double raw = 0.0;    // of the last frame it was measured in
-  double sigma = 0.0;
-  double protection = 0.0;      // of value in that frame
-  double own_protection = 0.0;  // the same without what a jump adds
   double raw_protection = 0.0;
-  double age_s = 0.0;    // since that frame
-  bool expired = false;  // held for too long, or the clock jumped while holding
-  // After a jump the value before it stays in the protection level until the new one has come again and again.
+  double sigma = 0.0;
+  double protection = 0.0;  // of value in that frame
+  double age_s = 0.0;       // since that frame
+  bool expired = false;     // held for too long, or the clock jumped: the filter starts afresh
+  LastGood good;
+  // After a jump the last good value stays in the protection level until the new one has come again and again.
   std::uint32_t to_confirm = 0;
-  double trusted = 0.0;
-  double trusted_protection = 0.0;
-  double trusted_age_s = 0.0;
 };
 
 struct TemporalState {
   Track track[POSE_WALL_QUANTITIES];
   bool has_stamp = false;
+  std::uint32_t still_frames = 0;  // how often the last stamp has come again
   std::int64_t stamp_ns = 0;
 };
 

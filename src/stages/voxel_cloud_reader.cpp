@@ -104,6 +104,8 @@ std::int32_t check_cloud(const pose_wall_cloud& cloud) {
   const std::uint64_t row_step = row_step_of(cloud);
   if (row_step < packed_row) return POSE_WALL_E_CLOUD_STEP;
   if (cloud.width == 0 || cloud.height == 0) return POSE_WALL_OK;
+  constexpr std::uint64_t kPointsMax = 1ULL << 26;  // sums of their weights still fit everywhere
+  if (static_cast<std::uint64_t>(cloud.width) * cloud.height > kPointsMax) return POSE_WALL_E_CLOUD_SIZE;
   if (cloud.data == nullptr) return POSE_WALL_E_NULL;
   // The last row may end with its last point. (height - 1) * row_step < 2^64: both factors are below 2^32 or the
   // packed row already is larger than any data.

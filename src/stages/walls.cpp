@@ -8,7 +8,6 @@
 
 #include "math/elementary.hpp"
 #include "stages/walls_measure.hpp"
-#include "stages/walls_parallel.hpp"
 #include "stages/walls_select.hpp"
 
 namespace pose_wall {
@@ -89,6 +88,14 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
   }
+  // The fit may have wandered off, or shrunk to what is no wall any more.
+  const SideView view{scene.forward_level, side == 0 ? scene.left_level : Eigen::Vector3d(-scene.left_level)};
+  const std::uint32_t faults =
+      wall.fit.found ? faults_of(wall.fit.plane, scratch->grid.evidence(), scene.settings) : 0U;
+  if (wall.fit.found && (faults != 0 || !SameWall{view}(wall.fit.plane, chosen.plane))) {
+    wall.fit.refused = true;
+    wall.fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND | faults;
+  }
   if (!(std::fabs(wall.yaw_rad) <= radians(scene.settings.yaw_max_deg))) {
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
@@ -144,7 +151,6 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
       out.side[side].fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND;
     }
   }
-  share_direction(scene, &out.side);
   return out;
 }
 

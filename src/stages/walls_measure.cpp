@@ -6,10 +6,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "math/elementary.hpp"
+
 namespace pose_wall {
 namespace {
 
 constexpr double kExtrapolated_m = 0.75;
+// A bend is told where it takes up this much of an alert limit.
+constexpr double kBendMatters = 0.2;
 
 void count_inliers(const WallScene& scene, Span<const std::uint32_t> chosen, PlaneFit* fit) {
   const double thresh_m = scene.settings.wall_ransac_thresh;
@@ -30,9 +34,13 @@ void set_yaw(const WallScene& scene, const PatchFit& patch, const TangentFrame& 
   const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(out->fit.plane.n);
   const double sign = turned.dot(f.u) > 0.0 ? 1.0 : -1.0;
   out->yaw_rad = yaw_of(out->along_level, scene.forward_level);
-  out->yaw_sigma_rad = std::sqrt(patch.covariance(1, 1));
-  out->yaw_bias_rad_per_m = -sign * patch.bias_response[1];
+  const double upright = std::sqrt(turned.squaredNorm());  // a leaning plane turns more about the vertical
+  out->yaw_sigma_rad = std::sqrt(patch.covariance(1, 1)) / upright;
+  out->yaw_bias_rad_per_m = -sign * patch.bias_response[1] / upright;
   out->yaw_bound_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
+  if (out->yaw_bound_rad > kBendMatters * radians(scene.settings.alert_limit_angle_deg)) {
+    out->fit.reasons |= POSE_WALL_R_CURVED;
+  }
 }
 
 // Where the wall was cut off below or above a sampling point, the plane is prolonged to it; this is how far the surface
@@ -40,23 +48,25 @@ void set_yaw(const WallScene& scene, const PatchFit& patch, const TangentFrame& 
 double offset_at_height(const WallScene& scene, const Plane& plane, double z_level_m) {
   constexpr double kWindow_m = 0.3;
   constexpr double kGate_m = 0.4;
+  constexpr double kPointsMin = 10.0;
   double sum = 0.0, count = 0.0;
   for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
     const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = plane.signed_distance(p);
     if (!(std::fabs(p.z() - z_level_m) <= kWindow_m) || !(std::fabs(r) <= kGate_m)) continue;
-    sum += r;
+    sum += std::fabs(r);
     count += 1.0;
   }
-  return count > 0.0 ? std::fabs(sum / count) : kGate_m;
+  return count >= kPointsMin ? sum / count : kGate_m;
 }
 
 // A histogram of distances and the first at which enough have come together.
 class Distances {
  public:
   void add(double distance_m) {
-    if (!(distance_m >= 0.0 && distance_m < kBins * kBin_m)) return;
-    ++bins_[static_cast<std::uint32_t>(distance_m / kBin_m)];
+    if (!(distance_m >= 0.0)) return;
+    const double place = distance_m / kBin_m;
+    ++bins_[place < kBins ? static_cast<std::uint32_t>(place) : kBins - 1];
     ++count_;
   }
   std::uint32_t count() const { return count_; }
@@ -132,7 +142,9 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     out->distance_m[end] = distance_at(out->fit.plane, sample);
     out->distance_sigma_m[end] = std::sqrt(patch.variance_at(u, v));
     double& bound = out->distance_bound_m[end];
-    bound = scene.settings.range_bias_max * std::fabs(bias) + std::fabs(patch.bend_at(u, v));
+    const double bend = std::fabs(patch.bend_at(u, v));
+    if (bend > kBendMatters * scene.settings.alert_limit_distance) out->fit.reasons |= POSE_WALL_R_CURVED;
+    bound = scene.settings.range_bias_max * std::fabs(bias) + bend;
     const bool in_band = sample.z() >= scene.z_min_level_m && sample.z() <= scene.z_max_level_m;
     if (in_band && !surface.heights.contain(sample.z())) {
       bound += offset_at_height(scene, out->fit.plane, sample.z());
@@ -161,7 +173,6 @@ WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.lean_rad = lean_of(out.fit.plane);
   out.dof = patch.dof;
   out.layer_sigma_m = surface.layer_sigma_m;
-  if (patch.bends) out.fit.reasons |= POSE_WALL_R_CURVED;
   count_inliers(scene, surface.chosen, &out.fit);
   set_yaw(scene, patch, surface.frame, &out);
   // Where offset and slope are uncorrelated.

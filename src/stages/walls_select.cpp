@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "math/elementary.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr double kRivalShare = 0.5;
 constexpr double kBehindShare = 0.3;
 // A lone wall is solid over at least this share of its span; a boulder and a far spot in line with it are not.
 constexpr double kFilledShare = 0.5;
+constexpr double kParallelScale_rad = 0.07;  // 4 degrees: walls of one road rarely differ by more
 // Both walls of a pair together: two flat spots of two metres each may be parallel by chance.
 constexpr double kPairLengthMin_m = 6.0;
 // A second wall that is not parallel casts doubt on the first unless it is this much weaker.
@@ -25,9 +28,16 @@ struct Pair {
   double score = 0.0;
 };
 
+// Angle between two planes seen from above: walls lean as they like.
+double angle_in_plan(const Plane& a, const Plane& b) {
+  const double cross = a.n.x() * b.n.y() - a.n.y() * b.n.x(), dot = a.n.x() * b.n.x() + a.n.y() * b.n.y();
+  return arc_tangent2(std::fabs(cross), std::fabs(dot));
+}
+
 // Parallel pairs only; the nearer to parallel, the better.
 Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parallel_cos) {
   Pair best;
+  double best_likely = 0.0;
   for (std::uint32_t i = 0; i < as.count; ++i) {
     if (as.item[i].faults != 0) continue;
     for (std::uint32_t j = 0; j < bs.count; ++j) {
@@ -35,9 +45,12 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parall
       const double cosine = std::fabs(as.item[i].plane.n.dot(bs.item[j].plane.n));
       if (!(cosine > parallel_cos)) continue;
       if (!(as.item[i].evidence.length_m + bs.item[j].evidence.length_m >= kPairLengthMin_m)) continue;
-      const double parallel = 0.5 + 0.5 * (cosine - parallel_cos) / (1.0 - parallel_cos);
-      const double score = (as.item[i].evidence.score_m2 + bs.item[j].evidence.score_m2) * parallel;
-      if (score > best.score) best = {&as.item[i], &bs.item[j], score};
+      const double score = as.item[i].evidence.score_m2 + bs.item[j].evidence.score_m2;
+      const double apart = angle_in_plan(as.item[i].plane, bs.item[j].plane) / kParallelScale_rad;
+      const double likely = score / (1.0 + apart * apart);
+      if (likely <= best_likely) continue;
+      best_likely = likely;
+      best = {&as.item[i], &bs.item[j], score};
     }
   }
   return best;

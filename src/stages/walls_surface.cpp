@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kScaleMin_m = 0.003;
 constexpr double kFirstGateInThresholds = 5.0;  // wide enough to see the lean of a wall cut by a vertical hypothesis
-// wide enough to see the lean of a wall cut by a vertical hypothesis
 constexpr double kGateInThresholds = 4.0;
 // Points this far behind a plane passed through it. Below, they are the rock's own roughness.
 constexpr double kBehindInThresholds = 3.0;
@@ -18,7 +17,6 @@ constexpr double kBehindInThresholds = 3.0;
 // simulated steel sets.
 constexpr double kLayerLeftOver = 0.5;
 constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
-// rough rock: the scale follows the rock
 constexpr double kPatch_m = 0.5;
 constexpr double kCut_m = 0.25;
 constexpr double kSpanMin_m = 0.9;
