@@ -51,7 +51,9 @@ struct Pipeline {
 
   void voxels() { build_voxels(cloud, settings, extrinsic, axes, &scratch.grid, &scratch.cloud_base); }
 
-  std::uint32_t outliers() { return remove_outliers(settings, &scratch.cells, scratch.marks, &scratch.cloud_base); }
+  std::uint32_t outliers() {
+    return remove_outliers(settings, settings.voxel_leaf, &scratch.cells, scratch.marks, &scratch.cloud_base);
+  }
 
   FloorResult ground() {
     Random random(1);

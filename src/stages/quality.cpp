@@ -33,6 +33,7 @@ Measurement measurement(double raw, double sigma, double bound, double dof, cons
   m.protection = protection_factor(s.protection_factor, dof) * sigma + bound;
   // What has no bound is no measurement.
   m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.protection);
+  if (!m.measured) m.reasons = POSE_WALL_R_ALERT_LIMIT;
   return m;
 }
 

@@ -38,7 +38,7 @@ TEST(Outliers, AreThoseThatAllPairsSay) {
       cells->reset();
       std::vector<std::uint8_t> keep(600, 0xEE);
       const std::uint32_t removed =
-          remove_outliers(settings, cells.get(), Span<std::uint8_t>(keep.data(), 600), &points.set());
+          remove_outliers(settings, 0.01, cells.get(), Span<std::uint8_t>(keep.data(), 600), &points.set());
       ASSERT_EQ(points.set().count, expected.size()) << needed << " within " << radius;
       EXPECT_EQ(removed, 600 - expected.size());
       for (std::uint32_t i = 0; i < points.set().count; ++i) ASSERT_EQ(points.set().at(i), expected[i]) << "order";
@@ -51,7 +51,8 @@ TEST(Outliers, NothingIsLeftAlone) {
   test::Placed<CellIndex> cells(4U);
   cells->reset();
   std::vector<std::uint8_t> keep(4);
-  EXPECT_EQ(remove_outliers(test::settings_with(), cells.get(), Span<std::uint8_t>(keep.data(), 4), &points.set()), 0U);
+  EXPECT_EQ(
+      remove_outliers(test::settings_with(), 0.05, cells.get(), Span<std::uint8_t>(keep.data(), 4), &points.set()), 0U);
 }
 
 }  // namespace

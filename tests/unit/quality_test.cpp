@@ -170,6 +170,7 @@ TEST(Quality, BeyondTheAlertLimitIsSaid) {
   const Measurements m = scene.measured();
   EXPECT_NE(m.quantity[POSE_WALL_D_LF].reasons & POSE_WALL_R_ALERT_LIMIT, 0U);
   EXPECT_NE(m.quantity[POSE_WALL_D_RF].reasons & POSE_WALL_R_ALERT_LIMIT, 0U) << "NaN is within no limit";
+  EXPECT_FALSE(m.quantity[POSE_WALL_D_RF].measured) << "and what has no bound is no measurement";
   EXPECT_EQ(m.quantity[POSE_WALL_D_LB].reasons & POSE_WALL_R_ALERT_LIMIT, 0U);
 }
 

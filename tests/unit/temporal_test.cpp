@@ -183,8 +183,42 @@ TEST(Temporal, AfterExpiryAMeasurementStartsAfresh) {
   life.missing(600);
   const pose_wall_value v = life.measured(700, 3.0);
   EXPECT_EQ(v.value, 3.0) << "not smoothed with the value before the gap";
-  EXPECT_EQ(v.state, POSE_WALL_VALID);
+  EXPECT_EQ(v.state, POSE_WALL_DEGRADED) << "but a metre in 0.7 s is to be confirmed";
+  EXPECT_NE(v.reasons & POSE_WALL_R_INNOVATION, 0U);
+  EXPECT_GE(v.protection_level, 1.0) << "the value before the gap stays possible";
   EXPECT_EQ(v.age_s, 0.0);
+  life.measured(800, 3.0);
+  life.measured(900, 3.0);
+  EXPECT_EQ(life.measured(1000, 3.0).state, POSE_WALL_VALID) << "it came three times more";
+}
+
+TEST(Temporal, AWeakFrameDoesNotLaunderAJump) {
+  Life life;
+  life.measured(0, 2.0, 0.05);
+  life.measured(100, 1.5, 0.6);  // its own level reaches to the old value
+  const pose_wall_value v = life.measured(200, 1.5, 0.04);
+  EXPECT_EQ(v.state, POSE_WALL_DEGRADED);
+  EXPECT_NE(v.reasons & POSE_WALL_R_INNOVATION, 0U);
+  EXPECT_GE(v.protection_level, 0.5 - 0.05);
+}
+
+TEST(Temporal, HeldIsTheLastGoodValueNotTheWeakOneAfterIt) {
+  Life life;
+  life.measured(0, 2.0, 0.05);
+  life.measured(100, 2.02, 0.3);
+  life.missing(150);
+  const pose_wall_value v = life.missing(200);
+  EXPECT_EQ(v.state, POSE_WALL_HELD);
+  EXPECT_EQ(v.value, 2.0);
+  EXPECT_NEAR(v.age_s, 0.2, 1e-9);
+}
+
+TEST(Temporal, AClockThatStandsStillDoesNotHoldForEver) {
+  Life life;
+  life.measured(0, 2.0, 0.02);
+  EXPECT_EQ(life.missing(0).state, POSE_WALL_HELD);
+  EXPECT_EQ(life.missing(0).state, POSE_WALL_HELD);
+  EXPECT_EQ(life.missing(0).state, POSE_WALL_INVALID);
 }
 
 TEST(Temporal, WeakIsDegradedHoweverSmallItsLevel) {
