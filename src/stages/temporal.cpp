@@ -73,7 +73,8 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   t->protection = m.protection + std::fabs(t->value - m.raw);
   if (t->to_confirm > 0) {
     const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
-    t->protection = larger(t->protection, std::fabs(t->value - t->good.raw) + reach);
+    const double away = larger(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
+    t->protection = larger(t->protection, away + reach);
     out->reasons |= POSE_WALL_R_INNOVATION;
   }
   const bool within = t->protection <= alert_limit(quantity, s);
