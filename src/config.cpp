@@ -53,10 +53,6 @@ enum TextSlot : std::uint32_t {
 static_assert(kNumbersUsed <= POSE_WALL_CONFIG_NUMBERS, "raise POSE_WALL_CONFIG_NUMBERS");
 static_assert(kTextsUsed <= POSE_WALL_CONFIG_TEXTS, "raise POSE_WALL_CONFIG_TEXTS");
 
-constexpr const char* first_choice(const char* choices) {
-  return choices;
-}
-
 constexpr Row kRows[] = {
 #define POSE_WALL_TEXT(name, group, text, help) \
   {{#name, "", "", text, group, help, 0.0, 0.0, POSE_WALL_KEY_TEXT, 0}, kText_##name, 0.0},

@@ -19,11 +19,12 @@ extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const
 #endif
 
 namespace {
-thread_local bool counting = false;
-thread_local int calls = 0;
+// volatile: compilers know malloc and may think that it does not look at these.
+thread_local volatile bool counting = false;
+thread_local volatile int calls = 0;
 
 void count_call() {
-  if (counting) ++calls;
+  if (counting) calls = calls + 1;
 }
 }  // namespace
 
