@@ -12,7 +12,7 @@ function(pose_wall_test_kind kind)
       return()
     endif()
     # The simulator runs on no controller, and slowly under emulation.
-    list(FILTER sources EXCLUDE REGEX "/sim_[^/]*$")
+    list(FILTER sources EXCLUDE REGEX "/(sim_|frames_and_signs)[^/]*$")
     math(EXPR kind_TIMEOUT "10 * ${kind_TIMEOUT}")
   endif()
   if(NOT sources)
