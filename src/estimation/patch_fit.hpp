@@ -26,9 +26,10 @@ struct PatchFit {
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();      // offset m, slope along u, slope along v
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // of the correction
   Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();   // change of the correction per metre of range bias
-  double tau_m = 0.0;                                        // roughness between patches
+  double tau_m = 0.0;                                        // roughness of the surface between patches
   double noise_m = 0.0;                                      // of one measured point
-  double dof = 0.0;                                          // independent patches less the three parameters
+  double dof = 0.0;        // independent patches of the surface less the three parameters: of the offset
+  double dof_slope = 0.0;  // of both layers: of the slopes
   std::uint32_t patches = 0;
   bool bends = false;  // a quadratic surface fits significantly better
   // Curvature along v (half the second derivative, 1/m) and its standard deviation, whether significant or not.
@@ -45,24 +46,26 @@ struct PatchFit {
   double bend_slope_v_at(double u_m, double v_m) const;
 };
 
+// Points may come in two layers: the surface, and strips at a constant but unknown step before it. The strips then say
+// nothing about the offset, but as much about the slopes as their own straightness allows.
 class PatchGrid {
  public:
-  static constexpr std::uint32_t kSide = 64;
+  static constexpr std::uint32_t kCapacity = 4096;  // patches of all layers
+  static constexpr std::uint32_t kLayersMax = 2;
 
   void lay_out(Arena& arena);
 
-  // Patches of patch_m, or larger where the extent needs more than kSide of them.
-  void begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m);
+  // Patches of patch_m, or larger where the extent needs more than there is room for.
+  void begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m, std::uint32_t layers = 1);
   // residual_m: signed distance of a centroid from the plane; weight: points it stands for times its robust weight;
   // bias: change of the residual per metre of range bias (ray direction . normal).
-  void add(double u_m, double v_m, double residual_m, double weight, double bias);
+  void add(double u_m, double v_m, double residual_m, double weight, double bias, std::uint32_t layer = 0);
   PatchFit fit();
 
  private:
   struct Patch {
     double w, wu, wv, wr, wrr, wb;
     std::uint32_t count;
-    std::uint32_t cell;
   };
   // A patch with points, averaged.
   struct Mean {
@@ -70,26 +73,37 @@ class PatchGrid {
     double noise_variance;  // s_j^2 / W_j
     double information;     // 1 / (tau^2 + noise_variance)
     double error;           // r minus the current fit
+    // Row of the design matrix. The strips' step is projected out: their rows and residuals are about their own mean
+    // (Frisch and Waugh 1933).
+    Eigen::Vector3d a;
+    double r_centred, b_centred;
     std::int32_t iu, iv;
+    std::uint32_t layer;
   };
   static constexpr int kLags = 5;  // patches further apart count as independent
-  struct Correlation {
+  // Of one layer: variance of the rock between patches and its correlation by distance.
+  struct Roughness {
+    double tau2 = 0.0;
     double at_lag[kLags + 1] = {};
+    double patches = 0.0;
   };
 
   std::uint32_t collect_means(PatchFit* out);
+  void centre(std::uint32_t n);
   bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
-  double between_patch_variance(std::uint32_t n, const Eigen::Matrix3d& inverse) const;
+  double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;
   template <typename Visit>
   void for_each_pair(std::uint32_t n, const Visit& visit) const;
-  Correlation correlation_of_errors(std::uint32_t n, double tau2) const;
-  void sandwich(std::uint32_t n, double tau2, const Eigen::Matrix3d& inverse, PatchFit* out);
-  void test_bend(std::uint32_t n, PatchFit* out);
+  void measure_correlation(std::uint32_t n, Roughness (*roughness)[kLayersMax]) const;
+  void sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMax], const Eigen::Matrix3d& inverse,
+                PatchFit* out) const;
+  void test_bend(std::uint32_t n, PatchFit* out) const;
 
   Span<Patch> cells_;
   Span<Mean> means_;
   Span<std::int32_t> mean_of_cell_;  // index into means_, -1 for an empty cell
-  double u_min_ = 0, v_min_ = 0, cells_per_m_ = 1, patch_m_ = 1;
+  std::uint32_t columns_ = 1, rows_ = 1, layers_ = 1;
+  double u_min_ = 0, v_min_ = 0, cells_per_m_ = 1;
 };
 
 }  // namespace pose_wall

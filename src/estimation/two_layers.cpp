@@ -11,14 +11,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kBins = 80;
 constexpr int kRounds = 30;
 constexpr double kShareMin = 0.06;
 constexpr double kShareMax = 0.65;
 constexpr double kApartInSigmas = 2.5;
 constexpr double kStepMin_m = 0.03;
-// A second layer must explain the points better than one Gaussian by this much log likelihood per point.
-constexpr double kGainPerPoint = 0.02;
 constexpr double kUniformShare = 0.05;  // strays
 
 double density(double x, double sigma) {
@@ -26,26 +23,8 @@ double density(double x, double sigma) {
   return z * z < 80.0 ? exponential(-0.5 * z * z) / (sigma * std::sqrt(2.0 * kPi)) : 0.0;
 }
 
-struct Histogram {
-  double count[kBins] = {};
-  double total = 0.0;
-  double gate_m = 0.0;
-
-  double centre(std::uint32_t b) const { return ((static_cast<double>(b) + 0.5) * 2.0 / kBins - 1.0) * gate_m; }
-};
-
-Histogram histogram_of(Span<const float> residuals, double gate_m) {
-  Histogram h;
-  h.gate_m = gate_m;
-  const double bins_per_m = kBins / (2.0 * gate_m);
-  for (const float r : residuals) {
-    const double place = (static_cast<double>(r) + gate_m) * bins_per_m;
-    if (!(place >= 0.0 && place < kBins)) continue;
-    h.count[static_cast<std::uint32_t>(place)] += 1.0;
-    h.total += 1.0;
-  }
-  return h;
-}
+using Histogram = LayerHistogram;
+constexpr std::uint32_t kBins = LayerHistogram::kBins;
 
 struct Mixture {
   double centre, sigma, step, share;  // share 0: one layer
@@ -55,16 +34,16 @@ struct Mixture {
 // One round of EM; step stays 0 for a single layer.
 void improve(const Histogram& h, double sigma_min_m, Mixture* m) {
   double w0 = 0, w1 = 0, x0 = 0, x1 = 0, xx = 0;
-  const double uniform = kUniformShare / (2.0 * h.gate_m);
+  const double uniform = kUniformShare / (2.0 * h.gate_m());
   m->log_likelihood = 0.0;
   for (std::uint32_t b = 0; b < kBins; ++b) {
-    if (!(h.count[b] > 0.0)) continue;
+    if (!(h.count(b) > 0.0)) continue;
     const double x = h.centre(b);
     const double p0 = (1.0 - kUniformShare) * (1.0 - m->share) * density(x - m->centre, m->sigma);
     const double p1 = (1.0 - kUniformShare) * m->share * density(x - m->centre - m->step, m->sigma);
     const double p = p0 + p1 + uniform;
-    m->log_likelihood += h.count[b] * natural_log(p);
-    const double a = h.count[b] * p0 / p, c = h.count[b] * p1 / p;
+    m->log_likelihood += h.count(b) * natural_log(p);
+    const double a = h.count(b) * p0 / p, c = h.count(b) * p1 / p;
     w0 += a;
     w1 += c;
     x0 += a * x;
@@ -88,16 +67,27 @@ Mixture fit(const Histogram& h, Mixture start, double sigma_min_m) {
 double quantile(const Histogram& h, double share) {
   double below = 0.0;
   for (std::uint32_t b = 0; b < kBins; ++b) {
-    if (below + h.count[b] >= share * h.total && h.count[b] > 0.0) {
-      const double within = (share * h.total - below) / h.count[b] - 0.5;
-      return h.centre(b) + within * 2.0 * h.gate_m / kBins;
+    if (below + h.count(b) >= share * h.total() && h.count(b) > 0.0) {
+      const double within = (share * h.total() - below) / h.count(b) - 0.5;
+      return h.centre(b) + within * 2.0 * h.gate_m() / kBins;
     }
-    below += h.count[b];
+    below += h.count(b);
   }
   return 0.0;
 }
 
 }  // namespace
+
+void LayerHistogram::add(double distance_m) {
+  const double place = (distance_m + gate_m_) * (kBins / (2.0 * gate_m_));
+  if (!(place >= 0.0 && place < kBins)) return;
+  count_[static_cast<std::uint32_t>(place)] += 1.0;
+  total_ += 1.0;
+}
+
+void LayerHistogram::add(Span<const float> distances_m) {
+  for (const float d : distances_m) add(static_cast<double>(d));
+}
 
 double TwoLayers::surface_probability(double residual_m) const {
   const double surface = (1.0 - share) * density(residual_m - centre_m, sigma_m);
@@ -105,11 +95,10 @@ double TwoLayers::surface_probability(double residual_m) const {
   return surface + nearer > 0.0 ? surface / (surface + nearer) : 0.0;
 }
 
-TwoLayers find_two_layers(Span<const float> residuals, double gate_m, double sigma_min_m) {
-  const Histogram h = histogram_of(residuals, gate_m);
+TwoLayers find_two_layers(const LayerHistogram& h, double sigma_min_m, double gain_min) {
   TwoLayers out;
-  constexpr double kPointsMin = 100.0;
-  if (h.total < kPointsMin) return out;
+  if (!(h.total() > 0.0)) return out;
+  const double gate_m = h.gate_m();
   const Mixture one = fit(h, {0.0, gate_m / 4.0, 0.0, 0.0, 0.0}, sigma_min_m);
   Mixture best = one;
   // EM climbs to the nearest top: start with the plane on the surface, between the layers, and on the nearer one.
@@ -124,14 +113,12 @@ TwoLayers find_two_layers(Span<const float> residuals, double gate_m, double sig
   out.step_m = best.step;
   out.share = best.share;
   out.found = best.share >= kShareMin && best.share <= kShareMax && best.step >= kStepMin_m &&
-              best.step >= kApartInSigmas * best.sigma &&
-              best.log_likelihood - one.log_likelihood >= kGainPerPoint * h.total;
+              best.step >= kApartInSigmas * best.sigma && best.log_likelihood - one.log_likelihood >= gain_min;
   return out;
 }
 
-double lean_towards_sensor(Span<const float> residuals, double gate_m) {
-  const Histogram h = histogram_of(residuals, gate_m);
-  if (!(h.total > 0.0)) return 0.0;
+double lean_towards_sensor(const LayerHistogram& h) {
+  if (!(h.total() > 0.0)) return 0.0;
   return 0.5 * (quantile(h, 0.2) + quantile(h, 0.8)) - quantile(h, 0.5);
 }
 

@@ -11,24 +11,44 @@
 
 namespace pose_wall {
 
+// Distances from a surface within +-gate_m, in 80 bins. Positive: towards the sensor.
+class LayerHistogram {
+ public:
+  static constexpr std::uint32_t kBins = 80;
+
+  explicit LayerHistogram(double gate_m) : gate_m_(gate_m) {}
+  void add(double distance_m);
+  void add(Span<const float> distances_m);
+
+  double gate_m() const { return gate_m_; }
+  double total() const { return total_; }
+  double count(std::uint32_t bin) const { return count_[bin]; }
+  double centre(std::uint32_t bin) const { return ((static_cast<double>(bin) + 0.5) * 2.0 / kBins - 1.0) * gate_m_; }
+
+ private:
+  double gate_m_;
+  double total_ = 0.0;
+  double count_[kBins] = {};
+};
+
 // Two Gaussians of one width: the surface around `centre_m` and, `step_m` nearer to the sensor, what stands out of it.
 struct TwoLayers {
   bool found = false;
   double centre_m = 0.0;  // of the surface, relative to the plane
   double sigma_m = 0.0;
   double step_m = 0.0;
-  double share = 0.0;  // of the points that belong to the nearer layer
+  double share = 0.0;  // of what was counted that belongs to the nearer layer
 
-  // Probability that a point with this residual belongs to the surface.
-  double surface_probability(double residual_m) const;
+  // Probability that a distance belongs to the surface.
+  double surface_probability(double distance_m) const;
 };
 
-// Expectation maximisation on a histogram of the residuals within +-gate_m (positive: towards the sensor). found only
-// where the two layers are clearly apart and both hold a fair share: a single rough surface has no second layer.
-TwoLayers find_two_layers(Span<const float> residuals, double gate_m, double sigma_min_m);
+// Expectation maximisation on the histogram. found only where two layers are clearly apart, both hold a fair share and
+// the second explains the counts better by gain_min in log likelihood: one rough surface has no second layer.
+TwoLayers find_two_layers(const LayerHistogram& histogram, double sigma_min_m, double gain_min);
 
-// How far the residuals within +-gate_m lean towards the sensor: half the sum of their 20 % and 80 % quantiles about
-// the median. Near 0 for rock, positive where something stands out of it that could not be told apart.
-double lean_towards_sensor(Span<const float> residuals, double gate_m);
+// How far the distances lean towards the sensor: half the sum of their 20 % and 80 % quantiles about the median. Near 0
+// for rock, positive where something stands out of it that could not be told apart.
+double lean_towards_sensor(const LayerHistogram& histogram);
 
 }  // namespace pose_wall

@@ -13,11 +13,7 @@ constexpr double kFirstGateInThresholds = 5.0;  // wide enough to see the lean o
 constexpr double kGateInThresholds = 4.0;
 // Points this far behind a plane passed through it. Below, they are the rock's own roughness.
 constexpr double kBehindInThresholds = 3.0;
-// What the split into two layers may leave of the nearer one in the surface, of its share times its step; measured on
-// simulated steel sets.
-constexpr double kLayerLeftOver = 0.5;
 constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
-constexpr double kPatch_m = 0.5;
 constexpr double kCut_m = 0.25;
 constexpr double kSpanMin_m = 0.9;
 constexpr double kCurvatureInSigmas = 3.5;
@@ -32,55 +28,6 @@ IrlsSettings fit_settings(const Settings& s) {
   return {kGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds};
 }
 
-void fill_patches(const WallScene& scene, const WallSurface& surface, PatchGrid* patches) {
-  const TangentFrame& f = surface.frame;
-  const Span<const std::uint32_t> chosen = surface.chosen;
-  double u_min = 0.0, u_max = 0.0, v_min = 0.0, v_max = 0.0;
-  for (const std::uint32_t i : chosen) {
-    const Eigen::Vector3d q = scene.band_level.at(i) - f.origin;
-    const double u = f.u.dot(q), v = f.v.dot(q);
-    u_min = u < u_min ? u : u_min;
-    u_max = u > u_max ? u : u_max;
-    v_min = v < v_min ? v : v_min;
-    v_max = v > v_max ? v : v_max;
-  }
-  patches->begin(u_min, u_max, v_min, v_max, kPatch_m);
-  for (const std::uint32_t i : chosen) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    const double r = surface.irls.plane.signed_distance(p);
-    const double w = surface.weight(r) * static_cast<double>(scene.band_level.weight[i]);
-    if (!(w > 1e-6)) continue;
-    const Eigen::Vector3d ray = (p - scene.sensor_level_m).normalized();
-    const Eigen::Vector3d q = p - f.origin;
-    patches->add(f.u.dot(q), f.v.dot(q), r, w, ray.dot(surface.irls.plane.n));
-  }
-}
-
-// Ribs and cables stand out of the rock by more than its roughness: once they are told apart, the fit is repeated on
-// the rock alone.
-void split_layers(const WallScene& scene, const Eigen::Vector3d& along, WallFitScratch* scratch, WallSurface* fit) {
-  const IrlsSettings settings = fit_settings(scene.settings);
-  const Span<float> residuals = scratch->residuals.first(fit->chosen.size());
-  signed_distances(scene.band_level, fit->chosen, fit->irls.plane, residuals);
-  TwoLayers layers = find_two_layers(residuals, settings.gate_m, settings.scale_min_m);
-  if (!layers.found) {
-    const double lean_m = lean_towards_sensor(residuals, settings.gate_m);
-    fit->layer_sigma_m = lean_m > 0.0 ? lean_m : 0.0;
-    return;
-  }
-  std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < fit->chosen.size(); ++k) {
-    if (layers.surface_probability(static_cast<double>(residuals[k])) >= 0.5) scratch->chosen[count++] = fit->chosen[k];
-  }
-  fit->chosen = fit->chosen.first(count);
-  Plane start = fit->irls.plane;
-  start.d -= layers.centre_m;
-  fit->irls = irls_tukey(scene.band_level, fit->chosen, start, along, settings, scratch->residuals);
-  layers.centre_m = 0.0;  // by the new plane
-  fit->layers = layers;
-  fit->layer_sigma_m = kLayerLeftOver * layers.share * layers.step_m;
-}
-
 WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
                         const Heights& heights, const WallGrid& grid, WallFitScratch* scratch) {
   const IrlsSettings settings = fit_settings(scene.settings);
@@ -93,14 +40,13 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
     const Eigen::Vector3d p = scene.band_level.at(i);
     if (heights.contain(p.z()) && grid.solid_at(along.dot(p), p.z())) scratch->chosen[count++] = i;
   }
-  fit.chosen = near.first(count);
+  fit.chosen = scratch->chosen.first(count);
   fit.irls = irls_tukey(scene.band_level, fit.chosen, start, along, settings, scratch->residuals);
   if (!fit.irls.solved) return fit;
-  split_layers(scene, along, scratch, &fit);
-  fit.frame = tangent_frame(fit.irls.plane, Eigen::Vector3d::Zero(), along);
+  set_strips_apart(scene, along, settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
-  fill_patches(scene, fit, &scratch->patches);
-  fit.patch = scratch->patches.fit();
+  fit_patches(scene, along, &scratch->patches, &fit);
+  if (fit.patch.solved && fit.strips != nullptr) join_fronts(scene, along, Fronts::kIfTheyAgree, scratch, &fit);
   return fit;
 }
 
@@ -111,7 +57,7 @@ double lean_between(const WallScene& scene, const WallSurface& fit, const Height
     const Eigen::Vector3d p = scene.band_level.at(i);
     if (!heights.contain(p.z())) continue;
     const double residual = fit.irls.plane.signed_distance(p);
-    const double weight = fit.weight(residual);
+    const double weight = fit.weight(fit.frame.u.dot(p), residual);
     w += weight;
     z += weight * p.z();
     zz += weight * p.z() * p.z();
@@ -144,12 +90,6 @@ bool cut_bent_rows(const WallScene& scene, const WallSurface& fit, Heights* heig
 }
 
 }  // namespace
-
-void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
-  chosen = arena.take<std::uint32_t>(points_max);
-  residuals = arena.take<float>(points_max);
-  patches.lay_out(arena);
-}
 
 Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m, Span<std::uint32_t> out) {
   const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "estimation/strip_profile.hpp"
+
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr int kRowBits = 16;
+constexpr int kRowsMin = 4;         // a column seen at fewer heights says nothing
+constexpr std::int32_t kAround = 6; // columns to each side that make up the local level
+constexpr std::uint32_t kAroundMin = 5;
+constexpr double kLevelQuantile = 0.3;  // strips may take up to 60 % of what is seen around
+constexpr std::uint32_t kColumnsMin = 24;
+constexpr double kSigmaMin_m = 0.004;
+constexpr double kGainMin = 4.0;       // natural logarithm of the likelihood ratio
+constexpr double kGainPerColumn = 0.04;
+constexpr std::int32_t kStripsMin = 3;  // one or two could be bulges of the rock
+constexpr std::int32_t kStripMax = 6;   // columns: wider things are no strips
+constexpr std::int32_t kFlank = 2;
+constexpr float kStripProbabilityMax = 0.2F;
+constexpr double kWideShareMax = 0.34;
+
+int bits_in(std::uint16_t word) {
+  int bits = 0;
+  for (int b = 0; b < kRowBits; ++b) bits += (word >> b) & 1;
+  return bits;
+}
+
+}  // namespace
+
+void StripProfile::lay_out(Arena& arena) {
+  columns_ = arena.take<Column>(kColumns);
+}
+
+void StripProfile::begin(double u_min_m, double v_min_m, double v_max_m) {
+  u_min_ = u_min_m;
+  v_min_ = v_min_m;
+  rows_per_m_ = kRowBits / (v_max_m - v_min_m);
+  columns_.fill(Column{});
+}
+
+void StripProfile::begin_anew() {
+  for (Column& c : columns_) {
+    c.sum = 0.0F;
+    c.count = 0;
+    c.rows = 0;
+  }
+}
+
+std::int32_t StripProfile::column_of(double u_m) const {
+  const double place = (u_m - u_min_) / kColumn_m;
+  return place >= 0.0 && place < kColumns ? static_cast<std::int32_t>(place) : -1;
+}
+
+void StripProfile::add(double u_m, double v_m, double residual_m) {
+  const std::int32_t column = column_of(u_m);
+  const double row = (v_m - v_min_) * rows_per_m_;
+  if (column < 0 || !(row >= 0.0 && row < kRowBits)) return;
+  Column& c = columns_[static_cast<std::uint32_t>(column)];
+  if (c.count == 0xFFFF) return;
+  c.sum += static_cast<float>(residual_m);
+  ++c.count;
+  c.rows = static_cast<std::uint16_t>(c.rows | (1U << static_cast<unsigned>(row)));
+}
+
+bool StripProfile::seen(const Column& c) const {
+  return bits_in(c.rows) >= kRowsMin;
+}
+
+bool StripProfile::level_around(std::int32_t column, double* level_m) const {
+  double means[2 * kAround + 1];
+  std::uint32_t n = 0;
+  for (std::int32_t k = column - kAround; k <= column + kAround; ++k) {
+    if (k < 0 || k >= static_cast<std::int32_t>(kColumns)) continue;
+    const Column& c = columns_[static_cast<std::uint32_t>(k)];
+    if (!seen(c)) continue;
+    // Insertion keeps them sorted; there are at most 13.
+    std::uint32_t at = n++;
+    for (const double value = mean(c);; --at) {
+      if (at == 0 || means[at - 1] <= value) {
+        means[at] = value;
+        break;
+      }
+      means[at] = means[at - 1];
+    }
+  }
+  if (n < kAroundMin) return false;
+  *level_m = means[static_cast<std::uint32_t>(kLevelQuantile * static_cast<double>(n - 1) + 0.5)];
+  return true;
+}
+
+// Strips are narrow and there are several; bulges of the rock are wide.
+bool StripProfile::narrow(std::int32_t first, std::int32_t last, double gate_m) const {
+  std::int32_t strips = 0, wide = 0, width = 0;
+  for (std::int32_t k = first; k <= last + 1; ++k) {
+    double level = 0.0;
+    const bool inside = k <= last && seen(columns_[static_cast<std::uint32_t>(k)]) && level_around(k, &level);
+    const bool near = inside && mean(columns_[static_cast<std::uint32_t>(k)]) - level <= gate_m &&
+                      layers_.surface_probability(mean(columns_[static_cast<std::uint32_t>(k)]) - level) < 0.5;
+    if (near) {
+      ++width;
+      continue;
+    }
+    if (width > 0) ++(width <= kStripMax ? strips : wide);
+    width = 0;
+  }
+  return strips >= kStripsMin && static_cast<double>(wide) <= kWideShareMax * static_cast<double>(strips);
+}
+
+bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
+  layers_ = TwoLayers{};
+  std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
+  if (first < 0) first = 0;
+  if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
+  LayerHistogram contrast(gate_m);
+  for (std::int32_t k = first; k <= last; ++k) {
+    double level = 0.0;
+    const Column& c = columns_[static_cast<std::uint32_t>(k)];
+    if (seen(c) && level_around(k, &level)) contrast.add(mean(c) - level);
+  }
+  if (contrast.total() < kColumnsMin) return false;
+  const double gain = kGainPerColumn * contrast.total();
+  layers_ = find_two_layers(contrast, kSigmaMin_m, gain > kGainMin ? gain : kGainMin);
+  layers_.found = layers_.found && narrow(first, last, gate_m);
+  if (!layers_.found) return false;
+  for (std::int32_t k = first; k <= last; ++k) {
+    double level = 0.0;
+    Column& c = columns_[static_cast<std::uint32_t>(k)];
+    if (!seen(c) || !level_around(k, &level)) continue;
+    c.probability = static_cast<float>(layers_.surface_probability(mean(c) - level));
+    c.judged = true;
+  }
+  return true;
+}
+
+void StripProfile::judge(double u_centre_m, double reach_m) {
+  std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
+  if (first < 0) first = 0;
+  if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
+  // How far the rock's columns scatter about the plane, without the local level.
+  double w = 0.0, squares = 0.0;
+  for (const Column& c : columns_) {
+    if (!c.judged || c.count == 0) continue;
+    w += static_cast<double>(c.probability);
+    squares += static_cast<double>(c.probability) * mean(c) * mean(c);
+  }
+  TwoLayers plain = layers_;
+  plain.centre_m = 0.0;
+  plain.share = 0.5;
+  plain.sigma_m = w > 0.0 ? std::sqrt(squares / w) : layers_.sigma_m;
+  if (!(plain.sigma_m >= layers_.sigma_m)) plain.sigma_m = layers_.sigma_m;
+  for (std::int32_t k = first; k <= last; ++k) {
+    Column& c = columns_[static_cast<std::uint32_t>(k)];
+    if (c.judged || c.count == 0) continue;
+    // The plane may drift out here: by the level around, as long as that cannot be the strips' own.
+    double level = 0.0;
+    const bool local = level_around(k, &level) && std::fabs(level) < 0.5 * layers_.step_m;
+    c.probability = static_cast<float>(local ? layers_.surface_probability(mean(c) - level)
+                                             : plain.surface_probability(mean(c)));
+    c.judged = true;
+  }
+}
+
+bool StripProfile::is_strip(double u_m) const {
+  const std::int32_t column = column_of(u_m);
+  if (column < 0) return false;
+  const Column& c = columns_[static_cast<std::uint32_t>(column)];
+  return c.judged && c.probability < kStripProbabilityMax;
+}
+
+double StripProfile::surface_probability(double u_m) const {
+  const std::int32_t column = column_of(u_m);
+  if (column < 0) return 0.0;
+  // The flanks of a strip lie between it and the wall: they belong to the strip.
+  float least = 1.0F;
+  for (std::int32_t k = column - kFlank; k <= column + kFlank; ++k) {
+    if (k < 0 || k >= static_cast<std::int32_t>(kColumns)) continue;
+    const Column& c = columns_[static_cast<std::uint32_t>(k)];
+    if ((k == column || (c.judged && c.count > 0)) && c.probability < least) least = c.probability;
+  }
+  return static_cast<double>(least);
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The wall's own surface and the strips (steel sets, posts) that stand out of it.
+
+#pragma once
+
+#include "containers/arena.hpp"
+#include "estimation/irls.hpp"
+#include "estimation/patch_fit.hpp"
+#include "estimation/strip_profile.hpp"
+#include "estimation/tangent_frame.hpp"
+#include "estimation/tukey.hpp"
+#include "stages/walls_scene.hpp"
+
+namespace pose_wall {
+
+struct WallFitScratch {
+  Span<std::uint32_t> chosen;
+  Span<float> residuals;
+  PatchGrid patches;
+  StripProfile strips;
+
+  void lay_out(Arena& arena, std::uint32_t points_max);
+};
+
+// In the levelled frame.
+struct Heights {
+  double min_m, max_m;
+  bool contain(double z_level_m) const { return z_level_m >= min_m && z_level_m <= max_m; }
+};
+
+// What the strips show to the machine: a plane parallel to the wall's, step_m before it.
+struct StripFronts {
+  bool found = false;
+  double step_m = 0.0;
+  double scale_m = 0.0;
+};
+
+struct WallSurface {
+  Span<std::uint32_t> chosen;  // the points it was fitted on
+  IrlsResult irls;
+  const StripProfile* strips = nullptr;  // null: none stand out of it
+  StripFronts fronts;
+  double layer_sigma_m = 0.0;  // what stands out may have moved the surface by this
+  Heights heights{0.0, 0.0};   // where it is one plane
+  TangentFrame frame;
+  PatchFit patch;  // corrects irls.plane; not solved: there is no surface
+
+  // Weight of a point as one of the surface, by its place along the road and its distance from irls.plane.
+  double weight(double along_m, double residual_m) const {
+    const double tukey = tukey_weight(residual_m, irls.scale_m);
+    return strips != nullptr ? tukey * strips->surface_probability(along_m) : tukey;
+  }
+  // And as one of the strips' fronts.
+  double front_weight(double along_m, double residual_m) const {
+    return fronts.found && strips->is_strip(along_m) ? tukey_weight(residual_m - fronts.step_m, fronts.scale_m) : 0.0;
+  }
+};
+
+// Averages the surface's points, and the strips' fronts if they were found, over patches around irls.plane: sets frame
+// and patch.
+void fit_patches(const WallScene& scene, const Eigen::Vector3d& along_level, PatchGrid* patches, WallSurface* fit);
+
+// Tells strips and surface apart, near the sensor first and then further and further out, and repeats the plane fit on
+// the surface alone. Reorders chosen. Without strips nothing changes.
+void set_strips_apart(const WallScene& scene, const Eigen::Vector3d& along_level, const IrlsSettings& settings,
+                      WallFitScratch* scratch, WallSurface* fit);
+
+// Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does. They
+// join the fit with a step of their own; if told so, only where they do not contradict the rock.
+enum class Fronts { kAlways, kIfTheyAgree };
+void join_fronts(const WallScene& scene, const Eigen::Vector3d& along_level, Fronts use, WallFitScratch* scratch,
+                 WallSurface* fit);
+
+}  // namespace pose_wall
