@@ -15,6 +15,7 @@ constexpr double kTukeyVariance = 1.16;
 // A patch's own scatter counts like this many more points of the pooled scatter.
 constexpr double kPriorPoints = 10.0;
 constexpr std::uint32_t kPatchesMin = 8;
+constexpr int kGiveBackRounds = 2;
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
 constexpr double kNoiseMin_m = 0.001;
 
@@ -55,6 +56,8 @@ void PatchGrid::add(double u_m, double v_m, double residual_m, double weight, do
   p.wr += weight * residual_m;
   p.wrr += weight * residual_m * residual_m;
   p.wb += weight * bias;
+  p.r += residual_m;
+  p.rr += residual_m * residual_m;
   ++p.count;
 }
 
@@ -165,9 +168,18 @@ PatchFit PatchGrid::fit() {
   for (Mean& p : means_.first(n)) p.information = 1.0 / (roughness[p.layer].tau2 + p.noise_variance);
   if (!solve(n, &out.correction, &inverse)) return out;
   out.tau_m = std::sqrt(roughness[0].tau2);
-  measure_correlation(n, &roughness);
+  measure_correlation(n, inverse, &roughness);
   sandwich(n, roughness, inverse, &out);
+  for (int round = 0; round < kGiveBackRounds; ++round) {
+    const Eigen::Matrix3d fitted = out.covariance;
+    Roughness whole[kLayersMax];
+    for (std::uint32_t layer = 0; layer < layers_; ++layer) whole[layer].tau2 = roughness[layer].tau2;
+    give_back(n, fitted - inverse, &whole);
+    measure_correlation(n, fitted, &whole);
+    sandwich(n, whole, inverse, &out);
+  }
   test_bend(n, &out);
+  out.visibility_m = visibility(roughness[0].tau2);
   out.solved = true;
   return out;
 }

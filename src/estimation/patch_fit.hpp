@@ -28,6 +28,9 @@ struct PatchFit {
   Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();   // change of the correction per metre of range bias
   double tau_m = 0.0;                                        // roughness of the surface between patches
   double noise_m = 0.0;                                      // of one measured point
+  // From a shallow angle the bumps of rough rock are seen and its hollows are not: the surface seen lies about this
+  // much before the rock's mean.
+  double visibility_m = 0.0;
   double dof = 0.0;        // independent patches of the surface less the three parameters: of the offset
   double dof_slope = 0.0;  // of both layers: of the slopes
   std::uint32_t patches = 0;
@@ -65,6 +68,7 @@ class PatchGrid {
  private:
   struct Patch {
     double w, wu, wv, wr, wrr, wb;
+    double r, rr;  // without weights
     std::uint32_t count;
   };
   // A patch with points, averaged.
@@ -85,7 +89,6 @@ class PatchGrid {
   struct Roughness {
     double tau2 = 0.0;
     double at_lag[kLags + 1] = {};
-    double patches = 0.0;
   };
 
   std::uint32_t collect_means(PatchFit* out);
@@ -94,7 +97,9 @@ class PatchGrid {
   double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;
   template <typename Visit>
   void for_each_pair(std::uint32_t n, const Visit& visit) const;
-  void measure_correlation(std::uint32_t n, Roughness (*roughness)[kLayersMax]) const;
+  void measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitted, Roughness (*roughness)[kLayersMax]) const;
+  double visibility(double tau2_surface) const;
+  void give_back(std::uint32_t n, const Eigen::Matrix3d& beyond, Roughness (*roughness)[kLayersMax]) const;
   void sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMax], const Eigen::Matrix3d& inverse,
                 PatchFit* out) const;
   void test_bend(std::uint32_t n, PatchFit* out) const;
@@ -103,7 +108,7 @@ class PatchGrid {
   Span<Mean> means_;
   Span<std::int32_t> mean_of_cell_;  // index into means_, -1 for an empty cell
   std::uint32_t columns_ = 1, rows_ = 1, layers_ = 1;
-  double u_min_ = 0, v_min_ = 0, cells_per_m_ = 1;
+  double u_min_ = 0, v_min_ = 0, cells_per_m_ = 1;  // of the patches
 };
 
 }  // namespace pose_wall

@@ -21,15 +21,21 @@ constexpr double kSigmaMinAngle_rad = 1e-5;
 constexpr double kSigmaMinDistance_m = 1e-4;
 // Ribs move a wall to one side by a bounded amount: two of their standard deviations, not five.
 constexpr double kLayerFactor = 2.0;
+constexpr double kDofMin = 4.0;
 
 double with_floor(double sigma, double least) {
   return std::sqrt(sigma * sigma + least * least);
 }
 
+// A standard deviation that was itself estimated from few pieces: the errors follow Student's t, whose own is larger.
+double predictive(double sigma, double dof) {
+  return dof > kDofMin ? sigma * std::sqrt(dof / (dof - 2.0)) : sigma * std::sqrt(kDofMin / (kDofMin - 2.0));
+}
+
 Measurement measurement(double raw, double sigma, double bound, double dof, const Settings& s) {
   Measurement m;
   m.raw = raw;
-  m.sigma = sigma;
+  m.sigma = predictive(sigma, dof);
   m.protection = protection_factor(s.protection_factor, dof) * sigma + bound;
   // What has no bound is no measurement.
   m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.protection);

@@ -14,6 +14,8 @@ constexpr double kGateInThresholds = 4.0;
 // Points this far behind a plane passed through it. Below, they are the rock's own roughness.
 constexpr double kBehindInThresholds = 3.0;
 constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
+// What the strips may have moved the surface by, of their step; measured on simulated steel sets.
+constexpr double kStripsLeftOver = 0.06;
 constexpr double kCut_m = 0.25;
 constexpr double kSpanMin_m = 0.9;
 constexpr double kCurvatureInSigmas = 3.5;
@@ -47,6 +49,8 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   if (!fit.irls.solved) return fit;
   fit_patches(scene, along, &scratch->patches, &fit);
   if (fit.patch.solved && fit.strips != nullptr) join_fronts(scene, along, Fronts::kIfTheyAgree, scratch, &fit);
+  const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
+  fit.layer_sigma_m = std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m);
   return fit;
 }
 
