@@ -55,6 +55,18 @@ const std::vector<NominalRange>& nominal_ranges() {
   return ranges;
 }
 
+const char* scene_kind_name(SceneKind kind) {
+  switch (kind) {
+    case SceneKind::kNominal:
+      return "nominal";
+    case SceneKind::kAdversarial:
+      return "adversarial";
+    case SceneKind::kUnobservable:
+      return "unobservable";
+  }
+  return "";
+}
+
 const std::vector<SceneChoice>& scenes() {
   static const std::vector<SceneChoice> table = [] {
     std::vector<SceneChoice> all;
