@@ -182,6 +182,18 @@ TEST(SimTruth, StepsAreMeasuredSquareOrToTheNearestRock) {
   }
 }
 
+TEST(SimTruth, NicheCountsBeforeTheFaceAndNotBeyondIt) {
+  SceneSetup setup;
+  setup.road.face_distance_m = 3.0;
+  setup.road.face_niche_m = 1.5;
+  setup.road.face_extra_width_m = 0.7;
+  const TruthRow before = Simulator(setup, 1).truth(0);
+  EXPECT_NEAR(before.value[3], 3.2, 1e-6);
+  EXPECT_NEAR(before.value[4], 2.5, 1e-6);
+  setup.road.face_distance_m = 1.5;
+  EXPECT_NEAR(Simulator(setup, 1).truth(0).value[3], 2.5, 1e-6);
+}
+
 TEST(SimTruth, NearSidePlacesTheMachineByItsWall) {
   SceneSetup setup;
   setup.machine.near_side = kSideRight;

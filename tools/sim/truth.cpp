@@ -16,8 +16,14 @@ bool is_plane_at(const Setup& setup, double height_m) {
   return setup.road.curve_radius_m == 0.0 && below_arch;
 }
 
-bool has_steps(const Setup& setup, int side) {
-  return has_side(setup.openings.widening_side, side) || has_side(setup.openings.narrow_side, side);
+// Beyond the face there is nothing but the walls' planes prolonged.
+bool beside_niche(const Road& road, const Vector& P_road) {
+  return road.face_extra_width_m > 0.0 && CentreLine(road.curve_radius_m).s_of(P_road) < road.face_distance_m;
+}
+
+bool has_steps(const Setup& setup, int side, const Vector& P_road) {
+  return has_side(setup.openings.widening_side, side) || has_side(setup.openings.narrow_side, side) ||
+         beside_niche(setup.road, P_road);
 }
 
 Plane wall_plane(const Setup& setup, int side) {
@@ -28,7 +34,7 @@ Plane wall_plane(const Setup& setup, int side) {
 // |n . P + d| with the wall's plane; of the planes that a stepped wall has, the one square to which P lies.
 double distance_to_plane(const Setup& setup, const World& rock, int side, const Vector& P_road) {
   const Plane plane = wall_plane(setup, side);
-  if (!has_steps(setup, side)) return std::abs(plane.clearance(P_road));
+  if (!has_steps(setup, side, P_road)) return std::abs(plane.clearance(P_road));
   const double t = rock.trace({P_road, -plane.n}, kSearchReach_m, rock.objects(), {rock.objects(), P_road}).t_m;
   return t == kNever ? kNoTruth : t;
 }
@@ -72,7 +78,7 @@ double yaw_by_walls(const Setup& setup, const MachinePose& pose, const Matrix& R
 double wall_distance(const Setup& setup, const World& rock, int side, const Vector& P_road, double height_m,
                      const Vector& ahead_road, const Vector& left_road, StepRule rule) {
   if (!has_side(setup.road.walls, side)) return kNoTruth;
-  const bool nearest = rule == StepRule::kNearest && has_steps(setup, side);
+  const bool nearest = rule == StepRule::kNearest && has_steps(setup, side, P_road);
   if (is_plane_at(setup, height_m) && !nearest) return distance_to_plane(setup, rock, side, P_road);
   return distance_to_rock(rock, {rock.objects(), P_road}, P_road, ahead_road, side * left_road);
 }

@@ -66,8 +66,6 @@ World::World(const Setup& setup, std::uint64_t seed)
 
 World World::mean(const Setup& setup) {
   Setup bare = setup;
-  bare.road.face_distance_m = 0.0;
-  bare.road.rear_distance_m = 0.0;
   bare.rock.steel_pitch_m = 0.0;
   bare.floor = Floor{};
   bare.openings.crosscut_side = kSideNone;
@@ -75,9 +73,12 @@ World World::mean(const Setup& setup) {
   world.line_ = CentreLine(bare.road.curve_radius_m);
   world.rock_ = bare.rock;
   world.floor_ = floor_plane(bare.road);
-  world.surfaces_ = road_surfaces(bare, nullptr, 0);
   world.recesses_ = road_recesses(bare, nullptr, 0);
   world.objects_ = narrow_place(bare);
+  // The walls prolonged past both ends of the road, a niche before the face included.
+  bare.road.face_distance_m = 0.0;
+  bare.road.rear_distance_m = 0.0;
+  world.surfaces_ = road_surfaces(bare, nullptr, 0);
   return world;
 }
 
