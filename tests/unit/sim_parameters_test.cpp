@@ -83,6 +83,17 @@ TEST(SimScenes, RandomSizesStayInRangeDifferBySeedAndRepeat) {
   EXPECT_NE(a.rock.roughness_m, make_setup("rough", "vlp16", true, 2).rock.roughness_m);
 }
 
+TEST(SimScenes, TheMachineStandsInNothing) {
+  SceneSetup setup;
+  setup.objects.conveyor_side = kSideLeft;
+  setup.machine.lateral_m = 0.9;
+  EXPECT_NO_THROW(checked(setup));
+  setup.machine.lateral_m = 1.0;
+  EXPECT_THROW(checked(setup), std::invalid_argument);
+  setup.objects.conveyor_side = kSideRight;
+  EXPECT_NO_THROW(checked(setup));
+}
+
 TEST(SimScenes, ContradictionsAreNamed) {
   SceneSetup setup;
   setup.road.arch_springing_m = 1.5;

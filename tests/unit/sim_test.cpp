@@ -181,6 +181,26 @@ TEST(SimRender, CrosscutIsABoxBehindTheWall) {
   }
 }
 
+// Sides slanted by 40 degrees through the mouth's edges at x = 0 and 4, the back 6 m behind the wall.
+TEST(SimRender, ObliqueCrosscutHasSlantedSidesAndLetsNoBeamThrough) {
+  for (const double slant : {40.0, -40.0}) {
+    SceneSetup setup = quiet_setup();
+    setup.openings.crosscut_side = kSideRight;
+    setup.openings.crosscut_at_m = 2.0;
+    setup.openings.crosscut_depth_m = 6.0;
+    setup.openings.crosscut_oblique_deg = slant;
+    const Points points(setup);
+    const double shift = std::tan(slant * kRadPerDeg);
+    EXPECT_GT(points.count(Label::kOpening), 1000u);
+    for (const Vector& p : points.of(Label::kOpening)) {
+      const double depth = -p.y() - 2.5;
+      const double along = p.x() - depth * shift;
+      EXPECT_TRUE(std::abs(along) < 1e-3 || std::abs(along - 4.0) < 1e-3 || std::abs(depth - 6.0) < 1e-3) << p;
+      EXPECT_TRUE(along > -1e-3 && along < 4.0 + 1e-3 && depth > -1e-3 && depth < 6.0 + 1e-3) << p;
+    }
+  }
+}
+
 TEST(SimRender, ObliqueFaceIsAPlaneAcrossTheRoad) {
   SceneSetup setup = quiet_setup();
   setup.road.face_distance_m = 5.0;
@@ -284,6 +304,44 @@ TEST(SimRender, DustNoiseAndBiasHaveTheirSize) {
   const double mean = sum / static_cast<double>(exact.count());
   EXPECT_NEAR(mean, 0.03, 5e-4);
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(exact.count()) - mean * mean), 0.02, 5e-4);
+}
+
+TEST(SimRender, DustRisesEvenly) {
+  SceneSetup setup = quiet_setup();
+  setup.faults.dust = 0.8;
+  setup.faults.dust_rise_s = 2.0;
+  setup.sensor.range_floor_m = 0.0;
+  setup.faults.dust_range_m = 0.05;
+  for (const auto& [frame, share] : {std::pair{0u, 0.0}, {10u, 0.4}, {20u, 0.8}, {30u, 0.8}}) {
+    EXPECT_NEAR(static_cast<double>(Points(setup, frame).count(Label::kDust)) / 65536.0, share, 0.01);
+  }
+}
+
+TEST(SimSequence, DuplicatesComeOnceMoreStampAndTruthToo) {
+  SceneSetup setup;
+  setup.machine.speed_mps = 0.5;
+  setup.machine.drift_mps = 0.1;
+  setup.sequence.duplicate_every = 3.0;
+  const Simulator simulator(setup, 1);
+  EXPECT_EQ(simulator.render(2).xyz_intensity, simulator.render(3).xyz_intensity);
+  EXPECT_EQ(simulator.render(2).stamp_ns, simulator.render(3).stamp_ns);
+  EXPECT_EQ(simulator.truth(2).value, simulator.truth(3).value);
+  EXPECT_NE(simulator.render(3).xyz_intensity, simulator.render(4).xyz_intensity);
+  EXPECT_EQ(simulator.render(4).stamp_ns - simulator.render(3).stamp_ns, 100000000);
+  EXPECT_EQ(simulator.render(6).xyz_intensity, simulator.render(7).xyz_intensity);
+}
+
+TEST(SimSequence, DroppedFramesLeaveAGapInStampsAndMotion) {
+  SceneSetup setup;
+  setup.machine.drift_mps = 0.1;
+  setup.sequence.drop_every = 4.0;
+  setup.sequence.drop_length = 5.0;
+  const Simulator simulator(setup, 1);
+  EXPECT_EQ(simulator.truth(3).stamp_ns - simulator.truth(2).stamp_ns, 100000000);
+  EXPECT_EQ(simulator.truth(4).stamp_ns - simulator.truth(3).stamp_ns, 600000000);
+  EXPECT_EQ(simulator.truth(5).stamp_ns - simulator.truth(4).stamp_ns, 100000000);
+  EXPECT_NEAR(simulator.truth(3).value[3] - simulator.truth(4).value[3], 0.06, 1e-12);
+  EXPECT_EQ(simulator.truth(8).stamp_ns - simulator.truth(0).stamp_ns, 1800000000);
 }
 
 TEST(SimSequence, FrozenFramesRepeatAndStampsGoOn) {

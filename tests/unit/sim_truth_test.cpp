@@ -143,7 +143,26 @@ TEST(SimTruth, ArchIsMeasuredAtTheHeightOfTheBaseOrigin) {
   EXPECT_NEAR(truth.value[3], 2.5 * std::sqrt(1.0 - std::pow(0.8 / 2.5, 2)), 1e-6);
 }
 
-TEST(SimTruth, StepsAreMeasuredToTheNearestRock) {
+TEST(SimTruth, YawIsTheMeanDirectionOfWallsThatSplayDifferently) {
+  SceneSetup setup = tilted_setup(0.0);
+  setup.road.splay_left_deg = 8.0;
+  setup.road.splay_right_deg = -3.0;
+  setup.road.lean_left_deg = 5.0;
+  setup.road.cross_fall_deg = 6.0;
+  expect_truth_fits(setup);
+
+  SceneSetup level;
+  level.road.splay_left_deg = 8.0;
+  level.road.splay_right_deg = -3.0;
+  level.machine.turned_left_deg = 2.0;
+  EXPECT_NEAR(Simulator(level, 1).truth(0).value[2], ((8.0 + 3.0) / 2.0 - 2.0) * kRadPerDeg, 1e-12);
+  level.road.walls = kSideRight;
+  EXPECT_NEAR(Simulator(level, 1).truth(0).value[2], (3.0 - 2.0) * kRadPerDeg, 1e-12);
+  level.road.walls = kSideNone;
+  EXPECT_TRUE(std::isnan(Simulator(level, 1).truth(0).value[2]));
+}
+
+TEST(SimTruth, StepsAreMeasuredSquareOrToTheNearestRock) {
   SceneSetup setup;
   setup.openings.widening_side = kSideLeft;
   setup.openings.widening_at_m = 1.0;
@@ -151,11 +170,38 @@ TEST(SimTruth, StepsAreMeasuredToTheNearestRock) {
   setup.openings.narrow_side = kSideRight;
   setup.openings.narrow_at_m = 1.0;
   setup.openings.narrow_depth_m = 0.4;
-  const TruthRow truth = Simulator(setup, 1).truth(0);
-  EXPECT_NEAR(truth.value[3], std::hypot(1.0, 2.5), 1e-4);  // the corner is nearer than the wall behind it
-  EXPECT_NEAR(truth.value[4], 2.5, 1e-6);
-  EXPECT_NEAR(truth.value[5], 2.1, 1e-6);
-  EXPECT_NEAR(truth.value[6], 2.5, 1e-6);
+  const Simulator simulator(setup, 1);
+  const TruthRow square = simulator.truth(0);
+  const TruthRow nearest = simulator.truth(0, StepRule::kNearest);
+  EXPECT_NEAR(square.value[3], 5.5, 1e-6);
+  EXPECT_NEAR(nearest.value[3], std::hypot(1.0, 2.5), 1e-4);  // the corner is nearer than the wall behind it
+  for (const TruthRow& truth : {square, nearest}) {
+    EXPECT_NEAR(truth.value[4], 2.5, 1e-6);
+    EXPECT_NEAR(truth.value[5], 2.1, 1e-6);
+    EXPECT_NEAR(truth.value[6], 2.5, 1e-6);
+  }
+}
+
+TEST(SimTruth, NicheCountsBeforeTheFaceAndNotBeyondIt) {
+  SceneSetup setup;
+  setup.road.face_distance_m = 3.0;
+  setup.road.face_niche_m = 1.5;
+  setup.road.face_extra_width_m = 0.7;
+  const TruthRow before = Simulator(setup, 1).truth(0);
+  EXPECT_NEAR(before.value[3], 3.2, 1e-6);
+  EXPECT_NEAR(before.value[4], 2.5, 1e-6);
+  setup.road.face_distance_m = 1.5;
+  EXPECT_NEAR(Simulator(setup, 1).truth(0).value[3], 2.5, 1e-6);
+}
+
+TEST(SimTruth, NearSidePlacesTheMachineByItsWall) {
+  SceneSetup setup;
+  setup.machine.near_side = kSideRight;
+  setup.machine.near_distance_m = 0.6;
+  setup.machine.drift_mps = 0.1;
+  const TruthRow truth = Simulator(setup, 1).truth(10);
+  EXPECT_NEAR(truth.value[5], 0.7, 1e-12);
+  EXPECT_NEAR(truth.value[3], 4.3, 1e-12);
 }
 
 TEST(SimTruth, FollowsTheMotion) {

@@ -29,6 +29,10 @@ bool in_sector(double azimuth_deg, double from_deg, double to_deg) {
   return from_deg != to_deg && turn(azimuth_deg) <= turn(to_deg);
 }
 
+double dust_at(const Faults& f, double time_s) {
+  return f.dust_rise_s > 0.0 ? f.dust * std::clamp(time_s / f.dust_rise_s, 0.0, 1.0) : f.dust;
+}
+
 bool has_sectors(const Faults& f) {
   return f.blocked_from_deg != f.blocked_to_deg || f.blocked_2_from_deg != f.blocked_2_to_deg ||
          f.shimmer_from_deg != f.shimmer_to_deg;
@@ -53,6 +57,7 @@ BeamCaster::BeamCaster(const Setup& setup, const World& world, const MachinePose
       index_(things_, origin_),
       water_below_(normal_quantile(setup.floor.puddle_coverage)),
       grazing_cosine_(std::sin(setup.sensor.grazing_limit_deg * kRadPerDeg)),
+      dust_(dust_at(setup.faults, pose.time_s)),
       wall_lost_(within(pose.time_s, setup.faults.lost_from_s, setup.faults.lost_to_s)),
       partial_(within(pose.time_s, setup.sequence.partial_from_s, setup.sequence.partial_to_s)),
       needs_azimuth_(partial_ || has_sectors(setup.faults)) {}
@@ -137,7 +142,7 @@ void BeamCaster::disturb(double azimuth_deg, Return* r) {
   const Faults& f = setup_.faults;
   const Sensor& s = setup_.sensor;
   if (r->label != Label::kNone && lost(*r)) *r = {};
-  for (const auto& [share, reach_m] : {std::pair{f.dust, f.dust_range_m}, std::pair{f.drops, f.drops_range_m}}) {
+  for (const auto& [share, reach_m] : {std::pair{dust_, f.dust_range_m}, std::pair{f.drops, f.drops_range_m}}) {
     if (!random_.chance(share)) continue;
     const double range_m = -reach_m * std::log(1.0 - random_.uniform());
     if (range_m < r->range_m) *r = {range_m, 0.1, Label::kDust, 0};

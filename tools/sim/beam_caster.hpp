@@ -49,6 +49,7 @@ class BeamCaster {
   SectorIndex index_;
   double water_below_;
   double grazing_cosine_;
+  double dust_;
   bool wall_lost_;
   bool partial_;
   bool needs_azimuth_;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "sim/pose.hpp"
+
 namespace pose_wall::tools::sim {
 namespace {
 
@@ -15,6 +17,30 @@ void demand(bool holds, const char* rule) {
 }
 
 }  // namespace
+
+constexpr double kHalfMachine_m = 0.3;  // at least so much room on each side of the machine's centre line
+
+void demand_room(const Setup& setup, double side_choice, double reach_out_of_wall_m, const char* rule) {
+  for (const int side : {1, -1}) {
+    if (!has_side(side_choice, side)) continue;
+    const double to_wall = 0.5 * setup.road.width_m - side * start_lateral_m(setup);
+    demand(to_wall - reach_out_of_wall_m >= kHalfMachine_m, rule);
+  }
+}
+
+void demand_room_for_the_machine(const Setup& setup) {
+  const Objects& o = setup.objects;
+  const Floor& f = setup.floor;
+  demand_room(setup, f.bench_side, f.bench_width_m, "the machine stands on the bench (bench_width_m, lateral_m)");
+  demand_room(setup, f.muck_side, f.muck_width_m, "the machine stands in the muck (muck_width_m, lateral_m)");
+  demand_room(setup, o.conveyor_side, o.conveyor_standoff_m + o.conveyor_width_m,
+              "the machine stands in the conveyor (conveyor_standoff_m, conveyor_width_m, lateral_m)");
+  demand_room(setup, o.vehicle_side, o.vehicle_standoff_m + o.vehicle_width_m,
+              "the machine stands in the vehicle (vehicle_standoff_m, vehicle_width_m, lateral_m)");
+  demand_room(setup, o.prop_side, o.prop_standoff_m, "the machine stands in the props (prop_standoff_m, lateral_m)");
+  demand_room(setup, o.curtain_side, 0.5 * setup.road.width_m - o.curtain_distance_m,
+              "the machine stands in the curtain (curtain_distance_m, lateral_m)");
+}
 
 const Setup& checked(const Setup& setup) {
   const Road& r = setup.road;
@@ -32,7 +58,9 @@ const Setup& checked(const Setup& setup) {
   demand(setup.floor.muck_side == static_cast<double>(kSideNone) || setup.floor.muck_width_m < 0.5 * r.width_m,
          "muck_width_m must be below half of width_m");
   demand(r.roof == 0.0 || m.base_height_m < r.height_m, "base_height_m must be below height_m");
-  demand(std::abs(m.lateral_m) < 0.5 * r.width_m, "lateral_m must be within half of width_m");
+  demand(std::abs(start_lateral_m(setup)) < 0.5 * r.width_m,
+         "lateral_m, or near_distance_m, must leave the machine between the walls");
+  demand_room_for_the_machine(setup);
   demand(setup.sensor.elevation_min_deg < setup.sensor.elevation_max_deg,
          "elevation_min_deg must be below elevation_max_deg");
   return setup;

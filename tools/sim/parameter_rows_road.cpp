@@ -66,6 +66,7 @@ const std::vector<Parameter> kRows = {
     OPENING(crosscut_width_m, "m", 0.2, 50.0, "along the road"),
     OPENING(crosscut_depth_m, "m", 0.1, 200.0, "from the wall to its end"),
     OPENING(crosscut_height_m, "m", 0.5, 50.0, "of its roof"),
+    OPENING(crosscut_oblique_deg, "deg", -65.0, 65.0, "0: square to the road; + it leads ahead"),
     SIDE(openings, Openings, widening_side, "the wall steps back"),
     OPENING(widening_at_m, "m", -100.0, 100.0, "from here on"),
     OPENING(widening_m, "m", 0.01, 20.0, "by this much"),

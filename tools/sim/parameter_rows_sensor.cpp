@@ -30,6 +30,7 @@ const std::vector<Parameter> kRows = {
     FAULT(dropout, "1", 0.0, 1.0, "share of returns that are lost"),
     FAULT(dust, "1", 0.0, 1.0, "share of beams that end in dust"),
     FAULT(dust_range_m, "m", 0.05, 50.0, "mean of the exponentially distributed ranges"),
+    FAULT(dust_rise_s, "s", 0.0, 1e5, "dust grows evenly from none over this time; 0: there from the start"),
     FAULT(drops, "1", 0.0, 1.0, "share of beams that end in water drops"),
     FAULT(drops_range_m, "m", 0.05, 50.0, "mean of the exponentially distributed ranges"),
     POSE_WALL_SIM_WORDS(faults, Faults, wet_side, kSideWords, 3.0, "dark, wet wall"),
@@ -57,6 +58,10 @@ const std::vector<Parameter> kRows = {
     SEQUENCE(partial_to_s, "s", 0.0, 1e5, "... to here; equal: never"),
     SEQUENCE(partial_share, "1", 0.0, 1.0,
              "share of the circle, from behind counter-clockwise, that a cut frame holds"),
+    SEQUENCE(duplicate_every, "1", 0.0, 1e6,
+             "so many frames come, the last of them once more, stamp and all; 0: never"),
+    SEQUENCE(drop_every, "1", 0.0, 1e6, "so many frames come, then drop_length are missing; 0: never"),
+    SEQUENCE(drop_length, "1", 1.0, 1000.0, "see drop_every"),
 };
 
 }  // namespace

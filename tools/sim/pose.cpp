@@ -50,6 +50,13 @@ Vector lidar_origin_base(const Mount& m) {
   return {m.mount_x_m + m.mount_error_x_m, m.mount_y_m + m.mount_error_y_m, m.mount_z_m + m.mount_error_z_m};
 }
 
+double start_lateral_m(const Setup& setup) {
+  const Machine& m = setup.machine;
+  if (m.near_side == 0.0) return m.lateral_m;
+  const double from_centre = 0.5 * setup.road.width_m - m.near_distance_m;
+  return m.near_side == static_cast<double>(kSideLeft) ? from_centre : -from_centre;
+}
+
 MachinePose pose_at(const Setup& setup, double time_s) {
   const Machine& m = setup.machine;
   const double phase = 2.0 * M_PI * time_s / m.sway_period_s;
@@ -57,7 +64,7 @@ MachinePose pose_at(const Setup& setup, double time_s) {
   MachinePose pose;
   pose.time_s = time_s;
   pose.along_m = m.speed_mps * time_s;
-  pose.lateral_m = m.lateral_m + m.drift_mps * time_s;
+  pose.lateral_m = start_lateral_m(setup) + m.drift_mps * time_s;
   pose.base_height_m = m.base_height_m;
   pose.turned_left_rad = (m.turned_left_deg + m.turn_rate_dps * time_s + step_deg) * kRadPerDeg;
   pose.roll_rad = (m.roll_deg + m.sway_roll_deg * std::sin(phase)) * kRadPerDeg;

@@ -27,6 +27,8 @@ struct Placement {
   Vector origin_road;
 };
 
+// To the left of the centre line, at the start.
+double start_lateral_m(const Setup& setup);
 MachinePose pose_at(const Setup& setup, double time_s);
 Placement place(const Setup& setup, const MachinePose& pose);
 

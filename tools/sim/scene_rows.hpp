@@ -9,8 +9,11 @@
 namespace pose_wall::tools::sim {
 
 std::vector<SceneChoice> walls_scenes();
+std::vector<SceneChoice> along_scenes();
 std::vector<SceneChoice> openings_scenes();
 std::vector<SceneChoice> floors_scenes();
+std::vector<SceneChoice> air_scenes();
 std::vector<SceneChoice> machine_scenes();
+std::vector<SceneChoice> sensor_scenes();
 
 }  // namespace pose_wall::tools::sim

@@ -18,7 +18,7 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-constexpr int kDraws = 50;
+constexpr int kDraws = 200;
 
 const Parameter& parameter(const char* key) {
   const Parameter* const p = find_parameter(key);
@@ -55,10 +55,23 @@ const std::vector<NominalRange>& nominal_ranges() {
   return ranges;
 }
 
+const char* scene_kind_name(SceneKind kind) {
+  switch (kind) {
+    case SceneKind::kNominal:
+      return "nominal";
+    case SceneKind::kAdversarial:
+      return "adversarial";
+    case SceneKind::kUnobservable:
+      return "unobservable";
+  }
+  return "";
+}
+
 const std::vector<SceneChoice>& scenes() {
   static const std::vector<SceneChoice> table = [] {
     std::vector<SceneChoice> all;
-    for (const auto& part : {walls_scenes(), openings_scenes(), floors_scenes(), machine_scenes()}) {
+    for (const auto& part : {walls_scenes(), along_scenes(), openings_scenes(), floors_scenes(), air_scenes(),
+                             machine_scenes(), sensor_scenes()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

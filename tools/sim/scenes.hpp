@@ -26,8 +26,17 @@ struct NominalRange {
   double high;
 };
 
+// In a nominal scene, a working roadway on a normal day, the estimator's statistics must be exactly true. An
+// adversarial one is made to mislead. In an unobservable one the data of a single sensor cannot tell that anything is
+// wrong: nothing is to be concluded from its errors.
+enum class SceneKind { kNominal, kAdversarial, kUnobservable };
+const char* scene_kind_name(SceneKind kind);
+
 struct SceneChoice {
   const char* name;
+  SceneKind kind;
+  double
+      available_floor;  // least share of the values that have a truth to be valid or degraded; 0 where physics forbids
   const char* help;
   const char* expected;  // what a good instrument does in it
   std::vector<SceneValue> values;

@@ -40,15 +40,16 @@ Relief muck_relief(const Floor& floor, const NoiseTile* tile, std::uint64_t iden
   return relief;
 }
 
-// Upright by gravity, across the road at s, turned by an angle; facing back to the start for facing = -1.
-Plane face_plane(const Road& road, double s_m, double turn_rad, double facing) {
+// Upright by gravity, across the road at s, turned by an angle about a point beside the centre line; facing back to the
+// start for facing = -1.
+Plane face_plane(const Road& road, double s_m, double turn_rad, double facing, double lateral_m = 0.0) {
   const CentreLine line(road.curve_radius_m);
   const double heading = line.heading_rad(s_m) + turn_rad;
   const double slope = road.slope_deg * kRadPerDeg;
   const Vector across(std::cos(heading), std::sin(heading), 0.0);
   const Vector n = facing * (std::cos(slope) * across - std::sin(slope) * Vector::UnitZ());
   const Vector u = Vector::UnitZ().cross(across);
-  return {n, -n.dot(line.point(s_m, 0.0, 0.0)), u, n.cross(u)};
+  return {n, -n.dot(line.point(s_m, lateral_m, 0.0)), u, n.cross(u)};
 }
 
 Plane level_plane(double z_m, double facing) {
@@ -84,11 +85,13 @@ void add_roof(const Setup& setup, const NoiseTile* tile, std::uint64_t seed, std
 
 // bounds: the walls of the recess that face each other, its back, its roof.
 Recess make_recess(const Setup& setup, const NoiseTile* tile, std::uint64_t identity, int side, double from_m,
-                   double to_m, double depth_m, double height_m) {
+                   double to_m, double depth_m, double height_m, double oblique_deg = 0.0) {
   const Road& road = setup.road;
+  const double turn = -side * oblique_deg * kRadPerDeg;
+  const double mouth = 0.5 * side * road.width_m;
   Recess recess{side, from_m, to_m, height_m, {}};
-  recess.bounds.push_back({face_plane(road, from_m, 0.0, 1.0), {}});
-  if (std::isfinite(to_m)) recess.bounds.push_back({face_plane(road, to_m, 0.0, -1.0), {}});
+  recess.bounds.push_back({face_plane(road, from_m, turn, 1.0, mouth), {}});
+  if (std::isfinite(to_m)) recess.bounds.push_back({face_plane(road, to_m, turn, -1.0, mouth), {}});
   Surface back = wall_mean(road, side, 0.5 * road.width_m + depth_m, wall_lean_tangent(road, side));
   back.relief = rock_relief(setup.rock, tile, identity);
   recess.bounds.push_back(back);
@@ -150,7 +153,7 @@ std::vector<Recess> road_recesses(const Setup& setup, const NoiseTile* tile, std
     if (has_side(o.crosscut_side, side)) {
       const double half = 0.5 * o.crosscut_width_m;
       out.push_back(make_recess(setup, tile, identity, side, o.crosscut_at_m - half, o.crosscut_at_m + half,
-                                o.crosscut_depth_m, o.crosscut_height_m));
+                                o.crosscut_depth_m, o.crosscut_height_m, o.crosscut_oblique_deg));
     }
     if (has_side(o.widening_side, side)) {
       out.push_back(make_recess(setup, tile, identity, side, o.widening_at_m, kNever, o.widening_m, kNever));

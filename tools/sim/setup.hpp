@@ -74,6 +74,7 @@ struct Openings {
   double crosscut_width_m = 4.0;
   double crosscut_depth_m = 15.0;
   double crosscut_height_m = 3.5;
+  double crosscut_oblique_deg = 0.0;  // 0: square to the road; + it leads ahead
   double widening_side = kSideNone;
   double widening_at_m = 2.0;
   double widening_m = 0.5;
@@ -122,6 +123,8 @@ struct Machine {
   double forward_axis = 0.0;     // "+X|-X|+Y|-Y"
   double base_height_m = 1.4;    // base origin above the floor
   double lateral_m = 0.0;        // + left of the centre line
+  double near_side = 0.0;        // "none|left|right": place the machine by near_distance_m instead of lateral_m
+  double near_distance_m = 0.5;  // from this side's mean wall at the floor
   double turned_left_deg = 0.0;  // reported yaw is minus this
   double roll_deg = 0.0;         // as reported: about base X and Y, whatever forward_axis is
   double pitch_deg = 0.0;
@@ -185,6 +188,7 @@ struct Faults {
   double dropout = 0.0;
   double dust = 0.0;  // share of beams that end in dust
   double dust_range_m = 1.5;
+  double dust_rise_s = 0.0;  // 0: dust from the start; else it grows evenly from none over this time
   double drops = 0.0;
   double drops_range_m = 0.6;
   double wet_side = kSideNone;
@@ -212,7 +216,10 @@ struct Sequence {
   double freeze_to_s = 0.0;
   double partial_from_s = 0.0;
   double partial_to_s = 0.0;
-  double partial_share = 0.5;  // share of the beams of a partial frame
+  double partial_share = 0.5;    // share of the beams of a partial frame
+  double duplicate_every = 0.0;  // this many frames come, the last of them once more, and so on; 0: never
+  double drop_every = 0.0;       // this many frames come, then drop_length are missing, and so on; 0: never
+  double drop_length = 1.0;
 };
 
 struct Setup {

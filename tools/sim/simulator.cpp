@@ -27,6 +27,15 @@ void append(const Return& r, const Vector& direction, double unit_scale, Frame* 
   frame->labels.push_back(r.label);
 }
 
+// Which of the sensor's frames is delivered at this place, after what was dropped and sent twice.
+std::uint32_t sensor_frame(const Sequence& sequence, std::uint32_t frame_index) {
+  std::uint32_t i = frame_index;
+  const auto every = [](double count) { return static_cast<std::uint32_t>(count); };
+  if (sequence.duplicate_every >= 1.0) i -= (i + 1u) / (every(sequence.duplicate_every) + 1u);
+  if (sequence.drop_every >= 1.0) i += every(sequence.drop_length) * (i / every(sequence.drop_every));
+  return i;
+}
+
 // A frozen sensor repeats the frame at which it froze.
 std::uint32_t seen_frame(const Sequence& sequence, std::uint32_t frame_index) {
   const double time_s = frame_index / sequence.rate_hz;
@@ -44,11 +53,11 @@ Simulator::Simulator(const Setup& setup, std::uint64_t seed)
       beams_(beam_directions(setup.sensor, 0)) {}
 
 MachinePose Simulator::pose(std::uint32_t frame_index) const {
-  return pose_at(setup_, frame_index / setup_.sequence.rate_hz);
+  return pose_at(setup_, sensor_frame(setup_.sequence, frame_index) / setup_.sequence.rate_hz);
 }
 
 Frame Simulator::render(std::uint32_t frame_index) const {
-  const std::uint32_t seen = seen_frame(setup_.sequence, frame_index);
+  const std::uint32_t seen = seen_frame(setup_.sequence, sensor_frame(setup_.sequence, frame_index));
   const bool repeats = setup_.sensor.rings > 0.0;
   const std::vector<Vector> own_beams = repeats ? std::vector<Vector>{} : beam_directions(setup_.sensor, seen);
   const std::vector<Vector>& beams = repeats ? beams_ : own_beams;
@@ -57,7 +66,7 @@ Frame Simulator::render(std::uint32_t frame_index) const {
   frame.stamp_ns = stamp_ns(frame_index);
   frame.xyz_intensity.reserve(4 * beams.size());
   frame.labels.reserve(beams.size());
-  BeamCaster caster(setup_, world_, pose(seen), mix(seed_) ^ mix(seen + 1u));
+  BeamCaster caster(setup_, world_, pose_at(setup_, seen / setup_.sequence.rate_hz), mix(seed_) ^ mix(seen + 1u));
   for (const Vector& direction : beams) {
     const BeamCaster::Returns returns = caster.cast(direction);
     append(returns.first, direction, setup_.sensor.unit_scale, &frame);
@@ -66,8 +75,8 @@ Frame Simulator::render(std::uint32_t frame_index) const {
   return frame;
 }
 
-TruthRow Simulator::truth(std::uint32_t frame_index) const {
-  TruthRow row = truth_of(setup_, mean_rock_, pose(frame_index));
+TruthRow Simulator::truth(std::uint32_t frame_index, StepRule rule) const {
+  TruthRow row = truth_of(setup_, mean_rock_, pose(frame_index), rule);
   row.frame = frame_index;
   row.stamp_ns = stamp_ns(frame_index);
   return row;
@@ -75,12 +84,13 @@ TruthRow Simulator::truth(std::uint32_t frame_index) const {
 
 std::int64_t Simulator::stamp_ns(std::uint32_t frame_index) const {
   const Sequence& q = setup_.sequence;
-  double time_s = frame_index / q.rate_hz;
+  const std::uint32_t delivered = sensor_frame(q, frame_index);
+  double time_s = delivered / q.rate_hz;
   const bool jumped = q.stamp_jump_s != 0.0 && time_s >= q.stamp_jump_at_s;
   if (time_s >= q.stamp_still_from_s && time_s < q.stamp_still_to_s) {
     time_s = q.stamp_still_from_s;
   } else if (q.stamp_jitter_s > 0.0) {
-    time_s += q.stamp_jitter_s * Random(seed_, frame_index + 1u).gaussian();
+    time_s += q.stamp_jitter_s * Random(seed_, delivered + 1u).gaussian();
   }
   return std::llround((kFirstStamp_s + time_s + (jumped ? q.stamp_jump_s : 0.0)) * 1e9);
 }

@@ -27,7 +27,7 @@ class Simulator {
   MachinePose pose(std::uint32_t frame_index) const;
   // May be called from several threads at once.
   Frame render(std::uint32_t frame_index) const;
-  TruthRow truth(std::uint32_t frame_index) const;
+  TruthRow truth(std::uint32_t frame_index, StepRule rule = StepRule::kSquare) const;
 
  private:
   std::int64_t stamp_ns(std::uint32_t frame_index) const;

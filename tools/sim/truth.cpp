@@ -11,19 +11,32 @@ namespace {
 
 constexpr double kSearchReach_m = 200.0;
 
-bool is_plane_at(const Setup& setup, int side, double height_m) {
-  const Openings& o = setup.openings;
+bool is_plane_at(const Setup& setup, double height_m) {
   const bool below_arch = setup.road.arch_springing_m <= 0.0 || height_m < setup.road.arch_springing_m;
-  return setup.road.curve_radius_m == 0.0 && below_arch && !has_side(o.widening_side, side) &&
-         !has_side(o.narrow_side, side);
+  return setup.road.curve_radius_m == 0.0 && below_arch;
 }
 
-// |n . P + d| with the wall's plane and the sampling point in the levelled frame.
-double distance_to_plane(const Setup& setup, int side, const Placement& at, const Matrix& R_level, const Vector& P) {
+// Beyond the face there is nothing but the walls' planes prolonged.
+bool beside_niche(const Road& road, const Vector& P_road) {
+  return road.face_extra_width_m > 0.0 && CentreLine(road.curve_radius_m).s_of(P_road) < road.face_distance_m;
+}
+
+bool has_steps(const Setup& setup, int side, const Vector& P_road) {
+  return has_side(setup.openings.widening_side, side) || has_side(setup.openings.narrow_side, side) ||
+         beside_niche(setup.road, P_road);
+}
+
+Plane wall_plane(const Setup& setup, int side) {
   const Surface wall = wall_mean(setup.road, side, 0.5 * setup.road.width_m, wall_lean_tangent(setup.road, side));
-  const auto& plane = std::get<Plane>(wall.shape);
-  const Vector n_level = R_level * at.R_road_base.transpose() * plane.n;
-  return std::abs(n_level.dot(P) + plane.clearance(at.origin_road));
+  return std::get<Plane>(wall.shape);
+}
+
+// |n . P + d| with the wall's plane; of the planes that a stepped wall has, the one square to which P lies.
+double distance_to_plane(const Setup& setup, const World& rock, int side, const Vector& P_road) {
+  const Plane plane = wall_plane(setup, side);
+  if (!has_steps(setup, side, P_road)) return std::abs(plane.clearance(P_road));
+  const double t = rock.trace({P_road, -plane.n}, kSearchReach_m, rock.objects(), {rock.objects(), P_road}).t_m;
+  return t == kNever ? kNoTruth : t;
 }
 
 // The nearest point by direction: every degree first, then closer around the best one.
@@ -49,36 +62,49 @@ double distance_to_rock(const World& rock, const SectorIndex& index, const Vecto
   return best == kNever ? kNoTruth : best;
 }
 
+// From the levelled forward axis to the walls' mean direction along the road.
+double yaw_by_walls(const Setup& setup, const MachinePose& pose, const Matrix& R_road_level, const Vector& ahead) {
+  if (setup.road.walls == static_cast<double>(kSideNone)) return kNoTruth;
+  if (setup.road.curve_radius_m != 0.0) return 0.0 - pose.turned_left_rad;
+  Vector along = Vector::Zero();
+  for (const int side : {1, -1}) {
+    if (!has_side(setup.road.walls, side)) continue;
+    const Vector t = Vector::UnitZ().cross(R_road_level.transpose() * wall_plane(setup, side).n).normalized();
+    along += t.dot(R_road_level.transpose() * Vector::UnitX()) > 0.0 ? t : -t;
+  }
+  return std::atan2(ahead.cross(along).z(), ahead.dot(along));
+}
+
+double wall_distance(const Setup& setup, const World& rock, int side, const Vector& P_road, double height_m,
+                     const Vector& ahead_road, const Vector& left_road, StepRule rule) {
+  if (!has_side(setup.road.walls, side)) return kNoTruth;
+  const bool nearest = rule == StepRule::kNearest && has_steps(setup, side, P_road);
+  if (is_plane_at(setup, height_m) && !nearest) return distance_to_plane(setup, rock, side, P_road);
+  return distance_to_rock(rock, {rock.objects(), P_road}, P_road, ahead_road, side * left_road);
+}
+
 }  // namespace
 
-TruthRow truth_of(const Setup& setup, const World& mean_rock, const MachinePose& pose) {
+TruthRow truth_of(const Setup& setup, const World& mean_rock, const MachinePose& pose, StepRule rule) {
   const Machine& m = setup.machine;
   const Placement at = place(setup, pose);
   const Matrix R_level = R_level_base(pose.roll_rad, pose.pitch_rad);
   const Matrix R_road_level = at.R_road_base * R_level.transpose();
   const Vector ahead_level = (R_level * forward_axis(m)).cwiseProduct(Vector(1.0, 1.0, 0.0)).normalized();
-  const Vector left_level = Vector::UnitZ().cross(ahead_level);
+  const Vector ahead_road = R_road_level * ahead_level;
+  const Vector left_road = R_road_level * Vector::UnitZ().cross(ahead_level);
 
   TruthRow row;
   row.value[0] = pose.roll_rad;
   row.value[1] = pose.pitch_rad;
-  row.value[2] = 0.0 - pose.turned_left_rad;
+  row.value[2] = yaw_by_walls(setup, pose, R_road_level, ahead_level);
   std::size_t quantity = 3;
   for (const int side : {1, -1}) {
     for (const double s : {m.s_front_m, m.s_back_m}) {
-      const Vector P = R_level * (s * forward_axis(m));
-      double distance = kNoTruth;
-      if (has_side(setup.road.walls, side)) {
-        if (is_plane_at(setup, side, pose.base_height_m + P.z())) {
-          distance = distance_to_plane(setup, side, at, R_level, P);
-        } else {
-          const Vector from = at.origin_road + R_road_level * P;
-          const SectorIndex index(mean_rock.objects(), from);
-          distance =
-              distance_to_rock(mean_rock, index, from, R_road_level * ahead_level, side * (R_road_level * left_level));
-        }
-      }
-      row.value[quantity++] = distance;
+      const Vector P_base = s * forward_axis(m);
+      const double height_m = pose.base_height_m + (R_level * P_base).z();
+      const Vector P_road = at.origin_road + at.R_road_base * P_base;
+      row.value[quantity++] = wall_distance(setup, mean_rock, side, P_road, height_m, ahead_road, left_road, rule);
     }
   }
   return row;

@@ -26,12 +26,23 @@ void hit_things(const Ray& ray, const std::vector<Primitive>& things, const Sect
   }
 }
 
-double smallest_bound(const Recess& recess, const Ray& ray, double t_max, const Surface** bound) {
+// From the mouth on, as an oblique recess has sides that the ray's origin may lie behind.
+double from_mouth(const Surface& side, const Ray& ray, double t_mouth) {
+  const Ray inside{ray.at(t_mouth), ray.direction};
+  return side.clearance(inside.origin) <= 0.0 ? t_mouth : t_mouth + side.enter(inside, 0.0);
+}
+
+double smallest_bound(const Recess& recess, const Ray& ray, double t_mouth, double t_max, const Surface** bound) {
   double best = t_max;
   for (const Surface& surface : recess.bounds) {
-    const double start = surface.enter(ray, surface.relief.reach_m());
-    if (start >= best) continue;
-    const double t = surface.hit(ray, start);
+    double t = kNever;
+    if (surface.relief.flat()) {
+      t = from_mouth(surface, ray, t_mouth);
+    } else {
+      const double start = surface.enter(ray, surface.relief.reach_m());
+      if (start >= best) continue;
+      t = surface.hit(ray, start);
+    }
     if (t < best) {
       best = t;
       *bound = &surface;
@@ -55,8 +66,6 @@ World::World(const Setup& setup, std::uint64_t seed)
 
 World World::mean(const Setup& setup) {
   Setup bare = setup;
-  bare.road.face_distance_m = 0.0;
-  bare.road.rear_distance_m = 0.0;
   bare.rock.steel_pitch_m = 0.0;
   bare.floor = Floor{};
   bare.openings.crosscut_side = kSideNone;
@@ -64,9 +73,12 @@ World World::mean(const Setup& setup) {
   world.line_ = CentreLine(bare.road.curve_radius_m);
   world.rock_ = bare.rock;
   world.floor_ = floor_plane(bare.road);
-  world.surfaces_ = road_surfaces(bare, nullptr, 0);
   world.recesses_ = road_recesses(bare, nullptr, 0);
   world.objects_ = narrow_place(bare);
+  // The walls prolonged past both ends of the road, a niche before the face included.
+  bare.road.face_distance_m = 0.0;
+  bare.road.rear_distance_m = 0.0;
+  world.surfaces_ = road_surfaces(bare, nullptr, 0);
   return world;
 }
 
@@ -109,7 +121,7 @@ void World::hit_wall_or_recess(const RoadSurface& wall, const Ray& ray, double t
     for (const Recess& r : recesses_) {
       if (r.side != wall.side || s <= r.s_from_m || s >= r.s_to_m || p.z() >= r.height_m) continue;
       const Surface* bound = nullptr;
-      t = smallest_bound(r, ray, best->t_m, &bound);
+      t = smallest_bound(r, ray, t, best->t_m, &bound);
       if (bound == nullptr) return;
       *best = {t, std::abs(bound->normal(ray.at(t)).dot(ray.direction)), Label::kOpening, wall.side};
       return;

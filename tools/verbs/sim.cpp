@@ -42,8 +42,10 @@ struct SimOptions {
 };
 
 void print_list() {
-  TextTable scenes({"scene", "what it holds", "what a good instrument does"});
-  for (const sim::SceneChoice& s : sim::scenes()) scenes.add_row({s.name, s.help, s.expected});
+  TextTable scenes({"scene", "kind", "what it holds", "what a good instrument does"});
+  for (const sim::SceneChoice& s : sim::scenes()) {
+    scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, s.expected});
+  }
   TextTable sensors({"sensor", "what it is"});
   for (const sim::SensorModel& m : sim::sensor_models()) sensors.add_row({m.sensor.name, m.help});
   TextTable keys({"key", "default", "unit", "allowed", "meaning"});
@@ -52,7 +54,7 @@ void print_list() {
     const std::string allowed = *p.words != '\0' ? p.words : fmt::format("{:g} to {:g}", p.minimum, p.maximum);
     keys.add_row({p.name, sim::parameter_text(p, p.field(defaults)), p.unit, allowed, p.help});
   }
-  fmt::print("{}\n{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n", scenes.text(3),
+  fmt::print("{}\n{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n", scenes.text(4),
              sensors.text(2), keys.text(5));
 }
 
