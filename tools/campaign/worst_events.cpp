@@ -62,7 +62,7 @@ const char* breach_name(Breach breach) {
 }
 
 std::string WorstEvent::sim_command() const {
-  return fmt::format("pose_wall sim --scene {} --sensor {} --random --seed {} --frames {}", run.scene, run.sensor,
+  return fmt::format("pose_wall sim --scene {} --sensor {} --random --seed {} --frames {} --output DIR", run.scene, run.sensor,
                      run.seed, frame + 1);
 }
 

@@ -27,6 +27,11 @@ constexpr std::string_view kMisleadingGround = "#fbf0dc";
 constexpr std::string_view kHazardousGround = "#f9dfd8";
 constexpr std::string_view kUnavailableGround = "#eeeff1";
 
+// At least that of 2: one count has the lightest shade.
+double log_of_largest(const StanfordCounts& counts) {
+  return std::log(std::max(2.0, static_cast<double>(counts.largest_cell())));
+}
+
 class Plot {
  public:
   explicit Plot(const StanfordScale& scale) : scale_(scale) {}
@@ -52,13 +57,13 @@ void draw_grounds(Svg& svg, const Plot& plot, const StanfordScale& s) {
 }
 
 void draw_cells(Svg& svg, const StanfordCounts& counts) {
-  const double largest = std::log(1.0 + static_cast<double>(counts.largest_cell()));
+  const double largest = log_of_largest(counts);
   constexpr double kCell = kSide / static_cast<double>(StanfordCounts::kCells);
   for (std::size_t level = 0; level < StanfordCounts::kCells; ++level) {
     for (std::size_t error = 0; error < StanfordCounts::kCells; ++error) {
       const std::size_t count = counts.cell(error, level);
       if (count == 0) continue;
-      const double share = std::log(1.0 + static_cast<double>(count)) / largest;
+      const double share = std::log(static_cast<double>(count)) / largest;
       const auto shade = std::min<std::size_t>(kShades.size() - 1, static_cast<std::size_t>(share * kShades.size()));
       const Pixel corner{kCorner.x + static_cast<double>(error) * kCell,
                          kCorner.y + kSide - static_cast<double>(level + 1) * kCell};
@@ -124,14 +129,18 @@ void draw_names(Svg& svg, const Plot& plot, const StanfordCounts& counts) {
 
 void draw_shades(Svg& svg, const StanfordCounts& counts) {
   const double x = kCorner.x + kSide + 22.0;
-  const double largest = std::log(1.0 + static_cast<double>(counts.largest_cell()));
+  double y = kCorner.y + 20.0;
+  double shown = 0.0;
   svg.text({x, kCorner.y + 8.0}, "values per cell", {kInk, 12.0});
   for (std::size_t i = 0; i < kShades.size(); ++i) {
-    const double y = kCorner.y + 20.0 + 24.0 * static_cast<double>(i);
-    const double from = std::expm1(largest * static_cast<double>(i) / static_cast<double>(kShades.size()));
+    const double share = static_cast<double>(i) / static_cast<double>(kShades.size());
+    const double from = std::ceil(std::exp(log_of_largest(counts) * share) - 1e-9);
+    if (from <= shown) continue;
     svg.rectangle({x, y}, 18.0, 18.0, kShades[i]);
     svg.rectangle({x + 20.0, y}, 18.0, 18.0, kAlarms[i]);
-    svg.text({x + 46.0, y + 13.5}, fmt::format("≥ {:.0f}", std::max(1.0, std::ceil(from))), {kInk, 12.0});
+    svg.text({x + 46.0, y + 13.5}, fmt::format("≥ {:.0f}", from), {kInk, 12.0});
+    y += 24.0;
+    shown = from;
   }
 }
 
