@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "campaign/classes.hpp"
 #include "campaign_records.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -67,12 +66,21 @@ TEST(CampaignGate, SigmaMustBeTrueOverNominalClasses) {
 }
 
 TEST(CampaignGate, EachClassKeepsItsFloor) {
-  ASSERT_GT(available_floor("clean"), 0.5);
+  ASSERT_GT(sim::find_scene("clean")->available_floor, 0.5);
   RunRecord run = good_run("clean", 0, 50);
   for (std::size_t i = 0; i < 25; ++i) {
     for (auto& q : run.frames[i].quantity) q.measured.state = POSE_WALL_HELD;
   }
   EXPECT_TRUE(contains(faults_of({run}), "clean os1-64: 50.0 % available"));
+}
+
+TEST(CampaignGate, WhatNobodyCanTellIsNotAsked) {
+  RunRecord run = good_run("axes_swapped", 0, 50);
+  for (auto& frame : run.frames) frame.quantity[POSE_WALL_YAW] = value_with_error(1.5);
+  const Card card = card_of({good_run("clean", 0, 50), run});
+  EXPECT_EQ(joined(gate_faults(card)), "");
+  EXPECT_EQ(card.unobservable.frames.misleading, 50U);
+  EXPECT_TRUE(card.events.empty());
 }
 
 TEST(CampaignGate, AnUnfinishedCampaignDoesNotPass) {

@@ -11,7 +11,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "campaign/classes.hpp"
 #include "campaign/event.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
@@ -91,7 +90,9 @@ TEST(CampaignPlan, EventIsInFramesAsTheSimulatorComparesTimes) {
 TEST(CampaignPlan, KindChoosesClasses) {
   PlanRequest request;
   request.kind = "adversarial";
-  for (const auto& run : make_plan(request)) EXPECT_FALSE(is_nominal(run.scene)) << run.scene;
+  for (const auto& run : make_plan(request)) {
+    EXPECT_EQ(sim::find_scene(run.scene)->kind, sim::SceneKind::kAdversarial) << run.scene;
+  }
   request.scenes = {"clean"};
   EXPECT_NE(refusal(request).find("adversarial"), std::string::npos);
 }

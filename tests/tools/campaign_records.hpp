@@ -16,7 +16,7 @@ namespace pose_wall::tools::test {
 constexpr double kAngleLimit_rad = 0.0175;
 constexpr double kDistanceLimit_m = 0.1;
 
-inline campaign::QuantityRecord value_with_error(double error, double sigma = 0.01, double protection_level = 0.05,
+inline campaign::QuantityRecord value_with_error(double error, double sigma = 0.01, double protection_level = 0.015,
                                                  std::uint32_t state = POSE_WALL_VALID) {
   return {1.0, {1.0 + error, 1.0 + error, sigma, protection_level, state}, 0};
 }

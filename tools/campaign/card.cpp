@@ -3,9 +3,10 @@
 
 #include "campaign/card.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
 
-#include "campaign/classes.hpp"
+#include <cmath>
+#include <stdexcept>
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -56,10 +57,40 @@ void add_to_diagrams(Card& card, const RunRecord& record) {
   }
 }
 
-void add_class(Totals& totals, const ClassCard& card) {
-  ++totals.classes;
-  totals.frames.merge(card.frames);
-  merge(totals.quantities, card.quantities);
+Card empty_card(const Manifest& manifest) {
+  const AlertLimits& limits = manifest.limits;
+  const auto none = [&limits](const char* name) { return Totals{name, 0, {}, empty_statistics(limits)}; };
+  return {manifest,
+          0,
+          {},
+          none("nominal"),
+          none("adversarial"),
+          none("both"),
+          none("unobservable"),
+          {},
+          picture::StanfordCounts(picture::angle_scale(limits.angle_rad * kDegPerRad)),
+          picture::StanfordCounts(picture::distance_scale(limits.distance_m))};
+}
+
+// The last one, or a new one: records come class by class.
+ClassCard& class_of(Card& card, const RunRecord& record) {
+  if (!card.classes.empty()) {
+    ClassCard& last = card.classes.back();
+    if (last.scene->name == record.run.scene && last.sensor == record.run.sensor) return last;
+  }
+  ClassCard& one = card.classes.emplace_back();
+  one.scene = sim::find_scene(record.run.scene);
+  one.sensor = record.run.sensor;
+  one.quantities = empty_statistics(card.manifest.limits);
+  if (one.scene == nullptr) {
+    throw std::runtime_error(fmt::format("a record of the scene '{}', which does not exist", record.run.scene));
+  }
+  return one;
+}
+
+Totals& totals_for(Card& card, sim::SceneKind kind) {
+  if (kind == sim::SceneKind::kNominal) return card.nominal;
+  return kind == sim::SceneKind::kAdversarial ? card.adversarial : card.unobservable;
 }
 
 }  // namespace
@@ -108,34 +139,28 @@ StateShares state_shares(const SevenStatistics& quantities) {
   return state_shares(whole);
 }
 
+void add_class(Totals& totals, const ClassCard& card) {
+  ++totals.classes;
+  totals.frames.merge(card.frames);
+  merge(totals.quantities, card.quantities);
+}
+
 Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, std::size_t events_max) {
-  const AlertLimits& limits = manifest.limits;
-  const Totals none{0, {}, empty_statistics(limits)};
-  Card card{manifest,
-            records.size(),
-            {},
-            none,
-            none,
-            none,
-            worst_events(records, limits, events_max),
-            picture::StanfordCounts(picture::angle_scale(limits.angle_rad * kDegPerRad)),
-            picture::StanfordCounts(picture::distance_scale(limits.distance_m))};
+  Card card = empty_card(manifest);
+  card.runs = records.size();
+  std::vector<const RunRecord*> judged;
   for (const RunRecord& record : records) {
-    const bool is_new = card.classes.empty() || card.classes.back().scene != record.run.scene ||
-                        card.classes.back().sensor != record.run.sensor;
-    if (is_new) {
-      card.classes.emplace_back();
-      card.classes.back().scene = record.run.scene;
-      card.classes.back().sensor = record.run.sensor;
-      card.classes.back().quantities = empty_statistics(limits);
-    }
-    add_run(card.classes.back(), record, limits);
+    ClassCard& one = class_of(card, record);
+    add_run(one, record, manifest.limits);
+    if (one.scene->kind == sim::SceneKind::kUnobservable) continue;
+    judged.push_back(&record);
     add_to_diagrams(card, record);
   }
   for (const ClassCard& one : card.classes) {
-    add_class(is_nominal(one.scene) ? card.nominal : card.adversarial, one);
-    add_class(card.all, one);
+    add_class(totals_for(card, one.scene->kind), one);
+    if (one.scene->kind != sim::SceneKind::kUnobservable) add_class(card.judged, one);
   }
+  card.events = worst_events(judged, manifest.limits, events_max);
   return card;
 }
 

@@ -15,6 +15,7 @@
 #include "campaign/record.hpp"
 #include "campaign/worst_events.hpp"
 #include "picture/stanford_diagram.hpp"
+#include "sim/scenes.hpp"
 #include "truth/error_statistics.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -54,7 +55,7 @@ StateShares state_shares(const ErrorStatistics& statistics);
 
 // One scene as one sensor sees it.
 struct ClassCard {
-  std::string scene;
+  const sim::SceneChoice* scene = nullptr;
   std::string sensor;
   std::size_t draws = 0;
   FrameCounts frames;
@@ -64,10 +65,13 @@ struct ClassCard {
 };
 
 struct Totals {
+  const char* name;
   std::size_t classes = 0;
   FrameCounts frames;
   SevenStatistics quantities;
 };
+
+void add_class(Totals& totals, const ClassCard& card);
 
 struct Card {
   Manifest manifest;
@@ -75,13 +79,15 @@ struct Card {
   std::vector<ClassCard> classes;
   Totals nominal;
   Totals adversarial;
-  Totals all;
-  std::vector<WorstEvent> events;
+  Totals judged;  // both of them
+  Totals unobservable;
+  std::vector<WorstEvent> events;  // of the judged, as the diagrams
   picture::StanfordCounts angles;
   picture::StanfordCounts distances;
 };
 
-// The records in the order of read_records. At most `events_max` events are listed.
+// The records in the order of read_records; those of a scene that is not in the table are refused with a
+// std::runtime_error. At most `events_max` events are listed.
 Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, std::size_t events_max);
 
 }  // namespace pose_wall::tools::campaign

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "campaign/card_words.hpp"
-#include "campaign/classes.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -22,45 +21,53 @@ void write(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::string title(const Card& card, const char* quantities) {
-  return fmt::format("{}: error against protection level, {} frames", quantities, card.all.frames.frames);
+  return fmt::format("{}: error against protection level, {} frames", quantities, card.judged.frames.frames);
 }
 
-std::vector<std::string> counts_cells(const FrameCounts& f) {
-  return {count_with_bound(f.misleading, f.frames), count_with_bound(f.value_beyond_protection, f.frames),
-          count_with_bound(f.raw_beyond_protection, f.frames)};
+std::vector<std::string> row_of(const Totals& t, const char* kind, bool with_bounds) {
+  const StateShares s = state_shares(t.quantities);
+  const FrameCounts& f = t.frames;
+  std::vector<std::string> cells = {t.name,
+                                    kind,
+                                    std::to_string(f.frames),
+                                    percent(s.valid),
+                                    percent(s.degraded),
+                                    percent(s.held),
+                                    percent(s.invalid)};
+  for (const std::size_t events : {f.misleading, f.value_beyond_protection, f.raw_beyond_protection}) {
+    cells.push_back(with_bounds ? count_with_bound(events, f.frames) : std::to_string(events));
+  }
+  ErrorStatistics angles = t.quantities[POSE_WALL_ROLL];
+  angles.merge(t.quantities[POSE_WALL_PITCH]);
+  angles.merge(t.quantities[POSE_WALL_YAW]);
+  cells.insert(cells.end(), {figure(angles.mean_z2()), figure(grouped(t.quantities).back().statistics.mean_z2())});
+  return cells;
+}
+
+// All sensors together.
+std::vector<std::pair<const sim::SceneChoice*, Totals>> by_scene(const Card& card) {
+  std::vector<std::pair<const sim::SceneChoice*, Totals>> scenes;
+  for (const ClassCard& one : card.classes) {
+    if (scenes.empty() || scenes.back().first != one.scene) {
+      scenes.emplace_back(one.scene, Totals{one.scene->name, 1, one.frames, one.quantities});
+    } else {
+      add_class(scenes.back().second, one);
+    }
+  }
+  return scenes;
 }
 
 }  // namespace
 
 std::string card_summary(const Card& card) {
-  TextTable table({"over", "sensor", "frames", "valid", "degraded", "held", "invalid", "misleading", "value > pl",
+  TextTable table({"scene", "kind", "frames", "valid", "degraded", "held", "invalid", "misleading", "value > pl",
                    "raw > pl", "z² angles", "z² distances"});
-  const auto add = [&table](const std::string& name, const std::string& sensor, const FrameCounts& frames,
-                            const SevenStatistics& quantities, bool with_bounds) {
-    const StateShares s = state_shares(quantities);
-    std::vector<std::string> cells = {name,
-                                      sensor,
-                                      std::to_string(frames.frames),
-                                      percent(s.valid),
-                                      percent(s.degraded),
-                                      percent(s.held),
-                                      percent(s.invalid)};
-    const std::vector<std::string> counts =
-        with_bounds ? counts_cells(frames)
-                    : std::vector<std::string>{std::to_string(frames.misleading),
-                                               std::to_string(frames.value_beyond_protection),
-                                               std::to_string(frames.raw_beyond_protection)};
-    cells.insert(cells.end(), counts.begin(), counts.end());
-    ErrorStatistics angles = quantities[POSE_WALL_ROLL];
-    angles.merge(quantities[POSE_WALL_PITCH]);
-    angles.merge(quantities[POSE_WALL_YAW]);
-    cells.insert(cells.end(), {figure(angles.mean_z2()), figure(grouped(quantities).back().statistics.mean_z2())});
-    table.add_row(cells);
-  };
-  for (const ClassCard& c : card.classes) add(c.scene, c.sensor, c.frames, c.quantities, false);
-  if (card.nominal.classes > 0) add("all nominal", "", card.nominal.frames, card.nominal.quantities, true);
-  if (card.adversarial.classes > 0) {
-    add("all adversarial", "", card.adversarial.frames, card.adversarial.quantities, true);
+  for (const auto& [scene, totals] : by_scene(card)) {
+    table.add_row(row_of(totals, sim::scene_kind_name(scene->kind), false));
+  }
+  table.add_row({"in all"});
+  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged}) {
+    if (totals->classes > 0) table.add_row(row_of(*totals, "", true));
   }
   return table.text(2);
 }

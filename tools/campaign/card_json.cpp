@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/card_files.hpp"
-#include "campaign/classes.hpp"
 #include "campaign/gate.hpp"
 #include "campaign/rate_bound.hpp"
 #include "results/result_csv.hpp"
@@ -75,11 +74,11 @@ Json class_page(const ClassCard& card) {
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
     if (card.reasons[bit] > 0) reasons[pose_wall_reason_name(bit)] = card.reasons[bit];
   }
-  return {{"scene", card.scene},
+  return {{"scene", card.scene->name},
           {"sensor", card.sensor},
-          {"kind", is_nominal(card.scene) ? "nominal" : "adversarial"},
+          {"kind", sim::scene_kind_name(card.scene->kind)},
           {"draws", card.draws},
-          {"available_floor", available_floor(card.scene)},
+          {"available_floor", card.scene->available_floor},
           {"shares", shares(state_shares(card.quantities))},
           {"counts", counts(card.frames)},
           {"frames_to_alert_max", card.times.alert_max},
@@ -118,8 +117,10 @@ std::string card_json(const Card& card) {
   page["runs_planned"] = card.manifest.runs;
   page["runs"] = card.runs;
   page["gate_faults"] = gate_faults(card);
-  page["totals"] = {
-      {"nominal", totals(card.nominal)}, {"adversarial", totals(card.adversarial)}, {"all", totals(card.all)}};
+  page["totals"] = {{"nominal", totals(card.nominal)},
+                    {"adversarial", totals(card.adversarial)},
+                    {"both", totals(card.judged)},
+                    {"unobservable", totals(card.unobservable)}};
   for (const ClassCard& one : card.classes) page["classes"].push_back(class_page(one));
   page["worst_events"] = Json::array();
   for (const WorstEvent& event : card.events) page["worst_events"].push_back(event_page(event));

@@ -5,7 +5,6 @@
 
 #include "campaign/card_files.hpp"
 #include "campaign/card_words.hpp"
-#include "campaign/classes.hpp"
 #include "campaign/gate.hpp"
 #include "campaign/markdown_table.hpp"
 #include "results/result_csv.hpp"
@@ -16,8 +15,9 @@ namespace {
 std::string head_of(const Card& card) {
   std::string text = "# Integrity card\n\n";
   text += fmt::format("{} frames in {} of {} runs, {} classes (scene and sensor). Alert limits: {}, {}.\n\n",
-                      card.all.frames.frames, card.runs, card.manifest.runs, card.all.classes,
-                      amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
+                      card.judged.frames.frames + card.unobservable.frames.frames, card.runs, card.manifest.runs,
+                      card.classes.size(), amount(true, card.manifest.limits.angle_rad),
+                      amount(false, card.manifest.limits.distance_m));
   text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command);
   for (const auto& [name, value] : card.manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
   return text + "\n";
@@ -34,35 +34,33 @@ std::string gate_of(const Card& card) {
 std::string totals_of(const Card& card) {
   MarkdownTable table({"over", "classes", "frames", "valid", "degraded", "held", "invalid", "misleading",
                        "value > protection", "raw > protection"});
-  const auto add = [&table](const char* name, const Totals& t) {
-    if (t.classes == 0) return;
+  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged, &card.unobservable}) {
+    const Totals& t = *totals;
+    if (t.classes == 0) continue;
     const FrameCounts& f = t.frames;
     const StateShares s = state_shares(t.quantities);
-    table.add_row({name, std::to_string(t.classes), std::to_string(f.frames), percent(s.valid), percent(s.degraded),
+    table.add_row({t.name, std::to_string(t.classes), std::to_string(f.frames), percent(s.valid), percent(s.degraded),
                    percent(s.held), percent(s.invalid), count_with_bound(f.misleading, f.frames),
                    count_with_bound(f.value_beyond_protection, f.frames),
                    count_with_bound(f.raw_beyond_protection, f.frames)});
-  };
-  add("nominal", card.nominal);
-  add("adversarial", card.adversarial);
-  add("all", card.all);
+  }
   return "## Totals\n\nCounts are of frames with at least one of the seven quantities in it; in brackets the 95 % "
          "upper "
          "bound of the rate (Clopper-Pearson; frames of one run are not independent, runs are). *Misleading*: valid, "
-         "and the error beyond the alert limit or nothing there to measure.\n\n" +
+         "and the error beyond the alert limit or nothing there to measure. In *unobservable* classes the data of one "
+         "sensor cannot "
+         "tell that anything is wrong: they are shown, and left out of all else.\n\n" +
          table.text() + "\n";
 }
 
 std::string sigma_of(const Card& card) {
   MarkdownTable table({"over", "roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"});
-  const auto add = [&table](const char* name, const Totals& t) {
-    if (t.classes == 0) return;
-    std::vector<std::string> cells = {name};
-    for (const ErrorStatistics& q : t.quantities) cells.push_back(figure(q.mean_z2()));
+  for (const Totals* totals : {&card.nominal, &card.adversarial}) {
+    if (totals->classes == 0) continue;
+    std::vector<std::string> cells = {totals->name};
+    for (const ErrorStatistics& q : totals->quantities) cells.push_back(figure(q.mean_z2()));
     table.add_row(cells);
-  };
-  add("nominal", card.nominal);
-  add("adversarial", card.adversarial);
+  }
   return fmt::format(
       "## Mean z² = (raw error / sigma)²\n\n1 for a true standard deviation; {:g} to {:g} is asked of "
       "nominal classes.\n\n{}\n",
@@ -76,8 +74,8 @@ std::string classes_of(const Card& card) {
       3);
   for (const ClassCard& c : card.classes) {
     const StateShares s = state_shares(c.quantities);
-    table.add_row({c.scene, c.sensor, is_nominal(c.scene) ? "nominal" : "adversarial", std::to_string(c.draws),
-                   std::to_string(c.frames.frames), percent(s.available()), percent(available_floor(c.scene)),
+    table.add_row({c.scene->name, c.sensor, sim::scene_kind_name(c.scene->kind), std::to_string(c.draws),
+                   std::to_string(c.frames.frames), percent(s.available()), percent(c.scene->available_floor),
                    percent(s.valid), percent(s.degraded), percent(s.held), percent(s.invalid),
                    std::to_string(c.frames.misleading), std::to_string(c.frames.value_beyond_protection),
                    std::to_string(c.frames.raw_beyond_protection), std::to_string(c.times.alert_max),
@@ -101,7 +99,8 @@ std::string quantities_of(const Card& card) {
       const ErrorStatistics& s = g.statistics;
       const StateShares shares = state_shares(s);
       std::vector<std::string> cells = {
-          c.scene, c.sensor, g.name, std::to_string(s.frames()), percent(shares.available()), percent(shares.valid)};
+          c.scene->name,        c.sensor, g.name, std::to_string(s.frames()), percent(shares.available()),
+          percent(shares.valid)};
       for (const ErrorFigures& f : {s.raw(), s.value()}) {
         for (const double number : {f.rmse, f.absolute_95, f.absolute_max}) cells.push_back(amount(g.is_angle, number));
       }

@@ -28,7 +28,8 @@ std::string percent(double share) {
 }
 
 std::string figure(double value) {
-  return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
+  if (!std::isfinite(value)) return "-";
+  return value < 1000.0 ? fmt::format("{:.2f}", value) : fmt::format("{:.1e}", value);
 }
 
 std::string count_with_bound(std::size_t events, std::size_t frames) {

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "campaign/classes.hpp"
-
 namespace pose_wall::tools::campaign {
 namespace {
 
@@ -29,8 +27,8 @@ class Faults {
 void demand_bounds(Faults& faults, const Card& card) {
   const FrameCounts& nominal = card.nominal.frames;
   const FrameCounts& adversarial = card.adversarial.frames;
-  faults.demand(card.all.frames.misleading == 0, "{} of {} frames mislead: valid beyond the alert limit; none may",
-                card.all.frames.misleading, card.all.frames.frames);
+  faults.demand(card.judged.frames.misleading == 0, "{} of {} frames mislead: valid beyond the alert limit; none may",
+                card.judged.frames.misleading, card.judged.frames.frames);
   faults.demand(nominal.raw_beyond_protection == 0,
                 "nominal classes: raw error beyond the protection level in {} of {} frames; none may be",
                 nominal.raw_beyond_protection, nominal.frames);
@@ -60,9 +58,9 @@ void demand_sigma(Faults& faults, const Card& card) {
 void demand_availability(Faults& faults, const Card& card) {
   for (const ClassCard& one : card.classes) {
     const double available = state_shares(one.quantities).available();
-    const double floor = available_floor(one.scene);
-    faults.demand(floor <= 0.0 || available >= floor, "{} {}: {:.1f} % available; its floor is {:.1f} %", one.scene,
-                  one.sensor, 100.0 * available, 100.0 * floor);
+    const double floor = one.scene->available_floor;
+    faults.demand(floor <= 0.0 || available >= floor, "{} {}: {:.1f} % available; its floor is {:.1f} %",
+                  one.scene->name, one.sensor, 100.0 * available, 100.0 * floor);
   }
 }
 

@@ -11,7 +11,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "campaign/classes.hpp"
 #include "campaign/event.hpp"
 #include "campaign/fingerprint.hpp"
 #include "sim/scenes.hpp"
@@ -51,8 +50,9 @@ const Size& size_named(const std::string& name) {
 }
 
 std::vector<std::string> scenes_of(const PlanRequest& request) {
-  const auto is_wanted = [&request](const std::string& scene) {
-    return request.kind == "all" || is_nominal(scene) == (request.kind == "nominal");
+  const auto is_wanted = [&request](const std::string& name) {
+    const sim::SceneChoice* const scene = sim::find_scene(name);
+    return request.kind == "all" || scene == nullptr || sim::scene_kind_name(scene->kind) == request.kind;
   };
   std::vector<std::string> wanted;
   if (request.scenes.empty()) {

@@ -24,7 +24,7 @@ struct Run {
 struct PlanRequest {
   std::vector<std::string> scenes;   // empty: all
   std::vector<std::string> sensors;  // empty: those of the size
-  std::string kind = "all";          // or nominal, adversarial
+  std::string kind = "all";          // or the name of a scene kind
   std::string size = "small";
   std::optional<std::uint32_t> draws;   // per scene and sensor; none: those of the size
   std::optional<std::uint32_t> frames;  // per draw; none: those of the size, or what the scene's event asks for

@@ -62,17 +62,17 @@ const char* breach_name(Breach breach) {
 }
 
 std::string WorstEvent::sim_command() const {
-  return fmt::format("pose_wall sim --scene {} --sensor {} --random --seed {} --frames {} --output DIR", run.scene, run.sensor,
-                     run.seed, frame + 1);
+  return fmt::format("pose_wall sim --scene {} --sensor {} --random --seed {} --frames {} --output DIR", run.scene,
+                     run.sensor, run.seed, frame + 1);
 }
 
-std::vector<WorstEvent> worst_events(const std::vector<RunRecord>& records, const AlertLimits& limits,
+std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& records, const AlertLimits& limits,
                                      std::size_t events_max) {
   std::vector<WorstEvent> events;
-  for (const RunRecord& record : records) {
+  for (const RunRecord* record : records) {
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      WorstOfRun worst(record.run, q, limits);
-      for (const FrameRecord& frame : record.frames) worst.add(frame);
+      WorstOfRun worst(record->run, q, limits);
+      for (const FrameRecord& frame : record->frames) worst.add(frame);
       worst.append_to(events);
     }
   }

@@ -32,7 +32,7 @@ struct WorstEvent {
 };
 
 // Misleading ones first, then by excess. Of one run and quantity only the worst of each breach.
-std::vector<WorstEvent> worst_events(const std::vector<RunRecord>& records, const AlertLimits& limits,
+std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& records, const AlertLimits& limits,
                                      std::size_t events_max);
 
 }  // namespace pose_wall::tools::campaign

@@ -22,6 +22,7 @@ struct EngineSetting {
 struct SensorModel {
   Sensor sensor;
   std::string help;
+  double mount_roll_deg;              // as it is to be mounted; a scene may say otherwise
   std::vector<EngineSetting> engine;  // in which an engine for this sensor differs from the defaults
 };
 

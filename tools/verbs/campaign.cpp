@@ -83,9 +83,9 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
       ->capture_default_str();
   verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")->delimiter(',');
-  verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial or all")
+  verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial, unobservable or all")
       ->capture_default_str()
-      ->check(CLI::IsMember({"nominal", "adversarial", "all"}));
+      ->check(CLI::IsMember({"nominal", "adversarial", "unobservable", "all"}));
   verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',');
   verb.add_option("--draws", plan.draws, "Draws per scene and sensor, instead of the size's")
       ->check(CLI::Range(1, 1000000));
