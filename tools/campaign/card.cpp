@@ -59,7 +59,7 @@ void add_to_diagrams(Card& card, const RunRecord& record) {
 
 Card empty_card(const Manifest& manifest) {
   const AlertLimits& limits = manifest.limits;
-  const auto none = [&limits](const char* name) { return Totals{name, 0, {}, empty_statistics(limits)}; };
+  const auto none = [&limits](const char* name) { return Totals{name, 0, 0, {}, empty_statistics(limits)}; };
   return {manifest,
           0,
           {},
@@ -141,6 +141,7 @@ StateShares state_shares(const SevenStatistics& quantities) {
 
 void add_class(Totals& totals, const ClassCard& card) {
   ++totals.classes;
+  totals.runs += card.draws;
   totals.frames.merge(card.frames);
   merge(totals.quantities, card.quantities);
 }

@@ -67,6 +67,7 @@ struct ClassCard {
 struct Totals {
   const char* name;
   std::size_t classes = 0;
+  std::size_t runs = 0;
   FrameCounts frames;
   SevenStatistics quantities;
 };

@@ -49,7 +49,7 @@ std::vector<std::pair<const sim::SceneChoice*, Totals>> by_scene(const Card& car
   std::vector<std::pair<const sim::SceneChoice*, Totals>> scenes;
   for (const ClassCard& one : card.classes) {
     if (scenes.empty() || scenes.back().first != one.scene) {
-      scenes.emplace_back(one.scene, Totals{one.scene->name, 1, one.frames, one.quantities});
+      scenes.emplace_back(one.scene, Totals{one.scene->name, 1, one.draws, one.frames, one.quantities});
     } else {
       add_class(scenes.back().second, one);
     }

@@ -64,6 +64,7 @@ Json counts(const FrameCounts& f) {
 
 Json totals(const Totals& t) {
   return {{"classes", t.classes},
+          {"runs", t.runs},
           {"counts", counts(t.frames)},
           {"shares", shares(state_shares(t.quantities))},
           {"quantities", seven(t.quantities)}};

@@ -32,16 +32,16 @@ std::string gate_of(const Card& card) {
 }
 
 std::string totals_of(const Card& card) {
-  MarkdownTable table({"over", "classes", "frames", "valid", "degraded", "held", "invalid", "misleading",
+  MarkdownTable table({"over", "classes", "runs", "frames", "valid", "degraded", "held", "invalid", "misleading",
                        "value > protection", "raw > protection"});
   for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged, &card.unobservable}) {
     const Totals& t = *totals;
     if (t.classes == 0) continue;
     const FrameCounts& f = t.frames;
     const StateShares s = state_shares(t.quantities);
-    table.add_row({t.name, std::to_string(t.classes), std::to_string(f.frames), percent(s.valid), percent(s.degraded),
-                   percent(s.held), percent(s.invalid), count_with_bound(f.misleading, f.frames),
-                   count_with_bound(f.value_beyond_protection, f.frames),
+    table.add_row({t.name, std::to_string(t.classes), std::to_string(t.runs), std::to_string(f.frames),
+                   percent(s.valid), percent(s.degraded), percent(s.held), percent(s.invalid),
+                   count_with_bound(f.misleading, f.frames), count_with_bound(f.value_beyond_protection, f.frames),
                    count_with_bound(f.raw_beyond_protection, f.frames)});
   }
   return "## Totals\n\nCounts are of frames with at least one of the seven quantities in it; in brackets the 95 % "
@@ -63,8 +63,8 @@ std::string sigma_of(const Card& card) {
   }
   return fmt::format(
       "## Mean z² = (raw error / sigma)²\n\n1 for a true standard deviation; {:g} to {:g} is asked of "
-      "nominal classes.\n\n{}\n",
-      kMeanZ2Min, kMeanZ2Max, table.text());
+      "nominal classes of {} runs or more.\n\n{}\n",
+      kMeanZ2Min, kMeanZ2Max, kRunsForMeanZ2, table.text());
 }
 
 std::string classes_of(const Card& card) {

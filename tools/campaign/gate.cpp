@@ -46,7 +46,7 @@ void demand_bounds(Faults& faults, const Card& card) {
 }
 
 void demand_sigma(Faults& faults, const Card& card) {
-  if (card.nominal.classes == 0) return;
+  if (card.nominal.runs < kRunsForMeanZ2) return;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const double z2 = card.nominal.quantities[q].mean_z2();
     faults.demand(z2 >= kMeanZ2Min && z2 <= kMeanZ2Max,

@@ -17,6 +17,8 @@ inline constexpr double kAdversarialRateMax = 1e-3;
 // Mean z² of each quantity over the nominal classes.
 inline constexpr double kMeanZ2Min = 0.5;
 inline constexpr double kMeanZ2Max = 1.3;
+// Runs that it takes to ask for that: each has only one rock, and the mean over fewer scatters more than these bounds.
+inline constexpr std::size_t kRunsForMeanZ2 = 200;
 
 // One line per demand that does not hold; empty when the gate is passed.
 std::vector<std::string> gate_faults(const Card& card);
