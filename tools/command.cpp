@@ -68,6 +68,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_sim(app, exit_code);
   add_demo(app, exit_code);
   add_eval(app, exit_code);
+  add_campaign(app, exit_code);
   add_check_config(app, exit_code);
   app.footer(
       "Examples:\n"
@@ -75,6 +76,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene clean --frames 50 --output road        frames with their truth\n"
       "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
       "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
+      "  pose_wall campaign --size small --output card                thousands of such roads: may it be believed?\n"
       "  pose_wall check-config road/pose_wall.yaml                   what the settings come to\n"
       "Each verb has its own --help.");
 }

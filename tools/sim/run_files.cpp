@@ -19,6 +19,12 @@ std::string box_text(const std::array<double, 6>& box) {
   return out.str() + "]";
 }
 
+std::string number_text(double number) {
+  std::ostringstream out;
+  out << std::setprecision(10) << number;
+  return out.str();
+}
+
 }  // namespace
 
 std::filesystem::path frame_file(const std::filesystem::path& folder, std::uint32_t frame_index) {
@@ -27,22 +33,34 @@ std::filesystem::path frame_file(const std::filesystem::path& folder, std::uint3
   return folder / "frames" / name.str();
 }
 
-std::string engine_settings(const Setup& setup, const std::string& comment) {
+std::vector<EngineSetting> engine_setting_list(const Setup& setup) {
   const Machine& machine = setup.machine;
   const Mount& m = setup.mount;
-  std::ostringstream out;
-  out << std::setprecision(10) << "# " << comment << "\n"
-      << "forward_axis: \"" << parameter_text(*find_parameter("forward_axis"), machine.forward_axis) << "\"\n"
-      << "s_front: " << machine.s_front_m << "\ns_back: " << machine.s_back_m << "\n"
-      << "extrinsic_x: " << m.mount_x_m << "\nextrinsic_y: " << m.mount_y_m << "\nextrinsic_z: " << m.mount_z_m << "\n"
-      << "extrinsic_roll: " << m.mount_roll_deg * kRadPerDeg << "\n"
-      << "extrinsic_pitch: " << m.mount_pitch_deg * kRadPerDeg << "\n"
-      << "extrinsic_yaw: " << m.mount_yaw_deg * kRadPerDeg << "\n";
-  if (machine.body != 0.0) out << "body_box_1: " << box_text(body_box_base_m(machine)) << "\n";
+  std::vector<EngineSetting> list = {
+      {"forward_axis", parameter_text(*find_parameter("forward_axis"), machine.forward_axis)},
+      {"s_front", number_text(machine.s_front_m)},
+      {"s_back", number_text(machine.s_back_m)},
+      {"extrinsic_x", number_text(m.mount_x_m)},
+      {"extrinsic_y", number_text(m.mount_y_m)},
+      {"extrinsic_z", number_text(m.mount_z_m)},
+      {"extrinsic_roll", number_text(m.mount_roll_deg * kRadPerDeg)},
+      {"extrinsic_pitch", number_text(m.mount_pitch_deg * kRadPerDeg)},
+      {"extrinsic_yaw", number_text(m.mount_yaw_deg * kRadPerDeg)},
+  };
+  if (machine.body != 0.0) list.push_back({"body_box_1", box_text(body_box_base_m(machine))});
   if (machine.boom != 0.0 && machine.boom_sweep_deg == 0.0) {
-    out << "body_box_2: " << box_text(boom_box_base_m(machine)) << "\n";
+    list.push_back({"body_box_2", box_text(boom_box_base_m(machine))});
   }
-  return out.str();
+  if (const SensorModel* const model = find_sensor(setup.sensor.name)) {
+    list.insert(list.end(), model->engine.begin(), model->engine.end());
+  }
+  return list;
+}
+
+std::string engine_settings(const Setup& setup, const std::string& comment) {
+  std::string text = "# " + comment + "\n";
+  for (const EngineSetting& setting : engine_setting_list(setup)) text += setting.key + ": " + setting.value + "\n";
+  return text;
 }
 
 }  // namespace pose_wall::tools::sim

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "sim/sensors.hpp"
 #include "sim/setup.hpp"
 
 namespace pose_wall::tools::sim {
@@ -13,7 +15,11 @@ namespace pose_wall::tools::sim {
 // frames/000007.pcd under the folder.
 std::filesystem::path frame_file(const std::filesystem::path& folder, std::uint32_t frame_index);
 
-// The settings that an engine must know of this run: axes, mounting, the machine's own body; as a pose_wall.yaml.
+// The settings that an engine must know of this run: axes, mounting, the machine's own body, and what its sensor asks
+// for.
+std::vector<EngineSetting> engine_setting_list(const Setup& setup);
+
+// The same as a pose_wall.yaml.
 std::string engine_settings(const Setup& setup, const std::string& comment);
 
 }  // namespace pose_wall::tools::sim

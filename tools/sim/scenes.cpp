@@ -119,6 +119,7 @@ Setup make_setup(std::string_view scene, std::string_view sensor, bool random, s
   }
   Setup setup;
   setup.sensor = model->sensor;
+  setup.mount.mount_roll_deg = model->mount_roll_deg;
   if (random) {
     apply_scene_at_random(setup, *choice, seed);
   } else {

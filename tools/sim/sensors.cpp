@@ -28,6 +28,15 @@ Sensor non_repetitive() {
   return sensor;
 }
 
+// As in config/vlp16.yaml and config/mid360.yaml; a test compares them.
+std::vector<EngineSetting> few_points(const char* ground_roi_radius_max) {
+  return {{"outlier_radius", "0.40"},
+          {"outlier_min_neighbors", "2"},
+          {"ground_roi_radius_max", ground_roi_radius_max},
+          {"ground_inlier_min", "150"},
+          {"wall_inlier_min", "250"}};
+}
+
 Vector direction(double azimuth_rad, double elevation_rad) {
   return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
           std::sin(elevation_rad)};
@@ -71,10 +80,19 @@ std::vector<Vector> pattern_beams(const Sensor& sensor, std::uint32_t frame_inde
 
 const std::vector<SensorModel>& sensor_models() {
   static const std::vector<SensorModel> models = {
-      {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise"},
-      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0), "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise"},
-      {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0), "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise"},
-      {non_repetitive(), "non-repetitive, -7 to 52 deg, 20000 points per frame, 2 cm noise"},
+      {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise", 0.0,
+       few_points("15.0")},
+      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0),
+       "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
+       0.0,
+       {}},
+      {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0),
+       "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise",
+       0.0,
+       {}},
+      {non_repetitive(),
+       "non-repetitive, -7 to 52 deg, 20000 points per frame, 2 cm noise; upside down, to see the floor", 180.0,
+       few_points("20.0")},
   };
   return models;
 }

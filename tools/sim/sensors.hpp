@@ -13,9 +13,17 @@
 
 namespace pose_wall::tools::sim {
 
+// A setting of the engine: a key of pose_wall.yaml and its value.
+struct EngineSetting {
+  std::string key;
+  std::string value;
+};
+
 struct SensorModel {
   Sensor sensor;
   std::string help;
+  double mount_roll_deg;              // as it is to be mounted; a scene may say otherwise
+  std::vector<EngineSetting> engine;  // in which an engine for this sensor differs from the defaults
 };
 
 const std::vector<SensorModel>& sensor_models();

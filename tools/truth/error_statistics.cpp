@@ -44,27 +44,57 @@ double wrap_angle(double angle_rad) {
   return wrapped <= -kTwoPi / 2 ? wrapped + kTwoPi : wrapped;
 }
 
-void ErrorStatistics::add(const Measured& measured, double truth) {
-  if (!std::isfinite(truth)) return;
-  ++frames_;
-  const auto error_of = [this, truth](double number) {
-    return is_angle_ ? wrap_angle(number - truth) : number - truth;
+Judged judge(const Measured& measured, double truth, bool is_angle, double alert_limit) {
+  const bool is_valid = measured.state == POSE_WALL_VALID;
+  if (!std::isfinite(truth)) return {kNaN, kNaN, false, false, is_valid};
+  const auto error_of = [is_angle, truth](double number) {
+    return is_angle ? wrap_angle(number - truth) : number - truth;
   };
+  Judged judged{kNaN, kNaN, false, false, false};
   if (std::isfinite(measured.raw)) {
-    const double error = error_of(measured.raw);
-    raw_errors_.push_back(error);
-    if (is_beyond(error, measured.protection_level)) ++raw_beyond_protection_;
+    judged.raw_error = error_of(measured.raw);
+    judged.raw_beyond_protection = is_beyond(judged.raw_error, measured.protection_level);
+  }
+  if (measured.state != POSE_WALL_INVALID && std::isfinite(measured.value)) {
+    judged.value_error = error_of(measured.value);
+    judged.value_beyond_protection = is_beyond(judged.value_error, measured.protection_level);
+    judged.misleading = is_valid && is_beyond(judged.value_error, alert_limit);
+  }
+  return judged;
+}
+
+void ErrorStatistics::add(const Measured& measured, double truth) {
+  const Judged judged = judge(measured, truth, is_angle_, alert_limit_);
+  if (!std::isfinite(truth)) {
+    if (judged.misleading) ++valid_without_truth_;
+    return;
+  }
+  ++frames_;
+  ++states_.at(measured.state);
+  if (std::isfinite(judged.raw_error)) {
+    raw_errors_.push_back(judged.raw_error);
     if (measured.sigma > 0.0) {
-      z2_sum_ += error * error / (measured.sigma * measured.sigma);
+      z2_sum_ += judged.raw_error * judged.raw_error / (measured.sigma * measured.sigma);
       ++z2_count_;
     }
   }
-  if (measured.state == POSE_WALL_VALID) ++valid_;
-  if (measured.state == POSE_WALL_INVALID || !std::isfinite(measured.value)) return;
-  const double error = error_of(measured.value);
-  value_errors_.push_back(error);
-  if (is_beyond(error, measured.protection_level)) ++value_beyond_protection_;
-  if (measured.state == POSE_WALL_VALID && is_beyond(error, alert_limit_)) ++valid_beyond_alert_;
+  if (std::isfinite(judged.value_error)) value_errors_.push_back(judged.value_error);
+  if (judged.raw_beyond_protection) ++raw_beyond_protection_;
+  if (judged.value_beyond_protection) ++value_beyond_protection_;
+  if (judged.misleading) ++valid_beyond_alert_;
+}
+
+void ErrorStatistics::merge(const ErrorStatistics& other) {
+  frames_ += other.frames_;
+  for (std::size_t state = 0; state < states_.size(); ++state) states_[state] += other.states_[state];
+  raw_beyond_protection_ += other.raw_beyond_protection_;
+  value_beyond_protection_ += other.value_beyond_protection_;
+  valid_beyond_alert_ += other.valid_beyond_alert_;
+  valid_without_truth_ += other.valid_without_truth_;
+  z2_sum_ += other.z2_sum_;
+  z2_count_ += other.z2_count_;
+  raw_errors_.insert(raw_errors_.end(), other.raw_errors_.begin(), other.raw_errors_.end());
+  value_errors_.insert(value_errors_.end(), other.value_errors_.begin(), other.value_errors_.end());
 }
 
 double ErrorStatistics::mean_z2() const {

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -35,17 +36,33 @@ ErrorFigures error_figures(const std::vector<double>& errors);
 // Into (-pi, pi].
 double wrap_angle(double angle_rad);
 
+// How one measured quantity stands to its truth.
+struct Judged {
+  double raw_error;    // wrapped for angles; NaN without raw or truth
+  double value_error;  // NaN also for an invalid value
+  bool raw_beyond_protection;
+  bool value_beyond_protection;
+  bool misleading;  // valid, and further off than the alert limit or without a truth at all: the worst failure there is
+};
+
+// The alert limit is in the quantity's own unit.
+Judged judge(const Measured& measured, double truth, bool is_angle, double alert_limit);
+
 class ErrorStatistics {
  public:
   // Errors of angles are wrapped. The alert limit is in the quantity's own unit.
   ErrorStatistics(bool is_angle, double alert_limit) : is_angle_(is_angle), alert_limit_(alert_limit) {}
 
-  // A frame with a truth that is NaN (no wall there) does not count.
+  // A frame with a truth that is NaN (no wall there) counts only in valid_without_truth().
   void add(const Measured& measured, double truth);
+  // Of the same kind of quantity: all that the other one has seen.
+  void merge(const ErrorStatistics& other);
 
   std::size_t frames() const { return frames_; }
   std::size_t measured() const { return raw_errors_.size(); }
-  std::size_t valid() const { return valid_; }
+  std::size_t valid() const { return states_[3]; }
+  // Frames of a pose_wall_state.
+  std::size_t in_state(std::uint32_t state) const { return states_.at(state); }
 
   ErrorFigures raw() const { return error_figures(raw_errors_); }
   // Of frames in which the value was not invalid, held ones included.
@@ -56,6 +73,8 @@ class ErrorStatistics {
   std::size_t value_beyond_protection() const { return value_beyond_protection_; }
   // Errors beyond the alert limit in frames that claimed to be valid: the worst failure there is.
   std::size_t valid_beyond_alert() const { return valid_beyond_alert_; }
+  // Claimed to be valid where there is nothing to measure.
+  std::size_t valid_without_truth() const { return valid_without_truth_; }
 
   // Mean of (raw error / sigma)^2: 1 for a true sigma, more for a boastful one. NaN when nothing was measured.
   double mean_z2() const;
@@ -64,10 +83,11 @@ class ErrorStatistics {
   bool is_angle_;
   double alert_limit_;
   std::size_t frames_ = 0;
-  std::size_t valid_ = 0;
+  std::array<std::size_t, 4> states_{};  // by pose_wall_state
   std::size_t raw_beyond_protection_ = 0;
   std::size_t value_beyond_protection_ = 0;
   std::size_t valid_beyond_alert_ = 0;
+  std::size_t valid_without_truth_ = 0;
   double z2_sum_ = 0.0;
   std::size_t z2_count_ = 0;
   std::vector<double> raw_errors_;

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a campaign's plan is the same each time, holds each scene's event and its recovery, and sparse sensors are
+// run with the shipped settings. Does not prove: that the sizes suffice.
+
+#include "campaign/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "campaign/event.hpp"
+#include "config_file/key_table.hpp"
+#include "config_file/load_config.hpp"
+#include "sim/scenes.hpp"
+#include "sim/sensors.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+std::string refusal(const PlanRequest& request) {
+  try {
+    make_plan(request);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+TEST(CampaignPlan, IsTheSameForTheSameRequestAndAnotherForAnotherSeed) {
+  PlanRequest request;
+  const auto first = make_plan(request);
+  const auto second = make_plan(request);
+  request.seed = 2;
+  const auto other = make_plan(request);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].scene, second[i].scene);
+    EXPECT_EQ(first[i].seed, second[i].seed);
+    EXPECT_EQ(first[i].frames, second[i].frames);
+    EXPECT_NE(first[i].seed, other[i].seed);
+  }
+}
+
+TEST(CampaignPlan, HoldsEverySceneAndNoSeedTwice) {
+  PlanRequest request;
+  request.size = "medium";
+  std::set<std::string> scenes;
+  std::set<std::uint64_t> seeds;
+  const auto runs = make_plan(request);
+  for (const auto& run : runs) {
+    scenes.insert(run.scene);
+    seeds.insert(run.seed);
+  }
+  EXPECT_EQ(scenes.size(), sim::scenes().size());
+  EXPECT_EQ(seeds.size(), runs.size());
+}
+
+TEST(CampaignPlan, LargeHasMoreThanThirtyThousandFrames) {
+  PlanRequest request;
+  request.size = "large";
+  EXPECT_GE(frames_of(make_plan(request)), 30000U);
+}
+
+TEST(CampaignPlan, RunsOfAnEventGoOnTwoSecondsBehindIt) {
+  PlanRequest request;
+  request.size = "large";
+  request.scenes = {"wall_lost", "turn_step"};
+  for (const auto& run : make_plan(request)) {
+    const sim::SceneSetup setup = sim::make_setup(run.scene, run.sensor, true, run.seed);
+    const auto event = event_of(setup);
+    ASSERT_TRUE(event);
+    EXPECT_GE(run.frames, event->after + 2.0 * setup.sequence.rate_hz);
+  }
+}
+
+TEST(CampaignPlan, EventIsInFramesAsTheSimulatorComparesTimes) {
+  sim::SceneSetup setup;
+  EXPECT_FALSE(event_of(setup));
+  setup.sequence.freeze_from_s = 1.05;
+  setup.sequence.freeze_to_s = 2.0;
+  const auto event = event_of(setup);
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->first, 11U);
+  EXPECT_EQ(event->after, 20U);
+}
+
+TEST(CampaignPlan, KindChoosesClasses) {
+  PlanRequest request;
+  request.kind = "adversarial";
+  for (const auto& run : make_plan(request)) {
+    EXPECT_EQ(sim::find_scene(run.scene)->kind, sim::SceneKind::kAdversarial) << run.scene;
+  }
+  request.scenes = {"clean"};
+  EXPECT_NE(refusal(request).find("adversarial"), std::string::npos);
+}
+
+TEST(CampaignPlan, NamesWhatWasMeant) {
+  PlanRequest request;
+  request.scenes = {"steel_set"};
+  EXPECT_NE(refusal(request).find("'steel_sets'"), std::string::npos);
+  request.scenes = {"clean"};
+  request.sensors = {"os1-46"};
+  EXPECT_NE(refusal(request).find("'os1-64'"), std::string::npos);
+  request.size = "meduim";
+  EXPECT_NE(refusal(request).find("'medium'"), std::string::npos);
+}
+
+TEST(CampaignPlan, SparseSensorsAreRunWithTheShippedSettings) {
+  for (const std::string name : {"vlp16", "mid360"}) {
+    std::vector<std::string> settings;
+    for (const sim::EngineSetting& s : sim::find_sensor(name)->engine) settings.push_back(s.key + "=" + s.value);
+    const LoadedConfig shipped = load_config("config/" + name + ".yaml", {});
+    const LoadedConfig ours = load_config(std::nullopt, settings);
+    for (const pose_wall_key_info& key : config_keys()) {
+      EXPECT_EQ(config_value_text(*ours.config.get(), key), config_value_text(*shipped.config.get(), key))
+          << name << " " << key.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::campaign

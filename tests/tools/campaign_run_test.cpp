@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a campaign leaves the same records however many runs go on at a time, goes on where it was interrupted, and
+// does not mix records of different settings. Does not prove: that the measured values are right.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "campaign/folder.hpp"
+#include "command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::TempFolder;
+
+struct Ran {
+  int exit_status;
+  std::string errors;
+};
+
+// Two scenes, one with an event, one sensor, two draws of a few frames.
+Ran campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"pose_wall",     "campaign",  "--output", folder,    "--scenes",
+                                    "clean,partial", "--sensors", "vlp16",    "--draws", "2",
+                                    "--frames",      "8",         "--quiet"};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  ::testing::internal::CaptureStderr();
+  const int exit_status = run_command(static_cast<int>(argv.size()), argv.data());
+  return {exit_status, ::testing::internal::GetCapturedStderr()};
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void expect_same(const TempFolder& a, const TempFolder& b) {
+  for (const char* name : {"campaign.json", "frames.csv", "card.md", "card.json", "stanford_angles.svg",
+                           "stanford_distances.svg", "records/clean/vlp16/000001.csv"}) {
+    const std::string text = text_of(a.file(name));
+    EXPECT_FALSE(text.empty()) << name;
+    EXPECT_EQ(text, text_of(b.file(name))) << name;
+  }
+}
+
+TEST(Campaign, TwoJobsLeaveTheSameRecordsAsOne) {
+  const TempFolder one;
+  const TempFolder two;
+  EXPECT_EQ(campaign_in(one.path(), {"--jobs", "1"}).exit_status, 0);
+  EXPECT_EQ(campaign_in(two.path(), {"--jobs", "2"}).exit_status, 0);
+  expect_same(one, two);
+}
+
+TEST(Campaign, GoesOnWhereItWasInterrupted) {
+  const TempFolder whole;
+  const TempFolder interrupted;
+  ASSERT_EQ(campaign_in(whole.path()).exit_status, 0);
+  ASSERT_EQ(campaign_in(interrupted.path()).exit_status, 0);
+  std::filesystem::remove(interrupted.file("records/clean/vlp16/000001.csv"));
+  std::filesystem::remove(interrupted.file("card.json"));
+  interrupted.write("records/partial/vlp16/000000.csv.unfinished", "half a rec");
+  const std::string kept = interrupted.file("records/clean/vlp16/000000.csv");
+  const auto kept_since = std::filesystem::last_write_time(kept);
+  EXPECT_EQ(campaign_in(interrupted.path()).exit_status, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(kept), kept_since);
+  expect_same(whole, interrupted);
+}
+
+TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {
+  const TempFolder folder;
+  ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
+  const std::string frames = text_of(folder.file("frames.csv"));
+  const Ran other = campaign_in(folder.path(), {"--set", "protection_factor=9"});
+  EXPECT_EQ(other.exit_status, 2);
+  EXPECT_NE(other.errors.find("settings: the records have 'defaults', this campaign has 'protection_factor=9'"),
+            std::string::npos)
+      << other.errors;
+  EXPECT_NE(other.errors.find("--fresh"), std::string::npos);
+  EXPECT_EQ(campaign_in(folder.path(), {"--seed", "9"}).exit_status, 2);
+  EXPECT_EQ(text_of(folder.file("frames.csv")), frames);
+  EXPECT_EQ(campaign_in(folder.path(), {"--set", "protection_factor=9", "--fresh"}).exit_status, 0);
+  EXPECT_NE(text_of(folder.file("frames.csv")), frames);
+}
+
+TEST(Campaign, RefusesARecordThatCameFromElsewhere) {
+  const TempFolder folder;
+  const TempFolder other;
+  ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
+  ASSERT_EQ(campaign_in(other.path(), {"--set", "protection_factor=9"}).exit_status, 0);
+  const char* record = "records/clean/vlp16/000001.csv";
+  folder.write(record, text_of(other.file(record)));
+  const Ran ran = campaign_in(folder.path());
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_NE(ran.errors.find("000001.csv: a record of another campaign"), std::string::npos) << ran.errors;
+}
+
+TEST(Campaign, MakesTheCardAnewFromRecords) {
+  const TempFolder folder;
+  ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
+  const std::string card = text_of(folder.file("card.md"));
+  std::filesystem::remove(folder.file("card.md"));
+  EXPECT_EQ(campaign_in(folder.path(), {"--card-only"}).exit_status, 0);
+  EXPECT_EQ(text_of(folder.file("card.md")), card);
+  EXPECT_EQ(campaign_in(folder.file("nothing"), {"--card-only"}).exit_status, 1);
+}
+
+TEST(Campaign, GateFailsOnADoctoredRecord) {
+  const TempFolder folder;
+  ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
+  const campaign::Manifest manifest = campaign::read_manifest(folder.path());
+  std::vector<campaign::RunRecord> records = campaign::read_records(folder.path(), manifest);
+  records[0].frames[3].quantity[POSE_WALL_YAW].truth += 0.5;
+  campaign::write_record(campaign::record_file(folder.path(), records[0].run), records[0], manifest.fingerprint());
+  const Ran ran = campaign_in(folder.path(), {"--gate"});
+  EXPECT_EQ(ran.exit_status, 3);
+  EXPECT_NE(ran.errors.find("1 of 32 frames mislead"), std::string::npos) << ran.errors;
+}
+
+TEST(Campaign, RecordsSurviveTheirFile) {
+  const TempFolder folder;
+  ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
+  const std::string text = text_of(folder.file("records/partial/vlp16/000000.csv"));
+  const campaign::Manifest manifest = campaign::read_manifest(folder.path());
+  const auto record = campaign::read_record(folder.file("records/partial/vlp16/000000.csv"), manifest.fingerprint());
+  EXPECT_EQ(record.frames.size(), 8U);
+  campaign::write_record(folder.file("again.csv"), record, manifest.fingerprint());
+  EXPECT_EQ(text_of(folder.file("again.csv")), text);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The integrity card: what the records of a campaign come to, per class of scenes and in total.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "campaign/event_times.hpp"
+#include "campaign/manifest.hpp"
+#include "campaign/record.hpp"
+#include "campaign/worst_events.hpp"
+#include "picture/stanford_diagram.hpp"
+#include "sim/scenes.hpp"
+#include "truth/error_statistics.hpp"
+
+namespace pose_wall::tools::campaign {
+
+// Frames with at least one of the seven quantities in it.
+struct FrameCounts {
+  std::size_t frames = 0;
+  std::size_t raw_beyond_protection = 0;
+  std::size_t value_beyond_protection = 0;
+  std::size_t misleading = 0;
+
+  void add(const FrameRecord& frame, const AlertLimits& limits);
+  void merge(const FrameCounts& other);
+};
+
+using SevenStatistics = std::vector<ErrorStatistics>;
+
+// Four rows of a table: roll, pitch, yaw, and the distances together.
+struct QuantityGroup {
+  const char* name;
+  bool is_angle;
+  ErrorStatistics statistics;
+};
+std::vector<QuantityGroup> grouped(const SevenStatistics& quantities);
+
+// Shares of the values that have a truth.
+struct StateShares {
+  double valid = 0.0;
+  double degraded = 0.0;
+  double held = 0.0;
+  double invalid = 0.0;
+
+  double available() const { return valid + degraded; }
+};
+StateShares state_shares(const SevenStatistics& quantities);
+StateShares state_shares(const ErrorStatistics& statistics);
+
+// One scene as one sensor sees it.
+struct ClassCard {
+  const sim::SceneChoice* scene = nullptr;
+  std::string sensor;
+  std::size_t draws = 0;
+  FrameCounts frames;
+  SevenStatistics quantities;
+  EventTimes times;
+  std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // values with a truth that were not valid, by reason
+};
+
+struct Totals {
+  const char* name;
+  std::size_t classes = 0;
+  std::size_t runs = 0;
+  FrameCounts frames;
+  SevenStatistics quantities;
+};
+
+void add_class(Totals& totals, const ClassCard& card);
+
+struct Card {
+  Manifest manifest;
+  std::size_t runs = 0;  // with a record
+  std::vector<ClassCard> classes;
+  Totals nominal;
+  Totals adversarial;
+  Totals judged;  // both of them
+  Totals unobservable;
+  std::vector<WorstEvent> events;  // of the judged, as the diagrams
+  picture::StanfordCounts angles;
+  picture::StanfordCounts distances;
+};
+
+// The records in the order of read_records; those of a scene that is not in the table are refused with a
+// std::runtime_error. At most `events_max` events are listed.
+Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, std::size_t events_max);
+
+}  // namespace pose_wall::tools::campaign

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/card_files.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "campaign/card_words.hpp"
+#include "terminal/text_table.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
+}
+
+std::string title(const Card& card, const char* quantities) {
+  return fmt::format("{}: error against protection level, {} frames", quantities, card.judged.frames.frames);
+}
+
+std::vector<std::string> row_of(const Totals& t, const char* kind, bool with_bounds) {
+  const StateShares s = state_shares(t.quantities);
+  const FrameCounts& f = t.frames;
+  std::vector<std::string> cells = {t.name,
+                                    kind,
+                                    std::to_string(f.frames),
+                                    percent(s.valid),
+                                    percent(s.degraded),
+                                    percent(s.held),
+                                    percent(s.invalid)};
+  for (const std::size_t events : {f.misleading, f.value_beyond_protection, f.raw_beyond_protection}) {
+    cells.push_back(with_bounds ? count_with_bound(events, f.frames) : std::to_string(events));
+  }
+  ErrorStatistics angles = t.quantities[POSE_WALL_ROLL];
+  angles.merge(t.quantities[POSE_WALL_PITCH]);
+  angles.merge(t.quantities[POSE_WALL_YAW]);
+  cells.insert(cells.end(), {figure(angles.mean_z2()), figure(grouped(t.quantities).back().statistics.mean_z2())});
+  return cells;
+}
+
+// All sensors together.
+std::vector<std::pair<const sim::SceneChoice*, Totals>> by_scene(const Card& card) {
+  std::vector<std::pair<const sim::SceneChoice*, Totals>> scenes;
+  for (const ClassCard& one : card.classes) {
+    if (scenes.empty() || scenes.back().first != one.scene) {
+      scenes.emplace_back(one.scene, Totals{one.scene->name, 1, one.draws, one.frames, one.quantities});
+    } else {
+      add_class(scenes.back().second, one);
+    }
+  }
+  return scenes;
+}
+
+}  // namespace
+
+std::string card_summary(const Card& card) {
+  TextTable table({"scene", "kind", "frames", "valid", "degraded", "held", "invalid", "misleading", "value > pl",
+                   "raw > pl", "z² angles", "z² distances"});
+  for (const auto& [scene, totals] : by_scene(card)) {
+    table.add_row(row_of(totals, sim::scene_kind_name(scene->kind), false));
+  }
+  table.add_row({"in all"});
+  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged}) {
+    if (totals->classes > 0) table.add_row(row_of(*totals, "", true));
+  }
+  return table.text(2);
+}
+
+void write_card(const std::filesystem::path& folder, const Card& card) {
+  write(folder / "card.md", card_page(card));
+  write(folder / "card.json", card_json(card));
+  write(folder / "stanford_angles.svg", picture::stanford_diagram(card.angles, title(card, "Roll, pitch, yaw")));
+  write(folder / "stanford_distances.svg", picture::stanford_diagram(card.distances, title(card, "Distances")));
+}
+
+}  // namespace pose_wall::tools::campaign

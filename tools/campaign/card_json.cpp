@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "campaign/card_files.hpp"
+#include "campaign/gate.hpp"
+#include "campaign/rate_bound.hpp"
+#include "results/result_csv.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// NaN, which JSON does not know, becomes null.
+Json figures(const ErrorFigures& f) {
+  return {{"count", f.count},
+          {"rmse", f.rmse},
+          {"bias", f.bias},
+          {"absolute_95", f.absolute_95},
+          {"absolute_max", f.absolute_max}};
+}
+
+Json shares(const StateShares& s) {
+  return {{"available", s.available()},
+          {"valid", s.valid},
+          {"degraded", s.degraded},
+          {"held", s.held},
+          {"invalid", s.invalid}};
+}
+
+Json seven(const SevenStatistics& quantities) {
+  Json all;
+  for (std::uint32_t q = 0; q < quantities.size(); ++q) {
+    const ErrorStatistics& s = quantities[q];
+    all[pose_wall_quantity_name(q)] = {{"unit", q <= POSE_WALL_YAW ? "rad" : "m"},
+                                       {"values_with_truth", s.frames()},
+                                       {"shares", shares(state_shares(s))},
+                                       {"raw", figures(s.raw())},
+                                       {"value", figures(s.value())},
+                                       {"raw_beyond_protection", s.raw_beyond_protection()},
+                                       {"value_beyond_protection", s.value_beyond_protection()},
+                                       {"valid_beyond_alert", s.valid_beyond_alert()},
+                                       {"valid_without_truth", s.valid_without_truth()},
+                                       {"mean_z2", s.mean_z2()}};
+  }
+  return all;
+}
+
+Json counted(std::size_t events, std::size_t frames) {
+  return {{"frames", events},
+          {"rate", frames > 0 ? static_cast<double>(events) / static_cast<double>(frames) : std::nan("")},
+          {"rate_bound_95", rate_bound_95(events, frames)}};
+}
+
+Json counts(const FrameCounts& f) {
+  return {{"frames", f.frames},
+          {"misleading", counted(f.misleading, f.frames)},
+          {"value_beyond_protection", counted(f.value_beyond_protection, f.frames)},
+          {"raw_beyond_protection", counted(f.raw_beyond_protection, f.frames)}};
+}
+
+Json totals(const Totals& t) {
+  return {{"classes", t.classes},
+          {"runs", t.runs},
+          {"counts", counts(t.frames)},
+          {"shares", shares(state_shares(t.quantities))},
+          {"quantities", seven(t.quantities)}};
+}
+
+Json class_page(const ClassCard& card) {
+  Json reasons = Json::object();
+  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
+    if (card.reasons[bit] > 0) reasons[pose_wall_reason_name(bit)] = card.reasons[bit];
+  }
+  return {{"scene", card.scene->name},
+          {"sensor", card.sensor},
+          {"kind", sim::scene_kind_name(card.scene->kind)},
+          {"draws", card.draws},
+          {"available_floor", card.scene->available_floor},
+          {"shares", shares(state_shares(card.quantities))},
+          {"counts", counts(card.frames)},
+          {"frames_to_alert_max", card.times.alert_max},
+          {"frames_to_notice", card.times.noticed},
+          {"never_noticed", card.times.never_noticed},
+          {"frames_to_recover", card.times.recovered},
+          {"never_recovered", card.times.never_recovered},
+          {"reasons_of_values_not_valid", reasons},
+          {"quantities", seven(card.quantities)}};
+}
+
+Json event_page(const WorstEvent& e) {
+  return {{"breach", breach_name(e.breach)},
+          {"scene", e.run.scene},
+          {"sensor", e.run.sensor},
+          {"draw", e.run.draw},
+          {"seed", e.run.seed},
+          {"frame", e.frame},
+          {"quantity", pose_wall_quantity_name(e.quantity)},
+          {"error", e.error},
+          {"sigma", e.measured.sigma},
+          {"protection_level", e.measured.protection_level},
+          {"state", pose_wall_state_name(e.measured.state)},
+          {"reasons", reason_names(e.reasons)},
+          {"command", e.sim_command()}};
+}
+
+}  // namespace
+
+std::string card_json(const Card& card) {
+  Json page;
+  for (const auto& [name, value] : card.manifest.identity) page["identity"][name] = value;
+  page["command"] = card.manifest.command;
+  page["alert_limit_angle_rad"] = card.manifest.limits.angle_rad;
+  page["alert_limit_distance_m"] = card.manifest.limits.distance_m;
+  page["runs_planned"] = card.manifest.runs;
+  page["runs"] = card.runs;
+  page["gate_faults"] = gate_faults(card);
+  page["totals"] = {{"nominal", totals(card.nominal)},
+                    {"adversarial", totals(card.adversarial)},
+                    {"both", totals(card.judged)},
+                    {"unobservable", totals(card.unobservable)}};
+  for (const ClassCard& one : card.classes) page["classes"].push_back(class_page(one));
+  page["worst_events"] = Json::array();
+  for (const WorstEvent& event : card.events) page["worst_events"].push_back(event_page(event));
+  return page.dump(1) + "\n";
+}
+
+}  // namespace pose_wall::tools::campaign

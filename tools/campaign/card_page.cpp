@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include <fmt/format.h>
+
+#include "campaign/card_files.hpp"
+#include "campaign/card_words.hpp"
+#include "campaign/gate.hpp"
+#include "campaign/markdown_table.hpp"
+#include "results/result_csv.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+std::string head_of(const Card& card) {
+  std::string text = "# Integrity card\n\n";
+  text += fmt::format("{} frames in {} of {} runs, {} classes (scene and sensor). Alert limits: {}, {}.\n\n",
+                      card.judged.frames.frames + card.unobservable.frames.frames, card.runs, card.manifest.runs,
+                      card.classes.size(), amount(true, card.manifest.limits.angle_rad),
+                      amount(false, card.manifest.limits.distance_m));
+  text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command);
+  for (const auto& [name, value] : card.manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
+  return text + "\n";
+}
+
+std::string gate_of(const Card& card) {
+  const std::vector<std::string> faults = gate_faults(card);
+  if (faults.empty()) return "**Gate passed.**\n\n";
+  std::string text = fmt::format("**Gate not passed: {} demands do not hold.**\n\n", faults.size());
+  for (const std::string& fault : faults) text += "- " + fault + "\n";
+  return text + "\n";
+}
+
+std::string totals_of(const Card& card) {
+  MarkdownTable table({"over", "classes", "runs", "frames", "valid", "degraded", "held", "invalid", "misleading",
+                       "value > protection", "raw > protection"});
+  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged, &card.unobservable}) {
+    const Totals& t = *totals;
+    if (t.classes == 0) continue;
+    const FrameCounts& f = t.frames;
+    const StateShares s = state_shares(t.quantities);
+    table.add_row({t.name, std::to_string(t.classes), std::to_string(t.runs), std::to_string(f.frames),
+                   percent(s.valid), percent(s.degraded), percent(s.held), percent(s.invalid),
+                   count_with_bound(f.misleading, f.frames), count_with_bound(f.value_beyond_protection, f.frames),
+                   count_with_bound(f.raw_beyond_protection, f.frames)});
+  }
+  return "## Totals\n\nCounts are of frames with at least one of the seven quantities in it; in brackets the 95 % "
+         "upper "
+         "bound of the rate (Clopper-Pearson; frames of one run are not independent, runs are). *Misleading*: valid, "
+         "and the error beyond the alert limit or nothing there to measure. In *unobservable* classes the data of one "
+         "sensor cannot "
+         "tell that anything is wrong: they are shown, and left out of all else.\n\n" +
+         table.text() + "\n";
+}
+
+std::string sigma_of(const Card& card) {
+  MarkdownTable table({"over", "roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"});
+  for (const Totals* totals : {&card.nominal, &card.adversarial}) {
+    if (totals->classes == 0) continue;
+    std::vector<std::string> cells = {totals->name};
+    for (const ErrorStatistics& q : totals->quantities) cells.push_back(figure(q.mean_z2()));
+    table.add_row(cells);
+  }
+  return fmt::format(
+      "## Mean z² = (raw error / sigma)²\n\n1 for a true standard deviation; {:g} to {:g} is asked of "
+      "nominal classes of {} runs or more.\n\n{}\n",
+      kMeanZ2Min, kMeanZ2Max, kRunsForMeanZ2, table.text());
+}
+
+std::string classes_of(const Card& card) {
+  MarkdownTable table(
+      {"scene", "sensor", "kind", "draws", "frames", "available", "floor", "valid", "degraded", "held", "invalid",
+       "misleading", "value > pl", "raw > pl", "to alert", "noticed", "recovered", "why not valid"},
+      3);
+  for (const ClassCard& c : card.classes) {
+    const StateShares s = state_shares(c.quantities);
+    table.add_row({c.scene->name, c.sensor, sim::scene_kind_name(c.scene->kind), std::to_string(c.draws),
+                   std::to_string(c.frames.frames), percent(s.available()), percent(c.scene->available_floor),
+                   percent(s.valid), percent(s.degraded), percent(s.held), percent(s.invalid),
+                   std::to_string(c.frames.misleading), std::to_string(c.frames.value_beyond_protection),
+                   std::to_string(c.frames.raw_beyond_protection), std::to_string(c.times.alert_max),
+                   times_text(c.times.noticed, c.times.never_noticed),
+                   times_text(c.times.recovered, c.times.never_recovered), reasons_text(c)});
+  }
+  return "## Classes\n\nShares are of values that have a truth; available: valid or degraded. To alert: the longest "
+         "time in frames from an error beyond the alert limit until the state leaves valid (0: it never was). For "
+         "scenes with an event, median / longest in frames: noticed, from its begin until a value leaves valid; "
+         "recovered, from its end until all are valid that were so before it. Why not valid: the most frequent reasons "
+         "and their share of the values that are not.\n\n" +
+         table.text() + "\n";
+}
+
+std::string quantities_of(const Card& card) {
+  MarkdownTable table({"scene", "sensor", "quantity", "values", "available", "valid", "raw RMSE", "95 %", "max",
+                       "value RMSE", "95 %", "max", "misleading", "value > pl", "raw > pl", "mean z²"},
+                      3);
+  for (const ClassCard& c : card.classes) {
+    for (const QuantityGroup& g : grouped(c.quantities)) {
+      const ErrorStatistics& s = g.statistics;
+      const StateShares shares = state_shares(s);
+      std::vector<std::string> cells = {
+          c.scene->name,        c.sensor, g.name, std::to_string(s.frames()), percent(shares.available()),
+          percent(shares.valid)};
+      for (const ErrorFigures& f : {s.raw(), s.value()}) {
+        for (const double number : {f.rmse, f.absolute_95, f.absolute_max}) cells.push_back(amount(g.is_angle, number));
+      }
+      cells.insert(cells.end(), {std::to_string(s.valid_beyond_alert() + s.valid_without_truth()),
+                                 std::to_string(s.value_beyond_protection()), std::to_string(s.raw_beyond_protection()),
+                                 figure(s.mean_z2())});
+      table.add_row(cells);
+    }
+  }
+  return "## Quantities\n\nRaw: the frame's own measurement. Value: what a controller acts on, held values included. "
+         "Counts are of values.\n\n" +
+         table.text() + "\n";
+}
+
+std::string events_of(const Card& card) {
+  if (card.events.empty()) return "## Worst events\n\nNone.\n";
+  MarkdownTable table({"breach", "scene", "sensor", "draw", "frame", "quantity", "error", "protection level", "sigma",
+                       "state", "reasons", "the same frames again"},
+                      3);
+  for (const WorstEvent& e : card.events) {
+    const bool is_angle = e.quantity <= POSE_WALL_YAW;
+    std::string reasons = reason_names(e.reasons);
+    for (std::size_t at = reasons.find('|'); at != std::string::npos; at = reasons.find('|')) reasons[at] = ' ';
+    table.add_row({breach_name(e.breach), e.run.scene, e.run.sensor, std::to_string(e.run.draw),
+                   std::to_string(e.frame), pose_wall_quantity_name(e.quantity), amount(is_angle, e.error),
+                   amount(is_angle, e.measured.protection_level), amount(is_angle, e.measured.sigma),
+                   pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", e.sim_command())});
+  }
+  return "## Worst events\n\nOf one run and quantity only the worst frame of each breach.\n\n" + table.text();
+}
+
+}  // namespace
+
+std::string card_page(const Card& card) {
+  return head_of(card) + gate_of(card) + totals_of(card) + sigma_of(card) +
+         "## Stanford diagrams\n\n![angles](stanford_angles.svg)\n\n![distances](stanford_distances.svg)\n\n" +
+         classes_of(card) + quantities_of(card) + events_of(card);
+}
+
+}  // namespace pose_wall::tools::campaign

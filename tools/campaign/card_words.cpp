@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/card_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "campaign/rate_bound.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+constexpr double kDegPerRad = 57.29577951308232;
+constexpr std::size_t kReasonsShown = 3;
+
+}  // namespace
+
+std::string amount(bool is_angle, double value) {
+  if (!std::isfinite(value)) return "-";
+  return is_angle ? fmt::format("{:.3f}°", value * kDegPerRad) : fmt::format("{:.1f} mm", value * 1e3);
+}
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "-";
+}
+
+std::string figure(double value) {
+  if (!std::isfinite(value)) return "-";
+  return value < 1000.0 ? fmt::format("{:.2f}", value) : fmt::format("{:.1e}", value);
+}
+
+std::string count_with_bound(std::size_t events, std::size_t frames) {
+  return fmt::format("{} (≤ {:.1e})", events, rate_bound_95(events, frames));
+}
+
+std::string times_text(std::vector<std::size_t> times, std::size_t never) {
+  if (times.empty() && never == 0) return "-";
+  std::string text = "never";
+  if (!times.empty()) {
+    std::sort(times.begin(), times.end());
+    text = fmt::format("{} / {}", times[times.size() / 2], times.back());
+  }
+  if (never > 0) text += fmt::format(" ({} never)", never);
+  return text;
+}
+
+std::string reasons_text(const ClassCard& card) {
+  std::size_t values = 0;
+  for (const ErrorStatistics& q : card.quantities) values += q.frames() - q.valid();
+  std::vector<std::pair<std::size_t, std::uint32_t>> counts;
+  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
+    if (card.reasons[bit] > 0) counts.emplace_back(card.reasons[bit], bit);
+  }
+  std::sort(counts.rbegin(), counts.rend());
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kReasonsShown, counts.size()); ++i) {
+    const double share = static_cast<double>(counts[i].first) / static_cast<double>(values);
+    text += fmt::format("{}{} {:.0f} %", i == 0 ? "" : ", ", pose_wall_reason_name(counts[i].second), 100.0 * share);
+  }
+  return text.empty() ? "-" : text;
+}
+
+}  // namespace pose_wall::tools::campaign

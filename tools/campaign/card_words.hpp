@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Numbers of the card as words, the same in each of its forms.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "campaign/card.hpp"
+
+namespace pose_wall::tools::campaign {
+
+// "0.123°" or "12.3 mm"; "-" for NaN.
+std::string amount(bool is_angle, double value);
+// "98.2 %".
+std::string percent(double share);
+// "0.95"; "-" for NaN.
+std::string figure(double value);
+// "3 (<= 2.4e-04)": events, and the 95 % upper bound of their rate.
+std::string count_with_bound(std::size_t events, std::size_t frames);
+// "4 / 12 (1 never)": median and longest in frames; "-" when nothing was timed.
+std::string times_text(std::vector<std::size_t> times, std::size_t never);
+// The most frequent reasons of values that are not valid, each with its share of them all.
+std::string reasons_text(const ClassCard& card);
+
+}  // namespace pose_wall::tools::campaign

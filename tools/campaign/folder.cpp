@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <tuple>
+
+#include "csv/csv_table.hpp"
+#include "sim/scenes.hpp"
+#include "sim/sensors.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+std::filesystem::path records_in(const std::filesystem::path& folder) {
+  return folder / "records";
+}
+
+std::size_t scene_rank(const std::string& name) {
+  const auto& all = sim::scenes();
+  return static_cast<std::size_t>(
+      std::find_if(all.begin(), all.end(), [&](const auto& scene) { return scene.name == name; }) - all.begin());
+}
+
+std::size_t sensor_rank(const std::string& name) {
+  const auto& all = sim::sensor_models();
+  return static_cast<std::size_t>(
+      std::find_if(all.begin(), all.end(), [&](const auto& model) { return model.sensor.name == name; }) - all.begin());
+}
+
+auto rank(const RunRecord& record) {
+  return std::tuple(scene_rank(record.run.scene), sensor_rank(record.run.sensor), record.run.draw);
+}
+
+}  // namespace
+
+std::filesystem::path record_file(const std::filesystem::path& folder, const Run& run) {
+  return records_in(folder) / run.scene / run.sensor / fmt::format("{:06}.csv", run.draw);
+}
+
+void prepare_folder(const std::filesystem::path& folder, const Manifest& manifest, bool fresh) {
+  if (fresh) std::filesystem::remove_all(records_in(folder));
+  if (std::filesystem::exists(records_in(folder))) {
+    const std::string differs = difference(read_manifest(folder), manifest);
+    if (!differs.empty()) {
+      throw StaleError(fmt::format("{} holds records of another campaign:\n{}--fresh removes them and starts anew",
+                                   folder.string(), differs));
+    }
+    return;
+  }
+  std::filesystem::create_directories(folder);
+  write_manifest(folder, manifest);
+  std::filesystem::create_directories(records_in(folder));
+}
+
+std::vector<Run> pending_runs(const std::filesystem::path& folder, const std::vector<Run>& runs) {
+  std::vector<Run> pending;
+  for (const Run& run : runs) {
+    const std::filesystem::path file = record_file(folder, run);
+    if (std::filesystem::exists(file)) continue;
+    std::filesystem::create_directories(file.parent_path());
+    pending.push_back(run);
+  }
+  return pending;
+}
+
+std::vector<RunRecord> read_records(const std::filesystem::path& folder, const Manifest& manifest) {
+  std::vector<RunRecord> records;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(records_in(folder))) {
+    if (entry.path().extension() == ".csv") records.push_back(read_record(entry.path(), manifest.fingerprint()));
+  }
+  if (records.empty()) throw std::runtime_error(fmt::format("{}: no record in it", records_in(folder).string()));
+  std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  return records;
+}
+
+void write_frames(const std::filesystem::path& folder, const std::vector<RunRecord>& records) {
+  std::ofstream out(folder / "frames.csv", std::ios::binary);
+  out << csv_line(record_head());
+  for (const RunRecord& record : records) out << record_lines(record);
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", (folder / "frames.csv").string()));
+}
+
+}  // namespace pose_wall::tools::campaign

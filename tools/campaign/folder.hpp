@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The folder of a campaign: campaign.json, and records/SCENE/SENSOR/DRAW.csv for every run that is finished.
+
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "campaign/manifest.hpp"
+#include "campaign/record.hpp"
+
+namespace pose_wall::tools::campaign {
+
+// The folder holds records of another campaign.
+class StaleError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+std::filesystem::path record_file(const std::filesystem::path& folder, const Run& run);
+
+// Makes the folder, or finds in it what was interrupted. `fresh`: older records go. Throws StaleError that says what
+// differs.
+void prepare_folder(const std::filesystem::path& folder, const Manifest& manifest, bool fresh);
+
+// Runs without a record.
+std::vector<Run> pending_runs(const std::filesystem::path& folder, const std::vector<Run>& runs);
+
+// All there are, by scene (in the order of the table), sensor and draw.
+std::vector<RunRecord> read_records(const std::filesystem::path& folder, const Manifest& manifest);
+
+// frames.csv: the rows of all records under one head.
+void write_frames(const std::filesystem::path& folder, const std::vector<RunRecord>& records);
+
+}  // namespace pose_wall::tools::campaign

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/gate.hpp"
+
+#include <fmt/format.h>
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+double rate(std::size_t events, std::size_t frames) {
+  return frames == 0 ? 0.0 : static_cast<double>(events) / static_cast<double>(frames);
+}
+
+class Faults {
+ public:
+  template <typename... Values>
+  void demand(bool holds, fmt::format_string<Values...> form, Values&&... values) {
+    if (!holds) lines_.push_back(fmt::format(form, std::forward<Values>(values)...));
+  }
+  std::vector<std::string> take() { return std::move(lines_); }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+void demand_bounds(Faults& faults, const Card& card) {
+  const FrameCounts& nominal = card.nominal.frames;
+  const FrameCounts& adversarial = card.adversarial.frames;
+  faults.demand(card.judged.frames.misleading == 0, "{} of {} frames mislead: valid beyond the alert limit; none may",
+                card.judged.frames.misleading, card.judged.frames.frames);
+  faults.demand(nominal.raw_beyond_protection == 0,
+                "nominal classes: raw error beyond the protection level in {} of {} frames; none may be",
+                nominal.raw_beyond_protection, nominal.frames);
+  faults.demand(nominal.value_beyond_protection == 0,
+                "nominal classes: value error beyond the protection level in {} of {} frames; none may be",
+                nominal.value_beyond_protection, nominal.frames);
+  const auto demand_rare = [&](const char* what, std::size_t events) {
+    faults.demand(rate(events, adversarial.frames) < kAdversarialRateMax,
+                  "adversarial classes: {} error beyond the protection level in {} of {} frames, a rate of {:.1e}; it "
+                  "must be below {:.0e}",
+                  what, events, adversarial.frames, rate(events, adversarial.frames), kAdversarialRateMax);
+  };
+  demand_rare("raw", adversarial.raw_beyond_protection);
+  demand_rare("value", adversarial.value_beyond_protection);
+}
+
+void demand_sigma(Faults& faults, const Card& card) {
+  if (card.nominal.runs < kRunsForMeanZ2) return;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const double z2 = card.nominal.quantities[q].mean_z2();
+    faults.demand(z2 >= kMeanZ2Min && z2 <= kMeanZ2Max,
+                  "nominal classes: mean z² of {} is {:.2f}; it must be within {:g} and {:g}",
+                  pose_wall_quantity_name(q), z2, kMeanZ2Min, kMeanZ2Max);
+  }
+}
+
+void demand_availability(Faults& faults, const Card& card) {
+  for (const ClassCard& one : card.classes) {
+    const double available = state_shares(one.quantities).available();
+    const double floor = one.scene->available_floor;
+    faults.demand(floor <= 0.0 || available >= floor, "{} {}: {:.1f} % available; its floor is {:.1f} %",
+                  one.scene->name, one.sensor, 100.0 * available, 100.0 * floor);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> gate_faults(const Card& card) {
+  Faults faults;
+  faults.demand(card.runs == card.manifest.runs, "the campaign is not finished: {} of {} runs", card.runs,
+                card.manifest.runs);
+  demand_bounds(faults, card);
+  demand_sigma(faults, card);
+  demand_availability(faults, card);
+  return faults.take();
+}
+
+}  // namespace pose_wall::tools::campaign

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What a campaign must show before the engine may be believed.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "campaign/card.hpp"
+
+namespace pose_wall::tools::campaign {
+
+// Rates of frames. Errors beyond the protection level in nominal classes: none. In adversarial ones: below this.
+inline constexpr double kAdversarialRateMax = 1e-3;
+// Mean z² of each quantity over the nominal classes.
+inline constexpr double kMeanZ2Min = 0.5;
+inline constexpr double kMeanZ2Max = 1.3;
+// Runs that it takes to ask for that: each has only one rock, and the mean over fewer scatters more than these bounds.
+inline constexpr std::size_t kRunsForMeanZ2 = 200;
+
+// One line per demand that does not hold; empty when the gate is passed.
+std::vector<std::string> gate_faults(const Card& card);
+
+}  // namespace pose_wall::tools::campaign

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/manifest.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "campaign/fingerprint.hpp"
+#include "config_file/key_table.hpp"
+#include "config_file/load_config.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+constexpr double kRadPerDeg = 0.017453292519943295;
+
+// Every key that is not at its default, whichever file or option it came from.
+std::string settings_text(const LoadedConfig& loaded) {
+  const api::Config defaults;
+  std::string text;
+  for (const pose_wall_key_info& key : config_keys()) {
+    const std::string value = config_value_text(*loaded.config.get(), key);
+    if (value != config_value_text(*defaults.get(), key)) text += fmt::format("{}={} ", key.name, value);
+  }
+  return text.empty() ? "defaults" : text.substr(0, text.size() - 1);
+}
+
+// Of all runs, drawn sizes included by way of the program that draws them.
+std::string runs_text(const std::vector<Run>& runs) {
+  std::string text;
+  for (const Run& run : runs) {
+    text += fmt::format("{} {} {} {} {}\n", run.scene, run.sensor, run.draw, run.seed, run.frames);
+  }
+  return fmt::format("{} runs, {} frames, {}", runs.size(), frames_of(runs), fingerprint_text(fingerprint(text)));
+}
+
+std::string command_of(const PlanRequest& request, const EngineChoice& choice) {
+  std::string words = fmt::format("pose_wall campaign --size {} --seed {}", request.size, request.seed);
+  if (request.kind != "all") words += " --kind " + request.kind;
+  if (!request.scenes.empty()) words += fmt::format(" --scenes {}", fmt::join(request.scenes, ","));
+  if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
+  if (request.draws) words += fmt::format(" --draws {}", *request.draws);
+  if (request.frames) words += fmt::format(" --frames {}", *request.frames);
+  if (request.first_draw != 0) words += fmt::format(" --first-draw {}", request.first_draw);
+  if (!choice.config_file.empty()) words += " --config " + choice.config_file;
+  for (const std::string& setting : choice.settings) words += fmt::format(" --set '{}'", setting);
+  return words;
+}
+
+std::filesystem::path file_in(const std::filesystem::path& folder) {
+  return folder / "campaign.json";
+}
+
+}  // namespace
+
+std::string Manifest::fingerprint() const {
+  std::string text;
+  for (const auto& [name, value] : identity) text += fmt::format("{}: {}\n", name, value);
+  return fingerprint_text(campaign::fingerprint(text));
+}
+
+Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs, const EngineChoice& choice) {
+  const LoadedConfig loaded = load_config(
+      choice.config_file.empty() ? std::nullopt : std::optional<std::string>(choice.config_file), choice.settings);
+  Manifest manifest;
+  manifest.identity = {{"version", pose_wall_version()},
+                       {"program", program_fingerprint()},
+                       {"settings", settings_text(loaded)},
+                       {"plan", runs_text(runs)}};
+  manifest.limits = {loaded.config.number("alert_limit_angle_deg") * kRadPerDeg,
+                     loaded.config.number("alert_limit_distance")};
+  manifest.runs = runs.size();
+  manifest.frames = frames_of(runs);
+  manifest.command = command_of(request, choice);
+  return manifest;
+}
+
+std::string difference(const Manifest& records, const Manifest& now) {
+  std::string lines;
+  for (const auto& [name, value] : now.identity) {
+    for (const auto& [old_name, old_value] : records.identity) {
+      if (name == old_name && value != old_value) {
+        lines += fmt::format("  {}: the records have '{}', this campaign has '{}'\n", name, old_value, value);
+      }
+    }
+  }
+  if (lines.empty() && records.fingerprint() != now.fingerprint()) lines = "  the records are of another kind\n";
+  return lines;
+}
+
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
+  nlohmann::ordered_json page;
+  for (const auto& [name, value] : manifest.identity) page["identity"][name] = value;
+  page["alert_limit_angle_rad"] = manifest.limits.angle_rad;
+  page["alert_limit_distance_m"] = manifest.limits.distance_m;
+  page["runs"] = manifest.runs;
+  page["frames"] = manifest.frames;
+  page["command"] = manifest.command;
+  std::ofstream out(file_in(folder));
+  out << page.dump(2) << "\n";
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file_in(folder).string()));
+}
+
+Manifest read_manifest(const std::filesystem::path& folder) {
+  std::ifstream in(file_in(folder));
+  if (!in)
+    throw std::runtime_error(fmt::format("{}: cannot be read; no campaign was run there", file_in(folder).string()));
+  try {
+    const auto page = nlohmann::ordered_json::parse(in);
+    Manifest manifest;
+    for (const auto& [name, value] : page.at("identity").items()) manifest.identity.emplace_back(name, value);
+    manifest.limits = {page.at("alert_limit_angle_rad"), page.at("alert_limit_distance_m")};
+    manifest.runs = page.at("runs");
+    manifest.frames = page.at("frames");
+    manifest.command = page.at("command");
+    return manifest;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file_in(folder).string(), error.what()));
+  }
+}
+
+}  // namespace pose_wall::tools::campaign

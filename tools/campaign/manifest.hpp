@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// campaign.json: what the records of a folder were made with.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "campaign/plan.hpp"
+#include "truth/comparison.hpp"
+
+namespace pose_wall::tools::campaign {
+
+struct Manifest {
+  // All that decides what the records hold: program, version, settings, plan; by name.
+  std::vector<std::pair<std::string, std::string>> identity;
+  AlertLimits limits;
+  std::size_t runs = 0;
+  std::size_t frames = 0;
+  std::string command;  // makes the same campaign again
+
+  // Stands in each record.
+  std::string fingerprint() const;
+};
+
+// The settings in every engine of the campaign: a file, and KEY=VALUE over it.
+struct EngineChoice {
+  std::string config_file;  // or none
+  std::vector<std::string> settings;
+};
+
+Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs, const EngineChoice& choice);
+
+// One line per thing that differs; empty when both are of one campaign.
+std::string difference(const Manifest& records, const Manifest& now);
+
+// Both throw std::runtime_error that names the file.
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+Manifest read_manifest(const std::filesystem::path& folder);
+
+}  // namespace pose_wall::tools::campaign

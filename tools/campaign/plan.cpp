@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "campaign/event.hpp"
+#include "campaign/fingerprint.hpp"
+#include "sim/scenes.hpp"
+#include "terminal/did_you_mean.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+constexpr double kRecovery_s = 2.0;  // watched after an event
+constexpr std::uint32_t kWhole = std::numeric_limits<std::uint32_t>::max();
+
+struct Size {
+  const char* name;
+  std::vector<std::string> sensors;
+  std::uint32_t draws;             // of scenes that stay as they are
+  std::uint32_t frames;            // of each of them
+  std::uint32_t event_draws;       // of scenes with an event
+  std::uint32_t event_frames_max;  // cuts long events
+};
+
+const std::vector<Size>& sizes() {
+  static const std::vector<std::string> all = {"os1-64", "os0-128", "vlp16", "mid360"};
+  static const std::vector<Size> table = {
+      {"small", {"os1-64"}, 1, 3, 1, 60},
+      {"medium", all, 6, 4, 2, 120},
+      {"large", all, 30, 5, 6, kWhole},
+  };
+  return table;
+}
+
+const Size& size_named(const std::string& name) {
+  for (const Size& size : sizes()) {
+    if (size.name == name) return size;
+  }
+  throw std::invalid_argument(fmt::format("unknown size '{}'{}; {} are there", name, did_you_mean(name, size_names()),
+                                          fmt::join(size_names(), ", ")));
+}
+
+std::vector<std::string> scenes_of(const PlanRequest& request) {
+  const auto is_wanted = [&request](const std::string& name) {
+    const sim::SceneChoice* const scene = sim::find_scene(name);
+    return request.kind == "all" || scene == nullptr || sim::scene_kind_name(scene->kind) == request.kind;
+  };
+  std::vector<std::string> wanted;
+  if (request.scenes.empty()) {
+    for (const sim::SceneChoice& scene : sim::scenes()) wanted.emplace_back(scene.name);
+  } else {
+    wanted = request.scenes;
+  }
+  wanted.erase(std::remove_if(wanted.begin(), wanted.end(), [&](const auto& scene) { return !is_wanted(scene); }),
+               wanted.end());
+  if (wanted.empty()) throw std::invalid_argument(fmt::format("none of the scenes is {}", request.kind));
+  return wanted;
+}
+
+// Short enough to be typed again, and another one for every run of a campaign.
+std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, const std::string& sensor,
+                       std::uint32_t draw) {
+  return fingerprint(fmt::format("{}/{}/{}/{}", campaign_seed, scene, sensor, draw)) % 1000000000U;
+}
+
+Run make_run(const PlanRequest& request, const Size& size, const std::string& scene, const std::string& sensor,
+             std::uint32_t draw) {
+  Run run{scene, sensor, draw, run_seed(request.seed, scene, sensor, draw), request.frames.value_or(size.frames)};
+  const sim::Setup setup = sim::make_setup(scene, sensor, true, run.seed);
+  const std::optional<Event> event = event_of(setup);
+  if (event && !request.frames) {
+    const auto recovery = static_cast<std::uint32_t>(std::ceil(kRecovery_s * setup.sequence.rate_hz));
+    run.frames = std::min(event->after + recovery, size.event_frames_max);
+  }
+  return run;
+}
+
+bool has_event(const std::string& scene, const std::string& sensor) {
+  return event_of(sim::make_setup(scene, sensor, false, 0)).has_value();
+}
+
+}  // namespace
+
+std::vector<std::string> size_names() {
+  std::vector<std::string> names;
+  for (const Size& size : sizes()) names.emplace_back(size.name);
+  return names;
+}
+
+std::vector<Run> make_plan(const PlanRequest& request) {
+  const Size& size = size_named(request.size);
+  const std::vector<std::string>& sensors = request.sensors.empty() ? size.sensors : request.sensors;
+  std::vector<Run> runs;
+  for (const std::string& scene : scenes_of(request)) {
+    for (const std::string& sensor : sensors) {
+      const std::uint32_t draws = request.draws.value_or(has_event(scene, sensor) ? size.event_draws : size.draws);
+      for (std::uint32_t i = 0; i < draws; ++i) {
+        runs.push_back(make_run(request, size, scene, sensor, request.first_draw + i));
+      }
+    }
+  }
+  return runs;
+}
+
+std::size_t frames_of(const std::vector<Run>& runs) {
+  std::size_t frames = 0;
+  for (const Run& run : runs) frames += run.frames;
+  return frames;
+}
+
+}  // namespace pose_wall::tools::campaign

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Which runs a campaign is made of. A run is one draw of a scene's sizes, seen by one sensor: a sequence of frames with
+// an engine of its own.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pose_wall::tools::campaign {
+
+struct Run {
+  std::string scene;
+  std::string sensor;
+  std::uint32_t draw = 0;
+  std::uint64_t seed = 0;  // of `pose_wall sim --random`: gives the same frames
+  std::uint32_t frames = 0;
+};
+
+struct PlanRequest {
+  std::vector<std::string> scenes;   // empty: all
+  std::vector<std::string> sensors;  // empty: those of the size
+  std::string kind = "all";          // or the name of a scene kind
+  std::string size = "small";
+  std::optional<std::uint32_t> draws;   // per scene and sensor; none: those of the size
+  std::optional<std::uint32_t> frames;  // per draw; none: those of the size, or what the scene's event asks for
+  std::uint32_t first_draw = 0;
+  std::uint64_t seed = 1;
+};
+
+std::vector<std::string> size_names();
+
+// Scene by scene, sensor by sensor, draw by draw. The same request gives the same runs. Throws std::invalid_argument
+// for names that do not exist, with the nearest one.
+std::vector<Run> make_plan(const PlanRequest& request);
+
+std::size_t frames_of(const std::vector<Run>& runs);
+
+}  // namespace pose_wall::tools::campaign

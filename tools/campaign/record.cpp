@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/record.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "csv/csv_table.hpp"
+#include "results/result_csv.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+constexpr std::array<const char*, 4> kPhases = {"", "before", "event", "after"};
+constexpr const char* kFirstWords = "# pose_wall campaign ";
+
+std::uint32_t bit_of(const std::string& reason) {
+  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
+    if (reason == pose_wall_reason_name(bit)) return 1U << bit;
+  }
+  throw CsvError(fmt::format("'{}' is no reason", reason));
+}
+
+std::uint32_t reasons_of(const std::string& names) {
+  std::uint32_t bits = 0;
+  std::istringstream words(names);
+  for (std::string word; std::getline(words, word, '|');) bits |= bit_of(word);
+  return bits;
+}
+
+std::uint32_t state_of(const std::string& name) {
+  for (std::uint32_t state = POSE_WALL_INVALID; state <= POSE_WALL_VALID; ++state) {
+    if (name == pose_wall_state_name(state)) return state;
+  }
+  throw CsvError(fmt::format("'{}' is no state", name));
+}
+
+Phase phase_of(const std::string& name) {
+  for (std::size_t i = 0; i < kPhases.size(); ++i) {
+    if (name == kPhases[i]) return static_cast<Phase>(i);
+  }
+  throw CsvError(fmt::format("'{}' is no phase of an event", name));
+}
+
+// Stamps and seeds need all their digits: not by way of a double.
+template <typename Integer>
+Integer integer_of(const std::string& cell) {
+  Integer value{};
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size()) {
+    throw CsvError(fmt::format("'{}' is no whole number", cell));
+  }
+  return value;
+}
+
+constexpr std::size_t kFirstQuantity = 7;  // columns before it
+constexpr std::size_t kPerQuantity = 7;
+
+FrameRecord frame_of(const CsvTable& table, std::size_t row) {
+  FrameRecord frame;
+  frame.frame = integer_of<std::uint32_t>(table.cell(row, 4));
+  frame.stamp_ns = integer_of<std::int64_t>(table.cell(row, 5));
+  frame.phase = phase_of(table.cell(row, 6));
+  std::size_t column = kFirstQuantity;
+  for (QuantityRecord& q : frame.quantity) {
+    q.truth = table.number(row, column);
+    q.measured = {table.number(row, column + 1), table.number(row, column + 2), table.number(row, column + 3),
+                  table.number(row, column + 4), state_of(table.cell(row, column + 5))};
+    q.reasons = reasons_of(table.cell(row, column + 6));
+    column += kPerQuantity;
+  }
+  return frame;
+}
+
+RunRecord record_of(const CsvTable& table) {
+  if (table.head() != record_head()) throw CsvError("not the columns of a record");
+  if (table.rows() == 0) throw CsvError("no frame in it");
+  RunRecord record;
+  record.run = {table.cell(0, 0), table.cell(0, 1), integer_of<std::uint32_t>(table.cell(0, 2)),
+                integer_of<std::uint64_t>(table.cell(0, 3)), static_cast<std::uint32_t>(table.rows())};
+  for (std::size_t row = 0; row < table.rows(); ++row) record.frames.push_back(frame_of(table, row));
+  return record;
+}
+
+}  // namespace
+
+double limit_of(std::size_t quantity, const AlertLimits& limits) {
+  return is_angle(quantity) ? limits.angle_rad : limits.distance_m;
+}
+
+Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits) {
+  const QuantityRecord& v = frame.quantity[quantity];
+  return tools::judge(v.measured, v.truth, is_angle(quantity), limit_of(quantity, limits));
+}
+
+std::vector<std::string> record_head() {
+  std::vector<std::string> head = {"scene", "sensor", "draw", "seed", "frame", "stamp_ns", "phase"};
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const std::string name = pose_wall_quantity_name(q);
+    head.insert(head.end(), {name + "_truth", name, name + "_raw", name + "_sigma", name + "_pl", name + "_state",
+                             name + "_reason"});
+  }
+  return head;
+}
+
+std::string record_lines(const RunRecord& record) {
+  std::string lines;
+  for (const FrameRecord& frame : record.frames) {
+    std::vector<std::string> cells = {record.run.scene,
+                                      record.run.sensor,
+                                      std::to_string(record.run.draw),
+                                      std::to_string(record.run.seed),
+                                      std::to_string(frame.frame),
+                                      std::to_string(frame.stamp_ns),
+                                      kPhases[static_cast<std::size_t>(frame.phase)]};
+    for (const QuantityRecord& q : frame.quantity) {
+      for (const double number :
+           {q.truth, q.measured.value, q.measured.raw, q.measured.sigma, q.measured.protection_level}) {
+        cells.push_back(csv_number(number));
+      }
+      cells.insert(cells.end(), {pose_wall_state_name(q.measured.state), reason_names(q.reasons)});
+    }
+    lines += csv_line(cells);
+  }
+  return lines;
+}
+
+void write_record(const std::filesystem::path& file, const RunRecord& record, const std::string& campaign) {
+  const std::filesystem::path unfinished = file.string() + ".unfinished";
+  std::ofstream out(unfinished, std::ios::binary);
+  out << kFirstWords << campaign << "\n" << csv_line(record_head()) << record_lines(record);
+  out.close();
+  if (!out) throw std::runtime_error(fmt::format("{}: cannot write", unfinished.string()));
+  std::filesystem::rename(unfinished, file);
+}
+
+RunRecord read_record(const std::filesystem::path& file, const std::string& campaign) {
+  std::ifstream in(file, std::ios::binary);
+  std::string first;
+  if (!in || !std::getline(in, first)) throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
+  if (first != kFirstWords + campaign) {
+    throw std::runtime_error(fmt::format("{}: a record of another campaign: it begins with '{}', not '{}{}'",
+                                         file.string(), first, kFirstWords, campaign));
+  }
+  try {
+    return record_of(CsvTable::parse(in));
+  } catch (const CsvError& error) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace pose_wall::tools::campaign

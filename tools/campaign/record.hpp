@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What a run leaves behind: one row per frame, each quantity beside its truth.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "campaign/plan.hpp"
+#include "pose_wall.h"
+#include "truth/comparison.hpp"
+#include "truth/error_statistics.hpp"
+
+namespace pose_wall::tools::campaign {
+
+// Where a frame stands to its run's event.
+enum class Phase { kNone, kBefore, kEvent, kAfter };
+
+struct QuantityRecord {
+  double truth;
+  Measured measured;
+  std::uint32_t reasons;  // pose_wall_reason bits
+};
+
+struct FrameRecord {
+  std::uint32_t frame = 0;
+  std::int64_t stamp_ns = 0;
+  Phase phase = Phase::kNone;
+  std::array<QuantityRecord, POSE_WALL_QUANTITIES> quantity{};
+};
+
+inline bool is_angle(std::size_t quantity) {
+  return quantity <= POSE_WALL_YAW;
+}
+double limit_of(std::size_t quantity, const AlertLimits& limits);
+Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits);
+
+struct RunRecord {
+  Run run;
+  std::vector<FrameRecord> frames;
+};
+
+std::vector<std::string> record_head();
+// The rows without the head, as they stand in a file.
+std::string record_lines(const RunRecord& record);
+
+// A record belongs to the campaign whose fingerprint its first line bears. The file appears whole or not at all.
+// Throws std::runtime_error that names the file.
+void write_record(const std::filesystem::path& file, const RunRecord& record, const std::string& campaign);
+
+// Throws std::runtime_error that names the file, for a record of another campaign too.
+RunRecord read_record(const std::filesystem::path& file, const std::string& campaign);
+
+}  // namespace pose_wall::tools::campaign

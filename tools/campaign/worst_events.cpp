@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/worst_events.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+double ratio(double error, double bound) {
+  const double r = std::abs(error) / bound;
+  return std::isfinite(r) ? r : std::numeric_limits<double>::infinity();
+}
+
+// Per breach the worst of one run and quantity.
+class WorstOfRun {
+ public:
+  WorstOfRun(const Run& run, std::uint32_t quantity, const AlertLimits& limits)
+      : run_(run), quantity_(quantity), limits_(limits) {}
+
+  void add(const FrameRecord& frame) {
+    const Judged judged = judge(frame, quantity_, limits_);
+    const double limit = limit_of(quantity_, limits_);
+    const double level = frame.quantity[quantity_].measured.protection_level;
+    if (judged.misleading) keep(Breach::kMisleading, judged.value_error, limit, frame);
+    if (judged.value_beyond_protection) keep(Breach::kValueBeyondProtection, judged.value_error, level, frame);
+    if (judged.raw_beyond_protection) keep(Breach::kRawBeyondProtection, judged.raw_error, level, frame);
+  }
+
+  void append_to(std::vector<WorstEvent>& events) const {
+    for (const auto& event : worst_) {
+      if (event) events.push_back(*event);
+    }
+  }
+
+ private:
+  void keep(Breach breach, double error, double bound, const FrameRecord& frame) {
+    const double excess = ratio(error, bound);
+    std::optional<WorstEvent>& worst = worst_[static_cast<std::size_t>(breach)];
+    if (worst && worst->excess >= excess) return;
+    const QuantityRecord& v = frame.quantity[quantity_];
+    worst = WorstEvent{breach, excess, run_, frame.frame, quantity_, error, v.measured, v.reasons};
+  }
+
+  const Run& run_;
+  std::uint32_t quantity_;
+  const AlertLimits& limits_;
+  std::array<std::optional<WorstEvent>, 3> worst_;
+};
+
+}  // namespace
+
+const char* breach_name(Breach breach) {
+  if (breach == Breach::kMisleading) return "misleading";
+  return breach == Breach::kValueBeyondProtection ? "value > protection" : "raw > protection";
+}
+
+std::string WorstEvent::sim_command() const {
+  return fmt::format("pose_wall sim --scene {} --sensor {} --random --seed {} --frames {} --output DIR", run.scene,
+                     run.sensor, run.seed, frame + 1);
+}
+
+std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& records, const AlertLimits& limits,
+                                     std::size_t events_max) {
+  std::vector<WorstEvent> events;
+  for (const RunRecord* record : records) {
+    for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+      WorstOfRun worst(record->run, q, limits);
+      for (const FrameRecord& frame : record->frames) worst.add(frame);
+      worst.append_to(events);
+    }
+  }
+  std::stable_sort(events.begin(), events.end(), [](const WorstEvent& a, const WorstEvent& b) {
+    const bool a_misleads = a.breach == Breach::kMisleading;
+    const bool b_misleads = b.breach == Breach::kMisleading;
+    return a_misleads != b_misleads ? a_misleads : a.excess > b.excess;
+  });
+  if (events.size() > events_max) events.resize(events_max);
+  return events;
+}
+
+}  // namespace pose_wall::tools::campaign

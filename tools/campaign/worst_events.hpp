@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The frames in which the instrument promised too much, the worst first, each with the way back to it.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "campaign/record.hpp"
+#include "truth/comparison.hpp"
+
+namespace pose_wall::tools::campaign {
+
+enum class Breach { kMisleading, kValueBeyondProtection, kRawBeyondProtection };
+const char* breach_name(Breach breach);
+
+struct WorstEvent {
+  Breach breach;
+  double excess;  // error / alert limit, or error / protection level; infinite without a truth or a protection level
+  Run run;
+  std::uint32_t frame;
+  std::uint32_t quantity;
+  double error;  // NaN without a truth
+  Measured measured;
+  std::uint32_t reasons;
+
+  // Makes the same frames again.
+  std::string sim_command() const;
+};
+
+// Misleading ones first, then by excess. Of one run and quantity only the worst of each breach.
+std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& records, const AlertLimits& limits,
+                                     std::size_t events_max);
+
+}  // namespace pose_wall::tools::campaign

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_wall campaign: scenes, sensors and random draws through the engine, and the integrity card of all of them.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "campaign/card.hpp"
+#include "campaign/card_files.hpp"
+#include "campaign/folder.hpp"
+#include "campaign/gate.hpp"
+#include "campaign/manifest.hpp"
+#include "campaign/plan.hpp"
+#include "campaign/runner.hpp"
+#include "terminal/progress_bar.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr int kExitGate = 3;
+
+struct CampaignOptions {
+  campaign::PlanRequest plan;
+  campaign::EngineChoice engine;
+  std::string output;
+  unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+  std::size_t events = 30;
+  bool fresh = false;
+  bool card_only = false;
+  bool gate = false;
+  bool quiet = false;
+};
+
+campaign::Manifest run_campaign(const CampaignOptions& options) {
+  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  const campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  campaign::prepare_folder(options.output, manifest, options.fresh);
+  const std::vector<campaign::Run> pending = campaign::pending_runs(options.output, runs);
+  if (!options.quiet) {
+    fmt::print(stderr, "{} runs, {} frames; {} runs are done already\n", runs.size(), campaign::frames_of(runs),
+               runs.size() - pending.size());
+  }
+  campaign::run_all(pending, {options.output, options.engine, manifest.fingerprint(), options.jobs,
+                              !options.quiet && is_terminal(2)});
+  return manifest;
+}
+
+int pass_gate(const campaign::Card& card) {
+  const std::vector<std::string> faults = campaign::gate_faults(card);
+  for (const std::string& fault : faults) fmt::print(stderr, "gate: {}\n", fault);
+  return faults.empty() ? kExitDone : kExitGate;
+}
+
+int make_card(const CampaignOptions& options, const campaign::Manifest& manifest) {
+  const std::vector<campaign::RunRecord> records = campaign::read_records(options.output, manifest);
+  campaign::write_frames(options.output, records);
+  const campaign::Card card = campaign::make_card(manifest, records, options.events);
+  campaign::write_card(options.output, card);
+  if (!options.quiet) fmt::print("{}\n{}/card.md\n", campaign::card_summary(card), options.output);
+  return options.gate ? pass_gate(card) : kExitDone;
+}
+
+int run_verb(const CampaignOptions& options) {
+  try {
+    return make_card(options, options.card_only ? campaign::read_manifest(options.output) : run_campaign(options));
+  } catch (const campaign::StaleError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "pose_wall campaign: {}\n", error.what());
+    return kExitUnreadable;
+  }
+}
+
+void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
+  verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
+      ->capture_default_str();
+  verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")->delimiter(',');
+  verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial, unobservable or all")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"nominal", "adversarial", "unobservable", "all"}));
+  verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',');
+  verb.add_option("--draws", plan.draws, "Draws per scene and sensor, instead of the size's")
+      ->check(CLI::Range(1, 1000000));
+  verb.add_option("--first-draw", plan.first_draw, "Number of the first draw: with --draws 1, one run again")
+      ->capture_default_str();
+  verb.add_option("-n,--frames", plan.frames, "Frames per draw, instead of what size and scene ask for")
+      ->check(CLI::Range(1, 1000000));
+  verb.add_option("--seed", plan.seed, "The same seed gives the same draws")->capture_default_str();
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<CampaignOptions>();
+  CLI::App* verb = app.add_subcommand("campaign", "Measure thousands of random scenes; write the integrity card");
+  verb->add_option("-o,--output", options->output, "Folder for records and card; an interrupted campaign goes on there")
+      ->required();
+  add_plan_options(*verb, options->plan);
+  verb->add_option("-j,--jobs", options->jobs, "Runs at a time")->capture_default_str()->check(CLI::Range(1, 1024));
+  verb->add_option("-c,--config", options->engine.config_file,
+                   "Settings; what scene and sensor ask for comes over them");
+  verb->add_option("-s,--set", options->engine.settings, "KEY=VALUE over all settings; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--events", options->events, "How many of the worst events the card lists")->capture_default_str();
+  verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
+  verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records");
+  verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");
+  verb->add_flag("-q,--quiet", options->quiet, "Print errors only");
+  verb->footer(
+      "Examples:\n"
+      "  pose_wall campaign --size small --gate --output /tmp/card\n"
+      "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
+      "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
+      "another\n"
+      "campaign in the folder, 3 the gate is not passed.");
+  verb->callback([options, &exit_code] { exit_code = run_verb(*options); });
+}
+
+}  // namespace pose_wall::tools
