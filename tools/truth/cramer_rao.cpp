@@ -32,11 +32,15 @@ Eigen::Matrix3d level_of(double roll_rad, double pitch_rad) {
       .toRotationMatrix();
 }
 
+// Levelled frame.
+Eigen::Vector3d along_road(const Eigen::Vector3d& forward_level, double yaw_rad) {
+  const Eigen::Vector3d ahead = Eigen::Vector3d(forward_level.x(), forward_level.y(), 0.0).normalized();
+  return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * ahead;
+}
+
 // Towards the machine, in the levelled frame; side 0 is left.
 Eigen::Vector3d wall_normal(const Eigen::Vector3d& forward_level, double yaw_rad, double lean_rad, int side) {
-  const Eigen::Vector3d ahead = Eigen::Vector3d(forward_level.x(), forward_level.y(), 0.0).normalized();
-  const Eigen::Vector3d along = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * ahead;
-  const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(along);
+  const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(along_road(forward_level, yaw_rad));
   return std::cos(lean_rad) * (side == 0 ? -left : left) + std::sin(lean_rad) * Eigen::Vector3d::UnitZ();
 }
 
@@ -52,6 +56,12 @@ struct CramerRao::Gathered {
   Information information = Information::Zero();
   std::array<std::size_t, kSurfaces> points{};
   double squares = 0.0;  // of residuals in units of their standard deviation
+
+  void add(std::size_t surface, const Parameters& slope, double residual_m, double sigma_m) {
+    information += slope * slope.transpose() / (sigma_m * sigma_m);
+    squares += residual_m * residual_m / (sigma_m * sigma_m);
+    ++points[surface];
+  }
 };
 
 CramerRao::CramerRao(const api::Config& config, double range_noise_m)
@@ -136,37 +146,41 @@ bool CramerRao::usable(const Eigen::Vector3d& ray_m, const Eigen::Vector3d& p_ba
   return true;
 }
 
-CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Planes& planes, const Slopes& slopes,
-                                      double radius_m) const {
+CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parameters& parameters, const Slopes& slopes,
+                                      const View& view) const {
+  const Planes planes = planes_of(parameters);
+  const Eigen::Matrix3d level = level_of(parameters[kRoll], parameters[kPitch]);
+  const Eigen::Vector3d along_base =
+      level.transpose() * along_road(level * forward_base_, parameters[kYaw]);
+  const auto in_view = [&](int surface, const Eigen::Vector3d& p, double height_m) {
+    if (surface == kFloorPlane) return p.head<2>().norm() <= view.floor_radius_m;
+    const auto& span_m = view.wall_span_m[static_cast<std::size_t>(surface - kLeftPlane)];
+    const double along_m = along_base.dot(p);
+    return height_m >= wall_z_min_m_ && height_m <= wall_z_max_m_ && along_m >= span_m[0] && along_m <= span_m[1];
+  };
   Gathered gathered;
   for (std::uint32_t i = 0; i < cloud.width * cloud.height; ++i) {
-    const Eigen::Vector3d p_lidar = point_position(cloud, i / cloud.width, i % cloud.width);
-    const Eigen::Vector3d ray_m = R_base_lidar_ * p_lidar, p = ray_m + sensor_base_m_;
+    const Eigen::Vector3d ray_m = R_base_lidar_ * point_position(cloud, i / cloud.width, i % cloud.width);
+    const Eigen::Vector3d p = ray_m + sensor_base_m_;
     if (!usable(ray_m, p)) continue;
-    const Eigen::Vector3d direction = ray_m.normalized();
     const Eigen::Vector4d point(p.x(), p.y(), p.z(), 1.0);
     const double height_m = planes.col(kFloorPlane).dot(point);
     for (int s = 0; s < kSurfaces; ++s) {
-      const bool in_view =
-          s == kFloorPlane ? p.head<2>().norm() <= radius_m : height_m >= wall_z_min_m_ && height_m <= wall_z_max_m_;
       const double residual_m = planes.col(s).dot(point);
-      const double sigma_m = range_noise_m_ * std::abs(planes.col(s).head<3>().dot(direction));
-      if (!in_view || !(std::abs(residual_m) <= kGateInSigmas * sigma_m) || !(sigma_m > 0.0)) continue;
-      const auto surface = static_cast<std::size_t>(s);
-      const Parameters gradient = slopes.planes[surface].transpose() * point / sigma_m;
-      gathered.information += gradient * gradient.transpose();
-      gathered.squares += residual_m * residual_m / (sigma_m * sigma_m);
-      ++gathered.points[surface];
+      const double sigma_m = range_noise_m_ * std::abs(planes.col(s).head<3>().dot(ray_m.normalized()));
+      if (!(sigma_m > 0.0) || !(std::abs(residual_m) <= kGateInSigmas * sigma_m) || !in_view(s, p, height_m)) continue;
+      gathered.add(static_cast<std::size_t>(s), slopes.planes[static_cast<std::size_t>(s)].transpose() * point,
+                   residual_m, sigma_m);
     }
   }
   return gathered;
 }
 
 FrameBound CramerRao::bound(const pose_wall_cloud& cloud, const std::array<double, kTruthQuantities>& truth,
-                            const FloorView& floor) const {
-  const Parameters parameters = parameters_of(truth, floor.distance_m);
+                            const View& view) const {
+  const Parameters parameters = parameters_of(truth, view.floor_distance_m);
   const Slopes slopes = slopes_at(parameters);
-  Gathered gathered = gather(cloud, planes_of(parameters), slopes, floor.radius_m);
+  Gathered gathered = gather(cloud, parameters, slopes, view);
 
   FrameBound out;
   out.floor_points = gathered.points[kFloorPlane];

@@ -20,10 +20,12 @@
 
 namespace pose_wall::tools {
 
-// What the truth of the seven quantities does not say of the floor.
-struct FloorView {
-  double distance_m;  // of the base origin
-  double radius_m;    // horizontal, about the base origin: floor points beyond it do not count
+// Where the instrument says it looked: points elsewhere do not count.
+struct View {
+  double floor_distance_m;  // of the base origin, which the truth of the seven quantities does not tell
+  double floor_radius_m;    // horizontal, about the base origin
+  // Left, right: from where to where along the road, from the base origin. NaN: no wall measured on this side.
+  std::array<std::array<double, 2>, 2> wall_span_m;
 };
 
 struct FrameBound {
@@ -45,7 +47,7 @@ class CramerRao {
   CramerRao(const api::Config& config, double range_noise_m);
 
   FrameBound bound(const pose_wall_cloud& cloud, const std::array<double, kTruthQuantities>& truth,
-                   const FloorView& floor) const;
+                   const View& view) const;
 
  private:
   static constexpr int kParameters = 8;  // roll, pitch, floor distance, yaw, lean and distance of left, of right
@@ -61,7 +63,8 @@ class CramerRao {
   Planes planes_of(const Parameters& parameters) const;
   Quantities quantities_of(const Parameters& parameters) const;
   Slopes slopes_at(const Parameters& parameters) const;
-  Gathered gather(const pose_wall_cloud& cloud, const Planes& planes, const Slopes& slopes, double radius_m) const;
+  Gathered gather(const pose_wall_cloud& cloud, const Parameters& parameters, const Slopes& slopes,
+                  const View& view) const;
   bool usable(const Eigen::Vector3d& ray_m, const Eigen::Vector3d& p_base) const;
 
   double range_noise_m_;

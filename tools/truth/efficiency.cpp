@@ -43,6 +43,33 @@ std::array<double, kTruthQuantities> truth_at(const CsvTable& truth, std::size_t
   return values;
 }
 
+// The columns that tell where the engine looked.
+class ViewColumns {
+ public:
+  explicit ViewColumns(const CsvTable& results)
+      : results_(results),
+        floor_distance_(result_column(results, "floor_distance_m")),
+        floor_radius_(result_column(results, "floor_along_max_m")) {
+    for (std::size_t side = 0; side < spans_.size(); ++side) {
+      const std::string wall = side == 0 ? "left_wall" : "right_wall";
+      spans_[side] = {result_column(results, wall + "_along_min_m"), result_column(results, wall + "_along_max_m")};
+    }
+  }
+
+  View at(std::size_t row) const {
+    View view{results_.number(row, floor_distance_), results_.number(row, floor_radius_), {}};
+    for (std::size_t side = 0; side < spans_.size(); ++side) {
+      for (std::size_t end = 0; end < 2; ++end) view.wall_span_m[side][end] = results_.number(row, spans_[side][end]);
+    }
+    return view;
+  }
+
+ private:
+  const CsvTable& results_;
+  std::size_t floor_distance_, floor_radius_;
+  std::array<std::array<std::size_t, 2>, 2> spans_{};
+};
+
 double mean_with(double mean, double next, std::size_t count) {
   return mean + (next - mean) / static_cast<double>(count);
 }
@@ -81,19 +108,18 @@ bool Efficiency::is_believable() const {
 Efficiency efficiency_of(const CsvTable& results, const CsvTable& truth, const Comparison& comparison,
                          const std::filesystem::path& folder, const CramerRao& bounds) {
   const std::size_t source = result_column(results, "source");
-  const std::size_t floor_distance = result_column(results, "floor_distance_m");
-  const std::size_t floor_radius = result_column(results, "floor_along_max_m");
+  const ViewColumns views(results);
   std::array<std::size_t, kTruthQuantities> raw{};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     raw[q] = result_column(results, fmt::format("{}_raw", pose_wall_quantity_name(q)));
   }
   Efficiency out;
   for (const auto& [result_row, truth_row] : comparison.rows) {
-    const FloorView floor{results.number(result_row, floor_distance), results.number(result_row, floor_radius)};
-    if (!std::isfinite(floor.distance_m)) continue;
+    const View view = views.at(result_row);
+    if (!std::isfinite(view.floor_distance_m)) continue;
     const std::array<double, kTruthQuantities> values = truth_at(truth, truth_row);
     const Frame frame = frame_of(folder, results.cell(result_row, source));
-    const FrameBound bound = bounds.bound(frame.cloud, values, floor);
+    const FrameBound bound = bounds.bound(frame.cloud, values, view);
     out.add(bound);
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       const double error = results.number(result_row, raw[q]) - values[q];
