@@ -295,7 +295,8 @@ typedef struct pose_wall_plane {
   double d_m;       /* floor: height of the base origin above it. walls: distance of the origin */
   double rms_m;     /* of the inliers */
   double lean_rad; /* walls: tilt from the vertical of the levelled frame, + leaning away from the machine at the top */
-  double along_min_m; /* walls: supported span along the road direction, from the base origin */
+  double along_min_m; /* walls: supported span along the road direction, from the base origin. floor: the horizontal
+                         radius that it was fitted within, and its negative */
   double along_max_m;
   double area_m2; /* supported area */
   uint32_t found; /* 0: of the other members only iterations and reasons are set. 1: a plane was fitted; whether it was

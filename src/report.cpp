@@ -51,7 +51,11 @@ void report_findings(const FrameFindings& found, pose_wall_result* result) {
   result->stamp_ns = found.stamp_ns;
   result->frame_reasons = found.reasons | found.floor.fit.reasons;
   result->floor = plane_of(found.floor.fit);
-  result->floor.area_m2 = result->floor.found != 0 ? found.floor.area_m2 : 0.0;
+  if (result->floor.found != 0) {
+    result->floor.area_m2 = found.floor.area_m2;
+    result->floor.along_min_m = -found.floor.roi_radius_m;
+    result->floor.along_max_m = found.floor.roi_radius_m;
+  }
   result->left = plane_of(found.walls.side[0]);
   result->right = plane_of(found.walls.side[1]);
   for (int row = 0; row < 3; ++row) {

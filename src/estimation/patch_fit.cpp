@@ -9,11 +9,10 @@
 namespace pose_wall {
 namespace {
 
-// Tukey weights make residuals look smaller than they are and the estimate a little less efficient; together the
-// variance of a mean is this much above sum(w r^2) / sum(w)^2 (Gaussian residuals, cutoff 4.685).
-constexpr double kTukeyVariance = 1.16;
-// A patch's own scatter counts like this many more points of the pooled scatter.
+// A patch's own scatter counts beside this many more points of the expected scatter.
 constexpr double kPriorPoints = 10.0;
+constexpr int kScatterRounds = 4;
+constexpr double kScatterLeast = 0.01;
 constexpr std::uint32_t kPatchesMin = 8;
 constexpr int kGiveBackRounds = 2;
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
@@ -61,26 +60,55 @@ void PatchGrid::add(double u_m, double v_m, double residual_m, double weight, do
   ++p.count;
 }
 
-std::uint32_t PatchGrid::collect_means(PatchFit* out) {
+// Rock scatters points alike wherever they are hit; the noise of the range only by its share across the surface. Least
+// squares of the patches' own variances on (1, share^2), weighted by how well each is known, neither part negative.
+PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uint32_t cells) const {
+  Scatter out;
+  for (int round = 0; round < kScatterRounds; ++round) {
+    double g = 0.0, gc = 0.0, gcc = 0.0, gs = 0.0, gcs = 0.0;
+    for (std::uint32_t k = first; k < first + cells; ++k) {
+      const Patch& p = cells_[k];
+      if (p.count < 2) continue;
+      const double freedom = static_cast<double>(p.count - 1), share = p.wb / p.w, c = share * share;
+      const double variance = (p.wrr - p.wr * p.wr / p.w) / freedom, before = round > 0 ? out.at(c) : 1.0;
+      const double weight = freedom / (before * before);
+      g += weight;
+      gc += weight * c;
+      gcc += weight * c * c;
+      gs += weight * variance;
+      gcs += weight * c * variance;
+    }
+    const double determinant = g * gcc - gc * gc;
+    out = Scatter{};
+    if (!(g > 0.0)) return out;
+    if (determinant > 1e-9 * g * gcc) {
+      out.surface = (gcc * gs - gc * gcs) / determinant;
+      out.range = (g * gcs - gc * gs) / determinant;
+    }
+    if (!(out.range > 0.0)) out = Scatter{gs / g, 0.0};
+    if (!(out.surface > 0.0) && gcc > 0.0) out = Scatter{0.0, gcs / gcc};
+  }
+  return out;
+}
+
+double PatchGrid::Scatter::at(double share2) const {
+  const double variance = surface + range * share2;
+  const double least = kScatterLeast * (surface + range + kNoiseMin_m * kNoiseMin_m);
+  return variance > least ? variance : least;
+}
+
+std::uint32_t PatchGrid::collect_means() {
   std::uint32_t n = 0;
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     const std::uint32_t cells = columns_ * rows_, first = layer * cells;
-    double scatter = 0.0, freedom = 0.0;
-    for (std::uint32_t c = first; c < first + cells; ++c) {
-      const Patch& p = cells_[c];
-      if (p.count < 2) continue;
-      scatter += p.wrr - p.wr * p.wr / p.w;
-      freedom += static_cast<double>(p.count - 1);
-    }
-    double pooled = freedom > 0.0 ? kTukeyVariance * scatter / freedom : 0.0;
-    if (!(pooled > kNoiseMin_m * kNoiseMin_m)) pooled = kNoiseMin_m * kNoiseMin_m;
-    if (layer == 0) out->noise_m = std::sqrt(pooled);
+    const Scatter expected = scatter_by_incidence(first, cells);
     for (std::uint32_t c = first; c < first + cells; ++c) {
       const Patch& p = cells_[c];
       mean_of_cell_[c] = -1;
       if (!(p.w > 1e-9)) continue;
-      const double own = kTukeyVariance * (p.wrr - p.wr * p.wr / p.w);
-      const double s2 = (kPriorPoints * pooled + (own > 0.0 ? own : 0.0)) / (kPriorPoints + p.count - 1.0);
+      const double own = p.wrr - p.wr * p.wr / p.w, share = p.wb / p.w;
+      const double s2 =
+          (kPriorPoints * expected.at(share * share) + (own > 0.0 ? own : 0.0)) / (kPriorPoints + p.count - 1.0);
       Mean& m = means_[n];
       m.u = p.wu / p.w;
       m.v = p.wv / p.w;
@@ -94,7 +122,6 @@ std::uint32_t PatchGrid::collect_means(PatchFit* out) {
       mean_of_cell_[c] = static_cast<std::int32_t>(n++);
     }
   }
-  out->patches = n;
   return n;
 }
 
@@ -155,7 +182,8 @@ double PatchGrid::between_patch_variance(std::uint32_t n, std::uint32_t layer, c
 
 PatchFit PatchGrid::fit() {
   PatchFit out;
-  const std::uint32_t n = collect_means(&out);
+  const std::uint32_t n = collect_means();
+  out.patches = n;
   std::uint32_t of_surface = 0;
   for (const Mean& p : means_.first(n)) of_surface += p.layer == 0 ? 1U : 0U;
   if (of_surface < kPatchesMin) return out;

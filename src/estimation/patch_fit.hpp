@@ -27,7 +27,6 @@ struct PatchFit {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // of the correction
   Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();   // change of the correction per metre of range bias
   double tau_m = 0.0;                                        // roughness of the surface between patches
-  double noise_m = 0.0;                                      // of one measured point
   // From a shallow angle the bumps of rough rock are seen and its hollows are not: the surface seen lies about this
   // much before the rock's mean.
   double visibility_m = 0.0;
@@ -91,7 +90,14 @@ class PatchGrid {
     double at_lag[kLags + 1] = {};
   };
 
-  std::uint32_t collect_means(PatchFit* out);
+  // Variance of one measured point about its patch's mean, by the share of the range that lies across the surface.
+  struct Scatter {
+    double surface = 0.0, range = 0.0;
+    double at(double share2) const;
+  };
+
+  Scatter scatter_by_incidence(std::uint32_t first, std::uint32_t cells) const;
+  std::uint32_t collect_means();
   void centre(std::uint32_t n);
   bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
   double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;

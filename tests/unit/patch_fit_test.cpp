@@ -200,7 +200,7 @@ TEST(PatchFit, AnExtentLargerThanTheGridGetsLargerPatches) {
   for (int i = 0; i < 5000; ++i) grid->add(noise.uniform(-100, 100), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0);
   const PatchFit f = grid->fit();
   EXPECT_GT(f.patches, 40U);
-  EXPECT_LE(f.patches, PatchGrid::kSide * PatchGrid::kSide);
+  EXPECT_LE(f.patches, PatchGrid::kCapacity);
 }
 
 }  // namespace

@@ -61,13 +61,11 @@ Measured measured_at(const CsvTable& results, std::size_t row, const ResultColum
           results.number(row, columns.protection_level), state_number(results.cell(row, columns.state))};
 }
 
-using RowPairs = std::vector<std::pair<std::size_t, std::size_t>>;
-
-RowPairs match_rows(const CsvTable& results, const CsvTable& truth, Comparison& comparison) {
+void match_rows(const CsvTable& results, const CsvTable& truth, Comparison& comparison) {
   comparison.matched_by = common_row_key(results, truth);
   const auto result_rows = rows_by(results, "results", comparison.matched_by);
   const auto truth_rows = rows_by(truth, "truth rows", comparison.matched_by);
-  RowPairs pairs;
+  auto& pairs = comparison.rows;
   for (const auto& [key, row] : result_rows) {
     const auto same = truth_rows.find(key);
     if (same != truth_rows.end()) pairs.emplace_back(row, same->second);
@@ -79,14 +77,13 @@ RowPairs match_rows(const CsvTable& results, const CsvTable& truth, Comparison& 
     throw CsvError(fmt::format("no row in common: {} result rows and {} truth rows share no {}", result_rows.size(),
                                truth_rows.size(), comparison.matched_by));
   }
-  return pairs;
 }
 
 }  // namespace
 
 Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, const AlertLimits& limits) {
   Comparison comparison;
-  const RowPairs pairs = match_rows(results, truth, comparison);
+  match_rows(results, truth, comparison);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const std::string name = pose_wall_quantity_name(q);
     const std::optional<std::size_t> truth_column = truth.find_column(name);
@@ -94,10 +91,10 @@ Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, co
     const bool is_angle = q <= POSE_WALL_YAW;
     const ResultColumns columns = result_columns(results, name);
     ErrorStatistics statistics(is_angle, is_angle ? limits.angle_rad : limits.distance_m);
-    for (const auto& [result_row, truth_row] : pairs) {
+    for (const auto& [result_row, truth_row] : comparison.rows) {
       statistics.add(measured_at(results, result_row, columns), truth.number(truth_row, *truth_column));
     }
-    comparison.quantities.push_back({name, is_angle, statistics});
+    comparison.quantities.push_back({q, name, is_angle, statistics});
   }
   if (comparison.quantities.empty()) {
     throw CsvError(

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "csv/csv_table.hpp"
@@ -22,6 +23,7 @@ struct AlertLimits {
 };
 
 struct QuantityComparison {
+  std::uint32_t index;  // pose_wall_quantity
   std::string name;
   bool is_angle;
   ErrorStatistics statistics;
@@ -32,7 +34,8 @@ struct Comparison {
   std::size_t matched = 0;
   std::size_t result_rows_alone = 0;
   std::size_t truth_rows_alone = 0;
-  std::vector<QuantityComparison> quantities;  // those that the truth has
+  std::vector<std::pair<std::size_t, std::size_t>> rows;  // of results and of truth that belong together
+  std::vector<QuantityComparison> quantities;             // those that the truth has
 };
 
 // Rows belong together by `frame`, or by `stamp_ns` when either table has no `frame`. Throws CsvError for missing

@@ -16,8 +16,10 @@
 
 #include "config_file/load_config.hpp"
 #include "csv/csv_table.hpp"
+#include "frames/text_cursor.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/comparison.hpp"
+#include "truth/efficiency.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -30,6 +32,8 @@ struct EvalOptions {
   std::string truth;
   std::string config_file;
   std::vector<std::string> settings;
+  std::string frames;
+  std::optional<double> range_noise_m;
   bool json = false;
 };
 
@@ -66,10 +70,29 @@ void append_figures(std::vector<std::string>& cells, const QuantityComparison& q
   }
 }
 
-void print_tables(const Comparison& comparison) {
+void append_bound(std::vector<std::string>& cells, const QuantityComparison& quantity, const EfficiencySums& sums) {
+  cells.push_back(amount(quantity, sums.bound()));
+  cells.push_back(std::isfinite(sums.ratio()) ? fmt::format("{:.2f}", sums.ratio()) : "-");
+}
+
+void print_points(const Efficiency& efficiency) {
+  fmt::print(
+      "\nCRB over {} frames; points per frame: floor {:.0f}, left {:.0f}, right {:.0f}; they scatter {:.2f} times as "
+      "far as the range noise says\n",
+      efficiency.frames, efficiency.floor_points, efficiency.wall_points[0], efficiency.wall_points[1],
+      efficiency.noise_ratio);
+  if (efficiency.is_believable()) return;
+  fmt::print(
+      "The bound is not to be believed: it holds for flat upright walls, a flat floor and the stated range noise.\n");
+}
+
+void print_tables(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
   fmt::print("{} frames matched by {}; without partner: {} results, {} truths\n\n", comparison.matched,
              comparison.matched_by, comparison.result_rows_alone, comparison.truth_rows_alone);
-  TextTable raw({"raw", "frames", "measured", "valid", "RMSE", "bias", "95 %", "max", "> protection", "mean z²"});
+  std::vector<std::string> head = {"raw",  "frames", "measured", "valid",        "RMSE",
+                                   "bias", "95 %",   "max",      "> protection", "mean z²"};
+  if (efficiency) head.insert(head.end(), {"CRB", "RMSE/CRB"});
+  TextTable raw(head);
   TextTable value({"value", "frames", "usable", "RMSE", "bias", "95 %", "max", "> protection", "> alert while valid"});
   for (const QuantityComparison& quantity : comparison.quantities) {
     const ErrorStatistics& s = quantity.statistics;
@@ -78,6 +101,7 @@ void print_tables(const Comparison& comparison) {
     append_figures(cells, quantity, s.raw());
     cells.push_back(percent(s.raw_beyond_protection(), s.measured()));
     cells.push_back(std::isfinite(s.mean_z2()) ? fmt::format("{:.2f}", s.mean_z2()) : "-");
+    if (efficiency) append_bound(cells, quantity, efficiency->quantity[quantity.index]);
     raw.add_row(cells);
     cells = {quantity.name, std::to_string(s.frames()), percent(s.value().count, s.frames())};
     append_figures(cells, quantity, s.value());
@@ -86,6 +110,7 @@ void print_tables(const Comparison& comparison) {
     value.add_row(cells);
   }
   fmt::print("{}\n{}", raw.text(), value.text());
+  if (efficiency) print_points(*efficiency);
 }
 
 // NaN, which JSON does not know, becomes null.
@@ -97,7 +122,20 @@ nlohmann::ordered_json json_figures(const ErrorFigures& figures) {
           {"absolute_max", figures.absolute_max}};
 }
 
-void print_json(const Comparison& comparison) {
+nlohmann::ordered_json json_bound(const EfficiencySums& sums) {
+  return {{"frames", sums.frames()}, {"crb", sums.bound()}, {"rmse", sums.rmse()}, {"rmse_over_crb", sums.ratio()}};
+}
+
+nlohmann::ordered_json json_points(const Efficiency& efficiency) {
+  return {{"frames", efficiency.frames},
+          {"floor_points", efficiency.floor_points},
+          {"left_points", efficiency.wall_points[0]},
+          {"right_points", efficiency.wall_points[1]},
+          {"noise_ratio", efficiency.noise_ratio},
+          {"believable", efficiency.is_believable()}};
+}
+
+void print_json(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
   nlohmann::ordered_json page = {{"matched_by", comparison.matched_by},
                                  {"matched", comparison.matched},
                                  {"result_rows_alone", comparison.result_rows_alone},
@@ -114,8 +152,17 @@ void print_json(const Comparison& comparison) {
                                          {"value_beyond_protection", s.value_beyond_protection()},
                                          {"valid_beyond_alert", s.valid_beyond_alert()},
                                          {"mean_z2", s.mean_z2()}};
+    if (efficiency) page["quantities"][quantity.name]["bound"] = json_bound(efficiency->quantity[quantity.index]);
   }
+  if (efficiency) page["bound"] = json_points(*efficiency);
   fmt::print("{}\n", page.dump(2));
+}
+
+std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedConfig& loaded, const CsvTable& results,
+                                     const CsvTable& truth, const Comparison& comparison) {
+  if (options.frames.empty()) return std::nullopt;
+  const CramerRao bounds(loaded.config, *options.range_noise_m);
+  return in_file(options.results, [&] { return efficiency_of(results, truth, comparison, options.frames, bounds); });
 }
 
 int eval(const EvalOptions& options) {
@@ -129,12 +176,23 @@ int eval(const EvalOptions& options) {
     const CsvTable truth = read_table(options.truth);
     const Comparison comparison = in_file(fmt::format("{} against {}", options.results, options.truth),
                                           [&] { return compare_with_truth(results, truth, limits); });
-    options.json ? print_json(comparison) : print_tables(comparison);
+    const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
+    options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
   } catch (const CsvError& error) {
+    fmt::print(stderr, "pose_wall eval: {}\n", error.what());
+    return kExitUnreadable;
+  } catch (const FrameError& error) {
     fmt::print(stderr, "pose_wall eval: {}\n", error.what());
     return kExitUnreadable;
   }
   return kExitDone;
+}
+
+// Accepts what is inside, so that "nan" is refused.
+std::string noise_fault(const std::string& word) {
+  const std::optional<double> noise_m = parse_number<double>(word);
+  if (noise_m && *noise_m >= 1e-4 && *noise_m <= 1.0) return "";
+  return fmt::format("'{}' is refused; a number from 0.0001 to 1 is allowed", word);
 }
 
 }  // namespace
@@ -150,12 +208,24 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("-c,--config", options->config_file, "Settings the results were made with: gives the alert limits");
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
       ->allow_extra_args(false);
+  CLI::Option* frames = verb->add_option(
+      "-f,--frames", options->frames,
+      "Folder of the frames that RESULT was measured from: adds CRB, the least error their points allow, and RMSE/CRB. "
+      "Needs --config as for run");
+  CLI::Option* noise =
+      verb->add_option("--range-noise", options->range_noise_m, "Standard deviation of a range of these frames, m");
+  noise->check(noise_fault, "0.0001 to 1")->needs(frames);
+  frames->needs(noise);
   verb->add_flag("--json", options->json, "Print JSON instead of tables, in rad and m");
   verb->footer(
       "Example:\n  pose_wall eval out.csv truth.csv\n"
+      "  pose_wall eval out.csv road/truth.csv -c road/pose_wall.yaml --frames road/frames --range-noise 0.012\n"
       "raw: this frame's own measurement. value: what a controller acts on, held values included.\n"
       "> protection: errors beyond the stated protection level. mean z²: 1 when the stated sigma is true.\n"
-      "Exit status: 0 done, 1 a table cannot be read or does not fit, 2 bad usage or config.");
+      "CRB: Cramer-Rao bound on a clean road (flat floor, flat upright walls, noise along the ray), root mean square "
+      "over "
+      "frames.\n"
+      "Exit status: 0 done, 1 a table or frame cannot be read or does not fit, 2 bad usage or config.");
   verb->callback([options, &exit_code] { exit_code = eval(*options); });
 }
 
