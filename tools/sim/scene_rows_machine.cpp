@@ -115,10 +115,10 @@ std::vector<SceneChoice> machine_scenes() {  // NOLINT(readability-function-size
        "not to be seen: distances are wrong by as much",
        {{"mount_error_y_m", "0.3", 0.05, 0.3, true}}},
       {"mount_z_off",
-       SceneKind::kUnobservable,
-       0.0,
+       SceneKind::kAdversarial,
+       0.95,
        "mounted 0.3 m off in height",
-       "not to be seen; harmless on upright walls",
+       "valid: not to be seen, and harmless where walls are upright",
        {{"mount_error_z_m", "0.3", 0.05, 0.3, true}}},
   };
 }
