@@ -41,7 +41,8 @@ std::optional<Event> event_of(const sim::Setup& setup) {
   const sim::Faults& faults = setup.faults;
   const sim::Machine& machine = setup.machine;
   Events events(q.rate_hz);
-  if (faults.lost_side != sim::kSideNone) events.add_interval(faults.lost_from_s, faults.lost_to_s);
+  if (faults.lost_side != static_cast<double>(sim::kSideNone))
+    events.add_interval(faults.lost_from_s, faults.lost_to_s);
   events.add_interval(q.freeze_from_s, q.freeze_to_s);
   events.add_interval(q.partial_from_s, q.partial_to_s);
   events.add_interval(q.stamp_still_from_s, q.stamp_still_to_s);
