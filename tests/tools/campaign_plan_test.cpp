@@ -76,6 +76,23 @@ TEST(CampaignPlan, RunsOfAnEventGoOnTwoSecondsBehindIt) {
   }
 }
 
+TEST(CampaignPlan, RunsInWhichSomethingHappensShowItAll) {
+  sim::SceneSetup setup;
+  EXPECT_EQ(frames_to_watch(setup), 0U);
+  setup.faults.dust = 0.5;
+  EXPECT_EQ(frames_to_watch(setup), 0U);
+  setup.faults.dust_rise_s = 4.0;
+  EXPECT_EQ(frames_to_watch(setup), 50U);
+  setup.sequence.duplicate_every = 3.0;
+  EXPECT_EQ(frames_to_watch(setup), 50U);
+  setup.machine.boom_sweep_deg = 30.0;
+  setup.machine.boom_period_s = 12.0;
+  EXPECT_EQ(frames_to_watch(setup), 60U);
+  setup.faults.lost_side = sim::kSideLeft;
+  setup.faults.lost_to_s = 10.0;
+  EXPECT_EQ(frames_to_watch(setup), 120U);
+}
+
 TEST(CampaignPlan, EventIsInFramesAsTheSimulatorComparesTimes) {
   sim::SceneSetup setup;
   EXPECT_FALSE(event_of(setup));

@@ -28,7 +28,7 @@ struct Ran {
 Ran campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"pose_wall",     "campaign",  "--output", folder,    "--scenes",
                                     "clean,partial", "--sensors", "vlp16",    "--draws", "2",
-                                    "--frames",      "8",         "--quiet"};
+                                    "--frames",      "4",         "--quiet"};
   words.insert(words.end(), more.begin(), more.end());
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
@@ -121,7 +121,7 @@ TEST(Campaign, GateFailsOnADoctoredRecord) {
   campaign::write_record(campaign::record_file(folder.path(), records[0].run), records[0], manifest.fingerprint());
   const Ran ran = campaign_in(folder.path(), {"--gate"});
   EXPECT_EQ(ran.exit_status, 3);
-  EXPECT_NE(ran.errors.find("1 of 32 frames mislead"), std::string::npos) << ran.errors;
+  EXPECT_NE(ran.errors.find("1 of 16 frames mislead"), std::string::npos) << ran.errors;
 }
 
 TEST(Campaign, RecordsSurviveTheirFile) {
@@ -130,7 +130,7 @@ TEST(Campaign, RecordsSurviveTheirFile) {
   const std::string text = text_of(folder.file("records/partial/vlp16/000000.csv"));
   const campaign::Manifest manifest = campaign::read_manifest(folder.path());
   const auto record = campaign::read_record(folder.file("records/partial/vlp16/000000.csv"), manifest.fingerprint());
-  EXPECT_EQ(record.frames.size(), 8U);
+  EXPECT_EQ(record.frames.size(), 4U);
   campaign::write_record(folder.file("again.csv"), record, manifest.fingerprint());
   EXPECT_EQ(text_of(folder.file("again.csv")), text);
 }

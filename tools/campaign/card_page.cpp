@@ -129,7 +129,7 @@ std::string events_of(const Card& card) {
                    amount(is_angle, e.measured.protection_level), amount(is_angle, e.measured.sigma),
                    pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", e.sim_command())});
   }
-  return "## Worst events\n\nOf one run and quantity only the worst frame of each breach.\n\n" + table.text();
+  return "## Worst events\n\nOf one run and quantity only the worst frame of its gravest breach.\n\n" + table.text();
 }
 
 }  // namespace

@@ -9,6 +9,10 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
+constexpr double kRecovery_s = 2.0;   // after an event
+constexpr double kUnsteady_s = 3.0;   // of frames that come twice, or not, or when they like
+constexpr double kAfterRise_s = 1.0;  // in dust as thick as it gets
+
 class Events {
  public:
   explicit Events(double rate_hz) : rate_hz_(rate_hz) {}
@@ -37,13 +41,29 @@ std::optional<Event> event_of(const sim::Setup& setup) {
   const sim::Faults& faults = setup.faults;
   const sim::Machine& machine = setup.machine;
   Events events(q.rate_hz);
-  if (faults.lost_side != sim::kSideNone) events.add_interval(faults.lost_from_s, faults.lost_to_s);
+  if (faults.lost_side != static_cast<double>(sim::kSideNone))
+    events.add_interval(faults.lost_from_s, faults.lost_to_s);
   events.add_interval(q.freeze_from_s, q.freeze_to_s);
   events.add_interval(q.partial_from_s, q.partial_to_s);
   events.add_interval(q.stamp_still_from_s, q.stamp_still_to_s);
   events.add(q.stamp_jump_s != 0.0, q.stamp_jump_at_s, q.stamp_jump_at_s);
   events.add(machine.turn_step_deg != 0.0, machine.turn_step_at_s, machine.turn_step_at_s);
   return events.whole();
+}
+
+std::uint32_t frames_to_watch(const sim::Setup& setup) {
+  const sim::Sequence& q = setup.sequence;
+  double watched_s = 0.0;
+  const auto watch = [&watched_s](bool happens, double time_s) {
+    if (happens) watched_s = std::max(watched_s, time_s);
+  };
+  watch(q.duplicate_every >= 1.0 || q.drop_every >= 1.0 || q.stamp_jitter_s > 0.0, kUnsteady_s);
+  watch(setup.faults.dust > 0.0 && setup.faults.dust_rise_s > 0.0, setup.faults.dust_rise_s + kAfterRise_s);
+  watch(setup.machine.boom_sweep_deg > 0.0, 0.5 * setup.machine.boom_period_s);
+  const auto frames = static_cast<std::uint32_t>(std::ceil(watched_s * q.rate_hz));
+  const std::optional<Event> event = event_of(setup);
+  if (!event) return frames;
+  return std::max(frames, event->after + static_cast<std::uint32_t>(std::ceil(kRecovery_s * q.rate_hz)));
 }
 
 }  // namespace pose_wall::tools::campaign

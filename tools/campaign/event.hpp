@@ -22,4 +22,8 @@ struct Event {
 // Nothing for a scene that stays as it is. Of several, from the first one's begin to the last one's end.
 std::optional<Event> event_of(const sim::Setup& setup);
 
+// How many frames show all that happens: an event and its recovery, a sweep of the boom, dust that rises. 0 for a scene
+// that stays as it is.
+std::uint32_t frames_to_watch(const sim::Setup& setup);
+
 }  // namespace pose_wall::tools::campaign

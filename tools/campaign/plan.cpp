@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -19,16 +18,15 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-constexpr double kRecovery_s = 2.0;  // watched after an event
 constexpr std::uint32_t kWhole = std::numeric_limits<std::uint32_t>::max();
 
 struct Size {
   const char* name;
   std::vector<std::string> sensors;
-  std::uint32_t draws;             // of scenes that stay as they are
-  std::uint32_t frames;            // of each of them
-  std::uint32_t event_draws;       // of scenes with an event
-  std::uint32_t event_frames_max;  // cuts long events
+  std::uint32_t draws;                // of scenes that stay as they are
+  std::uint32_t frames;               // of each of them
+  std::uint32_t sequence_draws;       // of scenes in which something happens
+  std::uint32_t sequence_frames_max;  // cuts long ones
 };
 
 const std::vector<Size>& sizes() {
@@ -36,7 +34,7 @@ const std::vector<Size>& sizes() {
   static const std::vector<Size> table = {
       {"small", {"os1-64"}, 1, 3, 1, 60},
       {"medium", all, 6, 4, 2, 120},
-      {"large", all, 30, 5, 6, kWhole},
+      {"large", all, 24, 5, 6, kWhole},
   };
   return table;
 }
@@ -75,17 +73,13 @@ std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, co
 Run make_run(const PlanRequest& request, const Size& size, const std::string& scene, const std::string& sensor,
              std::uint32_t draw) {
   Run run{scene, sensor, draw, run_seed(request.seed, scene, sensor, draw), request.frames.value_or(size.frames)};
-  const sim::Setup setup = sim::make_setup(scene, sensor, true, run.seed);
-  const std::optional<Event> event = event_of(setup);
-  if (event && !request.frames) {
-    const auto recovery = static_cast<std::uint32_t>(std::ceil(kRecovery_s * setup.sequence.rate_hz));
-    run.frames = std::min(event->after + recovery, size.event_frames_max);
-  }
+  const std::uint32_t watched = frames_to_watch(sim::make_setup(scene, sensor, true, run.seed));
+  if (watched > 0 && !request.frames) run.frames = std::min(watched, size.sequence_frames_max);
   return run;
 }
 
-bool has_event(const std::string& scene, const std::string& sensor) {
-  return event_of(sim::make_setup(scene, sensor, false, 0)).has_value();
+bool is_sequence(const std::string& scene, const std::string& sensor) {
+  return frames_to_watch(sim::make_setup(scene, sensor, false, 0)) > 0;
 }
 
 }  // namespace
@@ -102,7 +96,7 @@ std::vector<Run> make_plan(const PlanRequest& request) {
   std::vector<Run> runs;
   for (const std::string& scene : scenes_of(request)) {
     for (const std::string& sensor : sensors) {
-      const std::uint32_t draws = request.draws.value_or(has_event(scene, sensor) ? size.event_draws : size.draws);
+      const std::uint32_t draws = request.draws.value_or(is_sequence(scene, sensor) ? size.sequence_draws : size.draws);
       for (std::uint32_t i = 0; i < draws; ++i) {
         runs.push_back(make_run(request, size, scene, sensor, request.first_draw + i));
       }

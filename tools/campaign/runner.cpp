@@ -57,7 +57,7 @@ FrameRecord record_of(const pose_wall_result& result, const TruthRow& truth) {
 class Workers {
  public:
   Workers(const std::vector<Run>& runs, const Work& work)
-      : runs_(runs), work_(work), bar_(frames_of(runs), work.show_progress) {}
+      : runs_(runs), work_(work), frames_(frames_of(runs)), bar_(frames_, work.tell_progress && is_terminal(2)) {}
 
   void run() {
     std::vector<std::thread> threads;
@@ -81,18 +81,27 @@ class Workers {
 
   void take(const Run& run, api::Engine& engine) {
     const std::string note = run.scene + " " + run.sensor;
-    const auto on_frame = [this, &note] {
-      const std::lock_guard lock(mutex_);
-      bar_.advance(note);
-    };
+    const auto on_frame = [this, &note] { count_frame(note); };
     write_record(record_file(work_.folder, run), measure(run, work_.choice, engine, on_frame), work_.campaign);
+  }
+
+  void count_frame(const std::string& note) {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    bar_.advance(note);
+    const bool is_tenth = 10 * done_ / frames_ > 10 * (done_ - 1) / frames_;
+    if (is_tenth && work_.tell_progress && !is_terminal(2)) {
+      bar_.print_above(fmt::format("{} of {} frames", done_, frames_));
+    }
   }
 
   const std::vector<Run>& runs_;
   const Work& work_;
+  const std::size_t frames_;
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> failed_{false};
   std::mutex mutex_;  // of what follows
+  std::size_t done_ = 0;
   ProgressBar bar_;
   std::exception_ptr error_;
 };

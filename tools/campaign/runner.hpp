@@ -25,7 +25,7 @@ struct Work {
   EngineChoice choice;
   std::string campaign;  // fingerprint of the manifest
   unsigned jobs = 1;
-  bool show_progress = false;
+  bool tell_progress = false;  // a bar on a terminal, else a line for every tenth
 };
 
 // Writes a record for each run. What goes wrong in one run ends them all; the first such error is thrown.

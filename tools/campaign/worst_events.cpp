@@ -18,7 +18,7 @@ double ratio(double error, double bound) {
   return std::isfinite(r) ? r : std::numeric_limits<double>::infinity();
 }
 
-// Per breach the worst of one run and quantity.
+// Of one run and quantity.
 class WorstOfRun {
  public:
   WorstOfRun(const Run& run, std::uint32_t quantity, const AlertLimits& limits)
@@ -34,9 +34,9 @@ class WorstOfRun {
   }
 
   void append_to(std::vector<WorstEvent>& events) const {
-    for (const auto& event : worst_) {
-      if (event) events.push_back(*event);
-    }
+    const auto gravest =
+        std::find_if(worst_.begin(), worst_.end(), [](const auto& event) { return event.has_value(); });
+    if (gravest != worst_.end()) events.push_back(**gravest);
   }
 
  private:
@@ -51,7 +51,7 @@ class WorstOfRun {
   const Run& run_;
   std::uint32_t quantity_;
   const AlertLimits& limits_;
-  std::array<std::optional<WorstEvent>, 3> worst_;
+  std::array<std::optional<WorstEvent>, 3> worst_;  // by breach, the gravest first
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ struct WorstEvent {
   std::string sim_command() const;
 };
 
-// Misleading ones first, then by excess. Of one run and quantity only the worst of each breach.
+// Misleading ones first, then by excess. Of one run and quantity only the worst frame of its gravest breach.
 std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& records, const AlertLimits& limits,
                                      std::size_t events_max);
 

@@ -19,7 +19,6 @@
 #include "campaign/manifest.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
-#include "terminal/progress_bar.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -48,8 +47,7 @@ campaign::Manifest run_campaign(const CampaignOptions& options) {
     fmt::print(stderr, "{} runs, {} frames; {} runs are done already\n", runs.size(), campaign::frames_of(runs),
                runs.size() - pending.size());
   }
-  campaign::run_all(pending, {options.output, options.engine, manifest.fingerprint(), options.jobs,
-                              !options.quiet && is_terminal(2)});
+  campaign::run_all(pending, {options.output, options.engine, manifest.fingerprint(), options.jobs, !options.quiet});
   return manifest;
 }
 
