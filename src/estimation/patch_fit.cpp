@@ -12,6 +12,7 @@ namespace {
 // A patch's own scatter counts beside this many more points of the expected scatter.
 constexpr double kPriorPoints = 10.0;
 constexpr int kScatterRounds = 4;
+constexpr double kSensorNoise_m = 0.02;
 constexpr double kScatterLeast = 0.01;
 constexpr std::uint32_t kPatchesMin = 8;
 constexpr int kGiveBackRounds = 2;
@@ -87,6 +88,8 @@ PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uin
     }
     if (!(out.range > 0.0)) out = Scatter{gs / g, 0.0};
     if (!(out.surface > 0.0) && gcc > 0.0) out = Scatter{0.0, gcs / gcc};
+    // Rock is seen less rough from the side, by its bumps: more than a sensor's noise is not the sensor's.
+    if (!(out.range <= kSensorNoise_m * kSensorNoise_m)) out = Scatter{gs / g, 0.0};
   }
   return out;
 }

@@ -15,14 +15,12 @@ inline double tukey_weight(double residual, double scale) {
   return left > 0.0 ? left * left : 0.0;
 }
 
-// Full weight within core_m, Tukey's fall from there to 0 at one and a half times that. A weight that depends on the
-// residual of a voxel's centroid biases a fit where the faces of the voxels lie along the surface: they part the noise
-// of its points into two thin layers of different weight. Inside the core nothing depends on the residual.
-inline double flat_top_weight(double residual_m, double core_m) {
+// Full weight within flat_m, Tukey's fall beyond. A weight that depends on the residual of a voxel's centroid biases a
+// fit where the faces of the voxels lie along the surface: they part the noise of its points into two thin layers of
+// different weight. Within the noise of the sensor nothing may depend on the residual.
+inline double flat_top_weight(double residual_m, double flat_m, double scale_m) {
   const double size = residual_m < 0.0 ? -residual_m : residual_m;
-  if (size <= core_m) return 1.0;
-  const double x = (size - core_m) / (0.5 * core_m), left = 1.0 - x * x;
-  return size < 1.5 * core_m && left > 0.0 ? left * left : 0.0;
+  return size > flat_m ? tukey_weight(size - flat_m, scale_m) : 1.0;
 }
 
 }  // namespace pose_wall

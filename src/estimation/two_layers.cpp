@@ -64,18 +64,6 @@ Mixture fit(const Histogram& h, Mixture start, double sigma_min_m) {
   return start;
 }
 
-double quantile(const Histogram& h, double share) {
-  double below = 0.0;
-  for (std::uint32_t b = 0; b < kBins; ++b) {
-    if (below + h.count(b) >= share * h.total() && h.count(b) > 0.0) {
-      const double within = (share * h.total() - below) / h.count(b) - 0.5;
-      return h.centre(b) + within * 2.0 * h.gate_m() / kBins;
-    }
-    below += h.count(b);
-  }
-  return 0.0;
-}
-
 }  // namespace
 
 void LayerHistogram::add(double distance_m) {
@@ -115,11 +103,6 @@ TwoLayers find_two_layers(const LayerHistogram& h, double sigma_min_m, double ga
   out.found = best.share >= kShareMin && best.share <= kShareMax && best.step >= kStepMin_m &&
               best.step >= kApartInSigmas * best.sigma && best.log_likelihood - one.log_likelihood >= gain_min;
   return out;
-}
-
-double lean_towards_sensor(const LayerHistogram& h) {
-  if (!(h.total() > 0.0)) return 0.0;
-  return 0.5 * (quantile(h, 0.2) + quantile(h, 0.8)) - quantile(h, 0.5);
 }
 
 }  // namespace pose_wall

@@ -47,8 +47,4 @@ struct TwoLayers {
 // the second explains the counts better by gain_min in log likelihood: one rough surface has no second layer.
 TwoLayers find_two_layers(const LayerHistogram& histogram, double sigma_min_m, double gain_min);
 
-// How far the distances lean towards the sensor: half the sum of their 20 % and 80 % quantiles about the median. Near 0
-// for rock, positive where something stands out of it that could not be told apart.
-double lean_towards_sensor(const LayerHistogram& histogram);
-
 }  // namespace pose_wall

@@ -15,7 +15,6 @@ constexpr double kSeenWithin = 1.5;
 constexpr double kProfileReach_m = 32.0;
 constexpr int kRings = 4;  // each twice as far as the last
 constexpr double kPatch_m = 0.5;
-constexpr double kCoreInScales = 3.0;
 constexpr double kWeightMin = 1e-6;
 constexpr int kJointRounds = 3;
 constexpr double kAgreeInSigmas = 3.5;
@@ -100,8 +99,6 @@ void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
 
 void fit_patches(const WallScene& scene, const Eigen::Vector3d& along, PatchGrid* patches, WallSurface* fit) {
   fit->frame = tangent_frame(fit->irls.plane, Eigen::Vector3d::Zero(), along);
-  const double scales_m = kCoreInScales * fit->irls.scale_m, thresh_m = scene.settings.wall_ransac_thresh;
-  fit->core_m = scales_m > thresh_m ? scales_m : thresh_m;
   const TangentFrame& f = fit->frame;
   const WallSurface& surface = *fit;
   const Span<const std::uint32_t> chosen = surface.chosen;

@@ -37,10 +37,12 @@ struct StripFronts {
   double scale_m = 0.0;
 };
 
+// Residuals up to here may be the sensor's.
+constexpr double kSensorNoise_m = 0.02;
+
 struct WallSurface {
   Span<std::uint32_t> chosen;  // the points it was fitted on
   IrlsResult irls;
-  double core_m = 0.0;                   // residuals up to here are the surface's own
   const StripProfile* strips = nullptr;  // null: none stand out of it
   StripFronts fronts;
   double layer_sigma_m = 0.0;  // what stands out may have moved the surface by this
@@ -50,7 +52,7 @@ struct WallSurface {
 
   // Weight of a point as one of the surface, by its place along the road and its distance from irls.plane.
   double weight(double along_m, double residual_m) const {
-    const double weight = flat_top_weight(residual_m, core_m);
+    const double weight = flat_top_weight(residual_m, kSensorNoise_m, irls.scale_m);
     return strips != nullptr ? weight * strips->surface_probability(along_m) : weight;
   }
   // And as one of the strips' fronts.

@@ -15,7 +15,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kGate_m = 0.25, kSigmaMin_m = 0.005;
+constexpr double kGate_m = 0.25, kSigmaMin_m = 0.005, kGainPerPoint = 0.02;
 
 std::vector<float> residuals(double share, double step, double sigma, double centre, std::uint32_t seed) {
   test::Noise noise(seed);
@@ -27,8 +27,14 @@ std::vector<float> residuals(double share, double step, double sigma, double cen
   return r;
 }
 
+LayerHistogram histogram_of(const std::vector<float>& r) {
+  LayerHistogram h(kGate_m);
+  h.add(Span<const float>(r.data(), static_cast<std::uint32_t>(r.size())));
+  return h;
+}
+
 TwoLayers found_in(const std::vector<float>& r) {
-  return find_two_layers(Span<const float>(r.data(), static_cast<std::uint32_t>(r.size())), kGate_m, kSigmaMin_m);
+  return find_two_layers(histogram_of(r), kSigmaMin_m, kGainPerPoint * static_cast<double>(r.size()));
 }
 
 // 4000 residuals of 2 cm: means to 0.5 mm, shares to 1 %; bins of the histogram below a centimetre.
@@ -59,15 +65,6 @@ TEST(TwoLayers, TooFewOrNoResiduals) {
   EXPECT_FALSE(found_in({}).found);
   EXPECT_FALSE(found_in(std::vector<float>(50, 0.0F)).found);
   EXPECT_FALSE(found_in(std::vector<float>(5000, 9.0F)).found);
-}
-
-TEST(TwoLayers, LeanTowardsTheSensorIsNoneForRockAndPositiveForWhatStandsOut) {
-  const auto lean = [](const std::vector<float>& r) {
-    return lean_towards_sensor(Span<const float>(r.data(), static_cast<std::uint32_t>(r.size())), kGate_m);
-  };
-  EXPECT_NEAR(lean(residuals(0.0, 0.0, 0.03, 0.0, 1)), 0.0, 0.003);
-  EXPECT_GT(lean(residuals(0.25, 0.08, 0.03, 0.0, 1)), 0.004);
-  EXPECT_EQ(lean({}), 0.0);
 }
 
 }  // namespace
