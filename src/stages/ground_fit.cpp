@@ -14,7 +14,7 @@ namespace pose_wall {
 namespace {
 
 constexpr double kGateInThresholds = 3.0;
-constexpr double kScaleMin_m = 0.003;
+constexpr double kScaleMin_m = 0.010;
 constexpr double kPatch_m = 0.5;
 // A bend is told where it takes up this much of the alert limit.
 constexpr double kBendMatters = 0.2;
@@ -26,12 +26,13 @@ IrlsSettings irls_settings(const Settings& s) {
 }
 
 // Second selection: by height over the plane.
-Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const Plane& plane,
-                                 double gate_m, Span<std::uint32_t> out) {
+Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const FloorGrid& grid,
+                                 const Plane& plane, double gate_m, Span<std::uint32_t> out) {
   std::uint32_t count = 0;
   for (const std::uint32_t i : open) {
-    const double height = plane.signed_distance(cloud.at(i));
-    if (height >= -gate_m && height <= gate_m) out[count++] = i;
+    const Eigen::Vector3d p = cloud.at(i);
+    const double height = plane.signed_distance(p);
+    if (height >= -gate_m && height <= gate_m && grid.clear_around(p)) out[count++] = i;
   }
   return Span<const std::uint32_t>(out.data(), count);
 }
@@ -107,7 +108,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   Span<const std::uint32_t> chosen;
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
-    chosen = select(cloud_base, open, irls.plane, irls_s.gate_m, scratch->low);
+    chosen = select(cloud_base, open, scratch->grid, irls.plane, irls_s.gate_m, scratch->low);
     irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, irls_s, scratch->residuals);
     if (!irls.solved) break;
   }
