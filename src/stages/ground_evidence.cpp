@@ -81,12 +81,12 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
 }
 
 bool FloorGrid::clear_around(const Eigen::Vector3d& p_base) const {
-  const std::int32_t cx = cell_of(p_base.x()), cy = cell_of(p_base.y());
+  constexpr double kAround_m = 0.25;
   const int bin = static_cast<int>((p_base.z() - lowest_m_) / kHeightBin_m);
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      if (!inside(cx + dx, cy + dy)) continue;
-      if (bits_set(bins_above(heights_[index(cx + dx, cy + dy)], bin)) >= kBinsNeeded) return false;
+  const std::int32_t x_end = cell_of(p_base.x() + kAround_m), y_end = cell_of(p_base.y() + kAround_m);
+  for (std::int32_t iy = cell_of(p_base.y() - kAround_m); iy <= y_end; ++iy) {
+    for (std::int32_t ix = cell_of(p_base.x() - kAround_m); ix <= x_end; ++ix) {
+      if (inside(ix, iy) && bits_set(bins_above(heights_[index(ix, iy)], bin)) >= kBinsNeeded) return false;
     }
   }
   return true;
