@@ -42,6 +42,7 @@ std::uint64_t bins_below(std::uint64_t heights, int bin) {
 void FloorGrid::lay_out(Arena& arena) {
   heights_ = arena.take<std::uint64_t>(kSide * kSide);
   marked_ = arena.take<std::uint8_t>(kSide * kSide);
+  near_marked_ = arena.take<std::uint8_t>(kSide * kSide);
 }
 
 std::int32_t FloorGrid::cell_of(double coordinate_m) {
@@ -92,14 +93,24 @@ bool FloorGrid::clear_around(const Eigen::Vector3d& p_base) const {
   return true;
 }
 
+void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
+  marked_[index(ix, iy)] = 1;
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      if (inside(ix + dx, iy + dy)) near_marked_[index(ix + dx, iy + dy)] = 1;
+    }
+  }
+}
+
 void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m) {
   marked_.fill(0);
+  near_marked_.fill(0);
   for (const std::uint32_t i : open) {
     const Eigen::Vector3d p = points_base.at(i);
     const double height = plane.signed_distance(p);
     if (!(height >= -thresh_m && height <= thresh_m)) continue;
     const std::int32_t ix = cell_of(p.x()), iy = cell_of(p.y());
-    if (inside(ix, iy)) marked_[index(ix, iy)] = 1;
+    if (inside(ix, iy) && marked_[index(ix, iy)] == 0) mark_cell(ix, iy);
   }
 }
 
@@ -123,13 +134,8 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
 }
 
 bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
-  const std::int32_t cx = cell_of(x_base_m), cy = cell_of(y_base_m);
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      if (inside(cx + dx, cy + dy) && marked_[index(cx + dx, cy + dy)] != 0) return true;
-    }
-  }
-  return false;
+  const std::int32_t ix = cell_of(x_base_m), iy = cell_of(y_base_m);
+  return inside(ix, iy) && near_marked_[index(ix, iy)] != 0;
 }
 
 bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const {

@@ -53,9 +53,12 @@ class FloorGrid {
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
+  void mark_cell(std::int32_t ix, std::int32_t iy);
+
   double lowest_m_ = 0.0;        // of the heights
   Span<std::uint64_t> heights_;  // per cell, a bit for each eighth of a metre that holds points
   Span<std::uint8_t> marked_;
+  Span<std::uint8_t> near_marked_;  // marked, or next to a marked cell
 };
 
 // Share of all points within the radius that lie below the marked plane without being reflections in it. Nothing does

@@ -14,18 +14,29 @@ namespace pose_wall {
 namespace {
 
 constexpr double kGateInThresholds = 3.0;
+// Not below the noise of one range: where voxels average tens of points their scatter is far less, and of a voxel layer
+// that the plane cuts in two the thinner half would count as outliers.
 constexpr double kScaleMin_m = 0.010;
 constexpr double kPatch_m = 0.5;
 // A bend is told where it takes up this much of the alert limit.
 constexpr double kBendMatters = 0.2;
 constexpr int kRounds = 5;
-constexpr int kSelections = 2;
+constexpr int kSelections = 3;
 
 IrlsSettings irls_settings(const Settings& s) {
   return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds};
 }
 
-// Second selection: by height over the plane.
+// A floor that waves by more than the threshold would be cut to the parts that happen to lie in one plane.
+constexpr double kFull = 0.7;
+constexpr double kWider = 2.0;
+
+void widen(IrlsSettings* tukey) {
+  tukey->gate_m *= kWider;
+  tukey->scale_max_m *= kWider;
+}
+
+// Selections after the first go by height over the plane, clear of what stands on the floor.
 Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const FloorGrid& grid,
                                  const Plane& plane, double gate_m, Span<std::uint32_t> out) {
   std::uint32_t count = 0;
@@ -71,9 +82,9 @@ void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const
   }
 }
 
-void count_inliers(const PointSet& cloud, Span<const std::uint32_t> chosen, double thresh_m, PlaneFit* fit) {
+void count_inliers(const PointSet& cloud, Span<const std::uint32_t> open, double thresh_m, PlaneFit* fit) {
   double squares = 0.0, measured = 0.0, voxels = 0.0;
-  for (const std::uint32_t i : chosen) {
+  for (const std::uint32_t i : open) {
     const double r = fit->plane.signed_distance(cloud.at(i));
     if (!(r >= -thresh_m && r <= thresh_m)) continue;
     squares += r * r;
@@ -105,16 +116,17 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, const Tangen
 FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open, double radius_m, const Plane& start,
                       const Settings& settings, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
   FloorResult out;
-  const IrlsSettings irls_s = irls_settings(settings);
+  IrlsSettings tukey = irls_settings(settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
   IrlsResult irls;
   irls.plane = start;
   Span<const std::uint32_t> chosen;
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
-    chosen = select(cloud_base, open, scratch->grid, irls.plane, irls_s.gate_m, scratch->low);
-    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, irls_s, scratch->residuals);
+    chosen = select(cloud_base, open, scratch->grid, irls.plane, tukey.gate_m, scratch->low);
+    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, tukey, scratch->residuals);
     if (!irls.solved) break;
+    if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   out.fit.plane = irls.plane;
   const TangentFrame frame = tangent_frame(irls.plane, Eigen::Vector3d::Zero(), u_hint);
@@ -129,7 +141,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   }
   out.fit.plane = corrected(irls.plane, frame, uneven.correction);
   out.fit.found = true;
-  count_inliers(cloud_base, chosen, settings.ground_ransac_thresh, &out.fit);
+  count_inliers(cloud_base, open, settings.ground_ransac_thresh, &out.fit);
   set_uncertainty(uneven, bend, frame, out.fit.plane, settings, &out);
   return out;
 }
