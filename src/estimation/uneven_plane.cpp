@@ -19,11 +19,16 @@ constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
 constexpr double kOwnShares[] = {0.05, 0.4};
 constexpr int kModelsMax = 1 + 4 * 2;
 
-// How far the patches differ about their plane beyond their noise: a first guess, for the ratio of the two.
+// Variance of the patches about their plane beyond their noise: a first guess, for the ratio of the two. Patches count
+// by what is known of them (DerSimonian and Laird 1986), or one that is hardly seen would drown the rest.
 double unevenness(Span<const SurfacePatch> patches) {
-  double sum = 0.0;
-  for (const SurfacePatch& p : patches) sum += p.residual * p.residual - p.noise_variance;
-  return sum > 0.0 ? sum / static_cast<double>(patches.size()) : 0.0;
+  double squares = 0.0, information = 0.0;
+  for (const SurfacePatch& p : patches) {
+    squares += p.residual * p.residual / p.noise_variance;
+    information += 1.0 / p.noise_variance;
+  }
+  const double excess = squares - static_cast<double>(patches.size());
+  return excess > 0.0 ? excess / information : 0.0;
 }
 
 double slopes_variance(const Eigen::Matrix3d& covariance) {

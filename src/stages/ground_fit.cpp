@@ -131,7 +131,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   out.fit.plane = irls.plane;
   const TangentFrame frame = tangent_frame(irls.plane, Eigen::Vector3d::Zero(), u_hint);
   // In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
-  fill_patches(cloud_base, chosen, irls, frame, 2.0 * radius_m, sensor_base_m, scratch);
+  fill_patches(cloud_base, chosen, irls, frame, 1.25 * radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(scratch->surface.collect()) : UnevenFit{};
   if (!uneven.solved) {
