@@ -200,6 +200,8 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   subset.lay_out(arena, kGroundSubset);
   grid.lay_out(arena);
   patches.lay_out(arena);
+  surface.lay_out(arena);
+  uneven.lay_out(arena);
 }
 
 FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, const Axes& axes,

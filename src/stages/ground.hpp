@@ -8,6 +8,8 @@
 #include "config.hpp"
 #include "containers/arena.hpp"
 #include "estimation/patch_fit.hpp"
+#include "estimation/surface_patches.hpp"
+#include "estimation/uneven_plane.hpp"
 #include "math/random.hpp"
 #include "stages/ground_evidence.hpp"
 #include "types.hpp"
@@ -22,6 +24,8 @@ struct GroundScratch {
   PointSet subset;
   FloorGrid grid;
   PatchGrid patches;
+  SurfacePatches surface;
+  UnevenPlane uneven;
 
   void lay_out(Arena& arena, std::uint32_t points_max);
 };

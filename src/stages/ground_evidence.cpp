@@ -26,11 +26,23 @@ int bits_set(std::uint64_t bits) {
   return count;
 }
 
+std::uint64_t bins_above(std::uint64_t heights, int bin) {
+  const int from = bin + kFirstBin;
+  return from < 64 ? (heights >> from) & kSixBins : 0;
+}
+
+std::uint64_t bins_below(std::uint64_t heights, int bin) {
+  const int from = bin - kSixthBin;
+  if (from >= 0) return (heights >> from) & kSixBins;
+  return heights & (from > -6 ? kSixBins >> -from : 0);
+}
+
 }  // namespace
 
 void FloorGrid::lay_out(Arena& arena) {
   heights_ = arena.take<std::uint64_t>(kSide * kSide);
   marked_ = arena.take<std::uint8_t>(kSide * kSide);
+  near_marked_ = arena.take<std::uint8_t>(kSide * kSide);
 }
 
 std::int32_t FloorGrid::cell_of(double coordinate_m) {
@@ -41,7 +53,7 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
                                    Span<std::uint32_t> out) {
   heights_.fill(0);
   const float limit = static_cast<float>(radius_m * radius_m);
-  const double lowest_m = sensor_z_base_m - kBelowSensor_m;
+  lowest_m_ = sensor_z_base_m - kBelowSensor_m;
   struct Place {
     std::uint32_t cell;
     int bin;
@@ -49,7 +61,7 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
   // False for points outside the radius or the grid's height.
   const auto locate = [&](std::uint32_t i, Place* place) {
     const float x = points_base.x[i], y = points_base.y[i];
-    const double bin = (static_cast<double>(points_base.z[i]) - lowest_m) / kHeightBin_m;
+    const double bin = (static_cast<double>(points_base.z[i]) - lowest_m_) / kHeightBin_m;
     const std::int32_t ix = cell_of(static_cast<double>(x)), iy = cell_of(static_cast<double>(y));
     if (!(x * x + y * y <= limit) || !(bin >= 0.0 && bin < kHeightBins) || !inside(ix, iy)) return false;
     *place = {index(ix, iy), static_cast<int>(bin)};
@@ -63,23 +75,42 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     if (!locate(i, &place)) continue;
     const std::uint64_t heights = heights_[place.cell];
-    const int from_above = place.bin + kFirstBin, from_below = place.bin - kSixthBin;
-    const std::uint64_t above = from_above < 64 ? (heights >> from_above) & kSixBins : 0;
-    const std::uint64_t below = from_below >= 0 ? (heights >> from_below) & kSixBins
-                                                : heights & (from_below > -6 ? kSixBins >> -from_below : 0);
-    if (bits_set(above) < kBinsNeeded && bits_set(below) < kBinsNeeded) out[count++] = i;
+    const bool stood_on = bits_set(bins_above(heights, place.bin)) >= kBinsNeeded;
+    if (!stood_on && bits_set(bins_below(heights, place.bin)) < kBinsNeeded) out[count++] = i;
   }
   return count;
 }
 
+bool FloorGrid::clear_around(const Eigen::Vector3d& p_base) const {
+  constexpr double kAround_m = 0.25;
+  const int bin = static_cast<int>((p_base.z() - lowest_m_) / kHeightBin_m);
+  const std::int32_t x_end = cell_of(p_base.x() + kAround_m), y_end = cell_of(p_base.y() + kAround_m);
+  for (std::int32_t iy = cell_of(p_base.y() - kAround_m); iy <= y_end; ++iy) {
+    for (std::int32_t ix = cell_of(p_base.x() - kAround_m); ix <= x_end; ++ix) {
+      if (inside(ix, iy) && bits_set(bins_above(heights_[index(ix, iy)], bin)) >= kBinsNeeded) return false;
+    }
+  }
+  return true;
+}
+
+void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
+  marked_[index(ix, iy)] = 1;
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      if (inside(ix + dx, iy + dy)) near_marked_[index(ix + dx, iy + dy)] = 1;
+    }
+  }
+}
+
 void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m) {
   marked_.fill(0);
+  near_marked_.fill(0);
   for (const std::uint32_t i : open) {
     const Eigen::Vector3d p = points_base.at(i);
     const double height = plane.signed_distance(p);
     if (!(height >= -thresh_m && height <= thresh_m)) continue;
     const std::int32_t ix = cell_of(p.x()), iy = cell_of(p.y());
-    if (inside(ix, iy)) marked_[index(ix, iy)] = 1;
+    if (inside(ix, iy) && marked_[index(ix, iy)] == 0) mark_cell(ix, iy);
   }
 }
 
@@ -103,13 +134,8 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
 }
 
 bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
-  const std::int32_t cx = cell_of(x_base_m), cy = cell_of(y_base_m);
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      if (inside(cx + dx, cy + dy) && marked_[index(cx + dx, cy + dy)] != 0) return true;
-    }
-  }
-  return false;
+  const std::int32_t ix = cell_of(x_base_m), iy = cell_of(y_base_m);
+  return inside(ix, iy) && near_marked_[index(ix, iy)] != 0;
 }
 
 bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const {

@@ -35,6 +35,10 @@ class FloorGrid {
   std::uint32_t find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
                           Span<std::uint32_t> out);
 
+  // Whether nothing stands on the cells next to an open point's either: at the foot of a rough wall or heap its lowest
+  // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
+  bool clear_around(const Eigen::Vector3d& p_base) const;
+
   // Marks the cells in which a plane has points.
   void mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m);
   // Of the marked plane.
@@ -49,8 +53,12 @@ class FloorGrid {
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
+  void mark_cell(std::int32_t ix, std::int32_t iy);
+
+  double lowest_m_ = 0.0;        // of the heights
   Span<std::uint64_t> heights_;  // per cell, a bit for each eighth of a metre that holds points
   Span<std::uint8_t> marked_;
+  Span<std::uint8_t> near_marked_;  // marked, or next to a marked cell
 };
 
 // Share of all points within the radius that lie below the marked plane without being reflections in it. Nothing does

@@ -14,24 +14,36 @@ namespace pose_wall {
 namespace {
 
 constexpr double kGateInThresholds = 3.0;
-constexpr double kScaleMin_m = 0.003;
+// Not below the noise of one range: where voxels average tens of points their scatter is far less, and of a voxel layer
+// that the plane cuts in two the thinner half would count as outliers.
+constexpr double kScaleMin_m = 0.010;
 constexpr double kPatch_m = 0.5;
 // A bend is told where it takes up this much of the alert limit.
 constexpr double kBendMatters = 0.2;
 constexpr int kRounds = 5;
-constexpr int kSelections = 2;
+constexpr int kSelections = 3;
 
 IrlsSettings irls_settings(const Settings& s) {
   return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds};
 }
 
-// Second selection: by height over the plane.
-Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const Plane& plane,
-                                 double gate_m, Span<std::uint32_t> out) {
+// A floor that waves by more than the threshold would be cut to the parts that happen to lie in one plane.
+constexpr double kFull = 0.7;
+constexpr double kWider = 2.0;
+
+void widen(IrlsSettings* tukey) {
+  tukey->gate_m *= kWider;
+  tukey->scale_max_m *= kWider;
+}
+
+// Selections after the first go by height over the plane, clear of what stands on the floor.
+Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const FloorGrid& grid,
+                                 const Plane& plane, double gate_m, Span<std::uint32_t> out) {
   std::uint32_t count = 0;
   for (const std::uint32_t i : open) {
-    const double height = plane.signed_distance(cloud.at(i));
-    if (height >= -gate_m && height <= gate_m) out[count++] = i;
+    const Eigen::Vector3d p = cloud.at(i);
+    const double height = plane.signed_distance(p);
+    if (height >= -gate_m && height <= gate_m && grid.clear_around(p)) out[count++] = i;
   }
   return Span<const std::uint32_t>(out.data(), count);
 }
@@ -54,8 +66,9 @@ Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f)
 }
 
 void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const IrlsResult& irls,
-                  const TangentFrame& f, double reach, const Eigen::Vector3d& sensor_base_m, PatchGrid* patches) {
-  patches->begin(-reach, reach, -reach, reach, kPatch_m);
+                  const TangentFrame& f, double reach, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+  scratch->patches.begin(-reach, reach, -reach, reach, kPatch_m);
+  scratch->surface.begin(reach, kPatch_m);
   for (const std::uint32_t i : chosen) {
     const Eigen::Vector3d p = cloud.at(i);
     const double r = irls.plane.signed_distance(p);
@@ -63,13 +76,15 @@ void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const
     if (!(w > 0.0)) continue;
     const Eigen::Vector3d ray = (p - sensor_base_m).normalized();
     const Eigen::Vector3d q = p - f.origin;
-    patches->add(f.u.dot(q), f.v.dot(q), r, w, ray.dot(irls.plane.n));
+    const double u = f.u.dot(q), v = f.v.dot(q), bias = ray.dot(irls.plane.n);
+    scratch->patches.add(u, v, r, w, bias);
+    scratch->surface.add(u, v, r, w, bias);
   }
 }
 
-void count_inliers(const PointSet& cloud, Span<const std::uint32_t> chosen, double thresh_m, PlaneFit* fit) {
+void count_inliers(const PointSet& cloud, Span<const std::uint32_t> open, double thresh_m, PlaneFit* fit) {
   double squares = 0.0, measured = 0.0, voxels = 0.0;
-  for (const std::uint32_t i : chosen) {
+  for (const std::uint32_t i : open) {
     const double r = fit->plane.signed_distance(cloud.at(i));
     if (!(r >= -thresh_m && r <= thresh_m)) continue;
     squares += r * r;
@@ -80,18 +95,19 @@ void count_inliers(const PointSet& cloud, Span<const std::uint32_t> chosen, doub
   fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
 }
 
-void set_uncertainty(const PatchFit& patch, const TangentFrame& f, const Plane& plane, const Settings& s,
-                     FloorResult* out) {
+// bend: from PatchGrid, that tells whether the floor bends as a whole; the rest is of the plane through its waves.
+void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, const TangentFrame& f, const Plane& plane,
+                     const Settings& s, FloorResult* out) {
   const Gradients gradients(plane.n);
   const Eigen::Vector3d roll = response(gradients.roll, f), pitch = response(gradients.pitch, f);
-  out->roll_sigma_rad = std::sqrt(roll.dot(patch.covariance * roll));
-  out->pitch_sigma_rad = std::sqrt(pitch.dot(patch.covariance * pitch));
+  out->roll_sigma_rad = std::sqrt(roll.dot(uneven.covariance * roll));
+  out->pitch_sigma_rad = std::sqrt(pitch.dot(uneven.covariance * pitch));
   // Where the floor bends, the tilt under the machine (u = v = 0) is not that of the whole fit.
-  const Eigen::Vector3d bend(0.0, patch.bend_slope_u_at(0.0, 0.0), patch.bend_slope_v_at(0.0, 0.0));
-  out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(patch.bias_response)) + std::fabs(roll.dot(bend));
-  out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(patch.bias_response)) + std::fabs(pitch.dot(bend));
-  out->dof = patch.dof;
-  const double bent = std::fabs(roll.dot(bend)) + std::fabs(pitch.dot(bend));
+  const Eigen::Vector3d here(0.0, bend.bend_slope_u_at(0.0, 0.0), bend.bend_slope_v_at(0.0, 0.0));
+  out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response)) + std::fabs(roll.dot(here));
+  out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response)) + std::fabs(pitch.dot(here));
+  out->dof = uneven.dof;
+  const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
   if (bent > kBendMatters * radians(s.alert_limit_angle_deg)) out->fit.reasons |= POSE_WALL_R_CURVED;
 }
 
@@ -100,31 +116,33 @@ void set_uncertainty(const PatchFit& patch, const TangentFrame& f, const Plane& 
 FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open, double radius_m, const Plane& start,
                       const Settings& settings, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
   FloorResult out;
-  const IrlsSettings irls_s = irls_settings(settings);
+  IrlsSettings tukey = irls_settings(settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
   IrlsResult irls;
   irls.plane = start;
   Span<const std::uint32_t> chosen;
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
-    chosen = select(cloud_base, open, irls.plane, irls_s.gate_m, scratch->low);
-    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, irls_s, scratch->residuals);
+    chosen = select(cloud_base, open, scratch->grid, irls.plane, tukey.gate_m, scratch->low);
+    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, tukey, scratch->residuals);
     if (!irls.solved) break;
+    if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   out.fit.plane = irls.plane;
   const TangentFrame frame = tangent_frame(irls.plane, Eigen::Vector3d::Zero(), u_hint);
   // In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
-  fill_patches(cloud_base, chosen, irls, frame, 2.0 * radius_m, sensor_base_m, &scratch->patches);
-  const PatchFit patch = irls.solved ? scratch->patches.fit() : PatchFit{};
-  if (!patch.solved) {
+  fill_patches(cloud_base, chosen, irls, frame, 1.25 * radius_m, sensor_base_m, scratch);
+  const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
+  const UnevenFit uneven = bend.solved ? scratch->uneven.fit(scratch->surface.collect()) : UnevenFit{};
+  if (!uneven.solved) {
     out.fit.refused = true;
     out.fit.reasons |= POSE_WALL_R_FLOOR_THIN;
     return out;
   }
-  out.fit.plane = corrected(irls.plane, frame, patch.correction);
+  out.fit.plane = corrected(irls.plane, frame, uneven.correction);
   out.fit.found = true;
-  count_inliers(cloud_base, chosen, settings.ground_ransac_thresh, &out.fit);
-  set_uncertainty(patch, frame, out.fit.plane, settings, &out);
+  count_inliers(cloud_base, open, settings.ground_ransac_thresh, &out.fit);
+  set_uncertainty(uneven, bend, frame, out.fit.plane, settings, &out);
   return out;
 }
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "estimation/surface_patches.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kWeightMin = 1e-9;
+// Floor of the noise of one point: no LiDAR repeats better than a millimetre.
+constexpr double kNoiseMin_m = 0.001;
+// A patch's own scatter counts like this many more points of the pooled scatter.
+constexpr double kPriorPoints = 10.0;
+
+}  // namespace
+
+void SurfacePatches::Cell::add(const Cell& other) {
+  w += other.w;
+  wu += other.wu;
+  wv += other.wv;
+  wr += other.wr;
+  wrr += other.wrr;
+  wb += other.wb;
+  count += other.count;
+}
+
+double SurfacePatches::Cell::scatter() const {
+  const double sum = wrr - wr * wr / w;
+  return sum > 0.0 ? sum : 0.0;
+}
+
+void SurfacePatches::lay_out(Arena& arena) {
+  cells_ = arena.take<Cell>(kSide * kSide);
+  patches_ = arena.take<SurfacePatch>(kMost);
+}
+
+void SurfacePatches::begin(double reach_m, double patch_m) {
+  const double fits = 2.0 * reach_m / static_cast<double>(kSide - 1);
+  cells_per_m_ = 1.0 / (patch_m > fits ? patch_m : fits);
+  from_m_ = -reach_m;
+  cells_.fill(Cell{});
+}
+
+void SurfacePatches::add(double u_m, double v_m, double residual_m, double weight, double bias) {
+  const double fu = (u_m - from_m_) * cells_per_m_, fv = (v_m - from_m_) * cells_per_m_;
+  if (!(fu >= 0.0 && fu < kSide && fv >= 0.0 && fv < kSide)) return;
+  const double wr = weight * residual_m;
+  const Cell point{weight, weight * u_m, weight * v_m, wr, wr * residual_m, weight * bias, 1.0};
+  cells_[static_cast<std::uint32_t>(fv) * kSide + static_cast<std::uint32_t>(fu)].add(point);
+}
+
+// side x side cells as one.
+SurfacePatches::Cell SurfacePatches::block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const {
+  Cell sum{};
+  for (std::uint32_t v = iv; v < iv + side && v < kSide; ++v) {
+    for (std::uint32_t u = iu; u < iu + side && u < kSide; ++u) sum.add(cells_[v * kSide + u]);
+  }
+  return sum;
+}
+
+std::uint32_t SurfacePatches::count_blocks(std::uint32_t side) const {
+  std::uint32_t count = 0;
+  for (std::uint32_t iv = 0; iv < kSide; iv += side) {
+    for (std::uint32_t iu = 0; iu < kSide; iu += side) count += block(iu, iv, side).w > kWeightMin ? 1U : 0U;
+  }
+  return count;
+}
+
+double SurfacePatches::pooled_variance() const {
+  double scatter = 0.0, freedom = 0.0;
+  for (const Cell& c : cells_) {
+    if (c.count < 2.0) continue;
+    scatter += c.scatter();
+    freedom += c.count - 1.0;
+  }
+  const double variance = freedom > 0.0 ? scatter / freedom : 0.0;
+  return variance > kNoiseMin_m * kNoiseMin_m ? variance : kNoiseMin_m * kNoiseMin_m;
+}
+
+Span<const SurfacePatch> SurfacePatches::collect() {
+  std::uint32_t side = 1;
+  while (count_blocks(side) > kMost) ++side;
+  const double pooled = pooled_variance();
+  std::uint32_t count = 0;
+  for (std::uint32_t iv = 0; iv < kSide; iv += side) {
+    for (std::uint32_t iu = 0; iu < kSide; iu += side) {
+      const Cell c = block(iu, iv, side);
+      if (!(c.w > kWeightMin)) continue;
+      const double variance = (kPriorPoints * pooled + c.scatter()) / (kPriorPoints + c.count - 1.0);
+      patches_[count++] = {c.wu / c.w, c.wv / c.w, c.wr / c.w, c.wb / c.w, variance / c.w};
+    }
+  }
+  return Span<const SurfacePatch>(patches_.data(), count);
+}
+
+}  // namespace pose_wall

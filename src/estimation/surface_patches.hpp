@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Points of a surface averaged over square patches, few enough to weigh each against each.
+
+#pragma once
+
+#include <cstdint>
+
+#include "containers/arena.hpp"
+#include "containers/span.hpp"
+
+namespace pose_wall {
+
+// (u, v) in the plane, mean residual from it, its change per metre of range bias, and its variance by the noise of the
+// points.
+struct SurfacePatch {
+  double u, v, residual, bias, noise_variance;
+};
+
+class SurfacePatches {
+ public:
+  static constexpr std::uint32_t kMost = 128;
+
+  void lay_out(Arena& arena);
+
+  // Around (0, 0) out to reach_m.
+  void begin(double reach_m, double patch_m);
+  // residual_m: signed distance of a centroid from the plane; weight: points it stands for times its robust weight;
+  // bias: change of the residual per metre of range bias (ray direction . normal).
+  void add(double u_m, double v_m, double residual_m, double weight, double bias);
+  // At most kMost patches of patch_m, or of the smallest multiple of it that needs no more.
+  Span<const SurfacePatch> collect();
+
+ private:
+  static constexpr std::uint32_t kSide = 64;
+  struct Cell {
+    double w, wu, wv, wr, wrr, wb, count;
+
+    void add(const Cell& other);
+    double scatter() const;
+  };
+
+  Cell block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const;
+  std::uint32_t count_blocks(std::uint32_t side) const;
+  double pooled_variance() const;
+
+  Span<Cell> cells_;
+  Span<SurfacePatch> patches_;
+  double from_m_ = 0.0, cells_per_m_ = 1.0;
+};
+
+}  // namespace pose_wall

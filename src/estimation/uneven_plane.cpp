@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "estimation/uneven_plane.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "math/elementary.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kRow = SurfacePatches::kMost;
+constexpr std::uint32_t kColumns = 5;
+constexpr std::uint32_t kPatchesMin = 8;
+constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
+// Share of the unevenness that neighbouring patches do not have in common.
+constexpr double kOwnShares[] = {0.05, 0.4};
+constexpr int kModelsMax = 1 + 4 * 2;
+
+// Variance of the patches about their plane beyond their noise: a first guess, for the ratio of the two. Patches count
+// by what is known of them (DerSimonian and Laird 1986), or one that is hardly seen would drown the rest.
+double unevenness(Span<const SurfacePatch> patches) {
+  double squares = 0.0, information = 0.0;
+  for (const SurfacePatch& p : patches) {
+    squares += p.residual * p.residual / p.noise_variance;
+    information += 1.0 / p.noise_variance;
+  }
+  const double excess = squares - static_cast<double>(patches.size());
+  return excess > 0.0 ? excess / information : 0.0;
+}
+
+double slopes_variance(const Eigen::Matrix3d& covariance) {
+  return covariance(1, 1) + covariance(2, 2);
+}
+
+}  // namespace
+
+struct UnevenPlane::Model {
+  Eigen::Vector3d correction, bias_response;
+  Eigen::Matrix3d covariance;
+  double log_likelihood;
+  double weight;
+};
+
+struct UnevenPlane::Models {
+  Model of[kModelsMax];
+  int count = 0;
+
+  // By likelihood, together 1.
+  void weigh();
+  UnevenFit average(double freedom) const;
+};
+
+void UnevenPlane::Models::weigh() {
+  double best = of[0].log_likelihood, sum = 0.0;
+  for (int k = 1; k < count; ++k) best = of[k].log_likelihood > best ? of[k].log_likelihood : best;
+  for (int k = 0; k < count; ++k) {
+    const double below = of[k].log_likelihood - best;
+    of[k].weight = below > -50.0 ? exponential(below) : 0.0;
+    sum += of[k].weight;
+  }
+  for (int k = 0; k < count; ++k) of[k].weight /= sum;
+}
+
+UnevenFit UnevenPlane::Models::average(double freedom) const {
+  UnevenFit out;
+  for (int k = 0; k < count; ++k) {
+    out.correction += of[k].weight * of[k].correction;
+    out.bias_response += of[k].weight * of[k].bias_response;
+    out.covariance += of[k].weight * of[k].covariance;
+  }
+  const double mean = slopes_variance(out.covariance);
+  double spread = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const Eigen::Vector3d apart = of[k].correction - out.correction;
+    out.covariance += of[k].weight * apart * apart.transpose();
+    const double off = slopes_variance(of[k].covariance) / mean - 1.0;
+    spread += of[k].weight * off * off;
+  }
+  // A variance from so many independent pieces is known to a relative variance of 2 / freedom.
+  out.dof = 2.0 / (2.0 / freedom + spread);
+  out.solved = true;
+  return out;
+}
+
+void UnevenPlane::lay_out(Arena& arena) {
+  correlation_ = arena.take<double>(kRow * kRow);
+  factor_ = arena.take<double>(kRow * kRow);
+  whitened_ = arena.take<double>(kRow * kColumns);
+}
+
+void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double length_m) {
+  const double per_length = std::sqrt(3.0) / length_m;
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    for (std::uint32_t j = 0; j < i; ++j) {
+      const double du = patches[i].u - patches[j].u, dv = patches[i].v - patches[j].v;
+      const double r = std::sqrt(du * du + dv * dv) * per_length;
+      correlation_[i * kRow + j] = r < 30.0 ? (1.0 + r) * exponential(-r) : 0.0;
+    }
+  }
+}
+
+// Cholesky's factor of the patches' covariance. Row by row, so that sums have one order on every machine: a library
+// that cuts matrices into blocks by the size of the cache does not give the same bits.
+bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, double tau2) {
+  const double shared = (1.0 - own_share) * tau2;
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    double* const row = &factor_[i * kRow];
+    for (std::uint32_t j = 0; j < i; ++j) {
+      const double* const above = &factor_[j * kRow];
+      double sum = shared > 0.0 ? shared * correlation_[i * kRow + j] : 0.0;
+      for (std::uint32_t k = 0; k < j; ++k) sum -= row[k] * above[k];
+      row[j] = sum * above[j];
+    }
+    double sum = tau2 + patches[i].noise_variance;
+    for (std::uint32_t k = 0; k < i; ++k) sum -= row[k] * row[k];
+    if (!(sum > 0.0)) return false;
+    row[i] = 1.0 / std::sqrt(sum);
+  }
+  return true;
+}
+
+bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
+  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d of_residual = Eigen::Vector3d::Zero(), of_bias = Eigen::Vector3d::Zero();
+  double squares = 0.0, log_determinant = 0.0;
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    const SurfacePatch& p = patches[i];
+    const double* const row = &factor_[i * kRow];
+    double y[kColumns] = {1.0, p.u, p.v, p.residual, p.bias};
+    for (std::uint32_t c = 0; c < kColumns; ++c) {
+      for (std::uint32_t k = 0; k < i; ++k) y[c] -= row[k] * whitened_[k * kColumns + c];
+      y[c] *= row[i];
+      whitened_[i * kColumns + c] = y[c];
+    }
+    const Eigen::Vector3d a(y[0], y[1], y[2]);
+    g += a * a.transpose();
+    of_residual += a * y[3];
+    of_bias += a * y[4];
+    squares += y[3] * y[3];
+    log_determinant -= 2.0 * natural_log(row[i]);
+  }
+  const double determinant = g.determinant();
+  if (!(determinant > 1e-9 * g(0, 0) * g(1, 1) * g(2, 2))) return false;
+  const Eigen::Matrix3d inverse = g.inverse();
+  model->correction = inverse * of_residual;
+  model->bias_response = inverse * of_bias;
+  const double left = squares - model->correction.dot(of_residual);
+  const double freedom = static_cast<double>(patches.size()) - 3.0;
+  if (!(left > 1e-12)) return false;
+  model->covariance = inverse * (left / freedom);
+  model->log_likelihood = -0.5 * (log_determinant + natural_log(determinant) + freedom * natural_log(left));
+  return true;
+}
+
+void UnevenPlane::consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models) {
+  if (factor(patches, own_share, tau2) && solve(patches, &models->of[models->count])) ++models->count;
+}
+
+UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
+  if (patches.size() < kPatchesMin) return {};
+  const double tau2 = unevenness(patches);
+  Models models;
+  consider(patches, 1.0, tau2, &models);
+  if (tau2 > 0.0) {
+    for (const double length_m : kLengths_m) {
+      fill_correlation(patches, length_m);
+      for (const double share : kOwnShares) consider(patches, share, tau2, &models);
+    }
+  }
+  if (models.count == 0) return {};
+  models.weigh();
+  return models.average(static_cast<double>(patches.size()) - 3.0);
+}
+
+}  // namespace pose_wall

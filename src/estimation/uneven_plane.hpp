@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// A plane through a surface that waves: over decimetres like broken rock or over metres like a trodden floor.
+//
+// A plane takes much of a long wave into itself, so that what is left over looks smoother, and less correlated, than
+// the surface is. The likelihood of what is left, given that a plane was taken out (REML: Patterson and Thompson
+// 1971), knows of that. The surface is a plane, a Gaussian process with Matern's correlation of smoothness 3/2, a part
+// of each patch's own, and the noise of its points. Length and share of the wave are not chosen but averaged over, by
+// how likely they make the data (Handcock and Stein 1993). Waves longer than the greatest length are the surface's own
+// slope.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "containers/arena.hpp"
+#include "estimation/surface_patches.hpp"
+
+namespace pose_wall {
+
+struct UnevenFit {
+  bool solved = false;
+  Eigen::Vector3d correction = Eigen::Vector3d::Zero();  // offset m, slope along u, slope along v
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();  // change of the correction per metre of range bias
+  double dof = 0.0;  // as many independent pieces give a variance that is known this well
+};
+
+class UnevenPlane {
+ public:
+  void lay_out(Arena& arena);
+  UnevenFit fit(Span<const SurfacePatch> patches);
+
+ private:
+  struct Model;
+  struct Models;
+
+  void fill_correlation(Span<const SurfacePatch> patches, double length_m);
+  void consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models);
+  bool factor(Span<const SurfacePatch> patches, double own_share, double tau2);
+  bool solve(Span<const SurfacePatch> patches, Model* model);
+
+  Span<double> correlation_;  // rows of the lower triangle
+  Span<double> factor_;       // Cholesky's, its diagonal inverted
+  Span<double> whitened_;     // rows of: 1, u, v, residual, bias
+};
+
+}  // namespace pose_wall
