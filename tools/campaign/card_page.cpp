@@ -129,7 +129,11 @@ std::string events_of(const Card& card) {
                    amount(is_angle, e.measured.protection_level), amount(is_angle, e.measured.sigma),
                    pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", e.sim_command())});
   }
-  return "## Worst events\n\nOf one run and quantity only the worst frame of its gravest breach.\n\n" + table.text();
+  return "## Worst events\n\nOf one run and quantity only the worst frame of its gravest breach. Frame files carry no "
+         "stamps: where those are not "
+         "steady, the run itself comes again by `pose_wall campaign` with the same `--seed`, `--scenes SCENE --sensors "
+         "SENSOR --first-draw DRAW --draws 1`.\n\n" +
+         table.text();
 }
 
 }  // namespace
