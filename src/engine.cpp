@@ -51,6 +51,7 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   marks = arena.take<std::uint8_t>(points_max);
   cloud_base.lay_out(arena, points_max);
   band_level.lay_out(arena, points_max);
+  beyond_level.lay_out(arena, kBeyondMax);
   ground.lay_out(arena, points_max);
   walls.lay_out(arena, points_max);
 }
@@ -60,6 +61,7 @@ void Scratch::reset() {
   cells.reset();
   cloud_base.count = 0;
   band_level.count = 0;
+  beyond_level.count = 0;
 }
 
 std::uint64_t Engine::lay_out(void* block, const Settings& settings, Engine** out) {
@@ -130,9 +132,11 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
 
 void Engine::level_and_cut(FrameFindings* found) {
   scratch_.band_level.count = 0;
+  scratch_.beyond_level.count = 0;
   if (found->floor.fit.refused) return;
   found->level = level_by(found->floor.fit.plane, axes_);
-  cut_wall_band(scratch_.cloud_base, found->level, settings_, &scratch_.grid, &scratch_.band_level);
+  cut_wall_band(scratch_.cloud_base, found->level, settings_, &scratch_.grid, &scratch_.band_level,
+                &scratch_.beyond_level);
   found->wall_points = scratch_.band_level.count;
 }
 
@@ -141,7 +145,8 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
     for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
     return;
   }
-  const WallScene scene = wall_scene(scratch_.band_level, settings_, found->level, axes_, extrinsic_.sensor_base_m);
+  const WallScene scene = wall_scene(scratch_.band_level, scratch_.beyond_level, settings_, found->level, axes_,
+                                     extrinsic_.sensor_base_m);
   const Plane* const last[2] = {memory_.has_wall[0] ? &memory_.last_wall[0] : nullptr,
                                 memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);

@@ -25,6 +25,7 @@ struct Scratch {
   Span<std::uint8_t> marks;  // per point: keep flags, later labels
   PointSet cloud_base;
   PointSet band_level;
+  PointSet beyond_level;
   GroundScratch ground;
   WallsScratch walls;
 
@@ -47,7 +48,7 @@ struct Memory {
 
 // Where everything lies in the caller's block:
 //
-//   | Engine | grid | cells | marks | cloud_base | band_level | ground | walls |
+//   | Engine | grid | cells | marks | cloud_base | band_level | beyond_level | ground | walls |
 //
 // Engine is written at open and lives on; the hash slots of grid and cells are cleared at open; the rest is scratch
 // that each frame writes before it reads.

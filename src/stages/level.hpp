@@ -13,8 +13,12 @@ namespace pose_wall {
 
 LevelResult level_by(const Plane& floor_base, const Axes& axes);
 
-// Levelled points between wall_z_min and wall_z_max above the floor, averaged once more.
+// Room for the points outside the band.
+constexpr std::uint32_t kBeyondMax = 8192;
+
+// Levelled points between wall_z_min and wall_z_max above the floor, averaged once more, and a part of those above and
+// below, evenly thinned: beyond_level's weights tell how many each stands for.
 void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
-                   PointSet* band_level);
+                   PointSet* band_level, PointSet* beyond_level);
 
 }  // namespace pose_wall

@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kRow_m = 0.3;
 
-void count_up(std::uint16_t* counter) {
-  if (*counter != 0xFFFF) ++*counter;
+void count_up(std::uint16_t* counter, std::uint32_t by) {
+  const std::uint32_t sum = *counter + by;
+  *counter = static_cast<std::uint16_t>(sum < 0xFFFF ? sum : 0xFFFF);
 }
 
 }  // namespace
@@ -37,27 +38,37 @@ bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) co
   return true;
 }
 
-void WallGrid::mark(const PointSet& band_level, const Plane& wall, const Eigen::Vector3d& along_level, double z_min_m,
-                    double z_max_m, const Eigen::Vector3d& sensor_level_m, const Reach& reach) {
+void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level,
+                    const Reach& reach) {
   hits_.fill(0);
   through_.fill(0);
   inliers_ = 0.0;
-  z_min_ = z_min_m;
-  row_m_ = (z_max_m - z_min_m) / kRowsMax > kRow_m ? (z_max_m - z_min_m) / kRowsMax : kRow_m;
-  rows_ = static_cast<std::uint32_t>(std::ceil((z_max_m - z_min_m) / row_m_ - 1e-9));
-  const double sensor_inside_m = wall.signed_distance(sensor_level_m);
-  for (std::uint32_t i = 0; i < band_level.count; ++i) {
-    const Eigen::Vector3d p = band_level.at(i);
+  const double height_m = scene.z_max_level_m - scene.z_min_level_m;
+  z_min_ = scene.z_min_level_m;
+  row_m_ = height_m / kRowsMax > kRow_m ? height_m / kRowsMax : kRow_m;
+  rows_ = static_cast<std::uint32_t>(std::ceil(height_m / row_m_ - 1e-9));
+  const Eigen::Vector3d& sensor = scene.sensor_level_m;
+  const double sensor_inside_m = wall.signed_distance(sensor);
+  const auto pass_through = [&](const Eigen::Vector3d& p, double r, std::uint32_t rays) {
+    if (!(r < -reach.behind_m && sensor_inside_m > 0.0)) return;
+    const Eigen::Vector3d crossing = sensor + (p - sensor) * (sensor_inside_m / (sensor_inside_m - r));
+    std::uint32_t cell = 0;
+    if (cell_of(along_level.dot(crossing), crossing.z(), &cell)) count_up(&through_[cell], rays);
+  };
+  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+    const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = wall.signed_distance(p);
     std::uint32_t cell = 0;
     if (r >= -reach.hit_m && r <= reach.hit_m) {
-      inliers_ += static_cast<double>(band_level.weight[i]);
-      if (cell_of(along_level.dot(p), p.z(), &cell)) count_up(&hits_[cell]);
-    } else if (r < -reach.behind_m && sensor_inside_m > 0.0) {
-      const Eigen::Vector3d crossing =
-          sensor_level_m + (p - sensor_level_m) * (sensor_inside_m / (sensor_inside_m - r));
-      if (cell_of(along_level.dot(crossing), crossing.z(), &cell)) count_up(&through_[cell]);
+      inliers_ += static_cast<double>(scene.band_level.weight[i]);
+      if (cell_of(along_level.dot(p), p.z(), &cell)) count_up(&hits_[cell], 1);
+    } else {
+      pass_through(p, r, 1);
     }
+  }
+  for (std::uint32_t i = 0; i < scene.beyond_level.count; ++i) {
+    const Eigen::Vector3d p = scene.beyond_level.at(i);
+    pass_through(p, wall.signed_distance(p), static_cast<std::uint32_t>(scene.beyond_level.weight[i]));
   }
 }
 
@@ -101,6 +112,52 @@ WallEvidence WallGrid::evidence() const {
   const double solidity = 1.0 - out.seen_through;
   out.score_m2 = out.area_m2 * solidity * solidity;
   return out;
+}
+
+double WallGrid::unanswered(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level,
+                            double hit_m) {
+  // Further away a sparse sensor's lines lie further apart than a cell is high.
+  constexpr double kReach_m = 5.0;
+  constexpr double kTowards_m = 0.3;
+  constexpr std::uint16_t kAnswers = 2;
+  hits_.fill(0);
+  through_.fill(0);  // here: answers from anywhere
+  double low_m[kColumns], high_m[kColumns];
+  for (std::uint32_t c = 0; c < kColumns; ++c) {
+    low_m[c] = scene.z_max_level_m;
+    high_m[c] = scene.z_min_level_m;
+  }
+  const Eigen::Vector3d& sensor = scene.sensor_level_m;
+  const double sensor_inside_m = wall.signed_distance(sensor);
+  for (const PointSet* points : {&scene.band_level, &scene.beyond_level}) {
+    for (std::uint32_t i = 0; i < points->count; ++i) {
+      const Eigen::Vector3d p = points->at(i);
+      const double r = wall.signed_distance(p);
+      if (!(sensor_inside_m - r > kTowards_m)) continue;
+      const Eigen::Vector3d crossing =
+          sensor + (p - sensor) * (sensor_inside_m / (sensor_inside_m - r));
+      if (!((crossing - sensor).squaredNorm() <= kReach_m * kReach_m)) continue;
+      const auto column = static_cast<std::uint32_t>(column_of(along_level.dot(crossing)));
+      if (column >= kColumns) continue;
+      low_m[column] = crossing.z() < low_m[column] ? crossing.z() : low_m[column];
+      high_m[column] = crossing.z() > high_m[column] ? crossing.z() : high_m[column];
+      std::uint32_t cell = 0;
+      if (!cell_of(along_level.dot(crossing), crossing.z(), &cell)) continue;
+      count_up(&through_[cell], static_cast<std::uint32_t>(points == &scene.band_level ? 1.0F : points->weight[i]));
+      if (r >= -hit_m && r <= hit_m) count_up(&hits_[cell], 1);
+    }
+  }
+  double silent = 0.0, solid_cells = 0.0;
+  for (std::uint32_t column = 0; column < kColumns; ++column) {
+    for (std::uint32_t row = 0; row < rows_; ++row) {
+      const double from_m = z_min_ + row * row_m_;
+      if (!(from_m >= low_m[column] && from_m + row_m_ <= high_m[column])) continue;
+      const std::uint32_t cell = row * kColumns + column;
+      if (through_[cell] < kAnswers) silent += 1.0;
+      if (hits_[cell] >= kAnswers) solid_cells += 1.0;
+    }
+  }
+  return silent + solid_cells > 0.0 ? silent / (silent + solid_cells) : 0.0;
 }
 
 double WallGrid::gap_to_solid_m(double along_m) const {

@@ -11,6 +11,7 @@
 #include "containers/arena.hpp"
 #include "containers/point_set.hpp"
 #include "estimation/plane.hpp"
+#include "stages/walls_scene.hpp"
 
 namespace pose_wall {
 
@@ -36,15 +37,20 @@ class WallGrid {
 
   void lay_out(Arena& arena);
 
-  // z_min_m, z_max_m: the wall band in the levelled frame. along: horizontal, in the plane's direction. Points within
-  // hit_m of the plane make it solid, rays that end more than behind_m behind it pass through it.
+  // along: horizontal, in the plane's direction. Points within hit_m of the plane make it solid; rays that end more than
+  // behind_m behind it pass through it, wherever they end: behind pipes before a dark wall, only the floor and the roof
+  // are seen.
   struct Reach {
     double hit_m;
     double behind_m;
   };
-  void mark(const PointSet& band_level, const Plane& wall, const Eigen::Vector3d& along_level, double z_min_m,
-            double z_max_m, const Eigen::Vector3d& sensor_level_m, const Reach& reach);
+  void mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach);
   WallEvidence evidence() const;
+
+  // Share of the plane near the sensor that gives no answer: the sensor looks there, but returns come neither from the
+  // plane nor from behind or before it. Pipes before a wall too dark to be seen leave such gaps; a wall does not.
+  // Unmarks the grid.
+  double unanswered(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double hit_m);
 
   // Distance along the road from a place to the nearest solid column; large where there is none.
   double gap_to_solid_m(double along_m) const;

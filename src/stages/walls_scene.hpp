@@ -17,6 +17,7 @@ namespace pose_wall {
 // The levelled machine in the wall band.
 struct WallScene {
   const PointSet& band_level;
+  const PointSet& beyond_level;  // above and below the band; weight: how many each stands for
   const Settings& settings;
   Eigen::Vector3d forward_level;  // horizontal, unit
   Eigen::Vector3d left_level;     // Z x forward
@@ -26,8 +27,8 @@ struct WallScene {
   double z_max_level_m;
 };
 
-WallScene wall_scene(const PointSet& band_level, const Settings& settings, const LevelResult& level, const Axes& axes,
-                     const Eigen::Vector3d& sensor_base_m);
+WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const Settings& settings,
+                     const LevelResult& level, const Axes& axes, const Eigen::Vector3d& sensor_base_m);
 
 // Horizontal direction of a wall, towards the machine's front.
 Eigen::Vector3d along_of(const Plane& wall, const Eigen::Vector3d& forward_level);

@@ -127,8 +127,7 @@ void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d
   const WallGrid::Reach reach = width == MarkWidth::kThreshold
                                     ? WallGrid::Reach{thresh_m, kBehindInThresholds * thresh_m}
                                     : WallGrid::Reach{kGateInThresholds * thresh_m, kGateInThresholds * thresh_m};
-  grid->mark(scene.band_level, plane, along_level, scene.z_min_level_m, scene.z_max_level_m, scene.sensor_level_m,
-             reach);
+  grid->mark(scene, plane, along_level, reach);
 }
 
 WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch) {

@@ -52,7 +52,7 @@ class BandFixture {
     LevelResult level;
     level.floor_z_level_m = kFloorZ_m;
     const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
-    return wall_scene(points_.set(), settings_, level, axes, Eigen::Vector3d::Zero());
+    return wall_scene(points_.set(), beyond_.set(), settings_, level, axes, Eigen::Vector3d::Zero());
   }
 
   WallsResult walls(const Plane* const last_left = nullptr, const Plane* const last_right = nullptr) {
@@ -69,6 +69,7 @@ class BandFixture {
  private:
   Settings settings_;
   OwnedPoints points_;
+  OwnedPoints beyond_;
   Noise noise_;
 };
 

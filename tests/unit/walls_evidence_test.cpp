@@ -18,8 +18,7 @@ class Marked {
  public:
   explicit Marked(BandFixture* band, double y_m = 2.5) {
     const WallScene s = band->scene();
-    grid_->mark(s.band_level, Plane{Eigen::Vector3d(0, -1, 0), y_m}, Eigen::Vector3d::UnitX(), s.z_min_level_m,
-                s.z_max_level_m, s.sensor_level_m, {0.05, 0.15});
+    grid_->mark(s, Plane{Eigen::Vector3d(0, -1, 0), y_m}, Eigen::Vector3d::UnitX(), {0.05, 0.15});
   }
   WallEvidence evidence() { return grid_->evidence(); }
   WallGrid* operator->() { return grid_.get(); }
