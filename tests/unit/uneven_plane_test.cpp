@@ -64,8 +64,8 @@ double mean_z2(int runs, const Rough& rough) {
   return sum / (2.0 * runs);
 }
 
-// 200 runs of two slopes: a standard error of 0.07 about 1. Of rough patches nobody knows that no wave is among them, so
-// their levels are cautious; waves near the length of the surface itself are guessed less well.
+// 200 runs of two slopes: a standard error of 0.07 about 1. Of rough patches nobody knows that no wave is among them,
+// so their levels are cautious; waves near the length of the surface itself are guessed less well.
 TEST(UnevenPlane, ErrorsAreWhatTheStandardDeviationsSay) {
   const double z2_flat = mean_z2(200, [](test::Noise*, std::vector<SurfacePatch>*) {});
   EXPECT_GT(z2_flat, 0.7);
