@@ -87,7 +87,8 @@ Span<const SurfacePatch> SurfacePatches::collect() {
       const Cell c = block(iu, iv, side);
       if (!(c.w > kWeightMin)) continue;
       const double variance = (kPriorPoints * pooled + c.scatter()) / (kPriorPoints + c.count - 1.0);
-      patches_[count++] = {c.wu / c.w, c.wv / c.w, c.wr / c.w, c.wb / c.w, variance / c.w};
+      const double least = kNoiseMin_m * kNoiseMin_m;
+      patches_[count++] = {c.wu / c.w, c.wv / c.w, c.wr / c.w, c.wb / c.w, (variance > least ? variance : least) / c.w};
     }
   }
   return Span<const SurfacePatch>(patches_.data(), count);

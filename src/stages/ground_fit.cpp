@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/irls.hpp"
+#include "estimation/protection.hpp"
 #include "estimation/tangent_frame.hpp"
 #include "estimation/tukey.hpp"
 #include "math/elementary.hpp"
@@ -18,6 +19,8 @@ constexpr double kGateInThresholds = 3.0;
 // that the plane cuts in two the thinner half would count as outliers.
 constexpr double kScaleMin_m = 0.010;
 constexpr double kPatch_m = 0.5;
+// In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
+constexpr double kStretch = 1.25;
 // A bend is told where it takes up this much of the alert limit.
 constexpr double kBendMatters = 0.2;
 constexpr int kRounds = 5;
@@ -66,9 +69,10 @@ Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f)
 }
 
 void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const IrlsResult& irls,
-                  const TangentFrame& f, double reach, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
-  scratch->patches.begin(-reach, reach, -reach, reach, kPatch_m);
-  scratch->surface.begin(reach, kPatch_m);
+                  const TangentFrame& f, double radius_m, const Eigen::Vector3d& sensor_base_m,
+                  GroundScratch* scratch) {
+  scratch->patches.begin(-2.0 * radius_m, 2.0 * radius_m, -2.0 * radius_m, 2.0 * radius_m, kPatch_m);
+  scratch->surface.begin(kStretch * radius_m, kPatch_m);
   for (const std::uint32_t i : chosen) {
     const Eigen::Vector3d p = cloud.at(i);
     const double r = irls.plane.signed_distance(p);
@@ -107,6 +111,16 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, const Tangen
   out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response)) + std::fabs(roll.dot(here));
   out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response)) + std::fabs(pitch.dot(here));
   out->dof = uneven.dof;
+  // A floor that bends one way all along has a mean plane that is well known, and is not the one under the machine.
+  const auto level = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
+    return protection_factor(s.protection_factor, dof) * std::sqrt(of.dot(covariance * of));
+  };
+  const auto reach_to_patches = [&](const Eigen::Vector3d& of, double* bound) {
+    const double more = level(bend.covariance, bend.dof, of) - level(uneven.covariance, uneven.dof, of);
+    if (more > 0.0) *bound += more;
+  };
+  reach_to_patches(roll, &out->roll_bound_rad);
+  reach_to_patches(pitch, &out->pitch_bound_rad);
   const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
   if (bent > kBendMatters * radians(s.alert_limit_angle_deg)) out->fit.reasons |= POSE_WALL_R_CURVED;
 }
@@ -130,8 +144,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   }
   out.fit.plane = irls.plane;
   const TangentFrame frame = tangent_frame(irls.plane, Eigen::Vector3d::Zero(), u_hint);
-  // In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
-  fill_patches(cloud_base, chosen, irls, frame, 1.25 * radius_m, sensor_base_m, scratch);
+  fill_patches(cloud_base, chosen, irls, frame, radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(scratch->surface.collect()) : UnevenFit{};
   if (!uneven.solved) {

@@ -77,7 +77,6 @@ struct OpenFault {
 constexpr OpenFault kOpenFaults[] = {
     {"narrow", 2},  // the sampling point ahead lies at the corner of a narrow place: 0.15 m off, level 0.02 m
     {"narrow", 7},  // the same, 0.19 m
-    {"humps", 7},   // a floor that waves over metres: roll 0.5 degrees off its mean plane, level 0.3 to 0.4 degrees
 };
 
 bool is_open_fault(const Class& c, std::uint64_t seed) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the refined floor's standard deviations are the spread that is seen over many noisy floors, and a floor that
-// bends has a level that reaches its slope under the machine.
+// Proves: the refined floor's standard deviations are the spread that is seen over many noisy floors, a floor that
+// bends or waves has a level that says so, and a wall's foot does not tilt it.
 
 #include "stages/ground_fit.hpp"
 
@@ -19,6 +19,7 @@ namespace {
 
 FloorResult fit(test::GroundFixture* g, const Plane& start) {
   test::Placed<GroundScratch> scratch(g->points().set().capacity());
+  scratch->grid.find_open(g->points().set(), 15.0, 0.0, scratch->open);
   return fit_floor(g->points().set(), g->points().all(), 3.0, start, g->settings(), Eigen::Vector3d::Zero(),
                    scratch.get());
 }
@@ -66,6 +67,40 @@ TEST(GroundFit, TheLevelOfABentFloorHoldsTheTiltUnderTheMachine) {
   ASSERT_TRUE(f.fit.found);
   const double pitch = roll_pitch_of_up(f.fit.plane.n).pitch_rad;
   EXPECT_LE(std::fabs(pitch), f.pitch_bound_rad + protection_factor(5.0, f.dof) * f.pitch_sigma_rad);
+}
+
+TEST(GroundFit, TheFootOfAWallDoesNotTiltTheFloor) {
+  test::GroundFixture g;
+  test::Noise noise(3);
+  for (int i = 0; i < 4000; ++i) g.add(noise.uniform(-3, 3), noise.uniform(-2, 2), noise.normal(0.005));
+  // Rock on one side: its lowest points stand in the cell next to the one that it fills.
+  for (int i = 0; i < 4000; ++i) g.add(noise.uniform(-3, 3), 2.0 + noise.normal(0.08), noise.uniform(0.0, 2.5));
+  const FloorResult f = fit(&g, near_floor());
+  ASSERT_TRUE(f.fit.found);
+  EXPECT_LT(std::fabs(roll_pitch_of_up(f.fit.plane.n).roll_rad), 0.0005);
+}
+
+// Waves of 6 cm over 2 m: the plane through what is seen is off by up to a degree, and says so.
+TEST(GroundFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
+  int outside = 0;
+  for (std::uint32_t run = 0; run < 40; ++run) {
+    test::GroundFixture g;
+    test::Noise noise(100 + run);
+    const double phase_x = noise.uniform(0, 6.28), phase_y = noise.uniform(0, 6.28);
+    const double length_x = noise.uniform(1.5, 4.0), length_y = noise.uniform(1.5, 4.0);
+    for (int i = 0; i < 4000; ++i) {
+      const double x = noise.uniform(-3, 3), y = noise.uniform(-2, 2);
+      const double wave = 0.06 * std::sin(6.28 * x / length_x + phase_x) * std::sin(6.28 * y / length_y + phase_y);
+      g.add(x, y, wave + noise.normal(0.005));
+    }
+    const FloorResult f = fit(&g, near_floor());
+    ASSERT_TRUE(f.fit.found);
+    const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
+    const double factor = protection_factor(5.0, f.dof);
+    outside += std::fabs(angles.roll_rad) > f.roll_bound_rad + factor * f.roll_sigma_rad ? 1 : 0;
+    outside += std::fabs(angles.pitch_rad) > f.pitch_bound_rad + factor * f.pitch_sigma_rad ? 1 : 0;
+  }
+  EXPECT_EQ(outside, 0);
 }
 
 TEST(GroundFit, TooFewPointsAreRefused) {
