@@ -5,12 +5,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "math/elementary.hpp"
 #include "stages/walls_measure.hpp"
 #include "stages/walls_select.hpp"
+#include "stages/walls_holes.hpp"
 
 namespace pose_wall {
 namespace {
@@ -19,7 +18,10 @@ constexpr double kSeenThroughMax = 0.5;
 constexpr double kSeenThroughDoubt = 0.25;
 constexpr double kRefineSlack_deg = 5.0;
 constexpr double kOnWallInThresholds = 3.0;
-constexpr double kSilentMax = 0.1;
+constexpr double kSilentMax = 0.05;
+constexpr double kOpenMax = 0.25;
+constexpr double kOvertoppedMax = 0.5;
+constexpr double kOpenDoubt = 0.12;
 constexpr double kExplainedMin = 0.3;
 
 std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
@@ -103,11 +105,11 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
   }
-  // Leaves the grid without marks, so it comes last.
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
-  const double silent = wall.fit.found ? scratch->grid.unanswered(scene, wall.fit.plane, wall.along_level, reach_m) : 0.0;
-  if (getenv("WDBG")) fprintf(stdout, "  side %d silent %.2f\n", side, silent);
-  if (!(silent <= kSilentMax)) {
+  const WallHoles holes =
+      wall.fit.found ? find_holes(scene, wall.fit.plane, wall.along_level, reach_m) : WallHoles{};
+  if (holes.open > kOpenDoubt) wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  if (!(holes.silent <= kSilentMax && holes.open <= kOpenMax && holes.overtopped <= kOvertoppedMax)) {
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
   }

@@ -114,52 +114,6 @@ WallEvidence WallGrid::evidence() const {
   return out;
 }
 
-double WallGrid::unanswered(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level,
-                            double hit_m) {
-  // Further away a sparse sensor's lines lie further apart than a cell is high.
-  constexpr double kReach_m = 5.0;
-  constexpr double kTowards_m = 0.3;
-  constexpr std::uint16_t kAnswers = 2;
-  hits_.fill(0);
-  through_.fill(0);  // here: answers from anywhere
-  double low_m[kColumns], high_m[kColumns];
-  for (std::uint32_t c = 0; c < kColumns; ++c) {
-    low_m[c] = scene.z_max_level_m;
-    high_m[c] = scene.z_min_level_m;
-  }
-  const Eigen::Vector3d& sensor = scene.sensor_level_m;
-  const double sensor_inside_m = wall.signed_distance(sensor);
-  for (const PointSet* points : {&scene.band_level, &scene.beyond_level}) {
-    for (std::uint32_t i = 0; i < points->count; ++i) {
-      const Eigen::Vector3d p = points->at(i);
-      const double r = wall.signed_distance(p);
-      if (!(sensor_inside_m - r > kTowards_m)) continue;
-      const Eigen::Vector3d crossing =
-          sensor + (p - sensor) * (sensor_inside_m / (sensor_inside_m - r));
-      if (!((crossing - sensor).squaredNorm() <= kReach_m * kReach_m)) continue;
-      const auto column = static_cast<std::uint32_t>(column_of(along_level.dot(crossing)));
-      if (column >= kColumns) continue;
-      low_m[column] = crossing.z() < low_m[column] ? crossing.z() : low_m[column];
-      high_m[column] = crossing.z() > high_m[column] ? crossing.z() : high_m[column];
-      std::uint32_t cell = 0;
-      if (!cell_of(along_level.dot(crossing), crossing.z(), &cell)) continue;
-      count_up(&through_[cell], static_cast<std::uint32_t>(points == &scene.band_level ? 1.0F : points->weight[i]));
-      if (r >= -hit_m && r <= hit_m) count_up(&hits_[cell], 1);
-    }
-  }
-  double silent = 0.0, solid_cells = 0.0;
-  for (std::uint32_t column = 0; column < kColumns; ++column) {
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      const double from_m = z_min_ + row * row_m_;
-      if (!(from_m >= low_m[column] && from_m + row_m_ <= high_m[column])) continue;
-      const std::uint32_t cell = row * kColumns + column;
-      if (through_[cell] < kAnswers) silent += 1.0;
-      if (hits_[cell] >= kAnswers) solid_cells += 1.0;
-    }
-  }
-  return silent + solid_cells > 0.0 ? silent / (silent + solid_cells) : 0.0;
-}
-
 double WallGrid::gap_to_solid_m(double along_m) const {
   constexpr double kNone_m = 1e3;
   double nearest = kNone_m;

@@ -47,11 +47,6 @@ class WallGrid {
   void mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach);
   WallEvidence evidence() const;
 
-  // Share of the plane near the sensor that gives no answer: the sensor looks there, but returns come neither from the
-  // plane nor from behind or before it. Pipes before a wall too dark to be seen leave such gaps; a wall does not.
-  // Unmarks the grid.
-  double unanswered(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double hit_m);
-
   // Distance along the road from a place to the nearest solid column; large where there is none.
   double gap_to_solid_m(double along_m) const;
   // Whether the plane is solid where this point lies.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kRivalShare = 0.5;
 constexpr double kBehindShare = 0.3;
+constexpr double kGoesOnShare = 0.05;
 // A lone wall is solid over at least this share of its span; a boulder and a far spot in line with it are not.
 constexpr double kFilledShare = 0.5;
 constexpr double kParallelScale_rad = 0.07;  // 4 degrees: walls of one road rarely differ by more
@@ -88,13 +89,25 @@ bool lies_behind(const Plane& rival, const Plane& chosen) {
   return rival.n.dot(chosen.n) > kParallelCos && rival.d > chosen.d + kBehind_m;
 }
 
+// A curtain or a long vehicle ends, and the wall behind it goes on where it ends. An opening in a wall shows what lies
+// behind only between the wall's own parts.
+bool goes_on_behind(const WallCandidate& rival, const WallCandidate& chosen) {
+  constexpr double kBehindMax_m = 4.0;
+  constexpr double kOutsideMin_m = 3.0;
+  if (!lies_behind(rival.plane, chosen.plane) || rival.plane.d > chosen.plane.d + kBehindMax_m) return false;
+  const double before_m = chosen.evidence.along_min_m - rival.evidence.along_min_m;
+  const double after_m = rival.evidence.along_max_m - chosen.evidence.along_max_m;
+  return (before_m > 0.0 ? before_m : 0.0) + (after_m > 0.0 ? after_m : 0.0) >= kOutsideMin_m;
+}
+
 // Few points are no excuse here: they are enough to cast doubt.
 const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate* chosen) {
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
     if (&c == chosen || (c.faults & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS)) != 0) continue;
-    const double share = lies_behind(c.plane, chosen->plane) ? kBehindShare : kRivalShare;
+    double share = lies_behind(c.plane, chosen->plane) ? kBehindShare : kRivalShare;
+    if (goes_on_behind(c, *chosen)) share = kGoesOnShare;
     if (!(c.evidence.score_m2 >= share * chosen->evidence.score_m2)) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
