@@ -150,8 +150,7 @@ CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parame
                                       const View& view) const {
   const Planes planes = planes_of(parameters);
   const Eigen::Matrix3d level = level_of(parameters[kRoll], parameters[kPitch]);
-  const Eigen::Vector3d along_base =
-      level.transpose() * along_road(level * forward_base_, parameters[kYaw]);
+  const Eigen::Vector3d along_base = level.transpose() * along_road(level * forward_base_, parameters[kYaw]);
   const auto in_view = [&](int surface, const Eigen::Vector3d& p, double height_m) {
     if (surface == kFloorPlane) return p.head<2>().norm() <= view.floor_radius_m;
     const auto& span_m = view.wall_span_m[static_cast<std::size_t>(surface - kLeftPlane)];
@@ -165,13 +164,21 @@ CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parame
     if (!usable(ray_m, p)) continue;
     const Eigen::Vector4d point(p.x(), p.y(), p.z(), 1.0);
     const double height_m = planes.col(kFloorPlane).dot(point);
+    // At a wall's foot nobody can tell which of the two planes a point belongs to: it counts for neither.
+    int surface = -1, fits = 0;
+    double residual_m = 0.0, sigma_m = 0.0;
     for (int s = 0; s < kSurfaces; ++s) {
-      const double residual_m = planes.col(s).dot(point);
-      const double sigma_m = range_noise_m_ * std::abs(planes.col(s).head<3>().dot(ray_m.normalized()));
-      if (!(sigma_m > 0.0) || !(std::abs(residual_m) <= kGateInSigmas * sigma_m) || !in_view(s, p, height_m)) continue;
-      gathered.add(static_cast<std::size_t>(s), slopes.planes[static_cast<std::size_t>(s)].transpose() * point,
-                   residual_m, sigma_m);
+      const double off_m = planes.col(s).dot(point);
+      const double spread_m = range_noise_m_ * std::abs(planes.col(s).head<3>().dot(ray_m.normalized()));
+      if (!(std::abs(off_m) <= kGateInSigmas * spread_m) || !(spread_m > 0.0)) continue;
+      ++fits;
+      surface = s;
+      residual_m = off_m;
+      sigma_m = spread_m;
     }
+    if (fits != 1 || !in_view(surface, p, height_m)) continue;
+    gathered.add(static_cast<std::size_t>(surface),
+                 slopes.planes[static_cast<std::size_t>(surface)].transpose() * point, residual_m, sigma_m);
   }
   return gathered;
 }
