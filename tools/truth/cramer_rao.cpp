@@ -32,6 +32,12 @@ Eigen::Matrix3d level_of(double roll_rad, double pitch_rad) {
       .toRotationMatrix();
 }
 
+// Next to a wall. False for a wall that is not there: its distance is NaN.
+bool at_foot(const Eigen::Matrix<double, 4, 3>& planes, const Eigen::Vector4d& point) {
+  return planes.col(kLeftPlane).dot(point) < CramerRao::kFoot_m ||
+         planes.col(kRightPlane).dot(point) < CramerRao::kFoot_m;
+}
+
 // Levelled frame.
 Eigen::Vector3d along_road(const Eigen::Vector3d& forward_level, double yaw_rad) {
   const Eigen::Vector3d ahead = Eigen::Vector3d(forward_level.x(), forward_level.y(), 0.0).normalized();
@@ -164,21 +170,14 @@ CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parame
     if (!usable(ray_m, p)) continue;
     const Eigen::Vector4d point(p.x(), p.y(), p.z(), 1.0);
     const double height_m = planes.col(kFloorPlane).dot(point);
-    // At a wall's foot nobody can tell which of the two planes a point belongs to: it counts for neither.
-    int surface = -1, fits = 0;
-    double residual_m = 0.0, sigma_m = 0.0;
     for (int s = 0; s < kSurfaces; ++s) {
-      const double off_m = planes.col(s).dot(point);
-      const double spread_m = range_noise_m_ * std::abs(planes.col(s).head<3>().dot(ray_m.normalized()));
-      if (!(std::abs(off_m) <= kGateInSigmas * spread_m) || !(spread_m > 0.0)) continue;
-      ++fits;
-      surface = s;
-      residual_m = off_m;
-      sigma_m = spread_m;
+      const double residual_m = planes.col(s).dot(point);
+      const double sigma_m = range_noise_m_ * std::abs(planes.col(s).head<3>().dot(ray_m.normalized()));
+      if (!(sigma_m > 0.0) || !(std::abs(residual_m) <= kGateInSigmas * sigma_m) || !in_view(s, p, height_m)) continue;
+      if (s == kFloorPlane && at_foot(planes, point)) continue;
+      gathered.add(static_cast<std::size_t>(s), slopes.planes[static_cast<std::size_t>(s)].transpose() * point,
+                   residual_m, sigma_m);
     }
-    if (fits != 1 || !in_view(surface, p, height_m)) continue;
-    gathered.add(static_cast<std::size_t>(surface),
-                 slopes.planes[static_cast<std::size_t>(surface)].transpose() * point, residual_m, sigma_m);
   }
   return gathered;
 }
