@@ -32,6 +32,12 @@ Eigen::Matrix3d level_of(double roll_rad, double pitch_rad) {
       .toRotationMatrix();
 }
 
+// Next to a wall. False for a wall that is not there: its distance is NaN.
+bool at_foot(const Eigen::Matrix<double, 4, 3>& planes, const Eigen::Vector4d& point) {
+  return planes.col(kLeftPlane).dot(point) < CramerRao::kFoot_m ||
+         planes.col(kRightPlane).dot(point) < CramerRao::kFoot_m;
+}
+
 // Levelled frame.
 Eigen::Vector3d along_road(const Eigen::Vector3d& forward_level, double yaw_rad) {
   const Eigen::Vector3d ahead = Eigen::Vector3d(forward_level.x(), forward_level.y(), 0.0).normalized();
@@ -150,8 +156,7 @@ CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parame
                                       const View& view) const {
   const Planes planes = planes_of(parameters);
   const Eigen::Matrix3d level = level_of(parameters[kRoll], parameters[kPitch]);
-  const Eigen::Vector3d along_base =
-      level.transpose() * along_road(level * forward_base_, parameters[kYaw]);
+  const Eigen::Vector3d along_base = level.transpose() * along_road(level * forward_base_, parameters[kYaw]);
   const auto in_view = [&](int surface, const Eigen::Vector3d& p, double height_m) {
     if (surface == kFloorPlane) return p.head<2>().norm() <= view.floor_radius_m;
     const auto& span_m = view.wall_span_m[static_cast<std::size_t>(surface - kLeftPlane)];
@@ -169,6 +174,7 @@ CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parame
       const double residual_m = planes.col(s).dot(point);
       const double sigma_m = range_noise_m_ * std::abs(planes.col(s).head<3>().dot(ray_m.normalized()));
       if (!(sigma_m > 0.0) || !(std::abs(residual_m) <= kGateInSigmas * sigma_m) || !in_view(s, p, height_m)) continue;
+      if (s == kFloorPlane && at_foot(planes, point)) continue;
       gathered.add(static_cast<std::size_t>(s), slopes.planes[static_cast<std::size_t>(s)].transpose() * point,
                    residual_m, sigma_m);
     }

@@ -42,6 +42,9 @@ class CramerRao {
  public:
   // Points belong to a plane when they lie within this many of their standard deviations.
   static constexpr double kGateInSigmas = 5.0;
+  // Floor nearer to a wall does not count: the wall's foot is there, and the engine, by cells of a quarter metre, keeps
+  // about as clear of what stands on the floor.
+  static constexpr double kFoot_m = 0.25;
 
   // Of the config: axes, sampling points, mounting, range limits, body boxes and the wall band.
   CramerRao(const api::Config& config, double range_noise_m);

@@ -71,7 +71,11 @@ void append_figures(std::vector<std::string>& cells, const QuantityComparison& q
 }
 
 void append_bound(std::vector<std::string>& cells, const QuantityComparison& quantity, const EfficiencySums& sums) {
-  cells.push_back(amount(quantity, sums.bound()));
+  // Far below what a controller cares for: with more digits than the errors.
+  const double bound = sums.bound();
+  cells.push_back(!std::isfinite(bound) ? "-"
+                  : quantity.is_angle   ? fmt::format("{:.5f}°", bound * kDegPerRad)
+                                        : fmt::format("{:.3f} mm", bound * 1e3));
   cells.push_back(std::isfinite(sums.ratio()) ? fmt::format("{:.2f}", sums.ratio()) : "-");
 }
 
