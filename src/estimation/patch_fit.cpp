@@ -12,7 +12,7 @@ namespace {
 // A patch's own scatter counts beside this many more points of the expected scatter.
 constexpr double kPriorPoints = 10.0;
 constexpr int kScatterRounds = 4;
-constexpr double kSensorNoise_m = 0.02;
+constexpr double kSensorNoise_m = 0.03;
 constexpr double kScatterLeast = 0.01;
 constexpr std::uint32_t kPatchesMin = 8;
 constexpr int kGiveBackRounds = 2;

@@ -30,7 +30,7 @@ constexpr double kBelowShareMax = 0.05;
 constexpr double kRivalShare = 0.5;
 constexpr double kOutlierSpan_m = 4.0;
 // A floor this good needs no wider look: the wider, the less "local" the floor is.
-constexpr double kGoodEnough = 0.7;
+constexpr double kGoodEnough = 0.3;
 
 struct Candidate {
   Plane plane;
@@ -171,7 +171,7 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   const Candidate* best = best_of(Span<const Candidate>(candidates, count), nullptr);
   if (best == nullptr) return none;
 
-  FloorResult out = fit_floor(cloud, all, radius_m, best->plane, s, sensor, scratch);
+  FloorResult out = fit_floor(cloud, open, radius_m, best->plane, s, sensor, scratch);
   out.fit.iterations = none.fit.iterations;
   out.candidates = n;
   out.roi_radius_m = radius_m;

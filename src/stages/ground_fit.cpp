@@ -25,6 +25,8 @@ constexpr double kStretch = 1.25;
 constexpr double kBendMatters = 0.2;
 constexpr int kRounds = 5;
 constexpr int kSelections = 3;
+// Residuals up to here may be the sensor's.
+constexpr double kSensorNoise_m = 0.02;
 
 IrlsSettings irls_settings(const Settings& s) {
   return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds};
@@ -39,14 +41,26 @@ void widen(IrlsSettings* tukey) {
   tukey->scale_max_m *= kWider;
 }
 
-// Selections after the first go by height over the plane, clear of what stands on the floor.
+// Where the ray to a point meets the plane.
+Eigen::Vector3d foot_of(const Eigen::Vector3d& p, const Plane& plane, const Eigen::Vector3d& sensor_base_m) {
+  const double sensor = plane.signed_distance(sensor_base_m), height = plane.signed_distance(p);
+  return sensor_base_m + (p - sensor_base_m) * (sensor / (sensor - height));
+}
+
+// Selections after the first go by height over the plane, clear of what stands on the floor, and within the radius
+// where the ray meets the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges
+// only, and these look like a higher floor.
 Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const FloorGrid& grid,
-                                 const Plane& plane, double gate_m, Span<std::uint32_t> out) {
+                                 const Plane& plane, double gate_m, double radius_m,
+                                 const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
+  const bool below = plane.signed_distance(sensor_base_m) > gate_m;
   std::uint32_t count = 0;
   for (const std::uint32_t i : open) {
     const Eigen::Vector3d p = cloud.at(i);
     const double height = plane.signed_distance(p);
-    if (height >= -gate_m && height <= gate_m && grid.clear_around(p)) out[count++] = i;
+    if (!(height >= -gate_m && height <= gate_m) || !below) continue;
+    const Eigen::Vector3d foot = foot_of(p, plane, sensor_base_m);
+    if (foot.x() * foot.x() + foot.y() * foot.y() <= radius_m * radius_m && grid.clear_around(foot)) out[count++] = i;
   }
   return Span<const std::uint32_t>(out.data(), count);
 }
@@ -73,24 +87,30 @@ void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const
                   GroundScratch* scratch) {
   scratch->patches.begin(-2.0 * radius_m, 2.0 * radius_m, -2.0 * radius_m, 2.0 * radius_m, kPatch_m);
   scratch->surface.begin(kStretch * radius_m, kPatch_m);
+  // A range that errs moves a point along the ray: height and place err together, which tilts a plane that is seen over
+  // a short length. On a floor no rougher than the ranges the error is taken back along the ray.
+  const double rougher = irls.scale_m / kScaleMin_m - 1.0;
+  const double noise_share = rougher < 1.0 ? 1.0 - rougher : 0.0;
   for (const std::uint32_t i : chosen) {
     const Eigen::Vector3d p = cloud.at(i);
     const double r = irls.plane.signed_distance(p);
-    const double w = tukey_weight(r, irls.scale_m) * static_cast<double>(cloud.weight[i]);
+    const double w = flat_top_weight(r, kSensorNoise_m, irls.scale_m) * static_cast<double>(cloud.weight[i]);
     if (!(w > 0.0)) continue;
     const Eigen::Vector3d ray = (p - sensor_base_m).normalized();
-    const Eigen::Vector3d q = p - f.origin;
+    const Eigen::Vector3d q = p + noise_share * (foot_of(p, irls.plane, sensor_base_m) - p) - f.origin;
     const double u = f.u.dot(q), v = f.v.dot(q), bias = ray.dot(irls.plane.n);
     scratch->patches.add(u, v, r, w, bias);
     scratch->surface.add(u, v, r, w, bias);
   }
 }
 
-void count_inliers(const PointSet& cloud, Span<const std::uint32_t> open, double thresh_m, PlaneFit* fit) {
+void count_inliers(const PointSet& cloud, Span<const std::uint32_t> open, double radius_m, double thresh_m,
+                   PlaneFit* fit) {
   double squares = 0.0, measured = 0.0, voxels = 0.0;
   for (const std::uint32_t i : open) {
-    const double r = fit->plane.signed_distance(cloud.at(i));
-    if (!(r >= -thresh_m && r <= thresh_m)) continue;
+    const Eigen::Vector3d p = cloud.at(i);
+    const double r = fit->plane.signed_distance(p);
+    if (!(r >= -thresh_m && r <= thresh_m) || !(p.head<2>().squaredNorm() <= radius_m * radius_m)) continue;
     squares += r * r;
     voxels += 1.0;
     measured += static_cast<double>(cloud.weight[i]);
@@ -137,7 +157,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   Span<const std::uint32_t> chosen;
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
-    chosen = select(cloud_base, open, scratch->grid, irls.plane, tukey.gate_m, scratch->low);
+    chosen = select(cloud_base, open, scratch->grid, irls.plane, tukey.gate_m, radius_m, sensor_base_m, scratch->low);
     irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, tukey, scratch->residuals);
     if (!irls.solved) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
@@ -154,7 +174,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   }
   out.fit.plane = corrected(irls.plane, frame, uneven.correction);
   out.fit.found = true;
-  count_inliers(cloud_base, open, settings.ground_ransac_thresh, &out.fit);
+  count_inliers(cloud_base, open, radius_m, settings.ground_ransac_thresh, &out.fit);
   set_uncertainty(uneven, bend, frame, out.fit.plane, settings, &out);
   return out;
 }

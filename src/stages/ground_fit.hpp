@@ -11,7 +11,7 @@
 
 namespace pose_wall {
 
-// start: the chosen hypothesis. open: the points to select from, all within radius_m in plan.
+// start: the chosen hypothesis. open: the points to select from; those count whose ray meets the plane within radius_m.
 FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open, double radius_m, const Plane& start,
                       const Settings& settings, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch);
 

@@ -38,7 +38,7 @@ struct StripFronts {
 };
 
 // Residuals up to here may be the sensor's.
-constexpr double kSensorNoise_m = 0.02;
+constexpr double kSensorNoise_m = 0.03;
 
 struct WallSurface {
   Span<std::uint32_t> chosen;  // the points it was fitted on

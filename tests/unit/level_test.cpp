@@ -53,9 +53,9 @@ TEST(Level, TheBandIsCutByHeightAboveTheTiltedFloor) {
     inside += height >= 0.5 && height <= 1.5 ? 1U : 0U;
   }
   test::Placed<VoxelGrid> grid(4000U);
-  test::Placed<PointSet> band(4000U);
+  test::Placed<PointSet> band(4000U), beyond(kBeyondMax);
   grid->reset();
-  cut_wall_band(points.set(), level, settings, grid.get(), band.get());
+  cut_wall_band(points.set(), level, settings, grid.get(), band.get(), beyond.get());
   float weight = 0.0F;
   for (std::uint32_t i = 0; i < band->count; ++i) {
     const double height = band->at(i).z() - level.floor_z_level_m;
@@ -63,6 +63,13 @@ TEST(Level, TheBandIsCutByHeightAboveTheTiltedFloor) {
     ASSERT_LE(height, 1.5 + 1e-4);
     weight += band->weight[i];
   }
+  for (std::uint32_t i = 0; i < beyond->count; ++i) {
+    const double height = beyond->at(i).z() - level.floor_z_level_m;
+    ASSERT_TRUE(height < 0.5 + 1e-4 || height > 1.5 - 1e-4);
+    weight += beyond->weight[i];
+  }
+  EXPECT_EQ(weight, 4000.0F) << "every point is on one side of the border";
+  weight -= static_cast<float>(beyond->count);
   // Floats on the border may fall to either side.
   EXPECT_NEAR(weight, static_cast<float>(inside), 2.0F);
 }
@@ -72,12 +79,13 @@ TEST(Level, WeightsPassTheSecondVoxels) {
   points.add(2.0, 2.0, 0.0, 3.0F);
   points.add(2.01, 2.01, 0.01, 5.0F);
   test::Placed<VoxelGrid> grid(2U);
-  test::Placed<PointSet> band(2U);
+  test::Placed<PointSet> band(2U), beyond(kBeyondMax);
   grid->reset();
   Plane floor;
   floor.d = 1.0;
   cut_wall_band(points.set(), level_by(floor, ahead_is_x()), test::settings_with({{"wall_voxel_leaf", "0.5"}}),
-                grid.get(), band.get());
+                grid.get(), band.get(), beyond.get());
+  EXPECT_EQ(beyond->count, 0U);
   ASSERT_EQ(band->count, 1U);
   EXPECT_EQ(band->weight[0], 8.0F);
   EXPECT_NEAR(band->x[0], 2.00625F, 1e-4F);
