@@ -16,6 +16,7 @@ constexpr double kLevelQuantile = 0.3;  // strips may take up to 60 % of what is
 constexpr std::uint32_t kColumnsMin = 24;
 constexpr double kSigmaMin_m = 0.004;
 constexpr double kGainMin = 4.0;       // natural logarithm of the likelihood ratio
+constexpr double kApartInSigmas = 2.0;
 constexpr double kGainPerColumn = 0.04;
 constexpr std::int32_t kStripsMin = 3;  // one or two could be bulges of the rock
 constexpr std::int32_t kStripMax = 6;   // columns: wider things are no strips
@@ -123,7 +124,7 @@ bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
   }
   if (contrast.total() < kColumnsMin) return false;
   const double gain = kGainPerColumn * contrast.total();
-  layers_ = find_two_layers(contrast, kSigmaMin_m, gain > kGainMin ? gain : kGainMin);
+  layers_ = find_two_layers(contrast, {kSigmaMin_m, gain > kGainMin ? gain : kGainMin, kApartInSigmas});
   layers_.found = layers_.found && narrow(first, last, gate_m);
   if (!layers_.found) return false;
   for (std::int32_t k = first; k <= last; ++k) {

@@ -14,7 +14,6 @@ namespace {
 constexpr int kRounds = 30;
 constexpr double kShareMin = 0.06;
 constexpr double kShareMax = 0.65;
-constexpr double kApartInSigmas = 2.5;
 constexpr double kStepMin_m = 0.03;
 constexpr double kUniformShare = 0.05;  // strays
 
@@ -83,7 +82,8 @@ double TwoLayers::surface_probability(double residual_m) const {
   return surface + nearer > 0.0 ? surface / (surface + nearer) : 0.0;
 }
 
-TwoLayers find_two_layers(const LayerHistogram& h, double sigma_min_m, double gain_min) {
+TwoLayers find_two_layers(const LayerHistogram& h, const LayerDemands& demands) {
+  const double sigma_min_m = demands.sigma_min_m;
   TwoLayers out;
   if (!(h.total() > 0.0)) return out;
   const double gate_m = h.gate_m();
@@ -101,7 +101,8 @@ TwoLayers find_two_layers(const LayerHistogram& h, double sigma_min_m, double ga
   out.step_m = best.step;
   out.share = best.share;
   out.found = best.share >= kShareMin && best.share <= kShareMax && best.step >= kStepMin_m &&
-              best.step >= kApartInSigmas * best.sigma && best.log_likelihood - one.log_likelihood >= gain_min;
+              best.step >= demands.apart_in_sigmas * best.sigma &&
+              best.log_likelihood - one.log_likelihood >= demands.gain_min;
   return out;
 }
 

@@ -44,7 +44,12 @@ struct TwoLayers {
 };
 
 // Expectation maximisation on the histogram. found only where two layers are clearly apart, both hold a fair share and
-// the second explains the counts better by gain_min in log likelihood: one rough surface has no second layer.
-TwoLayers find_two_layers(const LayerHistogram& histogram, double sigma_min_m, double gain_min);
+// the second explains the counts better by what is demanded: one rough surface has no second layer.
+struct LayerDemands {
+  double sigma_min_m;
+  double gain_min;       // in log likelihood
+  double apart_in_sigmas;
+};
+TwoLayers find_two_layers(const LayerHistogram& histogram, const LayerDemands& demands);
 
 }  // namespace pose_wall

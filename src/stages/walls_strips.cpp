@@ -14,6 +14,9 @@ namespace {
 constexpr double kSeenWithin = 1.5;
 constexpr double kProfileReach_m = 32.0;
 constexpr int kRings = 4;  // each twice as far as the last
+constexpr double kLayerPointsMin = 100.0;
+constexpr double kLayerGainPerPoint = 0.02;
+constexpr double kLayersApartInSigmas = 2.5;
 constexpr double kPatch_m = 0.5;
 constexpr double kWeightMin = 1e-6;
 constexpr int kJointRounds = 3;
@@ -95,6 +98,28 @@ void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   residuals = arena.take<float>(points_max);
   patches.lay_out(arena);
   strips.lay_out(arena);
+}
+
+void set_layers_apart(const WallScene& scene, const Eigen::Vector3d& along, const IrlsSettings& settings,
+                      WallFitScratch* scratch, WallSurface* fit) {
+  const Span<float> residuals = scratch->residuals.first(fit->chosen.size());
+  signed_distances(scene.band_level, fit->chosen, fit->irls.plane, residuals);
+  LayerHistogram histogram(settings.gate_m);
+  histogram.add(residuals);
+  if (histogram.total() < kLayerPointsMin) return;
+  TwoLayers layers =
+      find_two_layers(histogram, {settings.scale_min_m, kLayerGainPerPoint * histogram.total(), kLayersApartInSigmas});
+  if (!layers.found) return;
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < fit->chosen.size(); ++k) {
+    if (layers.surface_probability(static_cast<double>(residuals[k])) >= 0.5) fit->chosen[count++] = fit->chosen[k];
+  }
+  fit->chosen = fit->chosen.first(count);
+  Plane start = fit->irls.plane;
+  start.d -= layers.centre_m;
+  fit->irls = irls_tukey(scene.band_level, fit->chosen, start, along, settings, scratch->residuals);
+  layers.centre_m = 0.0;  // by the new plane
+  fit->layers = layers;
 }
 
 void fit_patches(const WallScene& scene, const Eigen::Vector3d& along, PatchGrid* patches, WallSurface* fit) {

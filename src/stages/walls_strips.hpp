@@ -38,13 +38,14 @@ struct StripFronts {
 };
 
 // Residuals up to here may be the sensor's.
-constexpr double kSensorNoise_m = 0.03;
+constexpr double kSensorNoise_m = 0.015;
 
 struct WallSurface {
   Span<std::uint32_t> chosen;  // the points it was fitted on
   IrlsResult irls;
   const StripProfile* strips = nullptr;  // null: none stand out of it
   StripFronts fronts;
+  TwoLayers layers;            // without strips: what else stands out of it, point by point
   double layer_sigma_m = 0.0;  // what stands out may have moved the surface by this
   Heights heights{0.0, 0.0};   // where it is one plane
   TangentFrame frame;
@@ -53,7 +54,8 @@ struct WallSurface {
   // Weight of a point as one of the surface, by its place along the road and its distance from irls.plane.
   double weight(double along_m, double residual_m) const {
     const double weight = flat_top_weight(residual_m, kSensorNoise_m, irls.scale_m);
-    return strips != nullptr ? weight * strips->surface_probability(along_m) : weight;
+    if (strips != nullptr) return weight * strips->surface_probability(along_m);
+    return layers.found ? weight * layers.surface_probability(residual_m) : weight;
   }
   // And as one of the strips' fronts.
   double front_weight(double along_m, double residual_m) const {
@@ -68,6 +70,11 @@ void fit_patches(const WallScene& scene, const Eigen::Vector3d& along_level, Pat
 // Tells strips and surface apart, near the sensor first and then further and further out, and repeats the plane fit on
 // the surface alone. Reorders chosen. Without strips nothing changes.
 void set_strips_apart(const WallScene& scene, const Eigen::Vector3d& along_level, const IrlsSettings& settings,
+                      WallFitScratch* scratch, WallSurface* fit);
+
+// Door frames, cables and mesh stand out of a wall by more than its roughness: where no strips were found but the points
+// lie in two layers, the fit is repeated on the outer one. Drops the others from chosen.
+void set_layers_apart(const WallScene& scene, const Eigen::Vector3d& along_level, const IrlsSettings& settings,
                       WallFitScratch* scratch, WallSurface* fit);
 
 // Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does. They

@@ -16,6 +16,8 @@ constexpr double kBehindInThresholds = 3.0;
 constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
 // What the strips may have moved the surface by, of their step; measured on simulated steel sets.
 constexpr double kStripsLeftOver = 0.06;
+// What a split into two layers may leave of the nearer one in the surface, of its share times its step.
+constexpr double kLayersLeftOver = 0.5;
 constexpr double kCut_m = 0.25;
 constexpr double kSpanMin_m = 0.9;
 constexpr double kCurvatureInSigmas = 3.5;
@@ -46,11 +48,14 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   fit.irls = irls_tukey(scene.band_level, fit.chosen, start, along, settings, scratch->residuals);
   if (!fit.irls.solved) return fit;
   set_strips_apart(scene, along, settings, scratch, &fit);
+  if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(scene, along, settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
   fit_patches(scene, along, &scratch->patches, &fit);
   if (fit.patch.solved && fit.strips != nullptr) join_fronts(scene, along, Fronts::kIfTheyAgree, scratch, &fit);
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
-  fit.layer_sigma_m = std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m);
+  const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
+  fit.layer_sigma_m = std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m +
+                                layers_m * layers_m);
   return fit;
 }
 

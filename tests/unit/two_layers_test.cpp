@@ -34,7 +34,7 @@ LayerHistogram histogram_of(const std::vector<float>& r) {
 }
 
 TwoLayers found_in(const std::vector<float>& r) {
-  return find_two_layers(histogram_of(r), kSigmaMin_m, kGainPerPoint * static_cast<double>(r.size()));
+  return find_two_layers(histogram_of(r), {kSigmaMin_m, kGainPerPoint * static_cast<double>(r.size()), 2.5});
 }
 
 // 4000 residuals of 2 cm: means to 0.5 mm, shares to 1 %; bins of the histogram below a centimetre.
