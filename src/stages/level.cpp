@@ -22,14 +22,16 @@ void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const S
                    PointSet* band_level, PointSet* beyond_level) {
   const double z_min = level.floor_z_level_m + settings.wall_z_min;
   const double z_max = level.floor_z_level_m + settings.wall_z_max;
-  const std::uint32_t every = cloud_base.count / kBeyondMax + 1;
+  // The band is averaged over cells of twice the size, some three times the area: one of three keeps the balance.
+  constexpr std::uint32_t kBalance = 3;
+  const std::uint32_t share = cloud_base.count / (kBalance * kBeyondMax) + 1, every = kBalance * share;
   std::uint32_t outside = 0;
   beyond_level->count = 0;
   grid->begin(settings.wall_voxel_leaf);
   for (std::uint32_t i = 0; i < cloud_base.count; ++i) {
     const Eigen::Vector3d p = level.R_level_base * cloud_base.at(i);
     if (!(p.z() >= z_min && p.z() <= z_max)) {
-      if (outside++ % every == 0) beyond_level->set(beyond_level->count++, p, static_cast<float>(every));
+      if (outside++ % every == 0) beyond_level->set(beyond_level->count++, p, static_cast<float>(share));
       continue;
     }
     // There is room: never more cells than points, and both grids have the same capacity.
