@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
+#include "stages/walls_holes.hpp"
 #include "stages/walls_measure.hpp"
 #include "stages/walls_select.hpp"
-#include "stages/walls_holes.hpp"
 
 namespace pose_wall {
 namespace {
@@ -106,8 +106,7 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
   }
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
-  const WallHoles holes =
-      wall.fit.found ? find_holes(scene, wall.fit.plane, wall.along_level, reach_m) : WallHoles{};
+  const WallHoles holes = wall.fit.found ? find_holes(scene, wall.fit.plane, wall.along_level, reach_m) : WallHoles{};
   if (holes.open > kOpenDoubt) wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
   if (!(holes.silent <= kSilentMax && holes.open <= kOpenMax && holes.overtopped <= kOvertoppedMax)) {
     wall.fit.refused = true;

@@ -30,7 +30,9 @@ class AnswerGrid {
  public:
   // Heights from the sensor's; away_m: horizontal distance of the plane from the sensor.
   AnswerGrid(double low_m, double high_m, double away_m)
-      : low_m_(low_m), away_m_(away_m), row_m_((high_m - low_m) / kRowsMax > kRow_m ? (high_m - low_m) / kRowsMax : kRow_m) {
+      : low_m_(low_m),
+        away_m_(away_m),
+        row_m_((high_m - low_m) / kRowsMax > kRow_m ? (high_m - low_m) / kRowsMax : kRow_m) {
     rows_ = static_cast<std::uint32_t>((high_m - low_m) / row_m_);
     for (double& slope : lowest_) slope = kSteepest;
     for (double& slope : highest_) slope = -kSteepest;
