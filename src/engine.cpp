@@ -145,8 +145,8 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
     for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
     return;
   }
-  const WallScene scene = wall_scene(scratch_.band_level, scratch_.beyond_level, settings_, found->level, axes_,
-                                     extrinsic_.sensor_base_m);
+  const WallScene scene =
+      wall_scene(scratch_.band_level, scratch_.beyond_level, settings_, found->level, axes_, extrinsic_.sensor_base_m);
   const Plane* const last[2] = {memory_.has_wall[0] ? &memory_.last_wall[0] : nullptr,
                                 memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);

@@ -67,7 +67,7 @@ struct FloorResult {
   double pitch_sigma_rad = 0.0;
   double roll_bound_rad = 0.0;  // systematic part of the protection level: range bias, unevenness, rival floors
   double pitch_bound_rad = 0.0;
-  double dof = 1.0;  // independent patches beyond the fitted parameters
+  double dof = 1.0;  // as many independent pieces know a variance as well as this one is known
   double area_m2 = 0.0;
   double roi_radius_m = 0.0;
   std::uint32_t candidates = 0;
@@ -96,7 +96,8 @@ struct WallResult {
   double distance_bound_m[2] = {0.0, 0.0};
   double layer_sigma_m = 0.0;  // what ribs and cables may have moved the surface, part of the standard deviations
   bool extrapolated[2] = {false, false};
-  double dof = 1.0;
+  double dof = 1.0;        // independent pieces behind the distances' variance
+  double dof_slope = 1.0;  // and behind the direction's
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double area_m2 = 0.0;

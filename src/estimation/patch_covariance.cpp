@@ -95,7 +95,7 @@ void PatchGrid::sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMa
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   double sum[kLayersMax] = {}, squares[kLayersMax] = {};
   for (const Mean& p : means_.first(n)) {
-    middle += p.information * p.a * p.a.transpose();  // information^2 times variance
+    middle += p.information * p.information * (roughness[p.layer].tau2 + p.noise_variance) * p.a * p.a.transpose();
     bias += p.information * p.b_centred * p.a;
     sum[p.layer] += p.information;
     squares[p.layer] += p.information * p.information;

@@ -9,13 +9,13 @@ namespace pose_wall {
 namespace {
 
 constexpr int kRowBits = 16;
-constexpr int kRowsMin = 4;         // a column seen at fewer heights says nothing
-constexpr std::int32_t kAround = 6; // columns to each side that make up the local level
+constexpr int kRowsMin = 4;          // a column seen at fewer heights says nothing
+constexpr std::int32_t kAround = 6;  // columns to each side that make up the local level
 constexpr std::uint32_t kAroundMin = 5;
 constexpr double kLevelQuantile = 0.3;  // strips may take up to 60 % of what is seen around
 constexpr std::uint32_t kColumnsMin = 24;
 constexpr double kSigmaMin_m = 0.004;
-constexpr double kGainMin = 4.0;       // natural logarithm of the likelihood ratio
+constexpr double kGainMin = 4.0;  // natural logarithm of the likelihood ratio
 constexpr double kApartInSigmas = 2.0;
 constexpr double kGainPerColumn = 0.04;
 constexpr std::int32_t kStripsMin = 3;  // one or two could be bulges of the rock
@@ -159,8 +159,8 @@ void StripProfile::judge(double u_centre_m, double reach_m) {
     // The plane may drift out here: by the level around, as long as that cannot be the strips' own.
     double level = 0.0;
     const bool local = level_around(k, &level) && std::fabs(level) < 0.5 * layers_.step_m;
-    c.probability = static_cast<float>(local ? layers_.surface_probability(mean(c) - level)
-                                             : plain.surface_probability(mean(c)));
+    c.probability =
+        static_cast<float>(local ? layers_.surface_probability(mean(c) - level) : plain.surface_probability(mean(c)));
     c.judged = true;
   }
 }

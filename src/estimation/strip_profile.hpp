@@ -63,7 +63,6 @@ class StripProfile {
   Span<Column> columns_;
   double u_min_ = 0.0, v_min_ = 0.0, rows_per_m_ = 1.0;
   TwoLayers layers_;
-  double far_sigma_m_ = 0.0;
 };
 
 }  // namespace pose_wall

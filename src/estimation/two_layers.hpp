@@ -47,7 +47,7 @@ struct TwoLayers {
 // the second explains the counts better by what is demanded: one rough surface has no second layer.
 struct LayerDemands {
   double sigma_min_m;
-  double gain_min;       // in log likelihood
+  double gain_min;  // in log likelihood
   double apart_in_sigmas;
 };
 TwoLayers find_two_layers(const LayerHistogram& histogram, const LayerDemands& demands);

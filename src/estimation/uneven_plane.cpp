@@ -17,6 +17,7 @@ constexpr std::uint32_t kPatchesMin = 8;
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
 // Share of the unevenness that neighbouring patches do not have in common.
 constexpr double kOwnShares[] = {0.05, 0.4};
+constexpr double kScaleLeast = 0.05;
 constexpr int kModelsMax = 1 + 4 * 2;
 
 // Variance of the patches about their plane beyond their noise: a first guess, for the ratio of the two. Patches count
@@ -149,9 +150,10 @@ bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
   model->bias_response = inverse * of_bias;
   const double left = squares - model->correction.dot(of_residual);
   const double freedom = static_cast<double>(patches.size()) - 3.0;
-  if (!(left > 1e-12)) return false;
-  model->covariance = inverse * (left / freedom);
-  model->log_likelihood = -0.5 * (log_determinant + natural_log(determinant) + freedom * natural_log(left));
+  // Residuals far below the noise that was put in come of ranges that were rounded or smoothed, not of a better sensor.
+  const double least = kScaleLeast * freedom, scaled = left > least ? left : least;
+  model->covariance = inverse * (scaled / freedom);
+  model->log_likelihood = -0.5 * (log_determinant + natural_log(determinant) + freedom * natural_log(scaled));
   return true;
 }
 

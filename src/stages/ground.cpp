@@ -214,7 +214,9 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
   for (int step = 0; step < kRadiusSteps; ++step) {
     const FloorResult here = floor_within(radius_m, cloud_base, scratch->open.first(open), settings, axes,
                                           sensor_base_m, last_floor, random, scratch);
-    if (step == 0 || worse_level(here, settings) < worse_level(best, settings)) best = here;
+    // Of refused ones the widest that got furthest tells why.
+    const bool told_more = best.fit.refused && here.fit.refused && here.fit.found;
+    if (step == 0 || told_more || worse_level(here, settings) < worse_level(best, settings)) best = here;
     const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
     if (worse_level(best, settings) <= good_enough || radius_m >= settings.ground_roi_radius_max) break;
     radius_m *= kRadiusGrowth;

@@ -83,7 +83,9 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
 
 bool FloorGrid::clear_around(const Eigen::Vector3d& p_base) const {
   constexpr double kAround_m = 0.1;
-  const int bin = static_cast<int>((p_base.z() - lowest_m_) / kHeightBin_m);
+  const double place = (p_base.z() - lowest_m_) / kHeightBin_m;
+  if (!(place >= 0.0 && place < kHeightBins)) return true;
+  const int bin = static_cast<int>(place);
   const std::int32_t x_end = cell_of(p_base.x() + kAround_m), y_end = cell_of(p_base.y() + kAround_m);
   for (std::int32_t iy = cell_of(p_base.y() - kAround_m); iy <= y_end; ++iy) {
     for (std::int32_t ix = cell_of(p_base.x() - kAround_m); ix <= x_end; ++ix) {

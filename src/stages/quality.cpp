@@ -102,7 +102,7 @@ Measurement yaw_measurement(double raw, double walls_variance, double bound, dou
 Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const LevelResult& level, const Settings& s) {
   const double bias = s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
   return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, yaw_bound_of(wall, floor, level) + bias,
-                         wall.dof, tilt_to_yaw(wall, level), floor, s);
+                         wall.dof_slope, tilt_to_yaw(wall, level), floor, s);
 }
 
 // Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
@@ -126,7 +126,7 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   // The road's own direction lies between the walls'; the mean may lie at either.
   if (difference > expected) bound += larger(w[0], w[1]) * difference;
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
-  const double dof = 1.0 / (w[0] * w[0] / walls[0].dof + w[1] * w[1] / walls[1].dof);
+  const double dof = 1.0 / (w[0] * w[0] / walls[0].dof_slope + w[1] * w[1] / walls[1].dof_slope);
   const double tilt_share = larger(tilt_to_yaw(walls[0], level), tilt_to_yaw(walls[1], level));
   return yaw_measurement(raw, 1.0 / information, bound, dof, tilt_share, floor, s);
 }

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
+#include "stages/walls_holes.hpp"
 #include "stages/walls_measure.hpp"
 #include "stages/walls_select.hpp"
-#include "stages/walls_holes.hpp"
 
 namespace pose_wall {
 namespace {
@@ -18,6 +18,8 @@ constexpr double kSeenThroughMax = 0.5;
 constexpr double kSeenThroughDoubt = 0.25;
 constexpr double kRefineSlack_deg = 5.0;
 constexpr double kOnWallInThresholds = 3.0;
+constexpr double kRivalStretch = 1.05;
+constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.08;
 constexpr double kOpenMax = 0.25;
 constexpr double kOvertoppedMax = 0.5;
@@ -75,7 +77,8 @@ void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallRe
   wall->yaw_bound_rad += std::fabs(yaw - wall->yaw_rad);
   for (int end = 0; end < 2; ++end) {
     const double distance = distance_at(rival, scene.sample_level_m[side][end]);
-    wall->distance_bound_m[end] += std::fabs(distance - wall->distance_m[end]);
+    // The rival was looked at in passing: it is not known to the centimetre.
+    wall->distance_bound_m[end] += kRivalStretch * std::fabs(distance - wall->distance_m[end]) + kRivalMargin_m;
   }
   wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
 }
@@ -106,8 +109,7 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
   }
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
-  const WallHoles holes =
-      wall.fit.found ? find_holes(scene, wall.fit.plane, wall.along_level, reach_m) : WallHoles{};
+  const WallHoles holes = wall.fit.found ? find_holes(scene, wall.fit.plane, wall.along_level, reach_m) : WallHoles{};
   if (holes.open > kOpenDoubt) wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
   if (!(holes.silent <= kSilentMax && holes.open <= kOpenMax && holes.overtopped <= kOvertoppedMax)) {
     wall.fit.refused = true;

@@ -38,8 +38,7 @@ bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) co
   return true;
 }
 
-void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level,
-                    const Reach& reach) {
+void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach) {
   hits_.fill(0);
   through_.fill(0);
   inliers_ = 0.0;

@@ -37,9 +37,9 @@ class WallGrid {
 
   void lay_out(Arena& arena);
 
-  // along: horizontal, in the plane's direction. Points within hit_m of the plane make it solid; rays that end more than
-  // behind_m behind it pass through it, wherever they end: behind pipes before a dark wall, only the floor and the roof
-  // are seen.
+  // along: horizontal, in the plane's direction. Points within hit_m of the plane make it solid; rays that end more
+  // than behind_m behind it pass through it, wherever they end: behind pipes before a dark wall, only the floor and the
+  // roof are seen.
   struct Reach {
     double hit_m;
     double behind_m;

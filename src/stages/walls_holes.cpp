@@ -30,7 +30,9 @@ class AnswerGrid {
  public:
   // Heights from the sensor's; away_m: horizontal distance of the plane from the sensor.
   AnswerGrid(double low_m, double high_m, double away_m)
-      : low_m_(low_m), away_m_(away_m), row_m_((high_m - low_m) / kRowsMax > kRow_m ? (high_m - low_m) / kRowsMax : kRow_m) {
+      : low_m_(low_m),
+        away_m_(away_m),
+        row_m_((high_m - low_m) / kRowsMax > kRow_m ? (high_m - low_m) / kRowsMax : kRow_m) {
     rows_ = static_cast<std::uint32_t>((high_m - low_m) / row_m_);
     for (double& slope : lowest_) slope = kSteepest;
     for (double& slope : highest_) slope = -kSteepest;
@@ -231,6 +233,7 @@ WallHoles find_holes(const WallScene& scene, const Plane& wall, const Eigen::Vec
   const Eigen::Vector3d& sensor = scene.sensor_level_m;
   const double sensor_inside_m = wall.signed_distance(sensor);
   const double flat = std::sqrt(wall.n.x() * wall.n.x() + wall.n.y() * wall.n.y());
+  if (!(sensor_inside_m > 0.0)) return {};
   AnswerGrid grid(scene.z_min_level_m - sensor.z(), scene.z_max_level_m - sensor.z(), sensor_inside_m / flat);
   for (const PointSet* points : {&scene.band_level, &scene.beyond_level}) {
     for (std::uint32_t i = 0; i < points->count; ++i) {

@@ -172,6 +172,7 @@ WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.along_level = along_of(out.fit.plane, scene.forward_level);
   out.lean_rad = lean_of(out.fit.plane);
   out.dof = patch.dof;
+  out.dof_slope = patch.dof_slope;
   out.layer_sigma_m = surface.layer_sigma_m;
   count_inliers(scene, surface.chosen, &out.fit);
   set_yaw(scene, patch, surface.frame, &out);

@@ -21,6 +21,7 @@ constexpr double kPairLengthMin_m = 6.0;
 // A second wall that is not parallel casts doubt on the first unless it is this much weaker.
 constexpr double kDoubtShare = 0.5;
 constexpr double kAcrossCos = 0.7;  // planes across the road are at more than 45 degrees to the side walls
+constexpr double kPairShare = 0.7;
 constexpr double kLoneCrossShare = 1.5;
 
 struct Pair {
@@ -170,10 +171,17 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
   const WallCandidates* const lists[2] = {&left, &right};
   const Pair pair = best_pair(left, right, settings.wall_parallel_cos);
   double score = pair.score;
-  if (pair.a != nullptr) {
+  double alone = 0.0;
+  for (const WallCandidates* list : lists) {
+    const WallCandidate* lone = best_single(*list, settings.wall_alone_length_min);
+    if (lone != nullptr && lone->evidence.score_m2 > alone) alone = lone->evidence.score_m2;
+  }
+  // A pair that shows much less than one wall alone is a pair by chance.
+  if (pair.a != nullptr && pair.score >= kPairShare * alone) {
     out.side[0] = pair.a;
     out.side[1] = pair.b;
   } else {
+    score = 0.0;
     choose_single(lists, settings.wall_alone_length_min, &out);
     for (const WallCandidate* c : out.side) score += c != nullptr ? c->evidence.score_m2 : 0.0;
   }

@@ -161,7 +161,9 @@ void join_fronts(const WallScene& scene, const Eigen::Vector3d& along, Fronts us
   }
   const Plane alone = corrected(fit->irls.plane, fit->frame, fit->patch.correction);
   const Plane both = corrected(joint.irls.plane, joint.frame, joint.patch.correction);
-  const auto slopes = [&](const Plane& p) { return Eigen::Vector3d(0.0, p.n.dot(fit->frame.u), p.n.dot(fit->frame.v)); };
+  const auto slopes = [&](const Plane& p) {
+    return Eigen::Vector3d(0.0, p.n.dot(fit->frame.u), p.n.dot(fit->frame.v));
+  };
   if (use == Fronts::kAlways || agree(fit->patch, slopes(alone), joint.patch, slopes(both))) *fit = joint;
 }
 
@@ -181,8 +183,8 @@ void set_strips_apart(const WallScene& scene, const Eigen::Vector3d& along, cons
       strips.judge(sensor_m, reach_m);
     }
     const std::uint32_t count = surface_first(scene, strips, along, fit->chosen);
-    fit->irls = irls_tukey(scene.band_level, fit->chosen.first(count), fit->irls.plane, along, settings,
-                           scratch->residuals);
+    fit->irls =
+        irls_tukey(scene.band_level, fit->chosen.first(count), fit->irls.plane, along, settings, scratch->residuals);
     if (!fit->irls.solved) return;
     fit->strips = &strips;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.

@@ -72,8 +72,8 @@ void fit_patches(const WallScene& scene, const Eigen::Vector3d& along_level, Pat
 void set_strips_apart(const WallScene& scene, const Eigen::Vector3d& along_level, const IrlsSettings& settings,
                       WallFitScratch* scratch, WallSurface* fit);
 
-// Door frames, cables and mesh stand out of a wall by more than its roughness: where no strips were found but the points
-// lie in two layers, the fit is repeated on the outer one. Drops the others from chosen.
+// Door frames, cables and mesh stand out of a wall by more than its roughness: where no strips were found but the
+// points lie in two layers, the fit is repeated on the outer one. Drops the others from chosen.
 void set_layers_apart(const WallScene& scene, const Eigen::Vector3d& along_level, const IrlsSettings& settings,
                       WallFitScratch* scratch, WallSurface* fit);
 

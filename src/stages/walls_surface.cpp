@@ -54,8 +54,8 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   if (fit.patch.solved && fit.strips != nullptr) join_fronts(scene, along, Fronts::kIfTheyAgree, scratch, &fit);
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
-  fit.layer_sigma_m = std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m +
-                                layers_m * layers_m);
+  fit.layer_sigma_m =
+      std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m + layers_m * layers_m);
   return fit;
 }
 

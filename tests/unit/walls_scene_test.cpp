@@ -27,7 +27,8 @@ TEST(WallScene, FollowsTheSpecificationForAllAxesAndTilts) {
     LevelResult level;
     level.R_level_base = level_rotation(Eigen::Vector3d(0.1, -0.2, 1.0).normalized());
     level.floor_z_level_m = -1.3;
-    const WallScene s = wall_scene(none.set(), none.set(), settings, level, {forward, left}, Eigen::Vector3d(0.1, 0.2, 0.3));
+    const WallScene s =
+        wall_scene(none.set(), none.set(), settings, level, {forward, left}, Eigen::Vector3d(0.1, 0.2, 0.3));
     EXPECT_EQ(s.forward_level.z(), 0.0);
     EXPECT_NEAR(s.forward_level.norm(), 1.0, 1e-12);
     EXPECT_GT(s.forward_level.dot(level.R_level_base * forward), 0.9);
