@@ -182,7 +182,11 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   std::uint32_t reasons = timing.reasons;
   if (frozen) reasons |= POSE_WALL_R_FROZEN;
   const bool unmeasured = timing.still || (frozen && memory_.repeats > settings_.frozen_frames);
-  for (Measurement& m : found->measured.quantity) {
+  memory_.repeated_s = frozen ? memory_.repeated_s + (timing.dt_s > 0.0 ? timing.dt_s : 0.0) : 0.0;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    Measurement& m = found->measured.quantity[q];
+    // The cloud is as old as its first copy, and the machine may have moved since.
+    m.protection += fastest(q, settings_) * memory_.repeated_s;
     m.reasons |= reasons;
     m.weak = m.weak || frozen;
     if (unmeasured) m.measured = false;

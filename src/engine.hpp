@@ -43,6 +43,7 @@ struct Memory {
   bool has_wall[2] = {false, false};
   std::uint64_t fingerprint = 0;
   std::uint32_t repeats = 0;  // how often the last cloud has come again
+  double repeated_s = 0.0;    // and since when
   std::uint64_t frames = 0;
 };
 

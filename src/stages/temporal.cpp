@@ -19,10 +19,6 @@ double larger(double a, double b) {
   return !(a <= b) ? a : b;
 }
 
-double fastest(std::uint32_t quantity, const Settings& s) {
-  return quantity <= POSE_WALL_YAW ? s.hold_rate_angle : s.hold_rate_distance;
-}
-
 // First-order low pass by backward Euler: exact in the mean for any dt, and free of exp().
 double gain(double dt_s, double tau_s) {
   return dt_s >= 0.0 && tau_s > 0.0 ? dt_s / (tau_s + dt_s) : 1.0;
@@ -117,6 +113,10 @@ pose_wall_value blank() {
 
 }  // namespace
 
+double fastest(std::uint32_t quantity, const Settings& s) {
+  return quantity <= POSE_WALL_YAW ? s.hold_rate_angle : s.hold_rate_distance;
+}
+
 FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const Settings& settings) {
   FrameTiming t;
   t.first = !state.has_stamp;
@@ -139,14 +139,17 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
   state->has_stamp = true;
   state->stamp_ns = stamp_ns;
   state->still_frames = timing.still ? state->still_frames + 1 : 0;
+  // While the clock stands still, the machine does not: a frame takes as long as the last one did.
+  const double elapsed_s = timing.still ? state->last_dt_s : timing.dt_s;
+  if (timing.dt_s > 0.0 && !timing.leap) state->last_dt_s = timing.dt_s;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Track& t = state->track[q];
     const Measurement& m = measured.quantity[q];
     pose_wall_value& out = (*values)[q];
     out = blank();
-    if (timing.dt_s > 0.0) {
-      t.age_s += timing.dt_s;
-      t.good.age_s += timing.dt_s;
+    if (elapsed_s > 0.0) {
+      t.age_s += elapsed_s;
+      t.good.age_s += elapsed_s;
     }
     // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
     // bound any more.

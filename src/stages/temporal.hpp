@@ -41,7 +41,11 @@ struct TemporalState {
   bool has_stamp = false;
   std::uint32_t still_frames = 0;  // how often the last stamp has come again
   std::int64_t stamp_ns = 0;
+  double last_dt_s = 0.0;  // between the last two stamps that went on
 };
+
+// Greatest change per second of one of the seven quantities, by the config.
+double fastest(std::uint32_t quantity, const Settings& settings);
 
 // Places the frame in time. Does not change the state.
 FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const Settings& settings);
