@@ -17,7 +17,8 @@ constexpr std::uint32_t kPatchesMin = 8;
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
 // Share of the unevenness that neighbouring patches do not have in common.
 constexpr double kOwnShares[] = {0.05, 0.4};
-constexpr double kScaleLeast = 0.05;
+// An exactly flat surface has nothing left to scale by.
+constexpr double kScaleLeast = 1e-6;
 constexpr int kModelsMax = 1 + 4 * 2;
 
 // Variance of the patches about their plane beyond their noise: a first guess, for the ratio of the two. Patches count
@@ -150,8 +151,9 @@ bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
   model->bias_response = inverse * of_bias;
   const double left = squares - model->correction.dot(of_residual);
   const double freedom = static_cast<double>(patches.size()) - 3.0;
-  // Residuals far below the noise that was put in come of ranges that were rounded or smoothed, not of a better sensor.
-  const double least = kScaleLeast * freedom, scaled = left > least ? left : least;
+  const double least = kScaleLeast * freedom;
+  if (!(left > -least)) return false;
+  const double scaled = left > least ? left : least;
   model->covariance = inverse * (scaled / freedom);
   model->log_likelihood = -0.5 * (log_determinant + natural_log(determinant) + freedom * natural_log(scaled));
   return true;

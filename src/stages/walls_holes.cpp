@@ -159,7 +159,9 @@ class TopView {
   // After all hits. A ray that meets the plane's prolongation: ends before or behind it.
   void pass(double beside_m, double up_m, bool behind) {
     const std::uint32_t c = column(beside_m);
-    if (c < kColumnsMax && up_m > top_[c] + kClear_m && top_[c] > -kSteepest) ++(behind ? behind_[c] : before_[c]);
+    // Further up, a sensor that looks up sees the roof over itself.
+    if (!(c < kColumnsMax && up_m > top_[c] + kClear_m && up_m < top_[c] + kAbove_m)) return;
+    ++(behind ? behind_[c] : before_[c]);
   }
   double overtopped() const {
     double seen = 0.0, over = 0.0;
@@ -179,6 +181,7 @@ class TopView {
   static constexpr std::uint32_t kColumnsMax = 32;
   static constexpr double kWidth_m = 0.5;
   static constexpr double kClear_m = 0.1;
+  static constexpr double kAbove_m = 0.5;
   static constexpr std::uint32_t kRaysMin = 4;
   static constexpr double kSeenMin = 4.0;
 

@@ -16,6 +16,7 @@ constexpr double kProfileReach_m = 32.0;
 constexpr int kRings = 4;  // each twice as far as the last
 constexpr double kLayerPointsMin = 100.0;
 constexpr double kLayerGainPerPoint = 0.02;
+constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, parted by the voxels
 constexpr double kLayersApartInSigmas = 2.5;
 constexpr double kPatch_m = 0.5;
 constexpr double kWeightMin = 1e-6;
@@ -109,7 +110,7 @@ void set_layers_apart(const WallScene& scene, const Eigen::Vector3d& along, cons
   if (histogram.total() < kLayerPointsMin) return;
   TwoLayers layers =
       find_two_layers(histogram, {settings.scale_min_m, kLayerGainPerPoint * histogram.total(), kLayersApartInSigmas});
-  if (!layers.found) return;
+  if (!layers.found || !(layers.step_m >= kLayerStepMin_m)) return;
   std::uint32_t count = 0;
   for (std::uint32_t k = 0; k < fit->chosen.size(); ++k) {
     if (layers.surface_probability(static_cast<double>(residuals[k])) >= 0.5) fit->chosen[count++] = fit->chosen[k];

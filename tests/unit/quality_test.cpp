@@ -31,6 +31,7 @@ WallResult good_wall(double yaw = 0.02, double sigma = 0.001) {
   w.yaw_rad = yaw;
   w.yaw_sigma_rad = sigma;
   w.dof = 40.0;
+  w.dof_slope = 40.0;
   w.distance_m[0] = 2.4;
   w.distance_m[1] = 2.6;
   w.distance_sigma_m[0] = 0.004;
@@ -159,6 +160,7 @@ TEST(Quality, BoundsAddToTheLevel) {
 TEST(Quality, FewPatchesWidenTheLevel) {
   Scene many, few;
   few.walls[0].dof = 3.0;
+  few.walls[0].dof_slope = 3.0;
   EXPECT_GT(few.measured().quantity[POSE_WALL_D_LF].protection,
             1.5 * many.measured().quantity[POSE_WALL_D_LF].protection);
 }
