@@ -20,7 +20,7 @@ constexpr double kFloorZ_m = -1.4;
 class BandFixture {
  public:
   explicit BandFixture(std::initializer_list<KeyValue> settings = {})
-      : settings_(settings_with(settings)), points_(60000), beyond_(8192), noise_(1) {}
+      : settings_(settings_with(settings)), points_(60000), beyond_(60000), noise_(1) {}
 
   struct Extent {
     double from_m, to_m, low_m, high_m;  // along the road, and above the floor
@@ -64,6 +64,7 @@ class BandFixture {
 
   Settings& settings() { return settings_; }
   OwnedPoints& points() { return points_; }
+  OwnedPoints& beyond() { return beyond_; }  // above and below the band
   Noise& noise() { return noise_; }
 
  private:

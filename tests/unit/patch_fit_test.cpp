@@ -15,36 +15,17 @@
 
 #include "estimation/protection.hpp"
 #include "estimation/tukey.hpp"
+#include "support/rock.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {
 namespace {
 
+using test::Rock;
+
 constexpr double kLength_m = 8.0, kHeight_m = 2.0;
 constexpr int kPoints = 1500;
 constexpr int kRuns = 300;
-
-// Gaussian random field with correlation exp(-r^2 / L^2), by random waves; the simulator's rock has the same.
-class Rock {
- public:
-  Rock(double sigma_m, double length_m, test::Noise* noise) : amplitude_(sigma_m * std::sqrt(2.0 / kWaves)) {
-    for (Wave& w : waves_)
-      w = {noise->normal(M_SQRT2 / length_m), noise->normal(M_SQRT2 / length_m), noise->uniform(0, 6.2832)};
-  }
-  double at(double u, double v) const {
-    double sum = 0.0;
-    for (const Wave& w : waves_) sum += std::cos(w.ku * u + w.kv * v + w.phase);
-    return amplitude_ * sum;
-  }
-
- private:
-  static constexpr int kWaves = 60;
-  struct Wave {
-    double ku, kv, phase;
-  };
-  Wave waves_[kWaves];
-  double amplitude_;
-};
 
 template <typename Surface>
 PatchFit fit(PatchGrid* grid, double noise_m, double scale_m, test::Noise* noise, const Surface& surface,
@@ -201,6 +182,34 @@ TEST(PatchFit, AnExtentLargerThanTheGridGetsLargerPatches) {
   const PatchFit f = grid->fit();
   EXPECT_GT(f.patches, 40U);
   EXPECT_LE(f.patches, PatchGrid::kCapacity);
+}
+
+// Two layers: a step of unknown size before the surface leaves its offset alone, and lends it the slopes.
+TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
+  test::Placed<PatchGrid> grid;
+  PatchFit fits[3];
+  for (int k = 0; k < 3; ++k) {  // no second layer, one 0.1 m before it, one 0.4 m before it
+    test::Noise noise(9);
+    grid->begin(-8, 8, 0, 2, 0.5, k == 0 ? 1 : 2);
+    const auto surface = [](double u, double v) { return 0.01 + 0.002 * u + 0.001 * v; };
+    for (int i = 0; i < kPoints; ++i) {
+      const double u = noise.uniform(-1.5, 1.5), v = noise.uniform(0, 2);
+      grid->add(u, v, surface(u, v) + noise.normal(0.01), 1.0, 1.0, 0);
+    }
+    for (int i = 0; k > 0 && i < kPoints; ++i) {
+      const double u = noise.uniform(-8, 8), v = noise.uniform(0, 2);
+      grid->add(u, v, (k == 1 ? 0.1 : 0.4) + surface(u, v) + noise.normal(0.01), 1.0, 1.0, 1);
+    }
+    fits[k] = grid->fit();
+    ASSERT_TRUE(fits[k].solved);
+    EXPECT_NEAR(fits[k].correction[0], 0.01, 5.0 * std::sqrt(fits[k].covariance(0, 0)));
+    EXPECT_NEAR(fits[k].correction[1], 0.002, 5.0 * std::sqrt(fits[k].covariance(1, 1)));
+  }
+  EXPECT_LT(fits[1].covariance(1, 1), 0.2 * fits[0].covariance(1, 1)) << "five times as long a base";
+  EXPECT_GT(fits[1].covariance(0, 0), 0.3 * fits[0].covariance(0, 0)) << "the offset rests on the surface alone";
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(fits[1].correction[k], fits[2].correction[k], 1e-9) << "whatever the step: parameter " << k;
+  }
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the grid on a plane tells solid wall from things seen through, and measures length and area in whole cells.
+// Proves: the grid on a plane tells solid wall from things seen through, and measures length and area in whole
+// cells; a ray speaks against it where it crosses it, as often as it stands for.
 
 #include "stages/walls_evidence.hpp"
 
@@ -83,6 +84,23 @@ TEST(WallGrid, PointsFarOutsideTheGridDoNoHarm) {
   const double before = Marked(&band).evidence().score_m2;
   for (const double x : {-400.0, -33.0, 33.0, 400.0}) band.points().add(x, 2.5, 0.0);
   EXPECT_EQ(Marked(&band).evidence().score_m2, before);
+}
+
+// Sensor at the origin, plane 2 m to the left: a ray that ends 4 m to the left crosses it half way.
+TEST(WallGrid, ARayCountsWhereItCrossesThePlaneThoughItEndsOutsideTheBand) {
+  const auto solid_with = [](double y_m, float rays) {
+    BandFixture band;
+    band.add_wall(2.0, {-4.0, 4.0, 0.3, 2.4});
+    band.beyond().add(2.4, y_m, 1.4, rays);
+    Marked grid(&band, 2.0);
+    EXPECT_TRUE(grid->solid_at(-1.2, 0.7)) << "elsewhere nothing changes";
+    return grid->solid_at(1.2, 0.7);
+  };
+  EXPECT_FALSE(solid_with(4.0, 200.0F)) << "a cell holds some 15 hits";
+  EXPECT_TRUE(solid_with(4.0, 2.0F)) << "fewer rays than hits";
+  EXPECT_TRUE(solid_with(1.9, 200.0F)) << "ends before the plane";
+  EXPECT_TRUE(solid_with(2.1, 200.0F)) << "ends behind it, but not well behind";
+  EXPECT_FALSE(solid_with(4.0, 1e6F)) << "the counter does not wrap";
 }
 
 }  // namespace

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// White box: a band as a LiDAR at the origin sees it. Each ray ends on the nearest of some axis-parallel rectangles, so
+// that things hide what is behind them; where it ends on a dark one, or on none, nothing comes back.
+
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "support/band_fixture.hpp"
+
+namespace pose_wall::test {
+
+struct Interval {
+  double low, high;
+  bool holds(double x) const { return x >= low && x <= high; }
+};
+
+constexpr Interval kEverywhere{-1e3, 1e3};
+
+// On the plane x, y or z (axis 0, 1 or 2) = at_m.
+struct Panel {
+  int axis;
+  double at_m;
+  Interval x, y, z;
+  bool dark = false;
+};
+
+inline Panel side_panel(double y_m, Interval x, Interval z, bool dark = false) {
+  return {1, y_m, x, kEverywhere, z, dark};
+}
+inline Panel level_panel(double z_m) {
+  return {2, z_m, kEverywhere, kEverywhere, kEverywhere};
+}
+inline Panel cross_panel(double x_m, Interval y, Interval z) {
+  return {0, x_m, kEverywhere, y, z};
+}
+
+struct Lidar {
+  double elevation_min_deg, elevation_max_deg, line_deg, azimuth_step_deg;
+  Eigen::Matrix3d R_level_lidar = Eigen::Matrix3d::Identity();
+};
+
+class RayScene {
+ public:
+  // Distance a ray goes further, by where it ends: rough rock.
+  using Relief = std::function<double(const Eigen::Vector3d&)>;
+
+  RayScene& add(const Panel& panel) {
+    panels_.push_back(panel);
+    return *this;
+  }
+  // Of the panels on the plane y = at_m.
+  void set_relief(double at_m, Relief relief) {
+    relief_at_m_ = at_m;
+    relief_ = std::move(relief);
+  }
+  void set_noise(double sigma_m) { noise_m_ = sigma_m; }
+
+  // To the left half only.
+  void scan(const Lidar& lidar, BandFixture* band) const {
+    constexpr double kDegree = M_PI / 180.0;
+    const Interval heights{band->scene().z_min_level_m, band->scene().z_max_level_m};
+    for (double e = lidar.elevation_min_deg; e <= lidar.elevation_max_deg; e += lidar.line_deg) {
+      for (double a = 0.0; a < 360.0; a += lidar.azimuth_step_deg) {
+        const double flat = std::cos(e * kDegree);
+        const Eigen::Vector3d ray =
+            lidar.R_level_lidar *
+            Eigen::Vector3d(flat * std::cos(a * kDegree), flat * std::sin(a * kDegree), std::sin(e * kDegree));
+        Eigen::Vector3d p;
+        if (!(ray.y() > 1e-3) || !end_of(ray, &p)) continue;
+        p += band->noise().normal(noise_m_) * ray;
+        (heights.holds(p.z()) ? band->points() : band->beyond()).add(p);
+      }
+    }
+  }
+
+ private:
+  static constexpr double kRange_m = 50.0;
+
+  bool end_of(const Eigen::Vector3d& ray, Eigen::Vector3d* end) const {
+    const Panel* nearest = nullptr;
+    double range_m = kRange_m;
+    for (const Panel& panel : panels_) {
+      const double t = panel.at_m / ray[panel.axis];
+      if (!(t > 0.1 && t < range_m)) continue;
+      const Eigen::Vector3d p = t * ray;
+      const bool on_it = (panel.axis == 0 || panel.x.holds(p.x())) && (panel.axis == 1 || panel.y.holds(p.y())) &&
+                         (panel.axis == 2 || panel.z.holds(p.z()));
+      if (!on_it) continue;
+      nearest = &panel;
+      range_m = t;
+    }
+    if (nearest == nullptr || nearest->dark) return false;
+    *end = range_m * ray;
+    if (relief_ && nearest->axis == 1 && nearest->at_m == relief_at_m_) *end *= 1.0 + relief_(*end) / nearest->at_m;
+    return true;
+  }
+
+  std::vector<Panel> panels_;
+  double relief_at_m_ = 0.0, noise_m_ = 0.0;
+  Relief relief_;
+};
+
+}  // namespace pose_wall::test

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: strips of several depths, widths and pitches stand out of rough rock, with their step, and rough rock without
+// strips, ledges, steps and one or two things at the wall are no strips; what was found near is told apart
+// further out. Residuals come from the true plane. Does not prove
+// it where the plane is off, see walls_strips_test, nor that the two edges of wide bulges are no strips.
+
+#include "estimation/strip_profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "support/rock.hpp"
+
+namespace pose_wall {
+namespace {
+
+using test::Noise;
+using test::Rock;
+
+constexpr double kLow_m = -1.15, kHigh_m = 1.1, kReach_m = 4.0, kGate_m = 0.2, kProfile_m = 32.0;
+
+struct Strips {
+  double depth_m, width_m, pitch_m;
+  bool at(double u) const { return std::fabs(u - pitch_m * std::round(u / pitch_m)) < 0.5 * width_m; }
+};
+
+using Surface = std::function<double(double u, double v)>;
+
+// A point every 2.5 cm along and 7 cm up.
+void fill(StripProfile* profile, double from_m, double to_m, Noise* noise, const Surface& surface) {
+  for (double u = from_m; u < to_m; u += 0.025) {
+    for (double v = kLow_m + 0.02; v < kHigh_m; v += 0.07) profile->add(u, v, surface(u, v) + noise->normal(0.01));
+  }
+}
+
+bool find(StripProfile* profile, Noise* noise, const Surface& surface) {
+  profile->begin(-kProfile_m, kLow_m, kHigh_m);
+  fill(profile, -kReach_m, kReach_m, noise, surface);
+  return profile->find(0.0, kReach_m, kGate_m);
+}
+
+Surface with_strips(const Rock& rock, const Strips& strips) {
+  return [&rock, strips](double u, double v) { return strips.at(u) ? strips.depth_m : rock.at(u, v); };
+}
+
+struct Verdicts {
+  int right = 0, wrong = 0;
+  void add(bool correct) { ++(correct ? right : wrong); }
+  double share() const { return static_cast<double>(right) / (right + wrong); }
+};
+
+// At the middles of the strips and half way between them, within the reach.
+Verdicts judged(const StripProfile& profile, const Strips& strips, double from_m, double to_m) {
+  Verdicts out;
+  for (double u = strips.pitch_m * std::ceil(from_m / strips.pitch_m); u + strips.pitch_m < to_m; u += strips.pitch_m) {
+    out.add(profile.is_strip(u) && profile.surface_probability(u) < 0.5);
+    const double between = u + 0.5 * strips.pitch_m;
+    out.add(!profile.is_strip(between) && profile.surface_probability(between) > 0.5);
+  }
+  return out;
+}
+
+TEST(StripProfile, FindsStripsInRoughRock) {
+  test::Placed<StripProfile> profile;
+  const Strips all[] = {{0.10, 0.15, 1.0}, {0.15, 0.15, 0.8}, {0.15, 0.25, 1.2}, {0.12, 0.20, 1.5}};
+  for (const Strips& strips : all) {
+    int found = 0;
+    Verdicts verdicts;
+    constexpr int kSeeds = 20;
+    for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+      Noise noise(seed);
+      const Rock rock(0.03, 0.3, &noise);
+      if (!find(profile.get(), &noise, with_strips(rock, strips))) continue;
+      ++found;
+      // Columns that a strip's edge cuts stand out by a part of its depth, in the narrow ones every second.
+      EXPECT_GT(profile->layers().step_m, 0.4 * strips.depth_m) << strips.depth_m;
+      EXPECT_LT(profile->layers().step_m, 1.2 * strips.depth_m) << strips.depth_m;
+      const Verdicts here = judged(*profile, strips, -3.5, 3.5);
+      verdicts.right += here.right;
+      verdicts.wrong += here.wrong;
+    }
+    EXPECT_GE(found, kSeeds - 1) << strips.depth_m << " " << strips.pitch_m;
+    EXPECT_GE(verdicts.share(), 0.95) << strips.depth_m << " " << strips.pitch_m;
+  }
+}
+
+TEST(StripProfile, RoughRockHasNone) {
+  test::Placed<StripProfile> profile;
+  for (const double sigma_m : {0.0, 0.02, 0.05}) {
+    for (const double length_m : {0.1, 0.2, 0.4, 1.0}) {
+      int found = 0;
+      for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+        Noise noise(seed);
+        const Rock rock(sigma_m, length_m, &noise);
+        found += find(profile.get(), &noise, [&](double u, double v) { return rock.at(u, v); }) ? 1 : 0;
+      }
+      EXPECT_LE(found, 1) << sigma_m << " m over " << length_m << " m";
+    }
+  }
+}
+
+TEST(StripProfile, OtherThingsAreNoStrips) {
+  test::Placed<StripProfile> profile;
+  const Surface things[] = {
+      [](double u, double) { return std::fabs(u) < 0.08 ? 0.15 : 0.0; },                   // a single one
+      [](double u, double) { return std::fabs(std::fabs(u) - 1.0) < 0.08 ? 0.15 : 0.0; },  // two
+      [](double, double v) { return std::fabs(v) < 0.1 ? 0.15 : 0.0; },                    // a pipe along the wall
+      [](double u, double) { return u > 0.3 ? 0.15 : 0.0; },                               // a step
+      [](double u, double) { return 0.02 * u; },                                           // a plane that is off
+      // Niches: the other way round.
+      [](double u, double) {
+        return Strips{0.15, 0.15, 1.0}.at(u) ? -0.15 : 0.0;
+      },
+  };
+  int thing = 0;
+  for (const Surface& surface : things) {
+    Noise noise(7);
+    EXPECT_FALSE(find(profile.get(), &noise, surface)) << "thing " << thing;
+    ++thing;
+  }
+}
+
+// One ring of a lidar, or a few: nothing tells that a strip goes on up and down.
+TEST(StripProfile, ColumnsSeenAtFewHeightsSayNothing) {
+  test::Placed<StripProfile> profile;
+  const Strips strips{0.15, 0.15, 1.0};
+  for (const int rings : {1, 3, 8}) {
+    profile->begin(-kProfile_m, kLow_m, kHigh_m);
+    for (double u = -kReach_m; u < kReach_m; u += 0.01) {
+      for (int ring = 0; ring < rings; ++ring) profile->add(u, -1.0 + 0.25 * ring, strips.at(u) ? strips.depth_m : 0.0);
+    }
+    EXPECT_EQ(profile->find(0.0, kReach_m, kGate_m), rings == 8) << rings;
+  }
+}
+
+TEST(StripProfile, TellsThemApartFurtherOut) {
+  test::Placed<StripProfile> profile;
+  const Strips strips{0.15, 0.15, 1.0};
+  Noise noise(3);
+  const Rock rock(0.03, 0.3, &noise);
+  const Surface surface = with_strips(rock, strips);
+  ASSERT_TRUE(find(profile.get(), &noise, surface));
+  EXPECT_EQ(profile->surface_probability(9.5), 0.0) << "nothing is known there yet";
+  EXPECT_FALSE(profile->is_strip(10.0));
+  const double near_before = profile->surface_probability(0.5);
+  profile->begin_anew();
+  fill(profile.get(), -20.0, 20.0, &noise, surface);
+  profile->judge(0.0, 12.0);
+  EXPECT_GE(judged(*profile, strips, 4.0, 11.5).share(), 0.9);
+  EXPECT_GE(judged(*profile, strips, -11.5, -4.0).share(), 0.9);
+  EXPECT_EQ(profile->surface_probability(0.5), near_before) << "what was judged stays";
+  EXPECT_EQ(profile->surface_probability(15.5), 0.0) << "out of the second reach";
+}
+
+TEST(StripProfile, HarmlessOutsideAndEmpty) {
+  test::Placed<StripProfile> profile;
+  profile->begin(-kProfile_m, kLow_m, kHigh_m);
+  EXPECT_FALSE(profile->find(0.0, kReach_m, kGate_m));
+  for (const double wild : {-1e30, -33.0, 33.0, 1e30, std::nan("")}) {
+    profile->add(wild, 0.0, 0.1);
+    profile->add(0.0, wild, 0.1);
+    EXPECT_FALSE(profile->is_strip(wild));
+    EXPECT_EQ(profile->surface_probability(wild), 0.0);
+  }
+  EXPECT_FALSE(profile->find(0.0, 1e3, kGate_m));
+  EXPECT_EQ(profile->surface_probability(0.0), 0.0);
+}
+
+}  // namespace
+}  // namespace pose_wall
