@@ -13,8 +13,10 @@ namespace {
 
 // The quadratic must explain this much more (chi-square with 3 degrees of freedom: 1 in 10^4 by chance).
 constexpr double kBendChi2 = 21.1;
+constexpr double kBendShare = 0.6;
+constexpr double kBendPatchesMin = 20.0;
 constexpr double kCorrelationMax = 0.95;
-constexpr double kVisibilityPerPatch = 1.0;
+constexpr double kVisibilityPerPatch = 0.8;
 constexpr double kNoiseLooksRough = 0.05;
 
 }  // namespace
@@ -157,7 +159,9 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) const {
   const double gain = bend.dot(rhs);  // chi-square explained by the quadratic terms
   if (solver.info() != Eigen::Success || !(gain >= 0.0) || !(gain <= 1.01 * plane_chi2)) return;
   const double per_patch = patches / (out->dof + 3.0);  // correlated patches count for fewer
-  out->bends = gain > kBendChi2 * per_patch;
+  // A strong bend makes neighbouring patches err alike, which looks like few independent ones; but then it explains
+  // most of what they err.
+  out->bends = gain > kBendChi2 * per_patch || (patches >= kBendPatchesMin && gain > kBendShare * plane_chi2);
   Vector6 e = Vector6::Zero();
   e[5] = 1.0;
   out->curvature_v = bend[5];

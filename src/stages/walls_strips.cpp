@@ -23,6 +23,7 @@ constexpr double kWeightMin = 1e-6;
 constexpr int kJointRounds = 3;
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
+constexpr double kFrontStepMin_m = 0.06;
 constexpr int kFrontRounds = 4;
 constexpr double kFrontScaleMin_m = 0.005;
 constexpr double kFrontScaleMax_m = 0.03;
@@ -60,6 +61,8 @@ bool agree(const PatchFit& a, const Eigen::Vector3d& a_slopes, const PatchFit& b
 StripFronts measure_fronts(const WallScene& scene, const Eigen::Vector3d& along, const WallSurface& fit,
                            Span<float> residuals) {
   StripFronts fronts;
+  // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
+  if (!(fit.strips->layers().step_m >= kFrontStepMin_m)) return fronts;
   const double from_m = 0.5 * fit.strips->layers().step_m, range_m = 2.0 * fit.strips->layers().step_m;
   std::uint32_t count = 0;
   double sum = 0.0;

@@ -15,7 +15,7 @@ constexpr double kGateInThresholds = 4.0;
 constexpr double kBehindInThresholds = 3.0;
 constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
 // What the strips may have moved the surface by, of their step; measured on simulated steel sets.
-constexpr double kStripsLeftOver = 0.06;
+constexpr double kStripsLeftOver = 0.05;
 // What a split into two layers may leave of the nearer one in the surface, of its share times its step.
 constexpr double kLayersLeftOver = 0.5;
 constexpr double kCut_m = 0.25;

@@ -60,8 +60,7 @@ const std::vector<Row> kRows = {
     {POSE_WALL_R_WALL_FEW_INLIERS, POSE_WALL_D_LF, {"wet_wall"}, {"dropout"}},
     {POSE_WALL_R_WALL_SHORT, POSE_WALL_YAW, {"cavern"}, {"one_wall"}},
     {POSE_WALL_R_WALL_LEANS, POSE_WALL_D_LF, {"trapezoid", {"lean_left_deg=25"}}, {"trapezoid", {"lean_left_deg=10"}}},
-    {POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_D_LF, {"pipes", {"walls=right", "pipe_count=5", "clutter_count=200"}},
-     {"pipes"}},
+    {POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_D_LF, {"props_before_void"}, {"pipes"}},
     {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_D_LF, {"props"}, {"rough"}},
     {POSE_WALL_R_WALLS_NOT_PARALLEL, POSE_WALL_YAW, {"splayed_wide"}, {"splayed"}},
     {POSE_WALL_R_YAW_OUT_OF_RANGE, POSE_WALL_YAW, {"turned", {"turned_left_deg=47", "face_distance_m=0"}},
@@ -69,7 +68,7 @@ const std::vector<Row> kRows = {
     {POSE_WALL_R_CROSS_ROAD, POSE_WALL_YAW,
      {"clean", {"turned_left_deg=90", "face_distance_m=5", "rear_distance_m=5"}},
      {"clean", {"face_distance_m=5", "rear_distance_m=5"}}},
-    {POSE_WALL_R_CURVED, POSE_WALL_ROLL, {"clean", {"rut_depth_m=0.1", "rut_gauge_m=1", "rut_width_m=2"}}, {"clean"}},
+    {POSE_WALL_R_CURVED, POSE_WALL_D_LF, {"curved"}, {"clean"}},
     {POSE_WALL_R_EXTRAPOLATED, POSE_WALL_D_LF, {"crosscut"}, {"crosscut", {"crosscut_at_m=-6"}}},
     // the outcome
     {POSE_WALL_R_LEVEL_MISSING, POSE_WALL_YAW, {"no_floor"}, {"puddles"}},
