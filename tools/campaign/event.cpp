@@ -19,19 +19,22 @@ class Events {
 
   void add(bool happens, double from_s, double to_s) {
     if (!happens) return;
-    const Event next{frame_at(from_s), frame_at(to_s)};
-    event_ = event_ ? Event{std::min(event_->first, next.first), std::max(event_->after, next.after)} : next;
+    const std::uint32_t first = frame_at(from_s), after = frame_at(to_s);
+    first_ = any_ ? std::min(first_, first) : first;
+    after_ = any_ ? std::max(after_, after) : after;
+    any_ = true;
   }
   void add_interval(double from_s, double to_s) { add(from_s < to_s, from_s, to_s); }
 
-  std::optional<Event> whole() const { return event_; }
+  std::optional<Event> whole() const { return any_ ? std::optional<Event>(Event{first_, after_}) : std::nullopt; }
 
  private:
   // As the simulator compares: the first frame whose time is not before it.
   std::uint32_t frame_at(double time_s) const { return static_cast<std::uint32_t>(std::ceil(time_s * rate_hz_)); }
 
   double rate_hz_;
-  std::optional<Event> event_;
+  bool any_ = false;
+  std::uint32_t first_ = 0, after_ = 0;
 };
 
 }  // namespace
