@@ -86,6 +86,7 @@ TEST(CampaignGate, WhatNobodyCanTellIsNotAsked) {
   EXPECT_EQ(joined(gate_faults(card)), "");
   EXPECT_EQ(card.unobservable.frames.misleading, 50U);
   EXPECT_TRUE(card.events.empty());
+  EXPECT_TRUE(contains(faults_of({run}), "no frame was judged")) << "nothing else was looked at";
 }
 
 TEST(CampaignGate, AnUnfinishedCampaignDoesNotPass) {

@@ -90,6 +90,14 @@ TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {
   EXPECT_NE(text_of(folder.file("frames.csv")), frames);
 }
 
+TEST(Campaign, FreshRemovesNothingThatIsNoCampaigns) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.file("records"));
+  std::ofstream(folder.file("records/mine.txt")) << "precious";
+  EXPECT_EQ(campaign_in(folder.path(), {"--fresh"}).exit_status, 1);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("records/mine.txt")));
+}
+
 TEST(Campaign, RefusesARecordThatCameFromElsewhere) {
   const TempFolder folder;
   const TempFolder other;

@@ -43,7 +43,14 @@ std::filesystem::path record_file(const std::filesystem::path& folder, const Run
 }
 
 void prepare_folder(const std::filesystem::path& folder, const Manifest& manifest, bool fresh) {
-  if (fresh) std::filesystem::remove_all(records_in(folder));
+  if (fresh && std::filesystem::exists(records_in(folder))) {
+    read_manifest(folder);  // throws where no campaign was run: somebody else's records stay
+    std::filesystem::remove_all(records_in(folder));
+    for (const char* of_old_card :
+         {"card.md", "card.json", "frames.csv", "stanford_angles.svg", "stanford_distances.svg"}) {
+      std::filesystem::remove(folder / of_old_card);
+    }
+  }
   if (std::filesystem::exists(records_in(folder))) {
     const std::string differs = difference(read_manifest(folder), manifest);
     if (!differs.empty()) {

@@ -27,6 +27,7 @@ class Faults {
 void demand_bounds(Faults& faults, const Card& card) {
   const FrameCounts& nominal = card.nominal.frames;
   const FrameCounts& adversarial = card.adversarial.frames;
+  faults.demand(card.judged.frames.frames > 0, "no frame was judged: unobservable classes prove nothing");
   faults.demand(card.judged.frames.misleading == 0, "{} of {} frames mislead: valid beyond the alert limit; none may",
                 card.judged.frames.misleading, card.judged.frames.frames);
   faults.demand(nominal.raw_beyond_protection == 0,
