@@ -101,7 +101,7 @@ CramerRao::Parameters CramerRao::parameters_of(const std::array<double, kTruthQu
   const Eigen::Matrix3d level = level_of(p[kRoll], p[kPitch]);
   for (int side = 0; side < 2; ++side) {
     const Eigen::Vector3d n = wall_normal(level * forward_base_, p[kYaw], 0.0, side);
-    const auto front = static_cast<std::size_t>(2 * side);
+    const auto front = 2 * static_cast<std::size_t>(side);
     p[kWall + side] = truth[POSE_WALL_D_LF + front] - n.dot(level * samples_base_m_[front]);
   }
   return p;

@@ -40,7 +40,7 @@ struct CampaignOptions {
 
 campaign::Manifest run_campaign(const CampaignOptions& options) {
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
-  const campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
   campaign::prepare_folder(options.output, manifest, options.fresh);
   const std::vector<campaign::Run> pending = campaign::pending_runs(options.output, runs);
   if (!options.quiet) {
