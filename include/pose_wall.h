@@ -249,10 +249,11 @@ enum pose_wall_reason {
   POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 9,   /* another level (bench, pile, reflection) explains the view nearly as well */
   /* the walls */
   POSE_WALL_R_WALL_NOT_FOUND = 1 << 10,
-  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min */
+  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min, or so dim that a gap would go unnoticed */
   POSE_WALL_R_WALL_SHORT = 1 << 12,        /* supported over less than wall_length_min along the road */
   POSE_WALL_R_WALL_LEANS = 1 << 13,        /* leans more than wall_lean_max_deg */
-  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* points lie behind it where it should be solid: pipes, props, conveyor */
+  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* rays pass it or nothing answers where it should be solid, over its top or
+                                              past both of its ends: pipes, props, conveyor, vehicle, curtain */
   POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well */
   POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 16,
   POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 17, /* beyond yaw_max_deg, where side and face become ambiguous */

@@ -49,6 +49,7 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   grid.lay_out(arena, points_max);
   cells.lay_out(arena, points_max);
   marks = arena.take<std::uint8_t>(points_max);
+  returns_lidar.lay_out(arena);
   cloud_base.lay_out(arena, points_max);
   band_level.lay_out(arena, points_max);
   beyond_level.lay_out(arena, kBeyondMax);
@@ -101,7 +102,8 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   std::int64_t at[POSE_WALL_STAGES + 1] = {now()};
   const auto stage_done = [&](pose_wall_stage stage) { at[stage + 1] = now(); };
 
-  found.voxels = build_voxels(cloud, settings_, extrinsic_, axes_, &scratch_.grid, &scratch_.cloud_base);
+  found.voxels =
+      build_voxels(cloud, settings_, extrinsic_, axes_, &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
   found.outliers =
@@ -145,8 +147,8 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
     for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
     return;
   }
-  const WallScene scene =
-      wall_scene(scratch_.band_level, scratch_.beyond_level, settings_, found->level, axes_, extrinsic_.sensor_base_m);
+  const WallScene scene = wall_scene(scratch_.band_level, scratch_.beyond_level, scratch_.cloud_base,
+                                     scratch_.returns_lidar, settings_, found->level, axes_, extrinsic_);
   const Plane* const last[2] = {memory_.has_wall[0] ? &memory_.last_wall[0] : nullptr,
                                 memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);

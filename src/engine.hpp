@@ -8,6 +8,7 @@
 #include "config.hpp"
 #include "containers/arena.hpp"
 #include "containers/cell_index.hpp"
+#include "containers/direction_grid.hpp"
 #include "containers/voxel_grid.hpp"
 #include "pose_wall.h"
 #include "report.hpp"
@@ -23,6 +24,7 @@ struct Scratch {
   VoxelGrid grid;
   CellIndex cells;
   Span<std::uint8_t> marks;  // per point: keep flags, later labels
+  DirectionGrid returns_lidar;
   PointSet cloud_base;
   PointSet band_level;
   PointSet beyond_level;

@@ -13,7 +13,8 @@ namespace pose_wall {
 namespace {
 
 constexpr std::uint32_t kWeakFloor = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_CURVED;
-constexpr std::uint32_t kWeakWall = POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED;
+constexpr std::uint32_t kWeakWall =
+    POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_WALL_FEW_INLIERS | POSE_WALL_R_CURVED;
 // Walls that differ by more than this many standard deviations are not parallel: the road has no one direction.
 constexpr double kSplayInSigmas = 3.0;
 // No part of the chain is better known than this.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "config.hpp"
+#include "containers/direction_grid.hpp"
 #include "containers/voxel_grid.hpp"
 #include "pose_wall.h"
 #include "types.hpp"
@@ -16,6 +17,6 @@ namespace pose_wall {
 // averages them per voxel. When a frame needs more voxels than there is room for, it starts again with a larger leaf:
 // the leaf depends on the set of points alone, not on their order.
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
-                         const Axes& axes, VoxelGrid* grid, PointSet* cloud_base);
+                         const Axes& axes, VoxelGrid* grid, DirectionGrid* returns_lidar, PointSet* cloud_base);
 
 }  // namespace pose_wall

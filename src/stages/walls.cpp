@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
-#include "stages/walls_holes.hpp"
+#include "stages/walls_ends.hpp"
 #include "stages/walls_measure.hpp"
 #include "stages/walls_select.hpp"
+#include "stages/walls_sight.hpp"
 
 namespace pose_wall {
 namespace {
@@ -20,10 +21,10 @@ constexpr double kRefineSlack_deg = 5.0;
 constexpr double kOnWallInThresholds = 3.0;
 constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
-constexpr double kSilentMax = 0.08;
-constexpr double kOpenMax = 0.25;
-constexpr double kOvertoppedMax = 0.5;
-constexpr double kOpenDoubt = 0.12;
+constexpr double kSilentMax = 0.025;
+constexpr double kOpenDoubt = 0.02;
+constexpr double kOpenMax = 0.04;
+constexpr double kToplessMax = 0.17;
 constexpr double kExplainedMin = 0.3;
 
 std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
@@ -83,6 +84,22 @@ void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallRe
   wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
 }
 
+// Near the sensor, what passes for a wall and is none gives itself away.
+void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wall) {
+  const Plane& plane = wall->fit.plane;
+  const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
+  const WallSight sight = look_at(scene, plane, wall->along_level, reach_m, &scratch->behind_lidar);
+  if (sight.dim) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
+  if (sight.open > kOpenDoubt) {
+    wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+    for (double& bound : wall->distance_bound_m) bound += kRivalStretch * sight.depth_m + kRivalMargin_m;
+  }
+  const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
+  if (whole && !is_island(scene, plane, wall->along_level, reach_m)) return;
+  wall->fit.refused = true;
+  wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+}
+
 WallResult measure(const WallScene& scene, const WallChoice& choice, int side, WallsScratch* scratch) {
   const WallCandidate& chosen = *choice.side[side];
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
@@ -108,13 +125,7 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
   }
-  const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
-  const WallHoles holes = wall.fit.found ? find_holes(scene, wall.fit.plane, wall.along_level, reach_m) : WallHoles{};
-  if (holes.open > kOpenDoubt) wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  if (!(holes.silent <= kSilentMax && holes.open <= kOpenMax && holes.overtopped <= kOvertoppedMax)) {
-    wall.fit.refused = true;
-    wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  }
+  if (wall.fit.found) look_closely(scene, scratch, &wall);
   return wall;
 }
 
@@ -141,6 +152,7 @@ void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   for (WallSearch& s : search) s.lay_out(arena, points_max);
   grid.lay_out(arena);
   fit.lay_out(arena, points_max);
+  behind_lidar.lay_out(arena);
 }
 
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {

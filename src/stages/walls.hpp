@@ -16,6 +16,7 @@ struct WallsScratch {
   WallSearch search[2];
   WallGrid grid;
   WallFitScratch fit;
+  DirectionGrid behind_lidar;
 
   void lay_out(Arena& arena, std::uint32_t points_max);
 };

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "estimation/distances.hpp"
 #include "math/elementary.hpp"
 
 namespace pose_wall {
@@ -60,30 +61,6 @@ double offset_at_height(const WallScene& scene, const Plane& plane, double z_lev
   return count >= kPointsMin ? sum / count : kGate_m;
 }
 
-// A histogram of distances and the first at which enough have come together.
-class Distances {
- public:
-  void add(double distance_m) {
-    if (!(distance_m >= 0.0)) return;
-    const double place = distance_m / kBin_m;
-    ++bins_[place < kBins ? static_cast<std::uint32_t>(place) : kBins - 1];
-    ++count_;
-  }
-  std::uint32_t count() const { return count_; }
-  // The distance that `rank` of them do not exceed.
-  double at_rank(std::uint32_t rank) const {
-    std::uint32_t below = 0, b = 0;
-    while (b + 1 < kBins && below + bins_[b] < rank) below += bins_[b++];
-    return (static_cast<double>(b) + 0.5) * kBin_m;
-  }
-
- private:
-  static constexpr std::uint32_t kBins = 200;
-  static constexpr double kBin_m = 0.05;
-  std::uint32_t bins_[kBins] = {};
-  std::uint32_t count_ = 0;
-};
-
 // These distances are read off few points of surfaces nobody fitted.
 double with_margin(double other_m) {
   return other_m > 0.0 ? 1.25 * other_m + 0.05 : 0.0;
@@ -111,18 +88,26 @@ double stands_out_at(const WallScene& scene, const WallGrid& grid, const WallRes
   return nearer.count() >= kOtherPointsMin ? distance_m - nearer.at_rank(kOtherPointsMin) : 0.0;
 }
 
-// Where the plane is open at a sampling point, how far behind it the view ends: the wall steps back there, or a road
-// branches off. 0 where it is not open.
+// Where the plane is open at a sampling point, how far behind it the rays end that pass it there: the wall steps back,
+// or a road branches off. 0 where it is not open. What lies right behind the opening's edge is in its shadow, so the
+// rays tell more than the points beside the sampling point do.
 double steps_back_at(const WallScene& scene, const WallResult& wall, const Eigen::Vector3d& sample_level_m) {
   constexpr double kWindow_m = 0.5;
-  const double along_m = wall.along_level.dot(sample_level_m);
-  Distances behind;
-  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+  constexpr double kDeepShare = 0.95;
+  const Eigen::Vector3d& sensor = scene.sensor_level_m;
+  const double along_m = wall.along_level.dot(sample_level_m), inside_m = wall.fit.plane.signed_distance(sensor);
+  Distances passing, beside;
+  for (std::uint32_t i = 0; i < scene.band_level.count && inside_m > 0.0; ++i) {
     const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = wall.fit.plane.signed_distance(p);
-    if (r < -kOff_m && std::fabs(wall.along_level.dot(p) - along_m) <= kWindow_m) behind.add(-r);
+    if (!(r < -kOff_m)) continue;
+    const Eigen::Vector3d crossing = sensor + (p - sensor) * (inside_m / (inside_m - r));
+    if (std::fabs(wall.along_level.dot(crossing) - along_m) <= kWindow_m) passing.add(-r);
+    if (std::fabs(wall.along_level.dot(p) - along_m) <= kWindow_m) beside.add(-r);
   }
-  return behind.count() >= kOtherPointsMin ? behind.at_rank(behind.count() / 2) : 0.0;
+  const double passing_m = passing.count() >= kOtherPointsMin ? passing.at_share(kDeepShare) : 0.0;
+  const double beside_m = beside.count() >= kOtherPointsMin ? beside.at_share(0.5) : 0.0;
+  return passing_m > beside_m ? passing_m : beside_m;
 }
 
 // Solid at the sampling point and a little to both sides of it.

@@ -10,14 +10,26 @@
 
 namespace pose_wall {
 
-WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const Settings& settings,
-                     const LevelResult& level, const Axes& axes, const Eigen::Vector3d& sensor_base_m) {
+WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const PointSet& cloud_base,
+                     const DirectionGrid& returns_lidar, const Settings& settings, const LevelResult& level,
+                     const Axes& axes, const Extrinsic& extrinsic) {
   const Eigen::Matrix3d& R = level.R_level_base;
   Eigen::Vector3d forward = R * axes.forward_base;
   forward.z() = 0.0;
   forward.normalize();
-  WallScene scene{band_level,        beyond_level, settings, forward, Eigen::Vector3d::UnitZ().cross(forward),
-                  R * sensor_base_m, {},           0.0,      0.0};
+  WallScene scene{band_level,
+                  beyond_level,
+                  cloud_base,
+                  returns_lidar,
+                  settings,
+                  extrinsic,
+                  R,
+                  forward,
+                  Eigen::Vector3d::UnitZ().cross(forward),
+                  R * extrinsic.sensor_base_m,
+                  {},
+                  0.0,
+                  0.0};
   const double offsets_m[2] = {settings.lateral_offset_left, settings.lateral_offset_right};
   const double along_m[2] = {settings.s_front, settings.s_back};
   for (int side = 0; side < 2; ++side) {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "config.hpp"
+#include "containers/direction_grid.hpp"
 #include "containers/point_set.hpp"
 #include "estimation/plane.hpp"
 #include "types.hpp"
@@ -18,7 +19,11 @@ namespace pose_wall {
 struct WallScene {
   const PointSet& band_level;
   const PointSet& beyond_level;  // above and below the band; weight: how many each stands for
+  const PointSet& cloud_base;    // all of them
+  const DirectionGrid& returns_lidar;
   const Settings& settings;
+  const Extrinsic& extrinsic;
+  Eigen::Matrix3d R_level_base;
   Eigen::Vector3d forward_level;  // horizontal, unit
   Eigen::Vector3d left_level;     // Z x forward
   Eigen::Vector3d sensor_level_m;
@@ -27,8 +32,9 @@ struct WallScene {
   double z_max_level_m;
 };
 
-WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const Settings& settings,
-                     const LevelResult& level, const Axes& axes, const Eigen::Vector3d& sensor_base_m);
+WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const PointSet& cloud_base,
+                     const DirectionGrid& returns_lidar, const Settings& settings, const LevelResult& level,
+                     const Axes& axes, const Extrinsic& extrinsic);
 
 // Horizontal direction of a wall, towards the machine's front.
 Eigen::Vector3d along_of(const Plane& wall, const Eigen::Vector3d& forward_level);

@@ -20,7 +20,8 @@ constexpr double kParallelScale_rad = 0.07;  // 4 degrees: walls of one road rar
 constexpr double kPairLengthMin_m = 6.0;
 // A second wall that is not parallel casts doubt on the first unless it is this much weaker.
 constexpr double kDoubtShare = 0.5;
-constexpr double kAcrossCos = 0.7;  // planes across the road are at more than 45 degrees to the side walls
+constexpr double kSplayedCosMin = 0.8;  // 37 degrees
+constexpr double kAcrossCos = 0.7;      // planes across the road are at more than 45 degrees to the side walls
 constexpr double kPairShare = 0.7;
 constexpr double kLoneCrossShare = 1.5;
 
@@ -56,6 +57,25 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parall
     }
   }
   return best;
+}
+
+// Two strong walls that are not parallel are no road with one direction; a weak plane that happens to be parallel to
+// one of them does not make it one.
+bool contested(const Pair& pair, const WallCandidates* const (&lists)[2], double parallel_cos) {
+  const WallCandidate* const chosen[2] = {pair.a, pair.b};
+  for (int side = 0; side < 2; ++side) {
+    const Plane& opposite = chosen[1 - side]->plane;
+    for (std::uint32_t i = 0; i < lists[side]->count; ++i) {
+      const WallCandidate& c = lists[side]->item[i];
+      const double cosine = std::fabs(c.plane.n.dot(opposite.n));
+      if (c.faults != 0 || cosine > parallel_cos || cosine < kSplayedCosMin) continue;
+      if (c.evidence.length_m >= kPairLengthMin_m &&
+          chosen[side]->evidence.score_m2 < kDoubtShare * c.evidence.score_m2) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 const WallCandidate* best_single(const WallCandidates& list, double length_min_m) {
@@ -169,7 +189,8 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
                         const WallCandidates& behind, const Settings& settings) {
   WallChoice out;
   const WallCandidates* const lists[2] = {&left, &right};
-  const Pair pair = best_pair(left, right, settings.wall_parallel_cos);
+  Pair pair = best_pair(left, right, settings.wall_parallel_cos);
+  if (pair.a != nullptr && contested(pair, lists, settings.wall_parallel_cos)) pair = Pair{};
   double score = pair.score;
   double alone = 0.0;
   for (const WallCandidates* list : lists) {

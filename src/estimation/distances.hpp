@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+namespace pose_wall {
+
+// A histogram of distances, 0 to 10 m; what is further counts as 10 m.
+class Distances {
+ public:
+  void add(double distance_m) {
+    if (!(distance_m >= 0.0)) return;
+    const double place = distance_m / kBin_m;
+    ++bins_[place < kBins ? static_cast<std::uint32_t>(place) : kBins - 1];
+    ++count_;
+  }
+  std::uint32_t count() const { return count_; }
+  // The distance that `rank` of them do not exceed.
+  double at_rank(std::uint32_t rank) const {
+    std::uint32_t below = 0, b = 0;
+    while (b + 1 < kBins && below + bins_[b] < rank) below += bins_[b++];
+    return (static_cast<double>(b) + 0.5) * kBin_m;
+  }
+  double at_share(double share) const { return at_rank(static_cast<std::uint32_t>(share * count_)); }
+
+ private:
+  static constexpr std::uint32_t kBins = 200;
+  static constexpr double kBin_m = 0.05;
+  std::uint32_t bins_[kBins] = {};
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace pose_wall

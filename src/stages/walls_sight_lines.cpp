@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_sight_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr double kReach_m = 8.0;
+// Cosine of the angle from the normal: rays that run along the plane say nothing about it.
+constexpr double kTowardsMin = 0.2;
+// Half of the directions may be dark, or blocked, or hidden.
+constexpr double kExpectedRank = 0.75;
+constexpr std::uint32_t kSeenMin = DirectionGrid::kColumns / 8;
+
+}  // namespace
+
+ExpectedReturns::ExpectedReturns(const DirectionGrid& returns_lidar) {
+  for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
+    double counts[DirectionGrid::kColumns];
+    std::uint32_t seen = 0;
+    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
+      const std::uint32_t count = returns_lidar.count(row, column);
+      if (count > 0) counts[seen++] = count / DirectionGrid::column(column).width;
+    }
+    per_width_[row] = 0.0;
+    if (seen < kSeenMin) continue;
+    double* const rank = counts + static_cast<std::uint32_t>(kExpectedRank * seen);
+    std::nth_element(counts, rank, counts + seen);
+    per_width_[row] = *rank;
+  }
+}
+
+SightLines::SightLines(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level)
+    : inside_m_(wall.signed_distance(scene.sensor_level_m)), sensor_z_level_m_(scene.sensor_level_m.z()) {
+  const Eigen::Matrix3d R_lidar_level = (scene.R_level_base * scene.extrinsic.R_base_lidar).transpose();
+  n_lidar_ = R_lidar_level * wall.n;
+  along_lidar_ = R_lidar_level * along_level;
+  up_lidar_ = R_lidar_level.col(2);
+}
+
+SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) const {
+  const double up = DirectionGrid::up(row), flat = std::sqrt(1.0 - up * up);
+  const DirectionGrid::Column c = DirectionGrid::column(column);
+  const Eigen::Vector3d ray(c.x * flat, c.y * flat, up);
+  const double towards = -n_lidar_.dot(ray);
+  if (!(towards > kTowardsMin && inside_m_ <= kReach_m * towards)) return {false, 0.0, 0.0};
+  const double range_m = inside_m_ / towards;
+  return {true, range_m * along_lidar_.dot(ray), sensor_z_level_m_ + range_m * up_lidar_.dot(ray)};
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The directions in which the sensor looks at a plane, and what is to be expected from them.
+
+#pragma once
+
+#include "containers/direction_grid.hpp"
+#include "estimation/plane.hpp"
+#include "stages/walls_scene.hpp"
+
+namespace pose_wall {
+
+// How many returns a cell of directions has where nothing is dark. A sensor looks the same way all around, so each row
+// is compared with itself.
+class ExpectedReturns {
+ public:
+  explicit ExpectedReturns(const DirectionGrid& returns_lidar);
+  double at(std::uint32_t row, std::uint32_t column) const {
+    return per_width_[row] * DirectionGrid::column(column).width;
+  }
+
+ private:
+  double per_width_[DirectionGrid::kRows];
+};
+
+// Where the middles of the cells meet a plane.
+class SightLines {
+ public:
+  // The sensor is on the plane's positive side.
+  SightLines(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level);
+
+  struct Crossing {
+    bool near;       // within the reach of a close look, not too flat
+    double along_m;  // along the road from the sensor
+    double z_level_m;
+  };
+  Crossing at(std::uint32_t row, std::uint32_t column) const;
+
+ private:
+  double inside_m_, sensor_z_level_m_;
+  Eigen::Vector3d n_lidar_, along_lidar_, up_lidar_;
+};
+
+}  // namespace pose_wall
