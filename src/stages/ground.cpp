@@ -23,6 +23,7 @@ constexpr std::uint32_t kCandidatesMin = 60;
 constexpr double kAreaMin_m2 = 2.0;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
 constexpr double kSmallArea_m2 = 5.0;
+constexpr double kSureArea_m2 = 10.0;
 constexpr double kEqualShare = 0.7;
 constexpr double kAcrossSpreadMin_m = 0.2;
 constexpr double kGhostShare = 0.4;
@@ -37,6 +38,10 @@ struct Candidate {
   FloorEvidence evidence;
   bool ghost = false;
 };
+
+double larger(double a, double b) {
+  return a > b ? a : b;
+}
 
 std::uint32_t within_radius(const PointSet& cloud, Span<const std::uint32_t> open, double radius_m,
                             Span<std::uint32_t> out) {
@@ -121,13 +126,21 @@ const Candidate* best_of(Span<const Candidate> candidates, const Candidate* exce
   return best;
 }
 
-// A rival floor nearly as good: the truth may be either, so the protection levels reach to it.
-void reach_to_rival(const Candidate& best, const Candidate* rival, FloorResult* out) {
-  if (rival == nullptr || rival->evidence.score_m2 < kRivalShare * best.evidence.score_m2) return;
-  const RollPitch a = roll_pitch_of_up(best.plane.n), b = roll_pitch_of_up(rival->plane.n);
-  out->roll_bound_rad += std::fabs(a.roll_rad - b.roll_rad);
-  out->pitch_bound_rad += std::fabs(a.pitch_rad - b.pitch_rad);
-  out->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+// Rival floors nearly as good: the truth may be any, so the protection levels reach to the furthest. Where the floor
+// itself is small, what is seen through it may be no reflection but the floor.
+void reach_to_rivals(const Candidate& best, Span<const Candidate> candidates, FloorResult* out) {
+  const RollPitch a = roll_pitch_of_up(best.plane.n);
+  double roll = 0.0, pitch = 0.0;
+  for (const Candidate& rival : candidates) {
+    if (&rival == &best || rival.evidence.score_m2 < kRivalShare * best.evidence.score_m2) continue;
+    if (rival.ghost && best.evidence.area_m2 >= kSureArea_m2) continue;
+    const RollPitch b = roll_pitch_of_up(rival.plane.n);
+    roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad));
+    pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
+    out->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+  }
+  out->roll_bound_rad += roll;
+  out->pitch_bound_rad += pitch;
 }
 
 void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& best, FloorResult* out) {
@@ -177,17 +190,31 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
   const Candidate* rival = best_of(Span<const Candidate>(candidates, count), best);
-  reach_to_rival(*best, rival, &out);
+  reach_to_rivals(*best, Span<const Candidate>(candidates, count), &out);
   out.fit.refused = out.fit.refused || !stands_alone(*best, rival);
   gate(s, sensor, *best, &out);
   return out;
 }
 
-double worse_level(const FloorResult& f, const Settings& s) {
-  if (f.fit.refused) return 1e9;
+struct Levels {
+  double roll_rad, pitch_rad;
+  double worse() const { return larger(roll_rad, pitch_rad); }
+};
+
+Levels levels_of(const FloorResult& f, const Settings& s) {
+  constexpr double kNone_rad = 1e9;
+  if (f.fit.refused) return {kNone_rad, kNone_rad};
   const double k = protection_factor(s.protection_factor, f.dof);
-  const double roll = k * f.roll_sigma_rad + f.roll_bound_rad, pitch = k * f.pitch_sigma_rad + f.pitch_bound_rad;
-  return roll > pitch ? roll : pitch;
+  return {k * f.roll_sigma_rad + f.roll_bound_rad, k * f.pitch_sigma_rad + f.pitch_bound_rad};
+}
+
+// Within another radius the floor looks otherwise: the levels reach to that too.
+void reach_to_other(const FloorResult& other, const Settings& s, FloorResult* floor) {
+  if (other.fit.refused) return;
+  const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
+  const Levels levels = levels_of(*floor, s);
+  floor->roll_bound_rad += larger(0.0, std::fabs(a.roll_rad - b.roll_rad) - levels.roll_rad);
+  floor->pitch_bound_rad += larger(0.0, std::fabs(a.pitch_rad - b.pitch_rad) - levels.pitch_rad);
 }
 
 }  // namespace
@@ -209,20 +236,25 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
                        GroundScratch* scratch) {
   const std::uint32_t open =
       scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->open);
-  FloorResult best;
+  FloorResult within[kRadiusSteps];
+  for (FloorResult& floor : within) floor.fit.refused = true;
+  int best = 0;
   double radius_m = settings.ground_roi_radius;
   for (int step = 0; step < kRadiusSteps; ++step) {
-    const FloorResult here = floor_within(radius_m, cloud_base, scratch->open.first(open), settings, axes,
-                                          sensor_base_m, last_floor, random, scratch);
+    within[step] = floor_within(radius_m, cloud_base, scratch->open.first(open), settings, axes, sensor_base_m,
+                                last_floor, random, scratch);
     // Of refused ones the widest that got furthest tells why.
-    const bool told_more = best.fit.refused && here.fit.refused && here.fit.found;
-    if (step == 0 || told_more || worse_level(here, settings) < worse_level(best, settings)) best = here;
+    const bool told_more = within[best].fit.refused && within[step].fit.refused && within[step].fit.found;
+    const double level = levels_of(within[step], settings).worse();
+    if (told_more || level < levels_of(within[best], settings).worse()) best = step;
     const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
-    if (worse_level(best, settings) <= good_enough || radius_m >= settings.ground_roi_radius_max) break;
-    radius_m *= kRadiusGrowth;
-    if (radius_m > settings.ground_roi_radius_max) radius_m = settings.ground_roi_radius_max;
+    if (levels_of(within[best], settings).worse() <= good_enough || radius_m >= settings.ground_roi_radius_max) break;
+    radius_m = radius_m * kRadiusGrowth < settings.ground_roi_radius_max ? radius_m * kRadiusGrowth
+                                                                         : settings.ground_roi_radius_max;
   }
-  return best;
+  FloorResult out = within[best];
+  for (const FloorResult& other : within) reach_to_other(other, settings, &out);
+  return out;
 }
 
 }  // namespace pose_wall
