@@ -51,7 +51,7 @@ struct Memory {
 
 // Where everything lies in the caller's block:
 //
-//   | Engine | grid | cells | marks | cloud_base | band_level | beyond_level | ground | walls |
+//   | Engine | grid | cells | marks | returns | cloud_base | band_level | beyond_level | ground | walls |
 //
 // Engine is written at open and lives on; the hash slots of grid and cells are cleared at open; the rest is scratch
 // that each frame writes before it reads.
