@@ -107,6 +107,21 @@ TEST(WallEnds, AWallWithAnOpeningBesideTheSensorIsNone) {
   }
 }
 
+// What stands between two roads is no curtain: behind each of them the wall goes on.
+TEST(WallEnds, AWallBetweenTwoOpeningsIsNone) {
+  for (const Lidar& lidar : kLidars) {
+    for (const double half_m : {0.8, 1.5}) {
+      RayScene scene = road();
+      scene.add(side_panel(2.0, {-half_m, half_m}, kFull)).add(side_panel(8.0, kEverywhere, kFull));
+      for (const double near_m : {-half_m - 2.5, half_m}) {
+        scene.add(cross_panel(near_m, {2.0, 8.0}, kFull)).add(cross_panel(near_m + 2.5, {2.0, 8.0}, kFull));
+      }
+      scene.add(side_panel(2.0, {-40.0, -half_m - 2.5}, kFull)).add(side_panel(2.0, {half_m + 2.5, 40.0}, kFull));
+      EXPECT_FALSE(island(scene, 2.0, lidar)) << half_m;
+    }
+  }
+}
+
 TEST(WallEnds, NothingSeenAndWildPointsMakeNoIsland) {
   for (const double y_m : {-2.0, 0.0, 2.0}) EXPECT_FALSE(island(RayScene(), y_m, kLidars[0])) << y_m;
   BandFixture band;

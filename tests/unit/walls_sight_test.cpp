@@ -117,7 +117,7 @@ TEST(WallSight, ATiltedFieldOfViewIsNoFault) {
   }
 }
 
-// With 16 lines so few cells of such a plane answer that it passes for dim: not proven here.
+// Not with 16 lines: fewer than a quarter of the cells answer then, and the plane passes for dim.
 TEST(WallSight, PipesBeforeAWallTooDarkToBeSeenAreSilent) {
   for (const Lidar& lidar : {kOs1, kOs0}) {
     for (const double y_m : {1.0, 1.5, 2.5, 4.0}) {
