@@ -36,6 +36,11 @@ constexpr double kWide_m = 1.0;
 // And so may be one that is no wider than this share of the wall.
 constexpr double kOneGapShare = 0.34;
 constexpr double kDeepShare = 0.8;
+// What is silent elsewhere too, by this much more, tells nothing.
+constexpr double kBlindFactor = 1.5;
+constexpr double kBlindTopsMax = 0.1;
+constexpr double kZoneCellsMin = 60.0;
+constexpr double kZoneColumnsMin = 10.0;
 
 // What passed through the plane, by direction; returns how deep behind it most of that ends.
 double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, DirectionGrid* behind_lidar) {
@@ -99,14 +104,15 @@ struct Seen {
 // Numbers of cells, and of columns.
 struct Tally {
   double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
-  double columns = 0.0, topless = 0.0;
+  double columns = 0.0, silent_tops = 0.0, tops_through = 0.0;
   void add(const Tally& other, double sign = 1.0) {
     cells += sign * other.cells;
     silent += sign * other.silent;
     silent_by_chance += sign * other.silent_by_chance;
     through += sign * other.through;
     columns += sign * other.columns;
-    topless += sign * other.topless;
+    silent_tops += sign * other.silent_tops;
+    tops_through += sign * other.tops_through;
   }
 };
 
@@ -158,15 +164,51 @@ struct Look {
       const bool through = !silent && behind.count(row, column) > kThroughShare * count;
       if (c.z_level_m > top_level_m) {
         top_level_m = c.z_level_m;
-        out.tally.topless = silent || through ? 1.0 : 0.0;
+        out.tally.silent_tops = silent ? 1.0 : 0.0;
+        out.tally.tops_through = through ? 1.0 : 0.0;
       }
       if (!in_band(c)) continue;
-      out.tally.add({1.0, silent ? 1.0 : 0.0, chance_below(kSilentShare * mean, mean), through ? 1.0 : 0.0, 0.0, 0.0});
+      out.tally.add(
+          {1.0, silent ? 1.0 : 0.0, chance_below(kSilentShare * mean, mean), through ? 1.0 : 0.0, 0.0, 0.0, 0.0});
       out.along_m += c.along_m;
     }
     if (out.tally.cells > 0.0) out.along_m /= out.tally.cells;
     out.tally.columns = 1.0;
     return out;
+  }
+};
+
+// What is silent where the plane is not: a sensor may be blind here and there, look further up ahead than aside, or
+// spin about another axis than the expectation supposes.
+struct Blindness {
+  double cells = 1.0;  // share of them
+  double tops = 1.0;   // of columns: the highest cell
+
+  Blindness(const Look& look, const Seen& seen) {
+    double all[3] = {}, silent[3] = {}, columns = 0.0, silent_tops = 0.0;
+    for (std::uint32_t column = 0; column < kColumns; ++column) {
+      bool aside = false, top_is_silent = false;
+      for (std::uint32_t row = 0; row < kRows && seen.column[column]; ++row) {
+        const double mean = look.expected.at(row, column);
+        const SightLines::Elsewhere where = look.lines.elsewhere(row, column);
+        if (!(mean >= kExpectedMin) || where == SightLines::Elsewhere::kAlong || look.lines.at(row, column).near)
+          continue;
+        const bool is_silent = look.scene.returns_lidar.count(row, column) < kSilentShare * mean;
+        const int zone = where == SightLines::Elsewhere::kSide ? 0 : (where == SightLines::Elsewhere::kUp ? 1 : 2);
+        all[zone] += 1.0;
+        silent[zone] += is_silent ? 1.0 : 0.0;
+        aside = true;
+        top_is_silent = is_silent;  // rows go up
+      }
+      columns += aside ? 1.0 : 0.0;
+      silent_tops += aside && top_is_silent ? 1.0 : 0.0;
+    }
+    // The least of what is beside, above and below: one of them may be dark too.
+    for (int zone = 0; zone < 3; ++zone) {
+      const double share = all[zone] >= kZoneCellsMin ? silent[zone] / all[zone] : 1.0;
+      cells = share < cells ? share : cells;
+    }
+    if (columns >= kZoneColumnsMin) tops = silent_tops / columns;
   }
 };
 
@@ -211,7 +253,7 @@ void for_each_run(const ColumnRow& row, Visit visit) {
   visit(run);
 }
 
-WallSight judge(const ColumnRow& row) {
+WallSight judge(const ColumnRow& row, const Blindness& blind) {
   double solid_m = 0.0;
   for_each_run(row, [&](const Run& run) { solid_m = !run.is_gap && run.wide_m > solid_m ? run.wide_m : solid_m; });
   Tally all, longest_gap;
@@ -223,10 +265,11 @@ WallSight judge(const ColumnRow& row) {
   if (longest_gap.cells <= kOneGapShare * all.cells) all.add(longest_gap, -1.0);
   WallSight out;
   if (!(all.cells > 0.0)) return out;
-  const double silent = all.silent - all.silent_by_chance;
-  out.silent = silent > 0.0 ? silent / all.cells : 0.0;
+  const double by_chance = all.silent_by_chance / all.cells, elsewhere = kBlindFactor * blind.cells;
+  const double silent = all.silent / all.cells - (by_chance > elsewhere ? by_chance : elsewhere);
+  out.silent = silent > 0.0 ? silent : 0.0;
   out.open = out.silent + all.through / all.cells;
-  out.topless = all.topless / all.columns;
+  out.topless = ((blind.tops <= kBlindTopsMax ? all.silent_tops : 0.0) + all.tops_through) / all.columns;
   return out;
 }
 
@@ -242,7 +285,7 @@ WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector
   const Look look{scene, *behind_lidar, expected, lines};
   const double brightness = look.brightness(seen);
   WallSight out;
-  if (brightness >= kDimShare) out = judge(ColumnRow(look, seen, brightness));
+  if (brightness >= kDimShare) out = judge(ColumnRow(look, seen, brightness), Blindness(look, seen));
   out.dim = brightness >= 0.0 && brightness < kDimShare;
   out.depth_m = depth_m;
   return out;

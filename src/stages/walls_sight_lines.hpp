@@ -36,8 +36,13 @@ class SightLines {
     double z_level_m;
   };
   Crossing at(std::uint32_t row, std::uint32_t column) const;
+  // Where else the sensor looks, but for along the road, where it may see nothing for being too far.
+  enum class Elsewhere { kAlong, kSide, kUp, kDown };
+  Elsewhere elsewhere(std::uint32_t row, std::uint32_t column) const;
 
  private:
+  static Eigen::Vector3d ray_lidar(std::uint32_t row, std::uint32_t column);
+
   double inside_m_, sensor_z_level_m_;
   Eigen::Vector3d n_lidar_, along_lidar_, up_lidar_;
 };
