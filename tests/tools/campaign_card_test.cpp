@@ -75,9 +75,9 @@ TEST(CampaignCard, CountsAFrameOnceHoweverManyOfItsValuesAreBeyond) {
   EXPECT_EQ(card.adversarial.frames.frames, 5U);
   EXPECT_EQ(card.adversarial.frames.misleading, 0U);
   EXPECT_EQ(card.judged.frames.frames, 8U);
-  EXPECT_EQ(card.distances.regions().hazardous, 1U);
-  EXPECT_EQ(card.angles.regions().misleading, 2U);
-  EXPECT_EQ(card.angles.regions().nominal, 8U * 3U - 2U);
+  EXPECT_EQ(card.distances.regions().misleading_if_valid, 1U);
+  EXPECT_EQ(card.angles.regions().beyond_protection, 2U);
+  EXPECT_EQ(card.angles.regions().within, 8U * 3U - 2U);
 }
 
 TEST(CampaignCard, AValidValueWithoutTruthMisleads) {
