@@ -39,7 +39,6 @@ inline campaign::Manifest manifest_of(const std::vector<campaign::RunRecord>& re
   manifest.identity = {{"version", "0"}, {"program", "p"}, {"settings", "defaults"}, {"plan", "by hand"}};
   manifest.limits = {kAngleLimit_rad, kDistanceLimit_m};
   manifest.runs = records.size();
-  manifest.command = "pose_wall campaign";
   return manifest;
 }
 

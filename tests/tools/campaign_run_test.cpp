@@ -84,7 +84,10 @@ TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {
             std::string::npos)
       << other.errors;
   EXPECT_NE(other.errors.find("--fresh"), std::string::npos);
-  EXPECT_EQ(campaign_in(folder.path(), {"--seed", "9"}).exit_status, 2);
+  const Ran seed = campaign_in(folder.path(), {"--seed", "9"});
+  EXPECT_EQ(seed.exit_status, 2);
+  EXPECT_NE(seed.errors.find("\n  seed: the records have 1, this campaign has 9\n--fresh"), std::string::npos)
+      << "nothing else differs: " << seed.errors;
   EXPECT_EQ(text_of(folder.file("frames.csv")), frames);
   EXPECT_EQ(campaign_in(folder.path(), {"--set", "protection_factor=9", "--fresh"}).exit_status, 0);
   EXPECT_NE(text_of(folder.file("frames.csv")), frames);

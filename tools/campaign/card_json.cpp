@@ -112,7 +112,7 @@ Json event_page(const WorstEvent& e) {
 std::string card_json(const Card& card) {
   Json page;
   for (const auto& [name, value] : card.manifest.identity) page["identity"][name] = value;
-  page["command"] = card.manifest.command;
+  page["command"] = card.manifest.command();
   page["alert_limit_angle_rad"] = card.manifest.limits.angle_rad;
   page["alert_limit_distance_m"] = card.manifest.limits.distance_m;
   page["runs_planned"] = card.manifest.runs;

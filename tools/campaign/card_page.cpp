@@ -18,7 +18,7 @@ std::string head_of(const Card& card) {
                       card.judged.frames.frames + card.unobservable.frames.frames, card.runs, card.manifest.runs,
                       card.classes.size(), amount(true, card.manifest.limits.angle_rad),
                       amount(false, card.manifest.limits.distance_m));
-  text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command);
+  text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command());
   for (const auto& [name, value] : card.manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
   return text + "\n";
 }
