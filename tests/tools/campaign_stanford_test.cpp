@@ -52,7 +52,7 @@ TEST(Stanford, DrawsWhatItCounted) {
   const std::string svg = stanford_diagram(counts, "a title");
   EXPECT_EQ(svg.rfind("<svg", 0), 0U);
   EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
-  for (const char* words : {"a title", "7 (87.5 %)", "1 (12.5 %)", "within protection", "value &gt; protection",
+  for (const char* words : {"a title", "7 (87.5 %)", "1 (12.5 %)", "within protection", "value > protection",
                             "misleading if valid", "alert limit 100 mm"}) {
     EXPECT_NE(svg.find(words), std::string::npos) << words;
   }
