@@ -11,30 +11,22 @@
 #include <iterator>
 
 #include "campaign/folder.hpp"
-#include "command.hpp"
+#include "ran_command.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
+using test::Ran;
 using test::TempFolder;
-
-struct Ran {
-  int exit_status;
-  std::string errors;
-};
 
 // Two scenes, one with an event, one sensor, two draws of a few frames.
 Ran campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"pose_wall",     "campaign",  "--output", folder,    "--scenes",
-                                    "clean,partial", "--sensors", "vlp16",    "--draws", "2",
-                                    "--frames",      "4",         "--quiet"};
+  std::vector<std::string> words = {"campaign",  "--output", folder,    "--scenes", "clean,partial",
+                                    "--sensors", "vlp16",    "--draws", "2",        "--frames",
+                                    "4",         "--quiet"};
   words.insert(words.end(), more.begin(), more.end());
-  std::vector<const char*> argv;
-  for (const std::string& word : words) argv.push_back(word.c_str());
-  ::testing::internal::CaptureStderr();
-  const int exit_status = run_command(static_cast<int>(argv.size()), argv.data());
-  return {exit_status, ::testing::internal::GetCapturedStderr()};
+  return test::command(words);
 }
 
 std::string text_of(const std::string& file) {
