@@ -113,6 +113,10 @@ TEST(EvalVerb, ResultsOfRunCanBeCompared) {
   const std::string page = ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
   EXPECT_TRUE(contains(page, "\"valid_beyond_alert\"")) << page;
+  const Ran bound =
+      command({"eval", folder.file("o.csv"), truth, "--frames", folder.file("f"), "--range-noise", "0.01"});
+  EXPECT_EQ(bound.exit_status, 2);
+  EXPECT_TRUE(contains(bound.errors, "--frames needs --config")) << bound.errors;
   EXPECT_EQ(command({"eval", folder.file("none.csv"), truth}).exit_status, 1);
   EXPECT_EQ(command({"eval", truth, truth}).exit_status, 1) << "the truth has no roll_raw";
 }

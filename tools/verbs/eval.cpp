@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -169,7 +170,17 @@ std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedCon
   return in_file(options.results, [&] { return efficiency_of(results, truth, comparison, options.frames, bounds); });
 }
 
+// Axes and mounting decide where the points lie: with the defaults of another road the bound would be a number of
+// nothing.
+void demand_settings_for_bound(const EvalOptions& options) {
+  if (options.frames.empty() || !options.config_file.empty()) return;
+  throw std::invalid_argument(
+      "--frames needs --config FILE, the settings that RESULT was measured with (pose_wall sim writes them beside its "
+      "frames; config/pose_wall.yaml holds the defaults)");
+}
+
 int eval(const EvalOptions& options) {
+  demand_settings_for_bound(options);
   const std::optional<std::string> config_file =
       options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
   const LoadedConfig loaded = load_config(config_file, options.settings);
@@ -215,7 +226,7 @@ void add_eval(CLI::App& app, int& exit_code) {
   CLI::Option* frames = verb->add_option(
       "-f,--frames", options->frames,
       "Folder of the frames that RESULT was measured from: adds CRB, the least error their points allow, and RMSE/CRB. "
-      "Needs --config as for run");
+      "Needs --config, the same as for run");
   CLI::Option* noise =
       verb->add_option("--range-noise", options->range_noise_m, "Standard deviation of a range of these frames, m");
   noise->check(noise_fault, "0.0001 to 1")->needs(frames);
