@@ -93,6 +93,20 @@ TEST(Campaign, FreshRemovesNothingThatIsNoCampaigns) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("records/mine.txt")));
 }
 
+TEST(Campaign, AFileInTheWayOfTheFolderIsNamed) {
+  const TempFolder folder;
+  const std::string file = folder.write("mine.txt", "precious");
+  for (const std::string& output : {file, file + "/card/deep"}) {
+    const Ran ran = campaign_in(output);
+    EXPECT_EQ(ran.exit_status, 2);
+    EXPECT_NE(ran.errors.find("--output " + output + ": " + file + " is a file; allowed is a folder"),
+              std::string::npos)
+        << ran.errors;
+  }
+  EXPECT_EQ(test::command({"sim", "--output", file}).exit_status, 2);
+  EXPECT_EQ(text_of(file), "precious");
+}
+
 TEST(Campaign, RefusesARecordThatCameFromElsewhere) {
   const TempFolder folder;
   const TempFolder other;

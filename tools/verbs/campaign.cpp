@@ -19,6 +19,7 @@
 #include "campaign/manifest.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
+#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -41,6 +42,7 @@ struct CampaignOptions {
 campaign::Manifest run_campaign(const CampaignOptions& options) {
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
   campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  make_output_folder(options.output);
   campaign::prepare_folder(options.output, manifest, options.fresh);
   const std::vector<campaign::Run> pending = campaign::pending_runs(options.output, runs);
   if (!options.quiet) {

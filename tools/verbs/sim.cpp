@@ -23,6 +23,7 @@
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
+#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -99,7 +100,8 @@ int simulate(const SimOptions& options) {
   if (options.output.empty()) throw std::invalid_argument("--output DIR is needed");
   const sim::Simulator simulator(resolve_setup(options), options.seed);
   try {
-    std::filesystem::create_directories(std::filesystem::path(options.output) / "frames");
+    make_output_folder(options.output);
+    std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
     write_text(std::filesystem::path(options.output) / "pose_wall.yaml",
                sim::engine_settings(simulator.setup(),
                                     fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
