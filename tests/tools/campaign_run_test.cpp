@@ -93,6 +93,19 @@ TEST(Campaign, FreshRemovesNothingThatIsNoCampaigns) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("records/mine.txt")));
 }
 
+TEST(Campaign, BlanksBesideTheCommasOfNamesDoNotMatter) {
+  const TempFolder folder;
+  const auto run = [&folder](const std::string& scenes, const std::string& sensors) {
+    return test::command({"campaign", "--output", folder.path(), "--scenes", scenes, "--sensors", sensors, "--draws",
+                          "1", "--frames", "1", "--quiet"});
+  };
+  EXPECT_EQ(run("clean, partial", " vlp16 ,mid360").exit_status, 0);
+  EXPECT_EQ(run("clean,partial", "vlp16,mid360").exit_status, 0) << "the same campaign";
+  const Ran wrong = run("clean, partail", "vlp16");
+  EXPECT_EQ(wrong.exit_status, 2);
+  EXPECT_NE(wrong.errors.find("'partail'; did you mean 'partial'?"), std::string::npos) << wrong.errors;
+}
+
 TEST(Campaign, AFileInTheWayOfTheFolderIsNamed) {
   const TempFolder folder;
   const std::string file = folder.write("mine.txt", "precious");

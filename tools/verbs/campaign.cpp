@@ -79,14 +79,24 @@ int run_verb(const CampaignOptions& options) {
   }
 }
 
+// "rough, props" is two names, and no blank in front of the second.
+std::string trimmed(std::string name) {
+  const char* const blanks = " \t\n";
+  name.erase(0, name.find_first_not_of(blanks));
+  name.erase(name.find_last_not_of(blanks) + 1);
+  return name;
+}
+
 void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
       ->capture_default_str();
-  verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")->delimiter(',');
+  verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")
+      ->delimiter(',')
+      ->transform(trimmed);
   verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial, unobservable or all")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "adversarial", "unobservable", "all"}));
-  verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',');
+  verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',')->transform(trimmed);
   verb.add_option("--draws", plan.draws, "Draws per scene and sensor, instead of the size's")
       ->check(CLI::Range(1, 1000000));
   verb.add_option("--first-draw", plan.first_draw, "Number of the first draw: with --draws 1, one run again")
