@@ -137,9 +137,17 @@ TEST(Campaign, MakesTheCardAnewFromRecords) {
   ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
   const std::string card = text_of(folder.file("card.md"));
   std::filesystem::remove(folder.file("card.md"));
-  EXPECT_EQ(campaign_in(folder.path(), {"--card-only"}).exit_status, 0);
+  const auto card_only = [](const std::string& path, std::vector<std::string> more) {
+    more.insert(more.begin(), {"campaign", "--card-only", "--quiet", "--output", path});
+    return test::command(more);
+  };
+  EXPECT_EQ(card_only(folder.path(), {}).exit_status, 0);
   EXPECT_EQ(text_of(folder.file("card.md")), card);
-  EXPECT_EQ(campaign_in(folder.file("nothing"), {"--card-only"}).exit_status, 1);
+  EXPECT_EQ(card_only(folder.file("nothing"), {}).exit_status, 1);
+  const Ran ran = card_only(folder.path(), {"--draws", "9", "-n", "3", "--fresh", "--gate"});
+  EXPECT_EQ(ran.exit_status, 2);
+  EXPECT_NE(ran.errors.find("--draws, --frames, --fresh cannot go with it"), std::string::npos) << ran.errors;
+  EXPECT_EQ(text_of(folder.file("card.md")), card);
 }
 
 TEST(Campaign, GateFailsOnADoctoredRecord) {

@@ -4,10 +4,12 @@
 // pose_wall campaign: scenes, sensors and random draws through the engine, and the integrity card of all of them.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -90,6 +92,21 @@ std::string trimmed(std::string name) {
 void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
       ->capture_default_str();
+// The records say how they were made; nothing else can be asked of them.
+void demand_nothing_beside_card_only(const CLI::App& verb) {
+  const std::vector<std::string> allowed = {"--output", "--events", "--gate", "--quiet"};
+  std::vector<std::string> refused;
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    const bool is_allowed = name == "--card-only" || std::find(allowed.begin(), allowed.end(), name) != allowed.end();
+    if (option->count() > 0 && !is_allowed) refused.push_back(name);
+  }
+  if (refused.empty()) return;
+  throw std::invalid_argument(
+      fmt::format("--card-only takes the records as they are: {} cannot go with it; allowed are {}",
+                  fmt::join(refused, ", "), fmt::join(allowed, ", ")));
+}
+
   verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")
       ->delimiter(',')
       ->transform(trimmed);
@@ -121,7 +138,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--events", options->events, "How many of the worst events the card lists")->capture_default_str();
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
-  verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records");
+  verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records, and run nothing");
   verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");
   verb->add_flag("-q,--quiet", options->quiet, "Print errors only");
   verb->footer(
@@ -130,8 +147,11 @@ void add_campaign(CLI::App& app, int& exit_code) {
       "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
       "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
       "another\n"
-      "campaign in the folder, 3 the gate is not passed.");
-  verb->callback([options, &exit_code] { exit_code = run_verb(*options); });
+      "campaign in the folder, 3 the gate is not passed, 130 interrupted by Ctrl-C (the same command goes on).");
+  verb->callback([options, verb, &exit_code] {
+    if (options->card_only) demand_nothing_beside_card_only(*verb);
+    exit_code = run_verb(*options);
+  });
 }
 
 }  // namespace pose_wall::tools
