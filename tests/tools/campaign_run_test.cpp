@@ -6,9 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "campaign/folder.hpp"
 #include "ran_command.hpp"
@@ -64,6 +68,24 @@ TEST(Campaign, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(campaign_in(interrupted.path()).exit_status, 0);
   EXPECT_EQ(std::filesystem::last_write_time(kept), kept_since);
   expect_same(whole, interrupted);
+}
+
+TEST(Campaign, AnInterruptKeepsWhatIsDoneAndSaysHowToGoOn) {
+  const TempFolder folder;
+  std::thread impatient([&folder] {
+    const auto is_there = [&] { return std::filesystem::exists(folder.file("records/clean/vlp16/000000.csv")); };
+    while (!is_there()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::raise(SIGINT);
+  });
+  const Ran ran = test::command({"campaign", "--output", folder.path(), "--scenes", "clean", "--sensors", "vlp16",
+                                 "--draws", "500", "--frames", "10", "--quiet"});
+  impatient.join();
+  EXPECT_EQ(ran.exit_status, 130);
+  const std::ptrdiff_t done = std::count_if(std::filesystem::directory_iterator(folder.file("records/clean/vlp16")),
+                                            std::filesystem::directory_iterator(),
+                                            [](const auto& entry) { return entry.path().extension() == ".csv"; });
+  EXPECT_GE(done, 1);
+  EXPECT_EQ(ran.errors, "interrupted: " + std::to_string(done) + " of 500 runs are done; the same command goes on\n");
 }
 
 TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {

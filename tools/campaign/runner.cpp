@@ -18,6 +18,7 @@
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -86,6 +87,7 @@ class Workers {
   }
 
   void count_frame(const std::string& note) {
+    if (InterruptWatch::is_interrupted()) throw Interrupted();
     const std::lock_guard lock(mutex_);
     ++done_;
     bar_.advance(note);
@@ -132,6 +134,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, api::Engine& engin
 }
 
 void run_all(const std::vector<Run>& runs, const Work& work) {
+  const InterruptWatch watch;
   Workers(runs, work).run();
 }
 

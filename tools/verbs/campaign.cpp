@@ -28,6 +28,7 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr int kExitGate = 3;
+constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 
 struct CampaignOptions {
   campaign::PlanRequest plan;
@@ -70,9 +71,19 @@ int make_card(const CampaignOptions& options, const campaign::Manifest& manifest
   return options.gate ? pass_gate(card) : kExitDone;
 }
 
+int tell_interrupted(const CampaignOptions& options) {
+  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  fmt::print(stderr, "interrupted: {} of {} runs are done; the same command{} goes on\n",
+             runs.size() - campaign::pending_runs(options.output, runs).size(), runs.size(),
+             options.fresh ? " without --fresh" : "");
+  return kExitInterrupted;
+}
+
 int run_verb(const CampaignOptions& options) {
   try {
     return make_card(options, options.card_only ? campaign::read_manifest(options.output) : run_campaign(options));
+  } catch (const campaign::Interrupted&) {
+    return tell_interrupted(options);
   } catch (const campaign::StaleError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -81,17 +92,6 @@ int run_verb(const CampaignOptions& options) {
   }
 }
 
-// "rough, props" is two names, and no blank in front of the second.
-std::string trimmed(std::string name) {
-  const char* const blanks = " \t\n";
-  name.erase(0, name.find_first_not_of(blanks));
-  name.erase(name.find_last_not_of(blanks) + 1);
-  return name;
-}
-
-void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
-  verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
-      ->capture_default_str();
 // The records say how they were made; nothing else can be asked of them.
 void demand_nothing_beside_card_only(const CLI::App& verb) {
   const std::vector<std::string> allowed = {"--output", "--events", "--gate", "--quiet"};
@@ -107,6 +107,17 @@ void demand_nothing_beside_card_only(const CLI::App& verb) {
                   fmt::join(refused, ", "), fmt::join(allowed, ", ")));
 }
 
+// "rough, props" is two names, and no blank in front of the second.
+std::string trimmed(std::string name) {
+  const char* const blanks = " \t\n";
+  name.erase(0, name.find_first_not_of(blanks));
+  name.erase(name.find_last_not_of(blanks) + 1);
+  return name;
+}
+
+void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
+  verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
+      ->capture_default_str();
   verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")
       ->delimiter(',')
       ->transform(trimmed);
