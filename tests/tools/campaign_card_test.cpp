@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/card_files.hpp"
+#include "campaign/card_words.hpp"
 #include "campaign/rate_bound.hpp"
 #include "campaign/recipe.hpp"
 #include "campaign_records.hpp"
@@ -172,6 +173,23 @@ TEST(CampaignCard, TimeToAlertIsTheLongestStretchOfMisleadingFrames) {
   times.add(run, {kAngleLimit_rad, kDistanceLimit_m});
   EXPECT_EQ(times.alert_max, 3U);
   EXPECT_TRUE(times.noticed.empty());
+}
+
+TEST(CampaignCard, SharesAreNotRoundedToAllOrNone) {
+  EXPECT_EQ(percent(1.0), "100 %");
+  EXPECT_EQ(percent(0.7 + 0.2 + 0.1), "100 %");
+  EXPECT_EQ(percent(0.9998), "> 99.9 %");
+  EXPECT_EQ(percent(0.9994), "99.9 %");
+  EXPECT_EQ(percent(0.0006), "0.1 %");
+  EXPECT_EQ(percent(0.0001), "< 0.1 %");
+  EXPECT_EQ(percent(0.0), "0 %");
+  EXPECT_EQ(percent(kNaN), "-");
+}
+
+TEST(CampaignCard, OneIsNoPlural) {
+  const std::string page = card_page(card_of({good_run("clean", 0, 1)}));
+  EXPECT_NE(page.find("1 frame in 1 of 1 run, 1 class (scene and sensor)"), std::string::npos) << page.substr(0, 200);
+  EXPECT_NE(page.find("| 100 % | 99.0 % | 100 % | 0 % |"), std::string::npos);
 }
 
 TEST(CampaignCard, PagesSayTheSameAsTheCounts) {

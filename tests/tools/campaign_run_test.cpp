@@ -181,7 +181,7 @@ TEST(Campaign, GateFailsOnADoctoredRecord) {
   campaign::write_record(campaign::record_file(folder.path(), records[0].run), records[0], manifest.fingerprint());
   const Ran ran = campaign_in(folder.path(), {"--gate"});
   EXPECT_EQ(ran.exit_status, 3);
-  EXPECT_NE(ran.errors.find("1 of 16 frames mislead"), std::string::npos) << ran.errors;
+  EXPECT_NE(ran.errors.find("misleading frames: 1 of 16"), std::string::npos) << ran.errors;
 }
 
 TEST(Campaign, RecordsSurviveTheirFile) {

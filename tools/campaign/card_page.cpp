@@ -9,16 +9,17 @@
 #include "campaign/markdown_table.hpp"
 #include "campaign/recipe.hpp"
 #include "results/result_csv.hpp"
+#include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
 
 std::string head_of(const Card& card) {
   std::string text = "# Integrity card\n\n";
-  text += fmt::format("{} frames in {} of {} runs, {} classes (scene and sensor). Alert limits: {}, {}.\n\n",
-                      card.judged.frames.frames + card.unobservable.frames.frames, card.runs, card.manifest.runs,
-                      card.classes.size(), amount(true, card.manifest.limits.angle_rad),
-                      amount(false, card.manifest.limits.distance_m));
+  text += fmt::format("{} in {} of {}, {} (scene and sensor). Alert limits: {}, {}.\n\n",
+                      counted(card.judged.frames.frames + card.unobservable.frames.frames, "frame"), card.runs,
+                      counted(card.manifest.runs, "run"), counted(card.classes.size(), "class", "classes"),
+                      amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
   text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command());
   for (const auto& [name, value] : card.manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
   return text + "\n";
@@ -27,7 +28,8 @@ std::string head_of(const Card& card) {
 std::string gate_of(const Card& card) {
   const std::vector<std::string> faults = gate_faults(card);
   if (faults.empty()) return "**Gate passed.**\n\n";
-  std::string text = fmt::format("**Gate not passed: {} demands do not hold.**\n\n", faults.size());
+  std::string text = fmt::format("**Gate not passed: {}.**\n\n",
+                                 counted(faults.size(), "demand does not hold", "demands do not hold"));
   for (const std::string& fault : faults) text += "- " + fault + "\n";
   return text + "\n";
 }

@@ -13,6 +13,7 @@
 #include "campaign/fingerprint.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
+#include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -36,7 +37,8 @@ std::string runs_text(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     text += fmt::format("{} {} {} {} {}\n", run.scene, run.sensor, run.draw, run.seed, run.frames);
   }
-  return fmt::format("{} runs, {} frames, {}", runs.size(), frames_of(runs), fingerprint_text(fingerprint(text)));
+  return fmt::format("{}, {}, {}", counted(runs.size(), "run"), counted(frames_of(runs), "frame"),
+                     fingerprint_text(fingerprint(text)));
 }
 
 // Null stands for what was not asked for.
@@ -82,9 +84,8 @@ std::string plan_difference(const Manifest& records, const Manifest& now) {
                          after[i].second);
   }
   if (!lines.empty()) return lines;
-  return fmt::format(
-      "  plan: the records are of {} runs with {} frames, this program makes {} with {} of the same words\n",
-      records.runs, records.frames, now.runs, now.frames);
+  return fmt::format("  plan: the records are of {} with {}, this program makes {} with {} of the same words\n",
+                     counted(records.runs, "run"), counted(records.frames, "frame"), now.runs, now.frames);
 }
 
 std::filesystem::path file_in(const std::filesystem::path& folder) {

@@ -18,6 +18,7 @@
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 
@@ -93,7 +94,7 @@ class Workers {
     bar_.advance(note);
     const bool is_tenth = 10 * done_ / frames_ > 10 * (done_ - 1) / frames_;
     if (is_tenth && work_.tell_progress && !is_terminal(2)) {
-      bar_.print_above(fmt::format("{} of {} frames", done_, frames_));
+      bar_.print_above(fmt::format("{} of {}", done_, counted(frames_, "frame")));
     }
   }
 

@@ -21,6 +21,7 @@
 #include "campaign/manifest.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
+#include "terminal/counted.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
@@ -49,8 +50,8 @@ campaign::Manifest run_campaign(const CampaignOptions& options) {
   campaign::prepare_folder(options.output, manifest, options.fresh);
   const std::vector<campaign::Run> pending = campaign::pending_runs(options.output, runs);
   if (!options.quiet) {
-    fmt::print(stderr, "{} runs, {} frames; {} runs are done already\n", runs.size(), campaign::frames_of(runs),
-               runs.size() - pending.size());
+    fmt::print(stderr, "{}, {}; done already: {}\n", counted(runs.size(), "run"),
+               counted(campaign::frames_of(runs), "frame"), runs.size() - pending.size());
   }
   campaign::run_all(pending, {options.output, options.engine, manifest.fingerprint(), options.jobs, !options.quiet});
   return manifest;
@@ -73,9 +74,9 @@ int make_card(const CampaignOptions& options, const campaign::Manifest& manifest
 
 int tell_interrupted(const CampaignOptions& options) {
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
-  fmt::print(stderr, "interrupted: {} of {} runs are done; the same command{} goes on\n",
-             runs.size() - campaign::pending_runs(options.output, runs).size(), runs.size(),
-             options.fresh ? " without --fresh" : "");
+  fmt::print(stderr, "interrupted: {} of {} done; the same command{} goes on\n",
+             runs.size() - campaign::pending_runs(options.output, runs).size(),
+             counted(runs.size(), "run is", "runs are"), options.fresh ? " without --fresh" : "");
   return kExitInterrupted;
 }
 

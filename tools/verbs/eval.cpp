@@ -18,6 +18,7 @@
 #include "config_file/load_config.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/comparison.hpp"
 #include "truth/efficiency.hpp"
@@ -82,18 +83,19 @@ void append_bound(std::vector<std::string>& cells, const QuantityComparison& qua
 
 void print_points(const Efficiency& efficiency) {
   fmt::print(
-      "\nCRB over {} frames; points per frame: floor {:.0f}, left {:.0f}, right {:.0f}; they scatter {:.2f} times as "
+      "\nCRB over {}; points per frame: floor {:.0f}, left {:.0f}, right {:.0f}; they scatter {:.2f} times as "
       "far as the range noise says\n",
-      efficiency.frames, efficiency.floor_points, efficiency.wall_points[0], efficiency.wall_points[1],
-      efficiency.noise_ratio);
+      counted(efficiency.frames, "frame"), efficiency.floor_points, efficiency.wall_points[0],
+      efficiency.wall_points[1], efficiency.noise_ratio);
   if (efficiency.is_believable()) return;
   fmt::print(
       "The bound is not to be believed: it holds for flat upright walls, a flat floor and the stated range noise.\n");
 }
 
 void print_tables(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
-  fmt::print("{} frames matched by {}; without partner: {} results, {} truths\n\n", comparison.matched,
-             comparison.matched_by, comparison.result_rows_alone, comparison.truth_rows_alone);
+  fmt::print("{} matched by {}; without partner: {}, {}\n\n", counted(comparison.matched, "frame"),
+             comparison.matched_by, counted(comparison.result_rows_alone, "result"),
+             counted(comparison.truth_rows_alone, "truth"));
   std::vector<std::string> head = {"raw",  "frames", "measured", "valid",        "RMSE",
                                    "bias", "95 %",   "max",      "> protection", "mean z²"};
   if (efficiency) head.insert(head.end(), {"CRB", "RMSE/CRB"});

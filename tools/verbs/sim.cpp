@@ -20,6 +20,7 @@
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
@@ -111,7 +112,8 @@ int simulate(const SimOptions& options) {
     fmt::print(stderr, "pose_wall sim: {}\n", error.what());
     return kExitUnreadable;
   }
-  if (!options.quiet) fmt::print(stderr, "{}: {} frames, truth.csv, pose_wall.yaml\n", options.output, options.frames);
+  if (!options.quiet)
+    fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(options.frames, "frame"));
   return kExitDone;
 }
 
