@@ -235,8 +235,9 @@ void add_eval(CLI::App& app, int& exit_code) {
   frames->needs(noise);
   verb->add_flag("--json", options->json, "Print JSON instead of tables, in rad and m");
   verb->footer(
-      "Example:\n  pose_wall eval out.csv truth.csv\n"
-      "  pose_wall eval out.csv road/truth.csv -c road/pose_wall.yaml --frames road/frames --range-noise 0.012\n"
+      "Examples:\n  pose_wall eval out.csv truth.csv\n"
+      "  pose_wall eval out.csv clean/truth.csv -c clean/pose_wall.yaml --frames clean/frames --range-noise 0.012\n"
+      "the second on a road of `pose_wall sim --scene clean`.\n"
       "raw: this frame's own measurement. value: what a controller acts on, held values included.\n"
       "> protection: errors beyond the stated protection level. mean z²: 1 when the stated sigma is true.\n"
       "CRB: Cramer-Rao bound on a clean road (flat floor, flat upright walls, noise along the ray), root mean square "
