@@ -43,10 +43,14 @@ struct SimOptions {
   std::string output;
 };
 
+std::string floor_text(const sim::SceneChoice& scene) {
+  return scene.available_floor > 0.0 ? fmt::format("{:g} %", 100.0 * scene.available_floor) : "-";
+}
+
 void print_list() {
-  TextTable scenes({"scene", "kind", "what it holds", "what a good instrument does"});
+  TextTable scenes({"scene", "kind", "what it holds", "floor", "what a good instrument does"});
   for (const sim::SceneChoice& s : sim::scenes()) {
-    scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, s.expected});
+    scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, floor_text(s), s.expected});
   }
   TextTable sensors({"sensor", "what it is"});
   for (const sim::SensorModel& m : sim::sensor_models()) sensors.add_row({m.sensor.name, m.help});
@@ -56,8 +60,11 @@ void print_list() {
     const std::string allowed = *p.words != '\0' ? p.words : fmt::format("{:g} to {:g}", p.minimum, p.maximum);
     keys.add_row({p.name, sim::parameter_text(p, p.field(defaults)), p.unit, allowed, p.help});
   }
-  fmt::print("{}\n{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n", scenes.text(4),
-             sensors.text(2), keys.text(5));
+  fmt::print(
+      "{}Floor: the least share of the values with a truth that must be valid or degraded; - where none can be "
+      "asked.\n\n"
+      "{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n",
+      scenes.text(5), sensors.text(2), keys.text(5));
 }
 
 sim::Setup resolve_setup(const SimOptions& options) {
