@@ -114,7 +114,7 @@ void draw_names(Svg& svg, const Plot& plot, const StanfordCounts& counts) {
   const Pixel low = plot.at(s.low, s.low);
   const Pixel high = plot.at(s.high, s.high);
   const Name names[] = {
-      {{low.x + 14.0, limit.y + 0.62 * (low.y - limit.y)}, Anchor::kStart, "within protection", r.within, "#2f6b3c"},
+      {{low.x + 14.0, limit.y + 0.5 * (low.y - limit.y)}, Anchor::kStart, "within protection", r.within, "#2f6b3c"},
       {{low.x + 14.0, high.y + 26.0}, Anchor::kStart, "within protection, too wide to be valid", r.too_wide, "#565d64"},
       {{limit.x - 14.0, low.y - 34.0}, Anchor::kEnd, "value > protection", r.beyond_protection, "#9a6200"},
       {{high.x - 14.0, low.y - 34.0}, Anchor::kEnd, "misleading if valid", r.misleading_if_valid, "#a3230f"},
