@@ -9,7 +9,6 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kReach_m = 8.0;
 // Cosine of the angle from the normal: rays that run along the plane say nothing about it.
 constexpr double kTowardsMin = 0.2;
 // Half of the directions may be dark, or blocked, or hidden.
@@ -56,14 +55,14 @@ SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) con
   return {true, range_m * along_lidar_.dot(ray), sensor_z_level_m_ + range_m * up_lidar_.dot(ray)};
 }
 
-SightLines::Elsewhere SightLines::elsewhere(std::uint32_t row, std::uint32_t column) const {
+SightLines::Zone SightLines::zone(std::uint32_t row, std::uint32_t column) const {
   constexpr double kAlongCos = 0.8;
   constexpr double kUpSine = 0.34;  // 20 degrees
   const Eigen::Vector3d ray = ray_lidar(row, column);
-  if (std::fabs(along_lidar_.dot(ray)) > kAlongCos) return Elsewhere::kAlong;
+  if (std::fabs(along_lidar_.dot(ray)) > kAlongCos) return kAlong;
   const double up = up_lidar_.dot(ray);
-  if (std::fabs(up) <= kUpSine) return Elsewhere::kSide;
-  return up > 0.0 ? Elsewhere::kUp : Elsewhere::kDown;
+  if (std::fabs(up) <= kUpSine) return kBeside;
+  return up > 0.0 ? kAbove : kBelow;
 }
 
 }  // namespace pose_wall
