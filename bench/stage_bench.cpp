@@ -45,11 +45,13 @@ struct Pipeline {
     save_voxels();
     outliers();
     floor = ground();
-    level = level_by(floor.fit.plane);
-    cut_wall_band(scratch.cloud_base, level, settings, &scratch.grid, &scratch.band_level);
+    level = level_by(floor.fit.plane, axes);
+    cut_band();
   }
 
-  void voxels() { build_voxels(cloud, settings, extrinsic, axes, &scratch.grid, &scratch.cloud_base); }
+  void voxels() {
+    build_voxels(cloud, settings, extrinsic, axes, &scratch.grid, &scratch.returns_lidar, &scratch.cloud_base);
+  }
 
   std::uint32_t outliers() {
     return remove_outliers(settings, settings.voxel_leaf, &scratch.cells, scratch.marks, &scratch.cloud_base);
@@ -60,10 +62,15 @@ struct Pipeline {
     return find_floor(scratch.cloud_base, settings, axes, extrinsic.sensor_base_m, nullptr, &random, &scratch.ground);
   }
 
+  void cut_band() {
+    cut_wall_band(scratch.cloud_base, level, settings, &scratch.grid, &scratch.band_level, &scratch.beyond_level);
+  }
+
   WallsResult walls() {
     Random random(1);
     const Plane* const no_last[2] = {nullptr, nullptr};
-    const WallScene scene = wall_scene(scratch.band_level, settings, level, axes, extrinsic.sensor_base_m);
+    const WallScene scene = wall_scene(scratch.band_level, scratch.beyond_level, scratch.cloud_base,
+                                       scratch.returns_lidar, settings, level, axes, extrinsic);
     return find_walls(scene, no_last, &random, &scratch.walls);
   }
 
@@ -123,7 +130,7 @@ void stage_3_ground(benchmark::State& state) {
 
 void stage_4_band(benchmark::State& state) {
   Pipeline& p = pipeline();
-  for (auto _ : state) cut_wall_band(p.scratch.cloud_base, p.level, p.settings, &p.scratch.grid, &p.scratch.band_level);
+  for (auto _ : state) p.cut_band();
   state.counters["wall_points"] = p.scratch.band_level.count;
 }
 

@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // White box: a wall band in the levelled frame, built surface by surface, for the stages that look for walls. The
-// machine stands upright at the origin, +X ahead, the floor 1.4 m below.
+// machine stands upright at the origin, +X ahead, the floor 1.4 m below. Points of surfaces built so tell nothing about
+// the directions a sensor looks in: only what is counted with count_return() does (ray_scene.hpp).
 
 #pragma once
 
@@ -20,7 +21,13 @@ constexpr double kFloorZ_m = -1.4;
 class BandFixture {
  public:
   explicit BandFixture(std::initializer_list<KeyValue> settings = {})
-      : settings_(settings_with(settings)), points_(60000), beyond_(60000), noise_(1) {}
+      : settings_(settings_with(settings)),
+        points_(kPointsMax),
+        beyond_(kPointsMax),
+        cloud_(2 * kPointsMax),
+        noise_(1) {
+    returns_lidar_->clear();
+  }
 
   struct Extent {
     double from_m, to_m, low_m, high_m;  // along the road, and above the floor
@@ -48,11 +55,17 @@ class BandFixture {
     }
   }
 
+  // A return of the sensor, by the direction it came from.
+  void count_return(const Eigen::Vector3d& ray_lidar) { returns_lidar_->add(ray_lidar, 1); }
+  void mount_lidar(const Eigen::Matrix3d& R_level_lidar) { extrinsic_.R_base_lidar = R_level_lidar; }
+
+  // Refers to this fixture, as it is now.
   WallScene scene() {
     LevelResult level;
     level.floor_z_level_m = kFloorZ_m;
     const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
-    return wall_scene(points_.set(), beyond_.set(), settings_, level, axes, Eigen::Vector3d::Zero());
+    join_cloud();
+    return wall_scene(points_.set(), beyond_.set(), *cloud_, *returns_lidar_, settings_, level, axes, extrinsic_);
   }
 
   WallsResult walls(const Plane* const last_left = nullptr, const Plane* const last_right = nullptr) {
@@ -68,9 +81,23 @@ class BandFixture {
   Noise& noise() { return noise_; }
 
  private:
+  static constexpr std::uint32_t kPointsMax = 100000;
+
+  // The machine is level: base is the levelled frame.
+  void join_cloud() {
+    cloud_->count = 0;
+    for (OwnedPoints* part : {&points_, &beyond_}) {
+      const PointSet& from = part->set();
+      for (std::uint32_t i = 0; i < from.count; ++i) cloud_->set(cloud_->count++, from.at(i), from.weight[i]);
+    }
+  }
+
   Settings settings_;
+  Extrinsic extrinsic_{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
   OwnedPoints points_;
   OwnedPoints beyond_;
+  Placed<PointSet> cloud_;
+  Placed<DirectionGrid> returns_lidar_;
   Noise noise_;
 };
 

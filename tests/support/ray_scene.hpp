@@ -62,20 +62,24 @@ class RayScene {
   }
   void set_noise(double sigma_m) { noise_m_ = sigma_m; }
 
-  // To the left half only.
-  void scan(const Lidar& lidar, BandFixture* band) const {
+  // All around. A return is lost where `lost` says so of its ray in the lidar frame: dust, mud on the window.
+  using Lost = std::function<bool(const Eigen::Vector3d&)>;
+  void scan(const Lidar& lidar, BandFixture* band, const Lost& lost = nullptr) const {
     constexpr double kDegree = M_PI / 180.0;
-    const Interval heights{band->scene().z_min_level_m, band->scene().z_max_level_m};
+    band->mount_lidar(lidar.R_level_lidar);
+    const WallScene scene = band->scene();
+    const Interval heights{scene.z_min_level_m, scene.z_max_level_m};
     for (double e = lidar.elevation_min_deg; e <= lidar.elevation_max_deg; e += lidar.line_deg) {
       for (double a = 0.0; a < 360.0; a += lidar.azimuth_step_deg) {
         const double flat = std::cos(e * kDegree);
-        const Eigen::Vector3d ray =
-            lidar.R_level_lidar *
-            Eigen::Vector3d(flat * std::cos(a * kDegree), flat * std::sin(a * kDegree), std::sin(e * kDegree));
+        const Eigen::Vector3d ray_lidar(flat * std::cos(a * kDegree), flat * std::sin(a * kDegree),
+                                        std::sin(e * kDegree));
+        const Eigen::Vector3d ray = lidar.R_level_lidar * ray_lidar;
         Eigen::Vector3d p;
-        if (!(ray.y() > 1e-3) || !end_of(ray, &p)) continue;
+        if (!end_of(ray, &p) || (lost && lost(ray_lidar))) continue;
         p += band->noise().normal(noise_m_) * ray;
         (heights.holds(p.z()) ? band->points() : band->beyond()).add(p);
+        band->count_return(ray_lidar);
       }
     }
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: every point of a cloud has exactly one fate and is counted under it; the extrinsic and the byte layout are
-// applied; a cloud with more voxels than there is room for gets a larger leaf, the same for any order of its points.
+// Proves: every point of a cloud has exactly one fate and is counted under it, and every return once by its direction;
+// the extrinsic and the byte layout are applied; a cloud with more voxels than there is room for gets a larger leaf,
+// the same for any order of its points.
 
 #include "stages/voxel.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 struct Voxels {
   VoxelResult result;
   std::vector<Eigen::Vector3d> points;
+  std::uint32_t returns = 0;  // of all directions
 };
 
 Extrinsic at_origin() {
@@ -30,11 +32,15 @@ Extrinsic at_origin() {
 Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic = at_origin()) {
   const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
   test::Placed<VoxelGrid> grid(settings.points_max);
+  test::Placed<DirectionGrid> returns;
   test::Placed<PointSet> out(settings.points_max);
   grid->reset();
   Voxels v;
-  v.result = build_voxels(cloud, settings, extrinsic, axes, grid.get(), out.get());
+  v.result = build_voxels(cloud, settings, extrinsic, axes, grid.get(), returns.get(), out.get());
   for (std::uint32_t i = 0; i < out->count; ++i) v.points.push_back(out->at(i));
+  for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
+    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) v.returns += returns->count(row, column);
+  }
   return v;
 }
 
@@ -49,7 +55,8 @@ TEST(Voxel, EveryPointIsCountedOnce) {
       {2, 2, 2},                                                                 // in the body box
   };
   const Settings settings = test::settings_with({{"body_box_1", "1.5 2.5 1.5 2.5 1.5 2.5"}});
-  const IngestCounts c = voxels_of(test::cloud_of(points, 0), settings).result.counts;
+  const Voxels v = voxels_of(test::cloud_of(points, 0), settings);
+  const IngestCounts& c = v.result.counts;
   EXPECT_EQ(c.points_in, points.size());
   EXPECT_EQ(c.kept, 5U);
   EXPECT_EQ(c.dropped_not_finite, 3U);
@@ -63,6 +70,7 @@ TEST(Voxel, EveryPointIsCountedOnce) {
   EXPECT_EQ(c.kept_by_quadrant[kRight], 1U);
   EXPECT_EQ(c.near_by_quadrant[kLeft], 1U);
   EXPECT_EQ(c.near_by_quadrant[kRight], 1U);
+  EXPECT_EQ(v.returns, c.points_in - c.dropped_not_finite - c.dropped_zero) << "a return, whatever became of it";
 }
 
 TEST(Voxel, PointsAreMovedToBase) {
@@ -118,6 +126,7 @@ TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
   EXPECT_LE(first.points.size(), 5000U);
   EXPECT_GT(first.points.size(), 2000U) << "grown further than needed";
   EXPECT_EQ(first.result.counts.points_in, 40000U) << "each point is counted once, however many passes there are";
+  EXPECT_EQ(first.returns, 40000U);
   test::shuffle(&points, 1);
   const Voxels second = voxels_of(test::cloud_of(points, 0), settings);
   EXPECT_EQ(second.result.fingerprint, first.result.fingerprint);
@@ -128,6 +137,7 @@ TEST(Voxel, AnEmptyCloudHasNoVoxels) {
   const Voxels v = voxels_of(test::cloud_of({}, 0), test::settings_with());
   EXPECT_TRUE(v.points.empty());
   EXPECT_EQ(v.result.counts.points_in, 0U);
+  EXPECT_EQ(v.returns, 0U);
   EXPECT_FALSE(v.result.leaf_grown);
 }
 

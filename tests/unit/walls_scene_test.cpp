@@ -22,13 +22,17 @@ TEST(WallScene, FollowsTheSpecificationForAllAxesAndTilts) {
                                   -Eigen::Vector3d::UnitY()};
   const Settings settings = test::settings_with({{"lateral_offset_left", "0.6"}, {"lateral_offset_right", "-0.5"}});
   test::OwnedPoints none(1);
+  test::Placed<DirectionGrid> no_returns;
+  const Extrinsic extrinsic{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.1, 0.2, 0.3)};
   for (const Eigen::Vector3d& forward : axes) {
     const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(forward);
     LevelResult level;
     level.R_level_base = level_rotation(Eigen::Vector3d(0.1, -0.2, 1.0).normalized());
     level.floor_z_level_m = -1.3;
+    const Axes machine{forward, left};
     const WallScene s =
-        wall_scene(none.set(), none.set(), settings, level, {forward, left}, Eigen::Vector3d(0.1, 0.2, 0.3));
+        wall_scene(none.set(), none.set(), none.set(), *no_returns, settings, level, machine, extrinsic);
+    EXPECT_LT((s.sensor_level_m - level.R_level_base * extrinsic.sensor_base_m).norm(), 1e-12);
     EXPECT_EQ(s.forward_level.z(), 0.0);
     EXPECT_NEAR(s.forward_level.norm(), 1.0, 1e-12);
     EXPECT_GT(s.forward_level.dot(level.R_level_base * forward), 0.9);

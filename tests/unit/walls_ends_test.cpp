@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a curtain or a vehicle past both of whose ends the sensor looks is an island; a wall is none that goes on, or
+// bends away, or ends on one side only, or has an opening near the sensor. Scenes are cast ray by ray on flat panels,
+// without noise. Does not prove it for rough rock, nor for voxels.
+
+#include "stages/walls_ends.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/ray_scene.hpp"
+
+namespace pose_wall {
+namespace {
+
+using test::BandFixture;
+using test::cross_panel;
+using test::Interval;
+using test::kEverywhere;
+using test::Lidar;
+using test::RayScene;
+using test::side_panel;
+
+constexpr double kMargin_m = 0.15;
+constexpr Interval kFull{test::kFloorZ_m, 1.8};
+
+const Lidar kLidars[] = {{-15.0, 15.0, 2.0, 0.2}, {-22.5, 22.5, 0.7, 0.35}, {-45.0, 45.0, 0.7, 0.5}};
+
+RayScene road() {
+  RayScene scene;
+  scene.add(test::level_panel(test::kFloorZ_m)).add(test::level_panel(1.8));
+  return scene.add(side_panel(-2.2, kEverywhere, kFull));
+}
+
+bool island(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
+  BandFixture band;
+  scene.scan(lidar, &band);
+  return is_island(band.scene(), Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kMargin_m);
+}
+
+TEST(WallEnds, ACurtainBeforeTheWallIsAnIsland) {
+  for (const Lidar& lidar : kLidars) {
+    for (const Interval& along : {Interval{-1.5, 1.5}, Interval{-4.0, 2.0}, Interval{-0.6, 4.5}}) {
+      for (const double y_m : {1.0, 1.8}) {
+        RayScene scene = road();
+        scene.add(side_panel(y_m, along, kFull)).add(side_panel(3.0, kEverywhere, kFull));
+        EXPECT_TRUE(island(scene, y_m, lidar)) << y_m << " from " << along.low << " to " << along.high;
+      }
+    }
+  }
+}
+
+// The floor behind its ends is seen.
+TEST(WallEnds, ACurtainBeforeNothingIsAnIsland) {
+  for (const Lidar& lidar : kLidars) {
+    EXPECT_TRUE(island(road().add(side_panel(1.5, {-2.0, 2.0}, kFull)), 1.5, lidar));
+  }
+}
+
+TEST(WallEnds, AWallThatGoesOnIsNone) {
+  for (const Lidar& lidar : kLidars) {
+    for (const double y_m : {0.8, 1.5, 2.5, 4.0}) {
+      EXPECT_FALSE(island(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar)) << y_m;
+    }
+  }
+}
+
+TEST(WallEnds, AWallThatEndsOnOneSideOnlyIsNone) {
+  for (const Lidar& lidar : kLidars) {
+    for (const double end_m : {-1.0, 1.0, 3.0}) {
+      RayScene scene = road();
+      scene.add(side_panel(2.0, {-40.0, end_m}, kFull)).add(cross_panel(end_m, {2.0, 6.0}, kFull));
+      scene.add(side_panel(6.0, kEverywhere, kFull));
+      EXPECT_FALSE(island(scene, 2.0, lidar)) << end_m;
+    }
+  }
+}
+
+// An arc as chords of half a metre, to the left of a plane that touches it beside the sensor: both of its ends lie more
+// than the margin behind the plane from 2.7 m on.
+TEST(WallEnds, AWallThatBendsAwayIsNone) {
+  constexpr double kRadius_m = 25.0, kWall_m = 2.0, kChord_m = 0.5;
+  for (const Lidar& lidar : kLidars) {
+    RayScene scene = road();
+    for (double x = -15.0; x < 15.0; x += kChord_m) {
+      const double middle_m = x + 0.5 * kChord_m;
+      const double back_m = kRadius_m - std::sqrt(kRadius_m * kRadius_m - middle_m * middle_m);
+      scene.add(side_panel(kWall_m + back_m, {x, x + kChord_m}, kFull));
+    }
+    EXPECT_FALSE(island(scene, kWall_m, lidar));
+  }
+}
+
+TEST(WallEnds, AWallWithAnOpeningBesideTheSensorIsNone) {
+  for (const Lidar& lidar : kLidars) {
+    for (const double from_x_m : {-1.5, -0.5, 1.0}) {
+      const double to_x_m = from_x_m + 2.5;
+      RayScene scene = road();
+      scene.add(side_panel(2.0, {-40.0, from_x_m}, kFull)).add(side_panel(2.0, {to_x_m, 40.0}, kFull));
+      scene.add(cross_panel(from_x_m, {2.0, 8.0}, kFull)).add(cross_panel(to_x_m, {2.0, 8.0}, kFull));
+      scene.add(side_panel(8.0, kEverywhere, kFull));
+      EXPECT_FALSE(island(scene, 2.0, lidar)) << from_x_m;
+    }
+  }
+}
+
+TEST(WallEnds, NothingSeenAndWildPointsMakeNoIsland) {
+  for (const double y_m : {-2.0, 0.0, 2.0}) EXPECT_FALSE(island(RayScene(), y_m, kLidars[0])) << y_m;
+  BandFixture band;
+  road().add(side_panel(2.0, kEverywhere, kFull)).scan(kLidars[0], &band);
+  for (const double wild : {-1e30, -1e5, 1e-30, 1e5, 1e30}) {
+    band.points().add(wild, 1.0, 0.0);
+    band.points().add(0.0, wild, 0.0);
+    band.beyond().add(1.0, 3.0, wild);
+  }
+  const Plane wall{Eigen::Vector3d(0, -1, 0), 2.0};
+  EXPECT_FALSE(is_island(band.scene(), wall, Eigen::Vector3d::UnitX(), kMargin_m));
+}
+
+}  // namespace
+}  // namespace pose_wall
