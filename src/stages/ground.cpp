@@ -217,6 +217,15 @@ void reach_to_other(const FloorResult& other, const Settings& s, FloorResult* fl
   floor->pitch_bound_rad += larger(0.0, std::fabs(a.pitch_rad - b.pitch_rad) - levels.pitch_rad);
 }
 
+// Who chooses the smallest of several claims chooses a claim that is too small.
+void widen(const Settings& s, FloorResult* floor) {
+  constexpr double kWinnersCurse = 0.25;
+  if (floor->fit.refused) return;
+  const Levels levels = levels_of(*floor, s);
+  floor->roll_bound_rad += kWinnersCurse * levels.roll_rad;
+  floor->pitch_bound_rad += kWinnersCurse * levels.pitch_rad;
+}
+
 }  // namespace
 
 void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
@@ -254,6 +263,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
   }
   FloorResult out = within[best];
   for (const FloorResult& other : within) reach_to_other(other, settings, &out);
+  if (best > 0) widen(settings, &out);
   return out;
 }
 

@@ -24,7 +24,7 @@ constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.025;
 constexpr double kOpenDoubt = 0.02;
 constexpr double kOpenMax = 0.04;
-constexpr double kToplessMax = 0.17;
+constexpr double kToplessMax = 0.12;
 constexpr double kExplainedMin = 0.3;
 
 std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
@@ -90,8 +90,8 @@ void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wal
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
   const WallSight sight = look_at(scene, plane, wall->along_level, reach_m, &scratch->behind_lidar);
   if (sight.dim) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
-  if (sight.open > kOpenDoubt) {
-    wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  if (sight.open > kOpenDoubt) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  if (sight.dim || sight.open > kOpenDoubt) {
     for (double& bound : wall->distance_bound_m) bound += kRivalStretch * sight.depth_m + kRivalMargin_m;
   }
   const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
@@ -127,6 +127,14 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   }
   if (wall.fit.found) look_closely(scene, scratch, &wall);
   return wall;
+}
+
+// What is left of a pair whose walls run apart: the other one was no wall after all, but it may know the road's
+// direction better.
+void doubt_direction(const WallCandidate& a, const WallCandidate& b, WallResult* left_over) {
+  constexpr double kApart_rad = 0.035;  // 2 degrees
+  const double apart = angle_in_plan(a.plane, b.plane);
+  if (apart > kApart_rad) left_over->yaw_bound_rad += apart;
 }
 
 // Share of the band that lies on the chosen walls. In a cavern or a hall full of things, two flat spots may happen to
@@ -176,6 +184,11 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     if (!explained) {
       out.side[side].fit.refused = true;
       out.side[side].fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND;
+    }
+  }
+  for (int side = 0; side < 2; ++side) {
+    if (out.side[1 - side].fit.refused && choice.side[0] != nullptr && choice.side[1] != nullptr) {
+      doubt_direction(*choice.side[0], *choice.side[1], &out.side[side]);
     }
   }
   return out;

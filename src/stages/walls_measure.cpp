@@ -66,6 +66,8 @@ double with_margin(double other_m) {
   return other_m > 0.0 ? 1.25 * other_m + 0.05 : 0.0;
 }
 
+constexpr double kBackMargin = 2.0;  // the deepest part of an opening is in its shadow
+
 constexpr std::uint32_t kOtherPointsMin = 10;
 constexpr double kOff_m = 0.1;
 
@@ -94,6 +96,7 @@ double stands_out_at(const WallScene& scene, const WallGrid& grid, const WallRes
 double steps_back_at(const WallScene& scene, const WallResult& wall, const Eigen::Vector3d& sample_level_m) {
   constexpr double kWindow_m = 0.5;
   constexpr double kDeepShare = 0.95;
+  constexpr double kShadowFactor = 2.5;  // nothing tells how deep a shadow is
   const Eigen::Vector3d& sensor = scene.sensor_level_m;
   const double along_m = wall.along_level.dot(sample_level_m), inside_m = wall.fit.plane.signed_distance(sensor);
   Distances passing, beside;
@@ -105,8 +108,9 @@ double steps_back_at(const WallScene& scene, const WallResult& wall, const Eigen
     if (std::fabs(wall.along_level.dot(crossing) - along_m) <= kWindow_m) passing.add(-r);
     if (std::fabs(wall.along_level.dot(p) - along_m) <= kWindow_m) beside.add(-r);
   }
+  const bool in_shadow = beside.count() < kOtherPointsMin;
   const double passing_m = passing.count() >= kOtherPointsMin ? passing.at_share(kDeepShare) : 0.0;
-  const double beside_m = beside.count() >= kOtherPointsMin ? beside.at_share(0.5) : 0.0;
+  const double beside_m = in_shadow ? kShadowFactor * passing_m : beside.at_share(0.5);
   return passing_m > beside_m ? passing_m : beside_m;
 }
 
@@ -138,7 +142,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double out_m = stands_out_at(scene, grid, *out, sample, out->distance_m[end]);
     const double back_m = solid_around(grid, along_m) ? 0.0 : steps_back_at(scene, *out, sample);
     out->extrapolated[end] = out_m > 0.0 || back_m > 0.0 || grid.gap_to_solid_m(along_m) > kExtrapolated_m;
-    bound += with_margin(out_m) + with_margin(back_m);
+    bound += with_margin(out_m) + kBackMargin * back_m;
   }
 }
 

@@ -31,12 +31,6 @@ struct Pair {
   double score = 0.0;
 };
 
-// Angle between two planes seen from above: walls lean as they like.
-double angle_in_plan(const Plane& a, const Plane& b) {
-  const double cross = a.n.x() * b.n.y() - a.n.y() * b.n.x(), dot = a.n.x() * b.n.x() + a.n.y() * b.n.y();
-  return arc_tangent2(std::fabs(cross), std::fabs(dot));
-}
-
 // Parallel pairs only; the nearer to parallel, the better.
 Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parallel_cos) {
   Pair best;
@@ -184,6 +178,11 @@ bool stands_across(const WallChoice& sides, double sides_score, const WallCandid
 }
 
 }  // namespace
+
+double angle_in_plan(const Plane& a, const Plane& b) {
+  const double cross = a.n.x() * b.n.y() - a.n.y() * b.n.x(), dot = a.n.x() * b.n.x() + a.n.y() * b.n.y();
+  return arc_tangent2(std::fabs(cross), std::fabs(dot));
+}
 
 WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,
                         const WallCandidates& behind, const Settings& settings) {

@@ -30,6 +30,9 @@ struct WallChoice {
   bool refused[2] = {false, false};
 };
 
+// Seen from above: walls lean as they like.
+double angle_in_plan(const Plane& a, const Plane& b);
+
 // ahead and behind: the planes across the road. A pair of them that makes a better roadway than the sides do means
 // that the machine stands across, and that what looks like side walls are faces.
 WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,

@@ -9,7 +9,6 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kReach_m = 8.0;
 // Cosine of the angle from the normal: rays that run along the plane say nothing about it.
 constexpr double kTowardsMin = 0.2;
 // Half of the directions may be dark, or blocked, or hidden.
@@ -42,14 +41,28 @@ SightLines::SightLines(const WallScene& scene, const Plane& wall, const Eigen::V
   up_lidar_ = R_lidar_level.col(2);
 }
 
-SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) const {
+Eigen::Vector3d SightLines::ray_lidar(std::uint32_t row, std::uint32_t column) {
   const double up = DirectionGrid::up(row), flat = std::sqrt(1.0 - up * up);
   const DirectionGrid::Column c = DirectionGrid::column(column);
-  const Eigen::Vector3d ray(c.x * flat, c.y * flat, up);
+  return {c.x * flat, c.y * flat, up};
+}
+
+SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) const {
+  const Eigen::Vector3d ray = ray_lidar(row, column);
   const double towards = -n_lidar_.dot(ray);
   if (!(towards > kTowardsMin && inside_m_ <= kReach_m * towards)) return {false, 0.0, 0.0};
   const double range_m = inside_m_ / towards;
   return {true, range_m * along_lidar_.dot(ray), sensor_z_level_m_ + range_m * up_lidar_.dot(ray)};
+}
+
+SightLines::Zone SightLines::zone(std::uint32_t row, std::uint32_t column) const {
+  constexpr double kAlongCos = 0.8;
+  constexpr double kUpSine = 0.34;  // 20 degrees
+  const Eigen::Vector3d ray = ray_lidar(row, column);
+  if (std::fabs(along_lidar_.dot(ray)) > kAlongCos) return kAlong;
+  const double up = up_lidar_.dot(ray);
+  if (std::fabs(up) <= kUpSine) return kBeside;
+  return up > 0.0 ? kAbove : kBelow;
 }
 
 }  // namespace pose_wall

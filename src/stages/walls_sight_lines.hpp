@@ -27,6 +27,8 @@ class ExpectedReturns {
 // Where the middles of the cells meet a plane.
 class SightLines {
  public:
+  static constexpr double kReach_m = 8.0;
+
   // The sensor is on the plane's positive side.
   SightLines(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level);
 
@@ -36,8 +38,13 @@ class SightLines {
     double z_level_m;
   };
   Crossing at(std::uint32_t row, std::uint32_t column) const;
+  // Where else the sensor looks; along the road it may see nothing for being too far.
+  enum Zone { kBeside, kAbove, kBelow, kAlong };
+  Zone zone(std::uint32_t row, std::uint32_t column) const;
 
  private:
+  static Eigen::Vector3d ray_lidar(std::uint32_t row, std::uint32_t column);
+
   double inside_m_, sensor_z_level_m_;
   Eigen::Vector3d n_lidar_, along_lidar_, up_lidar_;
 };

@@ -13,7 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/card_files.hpp"
+#include "campaign/card_words.hpp"
 #include "campaign/rate_bound.hpp"
+#include "campaign/recipe.hpp"
 #include "campaign_records.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -75,9 +77,9 @@ TEST(CampaignCard, CountsAFrameOnceHoweverManyOfItsValuesAreBeyond) {
   EXPECT_EQ(card.adversarial.frames.frames, 5U);
   EXPECT_EQ(card.adversarial.frames.misleading, 0U);
   EXPECT_EQ(card.judged.frames.frames, 8U);
-  EXPECT_EQ(card.distances.regions().hazardous, 1U);
-  EXPECT_EQ(card.angles.regions().misleading, 2U);
-  EXPECT_EQ(card.angles.regions().nominal, 8U * 3U - 2U);
+  EXPECT_EQ(card.distances.regions().misleading_if_valid, 1U);
+  EXPECT_EQ(card.angles.regions().beyond_protection, 2U);
+  EXPECT_EQ(card.angles.regions().within, 8U * 3U - 2U);
 }
 
 TEST(CampaignCard, AValidValueWithoutTruthMisleads) {
@@ -102,8 +104,29 @@ TEST(CampaignCard, ListsMisleadingEventsFirstAndOneOfEachRunAndQuantity) {
   EXPECT_NEAR(card.events[0].excess, 0.02 / kAngleLimit_rad, 1e-9);
   EXPECT_EQ(card.events[1].frame, 2U);
   EXPECT_NEAR(card.events[1].error, 0.095, 1e-9);
-  EXPECT_EQ(card.events[0].sim_command(),
-            "pose_wall sim --scene props --sensor os1-64 --random --seed 101 --frames 2 --output DIR");
+}
+
+TEST(CampaignCard, EachEventNamesACommandThatFitsIt) {
+  RunRecord run = good_run("props", 1, 3);
+  run.frames[1].quantity[POSE_WALL_YAW] = value_with_error(0.02, 0.01, 0.0101);
+  Manifest manifest = test::manifest_of({run});
+  const auto command = [&] { return recipe(make_card(manifest, {run}, 1).events.at(0), manifest); };
+  const std::string sim = "pose_wall sim --scene props --sensor os1-64 --random --seed 101 --frames 2 --output DIR && ";
+  EXPECT_EQ(command(), sim + "pose_wall run --config DIR/pose_wall.yaml --output DIR/out.csv DIR/frames");
+  manifest.engine.settings = {"forward_axis=+Y", "body_box_1=[0, 1, 0, 1, 0, 1]"};
+  const std::string settings = " --set forward_axis=+Y --set 'body_box_1=[0, 1, 0, 1, 0, 1]'";
+  EXPECT_EQ(command(),
+            sim + "pose_wall run --config DIR/pose_wall.yaml" + settings + " --output DIR/out.csv DIR/frames");
+  manifest.plan.seed = 7;
+  const std::string campaign =
+      "pose_wall campaign --seed 7 --scenes props --sensors os1-64 --first-draw 1 --draws 1 --frames 2";
+  run.frames[2].stamp_ns += 1;
+  EXPECT_EQ(command().rfind(sim, 0), 0U) << "what comes after the event does not matter";
+  run.frames[0].stamp_ns += 1;
+  EXPECT_EQ(command(), campaign + settings + " --output DIR");
+  run.frames[0].stamp_ns -= 1;
+  manifest.engine.config_file = "my road.yaml";
+  EXPECT_EQ(command(), campaign + " --config 'my road.yaml'" + settings + " --output DIR");
 }
 
 RunRecord run_with_event(std::size_t first, std::size_t after, std::uint32_t frames) {
@@ -150,6 +173,23 @@ TEST(CampaignCard, TimeToAlertIsTheLongestStretchOfMisleadingFrames) {
   times.add(run, {kAngleLimit_rad, kDistanceLimit_m});
   EXPECT_EQ(times.alert_max, 3U);
   EXPECT_TRUE(times.noticed.empty());
+}
+
+TEST(CampaignCard, SharesAreNotRoundedToAllOrNone) {
+  EXPECT_EQ(percent(1.0), "100 %");
+  EXPECT_EQ(percent(0.7 + 0.2 + 0.1), "100 %");
+  EXPECT_EQ(percent(0.9998), "> 99.9 %");
+  EXPECT_EQ(percent(0.9994), "99.9 %");
+  EXPECT_EQ(percent(0.0006), "0.1 %");
+  EXPECT_EQ(percent(0.0001), "< 0.1 %");
+  EXPECT_EQ(percent(0.0), "0 %");
+  EXPECT_EQ(percent(kNaN), "-");
+}
+
+TEST(CampaignCard, OneIsNoPlural) {
+  const std::string page = card_page(card_of({good_run("clean", 0, 1)}));
+  EXPECT_NE(page.find("1 frame in 1 of 1 run, 1 class (scene and sensor)"), std::string::npos) << page.substr(0, 200);
+  EXPECT_NE(page.find("| 100 % | 99.0 % | 100 % | 0 % |"), std::string::npos);
 }
 
 TEST(CampaignCard, PagesSayTheSameAsTheCounts) {

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "campaign/event.hpp"
+#include "campaign/manifest.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
 #include "sim/scenes.hpp"
@@ -123,6 +124,28 @@ TEST(CampaignPlan, NamesWhatWasMeant) {
   EXPECT_NE(refusal(request).find("'os1-64'"), std::string::npos);
   request.size = "meduim";
   EXPECT_NE(refusal(request).find("'medium'"), std::string::npos);
+}
+
+Manifest manifest_for(const PlanRequest& request) {
+  return make_manifest(request, make_plan(request), {});
+}
+
+TEST(CampaignPlan, OtherPlansDifferInWords) {
+  PlanRequest request;
+  request.scenes = {"clean", "jitter"};
+  PlanRequest other = request;
+  EXPECT_EQ(difference(manifest_for(request), manifest_for(other)), "");
+  other.scenes = {"clean"};
+  other.size = "medium";
+  other.draws = 3;
+  EXPECT_EQ(difference(manifest_for(request), manifest_for(other)),
+            "  size: the records have small, this campaign has medium\n"
+            "  scenes: the records have clean,jitter, this campaign has clean\n"
+            "  draws: the records have those of the size, this campaign has 3\n");
+  Manifest drawn_otherwise = manifest_for(request);
+  drawn_otherwise.runs = 7;
+  drawn_otherwise.identity.back().second = "of another table of scenes";
+  EXPECT_NE(difference(drawn_otherwise, manifest_for(request)).find("of 7 runs"), std::string::npos);
 }
 
 TEST(CampaignPlan, SparseSensorsAreRunWithTheShippedSettings) {

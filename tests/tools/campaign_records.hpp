@@ -27,7 +27,7 @@ inline campaign::RunRecord good_run(const std::string& scene, std::uint32_t draw
   for (std::uint32_t i = 0; i < frames; ++i) {
     campaign::FrameRecord frame;
     frame.frame = i;
-    frame.stamp_ns = 1000000000LL + i;
+    frame.stamp_ns = 1000000000LL + 100000000LL * i;
     for (auto& q : frame.quantity) q = value_with_error(i % 2 == 0 ? 0.01 : -0.01);
     record.frames.push_back(frame);
   }
@@ -39,7 +39,6 @@ inline campaign::Manifest manifest_of(const std::vector<campaign::RunRecord>& re
   manifest.identity = {{"version", "0"}, {"program", "p"}, {"settings", "defaults"}, {"plan", "by hand"}};
   manifest.limits = {kAngleLimit_rad, kDistanceLimit_m};
   manifest.runs = records.size();
-  manifest.command = "pose_wall campaign";
   return manifest;
 }
 

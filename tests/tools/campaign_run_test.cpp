@@ -6,35 +6,31 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "campaign/folder.hpp"
-#include "command.hpp"
+#include "ran_command.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
+using test::Ran;
 using test::TempFolder;
-
-struct Ran {
-  int exit_status;
-  std::string errors;
-};
 
 // Two scenes, one with an event, one sensor, two draws of a few frames.
 Ran campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"pose_wall",     "campaign",  "--output", folder,    "--scenes",
-                                    "clean,partial", "--sensors", "vlp16",    "--draws", "2",
-                                    "--frames",      "4",         "--quiet"};
+  std::vector<std::string> words = {"campaign",  "--output", folder,    "--scenes", "clean,partial",
+                                    "--sensors", "vlp16",    "--draws", "2",        "--frames",
+                                    "4",         "--quiet"};
   words.insert(words.end(), more.begin(), more.end());
-  std::vector<const char*> argv;
-  for (const std::string& word : words) argv.push_back(word.c_str());
-  ::testing::internal::CaptureStderr();
-  const int exit_status = run_command(static_cast<int>(argv.size()), argv.data());
-  return {exit_status, ::testing::internal::GetCapturedStderr()};
+  return test::command(words);
 }
 
 std::string text_of(const std::string& file) {
@@ -74,6 +70,24 @@ TEST(Campaign, GoesOnWhereItWasInterrupted) {
   expect_same(whole, interrupted);
 }
 
+TEST(Campaign, AnInterruptKeepsWhatIsDoneAndSaysHowToGoOn) {
+  const TempFolder folder;
+  std::thread impatient([&folder] {
+    const auto is_there = [&] { return std::filesystem::exists(folder.file("records/clean/vlp16/000000.csv")); };
+    while (!is_there()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::raise(SIGINT);
+  });
+  const Ran ran = test::command({"campaign", "--output", folder.path(), "--scenes", "clean", "--sensors", "vlp16",
+                                 "--draws", "500", "--frames", "10", "--quiet"});
+  impatient.join();
+  EXPECT_EQ(ran.exit_status, 130);
+  const std::ptrdiff_t done = std::count_if(std::filesystem::directory_iterator(folder.file("records/clean/vlp16")),
+                                            std::filesystem::directory_iterator(),
+                                            [](const auto& entry) { return entry.path().extension() == ".csv"; });
+  EXPECT_GE(done, 1);
+  EXPECT_EQ(ran.errors, "interrupted: " + std::to_string(done) + " of 500 runs are done; the same command goes on\n");
+}
+
 TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {
   const TempFolder folder;
   ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
@@ -84,7 +98,10 @@ TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {
             std::string::npos)
       << other.errors;
   EXPECT_NE(other.errors.find("--fresh"), std::string::npos);
-  EXPECT_EQ(campaign_in(folder.path(), {"--seed", "9"}).exit_status, 2);
+  const Ran seed = campaign_in(folder.path(), {"--seed", "9"});
+  EXPECT_EQ(seed.exit_status, 2);
+  EXPECT_NE(seed.errors.find("\n  seed: the records have 1, this campaign has 9\n--fresh"), std::string::npos)
+      << "nothing else differs: " << seed.errors;
   EXPECT_EQ(text_of(folder.file("frames.csv")), frames);
   EXPECT_EQ(campaign_in(folder.path(), {"--set", "protection_factor=9", "--fresh"}).exit_status, 0);
   EXPECT_NE(text_of(folder.file("frames.csv")), frames);
@@ -96,6 +113,33 @@ TEST(Campaign, FreshRemovesNothingThatIsNoCampaigns) {
   std::ofstream(folder.file("records/mine.txt")) << "precious";
   EXPECT_EQ(campaign_in(folder.path(), {"--fresh"}).exit_status, 1);
   EXPECT_TRUE(std::filesystem::exists(folder.file("records/mine.txt")));
+}
+
+TEST(Campaign, BlanksBesideTheCommasOfNamesDoNotMatter) {
+  const TempFolder folder;
+  const auto run = [&folder](const std::string& scenes, const std::string& sensors) {
+    return test::command({"campaign", "--output", folder.path(), "--scenes", scenes, "--sensors", sensors, "--draws",
+                          "1", "--frames", "1", "--quiet"});
+  };
+  EXPECT_EQ(run("clean, partial", " vlp16 ,mid360").exit_status, 0);
+  EXPECT_EQ(run("clean,partial", "vlp16,mid360").exit_status, 0) << "the same campaign";
+  const Ran wrong = run("clean, partail", "vlp16");
+  EXPECT_EQ(wrong.exit_status, 2);
+  EXPECT_NE(wrong.errors.find("'partail'; did you mean 'partial'?"), std::string::npos) << wrong.errors;
+}
+
+TEST(Campaign, AFileInTheWayOfTheFolderIsNamed) {
+  const TempFolder folder;
+  const std::string file = folder.write("mine.txt", "precious");
+  for (const std::string& output : {file, file + "/card/deep"}) {
+    const Ran ran = campaign_in(output);
+    EXPECT_EQ(ran.exit_status, 2);
+    EXPECT_NE(ran.errors.find("--output " + output + ": " + file + " is a file; allowed is a folder"),
+              std::string::npos)
+        << ran.errors;
+  }
+  EXPECT_EQ(test::command({"sim", "--output", file}).exit_status, 2);
+  EXPECT_EQ(text_of(file), "precious");
 }
 
 TEST(Campaign, RefusesARecordThatCameFromElsewhere) {
@@ -115,9 +159,17 @@ TEST(Campaign, MakesTheCardAnewFromRecords) {
   ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
   const std::string card = text_of(folder.file("card.md"));
   std::filesystem::remove(folder.file("card.md"));
-  EXPECT_EQ(campaign_in(folder.path(), {"--card-only"}).exit_status, 0);
+  const auto card_only = [](const std::string& path, std::vector<std::string> more) {
+    more.insert(more.begin(), {"campaign", "--card-only", "--quiet", "--output", path});
+    return test::command(more);
+  };
+  EXPECT_EQ(card_only(folder.path(), {}).exit_status, 0);
   EXPECT_EQ(text_of(folder.file("card.md")), card);
-  EXPECT_EQ(campaign_in(folder.file("nothing"), {"--card-only"}).exit_status, 1);
+  EXPECT_EQ(card_only(folder.file("nothing"), {}).exit_status, 1);
+  const Ran ran = card_only(folder.path(), {"--draws", "9", "-n", "3", "--fresh", "--gate"});
+  EXPECT_EQ(ran.exit_status, 2);
+  EXPECT_NE(ran.errors.find("--draws, --frames, --fresh cannot go with it"), std::string::npos) << ran.errors;
+  EXPECT_EQ(text_of(folder.file("card.md")), card);
 }
 
 TEST(Campaign, GateFailsOnADoctoredRecord) {
@@ -129,7 +181,7 @@ TEST(Campaign, GateFailsOnADoctoredRecord) {
   campaign::write_record(campaign::record_file(folder.path(), records[0].run), records[0], manifest.fingerprint());
   const Ran ran = campaign_in(folder.path(), {"--gate"});
   EXPECT_EQ(ran.exit_status, 3);
-  EXPECT_NE(ran.errors.find("1 of 16 frames mislead"), std::string::npos) << ran.errors;
+  EXPECT_NE(ran.errors.find("misleading frames: 1 of 16"), std::string::npos) << ran.errors;
 }
 
 TEST(Campaign, RecordsSurviveTheirFile) {

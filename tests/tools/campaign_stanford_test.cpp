@@ -16,19 +16,19 @@ namespace {
 
 TEST(Stanford, CountsRegions) {
   StanfordCounts counts(angle_scale(1.0));
-  counts.add(0.1, 0.2);   // nominal
-  counts.add(0.2, 0.2);   // nominal: on the diagonal the promise holds
-  counts.add(0.5, 2.0);   // unavailable
-  counts.add(1.5, 2.0);   // unavailable, and it says so
-  counts.add(0.3, 0.2);   // misleading
-  counts.add(3.0, 2.0);   // misleading: but it does not claim to be good
-  counts.add(1.1, 1.0);   // hazardously misleading
-  counts.add(50.0, 0.1);  // hazardously misleading
+  counts.add(0.1, 0.2);   // within
+  counts.add(0.2, 0.2);   // within: on the diagonal the promise holds
+  counts.add(0.5, 2.0);   // too wide
+  counts.add(1.5, 2.0);   // too wide, and it says so
+  counts.add(0.3, 0.2);   // beyond
+  counts.add(3.0, 2.0);   // beyond: but it does not claim to be good
+  counts.add(1.1, 1.0);   // misleading if valid
+  counts.add(50.0, 0.1);  // misleading if valid
   const StanfordCounts::Regions& r = counts.regions();
-  EXPECT_EQ(r.nominal, 2U);
-  EXPECT_EQ(r.unavailable, 2U);
-  EXPECT_EQ(r.misleading, 2U);
-  EXPECT_EQ(r.hazardous, 2U);
+  EXPECT_EQ(r.within, 2U);
+  EXPECT_EQ(r.too_wide, 2U);
+  EXPECT_EQ(r.beyond_protection, 2U);
+  EXPECT_EQ(r.misleading_if_valid, 2U);
 }
 
 TEST(Stanford, NumbersBeyondTheAxesCountAtTheirEnds) {
@@ -40,7 +40,7 @@ TEST(Stanford, NumbersBeyondTheAxesCountAtTheirEnds) {
   EXPECT_EQ(counts.cell(last, 0), 1U);
   counts.add(1000.0, std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(counts.cell(last, 0), 2U);
-  EXPECT_EQ(counts.regions().hazardous, 2U);
+  EXPECT_EQ(counts.regions().misleading_if_valid, 2U);
   EXPECT_EQ(counts.largest_cell(), 2U);
 }
 
@@ -52,7 +52,8 @@ TEST(Stanford, DrawsWhatItCounted) {
   const std::string svg = stanford_diagram(counts, "a title");
   EXPECT_EQ(svg.rfind("<svg", 0), 0U);
   EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
-  for (const char* words : {"a title", "7 (87.5 %)", "1 (12.5 %)", "hazardously misleading", "alert limit 100 mm"}) {
+  for (const char* words : {"a title", "7 (87.5 %)", "1 (12.5 %)", "within protection", "value > protection",
+                            "misleading if valid", "alert limit 100 mm"}) {
     EXPECT_NE(svg.find(words), std::string::npos) << words;
   }
   EXPECT_NE(svg, empty);

@@ -4,8 +4,6 @@
 // Proves: the command keeps its contract: columns, rows for unreadable frames, exit statuses. Does not prove: that the
 // values are right.
 
-#include "command.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -13,32 +11,18 @@
 #include <vector>
 
 #include "csv/csv_table.hpp"
+#include "ran_command.hpp"
 #include "results/result_csv.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
+using test::command;
+using test::contains;
+using test::Ran;
 using test::raw;
 using test::TempFolder;
-
-struct Ran {
-  int exit_status;
-  std::string errors;
-};
-
-Ran command(std::vector<std::string> words) {
-  words.insert(words.begin(), "pose_wall");
-  std::vector<const char*> argv;
-  for (const std::string& word : words) argv.push_back(word.c_str());
-  ::testing::internal::CaptureStderr();
-  const int exit_status = run_command(static_cast<int>(argv.size()), argv.data());
-  return {exit_status, ::testing::internal::GetCapturedStderr()};
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::string kitti_point(float x) {
   return raw(x) + raw(2.0F) + raw(3.0F) + raw(0.5F);
@@ -129,6 +113,10 @@ TEST(EvalVerb, ResultsOfRunCanBeCompared) {
   const std::string page = ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
   EXPECT_TRUE(contains(page, "\"valid_beyond_alert\"")) << page;
+  const Ran bound =
+      command({"eval", folder.file("o.csv"), truth, "--frames", folder.file("f"), "--range-noise", "0.01"});
+  EXPECT_EQ(bound.exit_status, 2);
+  EXPECT_TRUE(contains(bound.errors, "--frames needs --config")) << bound.errors;
   EXPECT_EQ(command({"eval", folder.file("none.csv"), truth}).exit_status, 1);
   EXPECT_EQ(command({"eval", truth, truth}).exit_status, 1) << "the truth has no roll_raw";
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "campaign/card_words.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -21,7 +22,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::string title(const Card& card, const char* quantities) {
-  return fmt::format("{}: error against protection level, {} frames", quantities, card.judged.frames.frames);
+  return fmt::format("{}: error against protection level, {}", quantities, counted(card.judged.frames.frames, "frame"));
 }
 
 std::vector<std::string> row_of(const Totals& t, const char* kind, bool with_bounds) {

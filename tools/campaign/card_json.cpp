@@ -7,6 +7,7 @@
 #include "campaign/card_files.hpp"
 #include "campaign/gate.hpp"
 #include "campaign/rate_bound.hpp"
+#include "campaign/recipe.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -91,7 +92,7 @@ Json class_page(const ClassCard& card) {
           {"quantities", seven(card.quantities)}};
 }
 
-Json event_page(const WorstEvent& e) {
+Json event_page(const WorstEvent& e, const Manifest& manifest) {
   return {{"breach", breach_name(e.breach)},
           {"scene", e.run.scene},
           {"sensor", e.run.sensor},
@@ -104,7 +105,7 @@ Json event_page(const WorstEvent& e) {
           {"protection_level", e.measured.protection_level},
           {"state", pose_wall_state_name(e.measured.state)},
           {"reasons", reason_names(e.reasons)},
-          {"command", e.sim_command()}};
+          {"command", recipe(e, manifest)}};
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ Json event_page(const WorstEvent& e) {
 std::string card_json(const Card& card) {
   Json page;
   for (const auto& [name, value] : card.manifest.identity) page["identity"][name] = value;
-  page["command"] = card.manifest.command;
+  page["command"] = card.manifest.command();
   page["alert_limit_angle_rad"] = card.manifest.limits.angle_rad;
   page["alert_limit_distance_m"] = card.manifest.limits.distance_m;
   page["runs_planned"] = card.manifest.runs;
@@ -124,7 +125,7 @@ std::string card_json(const Card& card) {
                     {"unobservable", totals(card.unobservable)}};
   for (const ClassCard& one : card.classes) page["classes"].push_back(class_page(one));
   page["worst_events"] = Json::array();
-  for (const WorstEvent& event : card.events) page["worst_events"].push_back(event_page(event));
+  for (const WorstEvent& event : card.events) page["worst_events"].push_back(event_page(event, card.manifest));
   return page.dump(1) + "\n";
 }
 

@@ -7,18 +7,20 @@
 #include "campaign/card_words.hpp"
 #include "campaign/gate.hpp"
 #include "campaign/markdown_table.hpp"
+#include "campaign/recipe.hpp"
 #include "results/result_csv.hpp"
+#include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
 
 std::string head_of(const Card& card) {
   std::string text = "# Integrity card\n\n";
-  text += fmt::format("{} frames in {} of {} runs, {} classes (scene and sensor). Alert limits: {}, {}.\n\n",
-                      card.judged.frames.frames + card.unobservable.frames.frames, card.runs, card.manifest.runs,
-                      card.classes.size(), amount(true, card.manifest.limits.angle_rad),
-                      amount(false, card.manifest.limits.distance_m));
-  text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command);
+  text += fmt::format("{} in {} of {}, {} (scene and sensor). Alert limits: {}, {}.\n\n",
+                      counted(card.judged.frames.frames + card.unobservable.frames.frames, "frame"), card.runs,
+                      counted(card.manifest.runs, "run"), counted(card.classes.size(), "class", "classes"),
+                      amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
+  text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command());
   for (const auto& [name, value] : card.manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
   return text + "\n";
 }
@@ -26,7 +28,8 @@ std::string head_of(const Card& card) {
 std::string gate_of(const Card& card) {
   const std::vector<std::string> faults = gate_faults(card);
   if (faults.empty()) return "**Gate passed.**\n\n";
-  std::string text = fmt::format("**Gate not passed: {} demands do not hold.**\n\n", faults.size());
+  std::string text = fmt::format("**Gate not passed: {}.**\n\n",
+                                 counted(faults.size(), "demand does not hold", "demands do not hold"));
   for (const std::string& fault : faults) text += "- " + fault + "\n";
   return text + "\n";
 }
@@ -118,7 +121,7 @@ std::string quantities_of(const Card& card) {
 std::string events_of(const Card& card) {
   if (card.events.empty()) return "## Worst events\n\nNone.\n";
   MarkdownTable table({"breach", "scene", "sensor", "draw", "frame", "quantity", "error", "protection level", "sigma",
-                       "state", "reasons", "the same frames again"},
+                       "state", "reasons", "the same once more"},
                       3);
   for (const WorstEvent& e : card.events) {
     const bool is_angle = e.quantity <= POSE_WALL_YAW;
@@ -127,12 +130,13 @@ std::string events_of(const Card& card) {
     table.add_row({breach_name(e.breach), e.run.scene, e.run.sensor, std::to_string(e.run.draw),
                    std::to_string(e.frame), pose_wall_quantity_name(e.quantity), amount(is_angle, e.error),
                    amount(is_angle, e.measured.protection_level), amount(is_angle, e.measured.sigma),
-                   pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", e.sim_command())});
+                   pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", recipe(e, card.manifest))});
   }
-  return "## Worst events\n\nOf one run and quantity only the worst frame of its gravest breach. Frame files carry no "
-         "stamps: where those are not "
-         "steady, the run itself comes again by `pose_wall campaign` with the same `--seed`, `--scenes SCENE --sensors "
-         "SENSOR --first-draw DRAW --draws 1`.\n\n" +
+  return "## Worst events\n\nOf one run and quantity only the worst frame of its gravest breach. The command at the "
+         "end of "
+         "a row measures it once more: the last row of `DIR/out.csv`, or of `DIR/frames.csv` where frame files would "
+         "not "
+         "do, as they carry neither stamps nor a second file of settings.\n\n" +
          table.text();
 }
 

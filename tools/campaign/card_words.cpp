@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kDegPerRad = 57.29577951308232;
 constexpr std::size_t kReasonsShown = 3;
+constexpr double kRoundingOfSums = 1e-9;
 
 }  // namespace
 
@@ -24,7 +25,11 @@ std::string amount(bool is_angle, double value) {
 }
 
 std::string percent(double share) {
-  return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "-";
+  if (!std::isfinite(share)) return "-";
+  if (share > 1.0 - kRoundingOfSums) return "100 %";
+  if (share >= 0.9995) return "> 99.9 %";
+  if (share > 0.0 && share < 0.0005) return "< 0.1 %";
+  return share > 0.0 ? fmt::format("{:.1f} %", 100.0 * share) : "0 %";
 }
 
 std::string figure(double value) {
@@ -58,7 +63,7 @@ std::string reasons_text(const ClassCard& card) {
   std::string text;
   for (std::size_t i = 0; i < std::min(kReasonsShown, counts.size()); ++i) {
     const double share = static_cast<double>(counts[i].first) / static_cast<double>(values);
-    text += fmt::format("{}{} {:.0f} %", i == 0 ? "" : ", ", pose_wall_reason_name(counts[i].second), 100.0 * share);
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", pose_wall_reason_name(counts[i].second), percent(share));
   }
   return text.empty() ? "-" : text;
 }

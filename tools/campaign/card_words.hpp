@@ -15,7 +15,7 @@ namespace pose_wall::tools::campaign {
 
 // "0.123°" or "12.3 mm"; "-" for NaN.
 std::string amount(bool is_angle, double value);
-// "98.2 %".
+// "98.2 %". "100 %" and "0 %" are all and none: "> 99.9 %" is not rounded up, "< 0.1 %" not down.
 std::string percent(double share);
 // "0.95"; "-" for NaN.
 std::string figure(double value);

@@ -28,19 +28,21 @@ void demand_bounds(Faults& faults, const Card& card) {
   const FrameCounts& nominal = card.nominal.frames;
   const FrameCounts& adversarial = card.adversarial.frames;
   faults.demand(card.judged.frames.frames > 0, "no frame was judged: unobservable classes prove nothing");
-  faults.demand(card.judged.frames.misleading == 0, "{} of {} frames mislead: valid beyond the alert limit; none may",
-                card.judged.frames.misleading, card.judged.frames.frames);
+  faults.demand(card.judged.frames.misleading == 0,
+                "misleading frames: {} of {}, valid beyond the alert limit; none may be", card.judged.frames.misleading,
+                card.judged.frames.frames);
   faults.demand(nominal.raw_beyond_protection == 0,
-                "nominal classes: raw error beyond the protection level in {} of {} frames; none may be",
+                "nominal classes: frames with a raw error beyond the protection level: {} of {}; none may be",
                 nominal.raw_beyond_protection, nominal.frames);
   faults.demand(nominal.value_beyond_protection == 0,
-                "nominal classes: value error beyond the protection level in {} of {} frames; none may be",
+                "nominal classes: frames with a value error beyond the protection level: {} of {}; none may be",
                 nominal.value_beyond_protection, nominal.frames);
   const auto demand_rare = [&](const char* what, std::size_t events) {
-    faults.demand(rate(events, adversarial.frames) < kAdversarialRateMax,
-                  "adversarial classes: {} error beyond the protection level in {} of {} frames, a rate of {:.1e}; it "
-                  "must be below {:.0e}",
-                  what, events, adversarial.frames, rate(events, adversarial.frames), kAdversarialRateMax);
+    faults.demand(
+        rate(events, adversarial.frames) < kAdversarialRateMax,
+        "adversarial classes: frames with a {} error beyond the protection level: {} of {}, a rate of {:.1e}; it "
+        "must be below {:.0e}",
+        what, events, adversarial.frames, rate(events, adversarial.frames), kAdversarialRateMax);
   };
   demand_rare("raw", adversarial.raw_beyond_protection);
   demand_rare("value", adversarial.value_beyond_protection);
@@ -60,7 +62,7 @@ void demand_availability(Faults& faults, const Card& card) {
   for (const ClassCard& one : card.classes) {
     const double available = state_shares(one.quantities).available();
     const double floor = one.scene->available_floor;
-    faults.demand(floor <= 0.0 || available >= floor, "{} {}: {:.1f} % available; its floor is {:.1f} %",
+    faults.demand(floor <= 0.0 || available >= floor, "{} {}: {:.4g} % available; its floor is {:.4g} %",
                   one.scene->name, one.sensor, 100.0 * available, 100.0 * floor);
   }
 }
@@ -69,7 +71,7 @@ void demand_availability(Faults& faults, const Card& card) {
 
 std::vector<std::string> gate_faults(const Card& card) {
   Faults faults;
-  faults.demand(card.runs == card.manifest.runs, "the campaign is not finished: {} of {} runs", card.runs,
+  faults.demand(card.runs == card.manifest.runs, "the campaign is not finished: runs done {} of {}", card.runs,
                 card.manifest.runs);
   demand_bounds(faults, card);
   demand_sigma(faults, card);

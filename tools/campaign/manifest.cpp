@@ -4,15 +4,16 @@
 #include "campaign/manifest.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "campaign/fingerprint.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
+#include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -36,20 +37,55 @@ std::string runs_text(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     text += fmt::format("{} {} {} {} {}\n", run.scene, run.sensor, run.draw, run.seed, run.frames);
   }
-  return fmt::format("{} runs, {} frames, {}", runs.size(), frames_of(runs), fingerprint_text(fingerprint(text)));
+  return fmt::format("{}, {}, {}", counted(runs.size(), "run"), counted(frames_of(runs), "frame"),
+                     fingerprint_text(fingerprint(text)));
 }
 
-std::string command_of(const PlanRequest& request, const EngineChoice& choice) {
-  std::string words = fmt::format("pose_wall campaign --size {} --seed {}", request.size, request.seed);
-  if (request.kind != "all") words += " --kind " + request.kind;
-  if (!request.scenes.empty()) words += fmt::format(" --scenes {}", fmt::join(request.scenes, ","));
-  if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
-  if (request.draws) words += fmt::format(" --draws {}", *request.draws);
-  if (request.frames) words += fmt::format(" --frames {}", *request.frames);
-  if (request.first_draw != 0) words += fmt::format(" --first-draw {}", request.first_draw);
-  if (!choice.config_file.empty()) words += " --config " + choice.config_file;
-  for (const std::string& setting : choice.settings) words += fmt::format(" --set '{}'", setting);
-  return words;
+// Null stands for what was not asked for.
+nlohmann::ordered_json number_page(const std::optional<std::uint32_t>& number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
+std::optional<std::uint32_t> number_from(const nlohmann::ordered_json& page) {
+  return page.is_null() ? std::nullopt : std::optional(page.get<std::uint32_t>());
+}
+
+nlohmann::ordered_json plan_page(const PlanRequest& plan) {
+  return {{"size", plan.size},
+          {"scenes", plan.scenes},
+          {"kind", plan.kind},
+          {"sensors", plan.sensors},
+          {"draws", number_page(plan.draws)},
+          {"first_draw", plan.first_draw},
+          {"frames", number_page(plan.frames)},
+          {"seed", plan.seed}};
+}
+
+PlanRequest plan_from(const nlohmann::ordered_json& page) {
+  PlanRequest plan;
+  plan.size = page.at("size");
+  page.at("scenes").get_to(plan.scenes);
+  plan.kind = page.at("kind");
+  page.at("sensors").get_to(plan.sensors);
+  plan.draws = number_from(page.at("draws"));
+  plan.first_draw = page.at("first_draw");
+  plan.frames = number_from(page.at("frames"));
+  plan.seed = page.at("seed");
+  return plan;
+}
+
+std::string plan_difference(const Manifest& records, const Manifest& now) {
+  const auto before = request_words(records.plan);
+  const auto after = request_words(now.plan);
+  std::string lines;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (before[i].second == after[i].second) continue;
+    lines += fmt::format("  {}: the records have {}, this campaign has {}\n", after[i].first, before[i].second,
+                         after[i].second);
+  }
+  if (!lines.empty()) return lines;
+  return fmt::format("  plan: the records are of {} with {}, this program makes {} with {} of the same words\n",
+                     counted(records.runs, "run"), counted(records.frames, "frame"), now.runs, now.frames);
 }
 
 std::filesystem::path file_in(const std::filesystem::path& folder) {
@@ -76,7 +112,8 @@ Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs,
                      loaded.config.number("alert_limit_distance")};
   manifest.runs = runs.size();
   manifest.frames = frames_of(runs);
-  manifest.command = command_of(request, choice);
+  manifest.plan = request;
+  manifest.engine = choice;
   return manifest;
 }
 
@@ -84,7 +121,12 @@ std::string difference(const Manifest& records, const Manifest& now) {
   std::string lines;
   for (const auto& [name, value] : now.identity) {
     for (const auto& [old_name, old_value] : records.identity) {
-      if (name == old_name && value != old_value) {
+      if (name != old_name || value == old_value) continue;
+      if (name == "plan") {
+        lines += plan_difference(records, now);
+      } else if (name == "program") {
+        lines += "  program: another build of pose_wall made the records\n";
+      } else {
         lines += fmt::format("  {}: the records have '{}', this campaign has '{}'\n", name, old_value, value);
       }
     }
@@ -100,7 +142,9 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
   page["alert_limit_distance_m"] = manifest.limits.distance_m;
   page["runs"] = manifest.runs;
   page["frames"] = manifest.frames;
-  page["command"] = manifest.command;
+  page["request"] = plan_page(manifest.plan);
+  page["engine"] = {{"config", manifest.engine.config_file}, {"set", manifest.engine.settings}};
+  page["command"] = manifest.command();
   std::ofstream out(file_in(folder));
   out << page.dump(2) << "\n";
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file_in(folder).string()));
@@ -117,10 +161,13 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     manifest.limits = {page.at("alert_limit_angle_rad"), page.at("alert_limit_distance_m")};
     manifest.runs = page.at("runs");
     manifest.frames = page.at("frames");
-    manifest.command = page.at("command");
+    manifest.plan = plan_from(page.at("request"));
+    manifest.engine.config_file = page.at("engine").at("config");
+    page.at("engine").at("set").get_to(manifest.engine.settings);
     return manifest;
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file_in(folder).string(), error.what()));
+    throw std::runtime_error(fmt::format("{}: not as this version writes it ({}); another folder is needed",
+                                         file_in(folder).string(), error.what()));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "campaign/command_words.hpp"
 #include "campaign/plan.hpp"
 #include "truth/comparison.hpp"
 
@@ -21,21 +22,17 @@ struct Manifest {
   AlertLimits limits;
   std::size_t runs = 0;
   std::size_t frames = 0;
-  std::string command;  // makes the same campaign again
+  PlanRequest plan;  // as it was asked for
+  EngineChoice engine;
 
+  std::string command() const { return campaign_command(plan, engine); }
   // Stands in each record.
   std::string fingerprint() const;
 };
 
-// The settings in every engine of the campaign: a file, and KEY=VALUE over it.
-struct EngineChoice {
-  std::string config_file;  // or none
-  std::vector<std::string> settings;
-};
-
 Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs, const EngineChoice& choice);
 
-// One line per thing that differs; empty when both are of one campaign.
+// A line in words per thing that differs; empty when both are of one campaign.
 std::string difference(const Manifest& records, const Manifest& now);
 
 // Both throw std::runtime_error that names the file.

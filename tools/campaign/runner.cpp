@@ -18,6 +18,8 @@
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
+#include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -86,12 +88,13 @@ class Workers {
   }
 
   void count_frame(const std::string& note) {
+    if (InterruptWatch::is_interrupted()) throw Interrupted();
     const std::lock_guard lock(mutex_);
     ++done_;
     bar_.advance(note);
     const bool is_tenth = 10 * done_ / frames_ > 10 * (done_ - 1) / frames_;
     if (is_tenth && work_.tell_progress && !is_terminal(2)) {
-      bar_.print_above(fmt::format("{} of {} frames", done_, frames_));
+      bar_.print_above(fmt::format("{} of {}", done_, counted(frames_, "frame")));
     }
   }
 
@@ -132,6 +135,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, api::Engine& engin
 }
 
 void run_all(const std::vector<Run>& runs, const Work& work) {
+  const InterruptWatch watch;
   Workers(runs, work).run();
 }
 

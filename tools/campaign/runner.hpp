@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -28,7 +29,14 @@ struct Work {
   bool tell_progress = false;  // a bar on a terminal, else a line for every tenth
 };
 
-// Writes a record for each run. What goes wrong in one run ends them all; the first such error is thrown.
+// Ctrl-C came; the records of the runs that were done by then are there.
+class Interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+// Writes a record for each run. What goes wrong in one run ends them all; the first such error is thrown. Ctrl-C ends
+// them with the frame they are at: Interrupted.
 void run_all(const std::vector<Run>& runs, const Work& work);
 
 }  // namespace pose_wall::tools::campaign

@@ -3,8 +3,6 @@
 
 #include "campaign/worst_events.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,6 +16,8 @@ double ratio(double error, double bound) {
   return std::isfinite(r) ? r : std::numeric_limits<double>::infinity();
 }
 
+constexpr std::int64_t kPeriodOfRun_ns = 100000000;
+
 // Of one run and quantity.
 class WorstOfRun {
  public:
@@ -25,6 +25,8 @@ class WorstOfRun {
       : run_(run), quantity_(quantity), limits_(limits) {}
 
   void add(const FrameRecord& frame) {
+    stamps_are_steady_ = stamps_are_steady_ && (!last_ns_ || frame.stamp_ns - *last_ns_ == kPeriodOfRun_ns);
+    last_ns_ = frame.stamp_ns;
     const Judged judged = judge(frame, quantity_, limits_);
     const double limit = limit_of(quantity_, limits_);
     const double level = frame.quantity[quantity_].measured.protection_level;
@@ -45,12 +47,14 @@ class WorstOfRun {
     std::optional<WorstEvent>& worst = worst_[static_cast<std::size_t>(breach)];
     if (worst && worst->excess >= excess) return;
     const QuantityRecord& v = frame.quantity[quantity_];
-    worst = WorstEvent{breach, excess, run_, frame.frame, quantity_, error, v.measured, v.reasons};
+    worst = WorstEvent{breach, excess, run_, frame.frame, quantity_, error, v.measured, v.reasons, stamps_are_steady_};
   }
 
   const Run& run_;
   std::uint32_t quantity_;
   const AlertLimits& limits_;
+  std::optional<std::int64_t> last_ns_;
+  bool stamps_are_steady_ = true;
   std::array<std::optional<WorstEvent>, 3> worst_;  // by breach, the gravest first
 };
 
@@ -59,11 +63,6 @@ class WorstOfRun {
 const char* breach_name(Breach breach) {
   if (breach == Breach::kMisleading) return "misleading";
   return breach == Breach::kValueBeyondProtection ? "value > protection" : "raw > protection";
-}
-
-std::string WorstEvent::sim_command() const {
-  return fmt::format("pose_wall sim --scene {} --sensor {} --random --seed {} --frames {} --output DIR", run.scene,
-                     run.sensor, run.seed, frame + 1);
 }
 
 std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& records, const AlertLimits& limits,

@@ -26,9 +26,7 @@ struct WorstEvent {
   double error;  // NaN without a truth
   Measured measured;
   std::uint32_t reasons;
-
-  // Makes the same frames again.
-  std::string sim_command() const;
+  bool stamps_are_steady;  // up to this frame as `pose_wall run` gives them to files: 0.1 s apart
 };
 
 // Misleading ones first, then by excess. Of one run and quantity only the worst frame of its gravest breach.

@@ -43,9 +43,9 @@ void StanfordCounts::add(double error, double protection_level) {
   const bool is_bounded = error <= level;
   const bool claims = level <= scale_.alert_limit;
   if (is_bounded) {
-    ++(claims ? regions_.nominal : regions_.unavailable);
+    ++(claims ? regions_.within : regions_.too_wide);
   } else {
-    ++(claims && error > scale_.alert_limit ? regions_.hazardous : regions_.misleading);
+    ++(claims && error > scale_.alert_limit ? regions_.misleading_if_valid : regions_.beyond_protection);
   }
 }
 

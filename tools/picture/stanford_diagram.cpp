@@ -22,10 +22,10 @@ constexpr double kSide = 640.0;
 // Light to dark: few counts to many.
 constexpr std::array<std::string_view, 6> kShades = {"#c6dbe8", "#93bfd8", "#5b9cc2", "#2f78a6", "#175480", "#0b3357"};
 constexpr std::array<std::string_view, 6> kAlarms = {"#f3b39b", "#ea8a6a", "#de6243", "#c63f28", "#9e2418", "#6e110d"};
-constexpr std::string_view kNominalGround = "#f1f7ee";
-constexpr std::string_view kMisleadingGround = "#fbf0dc";
-constexpr std::string_view kHazardousGround = "#f9dfd8";
-constexpr std::string_view kUnavailableGround = "#eeeff1";
+constexpr std::string_view kWithinGround = "#f1f7ee";
+constexpr std::string_view kBeyondGround = "#fbf0dc";
+constexpr std::string_view kMisleadingGround = "#f9dfd8";
+constexpr std::string_view kTooWideGround = "#eeeff1";
 
 // At least that of 2: one count has the lightest shade.
 double log_of_largest(const StanfordCounts& counts) {
@@ -48,12 +48,12 @@ class Plot {
 void draw_grounds(Svg& svg, const Plot& plot, const StanfordScale& s) {
   const Stroke none{"none", 0.0};
   const double limit = s.alert_limit;
-  svg.rectangle(kCorner, kSide, kSide, kMisleadingGround);
-  svg.polygon({plot.at(s.low, s.low), plot.at(limit, limit), plot.at(s.low, limit)}, kNominalGround, none);
+  svg.rectangle(kCorner, kSide, kSide, kBeyondGround);
+  svg.polygon({plot.at(s.low, s.low), plot.at(limit, limit), plot.at(s.low, limit)}, kWithinGround, none);
   svg.polygon({plot.at(s.low, limit), plot.at(limit, limit), plot.at(s.high, s.high), plot.at(s.low, s.high)},
-              kUnavailableGround, none);
+              kTooWideGround, none);
   svg.polygon({plot.at(limit, s.low), plot.at(s.high, s.low), plot.at(s.high, limit), plot.at(limit, limit)},
-              kHazardousGround, none);
+              kMisleadingGround, none);
 }
 
 void draw_cells(Svg& svg, const StanfordCounts& counts) {
@@ -108,16 +108,16 @@ struct Name {
 void draw_names(Svg& svg, const Plot& plot, const StanfordCounts& counts) {
   const StanfordScale& s = counts.scale();
   const StanfordCounts::Regions& r = counts.regions();
-  const double total =
-      static_cast<double>(std::max<std::size_t>(1, r.nominal + r.unavailable + r.misleading + r.hazardous));
+  const std::size_t sum = r.within + r.too_wide + r.beyond_protection + r.misleading_if_valid;
+  const double total = static_cast<double>(std::max<std::size_t>(1, sum));
   const Pixel limit = plot.at(s.alert_limit, s.alert_limit);
   const Pixel low = plot.at(s.low, s.low);
   const Pixel high = plot.at(s.high, s.high);
   const Name names[] = {
-      {{low.x + 14.0, limit.y + 0.62 * (low.y - limit.y)}, Anchor::kStart, "nominal", r.nominal, "#2f6b3c"},
-      {{low.x + 14.0, high.y + 26.0}, Anchor::kStart, "unavailable", r.unavailable, "#565d64"},
-      {{limit.x - 14.0, low.y - 34.0}, Anchor::kEnd, "misleading", r.misleading, "#9a6200"},
-      {{high.x - 14.0, low.y - 34.0}, Anchor::kEnd, "hazardously misleading", r.hazardous, "#a3230f"},
+      {{low.x + 14.0, limit.y + 0.5 * (low.y - limit.y)}, Anchor::kStart, "within protection", r.within, "#2f6b3c"},
+      {{low.x + 14.0, high.y + 26.0}, Anchor::kStart, "within protection, too wide to be valid", r.too_wide, "#565d64"},
+      {{limit.x - 14.0, low.y - 34.0}, Anchor::kEnd, "value > protection", r.beyond_protection, "#9a6200"},
+      {{high.x - 14.0, low.y - 34.0}, Anchor::kEnd, "misleading if valid", r.misleading_if_valid, "#a3230f"},
   };
   for (const Name& name : names) {
     svg.text(name.at, name.words, {name.colour, 16.0, name.anchor, true, kPanel});

@@ -32,11 +32,10 @@ class StanfordCounts {
   void add(double error, double protection_level);
 
   struct Regions {
-    std::size_t nominal = 0;  // error <= protection level <= alert limit
-    std::size_t unavailable =
-        0;  // error <= protection level, which is beyond the alert limit: not to be used, and says so
-    std::size_t misleading = 0;  // error > protection level, but both on the same side of the alert limit
-    std::size_t hazardous = 0;   // protection level <= alert limit < error
+    std::size_t within = 0;               // error <= protection level <= alert limit
+    std::size_t too_wide = 0;             // error <= protection level, which is beyond the alert limit
+    std::size_t beyond_protection = 0;    // error > protection level, but both on the same side of the alert limit
+    std::size_t misleading_if_valid = 0;  // protection level <= alert limit < error
   };
 
   const StanfordScale& scale() const { return scale_; }

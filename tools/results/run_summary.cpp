@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 
+#include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
@@ -62,7 +63,7 @@ void RunSummary::add(const FrameOutcome& outcome) {
 
 std::string RunSummary::text(double wall_s) const {
   std::string text = quantities_text() + '\n' + times_text(wall_s) + reasons_text();
-  if (unreadable_ > 0) text += fmt::format("unreadable: {} of {} frames\n", unreadable_, frames_);
+  if (unreadable_ > 0) text += fmt::format("unreadable: {} of {}\n", unreadable_, counted(frames_, "frame"));
   return text;
 }
 
@@ -81,13 +82,13 @@ std::string RunSummary::quantities_text() const {
 }
 
 std::string RunSummary::times_text(double wall_s) const {
-  if (times_ms_.empty()) return fmt::format("{} frames, none processed\n", frames_);
+  if (times_ms_.empty()) return fmt::format("{}, none processed\n", counted(frames_, "frame"));
   const double engine_s = std::accumulate(times_ms_.begin(), times_ms_.end(), 0.0) * 1e-3;
   const auto count = static_cast<double>(times_ms_.size());
   return fmt::format(
-      "{} frames; engine: median {:.2f} ms, 95 % {:.2f} ms, max {:.2f} ms, {:.1f} frames/s; with reading: {:.1f} "
+      "{}; engine: median {:.2f} ms, 95 % {:.2f} ms, max {:.2f} ms, {:.1f} frames/s; with reading: {:.1f} "
       "frames/s\n",
-      frames_, quantile(times_ms_, 0.5), quantile(times_ms_, 0.95), quantile(times_ms_, 1.0),
+      counted(frames_, "frame"), quantile(times_ms_, 0.5), quantile(times_ms_, 0.95), quantile(times_ms_, 1.0),
       engine_s > 0.0 ? count / engine_s : 0.0, wall_s > 0.0 ? static_cast<double>(frames_) / wall_s : 0.0);
 }
 

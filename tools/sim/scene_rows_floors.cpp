@@ -12,7 +12,7 @@ std::vector<SceneChoice> floors_scenes() {  // NOLINT(readability-function-size)
        SceneKind::kNominal,
        0.98,
        "slope and cross-fall",
-       "valid",
+       "valid or degraded",
        {{"cross_fall_deg", "8", 0.0, 8.0, true},
         {"slope_deg", "10", 0.0, 15.0, true},
         {"face_distance_m", "8", 5.0, 10.0}}},

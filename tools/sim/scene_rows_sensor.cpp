@@ -111,7 +111,7 @@ std::vector<SceneChoice> sensor_scenes() {  // NOLINT(readability-function-size)
        SceneKind::kNominal,
        0.98,
        "unsteady frame rate",
-       "valid",
+       "valid or degraded",
        {{"stamp_jitter_s", "0.01", 0.002, 0.02}, {"rate_hz", "10", 5.0, 20.0}}},
   };
 }

@@ -4,10 +4,12 @@
 // pose_wall campaign: scenes, sensors and random draws through the engine, and the integrity card of all of them.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,12 +21,15 @@
 #include "campaign/manifest.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
+#include "terminal/counted.hpp"
+#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 constexpr int kExitGate = 3;
+constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 
 struct CampaignOptions {
   campaign::PlanRequest plan;
@@ -41,11 +46,12 @@ struct CampaignOptions {
 campaign::Manifest run_campaign(const CampaignOptions& options) {
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
   campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  make_output_folder(options.output);
   campaign::prepare_folder(options.output, manifest, options.fresh);
   const std::vector<campaign::Run> pending = campaign::pending_runs(options.output, runs);
   if (!options.quiet) {
-    fmt::print(stderr, "{} runs, {} frames; {} runs are done already\n", runs.size(), campaign::frames_of(runs),
-               runs.size() - pending.size());
+    fmt::print(stderr, "{}, {}; done already: {}\n", counted(runs.size(), "run"),
+               counted(campaign::frames_of(runs), "frame"), runs.size() - pending.size());
   }
   campaign::run_all(pending, {options.output, options.engine, manifest.fingerprint(), options.jobs, !options.quiet});
   return manifest;
@@ -66,9 +72,19 @@ int make_card(const CampaignOptions& options, const campaign::Manifest& manifest
   return options.gate ? pass_gate(card) : kExitDone;
 }
 
+int tell_interrupted(const CampaignOptions& options) {
+  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  fmt::print(stderr, "interrupted: {} of {} done; the same command{} goes on\n",
+             runs.size() - campaign::pending_runs(options.output, runs).size(),
+             counted(runs.size(), "run is", "runs are"), options.fresh ? " without --fresh" : "");
+  return kExitInterrupted;
+}
+
 int run_verb(const CampaignOptions& options) {
   try {
     return make_card(options, options.card_only ? campaign::read_manifest(options.output) : run_campaign(options));
+  } catch (const campaign::Interrupted&) {
+    return tell_interrupted(options);
   } catch (const campaign::StaleError&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -77,14 +93,39 @@ int run_verb(const CampaignOptions& options) {
   }
 }
 
+// The records say how they were made; nothing else can be asked of them.
+void demand_nothing_beside_card_only(const CLI::App& verb) {
+  const std::vector<std::string> allowed = {"--output", "--events", "--gate", "--quiet"};
+  std::vector<std::string> refused;
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    const bool is_allowed = name == "--card-only" || std::find(allowed.begin(), allowed.end(), name) != allowed.end();
+    if (option->count() > 0 && !is_allowed) refused.push_back(name);
+  }
+  if (refused.empty()) return;
+  throw std::invalid_argument(
+      fmt::format("--card-only takes the records as they are: {} cannot go with it; allowed are {}",
+                  fmt::join(refused, ", "), fmt::join(allowed, ", ")));
+}
+
+// "rough, props" is two names, and no blank in front of the second.
+std::string trimmed(std::string name) {
+  const char* const blanks = " \t\n";
+  name.erase(0, name.find_first_not_of(blanks));
+  name.erase(name.find_last_not_of(blanks) + 1);
+  return name;
+}
+
 void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
       ->capture_default_str();
-  verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")->delimiter(',');
+  verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")
+      ->delimiter(',')
+      ->transform(trimmed);
   verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial, unobservable or all")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "adversarial", "unobservable", "all"}));
-  verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',');
+  verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',')->transform(trimmed);
   verb.add_option("--draws", plan.draws, "Draws per scene and sensor, instead of the size's")
       ->check(CLI::Range(1, 1000000));
   verb.add_option("--first-draw", plan.first_draw, "Number of the first draw: with --draws 1, one run again")
@@ -109,7 +150,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("--events", options->events, "How many of the worst events the card lists")->capture_default_str();
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
-  verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records");
+  verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records, and run nothing");
   verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");
   verb->add_flag("-q,--quiet", options->quiet, "Print errors only");
   verb->footer(
@@ -118,8 +159,11 @@ void add_campaign(CLI::App& app, int& exit_code) {
       "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
       "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
       "another\n"
-      "campaign in the folder, 3 the gate is not passed.");
-  verb->callback([options, &exit_code] { exit_code = run_verb(*options); });
+      "campaign in the folder, 3 the gate is not passed, 130 interrupted by Ctrl-C (the same command goes on).");
+  verb->callback([options, verb, &exit_code] {
+    if (options->card_only) demand_nothing_beside_card_only(*verb);
+    exit_code = run_verb(*options);
+  });
 }
 
 }  // namespace pose_wall::tools

@@ -17,6 +17,7 @@
 #include "demo/demo_setup.hpp"
 #include "demo/live_table.hpp"
 #include "results/result_output.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/verbs.hpp"
 
@@ -74,7 +75,8 @@ int demo(const DemoVerb& verb) {
   const std::filesystem::path folder = output_folder(verb.output);
   ResultOutput output((folder / "demo.csv").string(), {});
 
-  fmt::print("Simulated roadway '{}', sensor {}, {} frames\n\n", scene_name(verb), verb.demo.sensor, verb.frames);
+  fmt::print("Simulated roadway '{}', sensor {}, {}\n\n", scene_name(verb), verb.demo.sensor,
+             counted(verb.frames, "frame"));
   std::vector<TruthRow> truth;
   const DemoFrame last = process_frames(verb, run, output, truth);
   write_truth_csv(folder / "truth.csv", truth);

@@ -11,12 +11,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "config_file/load_config.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/comparison.hpp"
 #include "truth/efficiency.hpp"
@@ -81,18 +83,19 @@ void append_bound(std::vector<std::string>& cells, const QuantityComparison& qua
 
 void print_points(const Efficiency& efficiency) {
   fmt::print(
-      "\nCRB over {} frames; points per frame: floor {:.0f}, left {:.0f}, right {:.0f}; they scatter {:.2f} times as "
+      "\nCRB over {}; points per frame: floor {:.0f}, left {:.0f}, right {:.0f}; they scatter {:.2f} times as "
       "far as the range noise says\n",
-      efficiency.frames, efficiency.floor_points, efficiency.wall_points[0], efficiency.wall_points[1],
-      efficiency.noise_ratio);
+      counted(efficiency.frames, "frame"), efficiency.floor_points, efficiency.wall_points[0],
+      efficiency.wall_points[1], efficiency.noise_ratio);
   if (efficiency.is_believable()) return;
   fmt::print(
       "The bound is not to be believed: it holds for flat upright walls, a flat floor and the stated range noise.\n");
 }
 
 void print_tables(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
-  fmt::print("{} frames matched by {}; without partner: {} results, {} truths\n\n", comparison.matched,
-             comparison.matched_by, comparison.result_rows_alone, comparison.truth_rows_alone);
+  fmt::print("{} matched by {}; without partner: {}, {}\n\n", counted(comparison.matched, "frame"),
+             comparison.matched_by, counted(comparison.result_rows_alone, "result"),
+             counted(comparison.truth_rows_alone, "truth"));
   std::vector<std::string> head = {"raw",  "frames", "measured", "valid",        "RMSE",
                                    "bias", "95 %",   "max",      "> protection", "mean z²"};
   if (efficiency) head.insert(head.end(), {"CRB", "RMSE/CRB"});
@@ -169,7 +172,17 @@ std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedCon
   return in_file(options.results, [&] { return efficiency_of(results, truth, comparison, options.frames, bounds); });
 }
 
+// Axes and mounting decide where the points lie: with the defaults of another road the bound would be a number of
+// nothing.
+void demand_settings_for_bound(const EvalOptions& options) {
+  if (options.frames.empty() || !options.config_file.empty()) return;
+  throw std::invalid_argument(
+      "--frames needs --config FILE, the settings that RESULT was measured with (pose_wall sim writes them beside its "
+      "frames; config/pose_wall.yaml holds the defaults)");
+}
+
 int eval(const EvalOptions& options) {
+  demand_settings_for_bound(options);
   const std::optional<std::string> config_file =
       options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
   const LoadedConfig loaded = load_config(config_file, options.settings);
@@ -215,15 +228,16 @@ void add_eval(CLI::App& app, int& exit_code) {
   CLI::Option* frames = verb->add_option(
       "-f,--frames", options->frames,
       "Folder of the frames that RESULT was measured from: adds CRB, the least error their points allow, and RMSE/CRB. "
-      "Needs --config as for run");
+      "Needs --config, the same as for run");
   CLI::Option* noise =
       verb->add_option("--range-noise", options->range_noise_m, "Standard deviation of a range of these frames, m");
   noise->check(noise_fault, "0.0001 to 1")->needs(frames);
   frames->needs(noise);
   verb->add_flag("--json", options->json, "Print JSON instead of tables, in rad and m");
   verb->footer(
-      "Example:\n  pose_wall eval out.csv truth.csv\n"
-      "  pose_wall eval out.csv road/truth.csv -c road/pose_wall.yaml --frames road/frames --range-noise 0.012\n"
+      "Examples:\n  pose_wall eval out.csv truth.csv\n"
+      "  pose_wall eval out.csv clean/truth.csv -c clean/pose_wall.yaml --frames clean/frames --range-noise 0.012\n"
+      "the second on a road of `pose_wall sim --scene clean`.\n"
       "raw: this frame's own measurement. value: what a controller acts on, held values included.\n"
       "> protection: errors beyond the stated protection level. mean z²: 1 when the stated sigma is true.\n"
       "CRB: Cramer-Rao bound on a clean road (flat floor, flat upright walls, noise along the ray), root mean square "

@@ -19,6 +19,7 @@
 #include "results/frame_runner.hpp"
 #include "results/result_output.hpp"
 #include "results/run_summary.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/verbs.hpp"
 
@@ -42,8 +43,8 @@ std::string rate_fault(const std::string& word) {
 }
 
 void print_start(const RunOptions& options, const LoadedConfig& loaded, const FrameRunner& runner, std::size_t frames) {
-  fmt::print(stderr, "pose_wall {}: {} frames, config {}, {:.1f} MB for the engine\n{}", pose_wall_version(), frames,
-             options.config_file.empty() ? "defaults" : options.config_file,
+  fmt::print(stderr, "pose_wall {}: {}, config {}, {:.1f} MB for the engine\n{}", pose_wall_version(),
+             counted(frames, "frame"), options.config_file.empty() ? "defaults" : options.config_file,
              static_cast<double>(runner.block_bytes()) * 1e-6,
              resolved_frames_text(resolve_frames(loaded.config), "  "));
 }

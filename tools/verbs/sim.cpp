@@ -20,9 +20,11 @@
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
+#include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
+#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -41,10 +43,14 @@ struct SimOptions {
   std::string output;
 };
 
+std::string floor_text(const sim::SceneChoice& scene) {
+  return scene.available_floor > 0.0 ? fmt::format("{:g} %", 100.0 * scene.available_floor) : "-";
+}
+
 void print_list() {
-  TextTable scenes({"scene", "kind", "what it holds", "what a good instrument does"});
+  TextTable scenes({"scene", "kind", "what it holds", "floor", "what a good instrument does"});
   for (const sim::SceneChoice& s : sim::scenes()) {
-    scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, s.expected});
+    scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, floor_text(s), s.expected});
   }
   TextTable sensors({"sensor", "what it is"});
   for (const sim::SensorModel& m : sim::sensor_models()) sensors.add_row({m.sensor.name, m.help});
@@ -54,8 +60,11 @@ void print_list() {
     const std::string allowed = *p.words != '\0' ? p.words : fmt::format("{:g} to {:g}", p.minimum, p.maximum);
     keys.add_row({p.name, sim::parameter_text(p, p.field(defaults)), p.unit, allowed, p.help});
   }
-  fmt::print("{}\n{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n", scenes.text(4),
-             sensors.text(2), keys.text(5));
+  fmt::print(
+      "{}Floor: the least share of the values with a truth that must be valid or degraded; - where none can be "
+      "asked.\n\n"
+      "{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n",
+      scenes.text(5), sensors.text(2), keys.text(5));
 }
 
 sim::Setup resolve_setup(const SimOptions& options) {
@@ -99,7 +108,8 @@ int simulate(const SimOptions& options) {
   if (options.output.empty()) throw std::invalid_argument("--output DIR is needed");
   const sim::Simulator simulator(resolve_setup(options), options.seed);
   try {
-    std::filesystem::create_directories(std::filesystem::path(options.output) / "frames");
+    make_output_folder(options.output);
+    std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
     write_text(std::filesystem::path(options.output) / "pose_wall.yaml",
                sim::engine_settings(simulator.setup(),
                                     fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
@@ -109,7 +119,8 @@ int simulate(const SimOptions& options) {
     fmt::print(stderr, "pose_wall sim: {}\n", error.what());
     return kExitUnreadable;
   }
-  if (!options.quiet) fmt::print(stderr, "{}: {} frames, truth.csv, pose_wall.yaml\n", options.output, options.frames);
+  if (!options.quiet)
+    fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(options.frames, "frame"));
   return kExitDone;
 }
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_sight_columns.hpp"
+
+#include "math/elementary.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kRows = DirectionGrid::kRows;
+constexpr std::uint32_t kColumns = DirectionGrid::kColumns;
+// Above the wall band, up to here, only what is seen over the plane's top counts.
+constexpr double kAboveBand_m = 1.0;
+// Fewer expected returns do not tell silence from chance.
+constexpr double kExpectedMin = 3.0;
+// A cell is silent with fewer returns than this share of what is expected, seen through when more than this share of
+// its returns comes from behind.
+constexpr double kSilentShare = 0.25;
+constexpr double kThroughShare = 0.5;
+// A column is a gap when it is silent or seen through over more than this.
+constexpr double kGapShare = 0.2;
+constexpr double kBrightRank = 0.75;
+constexpr std::uint32_t kCellsMin = 20;
+constexpr double kEmptyShare = 0.05;
+constexpr std::uint32_t kBlockedColumns = 5;
+constexpr double kZoneCellsMin = 60.0;
+constexpr double kZoneColumnsMin = 10.0;
+
+// Chance that fewer than `limit` come where `mean` are expected (Poisson).
+double chance_below(double limit, double mean) {
+  double term = exponential(-mean), sum = 0.0;
+  for (double k = 0.0; k < limit; k += 1.0) {
+    sum += term;
+    term *= mean / (k + 1.0);
+  }
+  return sum;
+}
+
+// Columns of the empty sector around this one.
+std::uint32_t sector(const bool (&empty)[kColumns], std::uint32_t column) {
+  std::uint32_t before = 0, after = 0;
+  while (before < kColumns && empty[(column + kColumns - before) % kColumns]) ++before;
+  while (after < kColumns && empty[(column + after) % kColumns]) ++after;
+  return before + after - 1;
+}
+
+}  // namespace
+
+SeenColumns::SeenColumns(const DirectionGrid& returns_lidar, const ExpectedReturns& expected) {
+  bool empty[kColumns];
+  for (std::uint32_t c = 0; c < kColumns; ++c) {
+    double count = 0.0, all = 0.0;
+    for (std::uint32_t row = 0; row < kRows; ++row) {
+      count += returns_lidar.count(row, c);
+      all += expected.at(row, c);
+    }
+    empty[c] = !(count > kEmptyShare * all);
+  }
+  for (std::uint32_t c = 0; c < kColumns; ++c) column[c] = !empty[c] || sector(empty, c) < kBlockedColumns;
+}
+
+void SightTally::add(const SightTally& other) {
+  cells += other.cells;
+  silent += other.silent;
+  silent_by_chance += other.silent_by_chance;
+  through += other.through;
+  columns += other.columns;
+  silent_tops += other.silent_tops;
+  tops_through += other.tops_through;
+}
+
+void SightTally::take_off(const SightTally& other) {
+  cells -= other.cells;
+  silent -= other.silent;
+  silent_by_chance -= other.silent_by_chance;
+  through -= other.through;
+  columns -= other.columns;
+  silent_tops -= other.silent_tops;
+  tops_through -= other.tops_through;
+}
+
+bool SightColumn::is_gap() const {
+  return tally.silent + tally.through > kGapShare * tally.cells;
+}
+
+bool SightColumns::can_tell(std::uint32_t row, std::uint32_t column) const {
+  return expected_.at(row, column) >= kExpectedMin;
+}
+
+bool SightColumns::is_silent(std::uint32_t row, std::uint32_t column, double brightness) const {
+  return scene_.returns_lidar.count(row, column) < kSilentShare * brightness * expected_.at(row, column);
+}
+
+bool SightColumns::in_band(const SightLines::Crossing& crossing) const {
+  return crossing.near && crossing.z_level_m >= scene_.z_min_level_m && crossing.z_level_m <= scene_.z_max_level_m;
+}
+
+double SightColumns::brightness() const {
+  constexpr std::uint32_t kBins = 64;
+  std::uint32_t bins[kBins] = {}, cells = 0;
+  for (std::uint32_t column = 0; column < kColumns; ++column) {
+    for (std::uint32_t row = 0; row < kRows && seen_.column[column]; ++row) {
+      if (!can_tell(row, column) || !in_band(lines_.at(row, column))) continue;
+      const double share = scene_.returns_lidar.count(row, column) / expected_.at(row, column);
+      const auto bin = static_cast<std::uint32_t>(share * kBins);
+      ++bins[bin < kBins ? bin : kBins - 1];
+      ++cells;
+    }
+  }
+  if (cells < kCellsMin) return -1.0;
+  std::uint32_t below = 0, bin = 0;
+  while (bin + 1 < kBins && below + bins[bin] <= kBrightRank * cells) below += bins[bin++];
+  return (bin + 1.0) / kBins;
+}
+
+SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
+  constexpr double kLowest_m = -1e3;
+  SightColumn out;
+  double top_level_m = kLowest_m;
+  for (std::uint32_t row = 0; row < kRows && seen_.column[column]; ++row) {
+    if (!can_tell(row, column)) continue;
+    const SightLines::Crossing c = lines_.at(row, column);
+    if (!c.near || c.z_level_m < scene_.z_min_level_m || c.z_level_m > scene_.z_max_level_m + kAboveBand_m) continue;
+    const double count = scene_.returns_lidar.count(row, column), mean = brightness * expected_.at(row, column);
+    const bool silent = is_silent(row, column, brightness);
+    const bool through = !silent && behind_lidar_.count(row, column) > kThroughShare * count;
+    if (c.z_level_m > top_level_m) {
+      top_level_m = c.z_level_m;
+      out.tally.silent_tops = silent ? 1.0 : 0.0;
+      out.tally.tops_through = through ? 1.0 : 0.0;
+    }
+    if (!in_band(c)) continue;
+    out.tally.cells += 1.0;
+    out.tally.silent += silent ? 1.0 : 0.0;
+    out.tally.silent_by_chance += chance_below(kSilentShare * mean, mean);
+    out.tally.through += through ? 1.0 : 0.0;
+    out.along_m += c.along_m;
+  }
+  if (out.tally.cells > 0.0) out.along_m /= out.tally.cells;
+  out.tally.columns = 1.0;
+  return out;
+}
+
+SightColumns::Blindness SightColumns::elsewhere() const {
+  constexpr int kZones = 3;  // beside, above and below
+  double all[kZones] = {}, silent[kZones] = {}, columns = 0.0, silent_tops = 0.0;
+  for (std::uint32_t column = 0; column < kColumns; ++column) {
+    bool any = false, top_is_silent = false;
+    for (std::uint32_t row = 0; row < kRows && seen_.column[column]; ++row) {
+      const SightLines::Zone zone = lines_.zone(row, column);
+      if (!can_tell(row, column) || zone == SightLines::kAlong || lines_.at(row, column).near) continue;
+      any = true;
+      top_is_silent = is_silent(row, column, 1.0);  // rows go up
+      all[zone] += 1.0;
+      silent[zone] += top_is_silent ? 1.0 : 0.0;
+    }
+    columns += any ? 1.0 : 0.0;
+    silent_tops += any && top_is_silent ? 1.0 : 0.0;
+  }
+  Blindness out;
+  // The least of the three: one of them may be dark too.
+  for (int zone = 0; zone < kZones; ++zone) {
+    const double share = all[zone] >= kZoneCellsMin ? silent[zone] / all[zone] : 1.0;
+    out.cells = share < out.cells ? share : out.cells;
+  }
+  if (columns >= kZoneColumnsMin) out.tops = silent_tops / columns;
+  return out;
+}
+
+}  // namespace pose_wall

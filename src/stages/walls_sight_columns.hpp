@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What comes back from a plane, column of directions by column.
+
+#pragma once
+
+#include "containers/direction_grid.hpp"
+#include "stages/walls_scene.hpp"
+#include "stages/walls_sight_lines.hpp"
+
+namespace pose_wall {
+
+// Columns in which the sensor sees anything. A wide sector from which nothing comes at any elevation is out of sight:
+// blocked, or not looked at.
+struct SeenColumns {
+  SeenColumns(const DirectionGrid& returns_lidar, const ExpectedReturns& expected);
+  bool column[DirectionGrid::kColumns];
+};
+
+// Numbers of cells, and of columns.
+struct SightTally {
+  double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
+  double columns = 0.0, silent_tops = 0.0, tops_through = 0.0;
+
+  void add(const SightTally& other);
+  void take_off(const SightTally& other);
+};
+
+struct SightColumn {
+  SightTally tally;
+  double along_m = 0.0;  // along the road from the sensor
+  bool is_gap() const;
+};
+
+class SightColumns {
+ public:
+  // behind_lidar: returns that have passed through the plane.
+  SightColumns(const WallScene& scene, const DirectionGrid& behind_lidar, const ExpectedReturns& expected,
+               const SightLines& lines, const SeenColumns& seen)
+      : scene_(scene), behind_lidar_(behind_lidar), expected_(expected), lines_(lines), seen_(seen) {}
+
+  // How much of the expected comes back where the plane is seen best, 0..1; negative where too little of it is looked
+  // at. A wet wall answers less than a dry one, but all over.
+  double brightness() const;
+
+  // No cells: it does not look at the plane.
+  SightColumn at(std::uint32_t column, double brightness) const;
+
+  // Shares of what is silent where the plane is not: a sensor may be blind here and there, look further up ahead than
+  // aside, or spin about another axis than the expectation supposes. 1 where too little else is looked at to know.
+  struct Blindness {
+    double cells = 1.0;
+    double tops = 1.0;  // of columns: the highest cell
+  };
+  Blindness elsewhere() const;
+
+ private:
+  bool can_tell(std::uint32_t row, std::uint32_t column) const;
+  bool is_silent(std::uint32_t row, std::uint32_t column, double brightness) const;
+  bool in_band(const SightLines::Crossing& crossing) const;
+
+  const WallScene& scene_;
+  const DirectionGrid& behind_lidar_;
+  const ExpectedReturns& expected_;
+  const SightLines& lines_;
+  const SeenColumns& seen_;
+};
+
+}  // namespace pose_wall

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the command that the card gives for an event, typed as it stands, measures its frame once more with the very
+// same values, settings of the campaign included. Does not prove: that the card lists the right events.
+
+#include "campaign/recipe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "campaign/folder.hpp"
+#include "csv/csv_table.hpp"
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::command;
+using test::contains;
+using test::TempFolder;
+
+CsvTable read(const std::string& file) {
+  std::ifstream stream(file);
+  return CsvTable::parse(stream);
+}
+
+// Of a campaign of one run whose last frame was made to mislead; its folder is in the place of DIR.
+std::string command_of_event(const std::string& folder, const std::string& again,
+                             const std::vector<std::string>& words) {
+  std::vector<std::string> all = {"campaign",     "--quiet", "--seed",   "5",    "--draws",   "1",
+                                  "--first-draw", "3",       "--output", folder, "--sensors", "vlp16"};
+  all.insert(all.end(), words.begin(), words.end());
+  EXPECT_EQ(command(all).exit_status, 0);
+  const campaign::Manifest manifest = campaign::read_manifest(folder);
+  campaign::RunRecord record = campaign::read_records(folder, manifest).front();
+  record.frames.back().quantity[POSE_WALL_ROLL].truth += 0.5;
+  campaign::write_record(campaign::record_file(folder, record.run), record, manifest.fingerprint());
+  EXPECT_EQ(command({"campaign", "--card-only", "--quiet", "--output", folder}).exit_status, 0);
+  std::ifstream page(folder + "/card.json");
+  std::string text = nlohmann::json::parse(page)["worst_events"][0]["command"];
+  for (std::size_t at = text.find("DIR"); at != std::string::npos; at = text.find("DIR")) text.replace(at, 3, again);
+  return text;
+}
+
+// As a shell would; there are no quotes in it.
+void run_all_of(const std::string& line) {
+  std::istringstream words(line + " &&");
+  std::vector<std::string> one;
+  for (std::string word; words >> word;) {
+    if (word != "&&") {
+      one.push_back(word);
+      continue;
+    }
+    ASSERT_EQ(one.front(), "pose_wall");
+    ASSERT_EQ(command({one.begin() + 1, one.end()}).exit_status, 0) << line;
+    one.clear();
+  }
+}
+
+void expect_same_last_row(const std::string& frames_file, const std::string& again_file) {
+  const CsvTable frames = read(frames_file);
+  const CsvTable again = read(again_file);
+  ASSERT_EQ(frames.rows(), again.rows());
+  const std::size_t last = frames.rows() - 1;
+  for (const std::string q : {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"}) {
+    for (const char* ending : {"", "_raw", "_sigma", "_pl", "_state"}) {
+      const std::string column = q + ending;
+      EXPECT_EQ(frames.cell(last, *frames.find_column(column)), again.cell(last, *again.find_column(column))) << column;
+    }
+  }
+}
+
+TEST(CampaignRecipe, FramesOnDiskGiveTheValuesOfTheCampaign) {
+  const TempFolder folder;
+  const TempFolder again;
+  const std::string line = command_of_event(folder.path(), again.path(),
+                                            {"--scenes", "rough", "--frames", "5", "--set", "protection_factor=9"});
+  EXPECT_TRUE(contains(line, "pose_wall run")) << line;
+  run_all_of(line);
+  expect_same_last_row(folder.file("frames.csv"), again.file("out.csv"));
+}
+
+TEST(CampaignRecipe, StampsThatJumpComeFromTheCampaignItself) {
+  const TempFolder folder;
+  const TempFolder again;
+  const std::string line = command_of_event(folder.path(), again.path(),
+                                            {"--scenes", "jitter", "--frames", "5", "--set", "protection_factor=9"});
+  EXPECT_TRUE(contains(line, "pose_wall campaign")) << line;
+  run_all_of(line + " --quiet");
+  expect_same_last_row(folder.file("frames.csv"), again.file("frames.csv"));
+}
+
+TEST(CampaignRecipe, AFileOfSettingsIsNotForgotten) {
+  const TempFolder folder;
+  const TempFolder again;
+  const std::string config = folder.write("mine.yaml", "temporal_smoothing_tau: 1.0\n");
+  const std::string line =
+      command_of_event(folder.path(), again.path(), {"--scenes", "rough", "--frames", "5", "--config", config});
+  run_all_of(line + " --quiet");
+  expect_same_last_row(folder.file("frames.csv"), again.file("frames.csv"));
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/command_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+constexpr const char* kPlainSigns = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+
+std::string names_or(const std::vector<std::string>& names, const char* otherwise) {
+  return names.empty() ? otherwise : fmt::format("{}", fmt::join(names, ","));
+}
+
+std::string number_or(const std::optional<std::uint32_t>& number, const char* otherwise) {
+  return number ? std::to_string(*number) : otherwise;
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of(kPlainSigns) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string engine_words(const EngineChoice& choice) {
+  std::string words;
+  if (!choice.config_file.empty()) words += " --config " + shell_word(choice.config_file);
+  for (const std::string& setting : choice.settings) words += " --set " + shell_word(setting);
+  return words;
+}
+
+std::string campaign_command(const PlanRequest& request, const EngineChoice& choice) {
+  std::string words = fmt::format("pose_wall campaign --size {} --seed {}", request.size, request.seed);
+  if (request.kind != "all") words += " --kind " + request.kind;
+  if (!request.scenes.empty()) words += fmt::format(" --scenes {}", fmt::join(request.scenes, ","));
+  if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
+  if (request.draws) words += fmt::format(" --draws {}", *request.draws);
+  if (request.frames) words += fmt::format(" --frames {}", *request.frames);
+  if (request.first_draw != 0) words += fmt::format(" --first-draw {}", request.first_draw);
+  return words + engine_words(choice);
+}
+
+std::vector<std::pair<std::string, std::string>> request_words(const PlanRequest& request) {
+  return {{"size", request.size},
+          {"scenes", names_or(request.scenes, "all")},
+          {"kind", request.kind},
+          {"sensors", names_or(request.sensors, "those of the size")},
+          {"draws", number_or(request.draws, "those of the size")},
+          {"first draw", std::to_string(request.first_draw)},
+          {"frames", number_or(request.frames, "those of size and scene")},
+          {"seed", std::to_string(request.seed)}};
+}
+
+}  // namespace pose_wall::tools::campaign

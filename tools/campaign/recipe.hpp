@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The way back to an event.
+
+#pragma once
+
+#include <string>
+
+#include "campaign/manifest.hpp"
+#include "campaign/worst_events.hpp"
+
+namespace pose_wall::tools::campaign {
+
+// A command that measures the event's frame once more, to the last digit: by frame files where `pose_wall run` can make
+// the campaign's stamps and settings from them, else by the run itself as a campaign of its own.
+std::string recipe(const WorstEvent& event, const Manifest& manifest);
+
+}  // namespace pose_wall::tools::campaign

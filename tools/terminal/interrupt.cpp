@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "terminal/interrupt.hpp"
+
+#include <atomic>
+#include <csignal>
+
+namespace pose_wall::tools {
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+
+extern "C" void note_interrupt(int) {
+  interrupted = true;
+  std::signal(SIGINT, SIG_DFL);
+}
+
+}  // namespace
+
+InterruptWatch::InterruptWatch() {
+  interrupted = false;
+  before_ = std::signal(SIGINT, note_interrupt);
+  if (before_ == SIG_IGN) std::signal(SIGINT, SIG_IGN);
+}
+
+InterruptWatch::~InterruptWatch() {
+  if (before_ != SIG_ERR) std::signal(SIGINT, before_);
+}
+
+bool InterruptWatch::is_interrupted() {
+  return interrupted;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "verbs/output_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace pose_wall::tools {
+namespace {
+
+// The path itself, or the nearest folder above it that is there.
+std::filesystem::path existing_part(std::filesystem::path path) {
+  std::error_code ignored;
+  while (path.has_relative_path() && !std::filesystem::exists(path, ignored)) path = path.parent_path();
+  return path;
+}
+
+}  // namespace
+
+void make_output_folder(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path there = existing_part(path);
+  if (!there.empty() && std::filesystem::exists(there, error) && !std::filesystem::is_directory(there, error)) {
+    throw std::invalid_argument(
+        fmt::format("--output {}: {} is a file; allowed is a folder, one that is there or one that can be made", path,
+                    there.string()));
+  }
+  std::filesystem::create_directories(path, error);
+  if (error) throw std::runtime_error(fmt::format("--output {}: cannot be made a folder: {}", path, error.message()));
+}
+
+}  // namespace pose_wall::tools
