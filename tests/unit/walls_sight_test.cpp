@@ -226,6 +226,7 @@ TEST(WallSight, EvenLossIsNotSilence) {
       const WallSight wet = thinned(lidar, lost_share, false);
       EXPECT_TRUE(wet.dim) << lost_share;
       EXPECT_EQ(wet.silent, 0.0) << lost_share;
+      EXPECT_LE(thinned(lidar, lost_share, true).silent, kNoSilence) << "silent elsewhere too: " << lost_share;
     }
   }
 }
