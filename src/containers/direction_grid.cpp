@@ -24,7 +24,8 @@ double way_of(double x, double y) {
 void DirectionGrid::add(const Eigen::Vector3d& ray, std::uint32_t returns) {
   const double up = ray.z() / std::sqrt(ray.squaredNorm());
   const auto column = static_cast<std::uint32_t>(way_of(ray.x(), ray.y()) * (kColumns / 4.0));
-  const auto row = static_cast<std::uint32_t>((up + 1.0) * (kRows / 2.0));
+  // Rounding may leave the sine of a tiny ray a little outside.
+  const auto row = static_cast<std::uint32_t>(up > -1.0 ? (up + 1.0) * (kRows / 2.0) : 0.0);
   std::uint16_t& count = counts_[(row < kRows ? row : kRows - 1) * kColumns + (column < kColumns ? column : 0)];
   const std::uint32_t sum = count + returns;
   count = static_cast<std::uint16_t>(sum < kCountMax ? sum : kCountMax);

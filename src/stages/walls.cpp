@@ -23,7 +23,7 @@ constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.025;
 constexpr double kOpenDoubt = 0.02;
-constexpr double kOpenMax = 0.04;
+constexpr double kOpenMax = 0.06;
 constexpr double kToplessMax = 0.12;
 constexpr double kExplainedMin = 0.3;
 

@@ -15,7 +15,7 @@ constexpr std::uint32_t kColumns = DirectionGrid::kColumns;
 // Of what its directions expect, the plane answers this much, or it is dim.
 constexpr double kDimShare = 0.35;
 // Gaps this wide are roads and doors, if the wall itself has parts this wide.
-constexpr double kWide_m = 1.0;
+constexpr double kWide_m = 0.7;
 // And so may be one that is no wider than this share of the wall.
 constexpr double kOneGapShare = 0.34;
 constexpr double kDeepShare = 0.8;
@@ -103,7 +103,8 @@ WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
   const double silent = all.silent / all.cells - (by_chance > elsewhere ? by_chance : elsewhere);
   out.silent = silent > 0.0 ? silent : 0.0;
   out.open = out.silent + all.through / all.cells;
-  out.topless = ((blind.tops <= kBlindTopsMax ? all.silent_tops : 0.0) + all.tops_through) / all.columns;
+  const bool tops_tell = blind.tops <= kBlindTopsMax && all.silent_tops > 0.0;
+  out.topless = ((tops_tell ? all.silent_tops : 0.0) + all.tops_through) / all.columns;
   return out;
 }
 

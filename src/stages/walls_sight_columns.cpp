@@ -21,6 +21,9 @@ constexpr double kThroughShare = 0.5;
 // A column is a gap when it is silent or seen through over more than this.
 constexpr double kGapShare = 0.2;
 constexpr double kBrightRank = 0.75;
+constexpr double kDeadShare = 0.1;
+constexpr double kBrightShare = 0.7;
+constexpr double kBrightCellsMin = 0.05;
 constexpr std::uint32_t kCellsMin = 20;
 constexpr double kEmptyShare = 0.05;
 constexpr std::uint32_t kBlockedColumns = 5;
@@ -109,6 +112,13 @@ double SightColumns::brightness() const {
     }
   }
   if (cells < kCellsMin) return -1.0;
+  // A wet wall is dark all over; where a little is bright and most of it dead, bright things stand before a dark wall.
+  std::uint32_t dead = 0, bright = 0;
+  for (std::uint32_t bin = 0; bin < kBins; ++bin) {
+    dead += bin < kDeadShare * kBins ? bins[bin] : 0;
+    bright += bin >= kBrightShare * kBins ? bins[bin] : 0;
+  }
+  if (dead >= 0.5 * cells && bright >= kBrightCellsMin * cells) return 1.0;
   std::uint32_t below = 0, bin = 0;
   while (bin + 1 < kBins && below + bins[bin] <= kBrightRank * cells) below += bins[bin++];
   return (bin + 1.0) / kBins;
@@ -127,7 +137,7 @@ SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
     const bool through = !silent && behind_lidar_.count(row, column) > kThroughShare * count;
     if (c.z_level_m > top_level_m) {
       top_level_m = c.z_level_m;
-      out.tally.silent_tops = silent ? 1.0 : 0.0;
+      out.tally.silent_tops = (silent ? 1.0 : 0.0) - chance_below(kSilentShare * mean, mean);
       out.tally.tops_through = through ? 1.0 : 0.0;
     }
     if (!in_band(c)) continue;

@@ -18,7 +18,7 @@ struct SeenColumns {
   bool column[DirectionGrid::kColumns];
 };
 
-// Numbers of cells, and of columns.
+// Numbers of cells, and of columns by their highest cell. Silent tops are those that chance does not explain.
 struct SightTally {
   double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
   double columns = 0.0, silent_tops = 0.0, tops_through = 0.0;

@@ -117,9 +117,8 @@ TEST(WallSight, ATiltedFieldOfViewIsNoFault) {
   }
 }
 
-// Not with 16 lines: fewer than a quarter of the cells answer then, and the plane passes for dim.
 TEST(WallSight, PipesBeforeAWallTooDarkToBeSeenAreSilent) {
-  for (const Lidar& lidar : {kOs1, kOs0}) {
+  for (const Lidar& lidar : {kVlp16, kOs1, kOs0}) {
     for (const double y_m : {1.0, 1.5, 2.5, 4.0}) {
       const WallSight sight = look(pipes(y_m, true), y_m, lidar);
       EXPECT_GT(sight.silent, 0.4) << y_m;
