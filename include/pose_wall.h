@@ -186,7 +186,13 @@ typedef struct pose_wall_field {
 } pose_wall_field;
 
 /* One frame as it comes, a sensor_msgs/PointCloud2 taken by reference: nothing is copied or kept after the call.
- * Any field order, any alignment, padding between points and rows, either byte order. */
+ * Any field order, any alignment, padding between points and rows, either byte order.
+ *
+ * Give every return of one scan as the sensor gave it, in the sensor's frame and in any order; points without a return
+ * may be left out, zero or not finite. Whether a wall has gaps is judged by what does not come back, direction by
+ * direction, so a cloud that was thinned, cropped or put together from several sensors looks full of holes, and its
+ * walls may be refused (POSE_WALL_R_WALL_SEEN_THROUGH). What is to be left out belongs into range_min, range_max and the
+ * body boxes. */
 typedef struct pose_wall_cloud {
   uint32_t struct_size; /* sizeof(pose_wall_cloud) */
   uint32_t big_endian;  /* 0 or 1: byte order of the fields */
