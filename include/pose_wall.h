@@ -191,8 +191,8 @@ typedef struct pose_wall_field {
  * Give every return of one scan as the sensor gave it, in the sensor's frame and in any order; points without a return
  * may be left out, zero or not finite. Whether a wall has gaps is judged by what does not come back, direction by
  * direction, so a cloud that was thinned, cropped or put together from several sensors looks full of holes, and its
- * walls may be refused (POSE_WALL_R_WALL_SEEN_THROUGH). What is to be left out belongs into range_min, range_max and the
- * body boxes. */
+ * walls may be refused (POSE_WALL_R_WALL_SEEN_THROUGH). What is to be left out belongs into range_min, range_max and
+ * the body boxes. */
 typedef struct pose_wall_cloud {
   uint32_t struct_size; /* sizeof(pose_wall_cloud) */
   uint32_t big_endian;  /* 0 or 1: byte order of the fields */
