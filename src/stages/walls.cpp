@@ -24,7 +24,7 @@ constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.025;
 constexpr double kOpenDoubt = 0.02;
 constexpr double kOpenMax = 0.06;
-constexpr double kToplessMax = 0.12;
+constexpr double kToplessMax = 0.08;
 constexpr double kExplainedMin = 0.3;
 
 std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {

@@ -14,8 +14,9 @@ namespace {
 constexpr std::uint32_t kColumns = DirectionGrid::kColumns;
 // Of what its directions expect, the plane answers this much, or it is dim.
 constexpr double kDimShare = 0.35;
-// Gaps this wide are roads and doors, if the wall itself has parts this wide.
+// Gaps this wide are roads and doors, if the wall itself has parts this wide and they are few.
 constexpr double kWide_m = 0.7;
+constexpr int kRoadsMax = 2;
 // And so may be one that is no wider than this share of the wall.
 constexpr double kOneGapShare = 0.34;
 constexpr double kDeepShare = 0.8;
@@ -89,10 +90,15 @@ void for_each_run(const ColumnRow& row, Visit visit) {
 
 WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
   double solid_m = 0.0;
-  for_each_run(row, [&](const Run& run) { solid_m = !run.is_gap && run.wide_m > solid_m ? run.wide_m : solid_m; });
+  int roads = 0;
+  for_each_run(row, [&](const Run& run) {
+    solid_m = !run.is_gap && run.wide_m > solid_m ? run.wide_m : solid_m;
+    roads += run.is_road() ? 1 : 0;
+  });
+  const bool roads_are_roads = solid_m >= kWide_m && roads <= kRoadsMax;
   SightTally all, longest_gap;
   for_each_run(row, [&](const Run& run) {
-    if (run.is_road() && solid_m >= kWide_m) return;
+    if (run.is_road() && roads_are_roads) return;
     all.add(run.tally);
     if (run.is_gap && run.tally.cells > longest_gap.cells) longest_gap = run.tally;
   });
