@@ -28,14 +28,14 @@
  *          roll > 0 is right side down, pitch > 0 is nose down; with -X both turn round for the driver; with +Y or -Y
  *          roll is the driver's pitch and pitch the driver's roll. Distances are >= 0.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
- * MEMORY   only the caller's block. No call here allocates, blocks, prints, reads a clock or throws.
- * THREADS  one engine belongs to one thread at a time; different engines are independent. There are no globals.
- * TIME     every loop over live data has a cap from the config: the worst case is bounded by points_max, the two
- *          iteration caps and the size of the incoming cloud.
- * ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a negative pose_wall_status. A refused
- *          call changes nothing. "I was called wrongly" is a status; "I looked and could not measure" is not an
- *          error: the call returns POSE_WALL_OK and the states and reasons in the result tell it.
- * FLOATS   IEEE 754 without fast-math; the same build and input give the same bits, whatever the block held before.
+ * MEMORY   only the caller's block, and less than 32 kB of stack. No call here allocates, blocks, prints, reads a clock
+ * or throws. THREADS  one engine belongs to one thread at a time; different engines are independent. There are no
+ * globals. TIME     every loop over live data has a cap from the config: the worst case is bounded by points_max, the
+ * two iteration caps and the size of the incoming cloud. ERRORS   every call that can fail returns a status:
+ * POSE_WALL_OK (0) or a negative pose_wall_status. A refused call changes nothing. "I was called wrongly" is a status;
+ * "I looked and could not measure" is not an error: the call returns POSE_WALL_OK and the states and reasons in the
+ * result tell it. FLOATS   IEEE 754 without fast-math; the same build and input give the same bits, whatever the block
+ * held before.
  */
 
 #ifndef POSE_WALL_H
@@ -190,9 +190,10 @@ typedef struct pose_wall_field {
  *
  * Give every return of one scan as the sensor gave it, in the sensor's frame and in any order; points without a return
  * may be left out, zero or not finite. Whether a wall has gaps is judged by what does not come back, direction by
- * direction, so a cloud that was thinned, cropped or put together from several sensors looks full of holes, and its
- * walls may be refused (POSE_WALL_R_WALL_SEEN_THROUGH). What is to be left out belongs into range_min, range_max and
- * the body boxes. */
+ * direction. A cloud that was cropped or put together from several sensors looks full of holes, and its walls may be
+ * refused (POSE_WALL_R_WALL_SEEN_THROUGH). In one that was thinned, or from a sensor with fewer than about 600 returns
+ * a turn in each 2 degrees of elevation, gaps may go UNNOTICED. What is to be left out belongs in range_min, range_max
+ * and the body boxes. */
 typedef struct pose_wall_cloud {
   uint32_t struct_size; /* sizeof(pose_wall_cloud) */
   uint32_t big_endian;  /* 0 or 1: byte order of the fields */

@@ -24,7 +24,7 @@ struct Scratch {
   VoxelGrid grid;
   CellIndex cells;
   Span<std::uint8_t> marks;  // per point: keep flags, later labels
-  DirectionGrid returns_lidar;
+  ReturnsByDirection returns_lidar;
   PointSet cloud_base;
   PointSet band_level;
   PointSet beyond_level;

@@ -142,13 +142,14 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
     case POSE_WALL_R_WALL_NOT_FOUND:
       return "no plane on this side could be a wall";
     case POSE_WALL_R_WALL_FEW_INLIERS:
-      return "the wall has fewer than wall_inlier_min points";
+      return "the wall has fewer than wall_inlier_min points, or answers so little that a gap would go unnoticed";
     case POSE_WALL_R_WALL_SHORT:
       return "the wall is seen over less than wall_length_min";
     case POSE_WALL_R_WALL_LEANS:
       return "the wall leans more than wall_lean_max_deg";
     case POSE_WALL_R_WALL_SEEN_THROUGH:
-      return "points lie behind the plane where a wall would be solid: pipes, props, a conveyor";
+      return "rays pass the plane, or nothing answers, where a wall would be solid: pipes, props, a conveyor, a "
+             "vehicle";
     case POSE_WALL_R_WALL_AMBIGUOUS:
       return "another plane on this side explains the view nearly as well";
     case POSE_WALL_R_WALLS_NOT_PARALLEL:

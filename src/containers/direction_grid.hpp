@@ -20,6 +20,9 @@ class DirectionGrid {
 
   void lay_out(Arena& arena) { counts_ = arena.take<std::uint16_t>(kColumns * kRows); }
   void clear() { counts_.fill(0); }
+  void copy(const DirectionGrid& other) {
+    for (std::uint32_t cell = 0; cell < kColumns * kRows; ++cell) counts_[cell] = other.counts_[cell];
+  }
 
   // ray: finite and not zero.
   void add(const Eigen::Vector3d& ray, std::uint32_t returns);
@@ -38,6 +41,21 @@ class DirectionGrid {
 
  private:
   Span<std::uint16_t> counts_;
+};
+
+// What a cloud's points say by their direction alone, whatever became of them later.
+struct ReturnsByDirection {
+  DirectionGrid all;      // nearer than range_min and in the body boxes too
+  DirectionGrid too_far;  // of these, beyond range_max: behind any wall, or a driver's mark for no return
+
+  void lay_out(Arena& arena) {
+    all.lay_out(arena);
+    too_far.lay_out(arena);
+  }
+  void clear() {
+    all.clear();
+    too_far.clear();
+  }
 };
 
 }  // namespace pose_wall

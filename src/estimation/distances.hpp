@@ -7,7 +7,7 @@
 
 namespace pose_wall {
 
-// A histogram of distances, 0 to 10 m; what is further counts as 10 m.
+// A histogram of distances in bins of 5 cm, 0 to 10 m; what is further is in the last bin.
 class Distances {
  public:
   void add(double distance_m) {
@@ -23,7 +23,11 @@ class Distances {
     while (b + 1 < kBins && below + bins_[b] < rank) below += bins_[b++];
     return (static_cast<double>(b) + 0.5) * kBin_m;
   }
-  double at_share(double share) const { return at_rank(static_cast<std::uint32_t>(share * count_)); }
+  // The least distance that at least this share of them does not exceed; 0 where there are none.
+  double at_share(double share) const {
+    const auto rank = static_cast<std::uint32_t>(share * count_);
+    return count_ > 0 ? at_rank(rank < share * count_ ? rank + 1 : rank) : 0.0;
+  }
 
  private:
   static constexpr std::uint32_t kBins = 200;

@@ -23,6 +23,7 @@ constexpr std::uint32_t kCandidatesMin = 60;
 constexpr double kAreaMin_m2 = 2.0;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
 constexpr double kSmallArea_m2 = 5.0;
+// Through a floor of this size only reflections are seen.
 constexpr double kSureArea_m2 = 10.0;
 constexpr double kEqualShare = 0.7;
 constexpr double kAcrossSpreadMin_m = 0.2;
@@ -263,7 +264,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
   }
   FloorResult out = within[best];
   for (const FloorResult& other : within) reach_to_other(other, settings, &out);
-  if (best > 0) widen(settings, &out);
+  if (best > 0) widen(settings, &out);  // the first radius is the configured one: it was not picked for its claim
   return out;
 }
 

@@ -77,13 +77,13 @@ class Pass {
         mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, swap_) : 0.0) {}
 
   // False where the grid overflows; counts are complete only on true.
-  bool run(VoxelGrid* grid, DirectionGrid* returns, IngestCounts* counts) const {
+  bool run(VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
     *counts = IngestCounts{};
-    returns->clear();
+    returns_lidar->clear();
     for (std::uint32_t row = 0; row < cloud_.height; ++row) {
       const unsigned char* point = row_of(cloud_, row);
       for (std::uint32_t column = 0; column < cloud_.width; ++column, point += cloud_.point_step) {
-        if (!take(point, grid, returns, counts)) return false;
+        if (!take(point, grid, returns_lidar, counts)) return false;
       }
     }
     return true;
@@ -116,12 +116,14 @@ class Pass {
     return ahead > 0.0 ? kAhead : kBehind;
   }
 
-  bool take(const unsigned char* point, VoxelGrid* grid, DirectionGrid* returns, IngestCounts* counts) const {
+  bool take(const unsigned char* point, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
+            IngestCounts* counts) const {
     const Eigen::Vector3d p_lidar = position_lidar(point);
     const Eigen::Vector3d p_base = extrinsic_.R_base_lidar * p_lidar + extrinsic_.sensor_base_m;
     ++counts->points_in;
     const Fate fate = filter_.fate(p_lidar, p_base);
-    if (fate != Fate::kNotFinite && fate != Fate::kZero) returns->add(p_lidar, 1);
+    if (fate != Fate::kNotFinite && fate != Fate::kZero) returns_lidar->all.add(p_lidar, 1);
+    if (fate == Fate::kFar) returns_lidar->too_far.add(p_lidar, 1);
     switch (fate) {
       case Fate::kNotFinite:
         ++counts->dropped_not_finite;
@@ -160,7 +162,7 @@ class Pass {
 }  // namespace
 
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
-                         const Axes& axes, VoxelGrid* grid, DirectionGrid* returns_lidar, PointSet* cloud_base) {
+                         const Axes& axes, VoxelGrid* grid, ReturnsByDirection* returns_lidar, PointSet* cloud_base) {
   VoxelResult result;
   const Pass pass(cloud, settings, extrinsic, axes);
   double leaf_m = settings.voxel_leaf;

@@ -23,7 +23,9 @@ constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.025;
 constexpr double kOpenDoubt = 0.02;
-constexpr double kOpenMax = 0.06;
+constexpr double kOpenMax = 0.1;
+// Hollows of rough rock are not behind the wall.
+constexpr double kWellBehind_m = 0.25;
 constexpr double kToplessMax = 0.08;
 constexpr double kExplainedMin = 0.3;
 
@@ -88,7 +90,7 @@ void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallRe
 void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wall) {
   const Plane& plane = wall->fit.plane;
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
-  const WallSight sight = look_at(scene, plane, wall->along_level, reach_m, &scratch->behind_lidar);
+  const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
   if (sight.dim) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
   if (sight.open > kOpenDoubt) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
   if (sight.dim || sight.open > kOpenDoubt) {
@@ -160,7 +162,7 @@ void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   for (WallSearch& s : search) s.lay_out(arena, points_max);
   grid.lay_out(arena);
   fit.lay_out(arena, points_max);
-  behind_lidar.lay_out(arena);
+  sight.lay_out(arena);
 }
 
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {

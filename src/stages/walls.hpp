@@ -7,6 +7,7 @@
 
 #include "math/random.hpp"
 #include "stages/walls_search.hpp"
+#include "stages/walls_sight.hpp"
 #include "stages/walls_surface.hpp"
 #include "types.hpp"
 
@@ -16,7 +17,7 @@ struct WallsScratch {
   WallSearch search[2];
   WallGrid grid;
   WallFitScratch fit;
-  DirectionGrid behind_lidar;
+  SightScratch sight;
 
   void lay_out(Arena& arena, std::uint32_t points_max);
 };

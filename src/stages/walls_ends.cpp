@@ -11,11 +11,11 @@ namespace {
 // Half-metre places along the plane, from the one beside the sensor outwards.
 constexpr std::uint32_t kPlaces = 30;
 constexpr double kPlace_m = 0.5;
-// An end further away than this is no near one.
-constexpr std::uint32_t kNear = 12;
+// An end beyond this place (6 m) is not near.
+constexpr std::uint32_t kNearPlaces = 12;
 constexpr double kOnMin = 2.0;
 constexpr double kPastMin = 4.0;
-// Of points up to this far behind the plane, within so many places of its end, more than this are its own bend.
+// So many points up to this far behind the plane, within so many places of its end, are its own bend.
 constexpr double kBend_m = 0.5;
 constexpr std::uint32_t kBendPlaces = 4;
 constexpr double kBendMin = 4.0;
@@ -32,7 +32,7 @@ struct End {
       passing += past[k];
       bending += k < beyond + kBendPlaces ? just_behind[k] : 0.0;
     }
-    return beyond > 0 && beyond <= kNear && passing >= kPastMin && bending < kBendMin;
+    return beyond > 0 && beyond <= kNearPlaces && passing >= kPastMin && bending < kBendMin;
   }
 };
 

@@ -15,12 +15,12 @@
 
 namespace pose_wall {
 
-// The levelled machine in the wall band.
+// What the walls are looked for in: the machine, levelled.
 struct WallScene {
   const PointSet& band_level;
   const PointSet& beyond_level;  // above and below the band; weight: how many each stands for
-  const PointSet& cloud_base;    // all of them
-  const DirectionGrid& returns_lidar;
+  const PointSet& cloud_base;    // all points, before the band was cut
+  const ReturnsByDirection& returns_lidar;
   const Settings& settings;
   const Extrinsic& extrinsic;
   Eigen::Matrix3d R_level_base;
@@ -33,7 +33,7 @@ struct WallScene {
 };
 
 WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const PointSet& cloud_base,
-                     const DirectionGrid& returns_lidar, const Settings& settings, const LevelResult& level,
+                     const ReturnsByDirection& returns_lidar, const Settings& settings, const LevelResult& level,
                      const Axes& axes, const Extrinsic& extrinsic);
 
 // Horizontal direction of a wall, towards the machine's front.

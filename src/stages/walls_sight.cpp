@@ -14,36 +14,42 @@ namespace {
 constexpr std::uint32_t kColumns = DirectionGrid::kColumns;
 // Of what its directions expect, the plane answers this much, or it is dim.
 constexpr double kDimShare = 0.35;
-// Gaps this wide are roads and doors, if the wall itself has parts this wide and they are few.
+// Gaps this wide that are seen through are roads and doors, if the wall itself has parts this wide and they are few.
 constexpr double kWide_m = 0.7;
 constexpr int kRoadsMax = 2;
 // And so may be one that is no wider than this share of the wall.
 constexpr double kOneGapShare = 0.34;
-constexpr double kDeepShare = 0.8;
+constexpr double kDeepShare = 0.95;
 // What is silent elsewhere too, by this much more, tells nothing.
 constexpr double kBlindFactor = 1.5;
 constexpr double kBlindTopsMax = 0.1;
+// More silence than this that is only explained by silence elsewhere leaves a doubt.
+constexpr double kUnexplainedMax = 0.05;
 
-// What passed through the plane, by direction; returns how deep behind it most of that ends.
-double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, DirectionGrid* behind_lidar) {
+// Sorts the points by direction; returns how deep behind the plane most of what passed it ends.
+double mark_points(const WallScene& scene, const Plane& wall, double behind_m, SightScratch* scratch) {
   const double inside_m = wall.signed_distance(scene.sensor_level_m);
   const Eigen::Vector3d n_base = scene.R_level_base.transpose() * wall.n;
   const Eigen::Matrix3d R_lidar_base = scene.extrinsic.R_base_lidar.transpose();
   Distances depths;
-  behind_lidar->clear();
+  scratch->kept_lidar.clear();
+  scratch->behind_lidar.copy(scene.returns_lidar.too_far);
   for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
-    const Eigen::Vector3d p = scene.cloud_base.at(i);
+    const Eigen::Vector3d p = scene.cloud_base.at(i), ray = p - scene.extrinsic.sensor_base_m;
     const double r = n_base.dot(p) + wall.d;
+    const Eigen::Vector3d ray_lidar = R_lidar_base * ray;
+    const auto rounded = static_cast<std::uint32_t>(scene.cloud_base.weight[i] + 0.5F);
+    const std::uint32_t points = rounded > 0 ? rounded : 1;  // weights may go by intensity
+    scratch->kept_lidar.add(ray_lidar, points);
     if (!(r < -behind_m)) continue;
-    const Eigen::Vector3d ray = p - scene.extrinsic.sensor_base_m;
-    behind_lidar->add(R_lidar_base * ray, static_cast<std::uint32_t>(scene.cloud_base.weight[i] + 0.5F));
+    scratch->behind_lidar.add(ray_lidar, points);
     const double to_plane = inside_m / (inside_m - r);
     const double z_level_m = scene.sensor_level_m.z() + to_plane * scene.R_level_base.row(2).dot(ray);
     const bool in_band = z_level_m >= scene.z_min_level_m && z_level_m <= scene.z_max_level_m;
     const bool near = to_plane * to_plane * ray.squaredNorm() <= SightLines::kReach_m * SightLines::kReach_m;
     if (in_band && near) depths.add(-r);
   }
-  return depths.count() > 0 ? depths.at_share(kDeepShare) : 0.0;
+  return depths.at_share(kDeepShare);
 }
 
 // The columns that look at the plane, side by side from one end to the other.
@@ -51,15 +57,9 @@ struct ColumnRow {
   SightColumn item[kColumns];
   std::uint32_t count = 0;
 
-  ColumnRow(const SightColumns& columns, double brightness) {
-    SightColumn all[kColumns];
-    std::uint32_t first = 0;  // one that does not look at it: less than half of them do
-    for (std::uint32_t c = 0; c < kColumns; ++c) {
-      all[c] = columns.at(c, brightness);
-      if (!(all[c].tally.cells > 0.0)) first = c;
-    }
+  ColumnRow(const SightColumns& columns, std::uint32_t away, double brightness) {
     for (std::uint32_t k = 0; k < kColumns; ++k) {
-      const SightColumn& c = all[(first + k) % kColumns];
+      const SightColumn c = columns.at((away + k) % kColumns, brightness);
       if (c.tally.cells > 0.0) item[count++] = c;
     }
   }
@@ -105,29 +105,34 @@ WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
   if (longest_gap.cells <= kOneGapShare * all.cells) all.take_off(longest_gap);
   WallSight out;
   if (!(all.cells > 0.0)) return out;
-  const double by_chance = all.silent_by_chance / all.cells, elsewhere = kBlindFactor * blind.cells;
-  const double silent = all.silent / all.cells - (by_chance > elsewhere ? by_chance : elsewhere);
-  out.silent = silent > 0.0 ? silent : 0.0;
+  const double silent = all.silent / all.cells, by_chance = all.silent_by_chance / all.cells;
+  const double elsewhere = kBlindFactor * blind.cells;
+  const double unexplained = silent - (by_chance > elsewhere ? by_chance : elsewhere);
+  out.silent = unexplained > 0.0 ? unexplained : 0.0;
   out.open = out.silent + all.through / all.cells;
   const bool tops_tell = blind.tops <= kBlindTopsMax && all.silent_tops > 0.0;
   out.topless = ((tops_tell ? all.silent_tops : 0.0) + all.tops_through) / all.columns;
+  out.dim = silent - by_chance > kUnexplainedMax && !(out.silent > 0.0);
   return out;
 }
 
 }  // namespace
 
 WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double behind_m,
-                  DirectionGrid* behind_lidar) {
+                  SightScratch* scratch) {
   if (!(wall.signed_distance(scene.sensor_level_m) > 0.0)) return {};
-  const double depth_m = mark_behind(scene, wall, behind_m, behind_lidar);
-  const ExpectedReturns expected(scene.returns_lidar);
+  const double depth_m = mark_points(scene, wall, behind_m, scratch);
+  const ExpectedReturns expected(scene.returns_lidar.all);
   const SightLines lines(scene, wall, along_level);
-  const SeenColumns seen(scene.returns_lidar, expected);
-  const SightColumns columns(scene, *behind_lidar, expected, lines, seen);
+  const SeenColumns seen(scene.returns_lidar.all, expected);
+  const SightColumns columns(scene, *scratch, expected, lines, seen);
   const double brightness = columns.brightness();
   WallSight out;
-  if (brightness >= kDimShare) out = judge(ColumnRow(columns, brightness), columns.elsewhere());
-  out.dim = brightness >= 0.0 && brightness < kDimShare;
+  if (brightness >= kDimShare) {
+    out = judge(ColumnRow(columns, lines.column_away(), brightness), columns.elsewhere());
+  } else {
+    out.dim = brightness >= 0.0;
+  }
   out.depth_m = depth_m;
   return out;
 }

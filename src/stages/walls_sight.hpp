@@ -12,24 +12,35 @@
 
 namespace pose_wall {
 
-// Shares of what the sensor sees of the plane, 0..1.
+// Shares of what the sensor sees of the plane, 0..1. One gap that is no wider than a third of it does not count, nor do
+// one or two that are seen through and as wide as a road or a door.
 struct WallSight {
   // Nothing comes back, neither from the plane nor from before or behind it: pipes before a wall that is too dark to be
-  // seen. One wide gap does not count.
+  // seen.
   double silent = 0.0;
-  // Silent, or seen through between what lies on the plane: a row of props or pipes. Gaps as wide as a road or a door
-  // do not count.
+  // Silent, or seen through between what lies on the plane: a row of props or pipes.
   double open = 0.0;
-  double depth_m = 0.0;  // how far behind the plane most rays end that pass it
+  // Nearly all voxels whose rays pass the plane here lie no deeper behind it. 0: none do.
+  double depth_m = 0.0;
   // Of its columns: over its top nothing is seen, or something behind it. A wall reaches up to the roof, a curtain, a
   // vehicle or a conveyor does not.
   double topless = 0.0;
-  // So few returns all over it that silence would not be noticed.
+  // So few returns all over it, or so much silence elsewhere too, that gaps would not be noticed.
   bool dim = false;
 };
 
-// behind_m: returns this far behind the plane have passed through it. behind_lidar: scratch.
+struct SightScratch {
+  DirectionGrid kept_lidar;    // points that are left after the filters
+  DirectionGrid behind_lidar;  // of these and of what is too far, what has passed through the plane
+
+  void lay_out(Arena& arena) {
+    kept_lidar.lay_out(arena);
+    behind_lidar.lay_out(arena);
+  }
+};
+
+// behind_m: returns this far behind the plane have passed through it.
 WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double behind_m,
-                  DirectionGrid* behind_lidar);
+                  SightScratch* scratch);
 
 }  // namespace pose_wall

@@ -26,12 +26,16 @@ constexpr double kBrightShare = 0.7;
 constexpr double kBrightCellsMin = 0.05;
 constexpr std::uint32_t kCellsMin = 20;
 constexpr double kEmptyShare = 0.05;
-constexpr std::uint32_t kBlockedColumns = 5;
+constexpr std::uint32_t kBlockedColumns = 5;  // 14 degrees
+constexpr int kSectorsForgiven = 2;
 constexpr double kZoneCellsMin = 60.0;
 constexpr double kZoneColumnsMin = 10.0;
 
 // Chance that fewer than `limit` come where `mean` are expected (Poisson).
 double chance_below(double limit, double mean) {
+  // Where so many are expected, a quarter of them never comes by chance (below 1e-19), and exp would leave its range.
+  constexpr double kMeanMax = 100.0;
+  if (!(mean < kMeanMax)) return 0.0;
   double term = exponential(-mean), sum = 0.0;
   for (double k = 0.0; k < limit; k += 1.0) {
     sum += term;
@@ -40,12 +44,20 @@ double chance_below(double limit, double mean) {
   return sum;
 }
 
-// Columns of the empty sector around this one.
-std::uint32_t sector(const bool (&empty)[kColumns], std::uint32_t column) {
-  std::uint32_t before = 0, after = 0;
-  while (before < kColumns && empty[(column + kColumns - before) % kColumns]) ++before;
-  while (after < kColumns && empty[(column + after) % kColumns]) ++after;
-  return before + after - 1;
+struct Sector {
+  std::uint32_t from = 0, columns = 0;
+};
+
+// The widest run of empty columns, around the circle.
+Sector widest_sector(const bool (&empty)[kColumns]) {
+  Sector widest;
+  for (std::uint32_t from = 0; from < kColumns; ++from) {
+    if (!empty[from] || (empty[(from + kColumns - 1) % kColumns] && from > 0)) continue;
+    Sector here{from, 0};
+    while (here.columns < kColumns && empty[(from + here.columns) % kColumns]) ++here.columns;
+    if (here.columns > widest.columns) widest = here;
+  }
+  return widest;
 }
 
 }  // namespace
@@ -60,7 +72,15 @@ SeenColumns::SeenColumns(const DirectionGrid& returns_lidar, const ExpectedRetur
     }
     empty[c] = !(count > kEmptyShare * all);
   }
-  for (std::uint32_t c = 0; c < kColumns; ++c) column[c] = !empty[c] || sector(empty, c) < kBlockedColumns;
+  for (bool& seen : is_seen) seen = true;
+  for (int forgiven = 0; forgiven < kSectorsForgiven; ++forgiven) {
+    const Sector sector = widest_sector(empty);
+    for (std::uint32_t k = 0; k < sector.columns; ++k) {
+      const std::uint32_t c = (sector.from + k) % kColumns;
+      empty[c] = false;
+      is_seen[c] = sector.columns < kBlockedColumns;
+    }
+  }
 }
 
 void SightTally::add(const SightTally& other) {
@@ -92,7 +112,12 @@ bool SightColumns::can_tell(std::uint32_t row, std::uint32_t column) const {
 }
 
 bool SightColumns::is_silent(std::uint32_t row, std::uint32_t column, double brightness) const {
-  return scene_.returns_lidar.count(row, column) < kSilentShare * brightness * expected_.at(row, column);
+  return scene_.returns_lidar.all.count(row, column) < kSilentShare * brightness * expected_.at(row, column);
+}
+
+bool SightColumns::is_through(std::uint32_t row, std::uint32_t column) const {
+  const std::uint32_t all = points_.kept_lidar.count(row, column) + scene_.returns_lidar.too_far.count(row, column);
+  return points_.behind_lidar.count(row, column) > kThroughShare * all;
 }
 
 bool SightColumns::in_band(const SightLines::Crossing& crossing) const {
@@ -103,9 +128,9 @@ double SightColumns::brightness() const {
   constexpr std::uint32_t kBins = 64;
   std::uint32_t bins[kBins] = {}, cells = 0;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
-    for (std::uint32_t row = 0; row < kRows && seen_.column[column]; ++row) {
+    for (std::uint32_t row = 0; row < kRows && seen_.is_seen[column]; ++row) {
       if (!can_tell(row, column) || !in_band(lines_.at(row, column))) continue;
-      const double share = scene_.returns_lidar.count(row, column) / expected_.at(row, column);
+      const double share = scene_.returns_lidar.all.count(row, column) / expected_.at(row, column);
       const auto bin = static_cast<std::uint32_t>(share * kBins);
       ++bins[bin < kBins ? bin : kBins - 1];
       ++cells;
@@ -128,22 +153,21 @@ SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
   constexpr double kLowest_m = -1e3;
   SightColumn out;
   double top_level_m = kLowest_m;
-  for (std::uint32_t row = 0; row < kRows && seen_.column[column]; ++row) {
+  for (std::uint32_t row = 0; row < kRows && seen_.is_seen[column]; ++row) {
     if (!can_tell(row, column)) continue;
     const SightLines::Crossing c = lines_.at(row, column);
     if (!c.near || c.z_level_m < scene_.z_min_level_m || c.z_level_m > scene_.z_max_level_m + kAboveBand_m) continue;
-    const double count = scene_.returns_lidar.count(row, column), mean = brightness * expected_.at(row, column);
-    const bool silent = is_silent(row, column, brightness);
-    const bool through = !silent && behind_lidar_.count(row, column) > kThroughShare * count;
+    const double mean = brightness * expected_.at(row, column), by_chance = chance_below(kSilentShare * mean, mean);
+    const bool silent = is_silent(row, column, brightness), through = !silent && is_through(row, column);
     if (c.z_level_m > top_level_m) {
       top_level_m = c.z_level_m;
-      out.tally.silent_tops = (silent ? 1.0 : 0.0) - chance_below(kSilentShare * mean, mean);
+      out.tally.silent_tops = (silent ? 1.0 : 0.0) - by_chance;
       out.tally.tops_through = through ? 1.0 : 0.0;
     }
     if (!in_band(c)) continue;
     out.tally.cells += 1.0;
     out.tally.silent += silent ? 1.0 : 0.0;
-    out.tally.silent_by_chance += chance_below(kSilentShare * mean, mean);
+    out.tally.silent_by_chance += by_chance;
     out.tally.through += through ? 1.0 : 0.0;
     out.along_m += c.along_m;
   }
@@ -156,14 +180,19 @@ SightColumns::Blindness SightColumns::elsewhere() const {
   constexpr int kZones = 3;  // beside, above and below
   double all[kZones] = {}, silent[kZones] = {}, columns = 0.0, silent_tops = 0.0;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
+    double top_up = -1.0;
     bool any = false, top_is_silent = false;
-    for (std::uint32_t row = 0; row < kRows && seen_.column[column]; ++row) {
+    for (std::uint32_t row = 0; row < kRows && seen_.is_seen[column]; ++row) {
       const SightLines::Zone zone = lines_.zone(row, column);
       if (!can_tell(row, column) || zone == SightLines::kAlong || lines_.at(row, column).near) continue;
+      const bool silent_here = is_silent(row, column, 1.0);
+      if (!any || lines_.up(row, column) > top_up) {
+        top_up = lines_.up(row, column);
+        top_is_silent = silent_here;
+      }
       any = true;
-      top_is_silent = is_silent(row, column, 1.0);  // rows go up
       all[zone] += 1.0;
-      silent[zone] += top_is_silent ? 1.0 : 0.0;
+      silent[zone] += silent_here ? 1.0 : 0.0;
     }
     columns += any ? 1.0 : 0.0;
     silent_tops += any && top_is_silent ? 1.0 : 0.0;

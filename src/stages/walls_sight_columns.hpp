@@ -7,15 +7,16 @@
 
 #include "containers/direction_grid.hpp"
 #include "stages/walls_scene.hpp"
+#include "stages/walls_sight.hpp"
 #include "stages/walls_sight_lines.hpp"
 
 namespace pose_wall {
 
-// Columns in which the sensor sees anything. A wide sector from which nothing comes at any elevation is out of sight:
-// blocked, or not looked at.
+// Columns that the sensor looks at. The two widest sectors from which nothing comes at any elevation are out of sight:
+// blocked, or beyond its field of view. More of them are gaps of a row of things with nothing behind it.
 struct SeenColumns {
   SeenColumns(const DirectionGrid& returns_lidar, const ExpectedReturns& expected);
-  bool column[DirectionGrid::kColumns];
+  bool is_seen[DirectionGrid::kColumns];
 };
 
 // Numbers of cells, and of columns by their highest cell. Silent tops are those that chance does not explain.
@@ -35,10 +36,9 @@ struct SightColumn {
 
 class SightColumns {
  public:
-  // behind_lidar: returns that have passed through the plane.
-  SightColumns(const WallScene& scene, const DirectionGrid& behind_lidar, const ExpectedReturns& expected,
+  SightColumns(const WallScene& scene, const SightScratch& points, const ExpectedReturns& expected,
                const SightLines& lines, const SeenColumns& seen)
-      : scene_(scene), behind_lidar_(behind_lidar), expected_(expected), lines_(lines), seen_(seen) {}
+      : scene_(scene), points_(points), expected_(expected), lines_(lines), seen_(seen) {}
 
   // How much of the expected comes back where the plane is seen best, 0..1; negative where too little of it is looked
   // at. A wet wall answers less than a dry one, but all over.
@@ -58,10 +58,11 @@ class SightColumns {
  private:
   bool can_tell(std::uint32_t row, std::uint32_t column) const;
   bool is_silent(std::uint32_t row, std::uint32_t column, double brightness) const;
+  bool is_through(std::uint32_t row, std::uint32_t column) const;
   bool in_band(const SightLines::Crossing& crossing) const;
 
   const WallScene& scene_;
-  const DirectionGrid& behind_lidar_;
+  const SightScratch& points_;
   const ExpectedReturns& expected_;
   const SightLines& lines_;
   const SeenColumns& seen_;

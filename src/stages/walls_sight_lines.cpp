@@ -65,4 +65,18 @@ SightLines::Zone SightLines::zone(std::uint32_t row, std::uint32_t column) const
   return up > 0.0 ? kAbove : kBelow;
 }
 
+std::uint32_t SightLines::column_away() const {
+  std::uint32_t best = 0;
+  double best_away = -2.0;
+  for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
+    const DirectionGrid::Column c = DirectionGrid::column(column);
+    const double away = n_lidar_.x() * c.x + n_lidar_.y() * c.y;
+    if (away > best_away) {
+      best_away = away;
+      best = column;
+    }
+  }
+  return best;
+}
+
 }  // namespace pose_wall

@@ -41,6 +41,10 @@ class SightLines {
   // Where else the sensor looks; along the road it may see nothing for being too far.
   enum Zone { kBeside, kAbove, kBelow, kAlong };
   Zone zone(std::uint32_t row, std::uint32_t column) const;
+  // Sine of the elevation in the levelled frame.
+  double up(std::uint32_t row, std::uint32_t column) const { return up_lidar_.dot(ray_lidar(row, column)); }
+  // The column that looks straight away from the plane.
+  std::uint32_t column_away() const;
 
  private:
   static Eigen::Vector3d ray_lidar(std::uint32_t row, std::uint32_t column);

@@ -56,7 +56,7 @@ class BandFixture {
   }
 
   // A return of the sensor, by the direction it came from.
-  void count_return(const Eigen::Vector3d& ray_lidar) { returns_lidar_->add(ray_lidar, 1); }
+  void count_return(const Eigen::Vector3d& ray_lidar) { returns_lidar_->all.add(ray_lidar, 1); }
   void mount_lidar(const Eigen::Matrix3d& R_level_lidar) { extrinsic_.R_base_lidar = R_level_lidar; }
 
   // Refers to this fixture, as it is now.
@@ -97,7 +97,7 @@ class BandFixture {
   OwnedPoints points_;
   OwnedPoints beyond_;
   Placed<PointSet> cloud_;
-  Placed<DirectionGrid> returns_lidar_;
+  Placed<ReturnsByDirection> returns_lidar_;
   Noise noise_;
 };
 

@@ -32,14 +32,15 @@ Extrinsic at_origin() {
 Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic = at_origin()) {
   const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
   test::Placed<VoxelGrid> grid(settings.points_max);
-  test::Placed<DirectionGrid> returns;
+  test::Placed<ReturnsByDirection> returns;
   test::Placed<PointSet> out(settings.points_max);
   grid->reset();
   Voxels v;
   v.result = build_voxels(cloud, settings, extrinsic, axes, grid.get(), returns.get(), out.get());
   for (std::uint32_t i = 0; i < out->count; ++i) v.points.push_back(out->at(i));
   for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
-    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) v.returns += returns->count(row, column);
+    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column)
+      v.returns += returns->all.count(row, column);
   }
   return v;
 }

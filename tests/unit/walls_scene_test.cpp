@@ -22,7 +22,7 @@ TEST(WallScene, FollowsTheSpecificationForAllAxesAndTilts) {
                                   -Eigen::Vector3d::UnitY()};
   const Settings settings = test::settings_with({{"lateral_offset_left", "0.6"}, {"lateral_offset_right", "-0.5"}});
   test::OwnedPoints none(1);
-  test::Placed<DirectionGrid> no_returns;
+  test::Placed<ReturnsByDirection> no_returns;
   const Extrinsic extrinsic{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.1, 0.2, 0.3)};
   for (const Eigen::Vector3d& forward : axes) {
     const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(forward);

@@ -54,9 +54,9 @@ RayScene road() {
 }
 
 WallSight sight_of(BandFixture* band, double plane_y_m) {
-  test::Placed<DirectionGrid> behind;
+  test::Placed<SightScratch> scratch;
   return look_at(band->scene(), Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kBehind_m,
-                 behind.get());
+                 scratch.get());
 }
 
 WallSight look(const RayScene& scene, double plane_y_m, const Lidar& lidar, const RayScene::Lost& lost = nullptr) {

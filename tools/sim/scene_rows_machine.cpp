@@ -118,7 +118,7 @@ std::vector<SceneChoice> machine_scenes() {  // NOLINT(readability-function-size
        SceneKind::kUnobservable,
        0.0,
        "mounted 0.3 m off in height",
-       "valid or degraded: not to be seen, and harmless where walls are upright",
+       "not to be seen; harmless where walls are upright",
        {{"mount_error_z_m", "0.3", 0.05, 0.3, true}}},
   };
 }
