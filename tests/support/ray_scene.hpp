@@ -61,6 +61,8 @@ class RayScene {
     relief_ = std::move(relief);
   }
   void set_noise(double sigma_m) { noise_m_ = sigma_m; }
+  // As many scans in one cloud, each the same: every direction counted and every point weighed so many times.
+  void set_accumulated(std::uint32_t scans) { scans_ = scans; }
 
   // All around. A return is lost where `lost` says so of its ray in the lidar frame: dust, mud on the window.
   using Lost = std::function<bool(const Eigen::Vector3d&)>;
@@ -78,8 +80,9 @@ class RayScene {
         Eigen::Vector3d p;
         if (!end_of(ray, &p) || (lost && lost(ray_lidar))) continue;
         p += band->noise().normal(noise_m_) * ray;
-        (heights.holds(p.z()) ? band->points() : band->beyond()).add(p);
-        band->count_return(ray_lidar);
+        OwnedPoints& points = heights.holds(p.z()) ? band->points() : band->beyond();
+        points.add(p.x(), p.y(), p.z(), static_cast<float>(scans_));
+        for (std::uint32_t scan = 0; scan < scans_; ++scan) band->count_return(ray_lidar);
       }
     }
   }
@@ -108,6 +111,7 @@ class RayScene {
 
   std::vector<Panel> panels_;
   double relief_at_m_ = 0.0, noise_m_ = 0.0;
+  std::uint32_t scans_ = 1;
   Relief relief_;
 };
 

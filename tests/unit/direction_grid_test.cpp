@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: every return is counted once, in the cell whose middle is nearest to its direction; columns are as wide as
-// they say; full cells stay full; axes, poles and rays of any length have a cell.
+// Proves: every return is counted once, in the cell whose range of directions holds it; columns are as wide as they
+// say; full cells stay full; axes, poles and rays of any length have a cell.
 
 #include "containers/direction_grid.hpp"
 
@@ -68,7 +68,7 @@ TEST(DirectionGrid, ColumnsAreUnitVectorsAroundTheCircleOfAWidthFromOneToTwo) {
   EXPECT_NEAR(width_rad, 2.0 * M_PI, 1e-3);
 }
 
-// So near the poles, too, that few directions are left around the circle.
+// Also near the poles, where a circle of directions is short.
 TEST(DirectionGrid, RaysEvenInAzimuthFillColumnsByTheirWidth) {
   constexpr int kRays = 400000;
   constexpr double kDeviations = 5.0;  // of 128 columns, none by chance

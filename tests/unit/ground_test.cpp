@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the floor is found below a level or tilted machine, near or only far away, and neither roof nor bench nor
-// heap nor reflection is taken for it without a word.
+// Proves: the floor is found below a level or tilted machine, near or only far away, neither roof nor bench nor heap
+// nor reflection is taken for it without a word, and where several planes are about as good the levels reach to all.
 
 #include "stages/ground.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "support/ground_fixture.hpp"
 
@@ -98,6 +101,81 @@ TEST(Ground, ABenchIsNotTheFloorUnlessItSaysSo) {
   ASSERT_FALSE(f.fit.refused);
   if ((f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) {
     EXPECT_NEAR(f.fit.plane.d, test::kFloorBelow_m, 0.01);
+  }
+}
+
+// Floors that rise to either side of a level one in the middle, which runs along the road or across it.
+struct Valley {
+  double middle_half_m, left_slope_rad, right_slope_rad;
+  bool across = false;
+
+  FloorResult floor() const {
+    // One radius: nothing but the rivals moves the bounds by much.
+    GroundFixture g({{"ground_roi_radius", "6"}, {"ground_roi_radius_max", "6"}});
+    test::Noise noise(2);
+    for (double x = -8.0; x <= 8.0; x += 0.1) {
+      for (double y = -8.0; y <= 8.0; y += 0.1) {
+        const double along = x + noise.uniform(-0.04, 0.04), aside = y + noise.uniform(-0.04, 0.04);
+        g.add(across ? aside : along, across ? along : aside, height_m(aside) + noise.normal(0.005));
+      }
+    }
+    return g.floor();
+  }
+
+  // As large as what is wrong if the floor is the farthest of its slopes, and not much larger.
+  void expect_bound_reaches(const FloorResult& f) const {
+    constexpr double kMuch = 1.25;
+    const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
+    const double found_rad = across ? angles.pitch_rad : -angles.roll_rad;  // positive where left or ahead is high
+    const double bound_rad = across ? f.pitch_bound_rad : f.roll_bound_rad;
+    const double farthest_rad = std::max(std::fabs(found_rad - left_slope_rad), std::fabs(found_rad + right_slope_rad));
+    EXPECT_GE(bound_rad, farthest_rad);
+    EXPECT_LE(bound_rad, kMuch * farthest_rad);
+    EXPECT_LT(across ? f.roll_bound_rad : f.pitch_bound_rad, 0.03) << "about the other axis they agree";
+  }
+
+ private:
+  double height_m(double aside_m) const {
+    if (aside_m > middle_half_m) return std::tan(left_slope_rad) * (aside_m - middle_half_m);
+    if (aside_m < -middle_half_m) return std::tan(right_slope_rad) * (-aside_m - middle_half_m);
+    return 0.0;
+  }
+};
+
+// As large as the other floor, and of little more than half its size.
+TEST(Ground, BoundsReachToARivalFloor) {
+  const Valley with_rival[] = {{0.0, 0.09, 0.0}, {0.0, 0.14, 0.0}, {0.7, 0.14, 0.0}};
+  for (Valley valley : with_rival) {
+    for (const bool across : {false, true}) {
+      SCOPED_TRACE(::testing::Message() << valley.left_slope_rad << (across ? " across" : " along"));
+      valley.across = across;
+      const FloorResult f = valley.floor();
+      ASSERT_TRUE(f.fit.found && !f.fit.refused);
+      EXPECT_NE(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
+      valley.expect_bound_reaches(f);
+    }
+  }
+}
+
+TEST(Ground, BoundsReachToTheFartherOfTwoRivalFloors) {
+  for (const bool across : {false, true}) {
+    for (const double left_rad : {0.12, 0.21}) {
+      SCOPED_TRACE(::testing::Message() << left_rad << (across ? " across" : " along"));
+      const Valley valley{0.7, left_rad, 0.33 - left_rad, across};
+      const FloorResult f = valley.floor();
+      ASSERT_TRUE(f.fit.found && !f.fit.refused);
+      EXPECT_NE(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
+      valley.expect_bound_reaches(f);
+    }
+  }
+}
+
+TEST(Ground, ASlopeOfAThirdOfTheFloorIsNoRival) {
+  for (const bool across : {false, true}) {
+    const FloorResult f = Valley{2.5, 0.14, 0.0, across}.floor();
+    ASSERT_TRUE(f.fit.found && !f.fit.refused);
+    EXPECT_EQ(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
+    EXPECT_LT(std::max(f.roll_bound_rad, f.pitch_bound_rad), 0.03);
   }
 }
 

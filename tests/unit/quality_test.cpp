@@ -127,10 +127,13 @@ TEST(Quality, WallsThatDifferWidenTheLevelToReachEither) {
 }
 
 TEST(Quality, WhatIsDoubtfulIsWeak) {
-  for (const std::uint32_t reason : {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_R_WALL_SEEN_THROUGH}) {
+  for (const std::uint32_t reason :
+       {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_R_WALL_FEW_INLIERS, POSE_WALL_R_CURVED}) {
+    SCOPED_TRACE(reason);
     Scene scene;
     scene.walls[1].fit.reasons = reason;
     const Measurements m = scene.measured();
+    EXPECT_TRUE(m.quantity[POSE_WALL_D_RF].measured && m.quantity[POSE_WALL_YAW].measured) << "in doubt, not refused";
     EXPECT_TRUE(m.quantity[POSE_WALL_D_RF].weak && m.quantity[POSE_WALL_D_RB].weak && m.quantity[POSE_WALL_YAW].weak);
     EXPECT_FALSE(m.quantity[POSE_WALL_D_LF].weak) << "the other side is not in doubt";
   }

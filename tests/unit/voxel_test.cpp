@@ -22,11 +22,22 @@ namespace {
 struct Voxels {
   VoxelResult result;
   std::vector<Eigen::Vector3d> points;
-  std::uint32_t returns = 0;  // of all directions
+  std::uint32_t returns = 0;          // of all directions
+  std::vector<std::uint32_t> filled;  // cells of directions, by their number
 };
 
 Extrinsic at_origin() {
   return {Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
+}
+
+std::vector<std::uint32_t> filled_cells(const DirectionGrid& grid) {
+  std::vector<std::uint32_t> cells;
+  for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
+    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
+      if (grid.count(row, column) > 0) cells.push_back(row * DirectionGrid::kColumns + column);
+    }
+  }
+  return cells;
 }
 
 Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic = at_origin()) {
@@ -37,6 +48,7 @@ Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const E
   grid->reset();
   Voxels v;
   v.result = build_voxels(cloud, settings, extrinsic, axes, grid.get(), returns.get(), out.get());
+  v.filled = filled_cells(*returns);
   for (std::uint32_t i = 0; i < out->count; ++i) v.points.push_back(out->at(i));
   for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
     for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column)
@@ -82,6 +94,16 @@ TEST(Voxel, PointsAreMovedToBase) {
   ASSERT_EQ(v.points.size(), 1U);
   const Eigen::Vector3d expected = extrinsic.R_base_lidar * lidar + extrinsic.sensor_base_m;
   EXPECT_LT((v.points[0] - expected).norm(), 1e-4);  // quantised to 0.06 mm
+}
+
+TEST(Voxel, DirectionsAreThoseOfTheSensorHoweverItIsMounted) {
+  const Extrinsic extrinsic{rotation_zyx(0.1, -0.2, 2.0), Eigen::Vector3d(1.0, -2.0, 0.5)};
+  test::Placed<DirectionGrid> expected;
+  expected->clear();
+  expected->add({4.0, 3.0, -1.0}, 1);
+  const Voxels v = voxels_of(test::cloud_of({{4, 3, -1}}, 0), test::settings_with(), extrinsic);
+  EXPECT_EQ(v.returns, 1U);
+  EXPECT_EQ(v.filled, filled_cells(*expected));
 }
 
 TEST(Voxel, RangeIsFromTheSensorAndBoxesAreInBase) {

@@ -122,17 +122,28 @@ TEST(WallEnds, AWallBetweenTwoOpeningsIsNone) {
   }
 }
 
-TEST(WallEnds, NothingSeenAndWildPointsMakeNoIsland) {
-  for (const double y_m : {-2.0, 0.0, 2.0}) EXPECT_FALSE(island(RayScene(), y_m, kLidars[0])) << y_m;
+bool island_among_wild_points(const RayScene& scene, double plane_y_m) {
   BandFixture band;
-  road().add(side_panel(2.0, kEverywhere, kFull)).scan(kLidars[0], &band);
+  scene.scan(kLidars[0], &band);
   for (const double wild : {-1e30, -1e5, 1e-30, 1e5, 1e30}) {
     band.points().add(wild, 1.0, 0.0);
     band.points().add(0.0, wild, 0.0);
     band.beyond().add(1.0, 3.0, wild);
   }
-  const Plane wall{Eigen::Vector3d(0, -1, 0), 2.0};
-  EXPECT_FALSE(is_island(band.scene(), wall, Eigen::Vector3d::UnitX(), kMargin_m));
+  return is_island(band.scene(), Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kMargin_m);
+}
+
+TEST(WallEnds, NothingSeenAndWildPointsMakeNoIsland) {
+  for (const double y_m : {-2.0, 0.0, 2.0}) EXPECT_FALSE(island(RayScene(), y_m, kLidars[0])) << y_m;
+  EXPECT_FALSE(island_among_wild_points(road().add(side_panel(2.0, kEverywhere, kFull)), 2.0));
+}
+
+TEST(WallEnds, WildPointsDoNotHideAnIsland) {
+  for (const double y_m : {1.3, 1.8}) {
+    RayScene curtain = road();
+    curtain.add(side_panel(y_m, {-1.5, 1.5}, kFull)).add(side_panel(3.0, kEverywhere, kFull));
+    EXPECT_TRUE(island_among_wild_points(curtain, y_m)) << y_m;
+  }
 }
 
 }  // namespace

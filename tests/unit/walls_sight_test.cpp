@@ -4,8 +4,9 @@
 // Proves: the close look at a chosen plane, direction by direction, calls rows of pipes and props silent or open,
 // whether what is behind them is seen or too dark, and how deep it is; misses the top of what ends below the roof;
 // and lets a solid wall pass, whatever the sensor, its tilt, the things before the wall, a road that branches off, dust
-// and mud on the window. Scenes are cast ray by ray on flat panels, without noise. Does not prove the shares for rough
-// rock, for a moving machine, nor for a sensor that is not in the road's middle.
+// and mud on the window; of many scans in one cloud it says what it says of one. Scenes are cast ray by ray on flat
+// panels, without noise. Does not prove the shares for rough rock, for a moving machine, nor for a sensor that is not
+// in the road's middle.
 
 #include "stages/walls_sight.hpp"
 
@@ -33,8 +34,8 @@ constexpr double kBehind_m = 0.15;
 constexpr double kRoof_m = 1.8;  // above the sensor; the band ends at 1.1
 constexpr Interval kFull{test::kFloorZ_m, kRoof_m};
 constexpr double kOtherSide_m = -2.2;
-// Half of what makes the engine doubt a wall.
-constexpr double kNoSilence = 0.012, kNothingOpen = 0.01, kHasTop = 0.08;
+// Well below what the engine doubts or refuses a wall for (walls.cpp).
+constexpr double kNoSilence = 0.012, kNothingOpen = 0.01, kHasTop = 0.04;
 
 const Lidar kVlp16{-15.0, 15.0, 2.0, 0.2};
 const Lidar kOs0{-45.0, 45.0, 0.7, 0.5};
@@ -66,10 +67,14 @@ WallSight look(const RayScene& scene, double plane_y_m, const Lidar& lidar, cons
 }
 
 // Pipes 0.1 m thick, one every 0.5 m: four fifths of the height are between them.
+void add_pipes(double y_m, bool wall_is_dark, RayScene* scene) {
+  for (double z = -1.2; z < 1.2; z += 0.5) scene->add(side_panel(y_m, kEverywhere, {z, z + 0.1}));
+  scene->add(side_panel(y_m > 0.0 ? y_m + 0.8 : y_m - 0.8, kEverywhere, kFull, wall_is_dark));
+}
+
 RayScene pipes(double y_m, bool wall_is_dark) {
   RayScene scene = road();
-  for (double z = -1.2; z < 1.2; z += 0.5) scene.add(side_panel(y_m, kEverywhere, {z, z + 0.1}));
-  scene.add(side_panel(y_m + 0.8, kEverywhere, kFull, wall_is_dark));
+  add_pipes(y_m, wall_is_dark, &scene);
   return scene;
 }
 
@@ -86,6 +91,11 @@ void expect_solid(const WallSight& sight) {
   EXPECT_LE(sight.open, kNothingOpen);
   EXPECT_LE(sight.topless, kHasTop);
   EXPECT_FALSE(sight.dim);
+}
+
+// Nothing that the engine would doubt or refuse a wall for.
+bool said_nothing(const WallSight& sight) {
+  return sight.silent <= 0.1 && !sight.dim;
 }
 
 void expect_nothing(const WallSight& sight) {
@@ -124,6 +134,23 @@ TEST(WallSight, PipesBeforeAWallTooDarkToBeSeenAreSilent) {
       EXPECT_GT(sight.silent, 0.4) << y_m;
       EXPECT_GE(sight.open, sight.silent) << "what is silent is open too";
     }
+  }
+}
+
+// Then the directions between the pipes are silent all around, or seen by few.
+TEST(WallSight, PipesBeforeDarkWallsAllAroundAreNotPassedOver) {
+  for (const double y_m : {1.0, 1.5, 2.5, 4.0}) {
+    for (const double opposite_m : {y_m, 2.2}) {
+      RayScene both;
+      both.add(level_panel(test::kFloorZ_m)).add(level_panel(kRoof_m));
+      add_pipes(y_m, true, &both);
+      add_pipes(-opposite_m, true, &both);
+      EXPECT_FALSE(said_nothing(look(both, y_m, kVlp16))) << y_m << " and " << opposite_m;
+    }
+    RayScene one;
+    one.add(level_panel(test::kFloorZ_m)).add(level_panel(kRoof_m));
+    add_pipes(y_m, true, &one);
+    EXPECT_FALSE(said_nothing(look(one, y_m, kVlp16))) << y_m << " and nothing opposite";
   }
 }
 
@@ -240,6 +267,31 @@ TEST(WallSight, ABlockedSectorDoesNotCount) {
           return azimuth_deg > from_deg && azimuth_deg < from_deg + wide_deg;
         }));
       }
+    }
+  }
+}
+
+// A cloud of many scans: the shares are shares, however many returns there are of each.
+TEST(WallSight, AccumulatedScansHaveTheSharesOfOne) {
+  constexpr double kSame = 0.02;
+  RayScene props = road();
+  for (double x = -12.0; x < 12.0; x += 0.8) props.add(side_panel(2.0, {x, x + 0.2}, kFull));
+  props.add(side_panel(2.8, kEverywhere, kFull));
+  std::pair<const char*, RayScene> scenes[] = {{"solid", road().add(side_panel(2.0, kEverywhere, kFull))},
+                                               {"pipes before a dark wall", pipes(2.0, true)},
+                                               {"pipes", pipes(2.0, false)},
+                                               {"props", props}};
+  for (auto& [name, scene] : scenes) {
+    const WallSight one = look(scene, 2.0, kVlp16);
+    for (const std::uint32_t scans : {100U, 1000U}) {
+      SCOPED_TRACE(::testing::Message() << name << ", " << scans << " scans");
+      scene.set_accumulated(scans);
+      const WallSight many = look(scene, 2.0, kVlp16);
+      EXPECT_NEAR(many.silent, one.silent, kSame);
+      EXPECT_NEAR(many.open, one.open, kSame);
+      EXPECT_NEAR(many.topless, one.topless, kSame);
+      EXPECT_EQ(many.depth_m, one.depth_m);
+      EXPECT_EQ(many.dim, one.dim);
     }
   }
 }
