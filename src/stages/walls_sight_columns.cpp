@@ -176,34 +176,37 @@ SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
   return out;
 }
 
-SightColumns::Blindness SightColumns::elsewhere() const {
-  constexpr int kZones = 3;  // beside, above and below
-  double all[kZones] = {}, silent[kZones] = {}, columns = 0.0, silent_tops = 0.0;
-  for (std::uint32_t column = 0; column < kColumns; ++column) {
-    double top_up = -1.0;
-    bool any = false, top_is_silent = false;
-    for (std::uint32_t row = 0; row < kRows && seen_.is_seen[column]; ++row) {
-      const SightLines::Zone zone = lines_.zone(row, column);
-      if (!can_tell(row, column) || zone == SightLines::kAlong || lines_.at(row, column).near) continue;
-      const bool silent_here = is_silent(row, column, 1.0);
-      if (!any || lines_.up(row, column) > top_up) {
-        top_up = lines_.up(row, column);
-        top_is_silent = silent_here;
-      }
-      any = true;
-      all[zone] += 1.0;
-      silent[zone] += silent_here ? 1.0 : 0.0;
+void SightColumns::count_elsewhere(std::uint32_t column, SilenceElsewhere* out) const {
+  double top_up = -1.0;
+  bool any = false, top_is_silent = false;
+  for (std::uint32_t row = 0; row < kRows; ++row) {
+    const SightLines::Zone zone = lines_.zone(row, column);
+    if (!can_tell(row, column) || zone == SightLines::kAlong || lines_.at(row, column).near) continue;
+    const bool silent_here = is_silent(row, column, 1.0);
+    if (!any || lines_.up(row, column) > top_up) {
+      top_up = lines_.up(row, column);
+      top_is_silent = silent_here;
     }
-    columns += any ? 1.0 : 0.0;
-    silent_tops += any && top_is_silent ? 1.0 : 0.0;
+    any = true;
+    out->cells[zone] += 1.0;
+    out->silent[zone] += silent_here ? 1.0 : 0.0;
+  }
+  out->columns += any ? 1.0 : 0.0;
+  out->silent_tops += any && top_is_silent ? 1.0 : 0.0;
+}
+
+SightColumns::Blindness SightColumns::elsewhere() const {
+  SilenceElsewhere counted;
+  for (std::uint32_t column = 0; column < kColumns; ++column) {
+    if (seen_.is_seen[column]) count_elsewhere(column, &counted);
   }
   Blindness out;
   // The least of the three: one of them may be dark too.
-  for (int zone = 0; zone < kZones; ++zone) {
-    const double share = all[zone] >= kZoneCellsMin ? silent[zone] / all[zone] : 1.0;
+  for (int zone = 0; zone < SightLines::kAlong; ++zone) {
+    const double share = counted.cells[zone] >= kZoneCellsMin ? counted.silent[zone] / counted.cells[zone] : 1.0;
     out.cells = share < out.cells ? share : out.cells;
   }
-  if (columns >= kZoneColumnsMin) out.tops = silent_tops / columns;
+  if (counted.columns >= kZoneColumnsMin) out.tops = counted.silent_tops / counted.columns;
   return out;
 }
 

@@ -56,6 +56,13 @@ class SightColumns {
   Blindness elsewhere() const;
 
  private:
+  // Numbers of cells by zone (beside, above, below), and of columns.
+  struct SilenceElsewhere {
+    double cells[SightLines::kAlong] = {}, silent[SightLines::kAlong] = {};
+    double columns = 0.0, silent_tops = 0.0;
+  };
+  void count_elsewhere(std::uint32_t column, SilenceElsewhere* out) const;
+
   bool can_tell(std::uint32_t row, std::uint32_t column) const;
   bool is_silent(std::uint32_t row, std::uint32_t column, double brightness) const;
   bool is_through(std::uint32_t row, std::uint32_t column) const;
