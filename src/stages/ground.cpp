@@ -9,6 +9,7 @@
 #include "estimation/mlesac.hpp"
 #include "estimation/protection.hpp"
 #include "math/elementary.hpp"
+#include "math/larger.hpp"
 #include "math/rotation.hpp"
 #include "stages/ground_fit.hpp"
 #include "stages/ground_search.hpp"
@@ -39,10 +40,6 @@ struct Candidate {
   FloorEvidence evidence;
   bool ghost = false;
 };
-
-double larger(double a, double b) {
-  return a > b ? a : b;
-}
 
 std::uint32_t within_radius(const PointSet& cloud, Span<const std::uint32_t> open, double radius_m,
                             Span<std::uint32_t> out) {

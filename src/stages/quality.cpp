@@ -8,6 +8,7 @@
 #include "estimation/protection.hpp"
 #include "math/elementary.hpp"
 #include "math/finite.hpp"
+#include "math/larger.hpp"
 
 namespace pose_wall {
 namespace {
@@ -79,10 +80,6 @@ double tilt_to_yaw(const WallResult& wall, const LevelResult& level) {
   const double lean = sine(wall.lean_rad) / cosine(wall.lean_rad);
   const double up = level.forward_up;
   return std::fabs(lean) + std::fabs(up) / std::sqrt(1.0 - up * up);
-}
-
-double larger(double a, double b) {
-  return a > b ? a : b;
 }
 
 double yaw_bound_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {

@@ -62,22 +62,20 @@ bool is_island(const WallScene& scene, const Plane& wall, const Eigen::Vector3d&
   const double inside_m = wall.signed_distance(sensor);
   if (!(inside_m > 0.0)) return false;
   Ends ends;
-  const auto in_band = [&](double z_level_m) {
-    return z_level_m >= scene.z_min_level_m && z_level_m <= scene.z_max_level_m;
-  };
   for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
     const Eigen::Vector3d ray = scene.R_level_base * scene.cloud_base.at(i) - sensor;
     const double r = inside_m + wall.n.dot(ray), weight = static_cast<double>(scene.cloud_base.weight[i]);
     if (r > margin_m) continue;
-    const bool point_in_band = in_band(sensor.z() + ray.z());
+    const bool point_in_band = scene.in_band(sensor.z() + ray.z());
     if (r >= -margin_m && point_in_band) {
       *ends.on(along_level.dot(ray)) += weight;
       continue;
     }
     if (r > -kBend_m && point_in_band) *ends.just_behind(along_level.dot(ray)) += weight;
     // Rays to the floor right behind the plane pass it too.
-    const double to_plane = r < 0.0 ? inside_m / (inside_m - r) : 0.0;
-    if (r < 0.0 && in_band(sensor.z() + to_plane * ray.z())) *ends.past(to_plane * along_level.dot(ray)) += weight;
+    const double to_plane = r < 0.0 ? way_to_plane(inside_m, r) : 0.0;
+    if (r < 0.0 && scene.in_band(sensor.z() + to_plane * ray.z()))
+      *ends.past(to_plane * along_level.dot(ray)) += weight;
   }
   return ends.both_are_looked_past();
 }

@@ -50,7 +50,7 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
   const double sensor_inside_m = wall.signed_distance(sensor);
   const auto pass_through = [&](const Eigen::Vector3d& p, double r, std::uint32_t rays) {
     if (!(r < -reach.behind_m && sensor_inside_m > 0.0)) return;
-    const Eigen::Vector3d crossing = sensor + (p - sensor) * (sensor_inside_m / (sensor_inside_m - r));
+    const Eigen::Vector3d crossing = sensor + (p - sensor) * way_to_plane(sensor_inside_m, r);
     std::uint32_t cell = 0;
     if (cell_of(along_level.dot(crossing), crossing.z(), &cell)) count_up(&through_[cell], rays);
   };

@@ -104,7 +104,7 @@ double steps_back_at(const WallScene& scene, const WallResult& wall, const Eigen
     const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = wall.fit.plane.signed_distance(p);
     if (!(r < -kOff_m)) continue;
-    const Eigen::Vector3d crossing = sensor + (p - sensor) * (inside_m / (inside_m - r));
+    const Eigen::Vector3d crossing = sensor + (p - sensor) * way_to_plane(inside_m, r);
     if (std::fabs(wall.along_level.dot(crossing) - along_m) <= kWindow_m) passing.add(-r);
     if (std::fabs(wall.along_level.dot(p) - along_m) <= kWindow_m) beside.add(-r);
   }
@@ -134,7 +134,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double bend = std::fabs(patch.bend_at(u, v));
     if (bend > kBendMatters * scene.settings.alert_limit_distance) out->fit.reasons |= POSE_WALL_R_CURVED;
     bound = scene.settings.range_bias_max * std::fabs(bias) + bend;
-    const bool in_band = sample.z() >= scene.z_min_level_m && sample.z() <= scene.z_max_level_m;
+    const bool in_band = scene.in_band(sample.z());
     if (in_band && !surface.heights.contain(sample.z())) {
       bound += offset_at_height(scene, out->fit.plane, sample.z());
     }

@@ -30,11 +30,19 @@ struct WallScene {
   Eigen::Vector3d sample_level_m[2][2];  // [left, right][s_front, s_back]
   double z_min_level_m;                  // the wall band
   double z_max_level_m;
+
+  bool in_band(double z_level_m) const { return z_level_m >= z_min_level_m && z_level_m <= z_max_level_m; }
 };
 
 WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const PointSet& cloud_base,
                      const ReturnsByDirection& returns_lidar, const Settings& settings, const LevelResult& level,
                      const Axes& axes, const Extrinsic& extrinsic);
+
+// Share of the way from the sensor, sensor_inside_m before a plane, to a point behind it (signed distance r_m < 0) at
+// which the ray passes the plane.
+inline double way_to_plane(double sensor_inside_m, double r_m) {
+  return sensor_inside_m / (sensor_inside_m - r_m);
+}
 
 // Horizontal direction of a wall, towards the machine's front.
 Eigen::Vector3d along_of(const Plane& wall, const Eigen::Vector3d& forward_level);

@@ -43,11 +43,10 @@ double mark_points(const WallScene& scene, const Plane& wall, double behind_m, S
     scratch->kept_lidar.add(ray_lidar, points);
     if (!(r < -behind_m)) continue;
     scratch->behind_lidar.add(ray_lidar, points);
-    const double to_plane = inside_m / (inside_m - r);
+    const double to_plane = way_to_plane(inside_m, r);
     const double z_level_m = scene.sensor_level_m.z() + to_plane * scene.R_level_base.row(2).dot(ray);
-    const bool in_band = z_level_m >= scene.z_min_level_m && z_level_m <= scene.z_max_level_m;
     const bool near = to_plane * to_plane * ray.squaredNorm() <= SightLines::kReach_m * SightLines::kReach_m;
-    if (in_band && near) depths.add(-r);
+    if (scene.in_band(z_level_m) && near) depths.add(-r);
   }
   return depths.at_share(kDeepShare);
 }
@@ -102,7 +101,7 @@ WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
     all.add(run.tally);
     if (run.is_gap && run.tally.cells > longest_gap.cells) longest_gap = run.tally;
   });
-  if (longest_gap.cells <= kOneGapShare * all.cells) all.take_off(longest_gap);
+  if (longest_gap.cells <= kOneGapShare * all.cells) all.add(longest_gap, -1.0);
   WallSight out;
   if (!(all.cells > 0.0)) return out;
   const double silent = all.silent / all.cells, by_chance = all.silent_by_chance / all.cells;

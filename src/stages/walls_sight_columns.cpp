@@ -83,24 +83,14 @@ SeenColumns::SeenColumns(const DirectionGrid& returns_lidar, const ExpectedRetur
   }
 }
 
-void SightTally::add(const SightTally& other) {
-  cells += other.cells;
-  silent += other.silent;
-  silent_by_chance += other.silent_by_chance;
-  through += other.through;
-  columns += other.columns;
-  silent_tops += other.silent_tops;
-  tops_through += other.tops_through;
-}
-
-void SightTally::take_off(const SightTally& other) {
-  cells -= other.cells;
-  silent -= other.silent;
-  silent_by_chance -= other.silent_by_chance;
-  through -= other.through;
-  columns -= other.columns;
-  silent_tops -= other.silent_tops;
-  tops_through -= other.tops_through;
+void SightTally::add(const SightTally& other, double sign) {
+  cells += sign * other.cells;
+  silent += sign * other.silent;
+  silent_by_chance += sign * other.silent_by_chance;
+  through += sign * other.through;
+  columns += sign * other.columns;
+  silent_tops += sign * other.silent_tops;
+  tops_through += sign * other.tops_through;
 }
 
 bool SightColumn::is_gap() const {
@@ -121,7 +111,7 @@ bool SightColumns::is_through(std::uint32_t row, std::uint32_t column) const {
 }
 
 bool SightColumns::in_band(const SightLines::Crossing& crossing) const {
-  return crossing.near && crossing.z_level_m >= scene_.z_min_level_m && crossing.z_level_m <= scene_.z_max_level_m;
+  return crossing.near && scene_.in_band(crossing.z_level_m);
 }
 
 double SightColumns::brightness() const {

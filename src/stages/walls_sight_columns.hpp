@@ -24,8 +24,8 @@ struct SightTally {
   double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
   double columns = 0.0, silent_tops = 0.0, tops_through = 0.0;
 
-  void add(const SightTally& other);
-  void take_off(const SightTally& other);
+  // sign -1: takes it off.
+  void add(const SightTally& other, double sign = 1.0);
 };
 
 struct SightColumn {
