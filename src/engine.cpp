@@ -152,6 +152,10 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   const Plane* const last[2] = {memory_.has_wall[0] ? &memory_.last_wall[0] : nullptr,
                                 memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);
+  if (found->walls.common_lean_rad > 0.0) {
+    found->floor.roll_bound_rad += found->walls.common_lean_rad;
+    found->floor.fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+  }
   refuse_blocked_sides(found->voxels.counts, &found->walls.side);
   share_direction(scene, &found->walls.side);
 }

@@ -11,10 +11,8 @@
 namespace pose_wall {
 namespace {
 
-// The quadratic must explain this much more (chi-square with 3 degrees of freedom: 1 in 10^4 by chance).
+// Chi-square with 3 degrees of freedom: 1 in 10^4 by chance.
 constexpr double kBendChi2 = 21.1;
-constexpr double kBendShare = 0.6;
-constexpr double kBendPatchesMin = 20.0;
 constexpr double kCorrelationMax = 0.95;
 constexpr double kVisibilityPerPatch = 0.8;
 constexpr double kNoiseLooksRough = 0.05;
@@ -57,14 +55,15 @@ void PatchGrid::for_each_pair(std::uint32_t n, const Visit& visit) const {
   }
 }
 
-// Correlation of the rock by distance between patches, from products of errors. Errors about a fitted plane are smaller
-// than the rock is, and more so the fewer independent patches there are: the fit's own variance is given back to them.
-void PatchGrid::measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitted,
-                                    Roughness (*roughness)[kLayersMax]) const {
+// Correlation of the rock by distance between patches, from products of errors. Errors about a fitted surface are
+// smaller than the rock is, and more so the fewer independent patches there are: the fit's own variance is given back
+// to them.
+template <typename Taken>
+void PatchGrid::correlate_errors(std::uint32_t n, const Taken& taken_by_fit, Roughness (*roughness)[kLayersMax]) const {
   double products[kLayersMax][kLags + 1] = {};
   double pairs[kLayersMax][kLags + 1] = {};
   for_each_pair(n, [&](const Mean& p, const Mean& o, int lag) {
-    products[p.layer][lag] += p.error * o.error + p.a.dot(fitted * o.a);
+    products[p.layer][lag] += p.error * o.error + taken_by_fit(p, o);
     pairs[p.layer][lag] += 1.0;
   });
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
@@ -77,6 +76,12 @@ void PatchGrid::measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitt
       upper = rough.at_lag[lag];
     }
   }
+}
+
+void PatchGrid::measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitted,
+                                    Roughness (*roughness)[kLayersMax]) const {
+  correlate_errors(
+      n, [&fitted](const Mean& p, const Mean& o) { return p.a.dot(fitted * o.a); }, roughness);
 }
 
 // Variance of the rock between patches, with what the fit took from it beyond the leverage of independent patches.
@@ -137,36 +142,76 @@ double PatchGrid::visibility(double tau2) const {
   return kVisibilityPerPatch * cells_per_m_ * rock * std::sqrt(within2 * (within2 + tau2));
 }
 
-void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) const {
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
+PatchGrid::Quadratic PatchGrid::quadratic_terms(const Mean& p) {
+  Quadratic a;
+  a << 1.0, p.u, p.v, p.u * p.u, p.u * p.v, p.v * p.v;
+  return a;
+}
+
+// Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic: about
+// the plane a bend makes neighbouring patches err alike, which looks like rough rock with few independent patches and
+// would hide the bend.
+Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Quadratic& bend, const Matrix6& inverse) {
+  double left2 = 0.0, noise = 0.0, sum = 0.0, patches = 0.0;
+  for (Mean& p : means_.first(n)) {
+    if (p.layer != 0) continue;
+    const Quadratic a = quadratic_terms(p);
+    p.error -= bend.dot(a);
+    p.influence = p.information * (inverse * a).tail<3>();
+    left2 += p.information * p.error * p.error;
+    noise += p.information * p.noise_variance;
+    sum += p.information;
+    patches += 1.0;
+  }
+  // The quadratic takes six patches' worth.
+  const double rock2 = (left2 * patches / (patches - 6.0) - noise) / sum;
+  Roughness roughness[kLayersMax];
+  roughness[0].tau2 = rock2 > 0.0 ? rock2 : 0.0;
+  const auto taken = [&inverse](const Mean& p, const Mean& o) {
+    return quadratic_terms(p).dot(inverse * quadratic_terms(o));
+  };
+  correlate_errors(n, taken, &roughness);
+  Eigen::Matrix3d alone = Eigen::Matrix3d::Zero(), shared = Eigen::Matrix3d::Zero();
+  for (const Mean& p : means_.first(n)) {
+    if (p.layer == 0) alone += (roughness[0].tau2 + p.noise_variance) * p.influence * p.influence.transpose();
+  }
+  for_each_pair(n, [&](const Mean& p, const Mean& o, int lag) {
+    if (p.layer != 0) return;
+    const double covariance = roughness[0].at_lag[lag] * roughness[0].tau2;
+    shared += covariance * (p.influence * o.influence.transpose() + o.influence * p.influence.transpose());
+  });
+  // Correlation can only cost.
+  for (int k = 0; k < 3; ++k) {
+    if (!(shared(k, k) >= 0.0)) return alone;
+  }
+  return alone + shared;
+}
+
+void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
   Matrix6 m = Matrix6::Zero();
-  Vector6 rhs = Vector6::Zero();
-  double plane_chi2 = 0.0, patches = 0.0;
+  Quadratic rhs = Quadratic::Zero();
+  double plane_chi2 = 0.0;
   for (const Mean& p : means_.first(n)) {
     if (p.layer != 0) continue;
-    Vector6 a;
-    a << 1.0, p.u, p.v, p.u * p.u, p.u * p.v, p.v * p.v;
+    const Quadratic a = quadratic_terms(p);
     m += p.information * a * a.transpose();
     rhs += p.information * p.error * a;
     plane_chi2 += p.information * p.error * p.error;
-    patches += 1.0;
   }
   // A faint pull to zero keeps directions without data from being made up (sparse rings: no spread in v).
   for (int k = 3; k < 6; ++k) m(k, k) *= 1.0 + 1e-6;
   const Eigen::LDLT<Matrix6> solver(m);
-  const Vector6 bend = solver.solve(rhs);
+  const Quadratic bend = solver.solve(rhs);
   const double gain = bend.dot(rhs);  // chi-square explained by the quadratic terms
   if (solver.info() != Eigen::Success || !(gain >= 0.0) || !(gain <= 1.01 * plane_chi2)) return;
-  const double per_patch = patches / (out->dof + 3.0);  // correlated patches count for fewer
-  // A strong bend makes neighbouring patches err alike, which looks like few independent ones; but then it explains
-  // most of what they err.
-  out->bends = gain > kBendChi2 * per_patch || (patches >= kBendPatchesMin && gain > kBendShare * plane_chi2);
-  Vector6 e = Vector6::Zero();
-  e[5] = 1.0;
-  out->curvature_v = bend[5];
-  out->curvature_v_sigma = std::sqrt(per_patch * solver.solve(e)[5]);
+  Matrix6 inverse;  // column by column: Eigen solves for a matrix by blocks, whose sizes it keeps in static storage
+  for (int k = 0; k < 6; ++k) inverse.col(k) = solver.solve(Quadratic(Quadratic::Unit(k)));
+  const Eigen::Matrix3d covariance = covariance_of_bend(n, bend, inverse);
+  out->curvature_v_sigma = std::sqrt(covariance(2, 2));
+  const Eigen::Vector3d quadratic = bend.tail<3>();
+  out->bends = quadratic.dot(covariance.ldlt().solve(quadratic)) > kBendChi2;  // Wald's test
   if (out->bends) out->bend = bend;
+  out->curvature_v = bend[5];
 }
 
 }  // namespace pose_wall

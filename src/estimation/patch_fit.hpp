@@ -65,6 +65,8 @@ class PatchGrid {
   PatchFit fit();
 
  private:
+  using Quadratic = Eigen::Matrix<double, 6, 1>;  // of 1, u, v, uu, uv, vv
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
   struct Patch {
     double w, wu, wv, wr, wrr, wb;
     double r, rr;  // without weights
@@ -80,6 +82,7 @@ class PatchGrid {
     // (Frisch and Waugh 1933).
     Eigen::Vector3d a;
     double r_centred, b_centred;
+    Eigen::Vector3d influence;  // on the coefficients of uu, uv and vv, per metre of error
     std::int32_t iu, iv;
     std::uint32_t layer;
   };
@@ -103,12 +106,16 @@ class PatchGrid {
   double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;
   template <typename Visit>
   void for_each_pair(std::uint32_t n, const Visit& visit) const;
+  template <typename Taken>
+  void correlate_errors(std::uint32_t n, const Taken& taken_by_fit, Roughness (*roughness)[kLayersMax]) const;
   void measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitted, Roughness (*roughness)[kLayersMax]) const;
   double visibility(double tau2_surface) const;
   void give_back(std::uint32_t n, const Eigen::Matrix3d& beyond, Roughness (*roughness)[kLayersMax]) const;
   void sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMax], const Eigen::Matrix3d& inverse,
                 PatchFit* out) const;
-  void test_bend(std::uint32_t n, PatchFit* out) const;
+  static Quadratic quadratic_terms(const Mean& p);
+  Eigen::Matrix3d covariance_of_bend(std::uint32_t n, const Quadratic& bend, const Matrix6& inverse);
+  void test_bend(std::uint32_t n, PatchFit* out);
 
   Span<Patch> cells_;
   Span<Mean> means_;

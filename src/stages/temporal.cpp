@@ -105,6 +105,13 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   out->state = t->expired ? POSE_WALL_INVALID : POSE_WALL_HELD;
 }
 
+// While the clock stands still, the machine does not: a frame takes as long as the longest ever did. So did the one in
+// whose course the clock stopped, which it has cut short.
+double time_while_still(const TemporalState& state) {
+  const double cut_off_s = state.still_frames == 1 ? state.longest_dt_s - state.last_dt_s : 0.0;
+  return state.longest_dt_s + cut_off_s;
+}
+
 pose_wall_value blank() {
   pose_wall_value v{};
   v.value = v.raw = v.sigma = v.protection_level = not_a_number();
@@ -139,9 +146,11 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
   state->has_stamp = true;
   state->stamp_ns = stamp_ns;
   state->still_frames = timing.still ? state->still_frames + 1 : 0;
-  // While the clock stands still, the machine does not: a frame takes as long as the last one did.
-  const double elapsed_s = timing.still ? state->last_dt_s : timing.dt_s;
-  if (timing.dt_s > 0.0 && !timing.leap) state->last_dt_s = timing.dt_s;
+  const double elapsed_s = timing.still ? time_while_still(*state) : timing.dt_s;
+  if (!timing.leap && timing.dt_s > 0.0) {
+    state->last_dt_s = timing.dt_s;
+    state->longest_dt_s = larger(state->longest_dt_s, timing.dt_s);
+  }
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Track& t = state->track[q];
     const Measurement& m = measured.quantity[q];

@@ -41,7 +41,9 @@ struct TemporalState {
   bool has_stamp = false;
   std::uint32_t still_frames = 0;  // how often the last stamp has come again
   std::int64_t stamp_ns = 0;
-  double last_dt_s = 0.0;  // between the last two stamps that went on
+  // Between two stamps that went on, leaps left out.
+  double last_dt_s = 0.0;
+  double longest_dt_s = 0.0;
 };
 
 // Greatest change per second of one of the seven quantities, by the config.

@@ -7,7 +7,8 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
-#include "stages/walls_ends.hpp"
+#include "math/larger.hpp"
+#include "stages/walls_edges.hpp"
 #include "stages/walls_measure.hpp"
 #include "stages/walls_select.hpp"
 #include "stages/walls_sight.hpp"
@@ -22,8 +23,10 @@ constexpr double kOnWallInThresholds = 3.0;
 constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.025;
-constexpr double kOpenDoubt = 0.02;
+constexpr double kOpenDoubt = 0.01;
 constexpr double kOpenMax = 0.1;
+// What passes through small gaps ends right behind them, on whatever is there; the wall may be this far behind.
+constexpr double kOpenDepthMin_m = 2.0;
 // Hollows of rough rock are not behind the wall.
 constexpr double kWellBehind_m = 0.25;
 constexpr double kToplessMax = 0.08;
@@ -94,10 +97,13 @@ void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wal
   if (sight.dim) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
   if (sight.open > kOpenDoubt) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
   if (sight.dim || sight.open > kOpenDoubt) {
-    for (double& bound : wall->distance_bound_m) bound += kRivalStretch * sight.depth_m + kRivalMargin_m;
+    const double least_m = sight.open > kOpenDoubt ? kOpenDepthMin_m : 0.0;
+    const double depth_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, least_m);
+    for (double& bound : wall->distance_bound_m) bound += depth_m;
   }
   const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
-  if (whole && !is_island(scene, plane, wall->along_level, reach_m)) return;
+  const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
+  if (whole && !edges.island && !edges.low) return;
   wall->fit.refused = true;
   wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
 }
@@ -139,6 +145,25 @@ void doubt_direction(const WallCandidate& a, const WallCandidate& b, WallResult*
   if (apart > kApart_rad) left_over->yaw_bound_rad += apart;
 }
 
+// How far both sides lean the same way about the road: one out, the other in. Walls differ in their lean and floors
+// fall to one side, but beyond that it is the level that is wrong: a heap's flank was taken for the floor.
+double common_lean(const WallCandidates (&beside)[2]) {
+  constexpr double kBeyond_rad = 0.22;  // 12.6 degrees: two walls off by 10 and a floor by as much the other way
+  constexpr double kAreaMin_m2 = 4.0;
+  double lean[2] = {};
+  for (int side = 0; side < 2; ++side) {
+    const WallCandidate* best = nullptr;
+    for (std::uint32_t i = 0; i < beside[side].count; ++i) {
+      const WallCandidate& c = beside[side].item[i];
+      if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
+    }
+    if (best == nullptr || best->evidence.area_m2 < kAreaMin_m2) return 0.0;
+    lean[side] = lean_of(best->plane);
+  }
+  const double common = 0.5 * std::fabs(lean[0] - lean[1]);
+  return lean[0] * lean[1] < 0.0 && common > kBeyond_rad ? common : 0.0;
+}
+
 // Share of the band that lies on the chosen walls. In a cavern or a hall full of things, two flat spots may happen to
 // be parallel, but they explain next to nothing of what is seen.
 double explained_share(const WallScene& scene, const WallChoice& choice) {
@@ -178,6 +203,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
 
   const bool explained = explained_share(scene, choice) >= kExplainedMin;
   WallsResult out;
+  out.common_lean_rad = common_lean(beside);
   for (int side = 0; side < 2; ++side) {
     if (choice.side[side] != nullptr) out.side[side] = measure(scene, choice, side, scratch);
     out.side[side].fit.iterations = scored[side];

@@ -66,7 +66,7 @@ double with_margin(double other_m) {
   return other_m > 0.0 ? 1.25 * other_m + 0.05 : 0.0;
 }
 
-constexpr double kBackMargin = 2.0;  // the deepest part of an opening is in its shadow
+constexpr double kBackMargin = 2.5;  // the deepest part of an opening is in its shadow
 
 constexpr std::uint32_t kOtherPointsMin = 10;
 constexpr double kOff_m = 0.1;

@@ -149,6 +149,40 @@ TEST(PatchFit, AFlatWallIsNotBent) {
   EXPECT_LE(bent, 1);  // one in ten thousand by design
 }
 
+// Rock is straight on the average: what curvature a draw of it has, its standard deviation explains.
+TEST(PatchFit, OnRoughRockTheCurvatureIsChance) {
+  for (const double length_m : {0.2, 0.5}) {
+    test::Placed<PatchGrid> grid;
+    test::Noise noise(5);
+    double z2 = 0.0;
+    for (int run = 0; run < kRuns; ++run) {
+      const Rock rock(0.05, length_m, &noise);
+      const PatchFit f = fit(grid.get(), 0.01, 0.05, &noise, [&](double u, double v) { return rock.at(u, v); });
+      ASSERT_TRUE(f.solved);
+      z2 += f.curvature_v * f.curvature_v / (f.curvature_v_sigma * f.curvature_v_sigma) / kRuns;
+    }
+    EXPECT_GT(z2, 0.4) << length_m;
+    EXPECT_LT(z2, 1.6) << length_m;
+  }
+}
+
+// A heap along the foot of a rough wall: its patches err alike all along, which is no reason to doubt it.
+TEST(PatchFit, AFootThatStandsOutAllAlongIsABendForSure) {
+  test::Placed<PatchGrid> grid;
+  test::Noise noise(6);
+  int sure = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    const Rock rock(0.02, 0.3, &noise);
+    const PatchFit f = fit(grid.get(), 0.01, 0.1, &noise, [&](double u, double v) {
+      const double heap_m = v < 0.6 ? 0.25 * (0.6 - v) : 0.0;
+      return rock.at(u, v) + heap_m;
+    });
+    ASSERT_TRUE(f.solved);
+    sure += f.curvature_v > 3.5 * f.curvature_v_sigma ? 1 : 0;
+  }
+  EXPECT_GT(sure, 0.9 * kRuns);
+}
+
 TEST(PatchFit, RefusesWhatHoldsNoPlane) {
   test::Placed<PatchGrid> grid;
   grid->begin(-4, 4, 0, 2, 0.5);

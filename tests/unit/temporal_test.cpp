@@ -304,7 +304,7 @@ TEST(TemporalStamps, FlagsOfTheFrame) {
 }
 
 // A machine moves on while its clock stands still.
-TEST(TemporalStamps, StandingStillAgesByTheLastPeriod) {
+TEST(TemporalStamps, StandingStillAgesByTheLongestPeriod) {
   Life life;
   life.measured(0, 2.0);
   life.missing(100);
@@ -314,6 +314,16 @@ TEST(TemporalStamps, StandingStillAgesByTheLastPeriod) {
   Life first;
   first.measured(0, 2.0);
   EXPECT_EQ(first.missing(0).age_s, 0.0) << "no period is known yet";
+}
+
+// The clock stops within the second period: two have gone by when the same stamp comes again.
+TEST(TemporalStamps, StandingStillMakesUpForThePeriodItCutShort) {
+  Life life;
+  life.measured(0, 2.0);
+  life.measured(100, 2.0);
+  life.missing(130);
+  EXPECT_NEAR(life.missing(130).age_s, 0.2, kRoundingS);
+  EXPECT_NEAR(life.missing(130).age_s, 0.3, kRoundingS);
 }
 
 TEST(TemporalStamps, BackEndsWhatIsHeldAndRestartsWhatIsMeasured) {

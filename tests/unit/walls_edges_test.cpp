@@ -2,10 +2,11 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: a curtain or a vehicle past both of whose ends the sensor looks is an island; a wall is none that goes on, or
-// bends away, or ends on one side only, or has an opening near the sensor. Scenes are cast ray by ray on flat panels,
-// without noise. Does not prove it for rough rock, nor for voxels.
+// bends away, or ends on one side only, or has an opening near the sensor. What the sensor looks over is low, even
+// where it does so only far ahead; a wall up to the roof is not, nor one with openings or that bends away. Scenes are
+// cast ray by ray on flat panels, without noise. Does not prove it for rough rock, nor for voxels.
 
-#include "stages/walls_ends.hpp"
+#include "stages/walls_edges.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,10 +36,24 @@ RayScene road() {
   return scene.add(side_panel(-2.2, kEverywhere, kFull));
 }
 
+WallEdges edges(double plane_y_m, BandFixture* band) {
+  EdgeScratch scratch;
+  const Plane plane{Eigen::Vector3d(0, -1, 0), plane_y_m};
+  // What another wall has left in it is no matter.
+  look_past(band->scene(), Plane{Eigen::Vector3d(0, -1, 0), 0.7}, Eigen::Vector3d::UnitX(), kMargin_m, &scratch);
+  return look_past(band->scene(), plane, Eigen::Vector3d::UnitX(), kMargin_m, &scratch);
+}
+
 bool island(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
   BandFixture band;
   scene.scan(lidar, &band);
-  return is_island(band.scene(), Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kMargin_m);
+  return edges(plane_y_m, &band).island;
+}
+
+bool low(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
+  BandFixture band;
+  scene.scan(lidar, &band);
+  return edges(plane_y_m, &band).low;
 }
 
 TEST(WallEnds, ACurtainBeforeTheWallIsAnIsland) {
@@ -64,6 +79,7 @@ TEST(WallEnds, AWallThatGoesOnIsNone) {
   for (const Lidar& lidar : kLidars) {
     for (const double y_m : {0.8, 1.5, 2.5, 4.0}) {
       EXPECT_FALSE(island(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar)) << y_m;
+      EXPECT_FALSE(low(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar)) << y_m;
     }
   }
 }
@@ -75,6 +91,7 @@ TEST(WallEnds, AWallThatEndsOnOneSideOnlyIsNone) {
       scene.add(side_panel(2.0, {-40.0, end_m}, kFull)).add(cross_panel(end_m, {2.0, 6.0}, kFull));
       scene.add(side_panel(6.0, kEverywhere, kFull));
       EXPECT_FALSE(island(scene, 2.0, lidar)) << end_m;
+      EXPECT_FALSE(low(scene, 2.0, lidar)) << end_m;
     }
   }
 }
@@ -91,6 +108,7 @@ TEST(WallEnds, AWallThatBendsAwayIsNone) {
       scene.add(side_panel(kWall_m + back_m, {x, x + kChord_m}, kFull));
     }
     EXPECT_FALSE(island(scene, kWall_m, lidar));
+    EXPECT_FALSE(low(scene, kWall_m, lidar));
   }
 }
 
@@ -103,6 +121,7 @@ TEST(WallEnds, AWallWithAnOpeningBesideTheSensorIsNone) {
       scene.add(cross_panel(from_x_m, {2.0, 8.0}, kFull)).add(cross_panel(to_x_m, {2.0, 8.0}, kFull));
       scene.add(side_panel(8.0, kEverywhere, kFull));
       EXPECT_FALSE(island(scene, 2.0, lidar)) << from_x_m;
+      EXPECT_FALSE(low(scene, 2.0, lidar)) << from_x_m;
     }
   }
 }
@@ -122,6 +141,34 @@ TEST(WallEnds, AWallBetweenTwoOpeningsIsNone) {
   }
 }
 
+// The sensor looks up 7 degrees at most: beside it, the thing is as high as it sees.
+const Lidar kHardlyUp{-52.0, 7.0, 1.0, 0.5};
+
+TEST(WallTops, AThingBeforeTheWallIsLookedOver) {
+  for (const Lidar& lidar : {kLidars[0], kLidars[1], kLidars[2], kHardlyUp}) {
+    for (const double top_m : {-0.6, -0.1, 0.2}) {
+      for (const double y_m : {0.5, 1.0, 1.8}) {
+        RayScene scene = road();
+        scene.add(side_panel(y_m, kEverywhere, {test::kFloorZ_m, top_m})).add(side_panel(3.0, kEverywhere, kFull));
+        EXPECT_TRUE(low(scene, y_m, lidar)) << top_m << " at " << y_m;
+        EXPECT_FALSE(low(scene, 3.0, lidar)) << "the wall behind, " << top_m << " at " << y_m;
+      }
+    }
+  }
+}
+
+// A niche or two high up on the wall is not a top.
+TEST(WallTops, AWallWithWindowsIsNotLow) {
+  for (const Lidar& lidar : {kLidars[0], kLidars[1], kLidars[2], kHardlyUp}) {
+    RayScene scene = road();
+    scene.add(side_panel(2.0, kEverywhere, {test::kFloorZ_m, 0.2})).add(side_panel(4.0, kEverywhere, kFull));
+    for (const Interval& wall : {Interval{-40.0, -2.0}, Interval{-1.0, 4.0}, Interval{6.0, 40.0}}) {
+      scene.add(side_panel(2.0, wall, {0.2, 1.8}));
+    }
+    EXPECT_FALSE(low(scene, 2.0, lidar));
+  }
+}
+
 bool island_among_wild_points(const RayScene& scene, double plane_y_m) {
   BandFixture band;
   scene.scan(kLidars[0], &band);
@@ -130,11 +177,14 @@ bool island_among_wild_points(const RayScene& scene, double plane_y_m) {
     band.points().add(0.0, wild, 0.0);
     band.beyond().add(1.0, 3.0, wild);
   }
-  return is_island(band.scene(), Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kMargin_m);
+  return edges(plane_y_m, &band).island;
 }
 
 TEST(WallEnds, NothingSeenAndWildPointsMakeNoIsland) {
-  for (const double y_m : {-2.0, 0.0, 2.0}) EXPECT_FALSE(island(RayScene(), y_m, kLidars[0])) << y_m;
+  for (const double y_m : {-2.0, 0.0, 2.0}) {
+    EXPECT_FALSE(island(RayScene(), y_m, kLidars[0])) << y_m;
+    EXPECT_FALSE(low(RayScene(), y_m, kLidars[0])) << y_m;
+  }
   EXPECT_FALSE(island_among_wild_points(road().add(side_panel(2.0, kEverywhere, kFull)), 2.0));
 }
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_edges.hpp"
+
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr double kPlace_m = 0.5;
+// An end beyond this place (6 m) is not near.
+constexpr std::uint32_t kNearPlaces = 12;
+constexpr double kOnMin = 2.0;
+constexpr double kPastMin = 4.0;
+// So many points up to this far behind the plane, within so many places of its end, are its own bend.
+constexpr double kBend_m = 0.5;
+constexpr std::uint32_t kBendPlaces = 4;
+constexpr double kBendMin = 4.0;
+// The top is looked for in the wall band and this much above it.
+constexpr double kAboveBand_m = 1.0;
+// Hollows of rough rock are not behind the wall.
+constexpr double kWellBehind_m = 0.25;
+// So many points have come over the top, and so many times those of the plane at such heights.
+constexpr double kOverMin = 4.0;
+constexpr double kOverRatio = 3.0;
+
+}  // namespace
+
+bool EndPlaces::End::is_looked_past() const {
+  std::uint32_t beyond = 0;  // the first place behind the last that has anything on the plane
+  for (std::uint32_t k = 0; k < kPlaces; ++k) beyond = on[k] > kOnMin && on[k] > past[k] ? k + 1 : beyond;
+  double passing = 0.0, bending = 0.0;
+  for (std::uint32_t k = beyond; k < kPlaces; ++k) {
+    passing += past[k];
+    bending += k < beyond + kBendPlaces ? just_behind[k] : 0.0;
+  }
+  return beyond > 0 && beyond <= kNearPlaces && passing >= kPastMin && bending < kBendMin;
+}
+
+double* EndPlaces::place(double along_m, double (End::*places)[kPlaces]) {
+  const double place = std::fabs(along_m) / kPlace_m;
+  if (!(place < kPlaces)) return &elsewhere_;
+  return &(end_[along_m < 0.0 ? 0 : 1].*places)[static_cast<std::uint32_t>(place)];
+}
+
+void TopPlaces::add(double along_m, double height, bool is_past, double points) {
+  const double place = along_m / kPlace_m + 0.5 * kPlaces;
+  if (!(place >= 0.0 && place < kPlaces && height >= 0.0 && height < 1.0)) return;
+  Place& p = place_[static_cast<std::uint32_t>(place)];
+  (is_past ? p.past : p.on)[static_cast<std::uint32_t>(height * kSteps)] += static_cast<float>(points);
+}
+
+// There is a height with nothing of the plane above it but what has passed over it, wherever the plane is seen below.
+bool TopPlaces::is_looked_over() const {
+  struct Above {
+    double on = 0.0, past = 0.0;
+  };
+  Above above[kSteps];  // by the lowest step that counts as above
+  for (const Place& p : place_) {
+    double on_below = 0.0, past_below = 0.0;
+    for (std::uint32_t step = 0; step < kSteps; ++step) {
+      on_below += static_cast<double>(p.on[step]);
+      past_below += static_cast<double>(p.past[step]);
+    }
+    double on_above = 0.0, past_above = 0.0;
+    for (std::uint32_t step = kSteps; step-- > 0;) {
+      on_above += static_cast<double>(p.on[step]);
+      past_above += static_cast<double>(p.past[step]);
+      on_below -= static_cast<double>(p.on[step]);
+      past_below -= static_cast<double>(p.past[step]);
+      if (!(on_below > kOnMin && on_below > past_below)) continue;  // an opening, or nothing is seen of it here
+      above[step].on += on_above;
+      above[step].past += past_above;
+    }
+  }
+  for (const Above& a : above) {
+    if (a.past >= kOverMin && a.past > kOverRatio * a.on) return true;
+  }
+  return false;
+}
+
+WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double margin_m,
+                    EdgeScratch* scratch) {
+  const Eigen::Vector3d& sensor = scene.sensor_level_m;
+  const double inside_m = wall.signed_distance(sensor);
+  if (!(inside_m > 0.0)) return {};
+  const double height_m = scene.z_max_level_m + kAboveBand_m - scene.z_min_level_m;
+  scratch->ends.clear();
+  scratch->tops.clear();
+  for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
+    const Eigen::Vector3d ray = scene.R_level_base * scene.cloud_base.at(i) - sensor;
+    const double r = inside_m + wall.n.dot(ray), weight = static_cast<double>(scene.cloud_base.weight[i]);
+    if (r > margin_m) continue;
+    const double point_along_m = along_level.dot(ray), point_z_level_m = sensor.z() + ray.z();
+    // Rays to the floor right behind the plane pass it too.
+    const double to_plane = r < 0.0 ? way_to_plane(inside_m, r) : 1.0;
+    const double along_m = to_plane * point_along_m, z_level_m = sensor.z() + to_plane * ray.z();
+    const bool point_in_band = scene.in_band(point_z_level_m);
+    const bool is_on = r >= -margin_m;
+    if (is_on || r < -kWellBehind_m) {
+      scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, !is_on, weight);
+    }
+    if (is_on && point_in_band) {
+      *scratch->ends.on(point_along_m) += weight;
+      continue;
+    }
+    if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;
+    if (r < 0.0 && scene.in_band(z_level_m)) *scratch->ends.past(along_m) += weight;
+  }
+  return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over()};
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the sensor sees past the edges of a chosen plane, place by place along it: two ends and the top.
+
+#pragma once
+
+#include "estimation/plane.hpp"
+#include "stages/walls_scene.hpp"
+
+namespace pose_wall {
+
+struct WallEdges {
+  // It looks past both ends, near itself: a curtain or a vehicle that hides the wall. A wall goes on until it is out of
+  // sight; one that bends away is seen just behind its end, and behind an opening there is more of it.
+  bool island = false;
+  // It looks over the top, if only far ahead where its rays have risen so high: a conveyor, or pipes. A wall reaches up
+  // to the roof, or higher than the sensor looks.
+  bool low = false;
+};
+
+// Measured points by place, which is half a metre along the plane.
+class EndPlaces {
+ public:
+  void clear() { *this = EndPlaces(); }
+  double* on(double along_m) { return place(along_m, &End::on); }
+  double* past(double along_m) { return place(along_m, &End::past); }
+  double* just_behind(double along_m) { return place(along_m, &End::just_behind); }
+  bool both_are_looked_past() const { return end_[0].is_looked_past() && end_[1].is_looked_past(); }
+
+  static constexpr std::uint32_t kPlaces = 30;  // on either side of the sensor
+
+ private:
+  struct End {
+    double on[kPlaces] = {}, past[kPlaces] = {}, just_behind[kPlaces] = {};
+    bool is_looked_past() const;
+  };
+  // What lies too far away is counted where nobody looks.
+  double* place(double along_m, double (End::*places)[kPlaces]);
+
+  End end_[2];
+  double elsewhere_ = 0.0;
+};
+
+// Measured points by place and by the height at which their rays meet the plane, in steps from the lowest.
+class TopPlaces {
+ public:
+  void clear() {
+    for (Place& place : place_) place = Place();
+  }
+  // height: 0 (lowest) to 1; what is outside is left out.
+  void add(double along_m, double height, bool is_past, double points);
+  bool is_looked_over() const;
+
+ private:
+  static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;
+  static constexpr std::uint32_t kSteps = 32;
+  struct Place {
+    float on[kSteps] = {}, past[kSteps] = {};
+  };
+  Place place_[kPlaces];
+};
+
+struct EdgeScratch {
+  EndPlaces ends;
+  TopPlaces tops;
+};
+
+// margin_m: returns this near to the plane are the plane's.
+WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double margin_m,
+                    EdgeScratch* scratch);
+
+}  // namespace pose_wall
