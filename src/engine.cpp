@@ -43,6 +43,15 @@ void refuse_all(std::uint32_t reason, FrameFindings* found) {
   for (WallResult& wall : found->walls.side) refuse(reason, &wall.fit);
 }
 
+// The walls say that the level may be off by a turn: about base X that is roll, about base Y pitch.
+void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level, FloorResult* floor) {
+  if (!(tilt_level_rad.squaredNorm() > 0.0)) return;
+  const Eigen::Vector3d tilt_base_rad = level.R_level_base.transpose() * tilt_level_rad;
+  floor->roll_bound_rad += std::fabs(tilt_base_rad.x());
+  floor->pitch_bound_rad += std::fabs(tilt_base_rad.y());
+  floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+}
+
 }  // namespace
 
 void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
@@ -152,10 +161,7 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   const Plane* const last[2] = {memory_.has_wall[0] ? &memory_.last_wall[0] : nullptr,
                                 memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);
-  if (found->walls.common_lean_rad > 0.0) {
-    found->floor.roll_bound_rad += found->walls.common_lean_rad;
-    found->floor.fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
-  }
+  doubt_level(found->walls.tilt_level_rad, found->level, &found->floor);
   refuse_blocked_sides(found->voxels.counts, &found->walls.side);
   share_direction(scene, &found->walls.side);
 }

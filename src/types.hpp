@@ -65,7 +65,8 @@ struct FloorResult {
   PlaneFit fit;
   double roll_sigma_rad = 0.0;
   double pitch_sigma_rad = 0.0;
-  double roll_bound_rad = 0.0;  // systematic part of the protection level: range bias, unevenness, rival floors
+  // Systematic part of the protection level: range bias, unevenness, rival floors, walls that lean.
+  double roll_bound_rad = 0.0;
   double pitch_bound_rad = 0.0;
   double dof = 1.0;  // as many independent pieces know a variance as well as this one is known
   double area_m2 = 0.0;

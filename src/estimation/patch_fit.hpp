@@ -54,6 +54,7 @@ class PatchGrid {
  public:
   static constexpr std::uint32_t kCapacity = 4096;  // patches of all layers
   static constexpr std::uint32_t kLayersMax = 2;
+  static constexpr std::uint32_t kPatchesMin = 8;  // of the surface
 
   void lay_out(Arena& arena);
 
@@ -65,7 +66,8 @@ class PatchGrid {
   PatchFit fit();
 
  private:
-  using Quadratic = Eigen::Matrix<double, 6, 1>;  // of 1, u, v, uu, uv, vv
+  static constexpr std::uint32_t kQuadraticTerms = 6;  // 1, u, v, uu, uv, vv
+  using Quadratic = Eigen::Matrix<double, kQuadraticTerms, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   struct Patch {
     double w, wu, wv, wr, wrr, wb;
@@ -77,12 +79,12 @@ class PatchGrid {
     double u, v, r, b;
     double noise_variance;  // s_j^2 / W_j
     double information;     // 1 / (tau^2 + noise_variance)
-    double error;           // r minus the current fit
+    double error;           // r minus the current fit; after test_bend, minus the quadratic
     // Row of the design matrix. The strips' step is projected out: their rows and residuals are about their own mean
     // (Frisch and Waugh 1933).
     Eigen::Vector3d a;
     double r_centred, b_centred;
-    Eigen::Vector3d influence;  // on the coefficients of uu, uv and vv, per metre of error
+    Quadratic answer;  // of the quadratic's coefficients to an error here, over its information
     std::int32_t iu, iv;
     std::uint32_t layer;
   };
@@ -114,7 +116,7 @@ class PatchGrid {
   void sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMax], const Eigen::Matrix3d& inverse,
                 PatchFit* out) const;
   static Quadratic quadratic_terms(const Mean& p);
-  Eigen::Matrix3d covariance_of_bend(std::uint32_t n, const Quadratic& bend, const Matrix6& inverse);
+  Eigen::Matrix3d covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const;
   void test_bend(std::uint32_t n, PatchFit* out);
 
   Span<Patch> cells_;

@@ -187,11 +187,12 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   out.candidates = n;
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
-  if (!out.fit.found) out.fit.plane = best->plane;
   const Candidate* rival = best_of(Span<const Candidate>(candidates, count), best);
   reach_to_rivals(*best, Span<const Candidate>(candidates, count), &out);
   out.fit.refused = out.fit.refused || !stands_alone(*best, rival);
   gate(s, sensor, *best, &out);
+  // A fit that came to nothing, or wandered off, says less of the floor than what it began with.
+  if ((out.fit.reasons & POSE_WALL_R_FLOOR_NOT_FOUND) != 0) out.fit.plane = best->plane;
   return out;
 }
 
@@ -207,17 +208,20 @@ Levels levels_of(const FloorResult& f, const Settings& s) {
   return {k * f.roll_sigma_rad + f.roll_bound_rad, k * f.pitch_sigma_rad + f.pitch_bound_rad};
 }
 
-// Within another radius the floor looks otherwise: the levels reach to that too. A wider look that was refused may yet
-// have found the truth, or taken it for a rival.
+// Within another radius the floor looks otherwise: the levels reach to that too, and beyond, for the other is not the
+// truth either. A wider look that was refused may yet have found the truth, or taken it for a rival.
 void reach_to_other(const FloorResult& other, const Settings& s, FloorResult* floor) {
-  const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 > 0.0;
+  constexpr double kBeyond = 1.5;
+  const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= kAreaMin_m2;
   if (other.fit.refused && !wider_look) return;
   const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
   const Levels levels = levels_of(*floor, s);
-  const double rival_roll = other.fit.refused ? other.roll_bound_rad : 0.0;
-  const double rival_pitch = other.fit.refused ? other.pitch_bound_rad : 0.0;
-  floor->roll_bound_rad += larger(0.0, std::fabs(a.roll_rad - b.roll_rad) + rival_roll - levels.roll_rad);
-  floor->pitch_bound_rad += larger(0.0, std::fabs(a.pitch_rad - b.pitch_rad) + rival_pitch - levels.pitch_rad);
+  // What was refused has no level of its own, but its bound tells of its rivals.
+  const double roll = kBeyond * std::fabs(a.roll_rad - b.roll_rad) + (other.fit.refused ? other.roll_bound_rad : 0.0);
+  const double pitch =
+      kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + (other.fit.refused ? other.pitch_bound_rad : 0.0);
+  floor->roll_bound_rad += larger(0.0, roll - levels.roll_rad);
+  floor->pitch_bound_rad += larger(0.0, pitch - levels.pitch_rad);
 }
 
 // Who chooses the smallest of several claims chooses a claim that is too small.

@@ -15,7 +15,8 @@ constexpr double kNanosecond_s = 1e-9;
 constexpr std::uint32_t kConfirmations = 3;
 constexpr std::uint32_t kStillFramesMax = 2;
 
-double larger(double a, double b) {
+// A level that is not a number must not be hidden by one that is.
+double larger_or_nan(double a, double b) {
   return !(a <= b) ? a : b;
 }
 
@@ -69,8 +70,8 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   t->protection = m.protection + std::fabs(t->value - m.raw);
   if (t->to_confirm > 0) {
     const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
-    const double away = larger(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
-    t->protection = larger(t->protection, away + reach);
+    const double away = larger_or_nan(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
+    t->protection = larger_or_nan(t->protection, away + reach);
     out->reasons |= POSE_WALL_R_INNOVATION;
   }
   const bool within = t->protection <= alert_limit(quantity, s);
@@ -105,11 +106,12 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   out->state = t->expired ? POSE_WALL_INVALID : POSE_WALL_HELD;
 }
 
-// While the clock stands still, the machine does not: a frame takes as long as the longest ever did. So did the one in
-// whose course the clock stopped, which it has cut short.
+// While the clock stands still, the machine does not: a frame takes as long as the longer of the last two. So did the
+// one in whose course the clock stopped, which may have cut it short.
 double time_while_still(const TemporalState& state) {
-  const double cut_off_s = state.still_frames == 1 ? state.longest_dt_s - state.last_dt_s : 0.0;
-  return state.longest_dt_s + cut_off_s;
+  const double period_s = larger_or_nan(state.last_dt_s, state.dt_before_s);
+  const double cut_off_s = state.still_frames == 1 ? period_s - state.last_dt_s : 0.0;
+  return period_s + cut_off_s;
 }
 
 pose_wall_value blank() {
@@ -148,8 +150,8 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
   state->still_frames = timing.still ? state->still_frames + 1 : 0;
   const double elapsed_s = timing.still ? time_while_still(*state) : timing.dt_s;
   if (!timing.leap && timing.dt_s > 0.0) {
+    state->dt_before_s = state->last_dt_s;
     state->last_dt_s = timing.dt_s;
-    state->longest_dt_s = larger(state->longest_dt_s, timing.dt_s);
   }
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Track& t = state->track[q];

@@ -43,7 +43,7 @@ struct TemporalState {
   std::int64_t stamp_ns = 0;
   // Between two stamps that went on, leaps left out.
   double last_dt_s = 0.0;
-  double longest_dt_s = 0.0;
+  double dt_before_s = 0.0;  // the one before the last
 };
 
 // Greatest change per second of one of the seven quantities, by the config.

@@ -102,8 +102,10 @@ void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wal
     for (double& bound : wall->distance_bound_m) bound += depth_m;
   }
   const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
-  const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
-  if (whole && !edges.island && !edges.low) return;
+  if (whole) {
+    const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
+    if (!edges.island && !edges.low) return;
+  }
   wall->fit.refused = true;
   wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
 }
@@ -145,23 +147,30 @@ void doubt_direction(const WallCandidate& a, const WallCandidate& b, WallResult*
   if (apart > kApart_rad) left_over->yaw_bound_rad += apart;
 }
 
-// How far both sides lean the same way about the road: one out, the other in. Walls differ in their lean and floors
-// fall to one side, but beyond that it is the level that is wrong: a heap's flank was taken for the floor.
-double common_lean(const WallCandidates (&beside)[2]) {
-  constexpr double kBeyond_rad = 0.22;  // 12.6 degrees: two walls off by 10 and a floor by as much the other way
+// Both sides lean the same way about the road: one out, the other in. Each wall may lean by itself, but where both do
+// so by this much it is the level that is wrong: a heap's flank was taken for the floor. Returns the turn by which the
+// level may be off, as a vector along the road, rad. Zero unless both are sure.
+Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&beside)[2]) {
+  constexpr double kLeansMin_rad = 0.2;          // 11.5 degrees: simulated and real walls lean by 10
+  constexpr double kWallsThemselves_rad = 0.17;  // so much of it may yet be the walls' own
   constexpr double kAreaMin_m2 = 4.0;
   double lean[2] = {};
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
   for (int side = 0; side < 2; ++side) {
     const WallCandidate* best = nullptr;
     for (std::uint32_t i = 0; i < beside[side].count; ++i) {
       const WallCandidate& c = beside[side].item[i];
       if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
     }
-    if (best == nullptr || best->evidence.area_m2 < kAreaMin_m2) return 0.0;
+    if (best == nullptr || !(best->evidence.area_m2 >= kAreaMin_m2)) return Eigen::Vector3d::Zero();
     lean[side] = lean_of(best->plane);
+    along += 0.5 * along_of(best->plane, scene.forward_level);
   }
-  const double common = 0.5 * std::fabs(lean[0] - lean[1]);
-  return lean[0] * lean[1] < 0.0 && common > kBeyond_rad ? common : 0.0;
+  const bool same_way = lean[0] * lean[1] < 0.0;
+  if (!same_way || !(std::fabs(lean[0]) > kLeansMin_rad && std::fabs(lean[1]) > kLeansMin_rad)) {
+    return Eigen::Vector3d::Zero();
+  }
+  return (0.5 * std::fabs(lean[0] - lean[1]) + kWallsThemselves_rad) * along;
 }
 
 // Share of the band that lies on the chosen walls. In a cavern or a hall full of things, two flat spots may happen to
@@ -188,6 +197,7 @@ void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   grid.lay_out(arena);
   fit.lay_out(arena, points_max);
   sight.lay_out(arena);
+  edges.lay_out(arena);
 }
 
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {
@@ -203,7 +213,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
 
   const bool explained = explained_share(scene, choice) >= kExplainedMin;
   WallsResult out;
-  out.common_lean_rad = common_lean(beside);
+  out.tilt_level_rad = tilt_by_walls(scene, beside);
   for (int side = 0; side < 2; ++side) {
     if (choice.side[side] != nullptr) out.side[side] = measure(scene, choice, side, scratch);
     out.side[side].fit.iterations = scored[side];

@@ -26,8 +26,8 @@ struct WallsScratch {
 
 struct WallsResult {
   WallResult side[2];  // left, right
-  // The level itself is off by about this much about the road, by what both sides say; 0 unless they are sure.
-  double common_lean_rad = 0.0;
+  // The turn by which the level may be off, by what the lean of both sides says; zero unless they are sure.
+  Eigen::Vector3d tilt_level_rad = Eigen::Vector3d::Zero();
 };
 
 // last: the planes of the last frame by side, or nullptr; scored like any other hypothesis.

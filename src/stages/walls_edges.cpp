@@ -21,9 +21,11 @@ constexpr double kBendMin = 4.0;
 constexpr double kAboveBand_m = 1.0;
 // Hollows of rough rock are not behind the wall.
 constexpr double kWellBehind_m = 0.25;
-// So many points have come over the top, and so many times those of the plane at such heights.
+// So many points have come over the top, so many times those of the plane at such heights, and from places so far
+// apart: a hollow at the shoulder, where roof has come down, is looked into at one place.
 constexpr double kOverMin = 4.0;
 constexpr double kOverRatio = 3.0;
+constexpr double kOverSpan_m = 1.5;
 
 }  // namespace
 
@@ -55,9 +57,11 @@ void TopPlaces::add(double along_m, double height, bool is_past, double points) 
 bool TopPlaces::is_looked_over() const {
   struct Above {
     double on = 0.0, past = 0.0;
+    std::uint32_t first_over = kPlaces, last_over = 0;
   };
   Above above[kSteps];  // by the lowest step that counts as above
-  for (const Place& p : place_) {
+  for (std::uint32_t k = 0; k < kPlaces; ++k) {
+    const Place& p = place_[k];
     double on_below = 0.0, past_below = 0.0;
     for (std::uint32_t step = 0; step < kSteps; ++step) {
       on_below += static_cast<double>(p.on[step]);
@@ -70,12 +74,17 @@ bool TopPlaces::is_looked_over() const {
       on_below -= static_cast<double>(p.on[step]);
       past_below -= static_cast<double>(p.past[step]);
       if (!(on_below > kOnMin && on_below > past_below)) continue;  // an opening, or nothing is seen of it here
-      above[step].on += on_above;
-      above[step].past += past_above;
+      Above& a = above[step];
+      a.on += on_above;
+      a.past += past_above;
+      if (!(past_above > on_above)) continue;
+      a.first_over = k < a.first_over ? k : a.first_over;
+      a.last_over = k;
     }
   }
   for (const Above& a : above) {
-    if (a.past >= kOverMin && a.past > kOverRatio * a.on) return true;
+    if (!(a.past >= kOverMin && a.past > kOverRatio * a.on)) continue;
+    if (a.last_over >= a.first_over && (a.last_over - a.first_over) * kPlace_m >= kOverSpan_m) return true;
   }
   return false;
 }

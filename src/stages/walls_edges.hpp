@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include "containers/arena.hpp"
+#include "containers/span.hpp"
 #include "estimation/plane.hpp"
 #include "stages/walls_scene.hpp"
 
@@ -45,9 +47,8 @@ class EndPlaces {
 // Measured points by place and by the height at which their rays meet the plane, in steps from the lowest.
 class TopPlaces {
  public:
-  void clear() {
-    for (Place& place : place_) place = Place();
-  }
+  void lay_out(Arena& arena) { place_ = arena.take<Place>(kPlaces); }
+  void clear() { place_.fill(Place{}); }
   // height: 0 (lowest) to 1; what is outside is left out.
   void add(double along_m, double height, bool is_past, double points);
   bool is_looked_over() const;
@@ -56,14 +57,16 @@ class TopPlaces {
   static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;
   static constexpr std::uint32_t kSteps = 32;
   struct Place {
-    float on[kSteps] = {}, past[kSteps] = {};
+    float on[kSteps], past[kSteps];
   };
-  Place place_[kPlaces];
+  Span<Place> place_;
 };
 
 struct EdgeScratch {
   EndPlaces ends;
   TopPlaces tops;
+
+  void lay_out(Arena& arena) { tops.lay_out(arena); }
 };
 
 // margin_m: returns this near to the plane are the plane's.

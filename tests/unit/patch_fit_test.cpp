@@ -149,20 +149,50 @@ TEST(PatchFit, AFlatWallIsNotBent) {
   EXPECT_LE(bent, 1);  // one in ten thousand by design
 }
 
-// Rock is straight on the average: what curvature a draw of it has, its standard deviation explains.
+// Rock is straight on the average: what curvature a draw of it has, its standard deviation explains, on short walls
+// too.
 TEST(PatchFit, OnRoughRockTheCurvatureIsChance) {
-  for (const double length_m : {0.2, 0.5}) {
-    test::Placed<PatchGrid> grid;
-    test::Noise noise(5);
-    double z2 = 0.0;
-    for (int run = 0; run < kRuns; ++run) {
-      const Rock rock(0.05, length_m, &noise);
-      const PatchFit f = fit(grid.get(), 0.01, 0.05, &noise, [&](double u, double v) { return rock.at(u, v); });
-      ASSERT_TRUE(f.solved);
-      z2 += f.curvature_v * f.curvature_v / (f.curvature_v_sigma * f.curvature_v_sigma) / kRuns;
+  for (const double length_m : {0.2, 0.4}) {
+    for (const double half_wall_m : {kLength_m / 4, kLength_m / 2}) {
+      test::Placed<PatchGrid> grid;
+      test::Noise noise(5);
+      double z2 = 0.0;
+      int bends = 0;
+      for (int run = 0; run < kRuns; ++run) {
+        const Rock rock(0.05, length_m, &noise);
+        grid->begin(-half_wall_m, half_wall_m, 0.0, kHeight_m, 0.5);
+        for (int i = 0; i < kPoints / 2; ++i) {
+          const double u = noise.uniform(-half_wall_m, half_wall_m), v = noise.uniform(0.0, kHeight_m);
+          const double r = rock.at(u, v) + noise.normal(0.01);
+          grid->add(u, v, r, tukey_weight(r, 0.1), 1.0);
+        }
+        const PatchFit f = grid->fit();
+        ASSERT_TRUE(f.solved);
+        z2 += f.curvature_v * f.curvature_v / (f.curvature_v_sigma * f.curvature_v_sigma) / kRuns;
+        bends += f.bends ? 1 : 0;
+      }
+      EXPECT_GT(z2, 0.4) << length_m << " on " << 2.0 * half_wall_m;
+      EXPECT_LT(z2, 1.5) << length_m << " on " << 2.0 * half_wall_m;
+      EXPECT_LE(bends, kRuns / 50) << length_m << " on " << 2.0 * half_wall_m;
     }
-    EXPECT_GT(z2, 0.4) << length_m;
-    EXPECT_LT(z2, 1.6) << length_m;
+  }
+}
+
+// Two rows of points, as a sparse sensor may see: nothing is known of a curvature across them.
+TEST(PatchFit, CurvatureThatNoPointsShowIsUnknown) {
+  for (const double rock_m : {0.0, 0.03}) {
+    test::Placed<PatchGrid> grid;
+    test::Noise noise(7);
+    const Rock rock(rock_m, 0.3, &noise);
+    grid->begin(-kLength_m / 2, kLength_m / 2, 0.0, kHeight_m, 0.5);
+    for (int i = 0; i < kPoints; ++i) {
+      const double u = noise.uniform(-kLength_m / 2, kLength_m / 2), v = i % 2 == 0 ? 0.3 : 0.8;
+      grid->add(u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0);
+    }
+    const PatchFit f = grid->fit();
+    ASSERT_TRUE(f.solved);
+    EXPECT_GT(f.curvature_v_sigma, 0.1) << rock_m;
+    EXPECT_FALSE(f.bends) << rock_m;
   }
 }
 

@@ -304,7 +304,7 @@ TEST(TemporalStamps, FlagsOfTheFrame) {
 }
 
 // A machine moves on while its clock stands still.
-TEST(TemporalStamps, StandingStillAgesByTheLongestPeriod) {
+TEST(TemporalStamps, StandingStillAgesByTheUsualPeriod) {
   Life life;
   life.measured(0, 2.0);
   life.missing(100);
@@ -324,6 +324,13 @@ TEST(TemporalStamps, StandingStillMakesUpForThePeriodItCutShort) {
   life.missing(130);
   EXPECT_NEAR(life.missing(130).age_s, 0.2, kRoundingS);
   EXPECT_NEAR(life.missing(130).age_s, 0.3, kRoundingS);
+}
+
+TEST(TemporalStamps, ALongPauseBeforeIsForgotten) {
+  Life life;
+  life.measured(0, 2.0);
+  for (const int ms : {900, 1000, 1100}) life.measured(ms, 2.0);
+  EXPECT_NEAR(life.missing(1100).age_s, 0.1, kRoundingS);
 }
 
 TEST(TemporalStamps, BackEndsWhatIsHeldAndRestartsWhatIsMeasured) {

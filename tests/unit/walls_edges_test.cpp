@@ -37,11 +37,11 @@ RayScene road() {
 }
 
 WallEdges edges(double plane_y_m, BandFixture* band) {
-  EdgeScratch scratch;
+  test::Placed<EdgeScratch> scratch;
   const Plane plane{Eigen::Vector3d(0, -1, 0), plane_y_m};
   // What another wall has left in it is no matter.
-  look_past(band->scene(), Plane{Eigen::Vector3d(0, -1, 0), 0.7}, Eigen::Vector3d::UnitX(), kMargin_m, &scratch);
-  return look_past(band->scene(), plane, Eigen::Vector3d::UnitX(), kMargin_m, &scratch);
+  look_past(band->scene(), Plane{Eigen::Vector3d(0, -1, 0), 0.7}, Eigen::Vector3d::UnitX(), kMargin_m, scratch.get());
+  return look_past(band->scene(), plane, Eigen::Vector3d::UnitX(), kMargin_m, scratch.get());
 }
 
 bool island(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
@@ -137,6 +137,7 @@ TEST(WallEnds, AWallBetweenTwoOpeningsIsNone) {
       }
       scene.add(side_panel(2.0, {-40.0, -half_m - 2.5}, kFull)).add(side_panel(2.0, {half_m + 2.5, 40.0}, kFull));
       EXPECT_FALSE(island(scene, 2.0, lidar)) << half_m;
+      EXPECT_FALSE(low(scene, 2.0, lidar)) << half_m;
     }
   }
 }
@@ -157,7 +158,6 @@ TEST(WallTops, AThingBeforeTheWallIsLookedOver) {
   }
 }
 
-// A niche or two high up on the wall is not a top.
 TEST(WallTops, AWallWithWindowsIsNotLow) {
   for (const Lidar& lidar : {kLidars[0], kLidars[1], kLidars[2], kHardlyUp}) {
     RayScene scene = road();
@@ -166,6 +166,26 @@ TEST(WallTops, AWallWithWindowsIsNotLow) {
       scene.add(side_panel(2.0, wall, {0.2, 1.8}));
     }
     EXPECT_FALSE(low(scene, 2.0, lidar));
+  }
+}
+
+// Roof has come down at the shoulder: beyond the plane there is a hollow, higher than the roof is elsewhere.
+TEST(WallTops, AHollowAtTheShoulderDoesNotMakeAWallLow) {
+  constexpr double kRoof_m = 1.0, kHollowRoof_m = 1.8;
+  for (const Lidar& lidar : {kLidars[0], kLidars[1], kLidars[2]}) {
+    for (const double from_x_m : {-1.0, 1.0, 3.0}) {
+      const Interval hollow{from_x_m, from_x_m + 1.2};
+      RayScene scene;
+      scene.add(test::level_panel(test::kFloorZ_m)).add(test::level_panel(kHollowRoof_m));
+      scene.add(side_panel(2.0, kEverywhere, {test::kFloorZ_m, kRoof_m}));
+      scene.add({2, kRoof_m, {-40.0, hollow.low}, kEverywhere, kEverywhere});
+      scene.add({2, kRoof_m, {hollow.high, 40.0}, kEverywhere, kEverywhere});
+      scene.add(side_panel(2.6, hollow, {kRoof_m, kHollowRoof_m}));
+      for (const double end_m : {hollow.low, hollow.high}) {
+        scene.add(cross_panel(end_m, kEverywhere, {kRoof_m, kHollowRoof_m}));
+      }
+      EXPECT_FALSE(low(scene, 2.0, lidar)) << from_x_m;
+    }
   }
 }
 

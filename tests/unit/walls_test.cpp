@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the walls stage finds the two sides of a road and what they say of yaw and distances, and does not take for a
-// side what is none: a face, a short patch, a leaning plane, things seen through, walls that run apart.
+// side what is none: a face, a short patch, a leaning plane, things seen through, walls that run apart. It tells where
+// both sides lean as only a wrong level makes them.
 
 #include "stages/walls.hpp"
 
@@ -70,6 +71,27 @@ TEST(Walls, LeanIsEstimatedNotForcedToZero) {
   EXPECT_NEAR(r.side[0].lean_rad, 0.10, 0.003);
   EXPECT_NEAR(r.side[1].lean_rad, -0.07, 0.003);
   EXPECT_NEAR(r.side[0].distance_m[0], 2.5 * std::cos(0.10), kDistance_m);
+}
+
+// Where both walls lean the same way about the road, the level is wrong: one leans out as far as the other leans in.
+TEST(Walls, WhatBothSidesSayOfTheLevel) {
+  constexpr double kTurned_rad = 0.4;
+  const auto tilt = [](double out_left_rad, double out_right_rad, double turned_rad = 0.0) {
+    BandFixture band;
+    band.add_wall(2.5, kLongWall, turned_rad, 0.01, out_left_rad);
+    band.add_wall(-2.0, kLongWall, turned_rad, 0.01, out_right_rad);
+    return band.walls().tilt_level_rad;
+  };
+  for (const double lean : {0.3, -0.3}) {
+    const Eigen::Vector3d along = tilt(lean, -lean), turned = tilt(lean, -lean, kTurned_rad);
+    EXPECT_GT(along.norm(), 0.3) << lean;
+    EXPECT_LT(along.norm(), 0.5) << lean;
+    EXPECT_NEAR(std::fabs(along.x()), along.norm(), 0.01) << "about the road, " << lean;
+    EXPECT_NEAR(turned.y() / turned.x(), std::tan(kTurned_rad), 0.02) << "about the road, " << lean;
+    EXPECT_EQ(tilt(lean, lean).norm(), 0.0) << "both in, or both out: " << lean;
+  }
+  for (const double lean : {0.17, -0.17}) EXPECT_EQ(tilt(lean, -lean).norm(), 0.0) << "as walls may: " << lean;
+  for (const double other : {-0.01, 0.01}) EXPECT_EQ(tilt(0.5, other).norm(), 0.0) << "the other is upright: " << other;
 }
 
 TEST(Walls, AWallThatLeansTooMuchIsRefused) {

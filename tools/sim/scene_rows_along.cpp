@@ -129,7 +129,7 @@ std::vector<SceneChoice> along_scenes() {  // NOLINT(readability-function-size):
         {"roughness_m", "0.03", 0.0, 0.06}}},
       {"furnished",
        SceneKind::kAdversarial,
-       0.85,
+       0.75,
        "pipes and props on one side, a conveyor on the other",
        "the walls behind, else degraded or held",
        {{"pipe_side", "left", 1.0, 1.0},
