@@ -3,8 +3,9 @@
 
 // Proves: on a clean road, for all four forward axes, with a sensor that is displaced and tilted in base, and for roll
 // to 10, pitch to 15 and yaw to 30 degrees either way, the seven numbers are the truth's within the accuracy that the
-// project promises for clean roads; and a machine turned left reports negative yaw.
-// Does not prove anything about rough rock; tests/scenario does.
+// project promises for clean roads; a machine turned left reports negative yaw; and what the walls' lean says of the
+// level counts for roll or pitch by the road's direction. Does not prove anything about rough rock; tests/scenario
+// does.
 
 #include <gtest/gtest.h>
 
@@ -65,6 +66,33 @@ TEST_P(FramesAndSigns, SevenNumbersAreTheTruths) {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     EXPECT_LE(std::sqrt(squares[q] / frames), kPromise[q]) << pose_wall_quantity_name(q);
   }
+}
+
+// A floor that falls by 15 degrees between upright walls: a heap's flank looks the same. The doubt is about the road,
+// which is roll or pitch by the forward axis, and some of both for a machine that is turned.
+TEST_P(FramesAndSigns, WallsThatLeanAlikeDoubtTheAngleAboutTheRoad) {
+  constexpr double kFall_deg = 15.0;
+  const auto level = [this](double fall_deg, double left_deg, std::uint32_t q) {
+    sim::SceneSetup setup = sim::make_setup("clean", "os0-128", false, 1);
+    setup.machine.forward_axis = GetParam();
+    setup.machine.turned_left_deg = left_deg;
+    setup.road.cross_fall_deg = fall_deg;
+    const JudgedFrame f = run_frames(setup, 7, 1)[0];
+    EXPECT_TRUE(f.is(q, POSE_WALL_VALID) || f.is(q, POSE_WALL_DEGRADED)) << pose_wall_quantity_name(q);
+    return f.result.quantity[q].protection_level;
+  };
+  const bool along_x = GetParam() < 2;
+  const std::uint32_t about = along_x ? POSE_WALL_ROLL : POSE_WALL_PITCH;
+  const std::uint32_t across = along_x ? POSE_WALL_PITCH : POSE_WALL_ROLL;
+  for (const double fall_deg : {-kFall_deg, kFall_deg}) {
+    EXPECT_GE(level(fall_deg, 0.0, about), kFall_deg * kRadPerDeg);
+    EXPECT_LE(level(fall_deg, 0.0, across), 0.1 * kFall_deg * kRadPerDeg);
+    for (const double left_deg : {-30.0, 30.0}) {
+      EXPECT_GE(level(fall_deg, left_deg, about), 0.8 * kFall_deg * kRadPerDeg);
+      EXPECT_GE(level(fall_deg, left_deg, across), 0.4 * kFall_deg * kRadPerDeg);
+    }
+  }
+  EXPECT_LE(level(5.0, 0.0, about), kRadPerDeg) << "as floors may fall";
 }
 
 TEST_P(FramesAndSigns, AMachineTurnedLeftReportsNegativeYaw) {
