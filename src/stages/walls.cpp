@@ -25,8 +25,9 @@ constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.025;
 constexpr double kOpenDoubt = 0.01;
 constexpr double kOpenMax = 0.1;
-// What passes through small gaps ends right behind them, on whatever is there; the wall may be this far behind.
-constexpr double kOpenDepthMin_m = 2.0;
+// What passes through small gaps ends right behind them, on whatever is there, and what is hardly seen may be anything:
+// the wall may be this far behind.
+constexpr double kMayBeBehind_m = 2.0;
 // Hollows of rough rock are not behind the wall.
 constexpr double kWellBehind_m = 0.25;
 constexpr double kToplessMax = 0.08;
@@ -94,18 +95,16 @@ void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wal
   const Plane& plane = wall->fit.plane;
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
   const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
-  if (sight.dim) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
-  if (sight.open > kOpenDoubt) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  if (sight.dim || sight.open > kOpenDoubt) {
-    const double least_m = sight.open > kOpenDoubt ? kOpenDepthMin_m : 0.0;
-    const double depth_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, least_m);
-    for (double& bound : wall->distance_bound_m) bound += depth_m;
+  const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
+  const bool little_seen = sight.dim || edges.top_unseen, open = sight.open > kOpenDoubt;
+  if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
+  if (open) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  if (little_seen || open) {
+    const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
+    for (double& bound : wall->distance_bound_m) bound += behind_m;
   }
   const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
-  if (whole) {
-    const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
-    if (!edges.island && !edges.low) return;
-  }
+  if (whole && !edges.island && !edges.low) return;
   wall->fit.refused = true;
   wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
 }

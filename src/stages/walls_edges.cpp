@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "stages/walls_sight_lines.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -26,6 +28,11 @@ constexpr double kWellBehind_m = 0.25;
 constexpr double kOverMin = 4.0;
 constexpr double kOverRatio = 3.0;
 constexpr double kOverSpan_m = 1.5;
+// Conveyors, pipes and vehicles end in the lower part of the wall band (1.7 m by default). On simulated walls even a
+// sensor that looks up by 7 degrees has 18 points or more above, far ahead.
+constexpr double kHighShare = 0.65;
+constexpr double kHighMin = 8.0;
+constexpr double kHighReach_m = 15.0;
 
 }  // namespace
 
@@ -89,35 +96,57 @@ bool TopPlaces::is_looked_over() const {
   return false;
 }
 
+namespace {
+
+// Over a low thing the sensor may see nothing nearer than range_max.
+void add_what_is_too_far(const WallScene& scene, const SightLines& lines, double height_m, TopPlaces* tops) {
+  constexpr double kMostOfACell = 0.5;
+  for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
+    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
+      const std::uint32_t count = scene.returns_lidar.too_far.count(row, column);
+      if (count == 0 || count <= kMostOfACell * scene.returns_lidar.all.count(row, column)) continue;
+      const SightLines::Crossing c = lines.far(row, column);
+      if (!c.near) continue;
+      tops->add(c.along_m, (c.z_level_m - scene.z_min_level_m) / height_m, true, static_cast<double>(count));
+    }
+  }
+}
+
+}  // namespace
+
 WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double margin_m,
                     EdgeScratch* scratch) {
   const Eigen::Vector3d& sensor = scene.sensor_level_m;
   const double inside_m = wall.signed_distance(sensor);
   if (!(inside_m > 0.0)) return {};
   const double height_m = scene.z_max_level_m + kAboveBand_m - scene.z_min_level_m;
+  const double high_level_m = scene.z_min_level_m + kHighShare * (scene.z_max_level_m - scene.z_min_level_m);
+  double seen_high = 0.0;
   scratch->ends.clear();
   scratch->tops.clear();
   for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
     const Eigen::Vector3d ray = scene.R_level_base * scene.cloud_base.at(i) - sensor;
     const double r = inside_m + wall.n.dot(ray), weight = static_cast<double>(scene.cloud_base.weight[i]);
-    if (r > margin_m) continue;
-    const double point_along_m = along_level.dot(ray), point_z_level_m = sensor.z() + ray.z();
-    // Rays to the floor right behind the plane pass it too.
-    const double to_plane = r < 0.0 ? way_to_plane(inside_m, r) : 1.0;
+    if (!(r < inside_m)) continue;  // looks away from the plane
+    // Where the ray meets the plane, or would. Rays to the floor right behind the plane pass it too.
+    const double to_plane = way_to_plane(inside_m, r), point_along_m = along_level.dot(ray);
     const double along_m = to_plane * point_along_m, z_level_m = sensor.z() + to_plane * ray.z();
-    const bool point_in_band = scene.in_band(point_z_level_m);
-    const bool is_on = r >= -margin_m;
-    if (is_on || r < -kWellBehind_m) {
-      scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, !is_on, weight);
+    const bool is_past = r < -margin_m;
+    if (!is_past && z_level_m >= high_level_m && std::fabs(along_m) <= kHighReach_m) seen_high += weight;
+    if (r > margin_m) continue;
+    if (!is_past || r < -kWellBehind_m) {
+      scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, is_past, weight);
     }
-    if (is_on && point_in_band) {
+    const bool point_in_band = scene.in_band(sensor.z() + ray.z());
+    if (!is_past && point_in_band) {
       *scratch->ends.on(point_along_m) += weight;
       continue;
     }
     if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;
     if (r < 0.0 && scene.in_band(z_level_m)) *scratch->ends.past(along_m) += weight;
   }
-  return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over()};
+  add_what_is_too_far(scene, SightLines(scene, wall, along_level), height_m, &scratch->tops);
+  return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), seen_high < kHighMin};
 }
 
 }  // namespace pose_wall

@@ -19,6 +19,9 @@ struct WallEdges {
   // It looks over the top, if only far ahead where its rays have risen so high: a conveyor, or pipes. A wall reaches up
   // to the roof, or higher than the sensor looks.
   bool low = false;
+  // Next to nothing is seen where the plane should be above most things that stand along walls, neither the plane nor
+  // anything before it: the sensor hardly looks up, and cannot tell a wall from a conveyor.
+  bool top_unseen = false;
 };
 
 // Measured points by place, which is half a metre along the plane.

@@ -48,9 +48,18 @@ Eigen::Vector3d SightLines::ray_lidar(std::uint32_t row, std::uint32_t column) {
 }
 
 SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) const {
+  return within(kReach_m, kTowardsMin, row, column);
+}
+
+SightLines::Crossing SightLines::far(std::uint32_t row, std::uint32_t column) const {
+  return within(kFarReach_m, 0.0, row, column);
+}
+
+SightLines::Crossing SightLines::within(double reach_m, double towards_min, std::uint32_t row,
+                                        std::uint32_t column) const {
   const Eigen::Vector3d ray = ray_lidar(row, column);
   const double towards = -n_lidar_.dot(ray);
-  if (!(towards > kTowardsMin && inside_m_ <= kReach_m * towards)) return {false, 0.0, 0.0};
+  if (!(towards > towards_min && inside_m_ <= reach_m * towards)) return {false, 0.0, 0.0};
   const double range_m = inside_m_ / towards;
   return {true, range_m * along_lidar_.dot(ray), sensor_z_level_m_ + range_m * up_lidar_.dot(ray)};
 }

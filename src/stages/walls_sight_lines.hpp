@@ -28,6 +28,7 @@ class ExpectedReturns {
 class SightLines {
  public:
   static constexpr double kReach_m = 8.0;
+  static constexpr double kFarReach_m = 10.0;
 
   // The sensor is on the plane's positive side.
   SightLines(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level);
@@ -38,6 +39,8 @@ class SightLines {
     double z_level_m;
   };
   Crossing at(std::uint32_t row, std::uint32_t column) const;
+  // The same up to kFarReach_m and at a grazing angle, where a cell's middle says little about its edges.
+  Crossing far(std::uint32_t row, std::uint32_t column) const;
   // Where else the sensor looks; along the road it may see nothing for being too far.
   enum Zone { kBeside, kAbove, kBelow, kAlong };
   Zone zone(std::uint32_t row, std::uint32_t column) const;
@@ -47,6 +50,7 @@ class SightLines {
   std::uint32_t column_away() const;
 
  private:
+  Crossing within(double reach_m, double towards_min, std::uint32_t row, std::uint32_t column) const;
   static Eigen::Vector3d ray_lidar(std::uint32_t row, std::uint32_t column);
 
   double inside_m_, sensor_z_level_m_;

@@ -3,8 +3,9 @@
 
 // Proves: a curtain or a vehicle past both of whose ends the sensor looks is an island; a wall is none that goes on, or
 // bends away, or ends on one side only, or has an opening near the sensor. What the sensor looks over is low, even
-// where it does so only far ahead; a wall up to the roof is not, nor one with openings or that bends away. Scenes are
-// cast ray by ray on flat panels, without noise. Does not prove it for rough rock, nor for voxels.
+// where it does so only far ahead; a wall up to the roof is not, nor one with openings or that bends away. A sensor
+// that does not look up has not seen the top. Scenes are cast ray by ray on flat panels, without noise. Does not prove
+// it for rough rock, nor for voxels.
 
 #include "stages/walls_edges.hpp"
 
@@ -167,6 +168,31 @@ TEST(WallTops, AWallWithWindowsIsNotLow) {
     }
     EXPECT_FALSE(low(scene, 2.0, lidar));
   }
+}
+
+bool top_unseen(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
+  BandFixture band;
+  scene.scan(lidar, &band);
+  return edges(plane_y_m, &band).top_unseen;
+}
+
+// Half-way up the wall, as high as the sensor looks: a conveyor and a wall are the same from here.
+TEST(WallTops, ASensorThatDoesNotLookUpCannotTellAWall) {
+  const Lidar kNeverUp{-52.0, -1.0, 1.0, 0.5};
+  for (const double y_m : {0.5, 1.0, 2.0}) {
+    const RayScene scene = road().add(side_panel(y_m, kEverywhere, kFull));
+    EXPECT_TRUE(top_unseen(scene, y_m, kNeverUp)) << y_m;
+    for (const Lidar& lidar : {kLidars[0], kLidars[1], kLidars[2], kHardlyUp}) {
+      EXPECT_FALSE(top_unseen(scene, y_m, lidar)) << y_m;
+    }
+  }
+}
+
+// An arch begins above the springing: what the sensor sees there lies before the plane of the wall below.
+TEST(WallTops, WhatIsSeenBeforeThePlaneIsATopToo) {
+  RayScene scene = road();
+  scene.add(side_panel(2.0, kEverywhere, {test::kFloorZ_m, -0.2})).add(side_panel(1.6, kEverywhere, {-0.2, 1.8}));
+  for (const Lidar& lidar : kLidars) EXPECT_FALSE(top_unseen(scene, 2.0, lidar));
 }
 
 // Roof has come down at the shoulder: beyond the plane there is a hollow, higher than the roof is elsewhere.
