@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/irls.hpp"
+#include "estimation/plane_halves.hpp"
 #include "estimation/protection.hpp"
 #include "estimation/tangent_frame.hpp"
 #include "estimation/tukey.hpp"
@@ -120,16 +121,20 @@ void count_inliers(const PointSet& cloud, Span<const std::uint32_t> open, double
 }
 
 // bend: from PatchGrid, that tells whether the floor bends as a whole; the rest is of the plane through its waves.
-void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, const TangentFrame& f, const Plane& plane,
-                     const Settings& s, FloorResult* out) {
+void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const SurfacePatch> patches,
+                     const TangentFrame& f, const Plane& plane, const Settings& s, FloorResult* out) {
   const Gradients gradients(plane.n);
   const Eigen::Vector3d roll = response(gradients.roll, f), pitch = response(gradients.pitch, f);
   out->roll_sigma_rad = std::sqrt(roll.dot(uneven.covariance * roll));
   out->pitch_sigma_rad = std::sqrt(pitch.dot(uneven.covariance * pitch));
   // Where the floor bends, the tilt under the machine (u = v = 0) is not that of the whole fit.
   const Eigen::Vector3d here(0.0, bend.bend_slope_u_at(0.0, 0.0), bend.bend_slope_v_at(0.0, 0.0));
-  out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response)) + std::fabs(roll.dot(here));
-  out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response)) + std::fabs(pitch.dot(here));
+  // A bend takes a part of a kerb into itself, and a kerb of a bend.
+  const auto not_a_plane = [&](const Eigen::Vector3d& of) {
+    return std::fabs(of.dot(here)) + reach_of_halves(patches, uneven.correction, of);
+  };
+  out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response)) + not_a_plane(roll);
+  out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response)) + not_a_plane(pitch);
   out->dof = uneven.dof;
   // A floor that bends one way all along has a mean plane that is well known, and is not the one under the machine.
   const auto level = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
@@ -166,7 +171,8 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   const TangentFrame frame = tangent_frame(irls.plane, Eigen::Vector3d::Zero(), u_hint);
   fill_patches(cloud_base, chosen, irls, frame, radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
-  const UnevenFit uneven = bend.solved ? scratch->uneven.fit(scratch->surface.collect()) : UnevenFit{};
+  const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
+  const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
   if (!uneven.solved) {
     out.fit.refused = true;
     out.fit.reasons |= POSE_WALL_R_FLOOR_THIN;
@@ -175,7 +181,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   out.fit.plane = corrected(irls.plane, frame, uneven.correction);
   out.fit.found = true;
   count_inliers(cloud_base, open, radius_m, settings.ground_ransac_thresh, &out.fit);
-  set_uncertainty(uneven, bend, frame, out.fit.plane, settings, &out);
+  set_uncertainty(uneven, bend, patches, frame, out.fit.plane, settings, &out);
   return out;
 }
 
