@@ -253,10 +253,12 @@ enum pose_wall_reason {
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
   POSE_WALL_R_FLOOR_THIN = 1 << 8,        /* its points lie nearly on one line, or cover too small an area */
-  POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 9,   /* another level (bench, pile, reflection) explains the view nearly as well */
+  POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 9,   /* another level or slope (bench, pile, reflection, uneven ground)
+                                              explains the view nearly as well, or both walls lean against it */
   /* the walls */
   POSE_WALL_R_WALL_NOT_FOUND = 1 << 10,
-  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min, or so dim that a gap would go unnoticed */
+  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min, so dim that a gap would go unnoticed, or
+                                              not seen high enough to be told from a conveyor */
   POSE_WALL_R_WALL_SHORT = 1 << 12,        /* supported over less than wall_length_min along the road */
   POSE_WALL_R_WALL_LEANS = 1 << 13,        /* leans more than wall_lean_max_deg */
   POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* rays pass it or nothing answers where it should be solid, over its top or

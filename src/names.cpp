@@ -132,24 +132,27 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
     case POSE_WALL_R_FROZEN:
       return "the very points of the last frame came again: the sensor may be frozen";
     case POSE_WALL_R_FLOOR_NOT_FOUND:
-      return "no plane below the sensor could be a floor";
+      return "no plane below the sensor could be a floor (ground_tilt_max_deg, ground_height_min, ground_height_max)";
     case POSE_WALL_R_FLOOR_FEW_INLIERS:
       return "the floor has fewer than ground_inlier_min points";
     case POSE_WALL_R_FLOOR_THIN:
       return "the floor is seen over too small or too narrow an area";
     case POSE_WALL_R_FLOOR_AMBIGUOUS:
-      return "another level (bench, pile, reflection) explains the view nearly as well as the floor";
+      return "another level or slope (bench, pile, reflection, uneven ground) explains the view nearly as well as the "
+             "floor, or both walls lean against it";
     case POSE_WALL_R_WALL_NOT_FOUND:
       return "no plane on this side could be a wall";
     case POSE_WALL_R_WALL_FEW_INLIERS:
-      return "the wall has fewer than wall_inlier_min points, or answers so little that a gap would go unnoticed";
+      return "the wall has fewer than wall_inlier_min points, answers so little that a gap would go unnoticed, or "
+             "is not seen high enough to be told from a conveyor";
     case POSE_WALL_R_WALL_SHORT:
       return "the wall is seen over less than wall_length_min";
     case POSE_WALL_R_WALL_LEANS:
       return "the wall leans more than wall_lean_max_deg";
     case POSE_WALL_R_WALL_SEEN_THROUGH:
-      return "rays pass the plane, or nothing answers, where a wall would be solid: pipes, props, a conveyor, a "
-             "vehicle";
+      return "rays pass the plane, its top or both of its ends, or nothing answers, where a wall would be solid: "
+             "pipes, "
+             "props, a conveyor, a vehicle, a curtain";
     case POSE_WALL_R_WALL_AMBIGUOUS:
       return "another plane on this side explains the view nearly as well";
     case POSE_WALL_R_WALLS_NOT_PARALLEL:

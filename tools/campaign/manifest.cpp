@@ -153,7 +153,10 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
 Manifest read_manifest(const std::filesystem::path& folder) {
   std::ifstream in(file_in(folder));
   if (!in)
-    throw std::runtime_error(fmt::format("{}: cannot be read; no campaign was run there", file_in(folder).string()));
+    throw std::runtime_error(
+        fmt::format("{}: cannot be read; no campaign was run there. Another folder is needed, or this one "
+                    "without its records",
+                    file_in(folder).string()));
   try {
     const auto page = nlohmann::ordered_json::parse(in);
     Manifest manifest;

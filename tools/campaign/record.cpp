@@ -150,7 +150,8 @@ RunRecord read_record(const std::filesystem::path& file, const std::string& camp
   try {
     return record_of(CsvTable::parse(in));
   } catch (const CsvError& error) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), error.what()));
+    throw std::runtime_error(
+        fmt::format("{}: {}; without this file the same command measures it again", file.string(), error.what()));
   }
 }
 

@@ -51,7 +51,7 @@ campaign::Manifest run_campaign(const CampaignOptions& options) {
   const std::vector<campaign::Run> pending = campaign::pending_runs(options.output, runs);
   if (!options.quiet) {
     fmt::print(stderr, "{}, {}; done already: {}\n", counted(runs.size(), "run"),
-               counted(campaign::frames_of(runs), "frame"), runs.size() - pending.size());
+               counted(campaign::frames_of(runs), "frame"), counted(runs.size() - pending.size(), "run"));
   }
   campaign::run_all(pending, {options.output, options.engine, manifest.fingerprint(), options.jobs, !options.quiet});
   return manifest;
@@ -78,6 +78,12 @@ int tell_interrupted(const CampaignOptions& options) {
              runs.size() - campaign::pending_runs(options.output, runs).size(),
              counted(runs.size(), "run is", "runs are"), options.fresh ? " without --fresh" : "");
   return kExitInterrupted;
+}
+
+// The same names in another order, or twice, ask for the same campaign.
+void sort_names(std::vector<std::string>* names) {
+  std::sort(names->begin(), names->end());
+  names->erase(std::unique(names->begin(), names->end()), names->end());
 }
 
 int run_verb(const CampaignOptions& options) {
@@ -162,6 +168,8 @@ void add_campaign(CLI::App& app, int& exit_code) {
       "campaign in the folder, 3 the gate is not passed, 130 interrupted by Ctrl-C (the same command goes on).");
   verb->callback([options, verb, &exit_code] {
     if (options->card_only) demand_nothing_beside_card_only(*verb);
+    sort_names(&options->plan.scenes);
+    sort_names(&options->plan.sensors);
     exit_code = run_verb(*options);
   });
 }
