@@ -22,6 +22,29 @@ constexpr double kCorrelationMax = 0.95;
 constexpr double kVisibilityPerPatch = 0.8;
 constexpr double kNoiseLooksRough = 0.05;
 
+// Steps to the patches after this one, in rows from left to right, up to so many lags away: distances to the nearest
+// patch.
+struct Offset {
+  std::int32_t du, dv;
+  int lag;
+};
+struct Offsets {
+  static constexpr std::uint32_t kMost = 64;
+  Offset item[kMost] = {};
+  std::uint32_t count = 0;
+};
+constexpr Offsets offsets_within(int lags) {
+  Offsets out;
+  for (std::int32_t dv = 0; dv <= lags; ++dv) {
+    for (std::int32_t du = dv == 0 ? 1 : -lags; du <= lags; ++du) {
+      int lag = 0;
+      while ((2 * lag + 1) * (2 * lag + 1) <= 4 * (du * du + dv * dv)) ++lag;
+      if (lag <= lags) out.item[out.count++] = {du, dv, lag};
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 double PatchFit::variance_at(double u_m, double v_m) const {
@@ -41,22 +64,24 @@ double PatchFit::bend_slope_v_at(double u, double v) const {
   return bend[2] + bend[4] * u + 2.0 * bend[5] * v;
 }
 
-// Each unordered pair of patches of one layer up to kLags apart, once.
+// Each unordered pair of patches of one layer up to kLags apart, once: a patch, and those of its neighbours that come
+// after it.
 template <typename Visit>
-void PatchGrid::for_each_pair(std::uint32_t n, const Visit& visit) const {
+void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
+  static constexpr Offsets kOffsets = offsets_within(kLags);
   const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Mean& p = means_[i];
-    for (std::int32_t dv = 0; dv <= kLags && p.iv + dv < rows; ++dv) {
-      for (std::int32_t du = dv == 0 ? 1 : -kLags; du <= kLags; ++du) {
-        const std::int32_t iu = p.iu + du;
-        if (iu < 0 || iu >= columns) continue;
-        const auto row = p.layer * rows_ + static_cast<std::uint32_t>(p.iv + dv);
-        const std::int32_t j = mean_of_cell_[row * columns_ + static_cast<std::uint32_t>(iu)];
-        const int lag = static_cast<int>(std::sqrt(static_cast<double>(du * du + dv * dv)) + 0.5);
-        if (lag <= kLags && j >= 0) visit(p, means_[static_cast<std::uint32_t>(j)], lag);
-      }
+  Neighbour neighbours[Offsets::kMost] = {};
+  for (const Mean& p : means_.first(n)) {
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < kOffsets.count; ++k) {
+      const Offset& offset = kOffsets.item[k];
+      const std::int32_t iu = p.iu + offset.du, iv = p.iv + offset.dv;
+      if (iu < 0 || iu >= columns || iv >= rows) continue;
+      const auto row = p.layer * rows_ + static_cast<std::uint32_t>(iv);
+      const std::int32_t j = mean_of_cell_[row * columns_ + static_cast<std::uint32_t>(iu)];
+      if (j >= 0) neighbours[count++] = {&means_[static_cast<std::uint32_t>(j)], offset.lag};
     }
+    visit(p, Span<const Neighbour>(neighbours, count));
   }
 }
 
@@ -67,9 +92,11 @@ template <typename Taken>
 void PatchGrid::correlate_errors(std::uint32_t n, const Taken& taken_by_fit, Roughness (*roughness)[kLayersMax]) const {
   double products[kLayersMax][kLags + 1] = {};
   double pairs[kLayersMax][kLags + 1] = {};
-  for_each_pair(n, [&](const Mean& p, const Mean& o, int lag) {
-    products[p.layer][lag] += p.error * o.error + taken_by_fit(p, o);
-    pairs[p.layer][lag] += 1.0;
+  for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
+    for (const Neighbour& o : neighbours) {
+      products[p.layer][o.lag] += p.error * o.mean->error + taken_by_fit(p, *o.mean);
+      pairs[p.layer][o.lag] += 1.0;
+    }
   });
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     Roughness& rough = (*roughness)[layer];
@@ -112,13 +139,17 @@ void PatchGrid::sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMa
     sum[p.layer] += p.information;
     squares[p.layer] += p.information * p.information;
   }
-  for_each_pair(n, [&](const Mean& p, const Mean& o, int lag) {
+  for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     const Roughness& rough = roughness[p.layer];
-    if (rough.at_lag[lag] <= 0.0) return;
-    const double covariance = rough.at_lag[lag] * rough.tau2, ww = p.information * o.information;
-    middle += ww * covariance * (p.a * o.a.transpose() + o.a * p.a.transpose());
-    // Only the rock's part is shared between patches; the noise of their points is their own.
-    squares[p.layer] += 2.0 * ww * covariance * std::sqrt(ww);
+    Eigen::Vector3d shared = Eigen::Vector3d::Zero();
+    for (const Neighbour& o : neighbours) {
+      if (rough.at_lag[o.lag] <= 0.0) continue;
+      const double covariance = rough.at_lag[o.lag] * rough.tau2, ww = p.information * o.mean->information;
+      shared += ww * covariance * o.mean->a;
+      // Only the rock's part is shared between patches; the noise of their points is their own.
+      squares[p.layer] += 2.0 * ww * covariance * std::sqrt(ww);
+    }
+    middle += p.a * shared.transpose() + shared * p.a.transpose();
   });
   out->covariance = inverse * middle * inverse;
   // Correlation can only cost; where the estimated one would promise more than independence, independence stands.
@@ -153,10 +184,8 @@ PatchGrid::Quadratic PatchGrid::quadratic_terms(const Mean& p) {
   return a;
 }
 
-// Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic: about
-// the plane a bend makes neighbouring patches err alike, which looks like rough rock with few independent patches and
-// would hide the bend. Needs Mean::error about the quadratic and Mean::answer.
-Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const {
+// Variance of the rock between patches of the surface, by the errors about the quadratic.
+double PatchGrid::rock_about_quadratic(std::uint32_t n) const {
   double left2 = 0.0, noise = 0.0, sum = 0.0, patches = 0.0;
   for (const Mean& p : means_.first(n)) {
     if (p.layer != 0) continue;
@@ -167,39 +196,50 @@ Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& in
   }
   static_assert(kPatchesMin > kQuadraticTerms, "the quadratic takes as many patches' worth");
   const double rock2 = (left2 * patches / (patches - kQuadraticTerms) - noise) / sum;
-  const double own_tau2 = rock2 > 0.0 ? rock2 : 0.0;
+  return rock2 > 0.0 ? rock2 : 0.0;
+}
+
+// Covariance of the coefficients of uu, uv and vv where the rock is correlated like this.
+Eigen::Matrix3d PatchGrid::bend_sandwich(std::uint32_t n, const Roughness& rough) const {
+  Eigen::Matrix3d alone = Eigen::Matrix3d::Zero(), shared = Eigen::Matrix3d::Zero();
+  for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
+    if (p.layer != 0) return;
+    const Eigen::Vector3d a = p.information * p.answer.tail<3>();
+    alone += (rough.tau2 + p.noise_variance) * a * a.transpose();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (const Neighbour& o : neighbours) b += rough.at_lag[o.lag] * o.mean->information * o.mean->answer.tail<3>();
+    shared += rough.tau2 * (a * b.transpose() + b * a.transpose());
+  });
+  // Correlation can only cost.
+  for (int k = 0; k < 3; ++k) {
+    if (shared(k, k) >= 0.0) continue;
+    shared.row(k).setZero();
+    shared.col(k).setZero();
+  }
+  return alone + shared;
+}
+
+// Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic: about
+// the plane a bend makes neighbouring patches err alike, which looks like rough rock with few independent patches and
+// would hide the bend. Needs Mean::error about the quadratic and Mean::answer.
+Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const {
+  const double own_tau2 = rock_about_quadratic(n);
+  double patches = 0.0, leverage = 0.0;
+  for (const Mean& p : means_.first(n)) {
+    if (p.layer != 0) continue;
+    patches += 1.0;
+    leverage += quadratic_terms(p).dot(p.answer);
+  }
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double inflation = 1.0;  // of the fit's variance, over that of independent patches
   for (int round = 0; round <= kGiveBackRounds; ++round) {
-    double taken = 0.0;  // beyond the leverage of independent patches
-    for (const Mean& p : means_.first(n)) {
-      if (p.layer == 0) taken += (inflation - 1.0) * quadratic_terms(p).dot(p.answer);
-    }
     Roughness roughness[kLayersMax];
-    roughness[0].tau2 = own_tau2 + (taken > 0.0 ? taken / patches : 0.0);
+    roughness[0].tau2 = own_tau2 + (inflation - 1.0) * leverage / patches;
     const auto taken_by_fit = [inflation](const Mean& p, const Mean& o) {
       return p.layer == 0 ? inflation * quadratic_terms(p).dot(o.answer) : 0.0;
     };
     correlate_errors(n, taken_by_fit, &roughness);
-    Eigen::Matrix3d alone = Eigen::Matrix3d::Zero(), shared = Eigen::Matrix3d::Zero();
-    for (const Mean& p : means_.first(n)) {
-      if (p.layer != 0) continue;
-      const Eigen::Vector3d influence = p.information * p.answer.tail<3>();
-      alone += (roughness[0].tau2 + p.noise_variance) * influence * influence.transpose();
-    }
-    for_each_pair(n, [&](const Mean& p, const Mean& o, int lag) {
-      if (p.layer != 0) return;
-      const double weight = roughness[0].at_lag[lag] * roughness[0].tau2 * p.information * o.information;
-      const Eigen::Vector3d a = p.answer.tail<3>(), b = o.answer.tail<3>();
-      shared += weight * (a * b.transpose() + b * a.transpose());
-    });
-    // Correlation can only cost.
-    for (int k = 0; k < 3; ++k) {
-      if (shared(k, k) >= 0.0) continue;
-      shared.row(k).setZero();
-      shared.col(k).setZero();
-    }
-    covariance = alone + shared;
+    covariance = bend_sandwich(n, roughness[0]);
     const double ratio = covariance.trace() / inverse.bottomRightCorner<3, 3>().trace();
     inflation = ratio > 1.0 ? ratio : 1.0;
   }

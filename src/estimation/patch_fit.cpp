@@ -182,7 +182,7 @@ double PatchGrid::between_patch_variance(std::uint32_t n, std::uint32_t layer, c
   return excess > 0.0 && scale > 0.0 ? excess / scale : 0.0;
 }
 
-PatchFit PatchGrid::fit() {
+PatchFit PatchGrid::fit(Errors errors) {
   PatchFit out;
   const std::uint32_t n = collect_means();
   out.patches = n;
@@ -198,6 +198,8 @@ PatchFit PatchGrid::fit() {
   for (Mean& p : means_.first(n)) p.information = 1.0 / (roughness[p.layer].tau2 + p.noise_variance);
   if (!solve(n, &out.correction, &inverse)) return out;
   out.tau_m = std::sqrt(roughness[0].tau2);
+  out.solved = true;
+  if (errors == Errors::kPlaneOnly) return out;
   measure_correlation(n, inverse, &roughness);
   sandwich(n, roughness, inverse, &out);
   for (int round = 0; round < kGiveBackRounds; ++round) {
@@ -210,7 +212,6 @@ PatchFit PatchGrid::fit() {
   }
   test_bend(n, &out);
   out.visibility_m = visibility(roughness[0].tau2);
-  out.solved = true;
   return out;
 }
 

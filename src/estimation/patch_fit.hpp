@@ -63,7 +63,10 @@ class PatchGrid {
   // residual_m: signed distance of a centroid from the plane; weight: points it stands for times its robust weight;
   // bias: change of the residual per metre of range bias (ray direction . normal).
   void add(double u_m, double v_m, double residual_m, double weight, double bias, std::uint32_t layer = 0);
-  PatchFit fit();
+  // kPlaneOnly: the correction alone, without its covariance and without a look for bends. Finding those is most of the
+  // work, and a fit that is only a step on the way to the next one needs neither.
+  enum class Errors { kMeasured, kPlaneOnly };
+  PatchFit fit(Errors errors = Errors::kMeasured);
 
  private:
   static constexpr std::uint32_t kQuadraticTerms = 6;  // 1, u, v, uu, uv, vv
@@ -106,8 +109,12 @@ class PatchGrid {
   void centre(std::uint32_t n);
   bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
   double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;
+  struct Neighbour {
+    const Mean* mean;
+    int lag;
+  };
   template <typename Visit>
-  void for_each_pair(std::uint32_t n, const Visit& visit) const;
+  void for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
   template <typename Taken>
   void correlate_errors(std::uint32_t n, const Taken& taken_by_fit, Roughness (*roughness)[kLayersMax]) const;
   void measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitted, Roughness (*roughness)[kLayersMax]) const;
@@ -116,6 +123,8 @@ class PatchGrid {
   void sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMax], const Eigen::Matrix3d& inverse,
                 PatchFit* out) const;
   static Quadratic quadratic_terms(const Mean& p);
+  double rock_about_quadratic(std::uint32_t n) const;
+  Eigen::Matrix3d bend_sandwich(std::uint32_t n, const Roughness& rough) const;
   Eigen::Matrix3d covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const;
   void test_bend(std::uint32_t n, PatchFit* out);
 

@@ -126,7 +126,8 @@ void set_layers_apart(const WallScene& scene, const Eigen::Vector3d& along, cons
   fit->layers = layers;
 }
 
-void fit_patches(const WallScene& scene, const Eigen::Vector3d& along, PatchGrid* patches, WallSurface* fit) {
+void fit_patches(const WallScene& scene, const Eigen::Vector3d& along, PatchGrid::Errors errors, PatchGrid* patches,
+                 WallSurface* fit) {
   fit->frame = tangent_frame(fit->irls.plane, Eigen::Vector3d::Zero(), along);
   const TangentFrame& f = fit->frame;
   const WallSurface& surface = *fit;
@@ -150,7 +151,7 @@ void fit_patches(const WallScene& scene, const Eigen::Vector3d& along, PatchGrid
     if (w > kWeightMin) patches->add(f.u.dot(q), f.v.dot(q), r, w * points, bias, 0);
     if (front > kWeightMin) patches->add(f.u.dot(q), f.v.dot(q), r, front * points, bias, 1);
   }
-  fit->patch = patches->fit();
+  fit->patch = patches->fit(errors);
 }
 
 void join_fronts(const WallScene& scene, const Eigen::Vector3d& along, Fronts use, WallFitScratch* scratch,
@@ -160,7 +161,10 @@ void join_fronts(const WallScene& scene, const Eigen::Vector3d& along, Fronts us
     joint.irls.plane = corrected(joint.irls.plane, joint.frame, joint.patch.correction);
     joint.fronts = measure_fronts(scene, along, joint, scratch->residuals);
     if (!joint.fronts.found) return;
-    fit_patches(scene, along, &scratch->patches, &joint);
+    // Errors are asked for by who compares, after the last round.
+    const bool is_step = use == Fronts::kAlways || round + 1 < kJointRounds;
+    const PatchGrid::Errors errors = is_step ? PatchGrid::Errors::kPlaneOnly : PatchGrid::Errors::kMeasured;
+    fit_patches(scene, along, errors, &scratch->patches, &joint);
     if (!joint.patch.solved) return;
   }
   const Plane alone = corrected(fit->irls.plane, fit->frame, fit->patch.correction);
@@ -193,7 +197,7 @@ void set_strips_apart(const WallScene& scene, const Eigen::Vector3d& along, cons
     fit->strips = &strips;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
     WallSurface joint = *fit;
-    fit_patches(scene, along, &scratch->patches, &joint);
+    fit_patches(scene, along, PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
     if (!joint.patch.solved) continue;
     join_fronts(scene, along, Fronts::kAlways, scratch, &joint);
     fit->irls.plane = corrected(joint.irls.plane, joint.frame, joint.patch.correction);

@@ -65,7 +65,8 @@ struct WallSurface {
 
 // Averages the surface's points, and the strips' fronts if they were found, over patches around irls.plane: sets frame
 // and patch.
-void fit_patches(const WallScene& scene, const Eigen::Vector3d& along_level, PatchGrid* patches, WallSurface* fit);
+void fit_patches(const WallScene& scene, const Eigen::Vector3d& along_level, PatchGrid::Errors errors,
+                 PatchGrid* patches, WallSurface* fit);
 
 // Tells strips and surface apart, near the sensor first and then further and further out, and repeats the plane fit on
 // the surface alone. Reorders chosen. Without strips nothing changes.

@@ -50,7 +50,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   set_strips_apart(scene, along, settings, scratch, &fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(scene, along, settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
-  fit_patches(scene, along, &scratch->patches, &fit);
+  fit_patches(scene, along, PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
   if (fit.patch.solved && fit.strips != nullptr) join_fronts(scene, along, Fronts::kIfTheyAgree, scratch, &fit);
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;

@@ -29,7 +29,7 @@ using test::side_panel;
 constexpr double kMargin_m = 0.15;
 constexpr Interval kFull{test::kFloorZ_m, 1.8};
 
-const Lidar kLidars[] = {{-15.0, 15.0, 2.0, 0.2}, {-22.5, 22.5, 0.7, 0.35}, {-45.0, 45.0, 0.7, 0.5}};
+const Lidar kLidars[] = {{-15.0, 15.0, 2.0, 0.4}, {-22.5, 22.5, 0.7, 0.7}, {-45.0, 45.0, 0.7, 1.0}};
 
 RayScene road() {
   RayScene scene;
