@@ -7,24 +7,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "demo/demo_setup.hpp"
+#include "sim/run_files.hpp"
+#include "sim/scenes.hpp"
 
 namespace pose_wall::bench {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-tools::DemoOptions options(const std::string& sensor) {
-  tools::DemoOptions demo;
-  demo.sensor = sensor;
-  demo.seed = kSeed;
-  // Sparse clouds need looser gates.
-  if (sensor == "vlp16" || sensor == "mid360") {
-    demo.settings = {"ground_inlier_min=120", "wall_inlier_min=120", "outlier_radius=0.4"};
-  }
-  // This one looks up; hung upside down it sees the floor.
-  if (sensor == "mid360") demo.simulation = {"mount_roll_deg=180"};
-  return demo;
+tools::sim::Setup setup(const std::string& sensor) {
+  return tools::sim::make_setup("nominal", sensor, false, kSeed);
 }
 
 struct Recording {
@@ -36,7 +28,7 @@ const Recording& recording(const std::string& sensor, std::uint32_t count) {
   static std::map<std::pair<std::string, std::uint32_t>, Recording> kept;
   Recording& made = kept[{sensor, count}];
   if (!made.frames.empty()) return made;
-  const tools::sim::Simulator simulator(tools::demo_setup(options(sensor)), kSeed);
+  const tools::sim::Simulator simulator(setup(sensor), kSeed);
   for (std::uint32_t i = 0; i < count; ++i) {
     made.frames.push_back(simulator.render(i));
     made.truths.push_back(simulator.truth(i));
@@ -55,8 +47,13 @@ const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint3
 }
 
 api::Config config(const std::string& sensor) {
-  const tools::DemoOptions demo = options(sensor);
-  return tools::demo_config(demo, tools::demo_setup(demo));
+  api::Config config;
+  for (const tools::sim::EngineSetting& s : tools::sim::engine_setting_list(setup(sensor))) {
+    if (config.set(s.key.c_str(), s.value.c_str()) != POSE_WALL_OK) {
+      throw std::runtime_error("the config refused " + s.key + "=" + s.value);
+    }
+  }
+  return config;
 }
 
 pose_wall_cloud cloud_of(const tools::sim::Frame& frame, std::int64_t stamp_ns) {

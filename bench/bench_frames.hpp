@@ -19,7 +19,7 @@ const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uin
 // The truth of the same frames.
 const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count);
 
-// The engine's settings for these frames: defaults, a box around the machine's body, looser gates for sparse sensors.
+// The engine's settings for these frames: defaults, a box around the machine's body, the sensor's own settings.
 api::Config config(const std::string& sensor);
 
 pose_wall_cloud cloud_of(const tools::sim::Frame& frame, std::int64_t stamp_ns);

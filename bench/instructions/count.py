@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""AArch64 instructions of a frame, stage by stage, counted under qemu-user.
+
+    cmake --preset arm64 -DPOSE_WALL_BUILD_BENCH=ON && cmake --build --preset arm64
+    bench/instructions/count.py build/arm64            # count, show, compare with figures.csv
+    bench/instructions/count.py build/arm64 --note     # and write figures.csv anew, on purpose
+
+Fails where a stage costs more than 5 % above the noted figure. Needs qemu-aarch64 (package qemu-user) and a C compiler.
+"""
+
+import argparse
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SENSORS = ["vlp16", "mid360", "os1-64", "os0-128"]
+FRAMES = 3
+STAGES = ["floor", "voxels", "outliers", "ground", "band", "walls", "output"]
+TOLERANCE = 0.05
+# A stage below this share of its frame may grow by this share: a few instructions are no regression.
+SMALL_SHARE = 0.005
+HERE = pathlib.Path(__file__).resolve().parent
+FIGURES = HERE / "figures.csv"
+
+
+def build_plugin(folder):
+    plugin = pathlib.Path(folder) / "count_plugin.so"
+    subprocess.run(["cc", "-shared", "-fPIC", "-O2", "-o", plugin, HERE / "count_plugin.c"], check=True)
+    return plugin
+
+
+def count(plugin, program, sensor, folder):
+    """Of one sensor: points, voxels, values measured, and instructions by stage, means over the frames."""
+    log = pathlib.Path(folder) / "marks"
+    command = ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", "-plugin", plugin, "-d", "plugin", "-D", log]
+    out = subprocess.run(command + [program, sensor, str(FRAMES)], check=True, capture_output=True, text=True).stdout
+    frames = [[int(x) for x in line.split()] for line in out.splitlines()]
+    marks = [int(line) for line in log.read_text().split()]
+    per_frame = len(STAGES) + 1
+    if len(frames) != FRAMES or len(marks) != FRAMES * per_frame:
+        sys.exit(f"{sensor}: {len(frames)} frames, {len(marks)} marks; expected {FRAMES} and {FRAMES * per_frame}")
+    row = {"sensor": sensor}
+    for k, name in enumerate(["points", "floor_cells", "voxel_count", "measured"]):
+        row[name] = round(sum(f[k] for f in frames) / FRAMES)
+    for k, stage in enumerate(STAGES):
+        steps = [marks[f * per_frame + k + 1] - marks[f * per_frame + k] for f in range(FRAMES)]
+        row[stage] = round(sum(steps) / FRAMES)
+    row["frame"] = sum(row[s] for s in STAGES if s != "floor")
+    return row
+
+
+def show(rows):
+    columns = ["points", "voxel_count", "measured"] + STAGES + ["frame"]
+    print("| sensor | " + " | ".join(columns) + " | per point | x floor |")
+    print("| --- " * (len(columns) + 3) + "|")
+    for r in rows:
+        cells = [str(r[c]) for c in columns[:3]] + [f"{r[c] / 1e6:.2f} M" for c in columns[3:]]
+        cells += [f"{r['frame'] / r['points']:.0f}", f"{r['frame'] / r['floor']:.1f}"]
+        print(f"| {r['sensor']} | " + " | ".join(cells) + " |")
+
+
+def compare(rows):
+    with FIGURES.open(newline="") as file:
+        noted = {r["sensor"]: r for r in csv.DictReader(file)}
+    worse = []
+    for r in rows:
+        for stage in STAGES[1:] + ["frame"]:
+            before, now = int(noted[r["sensor"]][stage]), r[stage]
+            allowed = before * (1 + TOLERANCE) + SMALL_SHARE * int(noted[r["sensor"]]["frame"])
+            if now > allowed:
+                worse.append(f"{r['sensor']} {stage}: {now / 1e6:.2f} M instructions, noted are {before / 1e6:.2f} M")
+    return worse
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path, help="folder of the arm64 build")
+    parser.add_argument("--note", action="store_true", help="write figures.csv anew")
+    parser.add_argument("--sensors", default=",".join(SENSORS), help="names, separated by commas")
+    options = parser.parse_args()
+    program = options.build / "pose_wall_marked_frames"
+    if not program.exists():
+        sys.exit(f"{program} is missing: configure with -DPOSE_WALL_BUILD_BENCH=ON")
+    with tempfile.TemporaryDirectory() as folder:
+        plugin = build_plugin(folder)
+        rows = [count(plugin, program, sensor, folder) for sensor in options.sensors.split(",")]
+    show(rows)
+    if options.note:
+        with FIGURES.open("w", newline="") as file:
+            writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+        return
+    worse = compare(rows)
+    for line in worse:
+        print(line, file=sys.stderr)
+    if worse:
+        sys.exit("more than 5 % above figures.csv; where it is worth it, note the new figures with --note")
+
+
+if __name__ == "__main__":
+    main()

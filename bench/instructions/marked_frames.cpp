@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Runs frames through the engine and calls getppid() at every boundary of a stage, for count_plugin to write what it
+// has counted. Before each frame the floor: one pass that no engine can do without. Prints a line per frame.
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "bench_frames.hpp"
+#include "floor_pass.hpp"
+
+namespace pose_wall::bench {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+
+std::int64_t mark(void* /*user*/) {
+  static std::int64_t marks = 0;
+  static_cast<void>(getppid());
+  return ++marks;
+}
+
+int run(const std::string& sensor, std::uint32_t count) {
+  api::Engine engine;
+  if (engine.open(config(sensor)) != POSE_WALL_OK) {
+    std::fprintf(stderr, "the engine refused the config for %s\n", sensor.c_str());
+    return EXIT_FAILURE;
+  }
+  engine.set_clock(mark);
+  FloorPass floor;
+  pose_wall_result result = api::make_result();
+  std::int64_t stamp_ns = 0;
+  for (const tools::sim::Frame& frame : frames(sensor, count)) {
+    const pose_wall_cloud cloud = cloud_of(frame, stamp_ns += kPeriod_ns);
+    mark(nullptr);
+    const std::uint32_t cells = floor.run(frame);
+    if (engine.process(cloud, result) != POSE_WALL_OK) {
+      std::fprintf(stderr, "the engine refused a frame of %s\n", sensor.c_str());
+      return EXIT_FAILURE;
+    }
+    int measured = 0;
+    for (const pose_wall_value& value : result.quantity) measured += value.state >= POSE_WALL_DEGRADED ? 1 : 0;
+    std::printf("%u %u %u %d\n", result.points_in, cells, result.voxels, measured);
+  }
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+}  // namespace pose_wall::bench
+
+int main(int argc, char** argv) {
+  const std::string sensor = argc > 1 ? argv[1] : "os1-64";
+  return pose_wall::bench::run(sensor, argc > 2 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 3U);
+}
