@@ -16,7 +16,6 @@ namespace {
 // bent.
 constexpr double kBendChi2 = 21.1;
 constexpr double kPull = 1e-6;
-constexpr int kGiveBackRounds = 2;
 constexpr double kFewPatches = 15.0;
 constexpr double kCorrelationMax = 0.95;
 constexpr double kVisibilityPerPatch = 0.8;

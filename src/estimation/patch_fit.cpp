@@ -14,7 +14,6 @@ constexpr double kPriorPoints = 10.0;
 constexpr int kScatterRounds = 4;
 constexpr double kSensorNoise_m = 0.03;
 constexpr double kScatterLeast = 0.01;
-constexpr int kGiveBackRounds = 2;
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
 constexpr double kNoiseMin_m = 0.001;
 

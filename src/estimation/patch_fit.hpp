@@ -91,6 +91,7 @@ class PatchGrid {
     std::int32_t iu, iv;
     std::uint32_t layer;
   };
+  static constexpr int kGiveBackRounds = 2;
   static constexpr int kLags = 5;  // patches further apart count as independent
   // Of one layer: variance of the rock between patches and its correlation by distance.
   struct Roughness {

@@ -28,8 +28,6 @@ constexpr double kOpenMax = 0.1;
 // What passes through small gaps ends right behind them, on whatever is there, and what is hardly seen may be anything:
 // the wall may be this far behind.
 constexpr double kMayBeBehind_m = 2.0;
-// Hollows of rough rock are not behind the wall.
-constexpr double kWellBehind_m = 0.25;
 constexpr double kToplessMax = 0.08;
 constexpr double kExplainedMin = 0.3;
 
@@ -156,11 +154,7 @@ Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&bes
   double lean[2] = {};
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   for (int side = 0; side < 2; ++side) {
-    const WallCandidate* best = nullptr;
-    for (std::uint32_t i = 0; i < beside[side].count; ++i) {
-      const WallCandidate& c = beside[side].item[i];
-      if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
-    }
+    const WallCandidate* const best = strongest(beside[side]);
     if (best == nullptr || !(best->evidence.area_m2 >= kAreaMin_m2)) return Eigen::Vector3d::Zero();
     lean[side] = lean_of(best->plane);
     along += 0.5 * along_of(best->plane, scene.forward_level);

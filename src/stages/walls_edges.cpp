@@ -21,8 +21,6 @@ constexpr std::uint32_t kBendPlaces = 4;
 constexpr double kBendMin = 4.0;
 // The top is looked for in the wall band and this much above it.
 constexpr double kAboveBand_m = 1.0;
-// Hollows of rough rock are not behind the wall.
-constexpr double kWellBehind_m = 0.25;
 // So many points have come over the top, so many times those of the plane at such heights, and from places so far
 // apart: a hollow at the shoulder, where roof has come down, is looked into at one place.
 constexpr double kOverMin = 4.0;

@@ -15,6 +15,9 @@
 
 namespace pose_wall {
 
+// Returns this far behind a plane have passed through it: hollows of rough rock are not behind the wall.
+constexpr double kWellBehind_m = 0.25;
+
 // What the walls are looked for in: the machine, levelled.
 struct WallScene {
   const PointSet& band_level;

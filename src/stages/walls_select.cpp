@@ -86,10 +86,7 @@ const WallCandidate* best_single(const WallCandidates& list, double length_min_m
 
 // Why a side has no wall: the gates that its best plane fails.
 std::uint32_t faults_of(const WallCandidates& list, double length_min_m) {
-  const WallCandidate* best = nullptr;
-  for (std::uint32_t i = 0; i < list.count; ++i) {
-    if (best == nullptr || list.item[i].evidence.score_m2 > best->evidence.score_m2) best = &list.item[i];
-  }
+  const WallCandidate* const best = strongest(list);
   if (best == nullptr) return POSE_WALL_R_WALL_NOT_FOUND;
   std::uint32_t reasons = POSE_WALL_R_WALL_NOT_FOUND | best->faults;
   if (!(best->evidence.length_m >= length_min_m)) reasons |= POSE_WALL_R_WALL_SHORT;
@@ -178,6 +175,14 @@ bool stands_across(const WallChoice& sides, double sides_score, const WallCandid
 }
 
 }  // namespace
+
+const WallCandidate* strongest(const WallCandidates& list) {
+  const WallCandidate* best = nullptr;
+  for (std::uint32_t i = 0; i < list.count; ++i) {
+    if (best == nullptr || list.item[i].evidence.score_m2 > best->evidence.score_m2) best = &list.item[i];
+  }
+  return best;
+}
 
 double angle_in_plan(const Plane& a, const Plane& b) {
   const double cross = a.n.x() * b.n.y() - a.n.y() * b.n.x(), dot = a.n.x() * b.n.x() + a.n.y() * b.n.y();

@@ -23,6 +23,9 @@ struct WallCandidates {
   std::uint32_t count = 0;
 };
 
+// The one of the best score, faults or not; nullptr if there is none.
+const WallCandidate* strongest(const WallCandidates& list);
+
 struct WallChoice {
   const WallCandidate* side[2] = {nullptr, nullptr};   // left, right
   const WallCandidate* rival[2] = {nullptr, nullptr};  // another wall on that side that is nearly as good

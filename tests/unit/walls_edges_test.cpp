@@ -37,7 +37,7 @@ RayScene road() {
   return scene.add(side_panel(-2.2, kEverywhere, kFull));
 }
 
-WallEdges edges(double plane_y_m, BandFixture* band) {
+WallEdges edges(BandFixture* band, double plane_y_m) {
   test::Placed<EdgeScratch> scratch;
   const Plane plane{Eigen::Vector3d(0, -1, 0), plane_y_m};
   // What another wall has left in it is no matter.
@@ -45,16 +45,10 @@ WallEdges edges(double plane_y_m, BandFixture* band) {
   return look_past(band->scene(), plane, Eigen::Vector3d::UnitX(), kMargin_m, scratch.get());
 }
 
-bool island(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
+WallEdges edges(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
   BandFixture band;
   scene.scan(lidar, &band);
-  return edges(plane_y_m, &band).island;
-}
-
-bool low(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
-  BandFixture band;
-  scene.scan(lidar, &band);
-  return edges(plane_y_m, &band).low;
+  return edges(&band, plane_y_m);
 }
 
 TEST(WallEnds, ACurtainBeforeTheWallIsAnIsland) {
@@ -63,7 +57,7 @@ TEST(WallEnds, ACurtainBeforeTheWallIsAnIsland) {
       for (const double y_m : {1.0, 1.8}) {
         RayScene scene = road();
         scene.add(side_panel(y_m, along, kFull)).add(side_panel(3.0, kEverywhere, kFull));
-        EXPECT_TRUE(island(scene, y_m, lidar)) << y_m << " from " << along.low << " to " << along.high;
+        EXPECT_TRUE(edges(scene, y_m, lidar).island) << y_m << " from " << along.low << " to " << along.high;
       }
     }
   }
@@ -72,15 +66,15 @@ TEST(WallEnds, ACurtainBeforeTheWallIsAnIsland) {
 // The floor behind its ends is seen.
 TEST(WallEnds, ACurtainBeforeNothingIsAnIsland) {
   for (const Lidar& lidar : kLidars) {
-    EXPECT_TRUE(island(road().add(side_panel(1.5, {-2.0, 2.0}, kFull)), 1.5, lidar));
+    EXPECT_TRUE(edges(road().add(side_panel(1.5, {-2.0, 2.0}, kFull)), 1.5, lidar).island);
   }
 }
 
 TEST(WallEnds, AWallThatGoesOnIsNone) {
   for (const Lidar& lidar : kLidars) {
     for (const double y_m : {0.8, 1.5, 2.5, 4.0}) {
-      EXPECT_FALSE(island(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar)) << y_m;
-      EXPECT_FALSE(low(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar)) << y_m;
+      EXPECT_FALSE(edges(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar).island) << y_m;
+      EXPECT_FALSE(edges(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar).low) << y_m;
     }
   }
 }
@@ -91,8 +85,8 @@ TEST(WallEnds, AWallThatEndsOnOneSideOnlyIsNone) {
       RayScene scene = road();
       scene.add(side_panel(2.0, {-40.0, end_m}, kFull)).add(cross_panel(end_m, {2.0, 6.0}, kFull));
       scene.add(side_panel(6.0, kEverywhere, kFull));
-      EXPECT_FALSE(island(scene, 2.0, lidar)) << end_m;
-      EXPECT_FALSE(low(scene, 2.0, lidar)) << end_m;
+      EXPECT_FALSE(edges(scene, 2.0, lidar).island) << end_m;
+      EXPECT_FALSE(edges(scene, 2.0, lidar).low) << end_m;
     }
   }
 }
@@ -108,8 +102,8 @@ TEST(WallEnds, AWallThatBendsAwayIsNone) {
       const double back_m = kRadius_m - std::sqrt(kRadius_m * kRadius_m - middle_m * middle_m);
       scene.add(side_panel(kWall_m + back_m, {x, x + kChord_m}, kFull));
     }
-    EXPECT_FALSE(island(scene, kWall_m, lidar));
-    EXPECT_FALSE(low(scene, kWall_m, lidar));
+    EXPECT_FALSE(edges(scene, kWall_m, lidar).island);
+    EXPECT_FALSE(edges(scene, kWall_m, lidar).low);
   }
 }
 
@@ -121,8 +115,8 @@ TEST(WallEnds, AWallWithAnOpeningBesideTheSensorIsNone) {
       scene.add(side_panel(2.0, {-40.0, from_x_m}, kFull)).add(side_panel(2.0, {to_x_m, 40.0}, kFull));
       scene.add(cross_panel(from_x_m, {2.0, 8.0}, kFull)).add(cross_panel(to_x_m, {2.0, 8.0}, kFull));
       scene.add(side_panel(8.0, kEverywhere, kFull));
-      EXPECT_FALSE(island(scene, 2.0, lidar)) << from_x_m;
-      EXPECT_FALSE(low(scene, 2.0, lidar)) << from_x_m;
+      EXPECT_FALSE(edges(scene, 2.0, lidar).island) << from_x_m;
+      EXPECT_FALSE(edges(scene, 2.0, lidar).low) << from_x_m;
     }
   }
 }
@@ -137,8 +131,8 @@ TEST(WallEnds, AWallBetweenTwoOpeningsIsNone) {
         scene.add(cross_panel(near_m, {2.0, 8.0}, kFull)).add(cross_panel(near_m + 2.5, {2.0, 8.0}, kFull));
       }
       scene.add(side_panel(2.0, {-40.0, -half_m - 2.5}, kFull)).add(side_panel(2.0, {half_m + 2.5, 40.0}, kFull));
-      EXPECT_FALSE(island(scene, 2.0, lidar)) << half_m;
-      EXPECT_FALSE(low(scene, 2.0, lidar)) << half_m;
+      EXPECT_FALSE(edges(scene, 2.0, lidar).island) << half_m;
+      EXPECT_FALSE(edges(scene, 2.0, lidar).low) << half_m;
     }
   }
 }
@@ -152,8 +146,8 @@ TEST(WallTops, AThingBeforeTheWallIsLookedOver) {
       for (const double y_m : {0.5, 1.0, 1.8}) {
         RayScene scene = road();
         scene.add(side_panel(y_m, kEverywhere, {test::kFloorZ_m, top_m})).add(side_panel(3.0, kEverywhere, kFull));
-        EXPECT_TRUE(low(scene, y_m, lidar)) << top_m << " at " << y_m;
-        EXPECT_FALSE(low(scene, 3.0, lidar)) << "the wall behind, " << top_m << " at " << y_m;
+        EXPECT_TRUE(edges(scene, y_m, lidar).low) << top_m << " at " << y_m;
+        EXPECT_FALSE(edges(scene, 3.0, lidar).low) << "the wall behind, " << top_m << " at " << y_m;
       }
     }
   }
@@ -166,14 +160,8 @@ TEST(WallTops, AWallWithWindowsIsNotLow) {
     for (const Interval& wall : {Interval{-40.0, -2.0}, Interval{-1.0, 4.0}, Interval{6.0, 40.0}}) {
       scene.add(side_panel(2.0, wall, {0.2, 1.8}));
     }
-    EXPECT_FALSE(low(scene, 2.0, lidar));
+    EXPECT_FALSE(edges(scene, 2.0, lidar).low);
   }
-}
-
-bool top_unseen(const RayScene& scene, double plane_y_m, const Lidar& lidar) {
-  BandFixture band;
-  scene.scan(lidar, &band);
-  return edges(plane_y_m, &band).top_unseen;
 }
 
 // Half-way up the wall, as high as the sensor looks: a conveyor and a wall are the same from here.
@@ -181,9 +169,9 @@ TEST(WallTops, ASensorThatDoesNotLookUpCannotTellAWall) {
   const Lidar kNeverUp{-52.0, -1.0, 1.0, 0.5};
   for (const double y_m : {0.5, 1.0, 2.0}) {
     const RayScene scene = road().add(side_panel(y_m, kEverywhere, kFull));
-    EXPECT_TRUE(top_unseen(scene, y_m, kNeverUp)) << y_m;
+    EXPECT_TRUE(edges(scene, y_m, kNeverUp).top_unseen) << y_m;
     for (const Lidar& lidar : {kLidars[0], kLidars[1], kLidars[2], kHardlyUp}) {
-      EXPECT_FALSE(top_unseen(scene, y_m, lidar)) << y_m;
+      EXPECT_FALSE(edges(scene, y_m, lidar).top_unseen) << y_m;
     }
   }
 }
@@ -192,7 +180,7 @@ TEST(WallTops, ASensorThatDoesNotLookUpCannotTellAWall) {
 TEST(WallTops, WhatIsSeenBeforeThePlaneIsATopToo) {
   RayScene scene = road();
   scene.add(side_panel(2.0, kEverywhere, {test::kFloorZ_m, -0.2})).add(side_panel(1.6, kEverywhere, {-0.2, 1.8}));
-  for (const Lidar& lidar : kLidars) EXPECT_FALSE(top_unseen(scene, 2.0, lidar));
+  for (const Lidar& lidar : kLidars) EXPECT_FALSE(edges(scene, 2.0, lidar).top_unseen);
 }
 
 // Roof has come down at the shoulder: beyond the plane there is a hollow, higher than the roof is elsewhere.
@@ -210,7 +198,7 @@ TEST(WallTops, AHollowAtTheShoulderDoesNotMakeAWallLow) {
       for (const double end_m : {hollow.low, hollow.high}) {
         scene.add(cross_panel(end_m, kEverywhere, {kRoof_m, kHollowRoof_m}));
       }
-      EXPECT_FALSE(low(scene, 2.0, lidar)) << from_x_m;
+      EXPECT_FALSE(edges(scene, 2.0, lidar).low) << from_x_m;
     }
   }
 }
@@ -223,13 +211,13 @@ bool island_among_wild_points(const RayScene& scene, double plane_y_m) {
     band.points().add(0.0, wild, 0.0);
     band.beyond().add(1.0, 3.0, wild);
   }
-  return edges(plane_y_m, &band).island;
+  return edges(&band, plane_y_m).island;
 }
 
 TEST(WallEnds, NothingSeenAndWildPointsMakeNoIsland) {
   for (const double y_m : {-2.0, 0.0, 2.0}) {
-    EXPECT_FALSE(island(RayScene(), y_m, kLidars[0])) << y_m;
-    EXPECT_FALSE(low(RayScene(), y_m, kLidars[0])) << y_m;
+    EXPECT_FALSE(edges(RayScene(), y_m, kLidars[0]).island) << y_m;
+    EXPECT_FALSE(edges(RayScene(), y_m, kLidars[0]).low) << y_m;
   }
   EXPECT_FALSE(island_among_wild_points(road().add(side_panel(2.0, kEverywhere, kFull)), 2.0));
 }
