@@ -3,76 +3,111 @@
 
 #include "estimation/irls.hpp"
 
+#include <cmath>
+
 #include "estimation/normal_equations.hpp"
 #include "estimation/robust_scale.hpp"
-#include "estimation/tangent_frame.hpp"
 #include "estimation/tukey.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 namespace {
 
 // A voxel right in front of the sensor stands for hundreds of points, but the rock under it is one piece.
-constexpr double kWeightCap = 8.0;
+constexpr float kWeightCap = 8.0F;
 constexpr double kSpreadMin_m = 0.05;
-constexpr double kConverged = 1e-7;
+// Far below what any fit is worth, and above what sums of floats leave.
+constexpr double kConverged = 3e-6;
+// A thousand residuals know their scale to four per cent, and the weights hardly notice.
+constexpr std::uint32_t kScalePoints = 1024;
 
-double capped(float weight) {
-  const double w = static_cast<double>(weight);
-  return w < kWeightCap ? w : kWeightCap;
+// What a round needs to know of the plane and its weights, as floats.
+struct Round {
+  float offset, slope_u, slope_v, foreshortening, gate, per_cutoff;
+};
+
+double scale_of(const TangentPoints& p, std::uint32_t count, const Round& round, double gate_m) {
+  const std::uint32_t stride = count / kScalePoints + 1;
+  ScaleHistogram histogram(gate_m);
+  for (std::uint32_t k = 0; k < count; k += stride) {
+    histogram.add((p.r[k] - round.offset - round.slope_u * p.u[k] - round.slope_v * p.v[k]) * round.foreshortening);
+  }
+  return histogram.scale_m();
 }
 
-Eigen::Vector3d centroid_within(const PointSet& points, Span<const std::uint32_t> indices, Span<const float> residuals,
-                                double gate_m) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double count = 0.0;
-  for (std::uint32_t k = 0; k < indices.size(); ++k) {
-    const double r = static_cast<double>(residuals[k]);
-    if (!(r >= -gate_m && r <= gate_m)) continue;
-    sum += points.at(indices[k]);
-    count += 1.0;
+// Weighted sums of four points at a time, each lane for itself.
+struct LaneSums {
+  FourFloats w{}, wu{}, wv{}, wuu{}, wuv{}, wvv{}, wr{}, wur{}, wvr{};
+
+  void add(FourFloats u, FourFloats v, FourFloats over, FourFloats stands_for, const Round& round) {
+    const FourFloats r = (over - round.offset - round.slope_u * u - round.slope_v * v) * round.foreshortening;
+    const FourFloats x = r * round.per_cutoff, none{};
+    const FourFloats left = 1.0F - x * x;
+    const FourFloats size = r < none ? -r : r;
+    const FourFloats tukey = size <= round.gate ? (left > none ? left : none) : none;
+    const FourFloats weight = tukey * tukey * smaller_of(stands_for, all_four(kWeightCap));
+    const FourFloats weight_u = weight * u, weight_v = weight * v;
+    w += weight;
+    wu += weight_u;
+    wv += weight_v;
+    wuu += weight_u * u;
+    wuv += weight_u * v;
+    wvv += weight_v * v;
+    wr += weight * r;
+    wur += weight_u * r;
+    wvr += weight_v * r;
   }
-  return count > 0.0 ? Eigen::Vector3d(sum / count) : sum;
+
+  NormalEquations equations() const {
+    return NormalEquations(sum_of_lanes(w), sum_of_lanes(wu), sum_of_lanes(wv), sum_of_lanes(wuu), sum_of_lanes(wuv),
+                           sum_of_lanes(wvv), sum_of_lanes(wr), sum_of_lanes(wur), sum_of_lanes(wvr));
+  }
+};
+
+NormalEquations equations_of(const TangentPoints& p, std::uint32_t count, const Round& round) {
+  LaneSums sums;
+  std::uint32_t k = 0;
+  for (; k + kFour <= count; k += kFour) {
+    sums.add(load_four(&p.u[k]), load_four(&p.v[k]), load_four(&p.r[k]), load_four(&p.weight[k]), round);
+  }
+  if (k < count) {
+    const std::uint32_t left = count - k;
+    sums.add(load_some(&p.u[k], left), load_some(&p.v[k], left), load_some(&p.r[k], left),
+             load_some(&p.weight[k], left), round);
+  }
+  return sums.equations();
 }
 
 }  // namespace
 
-void signed_distances(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane,
-                      Span<float> residuals) {
-  for (std::uint32_t k = 0; k < indices.size(); ++k) {
-    residuals[k] = static_cast<float>(plane.signed_distance(points.at(indices[k])));
-  }
-}
-
-IrlsResult irls_tukey(const PointSet& points, Span<const std::uint32_t> indices, const Plane& start,
-                      const Eigen::Vector3d& u_hint, const IrlsSettings& settings, Span<float> residuals) {
-  IrlsResult result;
-  result.plane = start;
-  for (int round = 0; round < settings.rounds; ++round) {
-    const Span<float> r = residuals.first(indices.size());
-    signed_distances(points, indices, result.plane, r);
-    double scale = robust_scale(r, settings.gate_m);
+IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const PlaneOver& start,
+                    const IrlsSettings& settings) {
+  IrlsOver result;
+  result.over = start;
+  for (int i = 0; i < settings.rounds; ++i) {
+    Round round{static_cast<float>(result.over.offset_m), static_cast<float>(result.over.slope_u),
+                static_cast<float>(result.over.slope_v),  static_cast<float>(result.over.foreshortening()),
+                static_cast<float>(settings.gate_m),      0.0F};
+    double scale = scale_of(points, count, round, settings.gate_m);
     if (scale < settings.scale_min_m) scale = settings.scale_min_m;
     if (scale > settings.scale_max_m) scale = settings.scale_max_m;
     result.scale_m = scale;
-
-    const TangentFrame frame =
-        tangent_frame(result.plane, centroid_within(points, indices, r, settings.gate_m), u_hint);
-    NormalEquations equations;
-    for (std::uint32_t k = 0; k < indices.size(); ++k) {
-      const double residual = static_cast<double>(r[k]);
-      if (!(residual >= -settings.gate_m && residual <= settings.gate_m)) continue;
-      const double w = tukey_weight(residual, scale);
-      if (!(w > 0.0)) continue;
-      const Eigen::Vector3d p = points.at(indices[k]) - frame.origin;
-      equations.add(frame.u.dot(p), frame.v.dot(p), residual, w * capped(points.weight[indices[k]]));
-    }
+    round.per_cutoff = static_cast<float>(1.0 / (kTukeyCutoff * scale));
     Eigen::Vector3d correction;
-    result.solved = equations.solve(kSpreadMin_m, &correction);
+    result.solved = equations_of(points, count, round).solve(kSpreadMin_m, &correction);
     if (!result.solved) return result;
-    result.plane = corrected(result.plane, frame, correction);
+    result.over.add(correction);
     if (correction.cwiseAbs().maxCoeff() < kConverged) break;
   }
   return result;
+}
+
+IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
+                      const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points) {
+  points->begin(start, Eigen::Vector3d::Zero(), u_hint);
+  for (const std::uint32_t i : indices) points->add(cloud.at(i), cloud.weight[i]);
+  const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);
+  return {points->plane_of(fit.over), fit.scale_m, fit.solved};
 }
 
 }  // namespace pose_wall

@@ -7,6 +7,7 @@
 
 #include "containers/point_set.hpp"
 #include "estimation/plane.hpp"
+#include "estimation/tangent_points.hpp"
 
 namespace pose_wall {
 
@@ -17,19 +18,25 @@ struct IrlsSettings {
   int rounds;
 };
 
-struct IrlsResult {
-  Plane plane;
+struct IrlsOver {
+  PlaneOver over;
   double scale_m = 0.0;
   bool solved = false;  // false: too few points, or all on a line
 };
 
-// Iteratively reweighted least squares with Tukey weights around a start that is near already. Points weigh by what
-// they stand for (PointSet::weight, capped) times Tukey. residuals: scratch as long as indices.
-IrlsResult irls_tukey(const PointSet& points, Span<const std::uint32_t> indices, const Plane& start,
-                      const Eigen::Vector3d& u_hint, const IrlsSettings& settings, Span<float> residuals);
+// Iteratively reweighted least squares with Tukey weights around a start that is near already, on the first `count`
+// points. Points weigh by what they stand for (TangentPoints::weight, capped) times Tukey.
+IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const PlaneOver& start,
+                    const IrlsSettings& settings);
 
-// Residual of each indexed point.
-void signed_distances(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane,
-                      Span<float> residuals);
+struct IrlsResult {
+  Plane plane;
+  double scale_m = 0.0;
+  bool solved = false;
+};
+
+// The same on points of a cloud. points: scratch, with room for the indices.
+IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
+                      const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points);
 
 }  // namespace pose_wall

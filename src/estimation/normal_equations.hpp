@@ -10,6 +10,11 @@ namespace pose_wall {
 // Weighted least squares of r = a + b u + c v, summed up point by point.
 class NormalEquations {
  public:
+  NormalEquations() = default;
+  // From sums made elsewhere: of w, wu, wv, wuu, wuv, wvv, wr, wur, wvr.
+  NormalEquations(double w, double wu, double wv, double wuu, double wuv, double wvv, double wr, double wur, double wvr)
+      : w_(w), wu_(wu), wv_(wv), wuu_(wuu), wuv_(wuv), wvv_(wvv), wr_(wr), wur_(wur), wvr_(wvr) {}
+
   void add(double u, double v, double r, double w) {
     const double wu = w * u, wv = w * v;
     w_ += w;

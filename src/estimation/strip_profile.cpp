@@ -21,7 +21,6 @@ constexpr double kGainPerColumn = 0.04;
 constexpr std::int32_t kStripsMin = 3;  // one or two could be bulges of the rock
 constexpr std::int32_t kStripMax = 6;   // columns: wider things are no strips
 constexpr std::int32_t kFlank = 2;
-constexpr float kStripProbabilityMax = 0.2F;
 constexpr double kWideShareMax = 0.34;
 
 int bits_in(std::uint16_t word) {
@@ -49,11 +48,6 @@ void StripProfile::begin_anew() {
     c.count = 0;
     c.rows = 0;
   }
-}
-
-std::int32_t StripProfile::column_of(double u_m) const {
-  const double place = (u_m - u_min_) / kColumn_m;
-  return place >= 0.0 && place < kColumns ? static_cast<std::int32_t>(place) : -1;
 }
 
 void StripProfile::add(double u_m, double v_m, double residual_m) {
@@ -134,6 +128,7 @@ bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
     c.probability = static_cast<float>(layers_.surface_probability(mean(c) - level));
     c.judged = true;
   }
+  look_at_flanks();
   return true;
 }
 
@@ -163,26 +158,20 @@ void StripProfile::judge(double u_centre_m, double reach_m) {
         static_cast<float>(local ? layers_.surface_probability(mean(c) - level) : plain.surface_probability(mean(c)));
     c.judged = true;
   }
+  look_at_flanks();
 }
 
-bool StripProfile::is_strip(double u_m) const {
-  const std::int32_t column = column_of(u_m);
-  if (column < 0) return false;
-  const Column& c = columns_[static_cast<std::uint32_t>(column)];
-  return c.judged && c.probability < kStripProbabilityMax;
-}
-
-double StripProfile::surface_probability(double u_m) const {
-  const std::int32_t column = column_of(u_m);
-  if (column < 0) return 0.0;
-  // The flanks of a strip lie between it and the wall: they belong to the strip.
-  float least = 1.0F;
-  for (std::int32_t k = column - kFlank; k <= column + kFlank; ++k) {
-    if (k < 0 || k >= static_cast<std::int32_t>(kColumns)) continue;
-    const Column& c = columns_[static_cast<std::uint32_t>(k)];
-    if ((k == column || (c.judged && c.count > 0)) && c.probability < least) least = c.probability;
+// The flanks of a strip lie between it and the wall: they belong to the strip.
+void StripProfile::look_at_flanks() {
+  for (std::int32_t column = 0; column < static_cast<std::int32_t>(kColumns); ++column) {
+    float least = 1.0F;
+    for (std::int32_t k = column - kFlank; k <= column + kFlank; ++k) {
+      if (k < 0 || k >= static_cast<std::int32_t>(kColumns)) continue;
+      const Column& c = columns_[static_cast<std::uint32_t>(k)];
+      if ((k == column || (c.judged && c.count > 0)) && c.probability < least) least = c.probability;
+    }
+    columns_[static_cast<std::uint32_t>(column)].shown = least;
   }
-  return static_cast<double>(least);
 }
 
 }  // namespace pose_wall

@@ -38,26 +38,40 @@ class StripProfile {
   void judge(double u_centre_m, double reach_m);
 
   // A column that was judged to be a strip's.
-  bool is_strip(double u_m) const;
+  bool is_strip(double u_m) const {
+    const std::int32_t column = column_of(u_m);
+    if (column < 0) return false;
+    const Column& c = columns_[static_cast<std::uint32_t>(column)];
+    return c.judged && c.probability < kStripProbabilityMax;
+  }
   // That the wall's own surface is seen in the column of u, 0..1.
-  double surface_probability(double u_m) const;
+  double surface_probability(double u_m) const {
+    const std::int32_t column = column_of(u_m);
+    return column < 0 ? 0.0 : static_cast<double>(columns_[static_cast<std::uint32_t>(column)].shown);
+  }
   const TwoLayers& layers() const { return layers_; }
 
  private:
   static constexpr std::uint32_t kColumns = 1280;
-  static constexpr double kColumn_m = 0.05;
+  static constexpr double kColumnsPerMetre = 20.0;
+  static constexpr float kStripProbabilityMax = 0.2F;
   struct Column {
     float sum;
     std::uint16_t count;
     std::uint16_t rows;  // one bit for each sixteenth of the height with points
     float probability;
+    float shown;  // smallest probability of it and its flanks
     bool judged;
   };
 
-  std::int32_t column_of(double u_m) const;
+  std::int32_t column_of(double u_m) const {
+    const double place = (u_m - u_min_) * kColumnsPerMetre;
+    return place >= 0.0 && place < kColumns ? static_cast<std::int32_t>(place) : -1;
+  }
   bool seen(const Column& c) const;
   double mean(const Column& c) const { return static_cast<double>(c.sum) / static_cast<double>(c.count); }
   bool level_around(std::int32_t column, double* level_m) const;
+  void look_at_flanks();
   bool narrow(std::int32_t first, std::int32_t last, double gate_m) const;
 
   Span<Column> columns_;

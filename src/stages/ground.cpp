@@ -3,6 +3,7 @@
 
 #include "stages/ground.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "estimation/irls.hpp"
@@ -85,7 +86,7 @@ std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const 
   std::uint32_t count = 0;
   for (std::uint32_t k = 0; k < list->count(); ++k) {
     const IrlsResult refined =
-        irls_tukey(cloud, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, scratch->residuals);
+        irls_tukey(cloud, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
     if (!refined.solved || !may_be_floor(refined.plane, s, sensor)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);
@@ -115,10 +116,10 @@ void mark_ghosts(const PointSet& cloud, Span<const std::uint32_t> all, const Set
   }
 }
 
-const Candidate* best_of(Span<const Candidate> candidates, const Candidate* except) {
+const Candidate* best_of(Span<const Candidate> candidates) {
   const Candidate* best = nullptr;
   for (const Candidate& c : candidates) {
-    if (&c == except || c.ghost) continue;
+    if (c.ghost) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
@@ -155,9 +156,19 @@ void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& bes
   refuse_unless(best.evidence.across_spread_m >= kAcrossSpreadMin_m, POSE_WALL_R_FLOOR_THIN);
 }
 
-bool stands_alone(const Candidate& best, const Candidate* rival) {
-  return rival == nullptr || best.evidence.area_m2 >= kSmallArea_m2 ||
-         rival->evidence.score_m2 < kEqualShare * best.evidence.score_m2;
+// Planes that lie alike say the same of roll and pitch, whichever of them is the floor.
+bool lie_alike(const Plane& a, const Plane& b) {
+  constexpr double kAlike_rad = 0.0175;  // 1 degree
+  return a.n.cross(b.n).squaredNorm() <= kAlike_rad * kAlike_rad;
+}
+
+bool stands_alone(const Candidate& best, Span<const Candidate> candidates) {
+  if (best.evidence.area_m2 >= kSmallArea_m2) return true;
+  for (const Candidate& rival : candidates) {
+    if (&rival == &best || rival.ghost || rival.evidence.score_m2 < kEqualShare * best.evidence.score_m2) continue;
+    if (!lie_alike(best.plane, rival.plane)) return false;
+  }
+  return true;
 }
 
 FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std::uint32_t> open, const Settings& s,
@@ -179,7 +190,7 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   Candidate candidates[kFloorShortlist];
   const std::uint32_t count = weigh(cloud, all, s, axes, sensor, &list, scratch, candidates);
   mark_ghosts(cloud, all, s, sensor, scratch, Span<Candidate>(candidates, count));
-  const Candidate* best = best_of(Span<const Candidate>(candidates, count), nullptr);
+  const Candidate* best = best_of(Span<const Candidate>(candidates, count));
   if (best == nullptr) return none;
 
   FloorResult out = fit_floor(cloud, open, radius_m, best->plane, s, sensor, scratch);
@@ -187,9 +198,8 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   out.candidates = n;
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
-  const Candidate* rival = best_of(Span<const Candidate>(candidates, count), best);
   reach_to_rivals(*best, Span<const Candidate>(candidates, count), &out);
-  out.fit.refused = out.fit.refused || !stands_alone(*best, rival);
+  out.fit.refused = out.fit.refused || !stands_alone(*best, Span<const Candidate>(candidates, count));
   gate(s, sensor, *best, &out);
   // A fit that came to nothing, or wandered off, says less of the floor than what it began with.
   if ((out.fit.reasons & POSE_WALL_R_FLOOR_NOT_FOUND) != 0) out.fit.plane = best->plane;
@@ -239,7 +249,7 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   open = arena.take<std::uint32_t>(points_max);
   candidates = arena.take<std::uint32_t>(points_max);
   low = arena.take<std::uint32_t>(points_max);
-  residuals = arena.take<float>(points_max);
+  points.lay_out(arena, points_max);
   subset.lay_out(arena, kGroundSubset);
   grid.lay_out(arena);
   patches.lay_out(arena);

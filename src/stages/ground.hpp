@@ -9,6 +9,7 @@
 #include "containers/arena.hpp"
 #include "estimation/patch_fit.hpp"
 #include "estimation/surface_patches.hpp"
+#include "estimation/tangent_points.hpp"
 #include "estimation/uneven_plane.hpp"
 #include "math/random.hpp"
 #include "stages/ground_evidence.hpp"
@@ -20,7 +21,7 @@ struct GroundScratch {
   Span<std::uint32_t> open;        // points with nothing standing on them, within the greatest radius
   Span<std::uint32_t> candidates;  // of those, within the radius that is tried
   Span<std::uint32_t> low;         // of those, the lowest part; later the selection of the fit
-  Span<float> residuals;
+  TangentPoints points;
   PointSet subset;
   FloorGrid grid;
   PatchGrid patches;

@@ -163,7 +163,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
     chosen = select(cloud_base, open, scratch->grid, irls.plane, tukey.gate_m, radius_m, sensor_base_m, scratch->low);
-    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, tukey, scratch->residuals);
+    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, tukey, &scratch->points);
     if (!irls.solved) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }

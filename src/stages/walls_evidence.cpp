@@ -22,18 +22,9 @@ void WallGrid::lay_out(Arena& arena) {
   through_ = arena.take<std::uint16_t>(kColumns * kRowsMax);
 }
 
-std::int32_t WallGrid::column_of(double along_m) const {
-  return static_cast<std::int32_t>(std::floor(along_m / kColumn_m)) + static_cast<std::int32_t>(kColumns / 2);
-}
-
-std::int32_t WallGrid::row_of(double z_level_m) const {
-  return static_cast<std::int32_t>(std::floor((z_level_m - z_min_) / row_m_));
-}
-
 bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) const {
-  const std::int32_t column = column_of(along_m), row = row_of(z_level_m);
-  if (column < 0 || column >= static_cast<std::int32_t>(kColumns)) return false;
-  if (row < 0 || row >= static_cast<std::int32_t>(rows_)) return false;
+  const double column = along_m * (1.0 / kColumn_m) + kColumns / 2.0, row = (z_level_m - z_min_) * rows_per_m_;
+  if (!(column >= 0.0 && column < kColumns && row >= 0.0 && row < rows_)) return false;
   *cell = static_cast<std::uint32_t>(row) * kColumns + static_cast<std::uint32_t>(column);
   return true;
 }
@@ -45,6 +36,7 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
   const double height_m = scene.z_max_level_m - scene.z_min_level_m;
   z_min_ = scene.z_min_level_m;
   row_m_ = height_m / kRowsMax > kRow_m ? height_m / kRowsMax : kRow_m;
+  rows_per_m_ = 1.0 / row_m_;
   rows_ = static_cast<std::uint32_t>(std::ceil(height_m / row_m_ - 1e-9));
   const Eigen::Vector3d& sensor = scene.sensor_level_m;
   const double sensor_inside_m = wall.signed_distance(sensor);
@@ -69,30 +61,25 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
     const Eigen::Vector3d p = scene.beyond_level.at(i);
     pass_through(p, wall.signed_distance(p), static_cast<std::uint32_t>(scene.beyond_level.weight[i]));
   }
+  for (std::uint32_t column = 0; column < kColumns; ++column) count_rows(column);
 }
 
-void WallGrid::count_rows(std::uint32_t column, std::uint32_t* solid_rows, std::uint32_t* open_rows) const {
-  *solid_rows = 0;
-  *open_rows = 0;
+void WallGrid::count_rows(std::uint32_t column) {
+  std::uint8_t solid_rows = 0, open_rows = 0;
   for (std::uint32_t row = 0; row < rows_; ++row) {
     const std::uint32_t cell = row * kColumns + column;
-    *solid_rows += solid(cell) ? 1U : 0U;
-    *open_rows += open(cell) ? 1U : 0U;
+    solid_rows = static_cast<std::uint8_t>(solid_rows + (solid(cell) ? 1 : 0));
+    open_rows = static_cast<std::uint8_t>(open_rows + (open(cell) ? 1 : 0));
   }
-}
-
-bool WallGrid::column_is_solid(std::uint32_t column) const {
-  std::uint32_t solid_rows = 0, open_rows = 0;
-  count_rows(column, &solid_rows, &open_rows);
-  return solid_rows > 0 && solid_rows >= open_rows;
+  solid_rows_[column] = solid_rows;
+  open_rows_[column] = open_rows;
 }
 
 WallEvidence WallGrid::evidence() const {
   WallEvidence out;
   std::uint32_t solid_cells = 0, own_open_cells = 0, columns = 0;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
-    std::uint32_t solid_rows = 0, open_rows = 0;
-    count_rows(column, &solid_rows, &open_rows);
+    const std::uint32_t solid_rows = solid_rows_[column], open_rows = open_rows_[column];
     if (solid_rows == 0) continue;  // nothing of the plane here: an opening speaks against nothing
     solid_cells += solid_rows;
     own_open_cells += open_rows;

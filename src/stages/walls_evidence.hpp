@@ -53,17 +53,18 @@ class WallGrid {
   bool solid_at(double along_m, double z_level_m) const;
 
  private:
-  std::int32_t column_of(double along_m) const;
-  std::int32_t row_of(double z_level_m) const;
   bool cell_of(double along_m, double z_level_m, std::uint32_t* cell) const;
   bool solid(std::uint32_t cell) const { return hits_[cell] >= 2 && hits_[cell] >= through_[cell]; }
   bool open(std::uint32_t cell) const { return through_[cell] >= 2 && through_[cell] > hits_[cell]; }
-  void count_rows(std::uint32_t column, std::uint32_t* solid_rows, std::uint32_t* open_rows) const;
-  bool column_is_solid(std::uint32_t column) const;
+  void count_rows(std::uint32_t column);
+  bool column_is_solid(std::uint32_t column) const {
+    return solid_rows_[column] > 0 && solid_rows_[column] >= open_rows_[column];
+  }
 
   Span<std::uint16_t> hits_;
   Span<std::uint16_t> through_;
-  double z_min_ = 0.0, row_m_ = 0.3;
+  std::uint8_t solid_rows_[kColumns] = {}, open_rows_[kColumns] = {};
+  double z_min_ = 0.0, row_m_ = 0.3, rows_per_m_ = 1.0 / 0.3;
   std::uint32_t rows_ = 1;
   double inliers_ = 0.0;  // measured points
 };

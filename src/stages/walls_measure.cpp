@@ -16,15 +16,17 @@ constexpr double kExtrapolated_m = 0.75;
 // A bend is told where it takes up this much of an alert limit.
 constexpr double kBendMatters = 0.2;
 
-void count_inliers(const WallScene& scene, Span<const std::uint32_t> chosen, PlaneFit* fit) {
-  const double thresh_m = scene.settings.wall_ransac_thresh;
+void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
+  const TangentPoints& points = surface.points->at;
+  const PlaneOver over = surface.over();
+  const double foreshortening = over.foreshortening();
   double squares = 0.0, measured = 0.0, voxels = 0.0;
-  for (const std::uint32_t i : chosen) {
-    const double r = fit->plane.signed_distance(scene.band_level.at(i));
+  for (std::uint32_t k = 0; k < surface.count; ++k) {
+    const double r = points.distance(k, over, foreshortening);
     if (!(r >= -thresh_m && r <= thresh_m)) continue;
     squares += r * r;
     voxels += 1.0;
-    measured += static_cast<double>(scene.band_level.weight[i]);
+    measured += static_cast<double>(points.weight[k]);
   }
   fit->inliers = static_cast<std::uint32_t>(measured);
   fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
@@ -122,7 +124,7 @@ bool solid_around(const WallGrid& grid, double along_m) {
 
 void set_distances(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
                    WallResult* out) {
-  const TangentFrame& f = surface.frame;
+  const TangentFrame& f = surface.frame();
   const PatchFit& patch = surface.patch;
   for (int end = 0; end < 2; ++end) {
     const Eigen::Vector3d& sample = scene.sample_level_m[side][end];
@@ -157,16 +159,16 @@ WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int 
     return out;
   }
   out.fit.found = true;
-  out.fit.plane = corrected(surface.irls.plane, surface.frame, patch.correction);
+  out.fit.plane = surface.plane();
   out.along_level = along_of(out.fit.plane, scene.forward_level);
   out.lean_rad = lean_of(out.fit.plane);
   out.dof = patch.dof;
   out.dof_slope = patch.dof_slope;
   out.layer_sigma_m = surface.layer_sigma_m;
-  count_inliers(scene, surface.chosen, &out.fit);
-  set_yaw(scene, patch, surface.frame, &out);
+  count_inliers(surface, scene.settings.wall_ransac_thresh, &out.fit);
+  set_yaw(scene, patch, surface.frame(), &out);
   // Where offset and slope are uncorrelated.
-  out.pivot_level_m = surface.frame.origin - surface.frame.u * (patch.covariance(0, 1) / patch.covariance(1, 1));
+  out.pivot_level_m = surface.frame().origin - surface.frame().u * (patch.covariance(0, 1) / patch.covariance(1, 1));
   set_distances(scene, surface, side, grid, &out);
   return out;
 }

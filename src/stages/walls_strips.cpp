@@ -28,48 +28,47 @@ constexpr int kFrontRounds = 4;
 constexpr double kFrontScaleMin_m = 0.005;
 constexpr double kFrontScaleMax_m = 0.03;
 
-void fill_strips(const WallScene& scene, const WallSurface& fit, const Eigen::Vector3d& along, StripProfile* strips) {
-  for (const std::uint32_t i : fit.chosen) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    strips->add(along.dot(p), p.z(), fit.irls.plane.signed_distance(p));
+void fill_strips(const WallSurface& fit, StripProfile* strips) {
+  const WallPoints& points = *fit.points;
+  const double foreshortening = fit.irls.over.foreshortening();
+  for (std::uint32_t k = 0; k < fit.count; ++k) {
+    const double r = points.at.distance(k, fit.irls.over, foreshortening);
+    strips->add(static_cast<double>(points.at.u[k]), points.z_level_m(k), r);
   }
 }
 
-// Moves the points of the wall's own surface to the front of chosen; returns how many.
-std::uint32_t surface_first(const WallScene& scene, const StripProfile& strips, const Eigen::Vector3d& along,
-                            Span<std::uint32_t> chosen) {
-  std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < chosen.size(); ++k) {
-    if (!(strips.surface_probability(along.dot(scene.band_level.at(chosen[k]))) >= 0.5)) continue;
-    const std::uint32_t i = chosen[k];
-    chosen[k] = chosen[count];
-    chosen[count++] = i;
+// Moves the points of the wall's own surface to the front; returns how many.
+std::uint32_t surface_first(const StripProfile& strips, const WallPoints& points, std::uint32_t count) {
+  std::uint32_t first = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (strips.surface_probability(static_cast<double>(points.at.u[k])) >= 0.5) points.swap(k, first++);
   }
-  return count;
+  return first;
 }
 
 // Whether two fits differ by no more than their covariances allow; b uses what a uses, and more (Hausman 1978).
-bool agree(const PatchFit& a, const Eigen::Vector3d& a_slopes, const PatchFit& b, const Eigen::Vector3d& b_slopes) {
+bool agree(const WallSurface& a, const WallSurface& b) {
+  const Eigen::Vector3d difference = a.over().as_correction() - b.over().as_correction();
   for (int k = 1; k < 3; ++k) {
-    const double variance = a.covariance(k, k) > b.covariance(k, k) ? a.covariance(k, k) : b.covariance(k, k);
-    const double apart = a_slopes[k] - b_slopes[k];
+    const double of_a = a.patch.covariance(k, k), of_b = b.patch.covariance(k, k);
+    const double variance = of_a > of_b ? of_a : of_b, apart = difference[k];
     if (!(apart * apart <= kAgreeInSigmas * kAgreeInSigmas * variance)) return false;
   }
   return true;
 }
 
-StripFronts measure_fronts(const WallScene& scene, const Eigen::Vector3d& along, const WallSurface& fit,
-                           Span<float> residuals) {
+StripFronts measure_fronts(const WallSurface& fit, Span<float> residuals) {
   StripFronts fronts;
   // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
   if (!(fit.strips->layers().step_m >= kFrontStepMin_m)) return fronts;
   const double from_m = 0.5 * fit.strips->layers().step_m, range_m = 2.0 * fit.strips->layers().step_m;
   std::uint32_t count = 0;
   double sum = 0.0;
-  for (const std::uint32_t i : fit.chosen) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    if (!fit.strips->is_strip(along.dot(p))) continue;
-    const double r = fit.irls.plane.signed_distance(p);
+  const TangentPoints& points = fit.points->at;
+  const double foreshortening = fit.irls.over.foreshortening();
+  for (std::uint32_t k = 0; k < fit.count; ++k) {
+    if (!fit.strips->is_strip(static_cast<double>(points.u[k]))) continue;
+    const double r = points.distance(k, fit.irls.over, foreshortening);
     if (!(r >= from_m && r <= from_m + range_m)) continue;
     residuals[count++] = static_cast<float>(r);
     sum += r;
@@ -97,110 +96,135 @@ StripFronts measure_fronts(const WallScene& scene, const Eigen::Vector3d& along,
 
 }  // namespace
 
+void WallPoints::lay_out(Arena& arena) {
+  at.lay_out(arena, kMost);
+  bias = arena.take<float>(kMost);
+}
+
+void WallPoints::begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level) {
+  at.begin(around, Eigen::Vector3d::Zero(), along_level);
+  const TangentFrame& f = at.frame;
+  const Eigen::Vector3d from_origin = scene.sensor_level_m - f.origin;
+  sensor = Eigen::Vector3d(f.u.dot(from_origin), f.v.dot(from_origin), around.n.dot(from_origin));
+  z_at_origin_m = f.origin.z();
+  z_per_v = f.v.z();
+  z_per_r = around.n.z();
+}
+
+void WallPoints::add(const Eigen::Vector3d& p_level, float weight) {
+  const std::uint32_t k = at.count;
+  at.add(p_level, weight);
+  const Eigen::Vector3d ray = Eigen::Vector3d(at.u[k], at.v[k], at.r[k]) - sensor;
+  bias[k] = static_cast<float>(ray.z() / std::sqrt(ray.squaredNorm()));
+}
+
+void WallPoints::swap(std::uint32_t a, std::uint32_t b) const {
+  for (const Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) {
+    const float kept = (*row)[a];
+    (*row)[a] = (*row)[b];
+    (*row)[b] = kept;
+  }
+}
+
 void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
-  chosen = arena.take<std::uint32_t>(points_max);
-  residuals = arena.take<float>(points_max);
+  near = arena.take<std::uint32_t>(points_max);
+  points.lay_out(arena);
+  residuals = arena.take<float>(WallPoints::kMost);
   patches.lay_out(arena);
   strips.lay_out(arena);
 }
 
-void set_layers_apart(const WallScene& scene, const Eigen::Vector3d& along, const IrlsSettings& settings,
-                      WallFitScratch* scratch, WallSurface* fit) {
-  const Span<float> residuals = scratch->residuals.first(fit->chosen.size());
-  signed_distances(scene.band_level, fit->chosen, fit->irls.plane, residuals);
+void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit) {
+  const WallPoints& points = scratch->points;
+  const double foreshortening = fit->irls.over.foreshortening();
   LayerHistogram histogram(settings.gate_m);
-  histogram.add(residuals);
+  for (std::uint32_t k = 0; k < fit->count; ++k) {
+    histogram.add(points.at.distance(k, fit->irls.over, foreshortening));
+  }
   if (histogram.total() < kLayerPointsMin) return;
   TwoLayers layers =
       find_two_layers(histogram, {settings.scale_min_m, kLayerGainPerPoint * histogram.total(), kLayersApartInSigmas});
   if (!layers.found || !(layers.step_m >= kLayerStepMin_m)) return;
-  std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < fit->chosen.size(); ++k) {
-    if (layers.surface_probability(static_cast<double>(residuals[k])) >= 0.5) fit->chosen[count++] = fit->chosen[k];
+  std::uint32_t outer = 0;
+  for (std::uint32_t k = 0; k < fit->count; ++k) {
+    const double r = points.at.distance(k, fit->irls.over, foreshortening);
+    if (layers.surface_probability(r) >= 0.5) points.swap(k, outer++);
   }
-  fit->chosen = fit->chosen.first(count);
-  Plane start = fit->irls.plane;
-  start.d -= layers.centre_m;
-  fit->irls = irls_tukey(scene.band_level, fit->chosen, start, along, settings, scratch->residuals);
+  fit->count = outer;
+  PlaneOver start = fit->irls.over;
+  start.offset_m += layers.centre_m;
+  fit->irls = irls_tukey(points.at, outer, start, settings);
   layers.centre_m = 0.0;  // by the new plane
   fit->layers = layers;
 }
 
-void fit_patches(const WallScene& scene, const Eigen::Vector3d& along, PatchGrid::Errors errors, PatchGrid* patches,
-                 WallSurface* fit) {
-  fit->frame = tangent_frame(fit->irls.plane, Eigen::Vector3d::Zero(), along);
-  const TangentFrame& f = fit->frame;
+void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit) {
   const WallSurface& surface = *fit;
-  const Span<const std::uint32_t> chosen = surface.chosen;
-  double u_min = 0.0, u_max = 0.0, v_min = 0.0, v_max = 0.0;
-  for (const std::uint32_t i : chosen) {
-    const Eigen::Vector3d q = scene.band_level.at(i) - f.origin;
-    const double u = f.u.dot(q), v = f.v.dot(q);
+  const WallPoints& points = *surface.points;
+  float u_min = 0.0F, u_max = 0.0F, v_min = 0.0F, v_max = 0.0F;
+  for (std::uint32_t k = 0; k < surface.count; ++k) {
+    const float u = points.at.u[k], v = points.at.v[k];
     u_min = u < u_min ? u : u_min;
     u_max = u > u_max ? u : u_max;
     v_min = v < v_min ? v : v_min;
     v_max = v > v_max ? v : v_max;
   }
-  patches->begin(u_min, u_max, v_min, v_max, kPatch_m, surface.fronts.found ? 2 : 1);
-  for (const std::uint32_t i : chosen) {
-    const Eigen::Vector3d p = scene.band_level.at(i), q = p - f.origin;
-    const double r = surface.irls.plane.signed_distance(p), along_m = along.dot(p);
-    const double points = static_cast<double>(scene.band_level.weight[i]);
-    const double bias = (p - scene.sensor_level_m).normalized().dot(surface.irls.plane.n);
-    const double w = surface.weight(along_m, r), front = surface.front_weight(along_m, r);
-    if (w > kWeightMin) patches->add(f.u.dot(q), f.v.dot(q), r, w * points, bias, 0);
-    if (front > kWeightMin) patches->add(f.u.dot(q), f.v.dot(q), r, front * points, bias, 1);
+  patches->begin(static_cast<double>(u_min), static_cast<double>(u_max), static_cast<double>(v_min),
+                 static_cast<double>(v_max), kPatch_m, surface.fronts.found ? 2 : 1);
+  const double foreshortening = surface.irls.over.foreshortening();
+  for (std::uint32_t k = 0; k < surface.count; ++k) {
+    const double u = static_cast<double>(points.at.u[k]), v = static_cast<double>(points.at.v[k]);
+    const double r = points.at.distance(k, surface.irls.over, foreshortening);
+    const double stands_for = static_cast<double>(points.at.weight[k]), bias = static_cast<double>(points.bias[k]);
+    const double w = surface.weight(u, r), front = surface.front_weight(u, r);
+    if (w > kWeightMin) patches->add(u, v, r, w * stands_for, bias, 0);
+    if (front > kWeightMin) patches->add(u, v, r, front * stands_for, bias, 1);
   }
   fit->patch = patches->fit(errors);
 }
 
-void join_fronts(const WallScene& scene, const Eigen::Vector3d& along, Fronts use, WallFitScratch* scratch,
-                 WallSurface* fit) {
+void join_fronts(Fronts use, WallFitScratch* scratch, WallSurface* fit) {
   WallSurface joint = *fit;
   for (int round = 0; round < kJointRounds; ++round) {
-    joint.irls.plane = corrected(joint.irls.plane, joint.frame, joint.patch.correction);
-    joint.fronts = measure_fronts(scene, along, joint, scratch->residuals);
+    joint.irls.over = joint.over();
+    joint.fronts = measure_fronts(joint, scratch->residuals);
     if (!joint.fronts.found) return;
     // Errors are asked for by who compares, after the last round.
     const bool is_step = use == Fronts::kAlways || round + 1 < kJointRounds;
     const PatchGrid::Errors errors = is_step ? PatchGrid::Errors::kPlaneOnly : PatchGrid::Errors::kMeasured;
-    fit_patches(scene, along, errors, &scratch->patches, &joint);
+    fit_patches(errors, &scratch->patches, &joint);
     if (!joint.patch.solved) return;
   }
-  const Plane alone = corrected(fit->irls.plane, fit->frame, fit->patch.correction);
-  const Plane both = corrected(joint.irls.plane, joint.frame, joint.patch.correction);
-  const auto slopes = [&](const Plane& p) {
-    return Eigen::Vector3d(0.0, p.n.dot(fit->frame.u), p.n.dot(fit->frame.v));
-  };
-  if (use == Fronts::kAlways || agree(fit->patch, slopes(alone), joint.patch, slopes(both))) *fit = joint;
+  if (use == Fronts::kAlways || agree(*fit, joint)) *fit = joint;
 }
 
-void set_strips_apart(const WallScene& scene, const Eigen::Vector3d& along, const IrlsSettings& settings,
-                      WallFitScratch* scratch, WallSurface* fit) {
-  const double sensor_m = along.dot(scene.sensor_level_m);
-  const double away_m = std::fabs(fit->irls.plane.signed_distance(scene.sensor_level_m));
+void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit) {
+  const WallPoints& points = scratch->points;
+  const double sensor_m = points.sensor.x();
+  const PlaneOver& over = fit->irls.over;
+  const double away_m = std::fabs(points.sensor.z() - over.offset_m - over.slope_u * points.sensor.x() -
+                                  over.slope_v * points.sensor.y());
   StripProfile& strips = scratch->strips;
   strips.begin(sensor_m - kProfileReach_m, fit->heights.min_m, fit->heights.max_m);
-  fill_strips(scene, *fit, along, &strips);
+  fill_strips(*fit, &strips);
   if (!strips.find(sensor_m, kSeenWithin * away_m, settings.gate_m)) return;
   double reach_m = kSeenWithin * away_m;
   for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
     if (ring > 0) {
       strips.begin_anew();
-      fill_strips(scene, *fit, along, &strips);
+      fill_strips(*fit, &strips);
       strips.judge(sensor_m, reach_m);
     }
-    const std::uint32_t count = surface_first(scene, strips, along, fit->chosen);
-    fit->irls =
-        irls_tukey(scene.band_level, fit->chosen.first(count), fit->irls.plane, along, settings, scratch->residuals);
+    const std::uint32_t of_surface = surface_first(strips, points, fit->count);
+    fit->irls = irls_tukey(points.at, of_surface, fit->irls.over, settings);
     if (!fit->irls.solved) return;
     fit->strips = &strips;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
     WallSurface joint = *fit;
-    fit_patches(scene, along, PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
+    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
     if (!joint.patch.solved) continue;
-    join_fronts(scene, along, Fronts::kAlways, scratch, &joint);
-    fit->irls.plane = corrected(joint.irls.plane, joint.frame, joint.patch.correction);
+    join_fronts(Fronts::kAlways, scratch, &joint);
+    fit->irls.over = joint.over();
   }
 }
 

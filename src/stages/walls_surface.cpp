@@ -32,26 +32,36 @@ IrlsSettings fit_settings(const Settings& s) {
   return {kGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds};
 }
 
-WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
-                        const Heights& heights, const WallGrid& grid, WallFitScratch* scratch) {
-  const IrlsSettings settings = fit_settings(scene.settings);
-  WallSurface fit;
-  fit.heights = heights;
-  // Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
-  const Span<const std::uint32_t> near = points_near(scene.band_level, start, settings.gate_m, scratch->chosen);
+// Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
+void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along, const Heights& heights,
+            double gate_m, const WallGrid& grid, WallFitScratch* scratch) {
+  const Span<std::uint32_t> near = points_near(scene.band_level, start, gate_m, scratch->near);
   std::uint32_t count = 0;
   for (const std::uint32_t i : near) {
     const Eigen::Vector3d p = scene.band_level.at(i);
-    if (heights.contain(p.z()) && grid.solid_at(along.dot(p), p.z())) scratch->chosen[count++] = i;
+    if (heights.contain(p.z()) && grid.solid_at(along.dot(p), p.z())) near[count++] = i;
   }
-  fit.chosen = scratch->chosen.first(count);
-  fit.irls = irls_tukey(scene.band_level, fit.chosen, start, along, settings, scratch->residuals);
+  scratch->points.begin(scene, start, along);
+  for (const std::uint32_t i : thinned(near.first(count), WallPoints::kMost)) {
+    scratch->points.add(scene.band_level.at(i), scene.band_level.weight[i]);
+  }
+}
+
+WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
+                        const Heights& heights, const WallGrid& grid, WallFitScratch* scratch) {
+  const IrlsSettings settings = fit_settings(scene.settings);
+  gather(scene, start, along, heights, settings.gate_m, grid, scratch);
+  WallSurface fit;
+  fit.heights = heights;
+  fit.points = &scratch->points;
+  fit.count = scratch->points.at.count;
+  fit.irls = irls_tukey(scratch->points.at, fit.count, PlaneOver{}, settings);
   if (!fit.irls.solved) return fit;
-  set_strips_apart(scene, along, settings, scratch, &fit);
-  if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(scene, along, settings, scratch, &fit);
+  set_strips_apart(settings, scratch, &fit);
+  if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
-  fit_patches(scene, along, PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
-  if (fit.patch.solved && fit.strips != nullptr) join_fronts(scene, along, Fronts::kIfTheyAgree, scratch, &fit);
+  fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
+  if (fit.patch.solved && fit.strips != nullptr) join_fronts(Fronts::kIfTheyAgree, scratch, &fit);
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
   fit.layer_sigma_m =
@@ -60,27 +70,28 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
 }
 
 // Lean of the surface between two heights: the plane's, less the slope of the distances from it.
-double lean_between(const WallScene& scene, const WallSurface& fit, const Heights& heights) {
+double lean_between(const WallSurface& fit, const Heights& heights) {
   double w = 0.0, z = 0.0, zz = 0.0, r = 0.0, zr = 0.0;
-  for (const std::uint32_t i : fit.chosen) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    if (!heights.contain(p.z())) continue;
-    const double residual = fit.irls.plane.signed_distance(p);
-    const double weight = fit.weight(fit.frame.u.dot(p), residual);
+  const double foreshortening = fit.irls.over.foreshortening();
+  for (std::uint32_t k = 0; k < fit.count; ++k) {
+    const double height = fit.points->z_level_m(k);
+    if (!heights.contain(height)) continue;
+    const double residual = fit.points->at.distance(k, fit.irls.over, foreshortening);
+    const double weight = fit.weight(static_cast<double>(fit.points->at.u[k]), residual);
     w += weight;
-    z += weight * p.z();
-    zz += weight * p.z() * p.z();
+    z += weight * height;
+    zz += weight * height * height;
     r += weight * residual;
-    zr += weight * p.z() * residual;
+    zr += weight * height * residual;
   }
   const double spread = w * zz - z * z;
   const double slope = spread > 1e-9 * w * w ? (w * zr - z * r) / spread : 0.0;
-  return lean_of(fit.irls.plane) - slope;
+  return lean_of(fit.irls_plane()) - slope;
 }
 
 // An arched roof begins within the band, a heap ends in it: where the wall bends towards the machine at its top or its
 // foot, that end is cut off. True where it was, and the fit is to be repeated.
-bool cut_bent_rows(const WallScene& scene, const WallSurface& fit, Heights* heights) {
+bool cut_bent_rows(const WallSurface& fit, Heights* heights) {
   const double span_m = heights->max_m - heights->min_m;
   if (span_m - kCut_m < kSpanMin_m) return false;
   const bool significant = fit.patch.curvature_v > kCurvatureInSigmas * fit.patch.curvature_v_sigma;
@@ -88,8 +99,8 @@ bool cut_bent_rows(const WallScene& scene, const WallSurface& fit, Heights* heig
   if (!significant || !matters) return false;
   // A wall stands more upright than an arch or a heap: the half that leans more loses its end.
   const double middle = 0.5 * (heights->min_m + heights->max_m);
-  const double lower = lean_between(scene, fit, {heights->min_m, middle});
-  const double upper = lean_between(scene, fit, {middle, heights->max_m});
+  const double lower = lean_between(fit, {heights->min_m, middle});
+  const double upper = lean_between(fit, {middle, heights->max_m});
   if (std::fabs(upper) >= std::fabs(lower)) {
     heights->max_m -= kCut_m;
   } else {
@@ -117,9 +128,9 @@ bool refine_hypothesis(const WallScene& scene, const Eigen::Vector3d& along_leve
   const double thresh_m = scene.settings.wall_ransac_thresh;
   for (const double gate : {kFirstGateInThresholds * thresh_m, 3.0 * thresh_m}) {
     const Span<std::uint32_t> near =
-        thinned(points_near(scene.band_level, *plane, gate, scratch->chosen), kQuickPointsMax);
+        thinned(points_near(scene.band_level, *plane, gate, scratch->near), kQuickPointsMax);
     const IrlsSettings quick{3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds};
-    const IrlsResult refined = irls_tukey(scene.band_level, near, *plane, along_level, quick, scratch->residuals);
+    const IrlsResult refined = irls_tukey(scene.band_level, near, *plane, along_level, quick, &scratch->points.at);
     if (!refined.solved) return false;
     *plane = refined.plane;
   }
@@ -142,9 +153,9 @@ WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* gr
   WallSurface fit;
   for (int cut = 0; cut <= kCutsMax; ++cut) {
     fit = fit_between(scene, start, along, heights, *grid, scratch);
-    if (!fit.patch.solved || !cut_bent_rows(scene, fit, &heights)) break;
+    if (!fit.patch.solved || !cut_bent_rows(fit, &heights)) break;
   }
-  mark_wall(scene, fit.irls.plane, along, MarkWidth::kThreshold, grid);
+  mark_wall(scene, fit.irls_plane(), along, MarkWidth::kThreshold, grid);
   return fit;
 }
 

@@ -148,8 +148,22 @@ TEST(CampaignPlan, OtherPlansDifferInWords) {
   EXPECT_NE(difference(drawn_otherwise, manifest_for(request)).find("of 7 runs"), std::string::npos);
 }
 
-TEST(CampaignPlan, SparseSensorsAreRunWithTheShippedSettings) {
-  for (const std::string name : {"vlp16", "mid360"}) {
+TEST(CampaignPlan, PromisesOfMoreThan99PercentAreMeasuredOnEnoughFrames) {
+  PlanRequest request;
+  request.size = "large";
+  request.sensors = {"os1-64"};
+  for (const char* name : {"nominal", "clean", "conveyor"}) {
+    request.scenes = {name};
+    const double misses_allowed =
+        (1.0 - sim::find_scene(name)->available_floor) * static_cast<double>(frames_of(make_plan(request)));
+    EXPECT_GE(misses_allowed, 3.0) << name;
+  }
+  request.draws = 2;
+  EXPECT_EQ(make_plan(request).size(), 2U) << "what was asked for";
+}
+
+TEST(CampaignPlan, SensorsAreRunWithTheShippedSettings) {
+  for (const std::string name : {"vlp16", "mid360", "os1-64"}) {
     std::vector<std::string> settings;
     for (const sim::EngineSetting& s : sim::find_sensor(name)->engine) settings.push_back(s.key + "=" + s.value);
     const LoadedConfig shipped = load_config("config/" + name + ".yaml", {});

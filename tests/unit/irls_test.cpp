@@ -9,7 +9,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <vector>
 
 #include "support/stage_fixtures.hpp"
 
@@ -39,9 +38,8 @@ void fill(double outliers, double sigma, test::OwnedPoints* points) {
 }
 
 IrlsResult fit(test::OwnedPoints* points, const Plane& start) {
-  std::vector<float> residuals(points->all().size());
-  return irls_tukey(points->set(), points->all(), start, Eigen::Vector3d::UnitX(), kSettings,
-                    Span<float>(residuals.data(), static_cast<std::uint32_t>(residuals.size())));
+  test::Placed<TangentPoints> scratch(points->all().size());
+  return irls_tukey(points->set(), points->all(), start, Eigen::Vector3d::UnitX(), kSettings, scratch.get());
 }
 
 double angle_between(const Plane& a, const Plane& b) {
@@ -107,14 +105,23 @@ TEST(Irls, OneHeavyPointDoesNotPullThePlane) {
   EXPECT_LT(std::fabs(got.plane.d), 0.0016);
 }
 
-TEST(Irls, SignedDistances) {
-  test::OwnedPoints points(2);
-  points.add(1, 1, 0.5);
-  points.add(0, 0, -0.25);
-  float residuals[2];
-  signed_distances(points.set(), points.all(), Plane{Eigen::Vector3d::UnitZ(), 0.0}, Span<float>(residuals, 2));
-  EXPECT_EQ(residuals[0], 0.5F);
-  EXPECT_EQ(residuals[1], -0.25F);
+// Sums of four lanes each: the last group need not be whole, and what lies behind the count plays no part.
+TEST(Irls, AnyCountOfPoints) {
+  test::Noise noise(6);
+  for (const std::uint32_t count : {4U, 5U, 6U, 7U, 8U, 101U}) {
+    test::Placed<TangentPoints> points(count + 3);
+    points->begin(Plane{Eigen::Vector3d::UnitZ(), 0.0}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double u = i % 2 == 0 ? noise.uniform(-4, 0) : noise.uniform(0, 4), v = i % 4 < 2 ? -1.0 : 1.0;
+      points->add(Eigen::Vector3d(u, v, 0.02 + 0.01 * u - 0.005 * v), 1.0F);
+    }
+    for (int i = 0; i < 3; ++i) points->add(Eigen::Vector3d(1.0, 1.0, 0.1), 1000.0F);
+    const IrlsOver fit = irls_tukey(*points, count, PlaneOver{}, kSettings);
+    ASSERT_TRUE(fit.solved) << count;
+    EXPECT_NEAR(fit.over.offset_m, 0.02, 1e-5) << count;
+    EXPECT_NEAR(fit.over.slope_u, 0.01, 1e-5) << count;
+    EXPECT_NEAR(fit.over.slope_v, -0.005, 1e-5) << count;
+  }
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed) {
   out.fronts = surface.fronts.found;
   out.solved = surface.patch.solved;
   if (!out.solved) return out;
-  const Plane wall = corrected(surface.irls.plane, surface.frame, surface.patch.correction);
+  const Plane wall = surface.plane();
   const Eigen::Vector3d along = along_of(wall, Eigen::Vector3d::UnitX());
   out.offset_m = wall.signed_distance(Eigen::Vector3d::Zero()) - kWall_m;
   out.yaw_rad = std::atan2(along.y(), along.x());

@@ -28,7 +28,7 @@ Sensor non_repetitive() {
   return sensor;
 }
 
-// As in config/vlp16.yaml and config/mid360.yaml; a test compares them.
+// As in config/; a test compares them.
 std::vector<EngineSetting> few_points(const char* ground_roi_radius_max) {
   return {{"outlier_radius", "0.40"},
           {"outlier_min_neighbors", "2"},
@@ -85,7 +85,7 @@ const std::vector<SensorModel>& sensor_models() {
       {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0),
        "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
        0.0,
-       {}},
+       {{"ground_inlier_min", "400"}}},
       {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0),
        "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise",
        0.0,

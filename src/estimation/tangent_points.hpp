@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Points near a plane, in the plane's own coordinates.
+//
+// A fit looks at the same points again and again, each time from a plane that is turned and moved a little. In the
+// tangent frame of the first one every later plane is a height over it, a + b u + c v, and the distance of a point from
+// it is (r - a - b u - c v) / sqrt(1 + b^2 + c^2), exactly: two products instead of a turn in space.
+
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "containers/arena.hpp"
+#include "containers/point_set.hpp"
+#include "estimation/plane.hpp"
+#include "estimation/tangent_frame.hpp"
+
+namespace pose_wall {
+
+// A plane as its height over another one.
+struct PlaneOver {
+  double offset_m = 0.0, slope_u = 0.0, slope_v = 0.0;
+
+  // By which heights over the first plane are multiplied to become distances from this one.
+  double foreshortening() const { return 1.0 / std::sqrt(1.0 + slope_u * slope_u + slope_v * slope_v); }
+  void add(const Eigen::Vector3d& correction) {
+    offset_m += correction[0];
+    slope_u += correction[1];
+    slope_v += correction[2];
+  }
+  Eigen::Vector3d as_correction() const { return {offset_m, slope_u, slope_v}; }
+};
+
+struct TangentPoints {
+  Span<float> u, v, r, weight;  // metres; weight as PointSet's
+  std::uint32_t count = 0;
+  Plane plane;
+  TangentFrame frame;
+
+  void lay_out(Arena& arena, std::uint32_t points_max) {
+    u = arena.take<float>(points_max);
+    v = arena.take<float>(points_max);
+    r = arena.take<float>(points_max);
+    weight = arena.take<float>(points_max);
+    count = 0;
+  }
+
+  // Around a plane, with the origin's foot as origin and u along the hint.
+  void begin(const Plane& around, const Eigen::Vector3d& origin, const Eigen::Vector3d& u_hint) {
+    plane = around;
+    frame = tangent_frame(around, origin, u_hint);
+    count = 0;
+  }
+
+  void add(const Eigen::Vector3d& p, float points) {
+    const Eigen::Vector3d q = p - frame.origin;
+    u[count] = static_cast<float>(frame.u.dot(q));
+    v[count] = static_cast<float>(frame.v.dot(q));
+    r[count] = static_cast<float>(plane.n.dot(q));
+    weight[count] = points;
+    ++count;
+  }
+
+  Plane plane_of(const PlaneOver& over) const { return corrected(plane, frame, over.as_correction()); }
+  double distance(std::uint32_t k, const PlaneOver& over, double foreshortening) const {
+    return (static_cast<double>(r[k]) - over.offset_m - over.slope_u * static_cast<double>(u[k]) -
+            over.slope_v * static_cast<double>(v[k])) *
+           foreshortening;
+  }
+};
+
+}  // namespace pose_wall

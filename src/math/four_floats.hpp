@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Four floats that are worked on together: one register of NEON and of SSE. A vector type of GCC and Clang, not of one
+// processor; each lane is what the same sum of single floats would be, so all machines agree to the bit.
+
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace pose_wall {
+
+using FourFloats = float __attribute__((vector_size(16)));
+constexpr std::uint32_t kFour = 4;
+
+inline FourFloats all_four(float x) {
+  return FourFloats{x, x, x, x};
+}
+
+inline FourFloats load_four(const float* from) {
+  FourFloats four;
+  std::memcpy(&four, from, sizeof(four));
+  return four;
+}
+
+// The first `count` of them; the others are zero.
+inline FourFloats load_some(const float* from, std::uint32_t count) {
+  float padded[kFour] = {};
+  for (std::uint32_t lane = 0; lane < count; ++lane) padded[lane] = from[lane];
+  return load_four(padded);
+}
+
+inline FourFloats smaller_of(FourFloats a, FourFloats b) {
+  return a < b ? a : b;
+}
+
+// In a fixed order.
+inline double sum_of_lanes(FourFloats four) {
+  return (static_cast<double>(four[0]) + static_cast<double>(four[1])) +
+         (static_cast<double>(four[2]) + static_cast<double>(four[3]));
+}
+
+}  // namespace pose_wall

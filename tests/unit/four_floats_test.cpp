@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: four floats together are what they are one by one, and a part of four leaves the rest zero.
+
+#include "math/four_floats.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace pose_wall {
+namespace {
+
+TEST(FourFloats, LoadsFromAnyPlace) {
+  const float from[6] = {0.5F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
+  const FourFloats four = load_four(from + 1);  // not on a border of 16 bytes
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) EXPECT_EQ(four[lane], from[1 + lane]);
+  for (std::uint32_t count = 0; count <= kFour; ++count) {
+    const FourFloats some = load_some(from, count);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) EXPECT_EQ(some[lane], lane < count ? from[lane] : 0.0F);
+  }
+}
+
+TEST(FourFloats, SmallerLaneByLane) {
+  const FourFloats a{1.0F, -1.0F, 0.0F, std::numeric_limits<float>::infinity()};
+  const FourFloats smaller = smaller_of(a, all_four(0.5F));
+  const float expected[kFour] = {0.5F, -1.0F, 0.0F, 0.5F};
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) EXPECT_EQ(smaller[lane], expected[lane]);
+}
+
+TEST(FourFloats, SumInDoubles) {
+  EXPECT_EQ(sum_of_lanes(FourFloats{1e8F, 1.0F, -1e8F, 1.0F}), 2.0);
+}
+
+}  // namespace
+}  // namespace pose_wall

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a plane told as a height over another one is that plane: distances and sides are the same, however far it is
+// turned, and corrections add up.
+
+#include "estimation/tangent_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kPoints = 200;
+
+struct Cloud {
+  test::Placed<TangentPoints> points{kPoints};
+  std::vector<Eigen::Vector3d> at;
+
+  explicit Cloud(const Plane& around) {
+    test::Noise noise(2);
+    points->begin(around, Eigen::Vector3d(0.3, -0.2, 0.1), Eigen::Vector3d::UnitX());
+    for (std::uint32_t k = 0; k < kPoints; ++k) {
+      at.emplace_back(noise.uniform(-15, 15), noise.uniform(-15, 15), noise.uniform(-3, 3));
+      points->add(at.back(), 1.0F);
+    }
+  }
+};
+
+Plane leaning() {
+  Plane plane;
+  plane.n = Eigen::Vector3d(0.1, -0.99, 0.05).normalized();
+  plane.d = 2.5;
+  return plane;
+}
+
+// Floats of 30 m: 2e-6.
+TEST(TangentPoints, DistancesAreThoseFromThePlane) {
+  Cloud cloud(leaning());
+  for (const PlaneOver over : {PlaneOver{}, PlaneOver{0.1, 0.02, -0.03}, PlaneOver{-0.3, 0.4, 0.7}}) {
+    const Plane plane = cloud.points->plane_of(over);
+    EXPECT_NEAR(plane.n.norm(), 1.0, 1e-12);
+    for (std::uint32_t k = 0; k < kPoints; ++k) {
+      EXPECT_NEAR(cloud.points->distance(k, over, over.foreshortening()), plane.signed_distance(cloud.at[k]), 1e-5);
+    }
+  }
+}
+
+TEST(TangentPoints, CorrectionsAddUp) {
+  PlaneOver over{0.1, 0.02, -0.03};
+  over.add(Eigen::Vector3d(0.01, -0.02, 0.005));
+  EXPECT_NEAR(over.offset_m, 0.11, 1e-15);
+  EXPECT_NEAR(over.slope_u, 0.0, 1e-15);
+  EXPECT_NEAR(over.slope_v, -0.025, 1e-15);
+  EXPECT_EQ(over.as_correction(), Eigen::Vector3d(over.offset_m, over.slope_u, over.slope_v));
+}
+
+TEST(TangentPoints, BeginForgetsWhatWasThere) {
+  Cloud cloud(leaning());
+  cloud.points->begin(Plane{}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
+  EXPECT_EQ(cloud.points->count, 0U);
+  cloud.points->add(Eigen::Vector3d(1.0, 2.0, 3.0), 5.0F);
+  EXPECT_EQ(cloud.points->u[0], 1.0F);
+  EXPECT_EQ(cloud.points->v[0], 2.0F);
+  EXPECT_EQ(cloud.points->r[0], 3.0F);
+  EXPECT_EQ(cloud.points->weight[0], 5.0F);
+}
+
+}  // namespace
+}  // namespace pose_wall
