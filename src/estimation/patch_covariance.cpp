@@ -64,7 +64,7 @@ double PatchFit::bend_slope_v_at(double u, double v) const {
 }
 
 // Each unordered pair of patches of one layer up to kLags apart, once: a patch, and those of its neighbours that come
-// after it.
+// after it, by their distance.
 template <typename Visit>
 void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
   static constexpr Offsets kOffsets = offsets_within(kLags);
@@ -84,35 +84,53 @@ void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) cons
   }
 }
 
-// Correlation of the rock by distance between patches, from products of errors. Errors about a fitted surface are
-// smaller than the rock is, and more so the fewer independent patches there are: the fit's own variance is given back
-// to them.
-template <typename Taken>
-void PatchGrid::correlate_errors(std::uint32_t n, const Taken& taken_by_fit, Roughness (*roughness)[kLayersMax]) const {
-  double products[kLayersMax][kLags + 1] = {};
-  double pairs[kLayersMax][kLags + 1] = {};
+// All that the covariance needs to know of pairs, in one pass: nothing in it depends on the correlation, which changes
+// from round to round.
+void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) const {
   for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
+    PairSums& of_layer = (*sums)[p.layer];
+    double errors[kLags + 1] = {}, weights[kLags + 1] = {};
+    Eigen::Vector3d designs[kLags + 1], weighted[kLags + 1];
+    for (int lag = 1; lag <= kLags; ++lag) designs[lag] = weighted[lag] = Eigen::Vector3d::Zero();
     for (const Neighbour& o : neighbours) {
-      products[p.layer][o.lag] += p.error * o.mean->error + taken_by_fit(p, *o.mean);
-      pairs[p.layer][o.lag] += 1.0;
+      const Mean& m = *o.mean;
+      of_layer.lag[o.lag].pairs += 1.0;
+      errors[o.lag] += m.error;
+      designs[o.lag] += m.a;
+      weighted[o.lag] += m.information * m.a;
+      weights[o.lag] += m.information * std::sqrt(m.information);
+    }
+    const double own = p.information * std::sqrt(p.information);
+    for (int lag = 1; lag <= kLags; ++lag) {
+      PairSums::Lag& sum = of_layer.lag[lag];
+      sum.errors += p.error * errors[lag];
+      sum.designs += p.a * designs[lag].transpose();
+      sum.weighted += p.information * p.a * weighted[lag].transpose();
+      sum.weights += own * weights[lag];
     }
   });
-  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-    Roughness& rough = (*roughness)[layer];
-    double upper = kCorrelationMax;
-    for (int lag = 1; lag <= kLags; ++lag) {
-      const double measured =
-          pairs[layer][lag] > 0.0 && rough.tau2 > 0.0 ? products[layer][lag] / (pairs[layer][lag] * rough.tau2) : 0.0;
-      rough.at_lag[lag] = measured < 0.0 ? 0.0 : (measured > upper ? upper : measured);
-      upper = rough.at_lag[lag];
-    }
+}
+
+// Correlation of the rock by distance between patches, from products of errors. Errors about a fitted surface are
+// smaller than the rock is, and more so the fewer independent patches there are: the fit's own variance is given back
+// to them. taken_by_fit: by lag, over all pairs.
+void PatchGrid::correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough) {
+  double upper = kCorrelationMax;
+  for (int lag = 1; lag <= kLags; ++lag) {
+    const double pairs = sums.lag[lag].pairs, products = sums.lag[lag].errors + taken_by_fit[lag];
+    const double measured = pairs > 0.0 && rough->tau2 > 0.0 ? products / (pairs * rough->tau2) : 0.0;
+    rough->at_lag[lag] = measured < 0.0 ? 0.0 : (measured > upper ? upper : measured);
+    upper = rough->at_lag[lag];
   }
 }
 
-void PatchGrid::measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitted,
+void PatchGrid::measure_correlation(const PairSums (&sums)[kLayersMax], const Eigen::Matrix3d& fitted,
                                     Roughness (*roughness)[kLayersMax]) const {
-  correlate_errors(
-      n, [&fitted](const Mean& p, const Mean& o) { return p.a.dot(fitted * o.a); }, roughness);
+  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
+    double taken[kLags + 1] = {};
+    for (int lag = 1; lag <= kLags; ++lag) taken[lag] = sums[layer].lag[lag].designs.cwiseProduct(fitted).sum();
+    correlate_errors(sums[layer], taken, &(*roughness)[layer]);
+  }
 }
 
 // Variance of the rock between patches, with what the fit took from it beyond the leverage of independent patches.
@@ -127,8 +145,8 @@ void PatchGrid::give_back(std::uint32_t n, const Eigen::Matrix3d& beyond, Roughn
   }
 }
 
-void PatchGrid::sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMax], const Eigen::Matrix3d& inverse,
-                         PatchFit* out) const {
+void PatchGrid::sandwich(std::uint32_t n, const PairSums (&sums)[kLayersMax], const Roughness (&roughness)[kLayersMax],
+                         const Eigen::Matrix3d& inverse, PatchFit* out) const {
   Eigen::Matrix3d middle = Eigen::Matrix3d::Zero();
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   double sum[kLayersMax] = {}, squares[kLayersMax] = {};
@@ -138,18 +156,15 @@ void PatchGrid::sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMa
     sum[p.layer] += p.information;
     squares[p.layer] += p.information * p.information;
   }
-  for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
-    const Roughness& rough = roughness[p.layer];
-    Eigen::Vector3d shared = Eigen::Vector3d::Zero();
-    for (const Neighbour& o : neighbours) {
-      if (rough.at_lag[o.lag] <= 0.0) continue;
-      const double covariance = rough.at_lag[o.lag] * rough.tau2, ww = p.information * o.mean->information;
-      shared += ww * covariance * o.mean->a;
-      // Only the rock's part is shared between patches; the noise of their points is their own.
-      squares[p.layer] += 2.0 * ww * covariance * std::sqrt(ww);
+  // Only the rock's part is shared between patches; the noise of their points is their own.
+  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
+    for (int lag = 1; lag <= kLags; ++lag) {
+      const double covariance = roughness[layer].at_lag[lag] * roughness[layer].tau2;
+      const PairSums::Lag& pairs = sums[layer].lag[lag];
+      middle += covariance * (pairs.weighted + pairs.weighted.transpose());
+      squares[layer] += 2.0 * covariance * pairs.weights;
     }
-    middle += p.a * shared.transpose() + shared * p.a.transpose();
-  });
+  }
   out->covariance = inverse * middle * inverse;
   // Correlation can only cost; where the estimated one would promise more than independence, independence stands.
   for (int k = 0; k < 3; ++k) {
@@ -198,24 +213,57 @@ double PatchGrid::rock_about_quadratic(std::uint32_t n) const {
   return rock2 > 0.0 ? rock2 : 0.0;
 }
 
-// Covariance of the coefficients of uu, uv and vv where the rock is correlated like this.
-Eigen::Matrix3d PatchGrid::bend_sandwich(std::uint32_t n, const Roughness& rough) const {
-  Eigen::Matrix3d alone = Eigen::Matrix3d::Zero(), shared = Eigen::Matrix3d::Zero();
+// The same pass as sum_pairs for the quadratic through the surface: errors about it and answers of its coefficients.
+PatchGrid::BendSums PatchGrid::sum_bend_pairs(std::uint32_t n) const {
+  BendSums sums;
   for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     if (p.layer != 0) return;
-    const Eigen::Vector3d a = p.information * p.answer.tail<3>();
-    alone += (rough.tau2 + p.noise_variance) * a * a.transpose();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    for (const Neighbour& o : neighbours) b += rough.at_lag[o.lag] * o.mean->information * o.mean->answer.tail<3>();
-    shared += rough.tau2 * (a * b.transpose() + b * a.transpose());
+    double errors[kLags + 1] = {};
+    Quadratic answers[kLags + 1];
+    Eigen::Vector3d weighted[kLags + 1];
+    for (int lag = 1; lag <= kLags; ++lag) {
+      answers[lag] = Quadratic::Zero();
+      weighted[lag] = Eigen::Vector3d::Zero();
+    }
+    for (const Neighbour& o : neighbours) {
+      sums.pairs.lag[o.lag].pairs += 1.0;
+      errors[o.lag] += o.mean->error;
+      answers[o.lag] += o.mean->answer;
+      weighted[o.lag] += o.mean->information * o.mean->answer.tail<3>();
+    }
+    const Quadratic terms = quadratic_terms(p);
+    const Eigen::Vector3d own = p.information * p.answer.tail<3>();
+    for (int lag = 1; lag <= kLags; ++lag) {
+      sums.pairs.lag[lag].errors += p.error * errors[lag];
+      sums.pairs.lag[lag].weighted += own * weighted[lag].transpose();
+      sums.taken_by_fit[lag] += terms.dot(answers[lag]);
+    }
   });
+  for (const Mean& p : means_.first(n)) {
+    if (p.layer != 0) continue;
+    const Eigen::Vector3d own = p.information * p.answer.tail<3>();
+    sums.leverage += quadratic_terms(p).dot(p.answer);
+    sums.patches += 1.0;
+    sums.rock += own * own.transpose();
+    sums.noise += p.noise_variance * own * own.transpose();
+  }
+  return sums;
+}
+
+// Covariance of the coefficients of uu, uv and vv where the rock is correlated like this.
+Eigen::Matrix3d PatchGrid::bend_sandwich(const BendSums& sums, const Roughness& rough) {
+  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();
+  for (int lag = 1; lag <= kLags; ++lag) {
+    const Eigen::Matrix3d& weighted = sums.pairs.lag[lag].weighted;
+    shared += rough.tau2 * rough.at_lag[lag] * (weighted + weighted.transpose());
+  }
   // Correlation can only cost.
   for (int k = 0; k < 3; ++k) {
     if (shared(k, k) >= 0.0) continue;
     shared.row(k).setZero();
     shared.col(k).setZero();
   }
-  return alone + shared;
+  return rough.tau2 * sums.rock + sums.noise + shared;
 }
 
 // Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic: about
@@ -223,28 +271,22 @@ Eigen::Matrix3d PatchGrid::bend_sandwich(std::uint32_t n, const Roughness& rough
 // would hide the bend. Needs Mean::error about the quadratic and Mean::answer.
 Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const {
   const double own_tau2 = rock_about_quadratic(n);
-  double patches = 0.0, leverage = 0.0;
-  for (const Mean& p : means_.first(n)) {
-    if (p.layer != 0) continue;
-    patches += 1.0;
-    leverage += quadratic_terms(p).dot(p.answer);
-  }
+  const BendSums sums = sum_bend_pairs(n);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double inflation = 1.0;  // of the fit's variance, over that of independent patches
   for (int round = 0; round <= kGiveBackRounds; ++round) {
-    Roughness roughness[kLayersMax];
-    roughness[0].tau2 = own_tau2 + (inflation - 1.0) * leverage / patches;
-    const auto taken_by_fit = [inflation](const Mean& p, const Mean& o) {
-      return p.layer == 0 ? inflation * quadratic_terms(p).dot(o.answer) : 0.0;
-    };
-    correlate_errors(n, taken_by_fit, &roughness);
-    covariance = bend_sandwich(n, roughness[0]);
+    Roughness rough;
+    rough.tau2 = own_tau2 + (inflation - 1.0) * sums.leverage / sums.patches;
+    double taken[kLags + 1] = {};
+    for (int lag = 1; lag <= kLags; ++lag) taken[lag] = inflation * sums.taken_by_fit[lag];
+    correlate_errors(sums.pairs, taken, &rough);
+    covariance = bend_sandwich(sums, rough);
     const double ratio = covariance.trace() / inverse.bottomRightCorner<3, 3>().trace();
     inflation = ratio > 1.0 ? ratio : 1.0;
   }
   // A variance out of few independent patches is itself uncertain: what chi-square and normal quantiles need to be
   // those of F and t.
-  const double freedom = patches / inflation - kQuadraticTerms;
+  const double freedom = sums.patches / inflation - kQuadraticTerms;
   return covariance * (1.0 + kFewPatches / (freedom > 2.0 ? freedom : 2.0));
 }
 

@@ -199,15 +199,17 @@ PatchFit PatchGrid::fit(Errors errors) {
   out.tau_m = std::sqrt(roughness[0].tau2);
   out.solved = true;
   if (errors == Errors::kPlaneOnly) return out;
-  measure_correlation(n, inverse, &roughness);
-  sandwich(n, roughness, inverse, &out);
+  PairSums pairs[kLayersMax];
+  sum_pairs(n, &pairs);
+  measure_correlation(pairs, inverse, &roughness);
+  sandwich(n, pairs, roughness, inverse, &out);
   for (int round = 0; round < kGiveBackRounds; ++round) {
     const Eigen::Matrix3d fitted = out.covariance;
     Roughness whole[kLayersMax];
     for (std::uint32_t layer = 0; layer < layers_; ++layer) whole[layer].tau2 = roughness[layer].tau2;
     give_back(n, fitted - inverse, &whole);
-    measure_correlation(n, fitted, &whole);
-    sandwich(n, whole, inverse, &out);
+    measure_correlation(pairs, fitted, &whole);
+    sandwich(n, pairs, whole, inverse, &out);
   }
   test_bend(n, &out);
   out.visibility_m = visibility(roughness[0].tau2);

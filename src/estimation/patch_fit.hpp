@@ -114,18 +114,38 @@ class PatchGrid {
     const Mean* mean;
     int lag;
   };
+  // Over the pairs of patches of one layer, by how far apart they are.
+  struct PairSums {
+    struct Lag {
+      double pairs = 0.0;
+      double errors = 0.0;                                 // products of errors
+      double weights = 0.0;                                // products of informations, each to the power of 3/2
+      Eigen::Matrix3d designs = Eigen::Matrix3d::Zero();   // products of rows of the design
+      Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();  // the same, each times its information
+    };
+    Lag lag[kLags + 1];
+  };
+  struct BendSums {
+    PairSums pairs;  // weighted: of the answers of uu, uv and vv
+    double taken_by_fit[kLags + 1] = {};
+    double leverage = 0.0, patches = 0.0;
+    Eigen::Matrix3d rock = Eigen::Matrix3d::Zero();   // times the rock's variance
+    Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();  // of the points: together, the variance were no rock shared
+  };
   template <typename Visit>
   void for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
-  template <typename Taken>
-  void correlate_errors(std::uint32_t n, const Taken& taken_by_fit, Roughness (*roughness)[kLayersMax]) const;
-  void measure_correlation(std::uint32_t n, const Eigen::Matrix3d& fitted, Roughness (*roughness)[kLayersMax]) const;
+  void sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) const;
+  static void correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough);
+  void measure_correlation(const PairSums (&sums)[kLayersMax], const Eigen::Matrix3d& fitted,
+                           Roughness (*roughness)[kLayersMax]) const;
   double visibility(double tau2_surface) const;
   void give_back(std::uint32_t n, const Eigen::Matrix3d& beyond, Roughness (*roughness)[kLayersMax]) const;
-  void sandwich(std::uint32_t n, const Roughness (&roughness)[kLayersMax], const Eigen::Matrix3d& inverse,
-                PatchFit* out) const;
+  void sandwich(std::uint32_t n, const PairSums (&sums)[kLayersMax], const Roughness (&roughness)[kLayersMax],
+                const Eigen::Matrix3d& inverse, PatchFit* out) const;
   static Quadratic quadratic_terms(const Mean& p);
   double rock_about_quadratic(std::uint32_t n) const;
-  Eigen::Matrix3d bend_sandwich(std::uint32_t n, const Roughness& rough) const;
+  BendSums sum_bend_pairs(std::uint32_t n) const;
+  static Eigen::Matrix3d bend_sandwich(const BendSums& sums, const Roughness& rough);
   Eigen::Matrix3d covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const;
   void test_bend(std::uint32_t n, PatchFit* out);
 
