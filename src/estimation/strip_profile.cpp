@@ -87,14 +87,22 @@ bool StripProfile::level_around(std::int32_t column, double* level_m) const {
   return true;
 }
 
+void StripProfile::find_levels(std::int32_t first, std::int32_t last) {
+  for (std::int32_t k = first; k <= last; ++k) {
+    Column& c = columns_[static_cast<std::uint32_t>(k)];
+    c.has_level = seen(c) && level_around(k, &c.level_m);
+  }
+}
+
 // Strips are narrow and there are several; bulges of the rock are wide.
 bool StripProfile::narrow(std::int32_t first, std::int32_t last, double gate_m) const {
   std::int32_t strips = 0, wide = 0, width = 0;
   for (std::int32_t k = first; k <= last + 1; ++k) {
-    double level = 0.0;
-    const bool inside = k <= last && seen(columns_[static_cast<std::uint32_t>(k)]) && level_around(k, &level);
-    const bool near = inside && mean(columns_[static_cast<std::uint32_t>(k)]) - level <= gate_m &&
-                      layers_.surface_probability(mean(columns_[static_cast<std::uint32_t>(k)]) - level) < 0.5;
+    bool near = false;
+    if (k <= last && columns_[static_cast<std::uint32_t>(k)].has_level) {
+      const double contrast = contrast_of(columns_[static_cast<std::uint32_t>(k)]);
+      near = contrast <= gate_m && layers_.surface_probability(contrast) < 0.5;
+    }
     if (near) {
       ++width;
       continue;
@@ -110,11 +118,11 @@ bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
   std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
   if (first < 0) first = 0;
   if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
+  find_levels(first, last);
   LayerHistogram contrast(gate_m);
   for (std::int32_t k = first; k <= last; ++k) {
-    double level = 0.0;
     const Column& c = columns_[static_cast<std::uint32_t>(k)];
-    if (seen(c) && level_around(k, &level)) contrast.add(mean(c) - level);
+    if (c.has_level) contrast.add(contrast_of(c));
   }
   if (contrast.total() < kColumnsMin) return false;
   const double gain = kGainPerColumn * contrast.total();
@@ -122,10 +130,9 @@ bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
   layers_.found = layers_.found && narrow(first, last, gate_m);
   if (!layers_.found) return false;
   for (std::int32_t k = first; k <= last; ++k) {
-    double level = 0.0;
     Column& c = columns_[static_cast<std::uint32_t>(k)];
-    if (!seen(c) || !level_around(k, &level)) continue;
-    c.probability = static_cast<float>(layers_.surface_probability(mean(c) - level));
+    if (!c.has_level) continue;
+    c.probability = static_cast<float>(layers_.surface_probability(contrast_of(c)));
     c.judged = true;
   }
   look_at_flanks();

@@ -62,6 +62,8 @@ class StripProfile {
     float probability;
     float shown;  // smallest probability of it and its flanks
     bool judged;
+    bool has_level;
+    double level_m;  // of the columns around
   };
 
   std::int32_t column_of(double u_m) const {
@@ -69,8 +71,10 @@ class StripProfile {
     return place >= 0.0 && place < kColumns ? static_cast<std::int32_t>(place) : -1;
   }
   bool seen(const Column& c) const;
-  double mean(const Column& c) const { return static_cast<double>(c.sum) / static_cast<double>(c.count); }
+  static double mean(const Column& c) { return static_cast<double>(c.sum) / static_cast<double>(c.count); }
+  void find_levels(std::int32_t first, std::int32_t last);
   bool level_around(std::int32_t column, double* level_m) const;
+  static double contrast_of(const Column& c) { return mean(c) - c.level_m; }
   void look_at_flanks();
   bool narrow(std::int32_t first, std::int32_t last, double gate_m) const;
 

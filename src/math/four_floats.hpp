@@ -35,6 +35,15 @@ inline FourFloats smaller_of(FourFloats a, FourFloats b) {
   return a < b ? a : b;
 }
 
+// Lanes of a comparison are all ones or zero.
+using FourTruths = decltype(FourFloats{} < FourFloats{});
+
+inline bool any_of(FourTruths truths) {
+  std::uint64_t halves[2];
+  std::memcpy(halves, &truths, sizeof(halves));
+  return (halves[0] | halves[1]) != 0;
+}
+
 // In a fixed order.
 inline double sum_of_lanes(FourFloats four) {
   return (static_cast<double>(four[0]) + static_cast<double>(four[1])) +

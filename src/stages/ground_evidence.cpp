@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "estimation/near_plane.hpp"
 #include "estimation/normal_equations.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 namespace {
@@ -14,15 +16,27 @@ constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide
 constexpr double kHeightBin_m = 0.125;
 constexpr double kHeightBins = 64.0;
 constexpr double kBelowSensor_m = 5.5;  // the lowest bin; the highest ends 2.5 m above the sensor
-// What stands on a point or hangs under it: in six bins, from the second on. One bin alone may be dust.
+// What stands on a point or hangs under it: in two of six bins, from the second on. One bin alone may be dust.
 constexpr std::uint64_t kSixBins = 0x3F;
 constexpr int kFirstBin = 2;
 constexpr int kSixthBin = 7;
-constexpr int kBinsNeeded = 2;
 
-int bits_set(std::uint64_t bits) {
-  int count = 0;
-  for (; bits != 0; bits &= bits - 1) ++count;
+bool two_or_more(std::uint64_t bits) {
+  return (bits & (bits - 1)) != 0;
+}
+
+std::uint32_t count_within(const PointSet& points, double radius_m) {
+  const float limit = static_cast<float>(radius_m * radius_m);
+  FourTruths counts{};  // true is -1
+  const std::uint32_t whole = points.count - points.count % kFour;
+  for (std::uint32_t i = 0; i < whole; i += kFour) {
+    const FourFloats x = load_four(&points.x[i]), y = load_four(&points.y[i]);
+    counts -= x * x + y * y <= limit;
+  }
+  auto count = static_cast<std::uint32_t>(counts[0] + counts[1] + counts[2] + counts[3]);
+  for (std::uint32_t i = whole; i < points.count; ++i) {
+    count += points.x[i] * points.x[i] + points.y[i] * points.y[i] <= limit ? 1U : 0U;
+  }
   return count;
 }
 
@@ -46,7 +60,9 @@ void FloorGrid::lay_out(Arena& arena) {
 }
 
 std::int32_t FloorGrid::cell_of(double coordinate_m) {
-  return static_cast<std::int32_t>(std::floor(coordinate_m / kCell_m)) + kSide / 2;
+  // Counted from far below every coordinate, so that cutting off the fraction rounds down: no call to floor().
+  constexpr std::int32_t kFar = 1 << 20;
+  return static_cast<std::int32_t>(coordinate_m * (1.0 / kCell_m) + (kFar + kSide / 2)) - kFar;
 }
 
 std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
@@ -75,8 +91,8 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     if (!locate(i, &place)) continue;
     const std::uint64_t heights = heights_[place.cell];
-    const bool stood_on = bits_set(bins_above(heights, place.bin)) >= kBinsNeeded;
-    if (!stood_on && bits_set(bins_below(heights, place.bin)) < kBinsNeeded) out[count++] = i;
+    const bool stood_on = two_or_more(bins_above(heights, place.bin));
+    if (!stood_on && !two_or_more(bins_below(heights, place.bin))) out[count++] = i;
   }
   return count;
 }
@@ -89,7 +105,7 @@ bool FloorGrid::clear_around(const Eigen::Vector3d& p_base) const {
   const std::int32_t x_end = cell_of(p_base.x() + kAround_m), y_end = cell_of(p_base.y() + kAround_m);
   for (std::int32_t iy = cell_of(p_base.y() - kAround_m); iy <= y_end; ++iy) {
     for (std::int32_t ix = cell_of(p_base.x() - kAround_m); ix <= x_end; ++ix) {
-      if (inside(ix, iy) && bits_set(bins_above(heights_[index(ix, iy)], bin)) >= kBinsNeeded) return false;
+      if (inside(ix, iy) && two_or_more(bins_above(heights_[index(ix, iy)], bin))) return false;
     }
   }
   return true;
@@ -158,20 +174,17 @@ double share_below(const FloorGrid& marked, const Plane& marked_plane, const Poi
   // The floor may fall away from its local plane by this much, and more the farther away.
   constexpr double kBelow_m = 0.2;
   constexpr double kFall = 0.03;
-  const float limit = static_cast<float>(radius_m * radius_m);
-  const double sensor_height_m = marked_plane.signed_distance(sensor_base_m);
-  std::uint32_t within = 0, below = 0;
-  for (std::uint32_t i = 0; i < points_base.count; ++i) {
-    const float x = points_base.x[i], y = points_base.y[i];
-    if (!(x * x + y * y <= limit)) continue;
-    ++within;
+  const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
+  std::uint32_t below = 0;
+  for_each_up_to(points_base, marked_plane, -kBelow_m, [&](std::uint32_t i, float height_m) {
     const Eigen::Vector3d p = points_base.at(i);
-    const double height = marked_plane.signed_distance(p);
-    if (!(height < -(kBelow_m + kFall * std::sqrt(static_cast<double>(x * x + y * y))))) continue;
+    const double away2 = p.head<2>().squaredNorm(), height = static_cast<double>(height_m);
+    if (!(away2 <= limit2) || !(height < -(kBelow_m + kFall * std::sqrt(away2)))) return;
     const Eigen::Vector3d crossing =
         sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
     if (!marked.marked_behind(sensor_base_m, crossing)) ++below;
-  }
+  });
+  const std::uint32_t within = count_within(points_base, radius_m);
   return within > 0 ? static_cast<double>(below) / static_cast<double>(within) : 0.0;
 }
 

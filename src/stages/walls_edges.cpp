@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "estimation/near_plane.hpp"
+
 #include "stages/walls_sight_lines.hpp"
 
 namespace pose_wall {
@@ -122,27 +124,29 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
   double seen_high = 0.0;
   scratch->ends.clear();
   scratch->tops.clear();
-  for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
+  const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
+  for_each_up_to(scene.cloud_base, wall_base, inside_m, [&](std::uint32_t i, float distance_m) {
+    const double r = static_cast<double>(distance_m), weight = static_cast<double>(scene.cloud_base.weight[i]);
+    if (!(r < inside_m)) return;                          // looks away from the plane
+    if (r > margin_m && !(seen_high < kHighMin)) return;  // what ends before the plane has told all that it can
     const Eigen::Vector3d ray = scene.R_level_base * scene.cloud_base.at(i) - sensor;
-    const double r = inside_m + wall.n.dot(ray), weight = static_cast<double>(scene.cloud_base.weight[i]);
-    if (!(r < inside_m)) continue;  // looks away from the plane
     // Where the ray meets the plane, or would. Rays to the floor right behind the plane pass it too.
     const double to_plane = way_to_plane(inside_m, r), point_along_m = along_level.dot(ray);
     const double along_m = to_plane * point_along_m, z_level_m = sensor.z() + to_plane * ray.z();
     const bool is_past = r < -margin_m;
     if (!is_past && z_level_m >= high_level_m && std::fabs(along_m) <= kHighReach_m) seen_high += weight;
-    if (r > margin_m) continue;
+    if (r > margin_m) return;
     if (!is_past || r < -kWellBehind_m) {
       scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, is_past, weight);
     }
     const bool point_in_band = scene.in_band(sensor.z() + ray.z());
     if (!is_past && point_in_band) {
       *scratch->ends.on(point_along_m) += weight;
-      continue;
+      return;
     }
     if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;
     if (r < 0.0 && scene.in_band(z_level_m)) *scratch->ends.past(along_m) += weight;
-  }
+  });
   add_what_is_too_far(scene, SightLines(scene, wall, along_level), height_m, &scratch->tops);
   return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), seen_high < kHighMin};
 }

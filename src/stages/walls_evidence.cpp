@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "estimation/near_plane.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -46,21 +48,21 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
     std::uint32_t cell = 0;
     if (cell_of(along_level.dot(crossing), crossing.z(), &cell)) count_up(&through_[cell], rays);
   };
-  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+  for_each_up_to(scene.band_level, wall, reach.hit_m, [&](std::uint32_t i, float distance_m) {
     const Eigen::Vector3d p = scene.band_level.at(i);
-    const double r = wall.signed_distance(p);
+    const double r = static_cast<double>(distance_m);
     std::uint32_t cell = 0;
-    if (r >= -reach.hit_m && r <= reach.hit_m) {
+    if (r >= -reach.hit_m) {
       inliers_ += static_cast<double>(scene.band_level.weight[i]);
       if (cell_of(along_level.dot(p), p.z(), &cell)) count_up(&hits_[cell], 1);
     } else {
       pass_through(p, r, 1);
     }
-  }
-  for (std::uint32_t i = 0; i < scene.beyond_level.count; ++i) {
-    const Eigen::Vector3d p = scene.beyond_level.at(i);
-    pass_through(p, wall.signed_distance(p), static_cast<std::uint32_t>(scene.beyond_level.weight[i]));
-  }
+  });
+  for_each_up_to(scene.beyond_level, wall, -reach.behind_m, [&](std::uint32_t i, float distance_m) {
+    pass_through(scene.beyond_level.at(i), static_cast<double>(distance_m),
+                 static_cast<std::uint32_t>(scene.beyond_level.weight[i]));
+  });
   for (std::uint32_t column = 0; column < kColumns; ++column) count_rows(column);
 }
 

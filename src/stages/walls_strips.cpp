@@ -21,6 +21,7 @@ constexpr double kLayersApartInSigmas = 2.5;
 constexpr double kPatch_m = 0.5;
 constexpr double kWeightMin = 1e-6;
 constexpr int kJointRounds = 3;
+constexpr int kJointRoundsOfAStep = 1;  // the next ring asks where the plane goes, not how exactly
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
 constexpr double kFrontStepMin_m = 0.06;
@@ -185,12 +186,13 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
 
 void join_fronts(Fronts use, WallFitScratch* scratch, WallSurface* fit) {
   WallSurface joint = *fit;
-  for (int round = 0; round < kJointRounds; ++round) {
+  const int rounds = use == Fronts::kAlways ? kJointRoundsOfAStep : kJointRounds;
+  for (int round = 0; round < rounds; ++round) {
     joint.irls.over = joint.over();
     joint.fronts = measure_fronts(joint, scratch->residuals);
     if (!joint.fronts.found) return;
     // Errors are asked for by who compares, after the last round.
-    const bool is_step = use == Fronts::kAlways || round + 1 < kJointRounds;
+    const bool is_step = use == Fronts::kAlways || round + 1 < rounds;
     const PatchGrid::Errors errors = is_step ? PatchGrid::Errors::kPlaneOnly : PatchGrid::Errors::kMeasured;
     fit_patches(errors, &scratch->patches, &joint);
     if (!joint.patch.solved) return;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "estimation/near_plane.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -112,14 +114,11 @@ bool cut_bent_rows(const WallSurface& fit, Heights* heights) {
 }  // namespace
 
 Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m, Span<std::uint32_t> out) {
-  const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());
-  const float nz = static_cast<float>(plane.n.z()), d = static_cast<float>(plane.d);
-  const float gate = static_cast<float>(gate_m);
+  const float behind = static_cast<float>(-gate_m);
   std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < points.count; ++i) {
-    const float r = nx * points.x[i] + ny * points.y[i] + nz * points.z[i] + d;
-    if (r >= -gate && r <= gate) out[count++] = i;
-  }
+  for_each_up_to(points, plane, gate_m, [&](std::uint32_t i, float distance_m) {
+    if (distance_m >= behind) out[count++] = i;
+  });
   return out.first(count);
 }
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Which points lie on a plane or behind it: most lie well before it, and are passed over four at a time.
+
+#pragma once
+
+#include <cstdint>
+
+#include "containers/point_set.hpp"
+#include "estimation/plane.hpp"
+#include "math/four_floats.hpp"
+
+namespace pose_wall {
+
+// Distances in floats: to some micrometres. Who needs them exactly asks the plane again.
+class FourDistances {
+ public:
+  explicit FourDistances(const Plane& plane)
+      : nx_(all_four(static_cast<float>(plane.n.x()))),
+        ny_(all_four(static_cast<float>(plane.n.y()))),
+        nz_(all_four(static_cast<float>(plane.n.z()))),
+        d_(all_four(static_cast<float>(plane.d))) {}
+
+  FourFloats of(const PointSet& points, std::uint32_t from) const {
+    return nx_ * load_four(&points.x[from]) + ny_ * load_four(&points.y[from]) + nz_ * load_four(&points.z[from]) + d_;
+  }
+  FourFloats of_some(const PointSet& points, std::uint32_t from, std::uint32_t count) const {
+    return nx_ * load_some(&points.x[from], count) + ny_ * load_some(&points.y[from], count) +
+           nz_ * load_some(&points.z[from], count) + d_;
+  }
+
+ private:
+  FourFloats nx_, ny_, nz_, d_;
+};
+
+// Calls visit(i, distance) for the points whose signed distance from the plane is at most limit_m, in their order.
+template <typename Visit>
+void for_each_up_to(const PointSet& points, const Plane& plane, double limit_m, const Visit& visit) {
+  const FourDistances distances(plane);
+  const FourFloats limit = all_four(static_cast<float>(limit_m));
+  for (std::uint32_t i = 0; i < points.count; i += kFour) {
+    const std::uint32_t left = points.count - i, lanes = left < kFour ? left : kFour;
+    const FourFloats r = lanes == kFour ? distances.of(points, i) : distances.of_some(points, i, lanes);
+    if (!any_of(r <= limit)) continue;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      if (r[lane] <= limit[lane]) visit(i + lane, r[lane]);
+    }
+  }
+}
+
+}  // namespace pose_wall
