@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "estimation/near_plane.hpp"
 #include "math/elementary.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 namespace {
@@ -40,30 +42,19 @@ Histogram histogram_of_residuals(const PointSet& points, Span<const std::uint32_
 }  // namespace
 
 double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m) {
-  const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());
-  const float nz = static_cast<float>(plane.n.z()), d = static_cast<float>(plane.d);
+  const FourDistances distances(plane);
   const float limit = static_cast<float>(threshold_m * threshold_m);
-  // Eight sums in a fixed order: compilers can vectorise them, and the result does not depend on whether they do.
-  constexpr std::uint32_t kLanes = 8;
-  float sums[kLanes] = {};
-  const std::uint32_t n = points.count;
-  const std::uint32_t whole = n - n % kLanes;
-  for (std::uint32_t i = 0; i < whole; i += kLanes) {
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t k = i + lane;
-      const float r = nx * points.x[k] + ny * points.y[k] + nz * points.z[k] + d;
-      const float r2 = r * r;
-      sums[lane] += r2 < limit ? r2 : limit;
-    }
+  FourFloats sums{};
+  const std::uint32_t n = points.count, whole = n - n % kFour;
+  for (std::uint32_t i = 0; i < whole; i += kFour) {
+    const FourFloats r = distances.of(points, i);
+    sums += smaller_of(r * r, all_four(limit));
   }
-  for (std::uint32_t k = whole; k < n; ++k) {
-    const float r = nx * points.x[k] + ny * points.y[k] + nz * points.z[k] + d;
-    const float r2 = r * r;
-    sums[k - whole] += r2 < limit ? r2 : limit;
+  for (std::uint32_t i = whole; i < n; ++i) {
+    const FourFloats r = distances.of_some(points, i, 1);
+    sums[0] += r[0] * r[0] < limit ? r[0] * r[0] : limit;
   }
-  double sum = 0.0;
-  for (const float lane_sum : sums) sum += static_cast<double>(lane_sum);
-  return n > 0 ? sum / (static_cast<double>(limit) * static_cast<double>(n)) : 1.0;
+  return n > 0 ? sum_of_lanes(sums) / (static_cast<double>(limit) * static_cast<double>(n)) : 1.0;
 }
 
 MlesacScore mlesac_score(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane, double sigma_m,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
+#include "math/two_doubles.hpp"
 
 namespace pose_wall {
 namespace {
@@ -31,6 +32,15 @@ double unevenness(Span<const SurfacePatch> patches) {
   }
   const double excess = squares - static_cast<double>(patches.size());
   return excess > 0.0 ? excess / information : 0.0;
+}
+
+// Sum of products, in two lanes of a fixed order.
+double dot(const double* a, const double* b, std::uint32_t count) {
+  TwoDoubles sums{};
+  std::uint32_t k = 0;
+  for (; k + kTwo <= count; k += kTwo) sums += load_two(a + k) * load_two(b + k);
+  const double sum = sums[0] + sums[1];
+  return k < count ? sum + a[k] * b[k] : sum;
 }
 
 double slopes_variance(const Eigen::Matrix3d& covariance) {
@@ -91,6 +101,22 @@ void UnevenPlane::lay_out(Arena& arena) {
   correlation_ = arena.take<double>(kRow * kRow);
   factor_ = arena.take<double>(kRow * kRow);
   whitened_ = arena.take<double>(kRow * kColumns);
+  matern_ = arena.take<double>(kMaternSteps + 1);
+}
+
+void UnevenPlane::fill_matern() {
+  for (std::uint32_t k = 0; k <= kMaternSteps; ++k) {
+    const double r = k * (1.0 / kMaternPerUnit);
+    matern_[k] = (1.0 + r) * exponential(-r);
+  }
+}
+
+// (1 + r) exp(-r), to 3e-5.
+double UnevenPlane::matern(double r) const {
+  const double place = r * kMaternPerUnit;
+  if (!(place < kMaternSteps)) return 0.0;
+  const auto step = static_cast<std::uint32_t>(place);
+  return matern_[step] + (place - step) * (matern_[step + 1] - matern_[step]);
 }
 
 void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double length_m) {
@@ -98,8 +124,7 @@ void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double leng
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     for (std::uint32_t j = 0; j < i; ++j) {
       const double du = patches[i].u - patches[j].u, dv = patches[i].v - patches[j].v;
-      const double r = std::sqrt(du * du + dv * dv) * per_length;
-      correlation_[i * kRow + j] = r < 30.0 ? (1.0 + r) * exponential(-r) : 0.0;
+      correlation_[i * kRow + j] = matern(std::sqrt(du * du + dv * dv) * per_length);
     }
   }
 }
@@ -112,12 +137,10 @@ bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, dou
     double* const row = &factor_[i * kRow];
     for (std::uint32_t j = 0; j < i; ++j) {
       const double* const above = &factor_[j * kRow];
-      double sum = shared > 0.0 ? shared * correlation_[i * kRow + j] : 0.0;
-      for (std::uint32_t k = 0; k < j; ++k) sum -= row[k] * above[k];
-      row[j] = sum * above[j];
+      const double covariance = shared > 0.0 ? shared * correlation_[i * kRow + j] : 0.0;
+      row[j] = (covariance - dot(row, above, j)) * above[j];
     }
-    double sum = tau2 + patches[i].noise_variance;
-    for (std::uint32_t k = 0; k < i; ++k) sum -= row[k] * row[k];
+    const double sum = tau2 + patches[i].noise_variance - dot(row, row, i);
     if (!(sum > 0.0)) return false;
     row[i] = 1.0 / std::sqrt(sum);
   }
@@ -169,6 +192,7 @@ UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
   Models models;
   consider(patches, 1.0, tau2, &models);
   if (tau2 > 0.0) {
+    fill_matern();
     for (const double length_m : kLengths_m) {
       fill_correlation(patches, length_m);
       for (const double share : kOwnShares) consider(patches, share, tau2, &models);

@@ -37,6 +37,11 @@ class UnevenPlane {
   struct Model;
   struct Models;
 
+  // Matern's correlation by distance, off a table: it is asked for every two patches and length.
+  static constexpr std::uint32_t kMaternSteps = 1024;
+  static constexpr double kMaternPerUnit = 64.0;
+  void fill_matern();
+  double matern(double r) const;
   void fill_correlation(Span<const SurfacePatch> patches, double length_m);
   void consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models);
   bool factor(Span<const SurfacePatch> patches, double own_share, double tau2);
@@ -44,6 +49,7 @@ class UnevenPlane {
 
   Span<double> correlation_;  // rows of the lower triangle
   Span<double> factor_;       // Cholesky's, its diagonal inverted
+  Span<double> matern_;
   Span<double> whitened_;     // rows of: 1, u, v, residual, bias
 };
 

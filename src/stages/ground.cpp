@@ -93,8 +93,7 @@ std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const 
     if (repeats) continue;
     if (mlesac_score(cloud, all, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
     scratch->grid.mark(cloud, all, refined.plane, s.ground_ransac_thresh);
-    const double below = share_below(scratch->grid, refined.plane, cloud, s.ground_roi_radius_max, sensor);
-    if (!(below <= kBelowShareMax)) continue;
+    if (has_much_below(scratch->grid, refined.plane, cloud, s.ground_roi_radius_max, sensor, kBelowShareMax)) continue;
     out[count++] = {refined.plane, scratch->grid.evidence(axes), false};
   }
   return count;

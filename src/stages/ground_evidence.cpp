@@ -111,8 +111,18 @@ bool FloorGrid::clear_around(const Eigen::Vector3d& p_base) const {
   return true;
 }
 
+void FloorGrid::clear_marks() {
+  marked_.fill(0);
+  near_marked_.fill(0);
+  bounds_ = Bounds{};
+}
+
 void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
   marked_[index(ix, iy)] = 1;
+  bounds_.x_min = ix < bounds_.x_min ? ix : bounds_.x_min;
+  bounds_.x_max = ix > bounds_.x_max ? ix : bounds_.x_max;
+  bounds_.y_min = iy < bounds_.y_min ? iy : bounds_.y_min;
+  bounds_.y_max = iy > bounds_.y_max ? iy : bounds_.y_max;
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       if (inside(ix + dx, iy + dy)) near_marked_[index(ix + dx, iy + dy)] = 1;
@@ -121,8 +131,7 @@ void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
 }
 
 void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m) {
-  marked_.fill(0);
-  near_marked_.fill(0);
+  clear_marks();
   for (const std::uint32_t i : open) {
     const Eigen::Vector3d p = points_base.at(i);
     const double height = plane.signed_distance(p);
@@ -136,8 +145,8 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
   constexpr double kCellArea_m2 = kCell_m * kCell_m;
   FloorEvidence out;
   NormalEquations spread;
-  for (std::int32_t iy = 0; iy < kSide; ++iy) {
-    for (std::int32_t ix = 0; ix < kSide; ++ix) {
+  for (std::int32_t iy = bounds_.y_min; iy <= bounds_.y_max; ++iy) {
+    for (std::int32_t ix = bounds_.x_min; ix <= bounds_.x_max; ++ix) {
       if (marked_[index(ix, iy)] == 0) continue;
       const double x = (static_cast<double>(ix - kSide / 2) + 0.5) * kCell_m;
       const double y = (static_cast<double>(iy - kSide / 2) + 0.5) * kCell_m;
@@ -169,14 +178,16 @@ bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen:
   return false;
 }
 
-double share_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
-                   const Eigen::Vector3d& sensor_base_m) {
+bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
+                    const Eigen::Vector3d& sensor_base_m, double share_max) {
   // The floor may fall away from its local plane by this much, and more the farther away.
   constexpr double kBelow_m = 0.2;
   constexpr double kFall = 0.03;
   const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
+  const auto most = static_cast<std::uint32_t>(share_max * count_within(points_base, radius_m));
   std::uint32_t below = 0;
   for_each_up_to(points_base, marked_plane, -kBelow_m, [&](std::uint32_t i, float height_m) {
+    if (below > most) return;
     const Eigen::Vector3d p = points_base.at(i);
     const double away2 = p.head<2>().squaredNorm(), height = static_cast<double>(height_m);
     if (!(away2 <= limit2) || !(height < -(kBelow_m + kFall * std::sqrt(away2)))) return;
@@ -184,8 +195,7 @@ double share_below(const FloorGrid& marked, const Plane& marked_plane, const Poi
         sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
     if (!marked.marked_behind(sensor_base_m, crossing)) ++below;
   });
-  const std::uint32_t within = count_within(points_base, radius_m);
-  return within > 0 ? static_cast<double>(below) / static_cast<double>(within) : 0.0;
+  return below > most;
 }
 
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,

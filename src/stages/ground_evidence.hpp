@@ -54,6 +54,13 @@ class FloorGrid {
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
   void mark_cell(std::int32_t ix, std::int32_t iy);
+  void clear_marks();
+
+  // Of the marked cells, first to last.
+  struct Bounds {
+    std::int32_t x_min = kSide, x_max = -1, y_min = kSide, y_max = -1;
+  };
+  Bounds bounds_;
 
   double lowest_m_ = 0.0;        // of the heights
   Span<std::uint64_t> heights_;  // per cell, a bit for each eighth of a metre that holds points
@@ -61,10 +68,10 @@ class FloorGrid {
   Span<std::uint8_t> near_marked_;  // marked, or next to a marked cell
 };
 
-// Share of all points within the radius that lie below the marked plane without being reflections in it. Nothing does
-// below a floor; below a deck, a bench or a table there is floor, seen past the edge.
-double share_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
-                   const Eigen::Vector3d& sensor_base_m);
+// Whether more than a share of all points within the radius lie below the marked plane without being reflections in it.
+// Nothing does below a floor; below a deck, a bench or a table there is floor, seen past the edge.
+bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
+                    const Eigen::Vector3d& sensor_base_m, double share_max);
 
 // Share of the points on 'below' whose ray from the sensor passes through open floor of the plane marked in the grid:
 // no light comes through a floor, so such a plane is a reflection in wet ground.

@@ -26,7 +26,7 @@ constexpr double kCurvatureInSigmas = 3.5;
 constexpr double kBulgeMin_m = 0.04;
 constexpr int kCutsMax = 6;
 constexpr int kQuickRounds = 3;
-constexpr std::uint32_t kQuickPointsMax = 800;
+constexpr std::uint32_t kQuickPointsMax = 500;
 constexpr int kRounds = 8;
 
 IrlsSettings fit_settings(const Settings& s) {

@@ -62,29 +62,30 @@ TEST(FloorGrid, AreaIsMeasuredInPlan) {
   EXPECT_EQ(open.grid->evidence(kAhead_x).area_m2, 0.0);
 }
 
-double below(test::GroundFixture* g, double height_above_floor) {
+bool more_is_below(test::GroundFixture* g, double height_above_floor, double share) {
   Open open(g);
   const Plane plane = level_at(height_above_floor);
   open.grid->mark(g->points().set(), open.span(), plane, 0.03);
-  return share_below(*open.grid, plane, g->points().set(), 15.0, Eigen::Vector3d::Zero());
+  return has_much_below(*open.grid, plane, g->points().set(), 15.0, Eigen::Vector3d::Zero(), share);
 }
 
 TEST(FloorGrid, WhatLiesBelowAPlaneSpeaksAgainstItUnlessItIsAReflection) {
   test::GroundFixture floor;
   floor.add_level({-3, 3, -2.0, 2.0}, 0.0);
-  EXPECT_EQ(below(&floor, 0.0), 0.0);
-  EXPECT_EQ(below(&floor, 1.0), 1.0) << "a plane without points of its own";
+  EXPECT_FALSE(more_is_below(&floor, 0.0, 0.0));
+  EXPECT_TRUE(more_is_below(&floor, 1.0, 0.99)) << "a plane without points of its own";
+  EXPECT_FALSE(more_is_below(&floor, 1.0, 1.0)) << "there is no more than all";
   test::GroundFixture deck;  // beside floor that is seen past its edge
   deck.add_level({-1, 1, -2.0, 2.0}, 0.8);
   deck.add_level({-8, -2, -2.0, 2.0}, 0.0);
   deck.add_level({2, 8, -2.0, 2.0}, 0.0);
-  EXPECT_GT(below(&deck, 0.8), 0.5);
+  EXPECT_TRUE(more_is_below(&deck, 0.8, 0.5));
   test::GroundFixture wet;
   wet.add_level({-6, 6, -2.0, 2.0}, 0.0, 0.005, 0.15);
   wet.add_level({-4, 4, -1.5, 1.5}, -1.0, 0.005, 0.15);
-  EXPECT_LT(below(&wet, 0.0), 0.05);
+  EXPECT_FALSE(more_is_below(&wet, 0.0, 0.05));
   test::GroundFixture none;
-  EXPECT_EQ(below(&none, 0.0), 0.0);
+  EXPECT_FALSE(more_is_below(&none, 0.0, 0.0));
 }
 
 TEST(FloorGrid, AReflectionIsSeenThroughTheFloor) {
