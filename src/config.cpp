@@ -3,6 +3,8 @@
 
 #include "config.hpp"
 
+#include <cmath>
+
 #include <cstring>
 
 #include "math/elementary.hpp"
@@ -246,6 +248,12 @@ Settings read_settings(const pose_wall_config& config) {
 #undef POSE_WALL_COUNT
 #undef POSE_WALL_BOX
   return s;
+}
+
+double reach_of(const Settings& s) {
+  constexpr double kRounding_m = 0.01;
+  return s.range_max + kRounding_m +
+         std::sqrt(s.extrinsic_x * s.extrinsic_x + s.extrinsic_y * s.extrinsic_y + s.extrinsic_z * s.extrinsic_z);
 }
 
 double alert_limit(std::uint32_t quantity, const Settings& settings) {

@@ -41,6 +41,9 @@ std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* 
 
 Settings read_settings(const pose_wall_config& config);
 
+// No point of a frame lies further than this from the origin of base.
+double reach_of(const Settings& settings);
+
 // The alert limit of one of the seven quantities, in its own unit (rad or m).
 double alert_limit(std::uint32_t quantity, const Settings& settings);
 

@@ -67,8 +67,6 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
 }
 
 void Scratch::reset() {
-  grid.reset();
-  cells.reset();
   cloud_base.count = 0;
   band_level.count = 0;
   beyond_level.count = 0;

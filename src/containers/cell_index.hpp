@@ -16,7 +16,6 @@ namespace pose_wall {
 class CellIndex {
  public:
   void lay_out(Arena& arena, std::uint32_t capacity);
-  void reset() { hash_.reset(); }
 
   void build(const PointSet& points, double edge_m);
 

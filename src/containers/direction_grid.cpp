@@ -3,40 +3,52 @@
 
 #include "containers/direction_grid.hpp"
 
-#include <cmath>
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kCountMax = 0xFFFF;
+// On the square |x| + |y| = 1.
+struct Corner {
+  double x, y;
+  double length2() const { return x * x + y * y; }
+};
 
-// Way around the square |x| + |y| = 1 from +X over +Y, 0..4.
-double way_of(double x, double y) {
-  const double around = std::fabs(x) + std::fabs(y);
-  if (!(around > 0.0)) return 0.0;
-  const double share = y / around;
-  if (x < 0.0) return 2.0 - share;
-  return share >= 0.0 ? share : 4.0 + share;
+Corner middle_of(std::uint32_t column) {
+  const double way = (column + 0.5) * (4.0 / DirectionGrid::kColumns);
+  const double x = way < 2.0 ? 1.0 - way : way - 3.0;
+  const double y = way < 1.0 ? way : (way < 3.0 ? 2.0 - way : way - 4.0);
+  return {x, y};
 }
 
 }  // namespace
 
-void DirectionGrid::add(const Eigen::Vector3d& ray, std::uint32_t returns) {
-  const double up = ray.z() / std::sqrt(ray.squaredNorm());
-  const auto column = static_cast<std::uint32_t>(way_of(ray.x(), ray.y()) * (kColumns / 4.0));
-  // Rounding may leave the sine of a tiny ray a little outside.
-  const auto row = static_cast<std::uint32_t>(up > -1.0 ? (up + 1.0) * (kRows / 2.0) : 0.0);
-  std::uint16_t& count = counts_[(row < kRows ? row : kRows - 1) * kColumns + (column < kColumns ? column : 0)];
-  const std::uint32_t sum = count + returns;
-  count = static_cast<std::uint16_t>(sum < kCountMax ? sum : kCountMax);
+void DirectionGrid::cells_of(const float* x, const float* y, const float* z, const float* norm2, std::uint32_t count,
+                             std::int32_t* cells) {
+  constexpr float kColumnsPerWay = kColumns / 4.0F, kRowsPerSine = kRows / 2.0F;
+  const FourFloats none{}, last_row = all_four(kRows - 1.0F), past_columns = all_four(static_cast<float>(kColumns));
+  for (std::uint32_t k = 0; k < count; k += kFour) {
+    const FourFloats at_x = load_four(x + k), at_y = load_four(y + k), norm2_of = load_four(norm2 + k);
+    const FourFloats around = magnitude_of(at_x) + magnitude_of(at_y);
+    const FourFloats share = around > none ? at_y / around : none;
+    const FourFloats way = at_x < none ? 2.0F - share : (share >= none ? share : 4.0F + share);
+    const FourFloats up = norm2_of > none ? load_four(z + k) / root_of(norm2_of) : none;
+    const FourFloats row = (up + 1.0F) * kRowsPerSine, column = way * kColumnsPerWay;
+    // Written so that what is not a number falls into some cell too.
+    const FourFloats in_rows = row < last_row ? (row > none ? row : none) : last_row;
+    const FourFloats in_columns = column < past_columns ? (column > none ? column : none) : none;
+    store_four(cut_off(in_rows) * static_cast<std::int32_t>(kColumns) + cut_off(in_columns), cells + k);
+  }
 }
 
 DirectionGrid::Column DirectionGrid::column(std::uint32_t column) {
-  const double way = (column + 0.5) * (4.0 / kColumns);
-  const double x = way < 2.0 ? 1.0 - way : way - 3.0;
-  const double y = way < 1.0 ? way : (way < 3.0 ? 2.0 - way : way - 4.0);
-  const double length2 = x * x + y * y, scale = 1.0 / std::sqrt(length2);
-  return {x * scale, y * scale, 1.0 / length2};
+  const Corner middle = middle_of(column);
+  const double length2 = middle.length2(), scale = 1.0 / std::sqrt(length2);
+  return {middle.x * scale, middle.y * scale, 1.0 / length2};
+}
+
+double DirectionGrid::width(std::uint32_t column) {
+  return 1.0 / middle_of(column).length2();
 }
 
 }  // namespace pose_wall

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 
 #include "containers/arena.hpp"
@@ -25,7 +26,16 @@ class DirectionGrid {
   }
 
   // ray: finite and not zero.
-  void add(const Eigen::Vector3d& ray, std::uint32_t returns);
+  static std::uint32_t cell_of(const Eigen::Vector3d& ray);
+  // Of many rays at once, a multiple of four; norm2: their squared lengths. What is no ray gets some cell.
+  static void cells_of(const float* x, const float* y, const float* z, const float* norm2, std::uint32_t count,
+                       std::int32_t* cells);
+  void add(std::uint32_t cell, std::uint32_t returns) {
+    constexpr std::uint32_t kCountMax = 0xFFFF;
+    const std::uint32_t sum = counts_[cell] + returns;
+    counts_[cell] = static_cast<std::uint16_t>(sum < kCountMax ? sum : kCountMax);
+  }
+  void add(const Eigen::Vector3d& ray, std::uint32_t returns) { add(cell_of(ray), returns); }
 
   std::uint32_t count(std::uint32_t row, std::uint32_t column) const { return counts_[row * kColumns + column]; }
 
@@ -38,10 +48,28 @@ class DirectionGrid {
     double x, y, width;
   };
   static Column column(std::uint32_t column);
+  static double width(std::uint32_t column);
 
  private:
+  // Way around the square |x| + |y| = 1 from +X over +Y, 0..4.
+  static double way_of(double x, double y) {
+    const double around = std::fabs(x) + std::fabs(y);
+    if (!(around > 0.0)) return 0.0;
+    const double share = y / around;
+    if (x < 0.0) return 2.0 - share;
+    return share >= 0.0 ? share : 4.0 + share;
+  }
+
   Span<std::uint16_t> counts_;
 };
+
+inline std::uint32_t DirectionGrid::cell_of(const Eigen::Vector3d& ray) {
+  const double up = ray.z() / std::sqrt(ray.squaredNorm());
+  const auto column = static_cast<std::uint32_t>(way_of(ray.x(), ray.y()) * (kColumns / 4.0));
+  // Rounding may leave the sine of a tiny ray a little outside.
+  const auto row = static_cast<std::uint32_t>(up > -1.0 ? (up + 1.0) * (kRows / 2.0) : 0.0);
+  return (row < kRows ? row : kRows - 1) * kColumns + (column < kColumns ? column : 0);
+}
 
 // What a cloud's points say by their direction alone, whatever became of them later.
 struct ReturnsByDirection {

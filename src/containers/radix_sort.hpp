@@ -9,37 +9,36 @@
 
 namespace pose_wall {
 
-struct KeyedIndex {
-  std::uint64_t key;
-  std::uint32_t index;
-  std::uint32_t unused;
-};
-
 constexpr std::uint32_t kRadixBits = 11;
 constexpr std::uint32_t kRadixSize = 1U << kRadixBits;
-constexpr std::uint32_t kRadixPasses = 6;  // 66 bits cover the key
 
-// Sorts by key, least digit first. A digit that is the same in all keys costs no pass, so keys of a small scene
-// sort in three or four. spare is as long as items; histogram holds kRadixSize counters. Returns the span that holds
-// the result: items or spare.
-inline Span<KeyedIndex> radix_sort(Span<KeyedIndex> items, Span<KeyedIndex> spare, Span<std::uint32_t> histogram) {
-  for (std::uint32_t pass = 0; pass < kRadixPasses; ++pass) {
-    const std::uint32_t shift = pass * kRadixBits;
+// Indices of the keys in ascending order, equal keys in theirs, least digit first. Only bits that differ between keys
+// cost passes: a digit begins at the lowest of them that is not sorted by yet, so keys of several short fields take one
+// pass a field. order and spare are as long as keys, histogram holds kRadixSize counters. Returns the one that holds
+// the result: order or spare.
+inline Span<std::uint32_t> radix_order(Span<const std::uint64_t> keys, Span<std::uint32_t> order,
+                                       Span<std::uint32_t> spare, Span<std::uint32_t> histogram) {
+  std::uint64_t differing = 0;
+  for (const std::uint64_t key : keys) differing |= key ^ keys[0];
+  for (std::uint32_t i = 0; i < keys.size(); ++i) order[i] = i;
+  for (std::uint32_t shift = 0; differing >> shift != 0; shift += kRadixBits) {
+    while (((differing >> shift) & 1U) == 0) ++shift;
+    const auto digit = [&](std::uint32_t i) { return static_cast<std::uint32_t>(keys[i] >> shift) & (kRadixSize - 1); };
     histogram.fill(0);
-    for (const KeyedIndex& item : items) ++histogram[(item.key >> shift) & (kRadixSize - 1)];
-    if (items.size() == 0 || histogram[(items[0].key >> shift) & (kRadixSize - 1)] == items.size()) continue;
+    for (std::uint32_t i = 0; i < keys.size(); ++i) ++histogram[digit(i)];
     std::uint32_t sum = 0;
     for (std::uint32_t& bucket : histogram) {
       const std::uint32_t count = bucket;
       bucket = sum;
       sum += count;
     }
-    for (const KeyedIndex& item : items) spare[histogram[(item.key >> shift) & (kRadixSize - 1)]++] = item;
-    const Span<KeyedIndex> swap = items;
-    items = spare;
+    for (const std::uint32_t i : order) spare[histogram[digit(i)]++] = i;
+    const Span<std::uint32_t> swap = order;
+    order = spare;
     spare = swap;
+    if (shift + kRadixBits >= 64) break;
   }
-  return items;
+  return order;
 }
 
 }  // namespace pose_wall

@@ -22,8 +22,10 @@ class Span {
   Span first(std::uint32_t count) const { return Span(data_, count); }
   operator Span<const T>() const { return Span<const T>(data_, size_); }
 
-  void fill(const T& value) const {
-    for (std::uint32_t i = 0; i < size_; ++i) data_[i] = value;
+  // By value and with the length at hand: neither may be thought to change while bytes are written.
+  void fill(T value) const {
+    T* const end = data_ + size_;
+    for (T* at = data_; at != end; ++at) *at = value;
   }
 
  private:

@@ -15,18 +15,43 @@ namespace pose_wall {
 // Weights are whole sixteenths, so that sums do not depend on the order of points.
 constexpr std::uint32_t kWeightOne = 16;
 
-// Weighted centroids of the points in each cell of a grid. Coordinates are summed as whole steps of 2^-14 m within
-// their cell: the centroids are the same bits whatever the order of the points, and exact to 0.03 mm.
+// Weighted centroids of the points in each cell of a grid. Coordinates are summed as whole steps, a 1024th of the
+// cell's edge each: the centroids are the same bits whatever the order of the points, and exact to half a step.
 class VoxelGrid {
  public:
+  static constexpr std::uint32_t kStepBits = 10;
+
   void lay_out(Arena& arena, std::uint32_t capacity);
-  void reset() { hash_.reset(); }
 
-  // Starts a new grid; leaf from 0.01 m to 100 m.
-  void begin(double leaf_m);
+  // Starts a new grid; leaf from 0.01 m to 100 m, |x|, |y|, |z| <= reach_m < 1000 m.
+  void begin(double leaf_m, double reach_m);
 
-  // False where the point needs a new cell and there is no room: the grid is then of no use. |x|, |y|, |z| < 500 m.
-  bool add(double x_m, double y_m, double z_m, std::uint32_t weight_sixteenths);
+  // The step that holds a coordinate is coordinate * per_m + origin, cut off: who adds many points does it for several
+  // at once.
+  struct Steps {
+    float per_m, origin;
+    std::int32_t of(float coordinate_m) const { return static_cast<std::int32_t>(coordinate_m * per_m + origin); }
+  };
+  const Steps& steps() const { return steps_; }
+
+  // False where the point needs a new cell and there is no room: the grid is then of no use. A cell takes the weight of
+  // a quarter of a million points; more of them change nothing.
+  bool add(std::int32_t x_step, std::int32_t y_step, std::int32_t z_step, std::uint32_t weight_sixteenths) {
+    const std::uint32_t known = hash_.count();
+    const std::uint32_t index = hash_.insert(key_of(x_step >> kStepBits, y_step >> kStepBits, z_step >> kStepBits));
+    if (index == VoxelHash::kFull) return false;
+    Sums& s = sums_[index];
+    if (index == known) s = Sums{0, 0, 0, 0};
+    const std::uint32_t room = kWeightMost - s.weight, w = weight_sixteenths < room ? weight_sixteenths : room;
+    s.x += w * within(x_step);
+    s.y += w * within(y_step);
+    s.z += w * within(z_step);
+    s.weight += w;
+    return true;
+  }
+  bool add(float x_m, float y_m, float z_m, std::uint32_t weight_sixteenths) {
+    return add(steps_.of(x_m), steps_.of(y_m), steps_.of(z_m), weight_sixteenths);
+  }
 
   // Writes the centroids in the order of their cells (x, then y, then z). out must have room for count().
   void extract(PointSet* out);
@@ -36,24 +61,33 @@ class VoxelGrid {
   std::uint64_t fingerprint() const { return fingerprint_; }
 
  private:
+  static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;
+  static constexpr std::uint32_t kWeightMost = 1U << 22;  // times the largest step within a cell: below 2^32
+  static constexpr std::uint32_t kFieldBits = 21;
+  static constexpr std::uint64_t kFieldMask = (1ULL << kFieldBits) - 1;
+
   struct Sums {
-    std::uint64_t x, y, z;  // weighted steps within the cell
-    std::uint64_t weight;
-  };
-  struct Cell {
-    std::int32_t index;
-    std::uint32_t offset_steps;
+    std::uint32_t x, y, z;  // weighted steps within the cell
+    std::uint32_t weight;
   };
 
-  Cell cell_of(double coordinate_m) const;
-  double centroid(std::uint64_t sum, std::uint64_t weight, std::int32_t cell) const;
+  // Cells are counted from the far corner: no sign, no call to floor().
+  static std::uint64_t key_of(std::int32_t x, std::int32_t y, std::int32_t z) {
+    return (static_cast<std::uint64_t>(x) << (2 * kFieldBits)) | (static_cast<std::uint64_t>(y) << kFieldBits) |
+           static_cast<std::uint64_t>(z);
+  }
+  static std::uint32_t within(std::int32_t step) { return static_cast<std::uint32_t>(step) & kStepMask; }
+  float coordinate(std::uint64_t cell, std::uint32_t sum, double per_weight) const {
+    const double step = static_cast<double>(cell << kStepBits) + static_cast<double>(sum) * per_weight + 0.5;
+    return static_cast<float>((step - origin_steps_) * metres_per_step_);
+  }
 
   VoxelHash hash_;
   Span<Sums> sums_;
-  Span<KeyedIndex> order_, spare_;
+  Span<std::uint32_t> order_, spare_;
   Span<std::uint32_t> histogram_;
-  std::int32_t leaf_steps_ = 1;
-  double cells_per_step_ = 1.0;
+  Steps steps_{1.0F, 0.0F};
+  double metres_per_step_ = 1.0, origin_steps_ = 0.0;
   std::uint64_t fingerprint_ = 0;
 };
 

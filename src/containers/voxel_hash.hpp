@@ -19,7 +19,7 @@ inline std::uint64_t cell_key(std::int32_t x, std::int32_t y, std::int32_t z) {
 }
 
 // Key to index, open addressing with linear probing over a power-of-two table at most half full. Indices are given out
-// in the order of first insertion. clear() costs nothing: a slot counts only when its epoch is the current one.
+// in the order of first insertion.
 class VoxelHash {
  public:
   static constexpr std::uint32_t kFull = 0xFFFFFFFFU;
@@ -29,24 +29,14 @@ class VoxelHash {
     capacity_ = capacity;
     bits_ = 1;
     while ((1U << bits_) < 2 * capacity) ++bits_;
-    slots_ = arena.take<Slot>(1U << bits_);
+    slots_ = arena.take<std::uint32_t>(1U << bits_);
     keys_ = arena.take<std::uint64_t>(capacity);
-  }
-
-  // Once after lay_out in a real block: the block holds garbage, and an epoch must not be right by chance.
-  void reset() {
-    slots_.fill(Slot{0, 0});
-    epoch_ = 0;
-    clear();
   }
 
   void clear() {
     count_ = 0;
     last_key_ = ~0ULL;
-    if (++epoch_ == 0) {  // after 2^32 clears
-      slots_.fill(Slot{0, 0});
-      epoch_ = 1;
-    }
+    slots_.fill(kFree);
   }
 
   // Index of the key, new or old; kFull where a new key does not fit. Points arrive in scan order, so the last key is
@@ -54,35 +44,33 @@ class VoxelHash {
   std::uint32_t insert(std::uint64_t key) {
     if (key == last_key_) return last_index_;
     for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask()) {
-      Slot& s = slots_[slot];
-      if (s.epoch != epoch_) {
+      const std::uint32_t index = slots_[slot];
+      if (index == kFree) {
         if (count_ == capacity_) return kFull;
-        s = Slot{epoch_, count_};
+        slots_[slot] = count_;
         keys_[count_] = key;
         return remember(key, count_++);
       }
-      if (keys_[s.index] == key) return remember(key, s.index);
+      if (keys_[index] == key) return remember(key, index);
     }
   }
 
   // Index of the key, or kFull where it is not in the table.
   std::uint32_t find(std::uint64_t key) const {
     for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask()) {
-      const Slot& s = slots_[slot];
-      if (s.epoch != epoch_) return kFull;
-      if (keys_[s.index] == key) return s.index;
+      const std::uint32_t index = slots_[slot];
+      if (index == kFree) return kFull;
+      if (keys_[index] == key) return index;
     }
   }
 
   std::uint32_t count() const { return count_; }
   std::uint32_t capacity() const { return capacity_; }
   std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
+  Span<const std::uint64_t> keys() const { return keys_.first(count_); }
 
  private:
-  struct Slot {
-    std::uint32_t epoch;
-    std::uint32_t index;
-  };
+  static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
 
   std::uint32_t mask() const { return (1U << bits_) - 1; }
   // Fibonacci hashing: the high bits of the product depend on all bits of the key.
@@ -95,13 +83,12 @@ class VoxelHash {
     return index;
   }
 
-  Span<Slot> slots_;
+  Span<std::uint32_t> slots_;  // indices
   Span<std::uint64_t> keys_;
   std::uint64_t last_key_ = ~0ULL;
   std::uint32_t last_index_ = 0;
   std::uint32_t capacity_ = 0;
   std::uint32_t count_ = 0;
-  std::uint32_t epoch_ = 0;
   std::uint32_t bits_ = 1;
 };
 

@@ -34,13 +34,22 @@ double unevenness(Span<const SurfacePatch> patches) {
   return excess > 0.0 ? excess / information : 0.0;
 }
 
-// Sum of products, in two lanes of a fixed order.
+// Sum of products, in eight lanes of a fixed order.
 double dot(const double* a, const double* b, std::uint32_t count) {
-  TwoDoubles sums{};
-  std::uint32_t k = 0;
-  for (; k + kTwo <= count; k += kTwo) sums += load_two(a + k) * load_two(b + k);
-  const double sum = sums[0] + sums[1];
-  return k < count ? sum + a[k] * b[k] : sum;
+  constexpr std::uint32_t kStep = 4 * kTwo;
+  TwoDoubles s0{}, s1{}, s2{}, s3{};
+  const double* const whole = a + count / kStep * kStep;
+  const double* const end = a + count;
+  for (; a != whole; a += kStep, b += kStep) {
+    s0 += load_two(a) * load_two(b);
+    s1 += load_two(a + kTwo) * load_two(b + kTwo);
+    s2 += load_two(a + 2 * kTwo) * load_two(b + 2 * kTwo);
+    s3 += load_two(a + 3 * kTwo) * load_two(b + 3 * kTwo);
+  }
+  const TwoDoubles sums = (s0 + s1) + (s2 + s3);
+  double sum = sums[0] + sums[1];
+  for (; a != end; ++a, ++b) sum += *a * *b;
+  return sum;
 }
 
 double slopes_variance(const Eigen::Matrix3d& covariance) {

@@ -50,7 +50,7 @@ class UnevenPlane {
   Span<double> correlation_;  // rows of the lower triangle
   Span<double> factor_;       // Cholesky's, its diagonal inverted
   Span<double> matern_;
-  Span<double> whitened_;     // rows of: 1, u, v, residual, bias
+  Span<double> whitened_;  // rows of: 1, u, v, residual, bias
 };
 
 }  // namespace pose_wall

@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -35,8 +36,28 @@ inline FourFloats smaller_of(FourFloats a, FourFloats b) {
   return a < b ? a : b;
 }
 
-// Lanes of a comparison are all ones or zero.
-using FourTruths = decltype(FourFloats{} < FourFloats{});
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+// Of a comparison: all ones where it holds, or zero. `truths ? a : b` takes lane by lane.
+using FourTruths = FourInts;
+
+template <typename Four, typename Lane>
+void store_four(Four four, Lane* to) {
+  std::memcpy(to, &four, sizeof(four));
+}
+
+// Cut off towards zero. Below 2^31.
+inline FourInts cut_off(FourFloats four) {
+  return __builtin_convertvector(four, FourInts);
+}
+
+inline FourFloats root_of(FourFloats four) {
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) four[lane] = std::sqrt(four[lane]);
+  return four;
+}
+
+inline FourFloats magnitude_of(FourFloats four) {
+  return four < FourFloats{} ? -four : four;
+}
 
 inline bool any_of(FourTruths truths) {
   std::uint64_t halves[2];

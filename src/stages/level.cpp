@@ -27,7 +27,7 @@ void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const S
   const std::uint32_t share = cloud_base.count / (kBalance * kBeyondMax) + 1, every = kBalance * share;
   std::uint32_t outside = 0;
   beyond_level->count = 0;
-  grid->begin(settings.wall_voxel_leaf);
+  grid->begin(settings.wall_voxel_leaf, reach_of(settings));
   for (std::uint32_t i = 0; i < cloud_base.count; ++i) {
     const Eigen::Vector3d p = level.R_level_base * cloud_base.at(i);
     if (!(p.z() >= z_min && p.z() <= z_max)) {
@@ -35,7 +35,8 @@ void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const S
       continue;
     }
     // There is room: never more cells than points, and both grids have the same capacity.
-    grid->add(p.x(), p.y(), p.z(), static_cast<std::uint32_t>(cloud_base.weight[i] * kWeightOne + 0.5F));
+    grid->add(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+              static_cast<std::uint32_t>(cloud_base.weight[i] * kWeightOne + 0.5F));
   }
   grid->extract(band_level);
 }

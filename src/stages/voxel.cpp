@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "math/finite.hpp"
+#include "math/four_floats.hpp"
 #include "stages/voxel_cloud_reader.hpp"
 
 namespace pose_wall {
@@ -15,36 +16,30 @@ namespace {
 constexpr double kLeafGrowth = 1.26;  // about the cube root of 2
 constexpr int kLeafTries = 20;        // 1.26^19: 80 times the configured leaf
 
-enum class Fate { kKept, kNotFinite, kZero, kNear, kFar, kBody };
+// What becomes of a point. Order matters: the first that holds counts.
+enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // kBeyond: too far, zero or not a number
 
-struct Filter {
-  double range_min2, range_max2;
-  Box boxes[4];
-  std::uint32_t box_count = 0;
-
-  explicit Filter(const Settings& s)
-      : range_min2(s.range_min * s.range_min), range_max2(s.range_max * s.range_max), boxes{} {
-    for (const Box* box : {&s.body_box_1, &s.body_box_2, &s.body_box_3, &s.body_box_4}) {
-      if (box->holds_something()) boxes[box_count++] = *box;
-    }
-  }
-
-  bool in_body(const Eigen::Vector3d& p_base) const {
-    for (std::uint32_t b = 0; b < box_count; ++b) {
-      if (boxes[b].contains(p_base.x(), p_base.y(), p_base.z())) return true;
-    }
-    return false;
-  }
-
-  Fate fate(const Eigen::Vector3d& p_lidar, const Eigen::Vector3d& p_base) const {
-    if (!is_finite(p_lidar.x()) || !is_finite(p_lidar.y()) || !is_finite(p_lidar.z())) return Fate::kNotFinite;
-    const double range2 = p_lidar.squaredNorm();
-    if (range2 == 0.0) return Fate::kZero;
-    if (!(range2 <= range_max2)) return Fate::kFar;
-    if (in_body(p_base)) return Fate::kBody;
-    return range2 >= range_min2 ? Fate::kKept : Fate::kNear;
-  }
+// Points are worked on by the block: turned and judged four at a time; only what goes into tables goes one by one.
+struct PointBlock {
+  static constexpr std::uint32_t kSize = 64;
+  std::uint32_t count = 0;
+  float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];
+  float range2[kSize];
+  float x_base[kSize], y_base[kSize], z_base[kSize];
+  std::int32_t x_step[kSize], y_step[kSize], z_step[kSize];
+  std::int32_t direction[kSize];  // cell of a DirectionGrid
+  std::int32_t quadrant[kSize];
+  std::int32_t fate[kSize];
+  std::uint32_t weight[kSize];
 };
+
+// Doubles may be larger than any float: they are too far in either case.
+float to_float(double value) {
+  constexpr double kMost = 1e38;
+  if (value > kMost && is_finite(value)) return static_cast<float>(kMost);
+  if (value < -kMost && is_finite(value)) return static_cast<float>(-kMost);
+  return static_cast<float>(value);
+}
 
 // Mean intensity of the readable points: the brightness that "brighter" is measured against.
 double mean_intensity(const pose_wall_cloud& cloud, bool swap) {
@@ -68,37 +63,55 @@ class Pass {
  public:
   Pass(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic, const Axes& axes)
       : cloud_(cloud),
-        filter_(settings),
-        extrinsic_(extrinsic),
-        axes_(axes),
+        range_min2_(static_cast<float>(settings.range_min * settings.range_min)),
+        range_max2_(static_cast<float>(settings.range_max * settings.range_max)),
         swap_(needs_swap(cloud)),
         plain_(is_plain_xyz32(cloud)),
         intensity_weight_(cloud.intensity.type != POSE_WALL_FIELD_NONE ? settings.intensity_weight : 0.0),
-        mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, swap_) : 0.0) {}
+        mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, swap_) : 0.0) {
+    for (const Box* box : {&settings.body_box_1, &settings.body_box_2, &settings.body_box_3, &settings.body_box_4}) {
+      if (box->holds_something()) boxes_[box_count_++] = *box;
+    }
+    const Eigen::Vector3d forward_lidar = extrinsic.R_base_lidar.transpose() * axes.forward_base;
+    const Eigen::Vector3d left_lidar = extrinsic.R_base_lidar.transpose() * axes.left_base;
+    for (int k = 0; k < 3; ++k) {
+      for (int column = 0; column < 3; ++column) {
+        R_base_lidar_[k][column] = static_cast<float>(extrinsic.R_base_lidar(k, column));
+      }
+      sensor_base_m_[k] = static_cast<float>(extrinsic.sensor_base_m[k]);
+      forward_lidar_[k] = static_cast<float>(forward_lidar[k]);
+      left_lidar_[k] = static_cast<float>(left_lidar[k]);
+    }
+  }
 
   // False where the grid overflows; counts are complete only on true.
   bool run(VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
     *counts = IngestCounts{};
     returns_lidar->clear();
+    PointBlock block;
     for (std::uint32_t row = 0; row < cloud_.height; ++row) {
       const unsigned char* point = row_of(cloud_, row);
       for (std::uint32_t column = 0; column < cloud_.width; ++column, point += cloud_.point_step) {
-        if (!take(point, grid, returns_lidar, counts)) return false;
+        read(point, &block);
+        if (block.count == PointBlock::kSize && !take(&block, grid, returns_lidar, counts)) return false;
       }
     }
-    return true;
+    return take(&block, grid, returns_lidar, counts);
   }
 
  private:
-  Eigen::Vector3d position_lidar(const unsigned char* point) const {
+  void read(const unsigned char* point, PointBlock* block) const {
+    const std::uint32_t k = block->count++;
     if (plain_) {
-      float x, y, z;
-      std::memcpy(&x, point + cloud_.x.offset, sizeof(float));
-      std::memcpy(&y, point + cloud_.y.offset, sizeof(float));
-      std::memcpy(&z, point + cloud_.z.offset, sizeof(float));
-      return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+      std::memcpy(&block->x_lidar[k], point + cloud_.x.offset, sizeof(float));
+      std::memcpy(&block->y_lidar[k], point + cloud_.y.offset, sizeof(float));
+      std::memcpy(&block->z_lidar[k], point + cloud_.z.offset, sizeof(float));
+    } else {
+      block->x_lidar[k] = to_float(read_field(point, cloud_.x, swap_));
+      block->y_lidar[k] = to_float(read_field(point, cloud_.y, swap_));
+      block->z_lidar[k] = to_float(read_field(point, cloud_.z, swap_));
     }
-    return {read_field(point, cloud_.x, swap_), read_field(point, cloud_.y, swap_), read_field(point, cloud_.z, swap_)};
+    block->weight[k] = weight_of(point);
   }
 
   std::uint32_t weight_of(const unsigned char* point) const {
@@ -109,50 +122,128 @@ class Pass {
     return weight >= 1.0 ? static_cast<std::uint32_t>(weight + 0.5) : 1U;
   }
 
-  Quadrant quadrant_of(const Eigen::Vector3d& p_base) const {
-    const Eigen::Vector3d from_sensor = p_base - extrinsic_.sensor_base_m;
-    const double ahead = axes_.forward_base.dot(from_sensor), left = axes_.left_base.dot(from_sensor);
-    if (std::fabs(left) > std::fabs(ahead)) return left > 0.0 ? kLeft : kRight;
-    return ahead > 0.0 ? kAhead : kBehind;
+  static FourFloats turned(const float (&row)[3], FourFloats x, FourFloats y, FourFloats z) {
+    return row[0] * x + row[1] * y + row[2] * z;
   }
 
-  bool take(const unsigned char* point, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
-            IngestCounts* counts) const {
-    const Eigen::Vector3d p_lidar = position_lidar(point);
-    const Eigen::Vector3d p_base = extrinsic_.R_base_lidar * p_lidar + extrinsic_.sensor_base_m;
-    ++counts->points_in;
-    const Fate fate = filter_.fate(p_lidar, p_base);
-    if (fate != Fate::kNotFinite && fate != Fate::kZero) returns_lidar->all.add(p_lidar, 1);
-    if (fate == Fate::kFar) returns_lidar->too_far.add(p_lidar, 1);
-    switch (fate) {
-      case Fate::kNotFinite:
-        ++counts->dropped_not_finite;
-        return true;
-      case Fate::kZero:
-        ++counts->dropped_zero;
-        return true;
-      case Fate::kFar:
-        ++counts->dropped_far;
-        return true;
-      case Fate::kBody:
-        ++counts->dropped_body;
-        return true;
-      case Fate::kNear:
-        ++counts->dropped_near;
-        ++counts->near_by_quadrant[quadrant_of(p_base)];
-        return true;
-      case Fate::kKept:
-        break;
+  void judge_ranges(PointBlock* b) const {
+    const FourInts kept = {kKept, kKept, kKept, kKept}, near = {kNear, kNear, kNear, kNear};
+    const FourInts beyond = {kBeyond, kBeyond, kBeyond, kBeyond};
+    for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
+      const FourFloats x = load_four(&b->x_lidar[k]), y = load_four(&b->y_lidar[k]), z = load_four(&b->z_lidar[k]);
+      const FourFloats range2 = x * x + y * y + z * z, none{};
+      const FourInts not_far = range2 <= range_max2_ ? kept : beyond, not_zero = range2 > none ? not_far : beyond;
+      store_four(range2, &b->range2[k]);
+      store_four(range2 < range_min2_ ? (not_zero == beyond ? beyond : near) : not_zero, &b->fate[k]);
     }
-    ++counts->kept;
-    ++counts->kept_by_quadrant[quadrant_of(p_base)];
-    return grid->add(p_base.x(), p_base.y(), p_base.z(), weight_of(point));
+  }
+
+  // What is beyond may be anything: it is turned as if it were zero, and left out at the end.
+  void turn_to_base(const VoxelGrid::Steps& steps, PointBlock* b) const {
+    for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
+      FourInts fate;
+      std::memcpy(&fate, &b->fate[k], sizeof(fate));
+      const FourInts beyond = {kBeyond, kBeyond, kBeyond, kBeyond};
+      const FourTruths there = fate != beyond;
+      const FourFloats none{}, x = there ? load_four(&b->x_lidar[k]) : none,
+                               y = there ? load_four(&b->y_lidar[k]) : none;
+      const FourFloats z = there ? load_four(&b->z_lidar[k]) : none;
+      const FourFloats x_base = turned(R_base_lidar_[0], x, y, z) + sensor_base_m_[0];
+      const FourFloats y_base = turned(R_base_lidar_[1], x, y, z) + sensor_base_m_[1];
+      const FourFloats z_base = turned(R_base_lidar_[2], x, y, z) + sensor_base_m_[2];
+      store_four(x_base, &b->x_base[k]);
+      store_four(y_base, &b->y_base[k]);
+      store_four(z_base, &b->z_base[k]);
+      store_four(cut_off(x_base * steps.per_m + steps.origin), &b->x_step[k]);
+      store_four(cut_off(y_base * steps.per_m + steps.origin), &b->y_step[k]);
+      store_four(cut_off(z_base * steps.per_m + steps.origin), &b->z_step[k]);
+      const FourInts ahead = {kAhead, kAhead, kAhead, kAhead}, behind = {kBehind, kBehind, kBehind, kBehind};
+      const FourInts left = {kLeft, kLeft, kLeft, kLeft}, right = {kRight, kRight, kRight, kRight};
+      const FourFloats to_front = turned(forward_lidar_, x, y, z), to_left = turned(left_lidar_, x, y, z);
+      const FourInts along = to_front > none ? ahead : behind, across = to_left > none ? left : right;
+      store_four(magnitude_of(to_left) > magnitude_of(to_front) ? across : along, &b->quadrant[k]);
+    }
+  }
+
+  void judge_bodies(PointBlock* b) const {
+    for (std::uint32_t i = 0; i < box_count_; ++i) {
+      const Box& box = boxes_[i];
+      const float x0 = static_cast<float>(box.x_min), x1 = static_cast<float>(box.x_max);
+      const float y0 = static_cast<float>(box.y_min), y1 = static_cast<float>(box.y_max);
+      const float z0 = static_cast<float>(box.z_min), z1 = static_cast<float>(box.z_max);
+      for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
+        const FourFloats x = load_four(&b->x_base[k]), y = load_four(&b->y_base[k]), z = load_four(&b->z_base[k]);
+        const FourTruths inside = (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1) & (z >= z0) & (z <= z1);
+        if (!any_of(inside)) continue;
+        for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+          if (inside[lane] != 0 && b->fate[k + lane] != kBeyond) b->fate[k + lane] = kBody;
+        }
+      }
+    }
+  }
+
+  // False where the grid overflows. Leaves the block empty.
+  bool take(PointBlock* block, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
+    const std::uint32_t count = block->count;
+    block->count = 0;
+    if (count == 0) return true;
+    for (std::uint32_t k = count; k < PointBlock::kSize; ++k) {
+      block->x_lidar[k] = block->y_lidar[k] = block->z_lidar[k] = 0.0F;
+    }
+    judge_ranges(block);
+    turn_to_base(grid->steps(), block);
+    judge_bodies(block);
+    DirectionGrid::cells_of(block->x_lidar, block->y_lidar, block->z_lidar, block->range2, PointBlock::kSize,
+                            block->direction);
+    counts->points_in += count;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (block->fate[k] == kBeyond) {
+        count_beyond(*block, k, returns_lidar, counts);
+        continue;
+      }
+      returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
+      if (block->fate[k] == kKept) {
+        ++counts->kept_by_quadrant[block->quadrant[k]];
+        if (!grid->add(block->x_step[k], block->y_step[k], block->z_step[k], block->weight[k])) return false;
+      } else if (block->fate[k] == kNear) {
+        ++counts->near_by_quadrant[block->quadrant[k]];
+      } else {
+        ++counts->dropped_body;
+      }
+    }
+    counts->kept = sum_of(counts->kept_by_quadrant);
+    counts->dropped_near = sum_of(counts->near_by_quadrant);
+    return true;
+  }
+
+  static std::uint32_t sum_of(const std::uint32_t (&by_quadrant)[kQuadrants]) {
+    return by_quadrant[kAhead] + by_quadrant[kLeft] + by_quadrant[kBehind] + by_quadrant[kRight];
+  }
+
+  static void count_beyond(const PointBlock& block, std::uint32_t k, ReturnsByDirection* returns_lidar,
+                           IngestCounts* counts) {
+    const Eigen::Vector3d p(static_cast<double>(block.x_lidar[k]), static_cast<double>(block.y_lidar[k]),
+                            static_cast<double>(block.z_lidar[k]));
+    if (!is_finite(p.x()) || !is_finite(p.y()) || !is_finite(p.z())) {
+      ++counts->dropped_not_finite;
+    } else if (p.squaredNorm() == 0.0) {
+      ++counts->dropped_zero;
+    } else if (p.squaredNorm() < 1.0) {  // its square is no float
+      ++counts->near_by_quadrant[block.quadrant[k]];
+      returns_lidar->all.add(p, 1);
+    } else {
+      ++counts->dropped_far;
+      const std::uint32_t cell = DirectionGrid::cell_of(p);
+      returns_lidar->all.add(cell, 1);
+      returns_lidar->too_far.add(cell, 1);
+    }
   }
 
   const pose_wall_cloud& cloud_;
-  Filter filter_;
-  const Extrinsic& extrinsic_;
-  const Axes& axes_;
+  float range_min2_, range_max2_;
+  Box boxes_[4] = {};
+  std::uint32_t box_count_ = 0;
+  float R_base_lidar_[3][3], sensor_base_m_[3], forward_lidar_[3], left_lidar_[3];
   bool swap_;
   bool plain_;
   double intensity_weight_;
@@ -168,7 +259,7 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings,
   double leaf_m = settings.voxel_leaf;
   for (int attempt = 0; attempt < kLeafTries && !result.fits; ++attempt) {
     if (attempt > 0) leaf_m *= kLeafGrowth;
-    grid->begin(leaf_m);
+    grid->begin(leaf_m, reach_of(settings));
     result.fits = pass.run(grid, returns_lidar, &result.counts);
     result.leaf_grown = attempt > 0;
   }

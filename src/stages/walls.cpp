@@ -40,14 +40,23 @@ std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const 
   return faults;
 }
 
+void thin_out(const PointSet& band_level, PointSet* thin_level) {
+  const std::uint32_t stride = band_level.count / kThinMost + 1;
+  thin_level->count = 0;
+  for (std::uint32_t i = 0; i < band_level.count; i += stride) {
+    thin_level->set(thin_level->count++, band_level.at(i), band_level.weight[i]);
+  }
+}
+
 // Refines the short list, merges what became alike, and weighs what is left.
 void weigh(const WallScene& scene, const SideView& view, WallSearch* search, WallsScratch* scratch,
            WallCandidates* out) {
   const SameWall same{view};
+  const double thresh_m = scene.settings.wall_ransac_thresh;
   out->count = 0;
   for (std::uint32_t k = 0; k < search->list().count(); ++k) {
     Plane plane = search->list()[k].plane;
-    if (!refine_hypothesis(scene, view.along_level, &scratch->fit, &plane)) continue;
+    if (!refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, &scratch->fit, &plane)) continue;
     if (!may_be_wall(plane, view, radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < out->count; ++j) repeats = repeats || same(out->item[j].plane, plane);
@@ -187,9 +196,10 @@ double explained_share(const WallScene& scene, const WallChoice& choice) {
 
 void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   for (WallSearch& s : search) s.lay_out(arena, points_max);
+  thin_level.lay_out(arena, kThinMost);
   grid.lay_out(arena);
   fit.lay_out(arena, points_max);
-  sight.lay_out(arena);
+  sight.lay_out(arena, points_max);
   edges.lay_out(arena);
 }
 
@@ -198,12 +208,14 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const SideView sides[2] = {{f, l}, {f, -l}};
   const SideView ends[2] = {{l, f}, {l, -f}};
   const Plane* const nothing[2] = {nullptr, nullptr};
+  thin_out(scene.band_level, &scratch->thin_level);
   WallCandidates beside[2], across[2];
   std::uint32_t scored[2] = {}, scored_across[2] = {};
   search_both(scene, sides, last, random, scratch, beside, scored);
   search_both(scene, ends, nothing, random, scratch, across, scored_across);
   const WallChoice choice = choose_walls(beside[0], beside[1], across[0], across[1], scene.settings);
 
+  note_directions(scene, &scratch->sight);
   const bool explained = explained_share(scene, choice) >= kExplainedMin;
   WallsResult out;
   out.tilt_level_rad = tilt_by_walls(scene, beside);

@@ -14,8 +14,11 @@
 
 namespace pose_wall {
 
+constexpr std::uint32_t kThinMost = 4096;
+
 struct WallsScratch {
   WallSearch search[2];
+  PointSet thin_level;  // a part of the band, enough to refine hypotheses
   WallGrid grid;
   WallFitScratch fit;
   SightScratch sight;

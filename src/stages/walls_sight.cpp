@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/distances.hpp"
+#include "estimation/near_plane.hpp"
 #include "stages/walls_sight_columns.hpp"
 
 namespace pose_wall {
@@ -26,28 +27,27 @@ constexpr double kBlindTopsMax = 0.1;
 // More silence than this that is only explained by silence elsewhere leaves a doubt.
 constexpr double kUnexplainedMax = 0.05;
 
-// Sorts the points by direction; returns how deep behind the plane most of what passed it ends.
-double mark_points(const WallScene& scene, const Plane& wall, double behind_m, SightScratch* scratch) {
+// Weights may go by intensity.
+std::uint32_t points_of(float weight) {
+  const auto rounded = static_cast<std::uint32_t>(weight + 0.5F);
+  return rounded > 0 ? rounded : 1;
+}
+
+// Sorts what has passed through the plane by direction; returns how deep behind it most of that ends.
+double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, SightScratch* scratch) {
   const double inside_m = wall.signed_distance(scene.sensor_level_m);
-  const Eigen::Vector3d n_base = scene.R_level_base.transpose() * wall.n;
-  const Eigen::Matrix3d R_lidar_base = scene.extrinsic.R_base_lidar.transpose();
+  const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
   Distances depths;
-  scratch->kept_lidar.clear();
   scratch->behind_lidar.copy(scene.returns_lidar.too_far);
-  for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
-    const Eigen::Vector3d p = scene.cloud_base.at(i), ray = p - scene.extrinsic.sensor_base_m;
-    const double r = n_base.dot(p) + wall.d;
-    const Eigen::Vector3d ray_lidar = R_lidar_base * ray;
-    const auto rounded = static_cast<std::uint32_t>(scene.cloud_base.weight[i] + 0.5F);
-    const std::uint32_t points = rounded > 0 ? rounded : 1;  // weights may go by intensity
-    scratch->kept_lidar.add(ray_lidar, points);
-    if (!(r < -behind_m)) continue;
-    scratch->behind_lidar.add(ray_lidar, points);
+  for_each_up_to(scene.cloud_base, wall_base, -behind_m, [&](std::uint32_t i, float distance_m) {
+    const double r = static_cast<double>(distance_m);
+    scratch->behind_lidar.add(scratch->direction_of[i], points_of(scene.cloud_base.weight[i]));
+    const Eigen::Vector3d ray = scene.cloud_base.at(i) - scene.extrinsic.sensor_base_m;
     const double to_plane = way_to_plane(inside_m, r);
     const double z_level_m = scene.sensor_level_m.z() + to_plane * scene.R_level_base.row(2).dot(ray);
     const bool near = to_plane * to_plane * ray.squaredNorm() <= SightLines::kReach_m * SightLines::kReach_m;
     if (scene.in_band(z_level_m) && near) depths.add(-r);
-  }
+  });
   return depths.at_share(kDeepShare);
 }
 
@@ -117,10 +117,21 @@ WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
 
 }  // namespace
 
+void note_directions(const WallScene& scene, SightScratch* scratch) {
+  const Eigen::Matrix3d R_lidar_base = scene.extrinsic.R_base_lidar.transpose();
+  scratch->kept_lidar.clear();
+  for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
+    const Eigen::Vector3d ray_lidar = R_lidar_base * (scene.cloud_base.at(i) - scene.extrinsic.sensor_base_m);
+    const std::uint32_t cell = DirectionGrid::cell_of(ray_lidar);
+    scratch->direction_of[i] = static_cast<std::uint16_t>(cell);
+    scratch->kept_lidar.add(cell, points_of(scene.cloud_base.weight[i]));
+  }
+}
+
 WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double behind_m,
                   SightScratch* scratch) {
   if (!(wall.signed_distance(scene.sensor_level_m) > 0.0)) return {};
-  const double depth_m = mark_points(scene, wall, behind_m, scratch);
+  const double depth_m = mark_behind(scene, wall, behind_m, scratch);
   const ExpectedReturns expected(scene.returns_lidar.all);
   const SightLines lines(scene, wall, along_level);
   const SeenColumns seen(scene.returns_lidar.all, expected);

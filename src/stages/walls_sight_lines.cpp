@@ -18,12 +18,15 @@ constexpr std::uint32_t kSeenMin = DirectionGrid::kColumns / 8;
 }  // namespace
 
 ExpectedReturns::ExpectedReturns(const DirectionGrid& returns_lidar) {
+  for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
+    width_[column] = DirectionGrid::width(column);
+  }
   for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
     double counts[DirectionGrid::kColumns];
     std::uint32_t seen = 0;
     for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
       const std::uint32_t count = returns_lidar.count(row, column);
-      if (count > 0) counts[seen++] = count / DirectionGrid::column(column).width;
+      if (count > 0) counts[seen++] = count / width_[column];
     }
     per_width_[row] = 0.0;
     if (seen < kSeenMin) continue;
@@ -39,12 +42,11 @@ SightLines::SightLines(const WallScene& scene, const Plane& wall, const Eigen::V
   n_lidar_ = R_lidar_level * wall.n;
   along_lidar_ = R_lidar_level * along_level;
   up_lidar_ = R_lidar_level.col(2);
-}
-
-Eigen::Vector3d SightLines::ray_lidar(std::uint32_t row, std::uint32_t column) {
-  const double up = DirectionGrid::up(row), flat = std::sqrt(1.0 - up * up);
-  const DirectionGrid::Column c = DirectionGrid::column(column);
-  return {c.x * flat, c.y * flat, up};
+  for (std::uint32_t c = 0; c < DirectionGrid::kColumns; ++c) column_[c] = DirectionGrid::column(c);
+  for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
+    const double up = DirectionGrid::up(row);
+    flat_[row] = std::sqrt(1.0 - up * up);
+  }
 }
 
 SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) const {
@@ -78,7 +80,7 @@ std::uint32_t SightLines::column_away() const {
   std::uint32_t best = 0;
   double best_away = -2.0;
   for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
-    const DirectionGrid::Column c = DirectionGrid::column(column);
+    const DirectionGrid::Column& c = column_[column];
     const double away = n_lidar_.x() * c.x + n_lidar_.y() * c.y;
     if (away > best_away) {
       best_away = away;

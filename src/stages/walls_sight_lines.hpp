@@ -16,12 +16,11 @@ namespace pose_wall {
 class ExpectedReturns {
  public:
   explicit ExpectedReturns(const DirectionGrid& returns_lidar);
-  double at(std::uint32_t row, std::uint32_t column) const {
-    return per_width_[row] * DirectionGrid::column(column).width;
-  }
+  double at(std::uint32_t row, std::uint32_t column) const { return per_width_[row] * width_[column]; }
 
  private:
   double per_width_[DirectionGrid::kRows];
+  double width_[DirectionGrid::kColumns];
 };
 
 // Where the middles of the cells meet a plane.
@@ -51,8 +50,12 @@ class SightLines {
 
  private:
   Crossing within(double reach_m, double towards_min, std::uint32_t row, std::uint32_t column) const;
-  static Eigen::Vector3d ray_lidar(std::uint32_t row, std::uint32_t column);
+  Eigen::Vector3d ray_lidar(std::uint32_t row, std::uint32_t column) const {
+    return {column_[column].x * flat_[row], column_[column].y * flat_[row], DirectionGrid::up(row)};
+  }
 
+  DirectionGrid::Column column_[DirectionGrid::kColumns];
+  double flat_[DirectionGrid::kRows];  // cosines of the elevations
   double inside_m_, sensor_z_level_m_;
   Eigen::Vector3d n_lidar_, along_lidar_, up_lidar_;
 };

@@ -122,14 +122,12 @@ Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, doub
   return out.first(count);
 }
 
-bool refine_hypothesis(const WallScene& scene, const Eigen::Vector3d& along_level, WallFitScratch* scratch,
-                       Plane* plane) {
-  const double thresh_m = scene.settings.wall_ransac_thresh;
+bool refine_hypothesis(const PointSet& band_level, double thresh_m, const Eigen::Vector3d& along_level,
+                       WallFitScratch* scratch, Plane* plane) {
   for (const double gate : {kFirstGateInThresholds * thresh_m, 3.0 * thresh_m}) {
-    const Span<std::uint32_t> near =
-        thinned(points_near(scene.band_level, *plane, gate, scratch->near), kQuickPointsMax);
+    const Span<std::uint32_t> near = thinned(points_near(band_level, *plane, gate, scratch->near), kQuickPointsMax);
     const IrlsSettings quick{3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds};
-    const IrlsResult refined = irls_tukey(scene.band_level, near, *plane, along_level, quick, &scratch->points.at);
+    const IrlsResult refined = irls_tukey(band_level, near, *plane, along_level, quick, &scratch->points.at);
     if (!refined.solved) return false;
     *plane = refined.plane;
   }

@@ -23,7 +23,6 @@ TEST(CellIndex, FindsAllNeighboursWithinAnEdge) {
     points.add(noise.uniform(-1, 1), noise.uniform(-1, 1), noise.uniform(-1, 1));
   }
   test::Placed<CellIndex> cells(kCount);
-  cells->reset();
   for (int round = 0; round < 2; ++round) cells->build(points.set(), kEdge);
   const PointSet& set = points.set();
   for (std::uint32_t i = 0; i < kCount; i += 7) {
@@ -49,7 +48,6 @@ TEST(CellIndex, FindsAllNeighboursWithinAnEdge) {
 TEST(CellIndex, EmptyCloud) {
   test::OwnedPoints points(4);
   test::Placed<CellIndex> cells(4U);
-  cells->reset();
   cells->build(points.set(), 1.0);
   EXPECT_EQ(cells->points_in(0, 0, 0).size(), 0U);
 }
@@ -58,7 +56,6 @@ TEST(CellIndex, FullToTheLastCell) {
   test::OwnedPoints points(64);
   for (int i = 0; i < 64; ++i) points.add(i + 0.5, 0.5, 0.5);
   test::Placed<CellIndex> cells(64U);
-  cells->reset();
   cells->build(points.set(), 1.0);
   for (int i = 0; i < 64; ++i) {
     ASSERT_EQ(cells->points_in(i, 0, 0).size(), 1U);

@@ -54,7 +54,6 @@ TEST(Level, TheBandIsCutByHeightAboveTheTiltedFloor) {
   }
   test::Placed<VoxelGrid> grid(4000U);
   test::Placed<PointSet> band(4000U), beyond(kBeyondMax);
-  grid->reset();
   cut_wall_band(points.set(), level, settings, grid.get(), band.get(), beyond.get());
   float weight = 0.0F;
   for (std::uint32_t i = 0; i < band->count; ++i) {
@@ -79,7 +78,6 @@ TEST(Level, WeightsPassTheSecondVoxels) {
   points.add(2.01, 2.01, 0.01, 5.0F);
   test::Placed<VoxelGrid> grid(2U);
   test::Placed<PointSet> band(2U), beyond(kBeyondMax);
-  grid->reset();
   Plane floor;
   floor.d = 1.0;
   cut_wall_band(points.set(), level_by(floor, ahead_is_x()), test::settings_with({{"wall_voxel_leaf", "0.5"}}),

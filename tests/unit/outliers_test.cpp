@@ -35,7 +35,6 @@ TEST(Outliers, AreThoseThatAllPairsSay) {
       const std::vector<Eigen::Vector3d> expected =
           by_all_pairs(points.set(), settings.outlier_radius, settings.outlier_min_neighbors);
       test::Placed<CellIndex> cells(600U);
-      cells->reset();
       std::vector<std::uint8_t> keep(600, 0xEE);
       const std::uint32_t removed =
           remove_outliers(settings, 0.01, cells.get(), Span<std::uint8_t>(keep.data(), 600), &points.set());
@@ -49,7 +48,6 @@ TEST(Outliers, AreThoseThatAllPairsSay) {
 TEST(Outliers, NothingIsLeftAlone) {
   test::OwnedPoints points(4);
   test::Placed<CellIndex> cells(4U);
-  cells->reset();
   std::vector<std::uint8_t> keep(4);
   EXPECT_EQ(
       remove_outliers(test::settings_with(), 0.05, cells.get(), Span<std::uint8_t>(keep.data(), 4), &points.set()), 0U);

@@ -19,7 +19,6 @@ namespace {
 
 TEST(VoxelHash, BehavesAsAMapOverManyFrames) {
   test::Placed<VoxelHash> hash(1000U);
-  hash->reset();
   std::mt19937 random(1);
   for (int frame = 0; frame < 50; ++frame) {
     hash->clear();
@@ -48,7 +47,7 @@ TEST(VoxelHash, BehavesAsAMapOverManyFrames) {
 
 TEST(VoxelHash, FindsNothingInAFreshOrClearedTable) {
   test::Placed<VoxelHash> hash(64U);
-  hash->reset();
+  hash->clear();
   EXPECT_EQ(hash->find(cell_key(0, 0, 0)), VoxelHash::kFull);
   EXPECT_EQ(hash->insert(cell_key(1, 2, 3)), 0U);
   hash->clear();
@@ -61,7 +60,7 @@ TEST(VoxelHash, FindsNothingInAFreshOrClearedTable) {
 
 TEST(VoxelHash, RoomForOneKey) {
   test::Placed<VoxelHash> hash(1U);
-  hash->reset();
+  hash->clear();
   EXPECT_EQ(hash->insert(7), 0U);
   EXPECT_EQ(hash->insert(8), VoxelHash::kFull);
   EXPECT_EQ(hash->insert(7), 0U);

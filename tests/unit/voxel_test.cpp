@@ -45,7 +45,6 @@ Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const E
   test::Placed<VoxelGrid> grid(settings.points_max);
   test::Placed<ReturnsByDirection> returns;
   test::Placed<PointSet> out(settings.points_max);
-  grid->reset();
   Voxels v;
   v.result = build_voxels(cloud, settings, extrinsic, axes, grid.get(), returns.get(), out.get());
   v.filled = filled_cells(returns->all);

@@ -55,8 +55,10 @@ RayScene road() {
 }
 
 WallSight sight_of(BandFixture* band, double plane_y_m) {
-  test::Placed<SightScratch> scratch;
-  return look_at(band->scene(), Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kBehind_m,
+  const WallScene scene = band->scene();
+  test::Placed<SightScratch> scratch(scene.cloud_base.count);
+  note_directions(scene, scratch.get());
+  return look_at(scene, Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kBehind_m,
                  scratch.get());
 }
 
