@@ -3,8 +3,6 @@
 
 #include "containers/cell_index.hpp"
 
-#include <cmath>
-
 namespace pose_wall {
 
 void CellIndex::lay_out(Arena& arena, std::uint32_t capacity) {
@@ -12,10 +10,6 @@ void CellIndex::lay_out(Arena& arena, std::uint32_t capacity) {
   start_ = arena.take<std::uint32_t>(capacity + 1);
   cell_of_ = arena.take<std::uint32_t>(capacity);
   members_ = arena.take<std::uint32_t>(capacity);
-}
-
-std::int32_t CellIndex::cell(float coordinate_m) const {
-  return static_cast<std::int32_t>(std::floor(coordinate_m * cells_per_metre_));
 }
 
 void CellIndex::build(const PointSet& points, double edge_m) {

@@ -20,7 +20,11 @@ class CellIndex {
   void build(const PointSet& points, double edge_m);
 
   // The cell that holds a coordinate.
-  std::int32_t cell(float coordinate_m) const;
+  std::int32_t cell(float coordinate_m) const {
+    const float place = coordinate_m * cells_per_metre_;
+    const auto cut = static_cast<std::int32_t>(place);
+    return place < static_cast<float>(cut) ? cut - 1 : cut;
+  }
   // Indices of the points in a cell; empty where there are none.
   Span<const std::uint32_t> points_in(std::int32_t x, std::int32_t y, std::int32_t z) const;
 

@@ -6,32 +6,65 @@
 namespace pose_wall {
 namespace {
 
+// The cells around one, itself among them, the nearest first.
+struct Offset {
+  std::int32_t x, y, z;
+};
+struct Offsets {
+  static constexpr std::uint32_t kCells = 27;
+  Offset item[kCells] = {};
+
+  constexpr Offsets() {
+    std::uint32_t count = 0;
+    for (int steps = 0; steps <= 3; ++steps) {
+      for (std::int32_t x = -1; x <= 1; ++x) {
+        for (std::int32_t y = -1; y <= 1; ++y) {
+          for (std::int32_t z = -1; z <= 1; ++z) {
+            if (x * x + y * y + z * z == steps) item[count++] = {x, y, z};
+          }
+        }
+      }
+    }
+  }
+};
+
 class NeighbourCounter {
  public:
   NeighbourCounter(const PointSet& points, const CellIndex& cells, double radius_m, std::uint32_t needed)
       : points_(points), cells_(cells), radius2_(static_cast<float>(radius_m * radius_m)), needed_(needed) {}
 
-  // Most points have their neighbours in their own cell, so that one goes first; counting stops at the needed number.
+  // Voxels come in the order of their cells, and on a surface those next to each other in the list are next to each
+  // other: most points are done with that. What this does not find, has_enough() may.
+  bool has_enough_in_list(std::uint32_t i) const {
+    constexpr std::uint32_t kLook = 4;
+    std::uint32_t found = 0;
+    for (std::uint32_t away = 1; away <= kLook; ++away) {
+      if (i >= away && is_near(i, i - away) && ++found >= needed_) return true;
+      if (i + away < points_.count && is_near(i, i + away) && ++found >= needed_) return true;
+    }
+    return false;
+  }
+
+  // The point's own cell goes first, then those that share a face with it; counting stops at the needed number.
   bool has_enough(std::uint32_t i) const {
+    static constexpr Offsets kOffsets;
     const std::int32_t cx = cells_.cell(points_.x[i]), cy = cells_.cell(points_.y[i]), cz = cells_.cell(points_.z[i]);
     std::uint32_t found = 0;
-    if (count_in(cells_.points_in(cx, cy, cz), i, &found)) return true;
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      for (std::int32_t dy = -1; dy <= 1; ++dy) {
-        for (std::int32_t dz = -1; dz <= 1; ++dz) {
-          if (dx == 0 && dy == 0 && dz == 0) continue;
-          if (count_in(cells_.points_in(cx + dx, cy + dy, cz + dz), i, &found)) return true;
-        }
-      }
+    for (const Offset& o : kOffsets.item) {
+      if (count_in(cells_.points_in(cx + o.x, cy + o.y, cz + o.z), i, &found)) return true;
     }
     return false;
   }
 
  private:
+  bool is_near(std::uint32_t i, std::uint32_t j) const {
+    const float dx = points_.x[j] - points_.x[i], dy = points_.y[j] - points_.y[i], dz = points_.z[j] - points_.z[i];
+    return dx * dx + dy * dy + dz * dz <= radius2_;
+  }
+
   bool count_in(Span<const std::uint32_t> members, std::uint32_t i, std::uint32_t* found) const {
     for (const std::uint32_t j : members) {
-      const float dx = points_.x[j] - points_.x[i], dy = points_.y[j] - points_.y[i], dz = points_.z[j] - points_.z[i];
-      if (j != i && dx * dx + dy * dy + dz * dz <= radius2_ && ++*found >= needed_) return true;
+      if (j != i && is_near(i, j) && ++*found >= needed_) return true;
     }
     return false;
   }
@@ -50,7 +83,9 @@ std::uint32_t remove_outliers(const Settings& settings, double leaf_m, CellIndex
   const double radius_m = settings.outlier_radius > 2.0 * leaf_m ? settings.outlier_radius : 2.0 * leaf_m;
   cells->build(*points, radius_m);
   const NeighbourCounter counter(*points, *cells, radius_m, settings.outlier_min_neighbors);
-  for (std::uint32_t i = 0; i < points->count; ++i) keep[i] = counter.has_enough(i) ? 1 : 0;
+  for (std::uint32_t i = 0; i < points->count; ++i) {
+    keep[i] = counter.has_enough_in_list(i) || counter.has_enough(i) ? 1 : 0;
+  }
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < points->count; ++i) {
     if (keep[i] != 0) points->copy(kept++, i);
