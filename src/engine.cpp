@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "estimation/near_plane.hpp"
 #include "math/rotation.hpp"
 #include "report.hpp"
 #include "stages/level.hpp"
@@ -214,24 +215,24 @@ void Engine::remember(const FrameFindings& found) {
 
 void Engine::label_points(const FrameFindings& found) {
   const PointSet& cloud = scratch_.cloud_base;
-  for (std::uint32_t i = 0; i < cloud.count; ++i) {
-    const Eigen::Vector3d p = cloud.at(i);
-    scratch_.marks[i] = POSE_WALL_LABEL_OTHER;
-    if (found.floor.fit.refused) continue;
-    if (std::fabs(found.floor.fit.plane.signed_distance(p)) <= settings_.ground_ransac_thresh) {
-      scratch_.marks[i] = POSE_WALL_LABEL_FLOOR;
-      continue;
-    }
-    const Eigen::Vector3d p_level = found.level.R_level_base * p;
-    const double height = p_level.z() - found.level.floor_z_level_m;
-    if (!(height >= settings_.wall_z_min && height <= settings_.wall_z_max)) continue;
-    for (int side = 0; side < 2; ++side) {
-      const WallResult& wall = found.walls.side[side];
-      if (wall.fit.refused || !(std::fabs(wall.fit.plane.signed_distance(p_level)) <= settings_.wall_ransac_thresh))
-        continue;
+  const Plane& floor = found.floor.fit.plane;
+  scratch_.marks.first(cloud.count).fill(POSE_WALL_LABEL_OTHER);
+  if (found.floor.fit.refused) return;
+  const double floor_reach_m = settings_.ground_ransac_thresh, wall_reach_m = settings_.wall_ransac_thresh;
+  for (int side = 0; side < 2; ++side) {
+    const PlaneFit& wall = found.walls.side[side].fit;
+    if (wall.refused) continue;
+    const Plane wall_base{found.level.R_level_base.transpose() * wall.plane.n, wall.plane.d};
+    for_each_up_to(cloud, wall_base, wall_reach_m, [&](std::uint32_t i, float distance_m) {
+      if (static_cast<double>(distance_m) < -wall_reach_m) return;
+      const double height_m = floor.signed_distance(cloud.at(i));
+      if (!(height_m >= settings_.wall_z_min && height_m <= settings_.wall_z_max)) return;
       scratch_.marks[i] = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
-    }
+    });
   }
+  for_each_up_to(cloud, floor, floor_reach_m, [&](std::uint32_t i, float distance_m) {
+    if (static_cast<double>(distance_m) >= -floor_reach_m) scratch_.marks[i] = POSE_WALL_LABEL_FLOOR;
+  });
 }
 
 pose_wall_points Engine::points() const {

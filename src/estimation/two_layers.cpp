@@ -12,6 +12,7 @@ namespace pose_wall {
 namespace {
 
 constexpr int kRounds = 30;
+constexpr double kGainLeast = 1e-3;  // in log likelihood: less decides nothing
 constexpr double kShareMin = 0.06;
 constexpr double kShareMax = 0.65;
 constexpr double kStepMin_m = 0.03;
@@ -59,7 +60,12 @@ void improve(const Histogram& h, double sigma_min_m, Mixture* m) {
 }
 
 Mixture fit(const Histogram& h, Mixture start, double sigma_min_m) {
-  for (int round = 0; round < kRounds; ++round) improve(h, sigma_min_m, &start);
+  double before = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    improve(h, sigma_min_m, &start);
+    if (round > 0 && std::fabs(start.log_likelihood - before) < kGainLeast) break;
+    before = start.log_likelihood;
+  }
   return start;
 }
 

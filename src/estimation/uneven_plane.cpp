@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
-#include "math/two_doubles.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 namespace {
@@ -34,22 +34,19 @@ double unevenness(Span<const SurfacePatch> patches) {
   return excess > 0.0 ? excess / information : 0.0;
 }
 
-// Sum of products, in eight lanes of a fixed order.
-double dot(const double* a, const double* b, std::uint32_t count) {
-  constexpr std::uint32_t kStep = 4 * kTwo;
-  TwoDoubles s0{}, s1{}, s2{}, s3{};
-  const double* const whole = a + count / kStep * kStep;
-  const double* const end = a + count;
-  for (; a != whole; a += kStep, b += kStep) {
-    s0 += load_two(a) * load_two(b);
-    s1 += load_two(a + kTwo) * load_two(b + kTwo);
-    s2 += load_two(a + 2 * kTwo) * load_two(b + 2 * kTwo);
-    s3 += load_two(a + 3 * kTwo) * load_two(b + 3 * kTwo);
+// Sum of the first products, in eight lanes of a fixed order. Rows are zero behind what is known of them, up to a whole
+// number of steps.
+constexpr std::uint32_t kStep = 2 * kFour;
+static_assert(kRow % kStep == 0, "rows are whole steps");
+
+float dot(const float* a, const float* b, std::uint32_t count) {
+  FourFloats s0{}, s1{};
+  for (const float* const end = a + (count + kStep - 1) / kStep * kStep; a != end; a += kStep, b += kStep) {
+    s0 += load_four(a) * load_four(b);
+    s1 += load_four(a + kFour) * load_four(b + kFour);
   }
-  const TwoDoubles sums = (s0 + s1) + (s2 + s3);
-  double sum = sums[0] + sums[1];
-  for (; a != end; ++a, ++b) sum += *a * *b;
-  return sum;
+  const FourFloats sums = s0 + s1;
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 double slopes_variance(const Eigen::Matrix3d& covariance) {
@@ -107,9 +104,9 @@ UnevenFit UnevenPlane::Models::average(double freedom) const {
 }
 
 void UnevenPlane::lay_out(Arena& arena) {
-  correlation_ = arena.take<double>(kRow * kRow);
-  factor_ = arena.take<double>(kRow * kRow);
-  whitened_ = arena.take<double>(kRow * kColumns);
+  correlation_ = arena.take<float>(kRow * kRow);
+  factor_ = arena.take<float>(kRow * kRow);
+  whitened_ = arena.take<float>(kRow * kColumns);
   matern_ = arena.take<double>(kMaternSteps + 1);
 }
 
@@ -133,25 +130,27 @@ void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double leng
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     for (std::uint32_t j = 0; j < i; ++j) {
       const double du = patches[i].u - patches[j].u, dv = patches[i].v - patches[j].v;
-      correlation_[i * kRow + j] = matern(std::sqrt(du * du + dv * dv) * per_length);
+      correlation_[i * kRow + j] = static_cast<float>(matern(std::sqrt(du * du + dv * dv) * per_length));
     }
   }
 }
 
-// Cholesky's factor of the patches' covariance. Row by row, so that sums have one order on every machine: a library
-// that cuts matrices into blocks by the size of the cache does not give the same bits.
+// Cholesky's factor of the patches' covariance. Floats do: each patch has a part of its own in it, a twentieth at
+// least. Row by row, so that sums have one order on every machine: a library that cuts matrices into blocks by the size
+// of the cache does not give the same bits.
 bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, double tau2) {
-  const double shared = (1.0 - own_share) * tau2;
+  const auto shared = static_cast<float>((1.0 - own_share) * tau2);
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    double* const row = &factor_[i * kRow];
+    float* const row = &factor_[i * kRow];
+    for (std::uint32_t k = 0; k < kRow; ++k) row[k] = 0.0F;
     for (std::uint32_t j = 0; j < i; ++j) {
-      const double* const above = &factor_[j * kRow];
-      const double covariance = shared > 0.0 ? shared * correlation_[i * kRow + j] : 0.0;
+      const float* const above = &factor_[j * kRow];
+      const float covariance = shared > 0.0F ? shared * correlation_[i * kRow + j] : 0.0F;
       row[j] = (covariance - dot(row, above, j)) * above[j];
     }
-    const double sum = tau2 + patches[i].noise_variance - dot(row, row, i);
-    if (!(sum > 0.0)) return false;
-    row[i] = 1.0 / std::sqrt(sum);
+    const float sum = static_cast<float>(tau2 + patches[i].noise_variance) - dot(row, row, i);
+    if (!(sum > 0.0F)) return false;
+    row[i] = 1.0F / std::sqrt(sum);
   }
   return true;
 }
@@ -160,21 +159,22 @@ bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
   Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
   Eigen::Vector3d of_residual = Eigen::Vector3d::Zero(), of_bias = Eigen::Vector3d::Zero();
   double squares = 0.0, log_determinant = 0.0;
+  whitened_.fill(0.0F);
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     const SurfacePatch& p = patches[i];
-    const double* const row = &factor_[i * kRow];
+    const float* const row = &factor_[i * kRow];
     double y[kColumns] = {1.0, p.u, p.v, p.residual, p.bias};
     for (std::uint32_t c = 0; c < kColumns; ++c) {
-      for (std::uint32_t k = 0; k < i; ++k) y[c] -= row[k] * whitened_[k * kColumns + c];
-      y[c] *= row[i];
-      whitened_[i * kColumns + c] = y[c];
+      // The row's diagonal meets a zero: nothing is whitened there yet.
+      y[c] = (y[c] - static_cast<double>(dot(row, &whitened_[c * kRow], i))) * static_cast<double>(row[i]);
+      whitened_[c * kRow + i] = static_cast<float>(y[c]);
     }
     const Eigen::Vector3d a(y[0], y[1], y[2]);
     g += a * a.transpose();
     of_residual += a * y[3];
     of_bias += a * y[4];
     squares += y[3] * y[3];
-    log_determinant -= 2.0 * natural_log(row[i]);
+    log_determinant -= 2.0 * natural_log(static_cast<double>(row[i]));
   }
   const double determinant = g.determinant();
   if (!(determinant > 1e-9 * g(0, 0) * g(1, 1) * g(2, 2))) return false;

@@ -47,10 +47,10 @@ class UnevenPlane {
   bool factor(Span<const SurfacePatch> patches, double own_share, double tau2);
   bool solve(Span<const SurfacePatch> patches, Model* model);
 
-  Span<double> correlation_;  // rows of the lower triangle
-  Span<double> factor_;       // Cholesky's, its diagonal inverted
+  Span<float> correlation_;  // rows of the lower triangle
+  Span<float> factor_;       // Cholesky's, its diagonal inverted
   Span<double> matern_;
-  Span<double> whitened_;  // rows of: 1, u, v, residual, bias
+  Span<float> whitened_;  // a row each: 1, u, v, residual, bias
 };
 
 }  // namespace pose_wall

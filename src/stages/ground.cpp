@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kRadiusGrowth = 1.5;
 constexpr int kRadiusSteps = 10;
-constexpr std::uint32_t kQuickPointsMax = 2000;
+constexpr std::uint32_t kQuickPointsMax = 1000;
 constexpr std::uint32_t kCandidatesMin = 60;
 constexpr double kAreaMin_m2 = 2.0;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.

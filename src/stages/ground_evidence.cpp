@@ -70,6 +70,7 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
   heights_.fill(0);
   const float limit = static_cast<float>(radius_m * radius_m);
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
+  points_within_ = count_within(points_base, radius_m);
   struct Place {
     std::uint32_t cell;
     int bin;
@@ -184,7 +185,7 @@ bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const Po
   constexpr double kBelow_m = 0.2;
   constexpr double kFall = 0.03;
   const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
-  const auto most = static_cast<std::uint32_t>(share_max * count_within(points_base, radius_m));
+  const auto most = static_cast<std::uint32_t>(share_max * marked.points_within());
   std::uint32_t below = 0;
   for_each_up_to(points_base, marked_plane, -kBelow_m, [&](std::uint32_t i, float height_m) {
     if (below > most) return;

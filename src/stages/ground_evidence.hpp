@@ -35,6 +35,9 @@ class FloorGrid {
   std::uint32_t find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
                           Span<std::uint32_t> out);
 
+  // How many points lie within the radius at all.
+  std::uint32_t points_within() const { return points_within_; }
+
   // Whether nothing stands on the cells next to an open point's either: at the foot of a rough wall or heap its lowest
   // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
   bool clear_around(const Eigen::Vector3d& p_base) const;
@@ -62,6 +65,7 @@ class FloorGrid {
   };
   Bounds bounds_;
 
+  std::uint32_t points_within_ = 0;
   double lowest_m_ = 0.0;        // of the heights
   Span<std::uint64_t> heights_;  // per cell, a bit for each eighth of a metre that holds points
   Span<std::uint8_t> marked_;

@@ -20,6 +20,7 @@ constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, par
 constexpr double kLayersApartInSigmas = 2.5;
 constexpr double kPatch_m = 0.5;
 constexpr double kWeightMin = 1e-6;
+constexpr std::uint32_t kStepPoints = 2000;
 constexpr int kJointRounds = 3;
 constexpr int kJointRoundsOfAStep = 1;  // the next ring asks where the plane goes, not how exactly
 constexpr double kAgreeInSigmas = 3.5;
@@ -173,7 +174,8 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
   patches->begin(static_cast<double>(u_min), static_cast<double>(u_max), static_cast<double>(v_min),
                  static_cast<double>(v_max), kPatch_m, surface.fronts.found ? 2 : 1);
   const double foreshortening = surface.irls.over.foreshortening();
-  for (std::uint32_t k = 0; k < surface.count; ++k) {
+  const std::uint32_t stride = errors == PatchGrid::Errors::kPlaneOnly ? surface.count / kStepPoints + 1 : 1;
+  for (std::uint32_t k = 0; k < surface.count; k += stride) {
     const double u = static_cast<double>(points.at.u[k]), v = static_cast<double>(points.at.v[k]);
     const double r = points.at.distance(k, surface.irls.over, foreshortening);
     const double stands_for = static_cast<double>(points.at.weight[k]), bias = static_cast<double>(points.bias[k]);

@@ -96,7 +96,8 @@ struct WallSurface {
   }
 };
 
-// Averages the surface's points, and the strips' fronts if they were found, over patches: sets patch.
+// Averages the surface's points, and the strips' fronts if they were found, over patches: sets patch. A fit without
+// errors is a step on the way to the next one, and content with a part of the points.
 void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit);
 
 // Tells strips and surface apart, near the sensor first and then further and further out, and repeats the plane fit on
