@@ -56,14 +56,20 @@ void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level
 }  // namespace
 
 void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
-  grid.lay_out(arena, points_max);
-  cells.lay_out(arena, points_max);
   marks = arena.take<std::uint8_t>(points_max);
   returns_lidar.lay_out(arena);
   cloud_base.lay_out(arena, points_max);
   band_level.lay_out(arena, points_max);
   beyond_level.lay_out(arena, kBeyondMax);
+  // The stages follow each other: what only one of them needs lies on top of what only another does. The grid serves
+  // two, voxels and band, and is begun anew each time.
+  const std::uint64_t of_one_stage = arena.place();
+  grid.lay_out(arena, points_max);
+  arena.go_back(of_one_stage);
+  cells.lay_out(arena, points_max);
+  arena.go_back(of_one_stage);
   ground.lay_out(arena, points_max);
+  arena.go_back(of_one_stage);
   walls.lay_out(arena, points_max);
 }
 

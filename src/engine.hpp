@@ -51,10 +51,10 @@ struct Memory {
 
 // Where everything lies in the caller's block:
 //
-//   | Engine | grid | cells | marks | returns | cloud_base | band_level | beyond_level | ground | walls |
+//   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid, cells, ground, walls |
 //
-// Engine is written at open and lives on; the hash slots of grid and cells are cleared at open; the rest is scratch
-// that each frame writes before it reads.
+// Engine is written at open and lives on; the rest is scratch that each frame writes before it reads. The last four lie
+// on top of each other: each is done with when the next is written.
 class Engine {
  public:
   // Measures (block NULL) or places an engine.

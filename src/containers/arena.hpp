@@ -30,7 +30,16 @@ class Arena {
     return place != nullptr ? new (place) T : nullptr;
   }
 
-  std::uint64_t bytes() const { return used_; }
+  // What is taken after this lies on top of what was taken since: for parts of which one is done with when the other
+  // is written.
+  std::uint64_t place() const { return used_; }
+  void go_back(std::uint64_t place) {
+    most_ = bytes();
+    used_ = place;
+  }
+
+  // At most ever in use.
+  std::uint64_t bytes() const { return used_ > most_ ? used_ : most_; }
 
  private:
   void* advance(std::uint64_t bytes) {
@@ -41,7 +50,7 @@ class Arena {
   }
 
   unsigned char* block_;
-  std::uint64_t used_ = 0;
+  std::uint64_t used_ = 0, most_ = 0;
 };
 
 }  // namespace pose_wall

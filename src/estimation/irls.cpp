@@ -105,7 +105,9 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
 IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points) {
   points->begin(start, Eigen::Vector3d::Zero(), u_hint);
-  for (const std::uint32_t i : indices) points->add(cloud.at(i), cloud.weight[i]);
+  const std::uint32_t stride = indices.size() / (points->capacity() + 1) + 1;
+  for (std::uint32_t k = 0; k < indices.size(); k += stride)
+    points->add(cloud.at(indices[k]), cloud.weight[indices[k]]);
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);
   return {points->plane_of(fit.over), fit.scale_m, fit.solved};
 }

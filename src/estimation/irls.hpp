@@ -35,7 +35,7 @@ struct IrlsResult {
   bool solved = false;
 };
 
-// The same on points of a cloud. points: scratch, with room for the indices.
+// The same on points of a cloud, as many of them as points has room for.
 IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points);
 

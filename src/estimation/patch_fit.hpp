@@ -52,7 +52,7 @@ struct PatchFit {
 // nothing about the offset, but as much about the slopes as their own straightness allows.
 class PatchGrid {
  public:
-  static constexpr std::uint32_t kCapacity = 4096;  // patches of all layers
+  static constexpr std::uint32_t kCapacity = 1536;  // patches of all layers
   static constexpr std::uint32_t kLayersMax = 2;
   static constexpr std::uint32_t kPatchesMin = 8;  // of the surface
 

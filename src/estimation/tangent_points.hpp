@@ -47,6 +47,8 @@ struct TangentPoints {
     count = 0;
   }
 
+  std::uint32_t capacity() const { return u.size(); }
+
   // Around a plane, with the origin's foot as origin and u along the hint.
   void begin(const Plane& around, const Eigen::Vector3d& origin, const Eigen::Vector3d& u_hint) {
     plane = around;

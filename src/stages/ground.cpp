@@ -248,7 +248,7 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   open = arena.take<std::uint32_t>(points_max);
   candidates = arena.take<std::uint32_t>(points_max);
   low = arena.take<std::uint32_t>(points_max);
-  points.lay_out(arena, points_max);
+  points.lay_out(arena, kGroundFitPoints);
   subset.lay_out(arena, kGroundSubset);
   grid.lay_out(arena);
   patches.lay_out(arena);

@@ -86,8 +86,9 @@ Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f)
 void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const IrlsResult& irls,
                   const TangentFrame& f, double radius_m, const Eigen::Vector3d& sensor_base_m,
                   GroundScratch* scratch) {
-  scratch->patches.begin(-2.0 * radius_m, 2.0 * radius_m, -2.0 * radius_m, 2.0 * radius_m, kPatch_m);
-  scratch->surface.begin(kStretch * radius_m, kPatch_m);
+  const double reach_m = kStretch * radius_m;
+  scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m);
+  scratch->surface.begin(reach_m, kPatch_m);
   // A range that errs moves a point along the ray: height and place err together, which tilts a plane that is seen over
   // a short length. On a floor no rougher than the ranges the error is taken back along the ray.
   const double rougher = irls.scale_m / kScaleMin_m - 1.0;

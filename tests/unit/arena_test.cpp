@@ -71,5 +71,24 @@ TEST(Arena, SizesDoNotWrapAt32Bits) {
   EXPECT_GE(arena.bytes(), 8ULL * 0xFFFFFFFFULL);
 }
 
+TEST(Arena, PartsThatLieOnTopOfEachOtherNeedTheRoomOfTheLargest) {
+  for (const std::uint32_t first : {10U, 5000U}) {
+    Arena arena(nullptr);
+    arena.take<double>(100);
+    const std::uint64_t place = arena.place();
+    arena.take<std::uint8_t>(first);
+    arena.go_back(place);
+    arena.take<std::uint8_t>(1000);
+    EXPECT_EQ(arena.bytes(), place + (first > 1000 ? 5056 : 1024)) << "whole lines of 64 bytes";
+  }
+  test::AlignedBlock block(1024, test::Dirt::kOnes);
+  Arena placing(block.data());
+  const std::uint64_t place = placing.place();
+  const Span<float> one = placing.take<float>(4);
+  placing.go_back(place);
+  const Span<float> other = placing.take<float>(8);
+  EXPECT_EQ(one.data(), other.data());
+}
+
 }  // namespace
 }  // namespace pose_wall
