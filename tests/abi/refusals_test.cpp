@@ -236,5 +236,20 @@ TEST(AbiCalls, AnEmptyCloudIsNoError) {
   for (const pose_wall_value& v : r.quantity) EXPECT_EQ(v.state, static_cast<std::uint32_t>(POSE_WALL_INVALID));
 }
 
+// The table in README.md. Less is good news, but the table is to say so.
+TEST(Memory, IsWhatTheReadmeSays) {
+  struct Row {
+    double points_max, mebibytes;
+  };
+  for (const Row& row : {Row{16000, 1.9}, Row{60000, 4.4}, Row{131000, 9.3}}) {
+    pose_wall_config config;
+    ASSERT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
+    ASSERT_EQ(pose_wall_config_set_number(&config, "points_max", row.points_max), POSE_WALL_OK);
+    std::uint64_t bytes = 0;
+    ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
+    EXPECT_NEAR(static_cast<double>(bytes) / (1 << 20), row.mebibytes, 0.03 * row.mebibytes) << row.points_max;
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall::test

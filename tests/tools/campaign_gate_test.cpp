@@ -78,6 +78,8 @@ TEST(CampaignGate, EachClassKeepsItsFloor) {
     for (auto& q : run.frames[i].quantity) q.measured.state = POSE_WALL_HELD;
   }
   EXPECT_TRUE(contains(faults_of({run}), "clean os1-64: 50 % available; its floor is 99 %"));
+  run.run.sensor = "vlp16";
+  EXPECT_TRUE(contains(faults_of({run}), "clean vlp16: 50 % available; its floor is 98 %")) << "sixteen lines see less";
 }
 
 TEST(CampaignGate, WhatNobodyCanTellIsNotAsked) {

@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "sim/sensors.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -163,6 +166,12 @@ Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, 
   }
   card.events = worst_events(judged, manifest.limits, events_max);
   return card;
+}
+
+double available_floor(const ClassCard& one) {
+  const sim::SensorModel* const sensor = sim::find_sensor(one.sensor);
+  const double less = sensor != nullptr ? sensor->available_less : 0.0;
+  return std::max(one.scene->available_floor - less, 0.0);
 }
 
 }  // namespace pose_wall::tools::campaign

@@ -64,6 +64,9 @@ struct ClassCard {
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // values with a truth that were not valid, by reason
 };
 
+// Least share of the values that is to be available: what the scene promises, for this sensor.
+double available_floor(const ClassCard& one);
+
 struct Totals {
   const char* name;
   std::size_t classes = 0;

@@ -80,7 +80,7 @@ Json class_page(const ClassCard& card) {
           {"sensor", card.sensor},
           {"kind", sim::scene_kind_name(card.scene->kind)},
           {"draws", card.draws},
-          {"available_floor", card.scene->available_floor},
+          {"available_floor", available_floor(card)},
           {"shares", shares(state_shares(card.quantities))},
           {"counts", counts(card.frames)},
           {"frames_to_alert_max", card.times.alert_max},

@@ -78,7 +78,7 @@ std::string classes_of(const Card& card) {
   for (const ClassCard& c : card.classes) {
     const StateShares s = state_shares(c.quantities);
     table.add_row({c.scene->name, c.sensor, sim::scene_kind_name(c.scene->kind), std::to_string(c.draws),
-                   std::to_string(c.frames.frames), percent(s.available()), percent(c.scene->available_floor),
+                   std::to_string(c.frames.frames), percent(s.available()), percent(available_floor(c)),
                    percent(s.valid), percent(s.degraded), percent(s.held), percent(s.invalid),
                    std::to_string(c.frames.misleading), std::to_string(c.frames.value_beyond_protection),
                    std::to_string(c.frames.raw_beyond_protection), std::to_string(c.times.alert_max),

@@ -61,7 +61,7 @@ void demand_sigma(Faults& faults, const Card& card) {
 void demand_availability(Faults& faults, const Card& card) {
   for (const ClassCard& one : card.classes) {
     const double available = state_shares(one.quantities).available();
-    const double floor = one.scene->available_floor;
+    const double floor = available_floor(one);
     faults.demand(floor <= 0.0 || available >= floor, "{} {}: {:.4g} % available; its floor is {:.4g} %",
                   one.scene->name, one.sensor, 100.0 * available, 100.0 * floor);
   }
