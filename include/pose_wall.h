@@ -367,7 +367,7 @@ int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes)
 
 /* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
  * The config is copied. Fails iff: NULL, broken rule, block too small or misaligned. *engine is set only on success.
- * There is nothing to close. Cost: one pass over the block. */
+ * There is nothing to close. Cost: none to speak of; the block is cleared as it is used. */
 int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes, pose_wall_engine** engine);
 
 /* Forgets all that was measured, as if just opened. */

@@ -71,6 +71,7 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   ground.lay_out(arena, points_max);
   arena.go_back(of_one_stage);
   walls.lay_out(arena, points_max);
+  arena.go_behind_all();
 }
 
 void Scratch::reset() {

@@ -38,6 +38,9 @@ class Arena {
     used_ = place;
   }
 
+  // What is taken after this lies on top of nothing.
+  void go_behind_all() { used_ = bytes(); }
+
   // At most ever in use.
   std::uint64_t bytes() const { return used_ > most_ ? used_ : most_; }
 

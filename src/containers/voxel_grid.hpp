@@ -16,7 +16,8 @@ namespace pose_wall {
 constexpr std::uint32_t kWeightOne = 16;
 
 // Weighted centroids of the points in each cell of a grid. Coordinates are summed as whole steps, a 1024th of the
-// cell's edge each: the centroids are the same bits whatever the order of the points, and exact to half a step.
+// cell's edge each: the centroids are the same bits whatever the order of the points, and exact to half a step, or to
+// what floats tell apart over the whole reach.
 class VoxelGrid {
  public:
   static constexpr std::uint32_t kStepBits = 10;
@@ -35,7 +36,7 @@ class VoxelGrid {
   const Steps& steps() const { return steps_; }
 
   // False where the point needs a new cell and there is no room: the grid is then of no use. A cell takes the weight of
-  // a quarter of a million points; more of them change nothing.
+  // a quarter of a million points; which of more count depends on their order.
   bool add(std::int32_t x_step, std::int32_t y_step, std::int32_t z_step, std::uint32_t weight_sixteenths) {
     const std::uint32_t known = hash_.count();
     const std::uint32_t index = hash_.insert(key_of(x_step >> kStepBits, y_step >> kStepBits, z_step >> kStepBits));

@@ -105,7 +105,9 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
 IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points) {
   points->begin(start, Eigen::Vector3d::Zero(), u_hint);
-  const std::uint32_t stride = indices.size() / (points->capacity() + 1) + 1;
+  const std::uint32_t room = points->capacity(), needed = room > 0 ? (indices.size() + room - 1) / room : 1;
+  // Neighbours in the list may lie in two layers by turns: an even stride would take but one of them.
+  const std::uint32_t stride = needed <= 1 ? 1 : needed | 1U;
   for (std::uint32_t k = 0; k < indices.size(); k += stride)
     points->add(cloud.at(indices[k]), cloud.weight[indices[k]]);
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);

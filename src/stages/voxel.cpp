@@ -16,7 +16,7 @@ namespace {
 constexpr double kLeafGrowth = 1.26;  // about the cube root of 2
 constexpr int kLeafTries = 20;        // 1.26^19: 80 times the configured leaf
 
-// What becomes of a point. Order matters: the first that holds counts.
+// What becomes of a point. The last of these that holds counts.
 enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // kBeyond: too far, zero or not a number
 
 // Points are worked on by the block: turned and judged four at a time; only what goes into tables goes one by one.

@@ -8,6 +8,7 @@
 
 #include "estimation/distances.hpp"
 #include "math/elementary.hpp"
+#include "math/larger.hpp"
 
 namespace pose_wall {
 namespace {
@@ -28,7 +29,7 @@ void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
     voxels += 1.0;
     measured += static_cast<double>(points.weight[k]);
   }
-  fit->inliers = static_cast<std::uint32_t>(measured);
+  fit->inliers = static_cast<std::uint32_t>(measured * surface.points->stride);
   fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
 }
 
@@ -47,20 +48,32 @@ void set_yaw(const WallScene& scene, const PatchFit& patch, const TangentFrame& 
 }
 
 // Where the wall was cut off below or above a sampling point, the plane is prolonged to it; this is how far the surface
-// seen at that height lies from the plane.
+// seen a little below that height or a little above it lies from the plane, whichever is further: it bends.
 double offset_at_height(const WallScene& scene, const Plane& plane, double z_level_m) {
   constexpr double kWindow_m = 0.3;
   constexpr double kGate_m = 0.4;
   constexpr double kPointsMin = 10.0;
-  double sum = 0.0, count = 0.0;
+  double sum[2] = {}, count[2] = {};
   for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
     const Eigen::Vector3d p = scene.band_level.at(i);
-    const double r = plane.signed_distance(p);
-    if (!(std::fabs(p.z() - z_level_m) <= kWindow_m) || !(std::fabs(r) <= kGate_m)) continue;
-    sum += std::fabs(r);
-    count += 1.0;
+    const double r = plane.signed_distance(p), above_m = p.z() - z_level_m;
+    if (!(std::fabs(above_m) <= kWindow_m) || !(std::fabs(r) <= kGate_m)) continue;
+    sum[above_m > 0.0 ? 1 : 0] += std::fabs(r);
+    count[above_m > 0.0 ? 1 : 0] += 1.0;
   }
-  return count >= kPointsMin ? sum / count : kGate_m;
+  double offset_m = -1.0;
+  for (int half = 0; half < 2; ++half) {
+    if (count[half] >= kPointsMin) offset_m = larger(offset_m, sum[half] / count[half]);
+  }
+  return offset_m >= 0.0 ? offset_m : kGate_m;
+}
+
+// Whether the wall is one plane at this height. Next to where it was cut off it begins to bend.
+bool clear_of_cuts(const WallScene& scene, const Heights& heights, double z_level_m) {
+  constexpr double kBegins_m = 0.25;
+  const bool top_is_cut = heights.max_m<scene.z_max_level_m, foot_is_cut = heights.min_m> scene.z_min_level_m;
+  return z_level_m <= heights.max_m - (top_is_cut ? kBegins_m : 0.0) &&
+         z_level_m >= heights.min_m + (foot_is_cut ? kBegins_m : 0.0);
 }
 
 // These distances are read off few points of surfaces nobody fitted.
@@ -116,10 +129,13 @@ double steps_back_at(const WallScene& scene, const WallResult& wall, const Eigen
   return passing_m > beside_m ? passing_m : beside_m;
 }
 
-// Solid at the sampling point and a little to both sides of it.
+// Solid at the sampling point and to both sides of it. A column is half a metre wide and may hold the wall's last
+// points in its nearer part only.
 bool solid_around(const WallGrid& grid, double along_m) {
-  constexpr double kBeside_m = 0.3;
-  return !(grid.gap_to_solid_m(along_m - kBeside_m) > 0.0) && !(grid.gap_to_solid_m(along_m + kBeside_m) > 0.0);
+  for (const double beside_m : {0.3, 0.75}) {
+    if (grid.gap_to_solid_m(along_m - beside_m) > 0.0 || grid.gap_to_solid_m(along_m + beside_m) > 0.0) return false;
+  }
+  return true;
 }
 
 void set_distances(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
@@ -137,7 +153,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     if (bend > kBendMatters * scene.settings.alert_limit_distance) out->fit.reasons |= POSE_WALL_R_CURVED;
     bound = scene.settings.range_bias_max * std::fabs(bias) + bend;
     const bool in_band = scene.in_band(sample.z());
-    if (in_band && !surface.heights.contain(sample.z())) {
+    if (in_band && !clear_of_cuts(scene, surface.heights, sample.z())) {
       bound += offset_at_height(scene, out->fit.plane, sample.z());
     }
     const double along_m = out->along_level.dot(sample);

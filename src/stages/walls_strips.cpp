@@ -20,9 +20,7 @@ constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, par
 constexpr double kLayersApartInSigmas = 2.5;
 constexpr double kPatch_m = 0.5;
 constexpr double kWeightMin = 1e-6;
-constexpr std::uint32_t kStepPoints = 2000;
 constexpr int kJointRounds = 3;
-constexpr int kJointRoundsOfAStep = 1;  // the next ring asks where the plane goes, not how exactly
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
 constexpr double kFrontStepMin_m = 0.06;
@@ -174,8 +172,7 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
   patches->begin(static_cast<double>(u_min), static_cast<double>(u_max), static_cast<double>(v_min),
                  static_cast<double>(v_max), kPatch_m, surface.fronts.found ? 2 : 1);
   const double foreshortening = surface.irls.over.foreshortening();
-  const std::uint32_t stride = errors == PatchGrid::Errors::kPlaneOnly ? surface.count / kStepPoints + 1 : 1;
-  for (std::uint32_t k = 0; k < surface.count; k += stride) {
+  for (std::uint32_t k = 0; k < surface.count; ++k) {
     const double u = static_cast<double>(points.at.u[k]), v = static_cast<double>(points.at.v[k]);
     const double r = points.at.distance(k, surface.irls.over, foreshortening);
     const double stands_for = static_cast<double>(points.at.weight[k]), bias = static_cast<double>(points.bias[k]);
@@ -188,13 +185,12 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
 
 void join_fronts(Fronts use, WallFitScratch* scratch, WallSurface* fit) {
   WallSurface joint = *fit;
-  const int rounds = use == Fronts::kAlways ? kJointRoundsOfAStep : kJointRounds;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < kJointRounds; ++round) {
     joint.irls.over = joint.over();
     joint.fronts = measure_fronts(joint, scratch->residuals);
     if (!joint.fronts.found) return;
     // Errors are asked for by who compares, after the last round.
-    const bool is_step = use == Fronts::kAlways || round + 1 < rounds;
+    const bool is_step = use == Fronts::kAlways || round + 1 < kJointRounds;
     const PatchGrid::Errors errors = is_step ? PatchGrid::Errors::kPlaneOnly : PatchGrid::Errors::kMeasured;
     fit_patches(errors, &scratch->patches, &joint);
     if (!joint.patch.solved) return;

@@ -21,6 +21,7 @@ struct WallPoints {
   static constexpr std::uint32_t kMost = 16384;
 
   TangentPoints at;
+  std::uint32_t stride = 1;    // of the points that belong here, every n-th is
   Span<float> bias;            // change of r per metre of range bias
   Eigen::Vector3d sensor;      // u, v, r
   double z_at_origin_m = 0.0;  // z_level = z_at_origin + v z_per_v + r z_per_r
@@ -96,8 +97,7 @@ struct WallSurface {
   }
 };
 
-// Averages the surface's points, and the strips' fronts if they were found, over patches: sets patch. A fit without
-// errors is a step on the way to the next one, and content with a part of the points.
+// Averages the surface's points, and the strips' fronts if they were found, over patches: sets patch.
 void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit);
 
 // Tells strips and surface apart, near the sensor first and then further and further out, and repeats the plane fit on

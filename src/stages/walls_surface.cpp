@@ -44,8 +44,10 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
     if (heights.contain(p.z()) && grid.solid_at(along.dot(p), p.z())) near[count++] = i;
   }
   scratch->points.begin(scene, start, along);
-  for (const std::uint32_t i : thinned(near.first(count), WallPoints::kMost)) {
-    scratch->points.add(scene.band_level.at(i), scene.band_level.weight[i]);
+  const std::uint32_t stride = (count + WallPoints::kMost - 1) / WallPoints::kMost;
+  scratch->points.stride = stride > 1 ? stride : 1;
+  for (std::uint32_t k = 0; k < count; k += scratch->points.stride) {
+    scratch->points.add(scene.band_level.at(near[k]), scene.band_level.weight[near[k]]);
   }
 }
 

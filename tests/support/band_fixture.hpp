@@ -69,7 +69,7 @@ class BandFixture {
   }
 
   WallsResult walls(const Plane* const last_left = nullptr, const Plane* const last_right = nullptr) {
-    Placed<WallsScratch> scratch(points_.set().capacity());
+    Placed<WallsScratch> scratch(2 * kPointsMax);
     Random random(1);
     const Plane* const last[2] = {last_left, last_right};
     return find_walls(scene(), last, &random, scratch.get());

@@ -80,6 +80,8 @@ TEST(Arena, PartsThatLieOnTopOfEachOtherNeedTheRoomOfTheLargest) {
     arena.go_back(place);
     arena.take<std::uint8_t>(1000);
     EXPECT_EQ(arena.bytes(), place + (first > 1000 ? 5056 : 1024)) << "whole lines of 64 bytes";
+    arena.go_behind_all();
+    EXPECT_EQ(arena.place(), arena.bytes());
   }
   test::AlignedBlock block(1024, test::Dirt::kOnes);
   Arena placing(block.data());

@@ -124,5 +124,18 @@ TEST(Irls, AnyCountOfPoints) {
   }
 }
 
+TEST(Irls, TakesNoMorePointsThanThereIsRoomFor) {
+  constexpr std::uint32_t kRoom = 8;
+  for (std::uint32_t count = 1; count <= 200; ++count) {
+    test::OwnedPoints cloud(count);
+    for (std::uint32_t i = 0; i < count; ++i) cloud.add(0.5 * (i % 7), 0.3 * (i % 5), 0.0);
+    test::Placed<TangentPoints> points(kRoom);
+    irls_tukey(cloud.set(), cloud.all(), Plane{Eigen::Vector3d::UnitZ(), 0.0}, Eigen::Vector3d::UnitX(), kSettings,
+               points.get());
+    ASSERT_LE(points->count, kRoom) << count;
+    ASSERT_GE(points->count, count < kRoom ? count : kRoom / 4) << count;
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall

@@ -92,7 +92,7 @@ TEST(Voxel, PointsAreMovedToBase) {
   const Voxels v = voxels_of(test::cloud_of(points, 0), test::settings_with(), extrinsic);
   ASSERT_EQ(v.points.size(), 1U);
   const Eigen::Vector3d expected = extrinsic.R_base_lidar * lidar + extrinsic.sensor_base_m;
-  EXPECT_LT((v.points[0] - expected).norm(), 1e-4);  // quantised to 0.06 mm
+  EXPECT_LT((v.points[0] - expected).norm(), 1e-4);  // quantised to 0.05 mm
 }
 
 TEST(Voxel, DirectionsAreThoseOfTheSensorHoweverItIsMounted) {
