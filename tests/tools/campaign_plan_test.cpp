@@ -148,7 +148,7 @@ TEST(CampaignPlan, OtherPlansDifferInWords) {
   EXPECT_NE(difference(drawn_otherwise, manifest_for(request)).find("of 7 runs"), std::string::npos);
 }
 
-TEST(CampaignPlan, PromisesOfMoreThan99PercentAreMeasuredOnEnoughFrames) {
+TEST(CampaignPlan, HighPromisesAreMeasuredOnEnoughFrames) {
   PlanRequest request;
   request.size = "large";
   request.sensors = {"os1-64"};

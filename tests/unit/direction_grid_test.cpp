@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "support/stage_fixtures.hpp"
 
@@ -133,6 +135,49 @@ TEST(DirectionGrid, AxesAndPolesHaveACell) {
   grid->add({-0.0, 1.0, -0.0}, 1);
   grid->add({1e30, 1e30, 1e30}, 1);
   EXPECT_EQ(grid.all(), 10U);
+}
+
+// Most rays are sorted many at a time, in floats: the same cells but for rays on a border.
+TEST(DirectionGrid, ManyAtOnceAreSortedAsOneByOne) {
+  constexpr std::uint32_t kCount = 4096;
+  test::Noise noise(3);
+  std::vector<float> x(kCount), y(kCount), z(kCount), norm2(kCount);
+  std::vector<std::int32_t> cells(kCount);
+  for (std::uint32_t k = 0; k < kCount; ++k) {
+    const double far = std::pow(10.0, noise.uniform(-3.0, 2.0));
+    x[k] = static_cast<float>(far * noise.normal(1.0));
+    y[k] = static_cast<float>(far * noise.normal(1.0));
+    z[k] = static_cast<float>(far * noise.normal(1.0));
+    norm2[k] = x[k] * x[k] + y[k] * y[k] + z[k] * z[k];
+  }
+  DirectionGrid::cells_of(x.data(), y.data(), z.data(), norm2.data(), kCount, cells.data());
+  std::uint32_t others = 0;
+  for (std::uint32_t k = 0; k < kCount; ++k) {
+    const std::uint32_t one = DirectionGrid::cell_of(
+        Eigen::Vector3d(static_cast<double>(x[k]), static_cast<double>(y[k]), static_cast<double>(z[k])));
+    others += static_cast<std::uint32_t>(cells[k]) != one ? 1U : 0U;
+  }
+  EXPECT_LE(others, 2U);
+}
+
+TEST(DirectionGrid, WhatIsNoRayGetsSomeCell) {
+  constexpr float kInf = std::numeric_limits<float>::infinity(), kNan = std::numeric_limits<float>::quiet_NaN();
+  const float odd[] = {0.0F, -0.0F, kInf, -kInf, kNan, 1e-40F, 3e38F, -1e-20F};
+  for (const float x : odd) {
+    for (const float y : odd) {
+      for (const float z : odd) {
+        const float xs[4] = {x, y, z, 1.0F}, ys[4] = {y, z, x, 0.0F}, zs[4] = {z, x, y, 0.0F};
+        float norm2[4];
+        for (int k = 0; k < 4; ++k) norm2[k] = xs[k] * xs[k] + ys[k] * ys[k] + zs[k] * zs[k];
+        std::int32_t cells[4];
+        DirectionGrid::cells_of(xs, ys, zs, norm2, 4, cells);
+        for (const std::int32_t cell : cells) {
+          ASSERT_GE(cell, 0);
+          ASSERT_LT(cell, static_cast<std::int32_t>(DirectionGrid::kColumns * DirectionGrid::kRows));
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

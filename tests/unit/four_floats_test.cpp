@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace pose_wall {
@@ -31,6 +32,25 @@ TEST(FourFloats, SmallerLaneByLane) {
 
 TEST(FourFloats, SumInDoubles) {
   EXPECT_EQ(sum_of_lanes(FourFloats{1e8F, 1.0F, -1e8F, 1.0F}), 2.0);
+}
+
+TEST(FourFloats, CutOffRootMagnitudeAnyAndStore) {
+  const FourFloats four{2.9F, -2.9F, 0.25F, 9.0F};
+  const std::int32_t cut[kFour] = {2, -2, 0, 9};
+  const float sizes[kFour] = {2.9F, 2.9F, 0.25F, 9.0F};
+  float stored[kFour];
+  store_four(magnitude_of(four), stored);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    EXPECT_EQ(cut_off(four)[lane], cut[lane]);
+    EXPECT_EQ(stored[lane], sizes[lane]);
+    EXPECT_EQ(root_of(magnitude_of(four))[lane], std::sqrt(sizes[lane]));
+  }
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    FourFloats one{};
+    one[lane] = -1.0F;
+    EXPECT_TRUE(any_of(one < FourFloats{}));
+  }
+  EXPECT_FALSE(any_of(four < all_four(-3.0F)));
 }
 
 }  // namespace

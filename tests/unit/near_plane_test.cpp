@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: points up to a distance are visited once, in their order, whatever their number, with their distances.
+
+#include "estimation/near_plane.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+TEST(NearPlane, VisitsWhatLiesOnAPlaneOrBehindIt) {
+  const Plane plane{Eigen::Vector3d(0.1, -0.99, 0.05).normalized(), 2.5};
+  for (const std::uint32_t count : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 8U, 500U}) {
+    test::OwnedPoints points(count + 1);
+    test::Noise noise(count + 1);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      points.add(noise.uniform(-9, 9), noise.uniform(-9, 9), noise.uniform(-2, 2));
+    }
+    std::vector<std::uint32_t> expected, visited;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (plane.signed_distance(points.set().at(i)) <= 0.3) expected.push_back(i);
+    }
+    for_each_up_to(points.set(), plane, 0.3, [&](std::uint32_t i, float distance_m) {
+      visited.push_back(i);
+      EXPECT_NEAR(distance_m, plane.signed_distance(points.set().at(i)), 1e-5);
+    });
+    EXPECT_EQ(visited, expected) << count;
+  }
+}
+
+TEST(NearPlane, TheLimitItselfIsWithin) {
+  test::OwnedPoints points(2);
+  points.add(0, 0, 0.5);
+  points.add(0, 0, 0.75);
+  int visits = 0;
+  for_each_up_to(points.set(), Plane{Eigen::Vector3d::UnitZ(), 0.0}, 0.5, [&](std::uint32_t i, float) {
+    EXPECT_EQ(i, 0U);
+    ++visits;
+  });
+  EXPECT_EQ(visits, 1);
+}
+
+}  // namespace
+}  // namespace pose_wall
