@@ -4,6 +4,7 @@
 #include "bench_frames.hpp"
 
 #include <map>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -40,6 +41,36 @@ const Recording& recording(const std::string& sensor, std::uint32_t count) {
 
 const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count) {
   return recording(sensor, count).frames;
+}
+
+tools::sim::Frame resampled(const tools::sim::Frame& frame, std::uint32_t points) {
+  constexpr float kShift_m = 0.017F;  // a third of a voxel
+  tools::sim::Frame out;
+  out.stamp_ns = frame.stamp_ns;
+  const double step = static_cast<double>(frame.count()) / points;
+  for (std::uint32_t i = 0; i < points; ++i) {
+    const auto place = static_cast<std::size_t>(i * (step < 1.0 ? 1.0 : step));
+    const std::size_t from = place % frame.count(), copy = place / frame.count();
+    const float* const p = &frame.xyz_intensity[4 * from];
+    const float shift_m = kShift_m * static_cast<float>(copy);
+    out.xyz_intensity.insert(out.xyz_intensity.end(), {p[0] + shift_m, p[1] + shift_m, p[2] + shift_m, p[3]});
+    out.labels.push_back(frame.labels[from]);
+  }
+  return out;
+}
+
+tools::sim::Frame spread(std::uint32_t points) {
+  constexpr float kSides_m[3] = {40.0F, 40.0F, 5.0F};
+  tools::sim::Frame out;
+  std::mt19937 random(1);  // the same numbers everywhere
+  for (std::uint32_t i = 0; i < points; ++i) {
+    for (const float side_m : kSides_m) {
+      out.xyz_intensity.push_back(side_m * (static_cast<float>(random() >> 8U) / static_cast<float>(1U << 24U) - 0.5F));
+    }
+    out.xyz_intensity.push_back(1.0F);
+    out.labels.emplace_back();
+  }
+  return out;
 }
 
 const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count) {

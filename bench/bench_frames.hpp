@@ -16,6 +16,10 @@ namespace pose_wall::bench {
 
 // Made once per sensor and count, and kept.
 const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count);
+// The same frame with about so many points: every n-th of it, or it several times over, each time shifted a little.
+tools::sim::Frame resampled(const tools::sim::Frame& frame, std::uint32_t points);
+// What fills every table: points spread evenly over a box of 40 x 40 x 5 m around the sensor, hardly two in a voxel.
+tools::sim::Frame spread(std::uint32_t points);
 // The truth of the same frames.
 const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count);
 

@@ -6,6 +6,7 @@
     cmake --preset arm64 -DPOSE_WALL_BUILD_BENCH=ON && cmake --build --preset arm64
     bench/instructions/count.py build/arm64            # count, show, compare with figures.csv
     bench/instructions/count.py build/arm64 --note     # and write figures.csv anew, on purpose
+    bench/instructions/count.py build/arm64 --growth   # how they grow with the points of a frame, and the worst frame
 
 Fails where a stage costs more than 5 % above the noted figure. Needs qemu-aarch64 (package qemu-user) and a C compiler.
 """
@@ -19,6 +20,8 @@ import tempfile
 
 SENSORS = ["vlp16", "mid360", "os1-64", "os0-128"]
 FRAMES = 3
+GROWTH_OF = "os0-128"
+GROWTH = [5000, 16000, 32000, 65000, 131000, 260000]
 STAGES = ["floor", "voxels", "outliers", "ground", "band", "walls", "output"]
 TOLERANCE = 0.05
 # A stage below this share of its frame may grow by this share: a few instructions are no regression.
@@ -33,11 +36,12 @@ def build_plugin(folder):
     return plugin
 
 
-def count(plugin, program, sensor, folder):
+def count(plugin, program, sensor, folder, points=0):
     """Of one sensor: points, voxels, values measured, and instructions by stage, means over the frames."""
     log = pathlib.Path(folder) / "marks"
     command = ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", "-plugin", plugin, "-d", "plugin", "-D", log]
-    out = subprocess.run(command + [program, sensor, str(FRAMES)], check=True, capture_output=True, text=True).stdout
+    command += [program, sensor, str(FRAMES), str(points)]
+    out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     frames = [[int(x) for x in line.split()] for line in out.splitlines()]
     marks = [int(line) for line in log.read_text().split()]
     per_frame = len(STAGES) + 1
@@ -63,6 +67,17 @@ def show(rows):
         print(f"| {r['sensor']} | " + " | ".join(cells) + " |")
 
 
+def show_growth(plugin, program, folder):
+    print("| frame | points | voxel_count | measured | floor | frame | per point | x floor |")
+    print("| --- " * 8 + "|")
+    for name in (GROWTH_OF, "spread"):
+        for points in GROWTH:
+            r = count(plugin, program, name, folder, points)
+            cells = [name, r["points"], r["voxel_count"], r["measured"], f"{r['floor'] / 1e6:.2f} M"]
+            cells += [f"{r['frame'] / 1e6:.1f} M", f"{r['frame'] / r['points']:.0f}", f"{r['frame'] / r['floor']:.1f}"]
+            print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
+
+
 def compare(rows):
     with FIGURES.open(newline="") as file:
         noted = {r["sensor"]: r for r in csv.DictReader(file)}
@@ -80,6 +95,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path, help="folder of the arm64 build")
     parser.add_argument("--note", action="store_true", help="write figures.csv anew")
+    parser.add_argument("--growth", action="store_true", help="count frames of 5,000 to 260,000 points instead")
     parser.add_argument("--sensors", default=",".join(SENSORS), help="names, separated by commas")
     options = parser.parse_args()
     program = options.build / "pose_wall_marked_frames"
@@ -87,6 +103,9 @@ def main():
         sys.exit(f"{program} is missing: configure with -DPOSE_WALL_BUILD_BENCH=ON")
     with tempfile.TemporaryDirectory() as folder:
         plugin = build_plugin(folder)
+        if options.growth:
+            show_growth(plugin, program, folder)
+            return
         rows = [count(plugin, program, sensor, folder) for sensor in options.sensors.split(",")]
     show(rows)
     if options.note:

@@ -3,6 +3,9 @@
 
 // Runs frames through the engine and calls getppid() at every boundary of a stage, for count_plugin to write what it
 // has counted. Before each frame the floor: one pass that no engine can do without. Prints a line per frame.
+//
+//   pose_wall_marked_frames [SENSOR [FRAMES [POINTS]]]   POINTS: frames are resampled to so many
+//   pose_wall_marked_frames spread FRAMES POINTS         points that fill every table
 
 #include <unistd.h>
 
@@ -25,9 +28,20 @@ std::int64_t mark(void* /*user*/) {
   return ++marks;
 }
 
-int run(const std::string& sensor, std::uint32_t count) {
+constexpr const char* kDense = "os0-128";  // whose settings what is no sensor's has
+
+std::vector<tools::sim::Frame> input(const std::string& name, std::uint32_t count, std::uint32_t points) {
+  if (name == "spread") return std::vector<tools::sim::Frame>(count, spread(points));
+  std::vector<tools::sim::Frame> out = frames(name, count);
+  for (tools::sim::Frame& frame : out) {
+    if (points > 0) frame = resampled(frame, points);
+  }
+  return out;
+}
+
+int run(const std::string& sensor, std::uint32_t count, std::uint32_t points) {
   api::Engine engine;
-  if (engine.open(config(sensor)) != POSE_WALL_OK) {
+  if (engine.open(config(sensor == "spread" ? kDense : sensor)) != POSE_WALL_OK) {
     std::fprintf(stderr, "the engine refused the config for %s\n", sensor.c_str());
     return EXIT_FAILURE;
   }
@@ -35,7 +49,7 @@ int run(const std::string& sensor, std::uint32_t count) {
   FloorPass floor;
   pose_wall_result result = api::make_result();
   std::int64_t stamp_ns = 0;
-  for (const tools::sim::Frame& frame : frames(sensor, count)) {
+  for (const tools::sim::Frame& frame : input(sensor, count, points)) {
     const pose_wall_cloud cloud = cloud_of(frame, stamp_ns += kPeriod_ns);
     mark(nullptr);
     const std::uint32_t cells = floor.run(frame);
@@ -55,5 +69,8 @@ int run(const std::string& sensor, std::uint32_t count) {
 
 int main(int argc, char** argv) {
   const std::string sensor = argc > 1 ? argv[1] : "os1-64";
-  return pose_wall::bench::run(sensor, argc > 2 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 3U);
+  const auto number = [&](int i, std::uint32_t otherwise) {
+    return argc > i ? static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)) : otherwise;
+  };
+  return pose_wall::bench::run(sensor, number(2, 3), number(3, 0));
 }

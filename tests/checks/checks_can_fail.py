@@ -109,6 +109,39 @@ class Layers(BrokenProject):
         self.fails("nothing was checked", *self.check())
 
 
+class Stack(BrokenProject):
+    def check(self):
+        return CHECKS / "check_stack.py", self.root / "build", 1000
+
+    def graph(self, file, sizes, calls):
+        nodes = [f'node: {{ title: "{name}" label: "void {name}()\\na.cpp:1:1\\n{size}" }}' for name, size in sizes]
+        edges = [f'edge: {{ sourcename: "{a}" targetname: "{b}" label: "a.cpp:2:2" }}' for a, b in calls]
+        self.write(f"build/{file}.ci", "\n".join(['graph: { title: "a.cpp"', *nodes, *edges, "}"]) + "\n")
+
+    def test_passes(self):
+        self.graph("a", [("pose_wall_open", "100 bytes (static)")], [("pose_wall_open", "inner"), ("inner", "memcpy")])
+        self.graph("b", [("inner", "400 bytes (static)")], [])
+        self.passes(*self.check())
+
+    def test_the_deepest_chain_counts(self):
+        self.graph("a", [("pose_wall_open", "100 bytes (static)")], [("pose_wall_open", "inner")])
+        self.graph("b", [("inner", "901 bytes (static)")], [])
+        self.fails("1001 bytes of stack are more than 1000", *self.check())
+
+    def test_recursion(self):
+        sizes = [("pose_wall_open", "1 bytes (static)"), ("b", "1 bytes (static)")]
+        self.graph("a", sizes, [("pose_wall_open", "b"), ("b", "b")])
+        self.fails("recursion: b -> b", *self.check())
+
+    def test_a_frame_of_unknown_size(self):
+        self.graph("a", [("pose_wall_open", "100 bytes (dynamic)")], [])
+        self.fails("its frame is dynamic", *self.check())
+
+    def test_nothing_to_check(self):
+        self.graph("a", [("other", "1 bytes (static)")], [])
+        self.fails("nothing was checked", *self.check())
+
+
 class House(BrokenProject):
     def check(self):
         return CHECKS / "check_house.py", self.root

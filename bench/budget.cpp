@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_wall_budget: does a frame fit into 10 or 20 Hz on this controller? One static program, to be copied there and
+// run:
+//
+//   pose_wall_budget [--frames N] [SENSOR ...]
+//
+// Simulates a rough heading for each sensor, runs the engine on it and prints a verdict. Times are wall time of one
+// thread, with whatever else the controller does meanwhile: run it beside the controller's usual load. Exit status 0:
+// all fit 10 Hz, 1: some do not, 2: bad usage.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bench_frames.hpp"
+#include "sim/sensors.hpp"
+
+namespace pose_wall::bench {
+namespace {
+
+constexpr int kUsage = 2;
+constexpr std::uint32_t kDifferentFrames = 10;
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+// Other work comes in bursts: a frame that takes more than this of its period will be late some day.
+constexpr double kSafeShare = 0.7;
+
+struct Request {
+  std::uint32_t frames = 100;
+  std::vector<std::string> sensors;
+};
+
+struct Times {
+  std::uint32_t points = 0, voxels = 0;
+  double median_ms = 0.0, p99_ms = 0.0, worst_ms = 0.0;
+};
+
+int complain(const std::string& what) {
+  std::fprintf(stderr,
+               "pose_wall_budget: %s\nusage: pose_wall_budget [--frames N] [SENSOR ...]\nsensors:", what.c_str());
+  for (const tools::sim::SensorModel& model : tools::sim::sensor_models()) {
+    std::fprintf(stderr, " %s", model.sensor.name.c_str());
+  }
+  std::fprintf(stderr, "\n");
+  return kUsage;
+}
+
+double at_share(const std::vector<double>& sorted, double share) {
+  const auto last = static_cast<double>(sorted.size() - 1);
+  return sorted[static_cast<std::size_t>(share * last + 0.5)];
+}
+
+bool measure(const std::string& sensor, std::uint32_t frame_count, Times* out) {
+  using Clock = std::chrono::steady_clock;
+  api::Engine engine;
+  if (engine.open(config(sensor)) != POSE_WALL_OK) return false;
+  const std::vector<tools::sim::Frame>& input = frames(sensor, kDifferentFrames);
+  pose_wall_result result = api::make_result();
+  std::vector<double> times_ms;
+  for (std::uint32_t k = 0; k < frame_count + kDifferentFrames; ++k) {
+    const pose_wall_cloud cloud = cloud_of(input[k % kDifferentFrames], (k + 1) * kPeriod_ns);
+    const Clock::time_point before = Clock::now();
+    if (engine.process(cloud, result) != POSE_WALL_OK) return false;
+    const std::chrono::duration<double, std::milli> took = Clock::now() - before;
+    if (k >= kDifferentFrames) times_ms.push_back(took.count());  // the first ones fill the caches
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  *out = {result.points_in, result.voxels, at_share(times_ms, 0.5), at_share(times_ms, 0.99), times_ms.back()};
+  return true;
+}
+
+std::string verdict(double worst_ms, double hz) {
+  const double share = worst_ms * hz / 1000.0;
+  char text[64];
+  std::snprintf(text, sizeof text, "%s, %.0f %% of it",
+                share <= kSafeShare ? "fits"
+                : share <= 1.0      ? "tight"
+                                    : "too slow",
+                100.0 * share);
+  return text;
+}
+
+int run(const Request& request) {
+  std::printf("%-9s %7s %7s %10s %10s %10s   %-20s %-20s\n", "sensor", "points", "voxels", "median", "99 %", "worst",
+              "10 Hz", "20 Hz");
+  bool all_fit = true;
+  for (const std::string& sensor : request.sensors) {
+    Times t;
+    if (!measure(sensor, request.frames, &t)) return complain("the engine refused a frame of " + sensor);
+    std::printf("%-9s %7u %7u %7.1f ms %7.1f ms %7.1f ms   %-20s %-20s\n", sensor.c_str(), t.points, t.voxels,
+                t.median_ms, t.p99_ms, t.worst_ms, verdict(t.worst_ms, 10.0).c_str(),
+                verdict(t.worst_ms, 20.0).c_str());
+    std::fflush(stdout);
+    all_fit = all_fit && t.worst_ms <= 100.0;
+  }
+  std::printf("worst of %u frames each; fits: within %.0f %% of the period\n", request.frames, 100.0 * kSafeShare);
+  return all_fit ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+}  // namespace pose_wall::bench
+
+int main(int argc, char** argv) {
+  using namespace pose_wall;
+  bench::Request request;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--frames") {
+      const long frames = i + 1 < argc ? std::strtol(argv[++i], nullptr, 10) : 0;
+      if (frames < 1 || frames > 100000) return bench::complain("--frames needs a number from 1 to 100000");
+      request.frames = static_cast<std::uint32_t>(frames);
+    } else if (tools::sim::find_sensor(word) != nullptr) {
+      request.sensors.push_back(word);
+    } else {
+      return bench::complain("unknown word '" + word + "'");
+    }
+  }
+  if (request.sensors.empty()) {
+    for (const tools::sim::SensorModel& model : tools::sim::sensor_models())
+      request.sensors.push_back(model.sensor.name);
+  }
+  return bench::run(request);
+}

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""The most stack that any function of the C ABI can need, from the call graph: no recursion, no frame of unknown size,
+and at most so many bytes.
+
+    check_stack.py FOLDER LIMIT      FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
+
+What the engine asks of the C library (memcpy, memset, sqrt) is counted as LIBRARY bytes each; the caller's own clock is
+not counted.
+"""
+
+import pathlib
+import re
+import sys
+
+NODE = re.compile(r'^node: \{ title: "([^"]+)" label: "([^"]*)"', re.MULTILINE)
+EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.MULTILINE)
+BYTES = re.compile(r"\\n(\d+) bytes \(([^)]*)\)")
+LIBRARY = 256
+CALLER_S = "__indirect_call"
+
+
+def read(folder):
+    """Own bytes and callees by function; functions of static storage have their file's name in theirs."""
+    sizes, calls, faults = {}, {}, []
+    for file in sorted(pathlib.Path(folder).rglob("*.ci")):
+        text = file.read_text(encoding="utf-8")
+        for title, label in NODE.findall(text):
+            size = BYTES.search(label)
+            if size is None:
+                continue
+            if "static" not in size.group(2) and "bounded" not in size.group(2):
+                faults.append(f"{title}: its frame is {size.group(2)}")
+            # A function of a header may be compiled in several places: the largest counts.
+            sizes[title] = max(sizes.get(title, 0), int(size.group(1)))
+        for caller, callee in EDGE.findall(text):
+            calls.setdefault(caller, set()).add(callee)
+    return sizes, calls, faults
+
+
+def deepest(function, sizes, calls, known, path):
+    """Bytes of the deepest chain of calls from here, and the chain."""
+    if function in path:
+        raise SystemExit("recursion: " + " -> ".join(path[path.index(function):] + [function]))
+    if function not in known:
+        own = sizes.get(function, 0 if function == CALLER_S else LIBRARY)
+        below = [deepest(callee, sizes, calls, known, path + [function]) for callee in calls.get(function, ())]
+        depth, chain = max(below, key=lambda found: found[0], default=(0, []))
+        known[function] = (own + depth, [(function, own)] + chain)
+    return known[function]
+
+
+def main():
+    if len(sys.argv) != 3:
+        raise SystemExit(__doc__)
+    limit = int(sys.argv[2])
+    sizes, calls, faults = read(sys.argv[1])
+    roots = sorted(name for name in sizes if name.startswith("pose_wall_"))
+    if not roots:
+        raise SystemExit(f"{sys.argv[1]}: no call graph of any pose_wall_* function: nothing was checked")
+    known = {}
+    worst, chain = max(deepest(root, sizes, calls, known, []) for root in roots)
+    for function, own in chain:
+        print(f"{own:7d}  {function}")
+    print(f"{worst:7d} bytes at most, of {limit}; {len(roots)} functions looked at")
+    if worst > limit:
+        faults.append(f"{worst} bytes of stack are more than {limit}")
+    for fault in faults:
+        print(fault)
+    raise SystemExit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
