@@ -14,7 +14,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -106,7 +105,8 @@ int run(const Request& request) {
 }  // namespace pose_wall::bench
 
 int main(int argc, char** argv) {
-  using namespace pose_wall;
+  namespace bench = pose_wall::bench;
+  namespace sim = pose_wall::tools::sim;
   bench::Request request;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
@@ -114,15 +114,14 @@ int main(int argc, char** argv) {
       const long frames = i + 1 < argc ? std::strtol(argv[++i], nullptr, 10) : 0;
       if (frames < 1 || frames > 100000) return bench::complain("--frames needs a number from 1 to 100000");
       request.frames = static_cast<std::uint32_t>(frames);
-    } else if (tools::sim::find_sensor(word) != nullptr) {
+    } else if (sim::find_sensor(word) != nullptr) {
       request.sensors.push_back(word);
     } else {
       return bench::complain("unknown word '" + word + "'");
     }
   }
   if (request.sensors.empty()) {
-    for (const tools::sim::SensorModel& model : tools::sim::sensor_models())
-      request.sensors.push_back(model.sensor.name);
+    for (const sim::SensorModel& model : sim::sensor_models()) request.sensors.push_back(model.sensor.name);
   }
   return bench::run(request);
 }
