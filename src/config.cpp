@@ -4,7 +4,6 @@
 #include "config.hpp"
 
 #include <cmath>
-
 #include <cstring>
 
 #include "math/elementary.hpp"

@@ -54,7 +54,7 @@ struct Memory {
 //   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid, cells, ground, walls |
 //
 // Engine is written at open and lives on; the rest is scratch that each frame writes before it reads. The last four lie
-// on top of each other: each is done with when the next is written.
+// on top of each other, one stage's each: none outlives its stage, and the grid is begun anew for the band.
 class Engine {
  public:
   // Measures (block NULL) or places an engine.

@@ -151,8 +151,7 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
       return "the wall leans more than wall_lean_max_deg";
     case POSE_WALL_R_WALL_SEEN_THROUGH:
       return "rays pass the plane, its top or both of its ends, or nothing answers, where a wall would be solid: "
-             "pipes, "
-             "props, a conveyor, a vehicle, a curtain";
+             "pipes, props, a conveyor, a vehicle, a curtain";
     case POSE_WALL_R_WALL_AMBIGUOUS:
       return "another plane on this side explains the view nearly as well";
     case POSE_WALL_R_WALLS_NOT_PARALLEL:

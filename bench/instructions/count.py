@@ -57,25 +57,39 @@ def count(plugin, program, sensor, folder, points=0):
     return row
 
 
+def print_head(columns):
+    print_row(columns)
+    print("| --- " * len(columns) + "|")
+
+
+def print_row(cells):
+    print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
+
+
+def millions(instructions):
+    return f"{instructions / 1e6:.2f} M"
+
+
+def ratios(row):
+    """Instructions per point, and in floor passes."""
+    return [f"{row['frame'] / row['points']:.0f}", f"{row['frame'] / row['floor']:.1f}"]
+
+
 def show(rows):
-    columns = ["points", "voxel_count", "measured"] + STAGES + ["frame"]
-    print("| sensor | " + " | ".join(columns) + " | per point | x floor |")
-    print("| --- " * (len(columns) + 3) + "|")
+    counted = STAGES + ["frame"]
+    print_head(["sensor", "points", "voxel_count", "measured"] + counted + ["per point", "x floor"])
     for r in rows:
-        cells = [str(r[c]) for c in columns[:3]] + [f"{r[c] / 1e6:.2f} M" for c in columns[3:]]
-        cells += [f"{r['frame'] / r['points']:.0f}", f"{r['frame'] / r['floor']:.1f}"]
-        print(f"| {r['sensor']} | " + " | ".join(cells) + " |")
+        numbers = [r["points"], r["voxel_count"], r["measured"]] + [millions(r[c]) for c in counted]
+        print_row([r["sensor"]] + numbers + ratios(r))
 
 
 def show_growth(plugin, program, folder):
-    print("| frame | points | voxel_count | measured | floor | frame | per point | x floor |")
-    print("| --- " * 8 + "|")
+    print_head(["frame", "points", "voxel_count", "measured", "floor", "frame", "per point", "x floor"])
     for name in (GROWTH_OF, "spread"):
         for points in GROWTH:
             r = count(plugin, program, name, folder, points)
-            cells = [name, r["points"], r["voxel_count"], r["measured"], f"{r['floor'] / 1e6:.2f} M"]
-            cells += [f"{r['frame'] / 1e6:.1f} M", f"{r['frame'] / r['points']:.0f}", f"{r['frame'] / r['floor']:.1f}"]
-            print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
+            numbers = [r["points"], r["voxel_count"], r["measured"], millions(r["floor"]), millions(r["frame"])]
+            print_row([name] + numbers + ratios(r))
 
 
 def compare(rows):

@@ -25,7 +25,7 @@ void VoxelGrid::begin(double leaf_m, double reach_m) {
   hash_.clear();
   // A power of two, and two cells to spare: the float's steps are as fine near the origin as they can be.
   std::uint32_t cells = 1;
-  while (static_cast<double>(cells - 2.0) * leaf_m < reach_m) cells *= 2;
+  while ((cells - 2.0) * leaf_m < reach_m) cells *= 2;
   const double steps_per_cell = 1U << kStepBits;
   metres_per_step_ = leaf_m / steps_per_cell;
   origin_steps_ = cells * steps_per_cell;

@@ -73,7 +73,8 @@ class FloorGrid {
 };
 
 // Whether more than a share of all points within the radius lie below the marked plane without being reflections in it.
-// Nothing does below a floor; below a deck, a bench or a table there is floor, seen past the edge.
+// Nothing does below a floor; below a deck, a bench or a table there is floor, seen past the edge. The radius is that
+// of find_open, which counted all points within it.
 bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
                     const Eigen::Vector3d& sensor_base_m, double share_max);
 

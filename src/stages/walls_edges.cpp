@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "estimation/near_plane.hpp"
-
 #include "stages/walls_sight_lines.hpp"
 
 namespace pose_wall {

@@ -71,7 +71,8 @@ double offset_at_height(const WallScene& scene, const Plane& plane, double z_lev
 // Whether the wall is one plane at this height. Next to where it was cut off it begins to bend.
 bool clear_of_cuts(const WallScene& scene, const Heights& heights, double z_level_m) {
   constexpr double kBegins_m = 0.25;
-  const bool top_is_cut = heights.max_m<scene.z_max_level_m, foot_is_cut = heights.min_m> scene.z_min_level_m;
+  const bool top_is_cut = heights.max_m < scene.z_max_level_m;
+  const bool foot_is_cut = heights.min_m > scene.z_min_level_m;
   return z_level_m <= heights.max_m - (top_is_cut ? kBegins_m : 0.0) &&
          z_level_m >= heights.min_m + (foot_is_cut ? kBegins_m : 0.0);
 }

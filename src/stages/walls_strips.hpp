@@ -28,6 +28,7 @@ struct WallPoints {
   double z_per_v = 1.0, z_per_r = 0.0;
 
   void lay_out(Arena& arena);
+  // along_level: horizontal and in the plane, so that u tells nothing of the height.
   void begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level);
   // False where there is no more room.
   void add(const Eigen::Vector3d& p_level, float weight);
