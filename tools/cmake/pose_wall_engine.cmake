@@ -16,7 +16,7 @@ function(pose_wall_engine_library)
   pose_wall_compile_strictly(pose_wall_objects)
   pose_wall_engine_flags(pose_wall_objects)
   set_target_properties(pose_wall_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(POSE_WALL_CALL_GRAPH)
     target_compile_options(pose_wall_objects PRIVATE -fcallgraph-info=su)  # beside the objects, for check_stack.py
   endif()
   target_include_directories(pose_wall_objects
