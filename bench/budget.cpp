@@ -10,7 +10,6 @@
 // thread, with whatever else the controller does meanwhile: run it beside the controller's usual load. Exit status 0:
 // all fit 10 Hz, 1: some do not, 2: bad usage.
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "bench_frames.hpp"
+#include "quantiles.hpp"
 #include "sim/sensors.hpp"
 
 namespace pose_wall::bench {
@@ -49,11 +49,6 @@ int complain(const std::string& what) {
   return kUsage;
 }
 
-double at_share(const std::vector<double>& sorted, double share) {
-  const auto last = static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(share * last + 0.5)];
-}
-
 bool measure(const std::string& sensor, std::uint32_t frame_count, Times* out) {
   using Clock = std::chrono::steady_clock;
   api::Engine engine;
@@ -68,8 +63,7 @@ bool measure(const std::string& sensor, std::uint32_t frame_count, Times* out) {
     const std::chrono::duration<double, std::milli> took = Clock::now() - before;
     if (k >= kDifferentFrames) times_ms.push_back(took.count());  // the first ones fill the caches
   }
-  std::sort(times_ms.begin(), times_ms.end());
-  *out = {result.points_in, result.voxels, at_share(times_ms, 0.5), at_share(times_ms, 0.99), times_ms.back()};
+  *out = {result.points_in, result.voxels, median(times_ms), at_share(times_ms, 0.99), at_share(times_ms, 1.0)};
   return true;
 }
 

@@ -1,114 +1,95 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall and PCL on the same frames in the same run, turn by turn, so that both meet the same machine: time, ratio
-// and errors.
+// pose_wall beside the same pipeline from PCL's parts: time stage by stage, and errors.
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <ctime>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <string>
 #include <vector>
 
-#include "bench_frames.hpp"
-#include "peer_pcl_pipeline.hpp"
+#include "peer_contest.hpp"
+#include "peer_table.hpp"
+#include "sim/sensors.hpp"
+#include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::bench {
 namespace {
 
-constexpr std::uint32_t kFrames = 30;
-constexpr std::int64_t kPeriod_ns = 100'000'000;
-constexpr double kDegPerRad = 57.29577951308232;
+constexpr int kUsage = 2;
+constexpr long kFramesMax = 10000;
 
-struct Contestant {
-  std::string name;
-  std::vector<double> times_ms;
-  std::array<std::vector<double>, 7> errors;
+constexpr const char* kHelp =
+    "usage: pose_wall_peer_pcl [--frames N] [SENSOR ...]\n\n"
+    "Runs pose_wall, the same pipeline from PCL's parts (SACSegmentation by RANSAC and by MLESAC) and the floor pass\n"
+    "(read, turn, range test, one hash insertion a point) on the same simulated frames, turn by turn, one thread "
+    "each,\n"
+    "and prints a table of times, stage by stage, and one of errors against the simulator's truth.\n\n"
+    "  SENSOR      {}; all of them by default\n"
+    "  --frames N  frames of each, 30 by default\n"
+    "  --help      this text\n\n"
+    "Times are processor time. pose_wall's also buy gates, protection levels and smoothing, which PCL's do not.\n"
+    "Exit status 0: done, 1: the engine refused, 2: bad usage.\n";
 
-  void add(double time_ms, const std::array<double, 7>& measured, const std::array<double, 7>& truth) {
-    times_ms.push_back(time_ms);
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (std::isfinite(measured[i])) errors[i].push_back(measured[i] - truth[i]);
-    }
-  }
+struct Request {
+  std::uint32_t frames = 30;
+  std::vector<std::string> sensors;
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
+// As README's tables name them: from few points to many.
+std::vector<std::string> sensor_names() {
+  return {"vlp16", "mid360", "os1-64", "os0-128"};
 }
 
-double rms(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value * value;
-  return values.empty() ? std::nan("") : std::sqrt(sum / static_cast<double>(values.size()));
+int complain(const std::string& what) {
+  fmt::print(stderr, "pose_wall_peer_pcl: {}\n--help explains\n", what);
+  return kUsage;
 }
 
-// RMSE over a range of quantities, in degrees or millimetres.
-std::string error_text(const Contestant& contestant, std::size_t first, std::size_t last, bool angles) {
-  std::vector<double> all;
-  for (std::size_t i = first; i <= last; ++i) {
-    all.insert(all.end(), contestant.errors[i].begin(), contestant.errors[i].end());
-  }
-  return angles ? fmt::format("{:8.3f}°", rms(all) * kDegPerRad) : fmt::format("{:6.1f} mm", rms(all) * 1e3);
-}
-
-// Processor time, so that other work on the machine does not count; both sides use one thread.
-template <typename Work>
-double timed_ms(Work work) {
-  const std::clock_t start = std::clock();
-  work();
-  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-void print_table(const std::vector<Contestant>& contestants) {
-  fmt::print("{:12} {:>10} {:>8} {:>16} {:>9} {:>9}\n", "", "median", "ratio", "roll, pitch RMSE", "yaw", "distances");
-  const double own_ms = median(contestants.front().times_ms);
-  for (const Contestant& one : contestants) {
-    fmt::print("{:12} {:7.1f} ms {:8.2f} {:>17} {:>10} {:>9}\n", one.name, median(one.times_ms),
-               median(one.times_ms) / own_ms, error_text(one, 0, 1, true), error_text(one, 2, 2, true),
-               error_text(one, 3, 6, false));
-  }
-}
-
-int compare(const std::string& sensor) {
-  const auto& recorded = frames(sensor, kFrames);
-  const auto& truth = truths(sensor, kFrames);
-  const api::Config settings = config(sensor);
-  std::array<double, 6> body_box{};
-  pose_wall_config_get_box(settings.get(), "body_box_1", body_box.data());
-  api::Engine engine;
-  if (engine.open(settings) != POSE_WALL_OK) return 1;
-
-  std::vector<Contestant> contestants = {{"pose_wall", {}, {}}, {"PCL RANSAC", {}, {}}, {"PCL MLESAC", {}, {}}};
-  for (std::uint32_t i = 0; i < kFrames; ++i) {
-    pose_wall_result result = api::make_result();
-    const pose_wall_cloud cloud = cloud_of(recorded[i], (i + 1) * kPeriod_ns);
-    const double own_ms = timed_ms([&] { engine.process(cloud, result); });
-    std::array<double, 7> own{};
-    for (std::size_t q = 0; q < own.size(); ++q) own[q] = result.quantity[q].raw;
-    contestants[0].add(own_ms, own, truth[i].value);
-    for (const std::size_t peer : {std::size_t{1}, std::size_t{2}}) {
-      const PclMethod method = peer == 1 ? PclMethod::kRansac : PclMethod::kMlesac;
-      PclMeasurement measured{};
-      const double ms = timed_ms([&] { measured = measure_with_pcl(recorded[i].xyz_intensity, body_box, method); });
-      contestants[peer].add(ms, measured, truth[i].value);
+int run(const Request& request) {
+  for (const std::string& sensor : request.sensors) {
+    try {
+      const Contest contest = hold_contest(sensor, request.frames);
+      print_stages(contest);
+      print_accuracy(contest);
+      std::fflush(stdout);
+    } catch (const std::exception& e) {
+      fmt::print(stderr, "pose_wall_peer_pcl: {}: {}\n", sensor, e.what());
+      return EXIT_FAILURE;
     }
   }
-  fmt::print("{} frames of {}, {} points in the last one; processor time per frame; ratio: over pose_wall's\n", kFrames,
-             sensor, recorded.back().count());
-  print_table(contestants);
-  return 0;
+  return EXIT_SUCCESS;
+}
+
+int main_of(const std::vector<std::string>& words) {
+  Request request;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--help" || words[i] == "-h") {
+      fmt::print(kHelp, fmt::join(sensor_names(), ", "));
+      return EXIT_SUCCESS;
+    }
+    if (words[i] == "--frames") {
+      const long frames = i + 1 < words.size() ? std::strtol(words[++i].c_str(), nullptr, 10) : 0;
+      if (frames < 1 || frames > kFramesMax) return complain(fmt::format("--frames: 1 to {}", kFramesMax));
+      request.frames = static_cast<std::uint32_t>(frames);
+    } else if (tools::sim::find_sensor(words[i]) != nullptr) {
+      request.sensors.push_back(words[i]);
+    } else {
+      return complain(fmt::format("no sensor '{}'{}; sensors: {}", words[i],
+                                  tools::did_you_mean(words[i], sensor_names()), fmt::join(sensor_names(), ", ")));
+    }
+  }
+  if (request.sensors.empty()) request.sensors = sensor_names();
+  return run(request);
 }
 
 }  // namespace
 }  // namespace pose_wall::bench
 
 int main(int argc, char** argv) {
-  return pose_wall::bench::compare(argc > 1 ? argv[1] : "os1-64");
+  return pose_wall::bench::main_of({argv + 1, argv + argc});
 }

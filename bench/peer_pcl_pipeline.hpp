@@ -5,18 +5,20 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
+
+#include "peer_pcl_parts.hpp"
 
 namespace pose_wall::bench {
 
-enum class PclMethod { kRansac, kMlesac };
+struct PclReading {
+  std::array<double, POSE_WALL_QUANTITIES> value;            // NaN where it found nothing
+  std::array<std::int64_t, POSE_WALL_STAGES> stage_ns = {};  // processor time
+};
 
-// In the order of pose_wall_quantity; NaN where it found nothing.
-using PclMeasurement = std::array<double, 7>;
-
-// Points in base, four floats each, +X forward, the machine's body as a box to leave out. Same radii, leaves,
-// thresholds, iterations and band as pose_wall's defaults.
-PclMeasurement measure_with_pcl(const std::vector<float>& xyz_intensity, const std::array<double, 6>& body_box,
-                                PclMethod method);
+// Points in the lidar frame, four floats each.
+PclReading measure_with_pcl(const std::vector<float>& xyz_intensity_lidar, const PclSettings& settings,
+                            PclMethod method);
 
 }  // namespace pose_wall::bench
