@@ -241,8 +241,10 @@ enum pose_wall_state {
 /* Why a value is not valid, or what a reader should know of it. Bits; pinned by a test. */
 enum pose_wall_reason {
   /* the frame */
-  POSE_WALL_R_NO_POINTS = 1 << 0,   /* too few points survive the filters */
-  POSE_WALL_R_LEAF_GROWN = 1 << 1,  /* voxel leaf enlarged to stay within points_max (a note, not a fault) */
+  POSE_WALL_R_NO_POINTS = 1 << 0,  /* too few points survive the filters */
+  POSE_WALL_R_LEAF_GROWN = 1 << 1, /* of the frame: voxel leaf enlarged to stay within points_max (a note, not a fault).
+                                      Of a value: even voxels of 0.26 m were too many, and nothing is told from larger
+                                      ones */
   POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp equals the last frame's: taken as the same frame again, values are held;
                                        after the second such frame they expire */
   POSE_WALL_R_STAMP_BACK =
@@ -263,7 +265,8 @@ enum pose_wall_reason {
   POSE_WALL_R_WALL_LEANS = 1 << 13,        /* leans more than wall_lean_max_deg */
   POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* rays pass it or nothing answers where it should be solid, over its top or
                                               past both of its ends: pipes, props, conveyor, vehicle, curtain */
-  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well */
+  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well, or it
+                                               is grooved along its length like pipes one above the other */
   POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 16,
   POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 17, /* beyond yaw_max_deg, where side and face become ambiguous */
   POSE_WALL_R_CROSS_ROAD = 1 << 18,       /* a better pair of walls runs across the machine than along it */

@@ -122,7 +122,7 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
     case POSE_WALL_R_NO_POINTS:
       return "too few points survive the filters";
     case POSE_WALL_R_LEAF_GROWN:
-      return "the voxel leaf was enlarged to stay within points_max";
+      return "the voxel leaf was enlarged to stay within points_max (a value: too far to tell a floor)";
     case POSE_WALL_R_STAMP_STILL:
       return "the stamp equals the last frame's: taken as the same frame again";
     case POSE_WALL_R_STAMP_BACK:
@@ -153,7 +153,7 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
       return "rays pass the plane, its top or both of its ends, or nothing answers, where a wall would be solid: "
              "pipes, props, a conveyor, a vehicle, a curtain";
     case POSE_WALL_R_WALL_AMBIGUOUS:
-      return "another plane on this side explains the view nearly as well";
+      return "another plane on this side explains the view nearly as well, or it is grooved like a row of pipes";
     case POSE_WALL_R_WALLS_NOT_PARALLEL:
       return "the planes on the two sides are not parallel";
     case POSE_WALL_R_YAW_OUT_OF_RANGE:

@@ -46,7 +46,7 @@ struct VoxelResult {
   IngestCounts counts;
   double leaf_m = 0.0;
   bool leaf_grown = false;
-  bool fits = false;  // false: even the largest leaf overflows; there are no points then
+  bool fits = false;  // false: points fill the air, or points_max is far too small; there are no voxels then
   std::uint64_t fingerprint = 0;
 };
 

@@ -14,7 +14,10 @@ namespace pose_wall {
 namespace {
 
 constexpr double kLeafGrowth = 1.26;  // about the cube root of 2
-constexpr int kLeafTries = 20;        // 1.26^19: 80 times the configured leaf
+// What stands on a floor is told by what lies above it within 0.75 m, in two layers at least. Voxels too large for that
+// show the layers of their own lattice instead, wherever points fill the air, and these look like floors and walls.
+constexpr double kLeafMost_m = 0.26;
+constexpr double kAnythingFits_m = 16.0;
 
 // What becomes of a point. The last of these that holds counts.
 enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // kBeyond: too far, zero or not a number
@@ -256,14 +259,16 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings,
                          const Axes& axes, VoxelGrid* grid, ReturnsByDirection* returns_lidar, PointSet* cloud_base) {
   VoxelResult result;
   const Pass pass(cloud, settings, extrinsic, axes);
-  double leaf_m = settings.voxel_leaf;
-  for (int attempt = 0; attempt < kLeafTries && !result.fits; ++attempt) {
-    if (attempt > 0) leaf_m *= kLeafGrowth;
+  for (double leaf_m = settings.voxel_leaf; leaf_m <= kLeafMost_m && !result.fits; leaf_m *= kLeafGrowth) {
     grid->begin(leaf_m, reach_of(settings));
     result.fits = pass.run(grid, returns_lidar, &result.counts);
-    result.leaf_grown = attempt > 0;
+    result.leaf_grown = leaf_m > settings.voxel_leaf;
+    result.leaf_m = leaf_m;
   }
-  result.leaf_m = leaf_m;
+  if (!result.fits) {  // the points are counted all the same
+    grid->begin(kAnythingFits_m, reach_of(settings));
+    pass.run(grid, returns_lidar, &result.counts);
+  }
   cloud_base->count = 0;
   if (result.fits) {
     grid->extract(cloud_base);

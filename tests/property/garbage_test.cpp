@@ -114,6 +114,25 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Garbage, ::testing::ValuesIn(kKinds), [](const a
   return name;
 });
 
+// Dust as thick as can be: points that fill the air evenly, at any number of them for the room there is. Voxels that
+// had to grow would lie in layers. The lowest points may be told as a doubtful floor, but nothing passes for sure.
+TEST(Garbage, OfPointsThatFillTheAirNothingIsValid) {
+  std::mt19937 random(13);
+  for (const char* points_max : {"5000", "16000", "60000"}) {
+    for (const std::size_t count : {5000U, 20000U, 65000U, 131000U, 260000U}) {
+      Points points(count);
+      for (auto& p : points) p = {coordinate(&random, 20), coordinate(&random, 20), coordinate(&random, 2.5F)};
+      EngineUnderTest engine(config_with({{"points_max", points_max}, {"ground_inlier_min", "150"}}));
+      const pose_wall_result r = engine.process(cloud_of(points, 0));
+      expect_promises(r, points_max);
+      for (const pose_wall_value& v : r.quantity) EXPECT_NE(v.state, POSE_WALL_VALID) << points_max << " " << count;
+      for (std::uint32_t q = POSE_WALL_YAW; q < POSE_WALL_QUANTITIES; ++q) {
+        EXPECT_EQ(r.quantity[q].state, POSE_WALL_INVALID) << points_max << " " << count;
+      }
+    }
+  }
+}
+
 // A real-looking frame with a growing share of its coordinates replaced: the engine measures, weakens, holds, gives up.
 TEST(Garbage, ADamagedRoadBreaksNoPromise) {
   const Points road = points_of(sim::Simulator(sim::make_setup("rough", "os1-64", false, 1), 1).render(0));

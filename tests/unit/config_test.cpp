@@ -218,7 +218,7 @@ struct BrokenRule {
 TEST(Config, RulesOverTwoKeysNameBoth) {
   for (const BrokenRule& rule : {BrokenRule{"s_front", "-3", "s_back", "-2"},
                                  {"range_min", "5", "range_max", "4"},
-                                 {"voxel_leaf", "0.3", "outlier_radius", "0.2"},
+                                 {"voxel_leaf", "0.25", "outlier_radius", "0.2"},
                                  {"ground_roi_radius", "20", "ground_roi_radius_max", "10"},
                                  {"ground_height_min", "4", "ground_height_max", "3"},
                                  {"wall_z_min", "2", "wall_z_max", "1"},

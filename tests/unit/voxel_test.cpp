@@ -137,8 +137,8 @@ TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
   test::Noise noise(2);
   test::Points points;
   for (int i = 0; i < 40000; ++i) {
-    points.push_back({static_cast<float>(noise.uniform(-9, 9)), static_cast<float>(noise.uniform(-9, 9)),
-                      static_cast<float>(noise.uniform(-2, 2))});
+    points.push_back({static_cast<float>(noise.uniform(-3, 3)), static_cast<float>(noise.uniform(-3, 3)),
+                      static_cast<float>(noise.uniform(-1, 1))});
   }
   const Settings settings = test::settings_with({{"points_max", "5000"}});
   const Voxels first = voxels_of(test::cloud_of(points, 0), settings);
@@ -153,6 +153,22 @@ TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
   const Voxels second = voxels_of(test::cloud_of(points, 0), settings);
   EXPECT_EQ(second.result.fingerprint, first.result.fingerprint);
   EXPECT_EQ(second.result.leaf_m, first.result.leaf_m);
+}
+
+// Large voxels of points that fill the air would lie in layers, each like a floor.
+TEST(Voxel, WherePointsFillTheAirThereAreNoVoxels) {
+  test::Noise noise(3);
+  test::Points points;
+  for (int i = 0; i < 40000; ++i) {
+    points.push_back({static_cast<float>(noise.uniform(-20, 20)), static_cast<float>(noise.uniform(-20, 20)),
+                      static_cast<float>(noise.uniform(-2.5, 2.5))});
+  }
+  const Voxels v = voxels_of(test::cloud_of(points, 0), test::settings_with({{"points_max", "5000"}}));
+  EXPECT_FALSE(v.result.fits);
+  EXPECT_TRUE(v.result.leaf_grown);
+  EXPECT_TRUE(v.points.empty());
+  EXPECT_LE(v.result.leaf_m, 0.26);
+  EXPECT_EQ(v.result.counts.points_in, 40000U);
 }
 
 TEST(Voxel, AnEmptyCloudHasNoVoxels) {
