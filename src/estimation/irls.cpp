@@ -16,8 +16,6 @@ namespace {
 // A voxel right in front of the sensor stands for hundreds of points, but the rock under it is one piece.
 constexpr float kWeightCap = 8.0F;
 constexpr double kSpreadMin_m = 0.05;
-// Far below what any fit is worth, and above what sums of floats leave.
-constexpr double kConverged = 3e-6;
 // A thousand residuals know their scale to four per cent, and the weights hardly notice.
 constexpr std::uint32_t kScalePoints = 1024;
 
@@ -26,10 +24,16 @@ struct Round {
   float offset, slope_u, slope_v, foreshortening, gate, per_cutoff;
 };
 
-double scale_of(const TangentPoints& p, std::uint32_t count, const Round& round, double gate_m) {
-  const std::uint32_t stride = count / kScalePoints + 1;
+std::uint32_t points_with_weight(const TangentPoints& p, std::uint32_t count) {
+  std::uint32_t with = 0;
+  for (std::uint32_t k = 0; k < count; ++k) with += p.weight[k] > 0.0F ? 1U : 0U;
+  return with;
+}
+
+double scale_of(const TangentPoints& p, std::uint32_t count, std::uint32_t stride, const Round& round, double gate_m) {
   ScaleHistogram histogram(gate_m);
   for (std::uint32_t k = 0; k < count; k += stride) {
+    if (!(p.weight[k] > 0.0F)) continue;
     histogram.add((p.r[k] - round.offset - round.slope_u * p.u[k] - round.slope_v * p.v[k]) * round.foreshortening);
   }
   return histogram.scale_m();
@@ -84,11 +88,12 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
                     const IrlsSettings& settings) {
   IrlsOver result;
   result.over = start;
+  const std::uint32_t stride = points_with_weight(points, count) / kScalePoints + 1;
   for (int i = 0; i < settings.rounds; ++i) {
     Round round{static_cast<float>(result.over.offset_m), static_cast<float>(result.over.slope_u),
                 static_cast<float>(result.over.slope_v),  static_cast<float>(result.over.foreshortening()),
                 static_cast<float>(settings.gate_m),      0.0F};
-    double scale = scale_of(points, count, round, settings.gate_m);
+    double scale = scale_of(points, count, stride, round, settings.gate_m);
     if (scale < settings.scale_min_m) scale = settings.scale_min_m;
     if (scale > settings.scale_max_m) scale = settings.scale_max_m;
     result.scale_m = scale;
@@ -97,7 +102,7 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
     result.solved = equations_of(points, count, round).solve(kSpreadMin_m, &correction);
     if (!result.solved) return result;
     result.over.add(correction);
-    if (correction.cwiseAbs().maxCoeff() < kConverged) break;
+    if (correction.cwiseAbs().maxCoeff() < settings.stands_still) break;
   }
   return result;
 }

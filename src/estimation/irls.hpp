@@ -16,6 +16,8 @@ struct IrlsSettings {
   double scale_min_m;  // the scale is kept within these
   double scale_max_m;
   int rounds;
+  // Metres and slopes. The least is far below what any fit is worth, and above what sums of floats leave.
+  double stands_still = 3e-6;
 };
 
 struct IrlsOver {
@@ -25,7 +27,8 @@ struct IrlsOver {
 };
 
 // Iteratively reweighted least squares with Tukey weights around a start that is near already, on the first `count`
-// points. Points weigh by what they stand for (TangentPoints::weight, capped) times Tukey.
+// points. Points weigh by what they stand for (TangentPoints::weight, capped) times Tukey; those without weight play no
+// part, nor in the scale.
 IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const PlaneOver& start,
                     const IrlsSettings& settings);
 

@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t kBins = 32;
 constexpr double kSpanInSigmas = 4.0;  // residuals beyond are outliers without further ado
 constexpr int kEmRounds = 8;
+constexpr std::uint32_t kLook = 64;  // points between two looks whether a hypothesis has lost already
 
 struct Histogram {
   std::uint32_t bins[kBins] = {};
@@ -41,20 +42,25 @@ Histogram histogram_of_residuals(const PointSet& points, Span<const std::uint32_
 
 }  // namespace
 
-double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m) {
+double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m, double too_much) {
   const FourDistances distances(plane);
   const float limit = static_cast<float>(threshold_m * threshold_m);
   FourFloats sums{};
   const std::uint32_t n = points.count, whole = n - n % kFour;
-  for (std::uint32_t i = 0; i < whole; i += kFour) {
-    const FourFloats r = distances.of(points, i);
-    sums += smaller_of(r * r, all_four(limit));
+  const double all_m2 = static_cast<double>(limit) * static_cast<double>(n);
+  for (std::uint32_t i = 0; i < whole;) {
+    const std::uint32_t until = i + kLook < whole ? i + kLook : whole;
+    for (; i < until; i += kFour) {
+      const FourFloats r = distances.of(points, i);
+      sums += smaller_of(r * r, all_four(limit));
+    }
+    if (sum_of_lanes(sums) >= too_much * all_m2) return too_much;
   }
   for (std::uint32_t i = whole; i < n; ++i) {
     const FourFloats r = distances.of_some(points, i, 1);
     sums[0] += r[0] * r[0] < limit ? r[0] * r[0] : limit;
   }
-  return n > 0 ? sum_of_lanes(sums) / (static_cast<double>(limit) * static_cast<double>(n)) : 1.0;
+  return n > 0 ? sum_of_lanes(sums) / all_m2 : 1.0;
 }
 
 MlesacScore mlesac_score(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane, double sigma_m,

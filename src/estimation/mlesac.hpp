@@ -13,8 +13,9 @@
 
 namespace pose_wall {
 
-// Mean of min(r^2, threshold^2) / threshold^2 over the points: 0 perfect, 1 nothing near the plane.
-double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m);
+// Mean of min(r^2, threshold^2) / threshold^2 over the points: 0 perfect, 1 nothing near the plane. Where it comes to
+// too_much or more, the rest is not looked at and the answer is too_much.
+double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m, double too_much);
 
 struct MlesacScore {
   double cost;          // mean negative log likelihood, relative to the all-outlier model: below 0 is evidence

@@ -183,7 +183,7 @@ double PatchGrid::visibility(double tau2) const {
   double scatter = 0.0, freedom = 0.0;
   for (const Patch& p : cells_.first(columns_ * rows_)) {
     if (p.count < 2) continue;
-    scatter += p.rr - p.r * p.r / static_cast<double>(p.count);
+    scatter += p.rr() - p.r() * p.r() / static_cast<double>(p.count);
     freedom += static_cast<double>(p.count - 1);
   }
   if (!(freedom > 0.0 && scatter > 0.0)) return 0.0;

@@ -28,8 +28,8 @@ void PatchGrid::lay_out(Arena& arena) {
 void PatchGrid::begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m,
                       std::uint32_t layers) {
   layers_ = layers;
-  u_min_ = u_min_m;
-  v_min_ = v_min_m;
+  u_min_ = static_cast<float>(u_min_m);
+  v_min_ = static_cast<float>(v_min_m);
   const double width = u_max_m - u_min_m, height = v_max_m - v_min_m;
   // Twice as large a patch needs a quarter of the room; extents of a thousand patches are not met.
   double patch = patch_m;
@@ -39,24 +39,42 @@ void PatchGrid::begin(double u_min_m, double u_max_m, double v_min_m, double v_m
     if (static_cast<std::uint64_t>(columns_) * rows_ * layers <= kCapacity) break;
   }
   if (static_cast<std::uint64_t>(columns_) * rows_ * layers > kCapacity) columns_ = rows_ = 0;
-  cells_per_m_ = 1.0 / patch;
+  cells_per_m_ = static_cast<float>(1.0 / patch);
   cells_.first(columns_ * rows_ * layers_).fill(Patch{});
 }
 
 void PatchGrid::add(double u_m, double v_m, double residual_m, double weight, double bias, std::uint32_t layer) {
-  const double fu = (u_m - u_min_) * cells_per_m_, fv = (v_m - v_min_) * cells_per_m_;
-  if (!(fu >= 0.0 && fu < columns_ && fv >= 0.0 && fv < rows_)) return;
+  const float u = static_cast<float>(u_m), v = static_cast<float>(v_m), r = static_cast<float>(residual_m);
+  const float w = static_cast<float>(weight), wr = w * r;
+  const float fu = (u - u_min_) * cells_per_m_, fv = (v - v_min_) * cells_per_m_;
+  if (!(fu >= 0.0F && fu < static_cast<float>(columns_) && fv >= 0.0F && fv < static_cast<float>(rows_))) return;
   const std::uint32_t row = layer * rows_ + static_cast<std::uint32_t>(fv);
   Patch& p = cells_[row * columns_ + static_cast<std::uint32_t>(fu)];
-  p.w += weight;
-  p.wu += weight * u_m;
-  p.wv += weight * v_m;
-  p.wr += weight * residual_m;
-  p.wrr += weight * residual_m * residual_m;
-  p.wb += weight * bias;
-  p.r += residual_m;
-  p.rr += residual_m * residual_m;
+  p.first += FourFloats{w, w * u, w * v, wr};
+  p.second += FourFloats{wr * r, w * static_cast<float>(bias), r, r * r};
   ++p.count;
+}
+
+// What lies outside is counted to the patch next to it.
+FourInts PatchGrid::patch_of(FourFloats u_m, FourFloats v_m) const {
+  const auto index_of = [](FourFloats place, std::uint32_t cells) {
+    const FourFloats inside = smaller_of(larger_of(place, FourFloats{}), all_four(static_cast<float>(cells - 1)));
+    return cut_off(inside);
+  };
+  return index_of((v_m - v_min_) * cells_per_m_, rows_) * static_cast<std::int32_t>(columns_) +
+         index_of((u_m - u_min_) * cells_per_m_, columns_);
+}
+
+void PatchGrid::set(std::uint32_t patch, std::uint32_t layer, const Sums& sums) {
+  const auto total = [](FourFloats lanes) { return static_cast<float>(sum_of_lanes(lanes)); };
+  Patch& p = cells_[layer * patches() + patch];
+  p.count = static_cast<std::uint32_t>(sums.count_[0] + sums.count_[1] + sums.count_[2] + sums.count_[3]);
+  if (p.count == 0) {
+    p = Patch{};
+    return;
+  }
+  p.first = FourFloats{total(sums.w_), total(sums.wu_), total(sums.wv_), total(sums.wr_)};
+  p.second = FourFloats{total(sums.wrr_), total(sums.wb_), total(sums.r_), total(sums.rr_)};
 }
 
 // Rock scatters points alike wherever they are hit; the noise of the range only by its share across the surface. Least
@@ -68,8 +86,8 @@ PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uin
     for (std::uint32_t k = first; k < first + cells; ++k) {
       const Patch& p = cells_[k];
       if (p.count < 2) continue;
-      const double freedom = static_cast<double>(p.count - 1), share = p.wb / p.w, c = share * share;
-      const double variance = (p.wrr - p.wr * p.wr / p.w) / freedom, before = round > 0 ? out.at(c) : 1.0;
+      const double freedom = static_cast<double>(p.count - 1), c = p.share() * p.share();
+      const double variance = p.scatter() / freedom, before = round > 0 ? out.at(c) : 1.0;
       const double weight = freedom / (before * before);
       g += weight;
       gc += weight * c;
@@ -106,16 +124,16 @@ std::uint32_t PatchGrid::collect_means() {
     for (std::uint32_t c = first; c < first + cells; ++c) {
       const Patch& p = cells_[c];
       mean_of_cell_[c] = -1;
-      if (!(p.w > 1e-9)) continue;
-      const double own = p.wrr - p.wr * p.wr / p.w, share = p.wb / p.w;
+      if (!(p.w() > 1e-9)) continue;
+      const double own = p.scatter(), share = p.share();
       const double s2 =
           (kPriorPoints * expected.at(share * share) + (own > 0.0 ? own : 0.0)) / (kPriorPoints + p.count - 1.0);
       Mean& m = means_[n];
-      m.u = p.wu / p.w;
-      m.v = p.wv / p.w;
-      m.r = p.wr / p.w;
-      m.b = p.wb / p.w;
-      m.noise_variance = s2 / p.w;
+      m.u = p.wu() / p.w();
+      m.v = p.wv() / p.w();
+      m.r = p.wr() / p.w();
+      m.b = p.wb() / p.w();
+      m.noise_variance = s2 / p.w();
       m.information = 1.0 / m.noise_variance;
       m.iu = static_cast<std::int32_t>((c - first) % columns_);
       m.iv = static_cast<std::int32_t>((c - first) / columns_);

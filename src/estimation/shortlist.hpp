@@ -25,9 +25,15 @@ class Shortlist {
   const Hypothesis& operator[](std::uint32_t i) const { return items_[i]; }
   Hypothesis& operator[](std::uint32_t i) { return items_[i]; }
   void clear() { count_ = 0; }
+  // Hypotheses that cost this much or more are not taken.
+  double too_much() const {
+    constexpr double kAnyCost = 1e300;
+    return count_ == kCapacity ? items_[count_ - 1].cost : kAnyCost;
+  }
 
   template <typename Alike>
   void offer(const Hypothesis& h, const Alike& alike) {
+    if (h.cost >= too_much()) return;
     // Worse than a near-copy: no news. Better: all the near-copies go.
     for (std::uint32_t i = 0; i < count_; ++i) {
       if (items_[i].cost <= h.cost && alike(items_[i].plane, h.plane)) return;
@@ -42,10 +48,7 @@ class Shortlist {
 
  private:
   void insert_sorted(const Hypothesis& h) {
-    if (count_ == kCapacity) {
-      if (h.cost >= items_[count_ - 1].cost) return;
-      --count_;
-    }
+    if (count_ == kCapacity) --count_;
     std::uint32_t place = count_++;
     for (; place > 0 && items_[place - 1].cost > h.cost; --place) items_[place] = items_[place - 1];
     items_[place] = h;

@@ -51,14 +51,39 @@ void StripProfile::begin_anew() {
 }
 
 void StripProfile::add(double u_m, double v_m, double residual_m) {
-  const std::int32_t column = column_of(u_m);
-  const double row = (v_m - v_min_) * rows_per_m_;
-  if (column < 0 || !(row >= 0.0 && row < kRowBits)) return;
-  Column& c = columns_[static_cast<std::uint32_t>(column)];
-  if (c.count == 0xFFFF) return;
-  c.sum += static_cast<float>(residual_m);
-  ++c.count;
-  c.rows = static_cast<std::uint16_t>(c.rows | (1U << static_cast<unsigned>(row)));
+  const auto four = [](double x) { return all_four(static_cast<float>(x)); };
+  add(four(u_m), four(v_m), four(residual_m), FourTruths{-1, 0, 0, 0});
+}
+
+void StripProfile::add(FourFloats u_m, FourFloats v_m, FourFloats residual_m, FourTruths counts) {
+  const FourFloats none{};
+  const FourFloats column = (u_m - static_cast<float>(u_min_)) * static_cast<float>(kColumnsPerMetre);
+  const FourFloats row = (v_m - static_cast<float>(v_min_)) * static_cast<float>(rows_per_m_);
+  const FourTruths inside = counts & (column >= none) & (column < all_four(static_cast<float>(kColumns))) &
+                            (row >= none) & (row < all_four(static_cast<float>(kRowBits)));
+  const FourInts columns = cut_off(inside ? column : none), rows = cut_off(inside ? row : none);
+  for (std::uint32_t k = 0; k < kFour; ++k) {
+    Column& c = columns_[static_cast<std::uint32_t>(columns[k])];
+    if (inside[k] == 0 || c.count == 0xFFFF) continue;
+    c.sum += residual_m[k];
+    ++c.count;
+    c.rows = static_cast<std::uint16_t>(c.rows | (1U << static_cast<unsigned>(rows[k])));
+  }
+}
+
+StripProfile::FourColumns StripProfile::columns_of(FourFloats u_m) const {
+  const FourFloats place = (u_m - static_cast<float>(u_min_)) * static_cast<float>(kColumnsPerMetre), none{};
+  const FourTruths known = (place >= none) & (place < all_four(static_cast<float>(kColumns)));
+  const FourInts column = cut_off(known ? place : none);
+  FourColumns out{};
+  for (std::uint32_t k = 0; k < kFour; ++k) {
+    const Column& c = columns_[static_cast<std::uint32_t>(column[k])];
+    out.surface_probability[k] = c.shown;
+    out.is_strip[k] = c.is_strip() ? -1 : 0;
+  }
+  out.surface_probability = known ? out.surface_probability : none;
+  out.is_strip &= known;
+  return out;
 }
 
 bool StripProfile::seen(const Column& c) const {
@@ -139,7 +164,7 @@ bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
   return true;
 }
 
-void StripProfile::judge(double u_centre_m, double reach_m) {
+bool StripProfile::judge(double u_centre_m, double reach_m) {
   std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
   if (first < 0) first = 0;
   if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
@@ -155,9 +180,11 @@ void StripProfile::judge(double u_centre_m, double reach_m) {
   plain.share = 0.5;
   plain.sigma_m = w > 0.0 ? std::sqrt(squares / w) : layers_.sigma_m;
   if (!(plain.sigma_m >= layers_.sigma_m)) plain.sigma_m = layers_.sigma_m;
+  bool more = false;
   for (std::int32_t k = first; k <= last; ++k) {
     Column& c = columns_[static_cast<std::uint32_t>(k)];
     if (c.judged || c.count == 0) continue;
+    more = true;
     // The plane may drift out here: by the level around, as long as that cannot be the strips' own.
     double level = 0.0;
     const bool local = level_around(k, &level) && std::fabs(level) < 0.5 * layers_.step_m;
@@ -166,6 +193,7 @@ void StripProfile::judge(double u_centre_m, double reach_m) {
     c.judged = true;
   }
   look_at_flanks();
+  return more;
 }
 
 // The flanks of a strip lie between it and the wall: they belong to the strip.

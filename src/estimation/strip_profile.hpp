@@ -16,6 +16,7 @@
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
 #include "estimation/two_layers.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -29,26 +30,31 @@ class StripProfile {
   void begin_anew();
   // residual_m: signed distance from a plane, positive towards the sensor.
   void add(double u_m, double v_m, double residual_m);
+  void add(FourFloats u_m, FourFloats v_m, FourFloats residual_m, FourTruths counts);
 
   // Whether columns within reach_m of u_centre_m stand out of those around them. Fills surface_probability() there;
   // columns further away get 0: nothing is known of them yet.
   bool find(double u_centre_m, double reach_m, double gate_m);
   // With residuals from the plane through the surface: tells all columns within reach_m apart by the step that was
-  // found. Columns that find() has judged keep their probability.
-  void judge(double u_centre_m, double reach_m);
+  // found. Columns that were judged before keep their probability. False where there were no others.
+  bool judge(double u_centre_m, double reach_m);
 
   // A column that was judged to be a strip's.
   bool is_strip(double u_m) const {
     const std::int32_t column = column_of(u_m);
-    if (column < 0) return false;
-    const Column& c = columns_[static_cast<std::uint32_t>(column)];
-    return c.judged && c.probability < kStripProbabilityMax;
+    return column >= 0 && columns_[static_cast<std::uint32_t>(column)].is_strip();
   }
   // That the wall's own surface is seen in the column of u, 0..1.
   double surface_probability(double u_m) const {
     const std::int32_t column = column_of(u_m);
     return column < 0 ? 0.0 : static_cast<double>(columns_[static_cast<std::uint32_t>(column)].shown);
   }
+  // Of four places at once.
+  struct FourColumns {
+    FourFloats surface_probability;
+    FourTruths is_strip;
+  };
+  FourColumns columns_of(FourFloats u_m) const;
   const TwoLayers& layers() const { return layers_; }
 
  private:
@@ -64,6 +70,8 @@ class StripProfile {
     bool judged;
     bool has_level;
     double level_m;  // of the columns around
+
+    bool is_strip() const { return judged && probability < kStripProbabilityMax; }
   };
 
   std::int32_t column_of(double u_m) const {

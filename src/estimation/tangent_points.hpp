@@ -16,6 +16,7 @@
 #include "containers/point_set.hpp"
 #include "estimation/plane.hpp"
 #include "estimation/tangent_frame.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -70,6 +71,12 @@ struct TangentPoints {
     return (static_cast<double>(r[k]) - over.offset_m - over.slope_u * static_cast<double>(u[k]) -
             over.slope_v * static_cast<double>(v[k])) *
            foreshortening;
+  }
+  // Of the points k to k + 3; those behind the last one are whatever the rows hold there.
+  FourFloats four_distances(std::uint32_t k, const PlaneOver& over, double foreshortening) const {
+    return (load_four(&r[k]) - static_cast<float>(over.offset_m) - static_cast<float>(over.slope_u) * load_four(&u[k]) -
+            static_cast<float>(over.slope_v) * load_four(&v[k])) *
+           static_cast<float>(foreshortening);
   }
 };
 

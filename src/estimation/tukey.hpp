@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "math/four_floats.hpp"
+
 namespace pose_wall {
 
 // Tukey's biweight: 95 % efficient on Gaussian residuals with this cutoff (Holland and Welsch 1977).
@@ -21,6 +23,18 @@ inline double tukey_weight(double residual, double scale) {
 inline double flat_top_weight(double residual_m, double flat_m, double scale_m) {
   const double size = residual_m < 0.0 ? -residual_m : residual_m;
   return size > flat_m ? tukey_weight(size - flat_m, scale_m) : 1.0;
+}
+
+// Of four residuals; per_cutoff: 1 / (kTukeyCutoff scale).
+inline FourFloats tukey_weights(FourFloats residuals, float per_cutoff) {
+  const FourFloats x = residuals * per_cutoff, left = 1.0F - x * x, none{};
+  const FourFloats some = left > none ? left : none;
+  return some * some;
+}
+
+inline FourFloats flat_top_weights(FourFloats residuals_m, float flat_m, float per_cutoff) {
+  const FourFloats beyond = magnitude_of(residuals_m) - flat_m, none{};
+  return tukey_weights(beyond > none ? beyond : none, per_cutoff);
 }
 
 }  // namespace pose_wall

@@ -37,7 +37,7 @@ double unevenness(Span<const SurfacePatch> patches) {
 // Sum of the first products, in eight lanes of a fixed order. Rows are zero behind what is known of them, up to a whole
 // number of steps.
 constexpr std::uint32_t kStep = 2 * kFour;
-static_assert(kRow % kStep == 0, "rows are whole steps");
+static_assert(kRow % kStep == 0, "rows are whole steps, and there are whole fours of them");
 
 float dot(const float* a, const float* b, std::uint32_t count) {
   FourFloats s0{}, s1{};
@@ -47,6 +47,28 @@ float dot(const float* a, const float* b, std::uint32_t count) {
   }
   const FourFloats sums = s0 + s1;
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+// Of four rows of a matrix with one vector: as dot(), and what the vector brings is loaded once.
+struct FourSums {
+  float of[kFour];
+};
+
+FourSums four_dots(const float* rows, const float* b, std::uint32_t count) {
+  FourFloats s0[kFour] = {}, s1[kFour] = {};
+  for (std::uint32_t k = 0; k < count; k += kStep) {
+    const FourFloats b0 = load_four(b + k), b1 = load_four(b + k + kFour);
+    for (std::uint32_t row = 0; row < kFour; ++row) {
+      s0[row] += load_four(rows + row * kRow + k) * b0;
+      s1[row] += load_four(rows + row * kRow + k + kFour) * b1;
+    }
+  }
+  FourSums out;
+  for (std::uint32_t row = 0; row < kFour; ++row) {
+    const FourFloats sums = s0[row] + s1[row];
+    out.of[row] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  }
+  return out;
 }
 
 double slopes_variance(const Eigen::Matrix3d& covariance) {
@@ -140,17 +162,31 @@ void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double leng
 // of the cache does not give the same bits.
 bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, double tau2) {
   const auto shared = static_cast<float>((1.0 - own_share) * tau2);
-  for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    float* const row = &factor_[i * kRow];
-    for (std::uint32_t k = 0; k < kRow; ++k) row[k] = 0.0F;
-    for (std::uint32_t j = 0; j < i; ++j) {
+  const std::uint32_t n = patches.size();
+  const auto covariance = [&](std::uint32_t i, std::uint32_t j) {
+    return shared > 0.0F ? shared * correlation_[i * kRow + j] : 0.0F;
+  };
+  for (std::uint32_t first = 0; first < n; first += kFour) {
+    float* const rows = &factor_[first * kRow];
+    for (std::uint32_t k = 0; k < kFour * kRow; ++k) rows[k] = 0.0F;
+    const std::uint32_t end = first + kFour < n ? first + kFour : n;
+    for (std::uint32_t j = 0; j < first; ++j) {
       const float* const above = &factor_[j * kRow];
-      const float covariance = shared > 0.0F ? shared * correlation_[i * kRow + j] : 0.0F;
-      row[j] = (covariance - dot(row, above, j)) * above[j];
+      const FourSums sums = four_dots(rows, above, j);
+      for (std::uint32_t i = first; i < end; ++i) {
+        factor_[i * kRow + j] = (covariance(i, j) - sums.of[i - first]) * above[j];
+      }
     }
-    const float sum = static_cast<float>(tau2 + patches[i].noise_variance) - dot(row, row, i);
-    if (!(sum > 0.0F)) return false;
-    row[i] = 1.0F / std::sqrt(sum);
+    for (std::uint32_t i = first; i < end; ++i) {
+      float* const row = &factor_[i * kRow];
+      for (std::uint32_t j = first; j < i; ++j) {
+        const float* const above = &factor_[j * kRow];
+        row[j] = (covariance(i, j) - dot(row, above, j)) * above[j];
+      }
+      const float sum = static_cast<float>(tau2 + patches[i].noise_variance) - dot(row, row, i);
+      if (!(sum > 0.0F)) return false;
+      row[i] = 1.0F / std::sqrt(sum);
+    }
   }
   return true;
 }

@@ -36,6 +36,15 @@ inline FourFloats smaller_of(FourFloats a, FourFloats b) {
   return a < b ? a : b;
 }
 
+inline FourFloats larger_of(FourFloats a, FourFloats b) {
+  return a > b ? a : b;
+}
+
+inline float largest_of(FourFloats four) {
+  const float a = four[0] > four[1] ? four[0] : four[1], b = four[2] > four[3] ? four[2] : four[3];
+  return a > b ? a : b;
+}
+
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 // Of a comparison: all ones where it holds, or zero. `truths ? a : b` takes lane by lane.
 using FourTruths = FourInts;
@@ -63,6 +72,20 @@ inline bool any_of(FourTruths truths) {
   std::uint64_t halves[2];
   std::memcpy(halves, &truths, sizeof(halves));
   return (halves[0] | halves[1]) != 0;
+}
+
+inline FourTruths first_of_four(std::uint32_t count) {
+  return FourInts{0, 1, 2, 3} < static_cast<std::int32_t>(count);
+}
+
+// visit(first index, which of the four count): over rows whose length is a whole number of fours, of which `count` are
+// in use.
+template <typename Visit>
+void for_each_four(std::uint32_t count, const Visit& visit) {
+  const FourTruths all = FourFloats{} == FourFloats{};
+  std::uint32_t k = 0;
+  for (; k + kFour <= count; k += kFour) visit(k, all);
+  if (k < count) visit(k, first_of_four(count - k));
 }
 
 // In a fixed order.

@@ -42,6 +42,12 @@ void widen(IrlsSettings* tukey) {
   tukey->scale_max_m *= kWider;
 }
 
+// By no more than that another selection would choose the same points.
+bool stands_still(const Plane& a, const Plane& b) {
+  constexpr double kStill = 2e-4;  // metres, and slopes
+  return std::fabs(a.d - b.d) < kStill && (a.n - b.n).cwiseAbs().maxCoeff() < kStill;
+}
+
 // Where the ray to a point meets the plane.
 Eigen::Vector3d foot_of(const Eigen::Vector3d& p, const Plane& plane, const Eigen::Vector3d& sensor_base_m) {
   const double sensor = plane.signed_distance(sensor_base_m), height = plane.signed_distance(p);
@@ -164,8 +170,9 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
     chosen = select(cloud_base, open, scratch->grid, irls.plane, tukey.gate_m, radius_m, sensor_base_m, scratch->low);
-    irls = irls_tukey(cloud_base, chosen, irls.plane, u_hint, tukey, &scratch->points);
-    if (!irls.solved) break;
+    const Plane before = irls.plane;
+    irls = irls_tukey(cloud_base, chosen, before, u_hint, tukey, &scratch->points);
+    if (!irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   out.fit.plane = irls.plane;

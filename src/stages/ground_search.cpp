@@ -69,7 +69,7 @@ std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings
   const double thresh_m = settings.ground_ransac_thresh;
   std::uint32_t scored = 0;
   const auto score = [&](const Plane& plane) {
-    list->offer({plane, truncated_cost(*subset, plane, thresh_m)}, same_floor);
+    list->offer({plane, truncated_cost(*subset, plane, thresh_m, list->too_much())}, same_floor);
     ++scored;
   };
   if (in.last_floor != nullptr) score(*in.last_floor);

@@ -22,7 +22,7 @@ void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
   const PlaneOver over = surface.over();
   const double foreshortening = over.foreshortening();
   double squares = 0.0, measured = 0.0, voxels = 0.0;
-  for (std::uint32_t k = 0; k < surface.count; ++k) {
+  for (std::uint32_t k = 0; k < points.count; ++k) {
     const double r = points.distance(k, over, foreshortening);
     if (!(r >= -thresh_m && r <= thresh_m)) continue;
     squares += r * r;

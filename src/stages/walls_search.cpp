@@ -66,7 +66,8 @@ void WallSearch::begin(const PointSet& band_level, const SideView& view, const S
 
 void WallSearch::offer(const Plane& plane) {
   if (subset_.count == 0) return;
-  list_.offer({plane, truncated_cost(subset_, plane, settings_->wall_ransac_thresh)}, SameWall{view_});
+  list_.offer({plane, truncated_cost(subset_, plane, settings_->wall_ransac_thresh, list_.too_much())},
+              SameWall{view_});
   ++scored_;
 }
 

@@ -18,9 +18,10 @@ constexpr double kLayerPointsMin = 100.0;
 constexpr double kLayerGainPerPoint = 0.02;
 constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, parted by the voxels
 constexpr double kLayersApartInSigmas = 2.5;
-constexpr double kPatch_m = 0.5;
-constexpr double kWeightMin = 1e-6;
+constexpr int kStepRounds = 4;  // of the surface alone: it tells its roughness, the plane comes of both
 constexpr int kJointRounds = 3;
+constexpr int kLastRounds = 8;
+constexpr double kStandsStill = 5e-5;  // metres, and slopes
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
 constexpr double kFrontStepMin_m = 0.06;
@@ -31,19 +32,21 @@ constexpr double kFrontScaleMax_m = 0.03;
 void fill_strips(const WallSurface& fit, StripProfile* strips) {
   const WallPoints& points = *fit.points;
   const double foreshortening = fit.irls.over.foreshortening();
-  for (std::uint32_t k = 0; k < fit.count; ++k) {
-    const double r = points.at.distance(k, fit.irls.over, foreshortening);
-    strips->add(static_cast<double>(points.at.u[k]), points.z_level_m(k), r);
-  }
+  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats r = points.at.four_distances(k, fit.irls.over, foreshortening);
+    strips->add(load_four(&points.at.u[k]), points.four_z_level_m(k), r, counts);
+  });
 }
 
-// Moves the points of the wall's own surface to the front; returns how many.
-std::uint32_t surface_first(const StripProfile& strips, const WallPoints& points, std::uint32_t count) {
-  std::uint32_t first = 0;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    if (strips.surface_probability(static_cast<double>(points.at.u[k])) >= 0.5) points.swap(k, first++);
-  }
-  return first;
+// The points with the weights they have where the wall's own surface is seen.
+TangentPoints of_surface(const WallPoints& points) {
+  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths) {
+    const FourTruths is_surface = points.columns_of(k).surface_probability >= 0.5F;
+    store_four(is_surface ? load_four(&points.at.weight[k]) : FourFloats{}, &points.spare[k]);
+  });
+  TangentPoints out = points.at;
+  out.weight = points.spare;
+  return out;
 }
 
 // Whether two fits differ by no more than their covariances allow; b uses what a uses, and more (Hausman 1978).
@@ -57,22 +60,28 @@ bool agree(const WallSurface& a, const WallSurface& b) {
   return true;
 }
 
-StripFronts measure_fronts(const WallSurface& fit, Span<float> residuals) {
+StripFronts measure_fronts(const WallSurface& fit) {
   StripFronts fronts;
   // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
   if (!(fit.strips->layers().step_m >= kFrontStepMin_m)) return fronts;
   const double from_m = 0.5 * fit.strips->layers().step_m, range_m = 2.0 * fit.strips->layers().step_m;
   std::uint32_t count = 0;
   double sum = 0.0;
-  const TangentPoints& points = fit.points->at;
+  const WallPoints& points = *fit.points;
+  const Span<float> residuals = points.spare;
   const double foreshortening = fit.irls.over.foreshortening();
-  for (std::uint32_t k = 0; k < fit.count; ++k) {
-    if (!fit.strips->is_strip(static_cast<double>(points.u[k]))) continue;
-    const double r = points.distance(k, fit.irls.over, foreshortening);
-    if (!(r >= from_m && r <= from_m + range_m)) continue;
-    residuals[count++] = static_cast<float>(r);
-    sum += r;
-  }
+  const FourFloats from = all_four(static_cast<float>(from_m)), to = all_four(static_cast<float>(from_m + range_m));
+  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats r = points.at.four_distances(k, fit.irls.over, foreshortening);
+    FourTruths stands_out = counts & (r >= from) & (r <= to);
+    if (!any_of(stands_out)) return;
+    stands_out &= points.columns_of(k).is_strip;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (stands_out[lane] == 0) continue;
+      residuals[count++] = r[lane];
+      sum += static_cast<double>(r[lane]);
+    }
+  });
   if (count < kFrontPointsMin) return fronts;
   // Flanks pull the mean down; a few rounds of a narrowing window find where most of the fronts are.
   double centre = sum / count, window = range_m;
@@ -96,135 +105,161 @@ StripFronts measure_fronts(const WallSurface& fit, Span<float> residuals) {
 
 }  // namespace
 
-void WallPoints::lay_out(Arena& arena) {
-  at.lay_out(arena, kMost);
-  bias = arena.take<float>(kMost);
-}
-
-void WallPoints::begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level) {
-  at.begin(around, Eigen::Vector3d::Zero(), along_level);
-  const TangentFrame& f = at.frame;
-  const Eigen::Vector3d from_origin = scene.sensor_level_m - f.origin;
-  sensor = Eigen::Vector3d(f.u.dot(from_origin), f.v.dot(from_origin), around.n.dot(from_origin));
-  z_at_origin_m = f.origin.z();
-  z_per_v = f.v.z();
-  z_per_r = around.n.z();
-}
-
-void WallPoints::add(const Eigen::Vector3d& p_level, float weight) {
-  const std::uint32_t k = at.count;
-  at.add(p_level, weight);
-  const Eigen::Vector3d ray = Eigen::Vector3d(at.u[k], at.v[k], at.r[k]) - sensor;
-  bias[k] = static_cast<float>(ray.z() / std::sqrt(ray.squaredNorm()));
-}
-
-void WallPoints::swap(std::uint32_t a, std::uint32_t b) const {
-  for (const Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) {
-    const float kept = (*row)[a];
-    (*row)[a] = (*row)[b];
-    (*row)[b] = kept;
-  }
-}
-
 void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   near = arena.take<std::uint32_t>(points_max);
   points.lay_out(arena);
-  residuals = arena.take<float>(WallPoints::kMost);
   patches.lay_out(arena);
   strips.lay_out(arena);
 }
 
 void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit) {
-  const WallPoints& points = scratch->points;
+  WallPoints& points = scratch->points;
   const double foreshortening = fit->irls.over.foreshortening();
   LayerHistogram histogram(settings.gate_m);
-  for (std::uint32_t k = 0; k < fit->count; ++k) {
+  for (std::uint32_t k = 0; k < points.at.count; ++k) {
     histogram.add(points.at.distance(k, fit->irls.over, foreshortening));
   }
   if (histogram.total() < kLayerPointsMin) return;
   TwoLayers layers =
       find_two_layers(histogram, {settings.scale_min_m, kLayerGainPerPoint * histogram.total(), kLayersApartInSigmas});
   if (!layers.found || !(layers.step_m >= kLayerStepMin_m)) return;
-  std::uint32_t outer = 0;
-  for (std::uint32_t k = 0; k < fit->count; ++k) {
+  for (std::uint32_t k = 0; k < points.at.count; ++k) {
     const double r = points.at.distance(k, fit->irls.over, foreshortening);
-    if (layers.surface_probability(r) >= 0.5) points.swap(k, outer++);
+    points.spare[k] = layers.surface_probability(r) >= 0.5 ? 1.0F : 0.0F;
   }
-  fit->count = outer;
+  points.keep(points.spare);
   PlaneOver start = fit->irls.over;
   start.offset_m += layers.centre_m;
-  fit->irls = irls_tukey(points.at, outer, start, settings);
+  fit->irls = irls_tukey(points.at, points.at.count, start, settings);
   layers.centre_m = 0.0;  // by the new plane
   fit->layers = layers;
 }
 
+namespace {
+
+// What four points weigh: as WallSurface::weight(), and as a part of the strips' fronts.
+class FourWeights {
+ public:
+  explicit FourWeights(const WallSurface& surface)
+      : surface_(surface),
+        per_cutoff_(static_cast<float>(1.0 / (kTukeyCutoff * surface.irls.scale_m))),
+        front_per_cutoff_(surface.fronts.found ? static_cast<float>(1.0 / (kTukeyCutoff * surface.fronts.scale_m))
+                                               : 0.0F) {}
+
+  void look_at(std::uint32_t k, FourFloats r) {
+    of_surface = flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff_);
+    if (surface_.strips != nullptr) {
+      const StripProfile::FourColumns columns = surface_.points->columns_of(k);
+      of_surface *= columns.surface_probability;
+      if (surface_.fronts.found) {
+        const FourFloats front = tukey_weights(r - static_cast<float>(surface_.fronts.step_m), front_per_cutoff_);
+        of_fronts = columns.is_strip ? front : FourFloats{};
+      }
+    } else if (surface_.layers.found) {
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+        of_surface[lane] *= static_cast<float>(surface_.layers.surface_probability(static_cast<double>(r[lane])));
+      }
+    }
+  }
+
+  FourFloats of_surface{}, of_fronts{};
+
+ private:
+  const WallSurface& surface_;
+  float per_cutoff_, front_per_cutoff_;
+};
+
+}  // namespace
+
 void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit) {
   const WallSurface& surface = *fit;
   const WallPoints& points = *surface.points;
-  float u_min = 0.0F, u_max = 0.0F, v_min = 0.0F, v_max = 0.0F;
-  for (std::uint32_t k = 0; k < surface.count; ++k) {
-    const float u = points.at.u[k], v = points.at.v[k];
-    u_min = u < u_min ? u : u_min;
-    u_max = u > u_max ? u : u_max;
-    v_min = v < v_min ? v : v_min;
-    v_max = v > v_max ? v : v_max;
-  }
-  patches->begin(static_cast<double>(u_min), static_cast<double>(u_max), static_cast<double>(v_min),
-                 static_cast<double>(v_max), kPatch_m, surface.fronts.found ? 2 : 1);
   const double foreshortening = surface.irls.over.foreshortening();
-  for (std::uint32_t k = 0; k < surface.count; ++k) {
-    const double u = static_cast<double>(points.at.u[k]), v = static_cast<double>(points.at.v[k]);
-    const double r = points.at.distance(k, surface.irls.over, foreshortening);
-    const double stands_for = static_cast<double>(points.at.weight[k]), bias = static_cast<double>(points.bias[k]);
-    const double w = surface.weight(u, r), front = surface.front_weight(u, r);
-    if (w > kWeightMin) patches->add(u, v, r, w * stands_for, bias, 0);
-    if (front > kWeightMin) patches->add(u, v, r, front * stands_for, bias, 1);
+  FourWeights weights(surface);
+  patches->begin_anew(surface.fronts.found ? 2 : 1);
+  std::uint32_t k = 0;
+  for (std::uint32_t patch = 0; patch < patches->patches(); ++patch) {
+    PatchGrid::Sums of_surface, of_fronts;
+    const std::uint32_t end = points.patch_end[patch];
+    for (; k < end; k += kFour) {
+      const FourTruths counts = first_of_four(end - k);
+      const FourFloats r = points.at.four_distances(k, surface.irls.over, foreshortening);
+      const FourFloats stands_for = counts ? load_four(&points.at.weight[k]) : FourFloats{};
+      const FourPoints four{load_four(&points.at.u[k]), load_four(&points.at.v[k]), r, load_four(&points.bias[k])};
+      weights.look_at(k, r);
+      of_surface.add(four, weights.of_surface * stands_for);
+      if (surface.fronts.found) of_fronts.add(four, weights.of_fronts * stands_for);
+    }
+    k = end;
+    patches->set(patch, 0, of_surface);
+    if (surface.fronts.found) patches->set(patch, 1, of_fronts);
   }
   fit->patch = patches->fit(errors);
 }
 
-void join_fronts(Fronts use, WallFitScratch* scratch, WallSurface* fit) {
-  WallSurface joint = *fit;
-  for (int round = 0; round < kJointRounds; ++round) {
+namespace {
+
+// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still.
+// False where no fronts are found.
+bool step_with_fronts(int rounds_max, const WallSurface& surface, WallFitScratch* scratch, PlaneOver* over) {
+  WallSurface joint = surface;
+  joint.irls.over = *over;
+  for (int round = 0; round < rounds_max; ++round) {
+    joint.fronts = measure_fronts(joint);
+    if (!joint.fronts.found) return false;
+    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
+    if (!joint.patch.solved) return false;
     joint.irls.over = joint.over();
-    joint.fronts = measure_fronts(joint, scratch->residuals);
-    if (!joint.fronts.found) return;
-    // Errors are asked for by who compares, after the last round.
-    const bool is_step = use == Fronts::kAlways || round + 1 < kJointRounds;
-    const PatchGrid::Errors errors = is_step ? PatchGrid::Errors::kPlaneOnly : PatchGrid::Errors::kMeasured;
-    fit_patches(errors, &scratch->patches, &joint);
-    if (!joint.patch.solved) return;
+    if (joint.patch.correction.cwiseAbs().maxCoeff() < kStandsStill) break;
   }
-  if (use == Fronts::kAlways || agree(*fit, joint)) *fit = joint;
+  *over = joint.irls.over;
+  return true;
+}
+
+}  // namespace
+
+void join_fronts(WallFitScratch* scratch, WallSurface* fit) {
+  WallSurface joint = *fit;
+  joint.irls.over = fit->over();
+  if (!step_with_fronts(kLastRounds, *fit, scratch, &joint.irls.over)) return;
+  joint.fronts = measure_fronts(joint);
+  if (!joint.fronts.found) return;
+  fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &joint);
+  if (joint.patch.solved && agree(*fit, joint)) *fit = joint;
 }
 
 void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit) {
-  const WallPoints& points = scratch->points;
+  WallPoints& points = scratch->points;
   const double sensor_m = points.sensor.x();
-  const PlaneOver& over = fit->irls.over;
-  const double away_m = std::fabs(points.sensor.z() - over.offset_m - over.slope_u * points.sensor.x() -
-                                  over.slope_v * points.sensor.y());
+  const PlaneOver& first = fit->irls.over;
+  const double away_m = std::fabs(points.sensor.z() - first.offset_m - first.slope_u * points.sensor.x() -
+                                  first.slope_v * points.sensor.y());
   StripProfile& strips = scratch->strips;
   strips.begin(sensor_m - kProfileReach_m, fit->heights.min_m, fit->heights.max_m);
   fill_strips(*fit, &strips);
   if (!strips.find(sensor_m, kSeenWithin * away_m, settings.gate_m)) return;
   double reach_m = kSeenWithin * away_m;
+  IrlsSettings step = settings;
+  step.stands_still = kStandsStill;
+  step.rounds = kStepRounds;
   for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
     if (ring > 0) {
       strips.begin_anew();
       fill_strips(*fit, &strips);
-      strips.judge(sensor_m, reach_m);
+      if (!strips.judge(sensor_m, reach_m)) return;
     }
-    const std::uint32_t of_surface = surface_first(strips, points, fit->count);
-    fit->irls = irls_tukey(points.at, of_surface, fit->irls.over, settings);
+    points.mark_columns(strips);
+    fit->irls = irls_tukey(of_surface(points), points.at.count, fit->irls.over, step);
     if (!fit->irls.solved) return;
     fit->strips = &strips;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
-    WallSurface joint = *fit;
-    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
-    if (!joint.patch.solved) continue;
-    join_fronts(Fronts::kAlways, scratch, &joint);
-    fit->irls.over = joint.over();
+    PlaneOver over = fit->irls.over;
+    if (step_with_fronts(kJointRounds, *fit, scratch, &over)) {
+      fit->irls.over = over;
+      continue;
+    }
+    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, fit);
+    if (fit->patch.solved) fit->irls.over = fit->over();
   }
 }
 

@@ -9,40 +9,14 @@
 #include "estimation/irls.hpp"
 #include "estimation/patch_fit.hpp"
 #include "estimation/strip_profile.hpp"
-#include "estimation/tangent_points.hpp"
 #include "estimation/tukey.hpp"
-#include "stages/walls_scene.hpp"
+#include "stages/walls_points.hpp"
 
 namespace pose_wall {
-
-// The points a wall is fitted on, in the tangent frame of the plane the fit began with: u along the road, v up, r
-// towards the machine.
-struct WallPoints {
-  static constexpr std::uint32_t kMost = 16384;
-
-  TangentPoints at;
-  std::uint32_t stride = 1;    // of the points that belong here, every n-th is
-  Span<float> bias;            // change of r per metre of range bias
-  Eigen::Vector3d sensor;      // u, v, r
-  double z_at_origin_m = 0.0;  // z_level = z_at_origin + v z_per_v + r z_per_r
-  double z_per_v = 1.0, z_per_r = 0.0;
-
-  void lay_out(Arena& arena);
-  // along_level: horizontal and in the plane, so that u tells nothing of the height.
-  void begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level);
-  // False where there is no more room.
-  void add(const Eigen::Vector3d& p_level, float weight);
-  void swap(std::uint32_t a, std::uint32_t b) const;
-
-  double z_level_m(std::uint32_t k) const {
-    return z_at_origin_m + z_per_v * static_cast<double>(at.v[k]) + z_per_r * static_cast<double>(at.r[k]);
-  }
-};
 
 struct WallFitScratch {
   Span<std::uint32_t> near;  // indices into the wall band
   WallPoints points;
-  Span<float> residuals;
   PatchGrid patches;
   StripProfile strips;
 
@@ -67,7 +41,6 @@ constexpr double kSensorNoise_m = 0.015;
 
 struct WallSurface {
   const WallPoints* points = nullptr;
-  std::uint32_t count = 0;               // of the points: those it was fitted on come first
   IrlsOver irls;                         // over the points' plane
   const StripProfile* strips = nullptr;  // null: none stand out of it
   StripFronts fronts;
@@ -92,26 +65,21 @@ struct WallSurface {
     if (strips != nullptr) return weight * strips->surface_probability(u_m);
     return layers.found ? weight * layers.surface_probability(residual_m) : weight;
   }
-  // And as one of the strips' fronts.
-  double front_weight(double u_m, double residual_m) const {
-    return fronts.found && strips->is_strip(u_m) ? tukey_weight(residual_m - fronts.step_m, fronts.scale_m) : 0.0;
-  }
 };
 
 // Averages the surface's points, and the strips' fronts if they were found, over patches: sets patch.
 void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit);
 
 // Tells strips and surface apart, near the sensor first and then further and further out, and repeats the plane fit on
-// the surface alone. Reorders the points. Without strips nothing changes.
+// the surface alone. Without strips nothing changes.
 void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit);
 
 // Door frames, cables and mesh stand out of a wall by more than its roughness: where no strips were found but the
-// points lie in two layers, the fit is repeated on the outer one. Reorders the points.
+// points lie in two layers, the fit is repeated on the outer one, and the others are dropped.
 void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit);
 
-// Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does. They
-// join the fit with a step of their own; if told so, only where they do not contradict the rock.
-enum class Fronts { kAlways, kIfTheyAgree };
-void join_fronts(Fronts use, WallFitScratch* scratch, WallSurface* fit);
+// Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does. Where
+// they do not contradict the rock they join the fit, with a step of their own.
+void join_fronts(WallFitScratch* scratch, WallSurface* fit);
 
 }  // namespace pose_wall

@@ -49,6 +49,7 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
   for (std::uint32_t k = 0; k < count; k += scratch->points.stride) {
     scratch->points.add(scene.band_level.at(near[k]), scene.band_level.weight[near[k]]);
   }
+  scratch->points.sort_by_patch(&scratch->patches, scratch->near);
 }
 
 WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
@@ -58,14 +59,13 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   WallSurface fit;
   fit.heights = heights;
   fit.points = &scratch->points;
-  fit.count = scratch->points.at.count;
-  fit.irls = irls_tukey(scratch->points.at, fit.count, PlaneOver{}, settings);
+  fit.irls = irls_tukey(scratch->points.at, scratch->points.at.count, PlaneOver{}, settings);
   if (!fit.irls.solved) return fit;
   set_strips_apart(settings, scratch, &fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
   fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
-  if (fit.patch.solved && fit.strips != nullptr) join_fronts(Fronts::kIfTheyAgree, scratch, &fit);
+  if (fit.patch.solved && fit.strips != nullptr) join_fronts(scratch, &fit);
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
   fit.layer_sigma_m =
@@ -77,7 +77,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
 double lean_between(const WallSurface& fit, const Heights& heights) {
   double w = 0.0, z = 0.0, zz = 0.0, r = 0.0, zr = 0.0;
   const double foreshortening = fit.irls.over.foreshortening();
-  for (std::uint32_t k = 0; k < fit.count; ++k) {
+  for (std::uint32_t k = 0; k < fit.points->at.count; ++k) {
     const double height = fit.points->z_level_m(k);
     if (!heights.contain(height)) continue;
     const double residual = fit.points->at.distance(k, fit.irls.over, foreshortening);

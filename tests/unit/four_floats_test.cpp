@@ -53,5 +53,32 @@ TEST(FourFloats, CutOffRootMagnitudeAnyAndStore) {
   EXPECT_FALSE(any_of(four < all_four(-3.0F)));
 }
 
+TEST(FourFloats, LargerLaneByLaneAndLargestOfAll) {
+  const FourFloats larger = larger_of(FourFloats{1.0F, -1.0F, 0.0F, 7.0F}, all_four(0.5F));
+  const float expected[kFour] = {1.0F, 0.5F, 0.5F, 7.0F};
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    EXPECT_EQ(larger[lane], expected[lane]);
+    FourFloats four = all_four(-3.0F);
+    four[lane] = -2.0F;
+    EXPECT_EQ(largest_of(four), -2.0F);
+  }
+}
+
+TEST(FourFloats, EachFourIsVisitedOnceAndTheLastOnesCountAsFarAsTheyGo) {
+  for (std::uint32_t count = 0; count < 14; ++count) {
+    std::uint32_t next = 0;
+    for_each_four(count, [&](std::uint32_t k, FourTruths counts) {
+      EXPECT_EQ(k % kFour, 0U);
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+        EXPECT_EQ(counts[lane] != 0, k + lane < count);
+        if (counts[lane] == 0) continue;
+        EXPECT_EQ(k + lane, next);
+        ++next;
+      }
+    });
+    EXPECT_EQ(next, count);
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall

@@ -137,5 +137,40 @@ TEST(Irls, TakesNoMorePointsThanThereIsRoomFor) {
   }
 }
 
+// A part of the points is fitted by taking the others' weight.
+TEST(Irls, PointsWithoutWeightPlayNoPart) {
+  constexpr std::uint32_t kHalved = 600;
+  test::Placed<TangentPoints> all(kHalved), some(kHalved);
+  const Plane plane{Eigen::Vector3d::UnitZ(), 0.0};
+  for (auto* points : {all.get(), some.get()}) points->begin(plane, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
+  test::Noise noise(8);
+  for (std::uint32_t i = 0; i < kHalved; ++i) {
+    const bool out = i % 3 == 0;  // a layer 6 cm off, within the gate
+    const Eigen::Vector3d p(noise.uniform(-4, 4), noise.uniform(-1, 1), noise.normal(0.01) + (out ? 0.06 : 0.0));
+    all->add(p, out ? 0.0F : 1.0F);
+    if (!out) some->add(p, 1.0F);
+  }
+  const IrlsOver a = irls_tukey(*all, all->count, PlaneOver{}, kSettings);
+  const IrlsOver b = irls_tukey(*some, some->count, PlaneOver{}, kSettings);
+  ASSERT_TRUE(a.solved && b.solved);
+  EXPECT_NEAR(a.over.offset_m, b.over.offset_m, 1e-5);
+  EXPECT_NEAR(a.scale_m, b.scale_m, 1e-6);
+}
+
+TEST(Irls, EndsWhereItStandsStill) {
+  test::Placed<TangentPoints> points(400U);
+  points->begin(Plane{Eigen::Vector3d::UnitZ(), 0.0}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
+  test::Noise noise(9);
+  for (int i = 0; i < 400; ++i) {
+    points->add(Eigen::Vector3d(noise.uniform(-4, 4), noise.uniform(-1, 1), 0.03 + noise.normal(0.01)), 1.0F);
+  }
+  IrlsSettings once = kSettings, soon = kSettings;
+  once.rounds = 1;
+  soon.stands_still = 1.0;
+  const IrlsOver a = irls_tukey(*points, 400, PlaneOver{}, once), b = irls_tukey(*points, 400, PlaneOver{}, soon);
+  EXPECT_EQ(a.over.offset_m, b.over.offset_m) << "one round moves less than a metre";
+  EXPECT_NE(a.over.offset_m, irls_tukey(*points, 400, PlaneOver{}, kSettings).over.offset_m);
+}
+
 }  // namespace
 }  // namespace pose_wall

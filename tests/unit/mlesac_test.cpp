@@ -25,11 +25,11 @@ test::OwnedPoints at_heights(const std::vector<double>& heights) {
   return points;
 }
 
-double cost_at(const std::vector<double>& heights, double threshold) {
+double cost_at(const std::vector<double>& heights, double threshold, double too_much = 1e300) {
   test::Placed<PointSet> points(static_cast<std::uint32_t>(heights.size()) + 1);
   points->count = 0;
   for (const double h : heights) points->set(points->count++, Eigen::Vector3d(0, 0, h), 1.0F);
-  return truncated_cost(*points, Plane{}, threshold);
+  return truncated_cost(*points, Plane{}, threshold, too_much);
 }
 
 TEST(TruncatedCost, ByHand) {
@@ -47,6 +47,20 @@ TEST(TruncatedCost, CountsThatFillNoLaneAreCountedTheSame) {
   for (int n = 1; n < 40; ++n) {
     std::vector<double> heights(static_cast<std::size_t>(n), 0.05);
     ASSERT_NEAR(cost_at(heights, 0.1), 0.25, 1e-6) << n;
+  }
+}
+
+// Who has lost need not be told by how much, and nobody else may be told anything else.
+TEST(TruncatedCost, EndsEarlyOnlyForWhatCostsTooMuch) {
+  test::Noise noise(4);
+  for (const double spread : {0.02, 0.1, 1.0}) {
+    std::vector<double> heights(300);
+    for (double& h : heights) h = noise.normal(spread);
+    const double exact = cost_at(heights, 0.1);
+    for (const double too_much : {0.5 * exact, 0.999 * exact}) {
+      EXPECT_EQ(cost_at(heights, 0.1, too_much), too_much) << spread;
+    }
+    EXPECT_EQ(cost_at(heights, 0.1, 1.001 * exact), exact) << spread;
   }
 }
 

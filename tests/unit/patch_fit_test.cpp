@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -272,8 +273,60 @@ TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
   EXPECT_LT(fits[1].covariance(1, 1), 0.2 * fits[0].covariance(1, 1)) << "five times as long a base";
   EXPECT_GT(fits[1].covariance(0, 0), 0.3 * fits[0].covariance(0, 0)) << "the offset rests on the surface alone";
   for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(fits[1].correction[k], fits[2].correction[k], 1e-9) << "whatever the step: parameter " << k;
+    EXPECT_NEAR(fits[1].correction[k], fits[2].correction[k], 1e-6) << "whatever the step: parameter " << k;
   }
+}
+
+// Points in the order of their patches, four at a time, come to the same as one by one.
+TEST(PatchFit, SumsOfPatchesAreThoseOfTheirPoints) {
+  constexpr std::uint32_t kMany = 900;
+  test::Placed<PatchGrid> one, sorted;
+  for (auto* grid : {one.get(), sorted.get()}) grid->begin(-4, 4, 0, 2, 0.5);
+  test::Noise noise(10);
+  std::vector<std::vector<std::array<float, 4>>> of_patch(sorted->patches());
+  for (std::uint32_t i = 0; i < kMany; ++i) {
+    const auto u = static_cast<float>(noise.uniform(-4, 4)), v = static_cast<float>(noise.uniform(0, 2));
+    const auto r = static_cast<float>(0.01 + 0.002 * static_cast<double>(u) + noise.normal(0.01));
+    // Next to no weight is none.
+    const float weight = i % 5 == 0 ? 1e-9F : 1.0F + static_cast<float>(i % 3);
+    if (weight > 1e-6F) {
+      one->add(static_cast<double>(u), static_cast<double>(v), static_cast<double>(r), static_cast<double>(weight),
+               0.5);
+    }
+    const FourInts patch = sorted->patch_of(all_four(u), all_four(v));
+    of_patch.at(static_cast<std::size_t>(patch[0])).push_back({u, v, r, weight});
+  }
+  sorted->begin_anew(1);
+  for (std::uint32_t patch = 0; patch < sorted->patches(); ++patch) {
+    PatchGrid::Sums sums;
+    const auto& points = of_patch[patch];
+    for (std::size_t k = 0; k < points.size(); k += kFour) {
+      FourFloats row[4] = {};
+      for (std::size_t lane = 0; lane < kFour && k + lane < points.size(); ++lane) {
+        for (std::size_t of = 0; of < 4; ++of) row[of][lane] = points[k + lane][of];
+      }
+      sums.add({row[0], row[1], row[2], all_four(0.5F)}, row[3]);
+    }
+    sorted->set(patch, 0, sums);
+  }
+  const PatchFit a = one->fit(), b = sorted->fit();
+  ASSERT_TRUE(a.solved && b.solved);
+  EXPECT_EQ(a.patches, b.patches);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(a.correction[k], b.correction[k], 1e-6);
+    EXPECT_NEAR(a.covariance(k, k), b.covariance(k, k), 1e-3 * a.covariance(k, k));
+  }
+  EXPECT_NEAR(a.visibility_m, b.visibility_m, 1e-5);
+}
+
+TEST(PatchFit, EveryPlaceHasAPatch) {
+  test::Placed<PatchGrid> grid;
+  grid->begin(-4, 4, 0, 2, 0.5);
+  const FourInts patch = grid->patch_of(FourFloats{-1e9F, -4.0F, 4.0F, 1e9F}, FourFloats{-1e9F, 0.0F, 2.0F, 1e9F});
+  EXPECT_EQ(patch[0], 0);
+  EXPECT_EQ(patch[1], 0);
+  EXPECT_EQ(patch[2], static_cast<std::int32_t>(grid->patches()) - 1);
+  EXPECT_EQ(patch[3], static_cast<std::int32_t>(grid->patches()) - 1);
 }
 
 }  // namespace

@@ -65,5 +65,21 @@ TEST(Shortlist, WhenFullTheWorstGoesOrTheNewOneIsRefused) {
   EXPECT_EQ(list.count(), 0U);
 }
 
+TEST(Shortlist, TellsWhatItWouldNotTake) {
+  Shortlist<2> list;
+  EXPECT_GT(list.too_much(), 1e9) << "there is room";
+  list.offer(at(10, 1), alike);
+  EXPECT_GT(list.too_much(), 1e9) << "there is room";
+  list.offer(at(20, 5), alike);
+  EXPECT_EQ(list.too_much(), 5.0);
+  list.offer(at(30, 5), alike);
+  EXPECT_EQ(list[1].plane.d, 20.0) << "as dear is too dear";
+  list.offer(at(30, 4), alike);
+  EXPECT_EQ(list[1].plane.d, 30.0);
+  EXPECT_EQ(list.too_much(), 4.0);
+  list.clear();
+  EXPECT_GT(list.too_much(), 1e9);
+}
+
 }  // namespace
 }  // namespace pose_wall

@@ -148,11 +148,12 @@ TEST(StripProfile, TellsThemApartFurtherOut) {
   const double near_before = profile->surface_probability(0.5);
   profile->begin_anew();
   fill(profile.get(), -20.0, 20.0, &noise, surface);
-  profile->judge(0.0, 12.0);
+  EXPECT_TRUE(profile->judge(0.0, 12.0));
   EXPECT_GE(judged(*profile, strips, 4.0, 11.5).share(), 0.9);
   EXPECT_GE(judged(*profile, strips, -11.5, -4.0).share(), 0.9);
   EXPECT_EQ(profile->surface_probability(0.5), near_before) << "what was judged stays";
   EXPECT_EQ(profile->surface_probability(15.5), 0.0) << "out of the second reach";
+  EXPECT_FALSE(profile->judge(0.0, 12.0)) << "there is nothing new";
 }
 
 TEST(StripProfile, HarmlessOutsideAndEmpty) {
@@ -167,6 +168,54 @@ TEST(StripProfile, HarmlessOutsideAndEmpty) {
   }
   EXPECT_FALSE(profile->find(0.0, 1e3, kGate_m));
   EXPECT_EQ(profile->surface_probability(0.0), 0.0);
+}
+
+TEST(StripProfile, FourColumnsAreThoseOfEach) {
+  test::Placed<StripProfile> profile;
+  Noise noise(4);
+  const Rock rock(0.03, 0.3, &noise);
+  ASSERT_TRUE(find(profile.get(), &noise, with_strips(rock, Strips{0.15, 0.15, 1.0})));
+  int strips = 0;
+  for (float u = -33.0F; u < 33.5F; u += 0.013F) {
+    const FourFloats four{u, u + 0.3F, -u, u + 40.0F};
+    const StripProfile::FourColumns columns = profile->columns_of(four);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const auto place = static_cast<double>(four[lane]);
+      // At a column's border the sum of floats may fall to the other side.
+      if (std::fabs(20.0 * place - std::round(20.0 * place)) < 1e-3) continue;
+      EXPECT_EQ(static_cast<double>(columns.surface_probability[lane]), profile->surface_probability(place)) << place;
+      EXPECT_EQ(columns.is_strip[lane] != 0, profile->is_strip(place)) << place;
+      strips += columns.is_strip[lane] != 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(strips, 100);
+}
+
+TEST(StripProfile, FourPointsCountAsEachByItself) {
+  test::Placed<StripProfile> one, four;
+  for (auto* profile : {one.get(), four.get()}) profile->begin(-kProfile_m, kLow_m, kHigh_m);
+  Noise noise(5);
+  const Rock rock(0.03, 0.3, &noise);
+  const Surface surface = with_strips(rock, Strips{0.15, 0.15, 1.0});
+  for (int i = 0; i < 8000; ++i) {
+    FourFloats u{}, v{}, r{};
+    const auto lanes = static_cast<std::uint32_t>(1 + i % 4);  // the others must not count
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const double at_u = noise.uniform(-kReach_m, kReach_m), at_v = noise.uniform(kLow_m, kHigh_m);
+      const double residual = surface(at_u, at_v);
+      u[lane] = static_cast<float>(at_u);
+      v[lane] = static_cast<float>(at_v);
+      r[lane] = static_cast<float>(residual);
+      if (lane < lanes) one->add(static_cast<double>(u[lane]), static_cast<double>(v[lane]), residual);
+    }
+    four->add(u, v, r, first_of_four(lanes));
+  }
+  ASSERT_TRUE(one->find(0.0, kReach_m, kGate_m));
+  ASSERT_TRUE(four->find(0.0, kReach_m, kGate_m));
+  EXPECT_EQ(four->layers().step_m, one->layers().step_m);
+  for (double u = -kReach_m; u < kReach_m; u += 0.05) {
+    EXPECT_EQ(four->surface_probability(u), one->surface_probability(u)) << u;
+  }
 }
 
 }  // namespace

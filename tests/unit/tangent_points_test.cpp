@@ -70,5 +70,17 @@ TEST(TangentPoints, BeginForgetsWhatWasThere) {
   EXPECT_EQ(cloud.points->weight[0], 5.0F);
 }
 
+TEST(TangentPoints, FourDistancesAreThoseOfEach) {
+  Cloud cloud(leaning());
+  const PlaneOver over{-0.3, 0.04, 0.07};
+  for (std::uint32_t k = 0; k + kFour <= kPoints; k += 3) {
+    const FourFloats r = cloud.points->four_distances(k, over, over.foreshortening());
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const double one = cloud.points->distance(k + lane, over, over.foreshortening());
+      EXPECT_NEAR(static_cast<double>(r[lane]), one, 5e-6) << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall

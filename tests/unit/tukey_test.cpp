@@ -48,5 +48,20 @@ TEST(FlatTop, WhatIsNoNumberHasNoPull) {
   EXPECT_EQ(flat_top_weight(-INFINITY, 0.03, 0.02), 0.0);
 }
 
+TEST(FourWeights, AreTheWeightsOfEach) {
+  constexpr double kScale_m = 0.02, kFlat_m = 0.015;
+  const auto per_cutoff = static_cast<float>(1.0 / (kTukeyCutoff * kScale_m));
+  for (float r = -0.2F; r < 0.2F; r += 0.004F) {
+    const FourFloats four{r, r + 0.001F, -r, 10.0F * r};
+    const FourFloats plain = tukey_weights(four, per_cutoff);
+    const FourFloats flat = flat_top_weights(four, static_cast<float>(kFlat_m), per_cutoff);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const auto residual = static_cast<double>(four[lane]);
+      EXPECT_NEAR(static_cast<double>(plain[lane]), tukey_weight(residual, kScale_m), 1e-5) << residual;
+      EXPECT_NEAR(static_cast<double>(flat[lane]), flat_top_weight(residual, kFlat_m, kScale_m), 1e-5) << residual;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall

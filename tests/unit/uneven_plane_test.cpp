@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -101,6 +102,30 @@ TEST(UnevenPlane, OnAFlatSurfaceItIsLeastSquares) {
   EXPECT_NEAR(f.bias_response[1], 0.1, 1e-6);
   EXPECT_GT(std::sqrt(f.covariance(1, 1)), 0.7 * kNoise_m / std::sqrt(suu));
   EXPECT_LT(std::sqrt(f.covariance(1, 1)), 2.5 * kNoise_m / std::sqrt(suu));
+}
+
+// Rows are worked on four at a time, and the last ones need not be four.
+TEST(UnevenPlane, AnyCountInAnyOrder) {
+  for (std::size_t count = 9; count <= 29; ++count) {
+    test::Noise noise(6);
+    std::vector<SurfacePatch> patches = flat(&noise);
+    test::Noise place(7);
+    for (SurfacePatch& p : patches) {
+      p.u += place.uniform(-0.2, 0.2);
+      p.residual += noise.normal(0.02);
+    }
+    std::vector<SurfacePatch> some;
+    for (std::size_t k = 0; k < count; ++k) some.push_back(patches[7 * k % patches.size()]);
+    const UnevenFit forward = fit(some);
+    std::reverse(some.begin(), some.end());
+    const UnevenFit backward = fit(some);
+    ASSERT_TRUE(forward.solved && backward.solved) << count;
+    for (int k = 0; k < 3; ++k) {
+      const double sigma = std::sqrt(forward.covariance(k, k));
+      EXPECT_NEAR(forward.correction[k], backward.correction[k], 1e-3 * sigma) << count;
+      EXPECT_NEAR(std::sqrt(backward.covariance(k, k)), sigma, 1e-3 * sigma) << count;
+    }
+  }
 }
 
 TEST(UnevenPlane, WhatDoesNotHoldAPlaneIsNotSolved) {

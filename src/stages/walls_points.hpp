@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The points a wall is fitted on. A fit goes through all of them some twenty times, so they lie in rows in the tangent
+// frame of the plane it began with, in the order of the patches that it averages them over.
+
+#pragma once
+
+#include "containers/arena.hpp"
+#include "estimation/patch_fit.hpp"
+#include "estimation/strip_profile.hpp"
+#include "estimation/tangent_points.hpp"
+#include "stages/walls_scene.hpp"
+
+namespace pose_wall {
+
+// u along the road, v up, r towards the machine.
+struct WallPoints {
+  static constexpr std::uint32_t kMost = 16384;
+
+  TangentPoints at;
+  std::uint32_t stride = 1;    // of the points that belong here, every n-th is
+  Span<float> bias;            // change of r per metre of range bias
+  Eigen::Vector3d sensor;      // u, v, r
+  double z_at_origin_m = 0.0;  // z_level = z_at_origin + v z_per_v + r z_per_r
+  double z_per_v = 1.0, z_per_r = 0.0;
+  Span<std::uint32_t> patch_end;  // of each patch of PatchGrid: the place behind its last point
+  Span<float> spare;              // a row for who needs one for a while
+
+  void lay_out(Arena& arena);
+  // along_level: horizontal and in the plane, so that u tells nothing of the height.
+  void begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level);
+  void add(const Eigen::Vector3d& p_level, float weight);
+  // Begins the patches, and puts the points into their order. places: scratch, one for each point.
+  void sort_by_patch(PatchGrid* patches, Span<std::uint32_t> places);
+  // Drops the points without weight.
+  void keep(Span<const float> weights);
+
+  // What the strips' columns say of each point.
+  void mark_columns(const StripProfile& strips);
+  StripProfile::FourColumns columns_of(std::uint32_t k) const {
+    const FourFloats mark = load_four(&column_mark[k]), none{};
+    const FourTruths is_strip = mark < none;
+    return {is_strip ? mark + kStripMark : mark, is_strip};
+  }
+
+  double z_level_m(std::uint32_t k) const {
+    return z_at_origin_m + z_per_v * static_cast<double>(at.v[k]) + z_per_r * static_cast<double>(at.r[k]);
+  }
+  FourFloats four_z_level_m(std::uint32_t k) const {
+    return static_cast<float>(z_at_origin_m) + static_cast<float>(z_per_v) * load_four(&at.v[k]) +
+           static_cast<float>(z_per_r) * load_four(&at.r[k]);
+  }
+
+  static constexpr float kStripMark = 2.0F;
+  Span<float> column_mark;  // probability of the surface, less kStripMark where the column is a strip's
+  Span<std::uint32_t> patch_room;
+};
+
+}  // namespace pose_wall
