@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "estimation/groove_profile.hpp"
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "stages/walls_edges.hpp"
@@ -97,8 +98,21 @@ void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallRe
   wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
 }
 
+bool is_grooved(const WallScene& scene, const WallSurface& surface) {
+  constexpr double kLengthHalf_m = 32.0;
+  const WallPoints& points = *surface.points;
+  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, points.sensor.x() - kLengthHalf_m);
+  const PlaneOver over = surface.over();
+  const double foreshortening = over.foreshortening();
+  for (std::uint32_t k = 0; k < points.at.count; ++k) {
+    const double residual_m = points.at.distance(k, over, foreshortening);
+    profile.add(static_cast<double>(points.at.u[k]), points.z_level_m(k), residual_m);
+  }
+  return profile.is_grooved();
+}
+
 // Near the sensor, what passes for a wall and is none gives itself away.
-void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wall) {
+void look_closely(const WallScene& scene, const WallSurface& surface, WallsScratch* scratch, WallResult* wall) {
   const Plane& plane = wall->fit.plane;
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
   const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
@@ -106,7 +120,9 @@ void look_closely(const WallScene& scene, WallsScratch* scratch, WallResult* wal
   const bool little_seen = sight.dim || edges.top_unseen, open = sight.open > kOpenDoubt;
   if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
   if (open) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  if (little_seen || open) {
+  const bool grooved = is_grooved(scene, surface);
+  if (grooved) wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
+  if (little_seen || open || grooved) {
     const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
     for (double& bound : wall->distance_bound_m) bound += behind_m;
   }
@@ -141,7 +157,7 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
   }
-  if (wall.fit.found) look_closely(scene, scratch, &wall);
+  if (wall.fit.found) look_closely(scene, surface, scratch, &wall);
   return wall;
 }
 

@@ -16,6 +16,9 @@ namespace {
 constexpr double kExtrapolated_m = 0.75;
 // A bend is told where it takes up this much of an alert limit.
 constexpr double kBendMatters = 0.2;
+// Which columns are strips is told by the plane that they then tell: the slope errs by more than what is scattered
+// about it. Measured on simulated steel sets, 200 each seen by three sensors: by 1.3 to 1.7 times.
+constexpr double kStripsStretch = 1.5;
 
 void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
   const TangentPoints& points = surface.points->at;
@@ -34,12 +37,15 @@ void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
 }
 
 // Turning the plane by its slope along u turns the yaw by as much; the sign follows from which way u points.
-void set_yaw(const WallScene& scene, const PatchFit& patch, const TangentFrame& f, WallResult* out) {
+void set_yaw(const WallScene& scene, const WallSurface& surface, WallResult* out) {
+  const PatchFit& patch = surface.patch;
+  const TangentFrame& f = surface.frame();
   const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(out->fit.plane.n);
   const double sign = turned.dot(f.u) > 0.0 ? 1.0 : -1.0;
   out->yaw_rad = yaw_of(out->along_level, scene.forward_level);
   const double upright = std::sqrt(turned.squaredNorm());  // a leaning plane turns more about the vertical
   out->yaw_sigma_rad = std::sqrt(patch.covariance(1, 1)) / upright;
+  if (surface.strips != nullptr) out->yaw_sigma_rad *= kStripsStretch;
   out->yaw_bias_rad_per_m = -sign * patch.bias_response[1] / upright;
   out->yaw_bound_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
   if (out->yaw_bound_rad > kBendMatters * radians(scene.settings.alert_limit_angle_deg)) {
@@ -183,7 +189,7 @@ WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.dof_slope = patch.dof_slope;
   out.layer_sigma_m = surface.layer_sigma_m;
   count_inliers(surface, scene.settings.wall_ransac_thresh, &out.fit);
-  set_yaw(scene, patch, surface.frame(), &out);
+  set_yaw(scene, surface, &out);
   // Where offset and slope are uncorrelated.
   out.pivot_level_m = surface.frame().origin - surface.frame().u * (patch.covariance(0, 1) / patch.covariance(1, 1));
   set_distances(scene, surface, side, grid, &out);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "estimation/groove_profile.hpp"
+
+#include <cmath>
+
+namespace pose_wall {
+namespace {
+
+constexpr double kRow_m = 0.05;
+constexpr double kPlacesPerMetre = 1.0;
+constexpr std::uint32_t kPlaces = 64;
+constexpr double kPlacesMin = 4.0;
+constexpr double kPointsMin = 8.0;
+constexpr double kBehindMin_m = 0.04;    // where rock is seen between pipes, the plane is the rock's
+constexpr double kContrastMin_m = 0.06;  // of what stands out beside a groove
+constexpr double kSureInErrors = 4.0;
+constexpr int kGroovesMin = 2;  // a heap at the foot and an arch at the top leave one between them
+
+double bits_in(std::uint64_t word) {
+  double bits = 0.0;
+  for (; word != 0; word &= word - 1) bits += 1.0;
+  return bits;
+}
+
+double larger_by(double least, double error) {
+  const double sure = kSureInErrors * error;
+  return sure > least ? sure : least;
+}
+
+}  // namespace
+
+GrooveProfile::GrooveProfile(double z_min_m, double z_max_m, double u_from_m) : z_min_(z_min_m), u_from_(u_from_m) {
+  const double row_m = (z_max_m - z_min_m) / kRows;
+  rows_per_m_ = 1.0 / (row_m > kRow_m ? row_m : kRow_m);
+}
+
+void GrooveProfile::add(double u_m, double z_m, double residual_m) {
+  const double row = (z_m - z_min_) * rows_per_m_, place = (u_m - u_from_) * kPlacesPerMetre;
+  if (!(row >= 0.0 && row < kRows && place >= 0.0 && place < kPlaces)) return;
+  Row& r = rows_[static_cast<std::uint32_t>(row)];
+  const auto residual = static_cast<float>(residual_m);
+  r.count += 1.0F;
+  r.sum += residual;
+  r.squares += residual * residual;
+  r.places |= 1ULL << static_cast<unsigned>(place);
+}
+
+bool GrooveProfile::mean_of(const Row& row, double* mean_m, double* error_m) {
+  const double places = bits_in(row.places), count = static_cast<double>(row.count);
+  if (!(places >= kPlacesMin && count >= kPointsMin)) return false;
+  *mean_m = static_cast<double>(row.sum) / count;
+  const double variance = static_cast<double>(row.squares) / count - *mean_m * *mean_m;
+  *error_m = std::sqrt((variance > 0.0 ? variance : 0.0) / places);
+  return true;
+}
+
+bool GrooveProfile::is_grooved() const {
+  int grooves = 0;
+  bool in_groove = false, crest_below = false;
+  double crest_m = 0.0, crest_error_m = 0.0, bottom_m = 0.0, bottom_error_m = 0.0;
+  for (const Row& row : rows_) {
+    double mean_m = 0.0, error_m = 0.0;
+    if (!mean_of(row, &mean_m, &error_m)) continue;
+    const double apart_m = larger_by(kContrastMin_m, error_m + (in_groove ? bottom_error_m : crest_error_m));
+    if (in_groove) {
+      if (mean_m < bottom_m) {
+        bottom_m = mean_m;
+        bottom_error_m = error_m;
+      }
+      if (!(mean_m >= bottom_m + apart_m)) continue;
+      ++grooves;
+      in_groove = false;
+      crest_m = mean_m;
+      crest_error_m = error_m;
+      continue;
+    }
+    if (!crest_below || mean_m > crest_m) {
+      crest_below = true;
+      crest_m = mean_m;
+      crest_error_m = error_m;
+    } else if (mean_m <= crest_m - apart_m && mean_m < -larger_by(kBehindMin_m, error_m)) {
+      in_groove = true;
+      bottom_m = mean_m;
+      bottom_error_m = error_m;
+    }
+  }
+  return grooves >= kGroovesMin;
+}
+
+}  // namespace pose_wall
