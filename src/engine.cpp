@@ -139,6 +139,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
   if (found->voxels.leaf_grown) found->reasons |= POSE_WALL_R_LEAF_GROWN;
   if (!found->voxels.fits) {
+    found->reasons |= POSE_WALL_R_LEAF_GROWN;
     refuse_all(POSE_WALL_R_LEAF_GROWN, found);
     return;
   }

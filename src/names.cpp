@@ -122,7 +122,7 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
     case POSE_WALL_R_NO_POINTS:
       return "too few points survive the filters";
     case POSE_WALL_R_LEAF_GROWN:
-      return "the voxel leaf was enlarged to stay within points_max (a value: too far to tell a floor)";
+      return "the voxel leaf was enlarged to stay within points_max; of a value: even the largest was too small";
     case POSE_WALL_R_STAMP_STILL:
       return "the stamp equals the last frame's: taken as the same frame again";
     case POSE_WALL_R_STAMP_BACK:

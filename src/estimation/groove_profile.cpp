@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "math/bits.hpp"
+#include "math/larger.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -18,20 +21,14 @@ constexpr double kContrastMin_m = 0.06;  // of what stands out beside a groove
 constexpr double kSureInErrors = 4.0;
 constexpr int kGroovesMin = 2;  // a heap at the foot and an arch at the top leave one between them
 
-double bits_in(std::uint64_t word) {
-  double bits = 0.0;
-  for (; word != 0; word &= word - 1) bits += 1.0;
-  return bits;
-}
-
-double larger_by(double least, double error) {
-  const double sure = kSureInErrors * error;
-  return sure > least ? sure : least;
+double at_least(double least, double error) {
+  return larger(least, kSureInErrors * error);
 }
 
 }  // namespace
 
-GrooveProfile::GrooveProfile(double z_min_m, double z_max_m, double u_from_m) : z_min_(z_min_m), u_from_(u_from_m) {
+GrooveProfile::GrooveProfile(double z_min_m, double z_max_m, double u_middle_m)
+    : z_min_(z_min_m), u_from_(u_middle_m - 0.5 * kPlaces / kPlacesPerMetre) {
   const double row_m = (z_max_m - z_min_m) / kRows;
   rows_per_m_ = 1.0 / (row_m > kRow_m ? row_m : kRow_m);
 }
@@ -48,7 +45,7 @@ void GrooveProfile::add(double u_m, double z_m, double residual_m) {
 }
 
 bool GrooveProfile::mean_of(const Row& row, double* mean_m, double* error_m) {
-  const double places = bits_in(row.places), count = static_cast<double>(row.count);
+  const double places = static_cast<double>(bits_in(row.places)), count = static_cast<double>(row.count);
   if (!(places >= kPlacesMin && count >= kPointsMin)) return false;
   *mean_m = static_cast<double>(row.sum) / count;
   const double variance = static_cast<double>(row.squares) / count - *mean_m * *mean_m;
@@ -63,7 +60,7 @@ bool GrooveProfile::is_grooved() const {
   for (const Row& row : rows_) {
     double mean_m = 0.0, error_m = 0.0;
     if (!mean_of(row, &mean_m, &error_m)) continue;
-    const double apart_m = larger_by(kContrastMin_m, error_m + (in_groove ? bottom_error_m : crest_error_m));
+    const double apart_m = at_least(kContrastMin_m, error_m + (in_groove ? bottom_error_m : crest_error_m));
     if (in_groove) {
       if (mean_m < bottom_m) {
         bottom_m = mean_m;
@@ -80,7 +77,7 @@ bool GrooveProfile::is_grooved() const {
       crest_below = true;
       crest_m = mean_m;
       crest_error_m = error_m;
-    } else if (mean_m <= crest_m - apart_m && mean_m < -larger_by(kBehindMin_m, error_m)) {
+    } else if (mean_m <= crest_m - apart_m && mean_m < -at_least(kBehindMin_m, error_m)) {
       in_groove = true;
       bottom_m = mean_m;
       bottom_error_m = error_m;

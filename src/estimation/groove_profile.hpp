@@ -14,7 +14,8 @@ namespace pose_wall {
 
 class GrooveProfile {
  public:
-  GrooveProfile(double z_min_m, double z_max_m, double u_from_m);
+  // What is further than 32 m from the middle along the wall plays no part.
+  GrooveProfile(double z_min_m, double z_max_m, double u_middle_m);
 
   // residual_m: signed distance from the plane of the surface, positive towards the sensor.
   void add(double u_m, double z_m, double residual_m);

@@ -31,14 +31,14 @@ void PatchGrid::begin(double u_min_m, double u_max_m, double v_min_m, double v_m
   u_min_ = static_cast<float>(u_min_m);
   v_min_ = static_cast<float>(v_min_m);
   const double width = u_max_m - u_min_m, height = v_max_m - v_min_m;
-  // Twice as large a patch needs a quarter of the room; extents of a thousand patches are not met.
+  // Patches a quarter larger need two thirds of the room; extents of a thousand patches are not met.
   double patch = patch_m;
-  for (int doubling = 0; doubling < 20; ++doubling, patch *= 1.25) {
+  for (int growth = 0; growth < 20; ++growth, patch *= 1.25) {
     columns_ = static_cast<std::uint32_t>(width / patch < kCapacity ? width / patch : kCapacity) + 1;
     rows_ = static_cast<std::uint32_t>(height / patch < kCapacity ? height / patch : kCapacity) + 1;
     if (static_cast<std::uint64_t>(columns_) * rows_ * layers <= kCapacity) break;
   }
-  if (static_cast<std::uint64_t>(columns_) * rows_ * layers > kCapacity) columns_ = rows_ = 0;
+  if (static_cast<std::uint64_t>(columns_) * rows_ * layers > kCapacity) columns_ = rows_ = 1;
   cells_per_m_ = static_cast<float>(1.0 / patch);
   cells_.first(columns_ * rows_ * layers_).fill(Patch{});
 }

@@ -49,7 +49,7 @@ struct PatchFit {
   double bend_slope_v_at(double u_m, double v_m) const;
 };
 
-// Of four residuals and how much each weighs; those without weight do not count.
+// Four points of a surface: where they are, their residuals, and how these answer to a range bias.
 struct FourPoints {
   FourFloats u_m, v_m, residual_m, bias;
 };
@@ -70,8 +70,9 @@ class PatchGrid {
   // bias: change of the residual per metre of range bias (ray direction . normal).
   void add(double u_m, double v_m, double residual_m, double weight, double bias, std::uint32_t layer = 0);
 
-  // The same for who has the points in the order of their patches, and looks at all of them again and again: which
-  // patch each is in; how many patches a layer has; and once for every patch of every layer, the sum of its points.
+  // For who has the points in the order of their patches, and looks at all of them again and again: which patch each is
+  // in, as long as there is no other begin(); how many patches a layer has; and for a fit of as many layers as were
+  // begun or fewer, the sum of every patch of each. Points that hardly weigh, up to 1e-6, do not count here.
   class Sums;
   FourInts patch_of(FourFloats u_m, FourFloats v_m) const;
   std::uint32_t patches() const { return columns_ * rows_; }

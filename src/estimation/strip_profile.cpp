@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "math/bits.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -22,12 +24,6 @@ constexpr std::int32_t kStripsMin = 3;  // one or two could be bulges of the roc
 constexpr std::int32_t kStripMax = 6;   // columns: wider things are no strips
 constexpr std::int32_t kFlank = 2;
 constexpr double kWideShareMax = 0.34;
-
-int bits_in(std::uint16_t word) {
-  int bits = 0;
-  for (int b = 0; b < kRowBits; ++b) bits += (word >> b) & 1;
-  return bits;
-}
 
 }  // namespace
 

@@ -30,6 +30,7 @@ class StripProfile {
   void begin_anew();
   // residual_m: signed distance from a plane, positive towards the sensor.
   void add(double u_m, double v_m, double residual_m);
+  // Of four points, those that count.
   void add(FourFloats u_m, FourFloats v_m, FourFloats residual_m, FourTruths counts);
 
   // Whether columns within reach_m of u_centre_m stand out of those around them. Fills surface_probability() there;

@@ -17,7 +17,7 @@ constexpr double kLeafGrowth = 1.26;  // about the cube root of 2
 // What stands on a floor is told by what lies above it within 0.75 m, in two layers at least. Voxels too large for that
 // show the layers of their own lattice instead, wherever points fill the air, and these look like floors and walls.
 constexpr double kLeafMost_m = 0.26;
-constexpr double kAnythingFits_m = 16.0;
+constexpr double kAnythingFits_m = 64.0;
 
 // What becomes of a point. The last of these that holds counts.
 enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // kBeyond: too far, zero or not a number
@@ -259,11 +259,16 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings,
                          const Axes& axes, VoxelGrid* grid, ReturnsByDirection* returns_lidar, PointSet* cloud_base) {
   VoxelResult result;
   const Pass pass(cloud, settings, extrinsic, axes);
-  for (double leaf_m = settings.voxel_leaf; leaf_m <= kLeafMost_m && !result.fits; leaf_m *= kLeafGrowth) {
-    grid->begin(leaf_m, reach_of(settings));
-    result.fits = pass.run(grid, returns_lidar, &result.counts);
-    result.leaf_grown = leaf_m > settings.voxel_leaf;
-    result.leaf_m = leaf_m;
+  result.leaf_m = settings.voxel_leaf;
+  const auto fits = [&] {
+    grid->begin(result.leaf_m, reach_of(settings));
+    return pass.run(grid, returns_lidar, &result.counts);
+  };
+  result.fits = fits();
+  while (!result.fits && result.leaf_m < kLeafMost_m) {
+    result.leaf_grown = true;
+    result.leaf_m = result.leaf_m * kLeafGrowth < kLeafMost_m ? result.leaf_m * kLeafGrowth : kLeafMost_m;
+    result.fits = fits();
   }
   if (!result.fits) {  // the points are counted all the same
     grid->begin(kAnythingFits_m, reach_of(settings));

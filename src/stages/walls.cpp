@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "estimation/groove_profile.hpp"
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "stages/walls_edges.hpp"
@@ -98,21 +97,8 @@ void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallRe
   wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
 }
 
-bool is_grooved(const WallScene& scene, const WallSurface& surface) {
-  constexpr double kLengthHalf_m = 32.0;
-  const WallPoints& points = *surface.points;
-  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, points.sensor.x() - kLengthHalf_m);
-  const PlaneOver over = surface.over();
-  const double foreshortening = over.foreshortening();
-  for (std::uint32_t k = 0; k < points.at.count; ++k) {
-    const double residual_m = points.at.distance(k, over, foreshortening);
-    profile.add(static_cast<double>(points.at.u[k]), points.z_level_m(k), residual_m);
-  }
-  return profile.is_grooved();
-}
-
 // Near the sensor, what passes for a wall and is none gives itself away.
-void look_closely(const WallScene& scene, const WallSurface& surface, WallsScratch* scratch, WallResult* wall) {
+void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, WallResult* wall) {
   const Plane& plane = wall->fit.plane;
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
   const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
@@ -120,7 +106,6 @@ void look_closely(const WallScene& scene, const WallSurface& surface, WallsScrat
   const bool little_seen = sight.dim || edges.top_unseen, open = sight.open > kOpenDoubt;
   if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
   if (open) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  const bool grooved = is_grooved(scene, surface);
   if (grooved) wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
   if (little_seen || open || grooved) {
     const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
@@ -157,16 +142,19 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
   }
-  if (wall.fit.found) look_closely(scene, surface, scratch, &wall);
+  if (wall.fit.found) look_closely(scene, surface.grooved, scratch, &wall);
   return wall;
 }
 
-// What is left of a pair whose walls run apart: the other one was no wall after all, but it may know the road's
-// direction better.
-void doubt_direction(const WallCandidate& a, const WallCandidate& b, WallResult* left_over) {
+// What is left of a pair of which the other one was no wall after all: it stands alone, and must be as long as that
+// asks; and where the two run apart, the other may have known the road's direction better.
+void doubt_what_is_left(const WallCandidate& left, const WallCandidate& other, const Settings& s, WallResult* out) {
   constexpr double kApart_rad = 0.035;  // 2 degrees
-  const double apart = angle_in_plan(a.plane, b.plane);
-  if (apart > kApart_rad) left_over->yaw_bound_rad += apart;
+  const double apart = angle_in_plan(left.plane, other.plane);
+  if (apart > kApart_rad) out->yaw_bound_rad += apart;
+  if (left.evidence.length_m >= s.wall_alone_length_min) return;
+  out->fit.refused = true;
+  out->fit.reasons |= POSE_WALL_R_WALL_SHORT;
 }
 
 // Both sides lean the same way about the road: one out, the other in. Each wall may lean by itself, but where both do
@@ -247,7 +235,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   }
   for (int side = 0; side < 2; ++side) {
     if (out.side[1 - side].fit.refused && choice.side[0] != nullptr && choice.side[1] != nullptr) {
-      doubt_direction(*choice.side[0], *choice.side[1], &out.side[side]);
+      doubt_what_is_left(*choice.side[side], *choice.side[1 - side], scene.settings, &out.side[side]);
     }
   }
   return out;

@@ -39,7 +39,7 @@ void fill_strips(const WallSurface& fit, StripProfile* strips) {
 }
 
 // The points with the weights they have where the wall's own surface is seen.
-TangentPoints of_surface(const WallPoints& points) {
+TangentPoints surface_points(const WallPoints& points) {
   for_each_four(points.at.count, [&](std::uint32_t k, FourTruths) {
     const FourTruths is_surface = points.columns_of(k).surface_probability >= 0.5F;
     store_four(is_surface ? load_four(&points.at.weight[k]) : FourFloats{}, &points.spare[k]);
@@ -246,10 +246,10 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
     if (ring > 0) {
       strips.begin_anew();
       fill_strips(*fit, &strips);
-      if (!strips.judge(sensor_m, reach_m)) return;
+      if (!strips.judge(sensor_m, reach_m)) continue;  // an opening: the wall may go on behind it
     }
     points.mark_columns(strips);
-    fit->irls = irls_tukey(of_surface(points), points.at.count, fit->irls.over, step);
+    fit->irls = irls_tukey(surface_points(points), points.at.count, fit->irls.over, step);
     if (!fit->irls.solved) return;
     fit->strips = &strips;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
@@ -258,8 +258,9 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
       fit->irls.over = over;
       continue;
     }
-    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, fit);
-    if (fit->patch.solved) fit->irls.over = fit->over();
+    WallSurface alone = *fit;
+    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &alone);
+    if (alone.patch.solved) fit->irls.over = alone.over();
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "estimation/groove_profile.hpp"
 #include "estimation/near_plane.hpp"
 
 namespace pose_wall {
@@ -52,6 +53,17 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
   scratch->points.sort_by_patch(&scratch->patches, scratch->near);
 }
 
+bool is_grooved(const WallScene& scene, const WallSurface& surface) {
+  const WallPoints& points = *surface.points;
+  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, points.sensor.x());
+  const double foreshortening = surface.irls.over.foreshortening();
+  for (std::uint32_t k = 0; k < points.at.count; ++k) {
+    const double residual_m = points.at.distance(k, surface.irls.over, foreshortening);
+    profile.add(static_cast<double>(points.at.u[k]), points.z_level_m(k), residual_m);
+  }
+  return profile.is_grooved();
+}
+
 WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
                         const Heights& heights, const WallGrid& grid, WallFitScratch* scratch) {
   const IrlsSettings settings = fit_settings(scene.settings);
@@ -62,6 +74,8 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   fit.irls = irls_tukey(scratch->points.at, scratch->points.at.count, PlaneOver{}, settings);
   if (!fit.irls.solved) return fit;
   set_strips_apart(settings, scratch, &fit);
+  // Before the layers: the fronts of pipes may be taken for the nearer one.
+  fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
   fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &fit);

@@ -24,7 +24,7 @@ using Surface = std::function<double(double u, double z)>;
 
 bool is_grooved(const Surface& surface, double noise_m = 0.012, double half_length_m = kHalfLength_m) {
   test::Noise noise(3);
-  GrooveProfile profile(kLow_m, kHigh_m, -32.0);
+  GrooveProfile profile(kLow_m, kHigh_m, 0.0);
   for (double u = -half_length_m; u < half_length_m; u += 0.06) {
     for (double z = kLow_m + 0.01; z < kHigh_m; z += 0.04) profile.add(u, z, surface(u, z) + noise.normal(noise_m));
   }
@@ -84,7 +84,7 @@ TEST(GrooveProfile, WallsSeenBetweenWhatStandsBeforeThemAreNot) {
 
 TEST(GrooveProfile, LittleSeenTellsNothing) {
   EXPECT_FALSE(is_grooved(pipes(0.2, 0.4), 0.012, 0.9)) << "two metres of length";
-  GrooveProfile empty(kLow_m, kHigh_m, -32.0);
+  GrooveProfile empty(kLow_m, kHigh_m, 0.0);
   EXPECT_FALSE(empty.is_grooved());
   for (const double wild : {-1e30, 1e30, std::nan("")}) {
     empty.add(wild, 1.0, 0.0);

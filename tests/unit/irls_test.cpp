@@ -139,13 +139,13 @@ TEST(Irls, TakesNoMorePointsThanThereIsRoomFor) {
 
 // A part of the points is fitted by taking the others' weight.
 TEST(Irls, PointsWithoutWeightPlayNoPart) {
-  constexpr std::uint32_t kHalved = 600;
+  constexpr std::uint32_t kHalved = 6000;
   test::Placed<TangentPoints> all(kHalved), some(kHalved);
   const Plane plane{Eigen::Vector3d::UnitZ(), 0.0};
   for (auto* points : {all.get(), some.get()}) points->begin(plane, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
   test::Noise noise(8);
   for (std::uint32_t i = 0; i < kHalved; ++i) {
-    const bool out = i % 3 == 0;  // a layer 6 cm off, within the gate
+    const bool out = i % 8 < 5;  // a layer 6 cm off, within the gate
     const Eigen::Vector3d p(noise.uniform(-4, 4), noise.uniform(-1, 1), noise.normal(0.01) + (out ? 0.06 : 0.0));
     all->add(p, out ? 0.0F : 1.0F);
     if (!out) some->add(p, 1.0F);
@@ -153,8 +153,8 @@ TEST(Irls, PointsWithoutWeightPlayNoPart) {
   const IrlsOver a = irls_tukey(*all, all->count, PlaneOver{}, kSettings);
   const IrlsOver b = irls_tukey(*some, some->count, PlaneOver{}, kSettings);
   ASSERT_TRUE(a.solved && b.solved);
-  EXPECT_NEAR(a.over.offset_m, b.over.offset_m, 1e-5);
-  EXPECT_NEAR(a.scale_m, b.scale_m, 1e-6);
+  EXPECT_NEAR(a.over.offset_m, b.over.offset_m, 2e-4);
+  EXPECT_NEAR(a.scale_m, b.scale_m, 5e-4);
 }
 
 TEST(Irls, EndsWhereItStandsStill) {

@@ -38,16 +38,24 @@ struct Fitted {
   double offset_sigma_m = 0.0, yaw_sigma_rad = 0.0;
 };
 
-RayScene wall_with(const Strips& strips, const Rock& rock) {
+// Open from 3.5 to 9 m either way where it says so.
+RayScene wall_with(const Strips& strips, const Rock& rock, bool with_gaps) {
   RayScene scene;
   scene.set_noise(0.01);
-  scene.add(test::side_panel(kWall_m, {-16.0, 16.0}, kFull));
+  if (with_gaps) {
+    for (const Interval& part : {Interval{-16.0, -9.0}, Interval{-3.5, 3.5}, Interval{9.0, 16.0}}) {
+      scene.add(test::side_panel(kWall_m, part, kFull));
+    }
+  } else {
+    scene.add(test::side_panel(kWall_m, {-16.0, 16.0}, kFull));
+  }
   scene.set_relief(kWall_m, [&rock](const Eigen::Vector3d& p) { return -rock.at(p.x(), p.z()); });
   if (!(strips.pitch_m > 0.0)) return scene;
   const double front_m = kWall_m - strips.depth_m;
   // Not in step with the sensor: it sees more of one side of each.
   for (double x = -15.7; x < 15.7; x += strips.pitch_m) {
     const Interval across{x, x + strips.width_m};
+    if (with_gaps && std::fabs(x) > 3.2 && std::fabs(x) < 9.3) continue;
     scene.add(test::side_panel(front_m, across, kFull));
     scene.add(test::cross_panel(across.low, {front_m, kWall_m}, kFull));
     scene.add(test::cross_panel(across.high, {front_m, kWall_m}, kFull));
@@ -55,11 +63,11 @@ RayScene wall_with(const Strips& strips, const Rock& rock) {
   return scene;
 }
 
-Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed) {
+Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed, bool with_gaps = false) {
   Noise noise(seed);
   const Rock rock(rock_sigma_m, 0.3, &noise);
   BandFixture band;
-  wall_with(strips, rock).scan(kOs1, &band);
+  wall_with(strips, rock, with_gaps).scan(kOs1, &band);
   const WallScene scene = band.scene();
   test::Placed<WallGrid> grid;
   test::Placed<WallFitScratch> scratch(band.points().set().capacity());
@@ -85,11 +93,13 @@ Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed) {
 }
 
 struct Summary {
-  int strips = 0, runs = 0;
+  int strips = 0, fronts = 0, runs = 0;
   double offset_m = 0.0, yaw_rad = 0.0, offset2 = 0.0, yaw2 = 0.0, offset_z2 = 0.0, yaw_z2 = 0.0;
   void add(const Fitted& f) {
     ++runs;
     strips += f.strips ? 1 : 0;
+    fronts += f.fronts ? 1 : 0;
+    EXPECT_TRUE(f.solved);
     offset_m += f.offset_m;
     yaw_rad += f.yaw_rad;
     offset2 += f.offset_m * f.offset_m;
@@ -113,6 +123,7 @@ TEST(WallStrips, TheRockBehindThemComesOut) {
   for (const Strips& strips : {Strips{0.10, 0.15, 1.0}, Strips{0.15, 0.15, 0.8}, Strips{0.15, 0.25, 1.2}}) {
     const Summary s = summary(strips, 0.02, kRuns);
     EXPECT_GE(s.strips, kRuns - 1) << strips.depth_m << " " << strips.pitch_m;
+    EXPECT_GE(s.fronts, kRuns / 2) << strips.depth_m << " " << strips.pitch_m;
     EXPECT_LE(std::fabs(s.offset_m / kRuns), 0.009) << strips.depth_m << " " << strips.pitch_m;
     EXPECT_LE(std::sqrt(s.yaw2 / kRuns), 0.02 * M_PI / 180.0) << strips.depth_m << " " << strips.pitch_m;
   }
@@ -127,6 +138,20 @@ TEST(WallStrips, RockWithoutStripsIsLeftAlone) {
     EXPECT_LE(s.yaw_z2 / kRuns, 2.0) << rock_m;
     EXPECT_GE(s.yaw_z2 / kRuns, 0.3) << rock_m;
   }
+}
+
+// Three rings out to 3.75, 7.5 and 15 m: of the second nothing is seen, and the third tells the direction.
+TEST(WallStrips, TheWallGoesOnBehindAnOpening) {
+  double yaw2 = 0.0;
+  int strips = 0;
+  for (std::uint32_t seed = 1; seed <= kRuns; ++seed) {
+    const Fitted f = fitted({0.15, 0.15, 0.8}, 0.02, seed, true);
+    ASSERT_TRUE(f.solved) << seed;
+    strips += f.strips ? 1 : 0;
+    yaw2 += f.yaw_rad * f.yaw_rad / kRuns;
+  }
+  EXPECT_GE(strips, kRuns - 2);
+  EXPECT_LE(std::sqrt(yaw2), 0.04 * M_PI / 180.0) << "7 m alone tell it to a tenth of a degree";
 }
 
 }  // namespace

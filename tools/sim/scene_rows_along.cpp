@@ -44,7 +44,7 @@ std::vector<SceneChoice> along_scenes() {  // NOLINT(readability-function-size):
         {"roughness_m", "0.03", 0.0, 0.06}}},
       {"props",
        SceneKind::kAdversarial,
-       0.9,
+       0.85,
        "a row of props along a wall",
        "the wall behind them; never the row",
        {{"prop_side", "left", 1.0, 3.0},
