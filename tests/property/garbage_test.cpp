@@ -118,6 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Garbage, ::testing::ValuesIn(kKinds), [](const a
 // had to grow would lie in layers. The lowest points may be told as a doubtful floor, but nothing passes for sure.
 TEST(Garbage, OfPointsThatFillTheAirNothingIsValid) {
   std::mt19937 random(13);
+  int without_voxels = 0;
   for (const char* points_max : {"5000", "16000", "60000"}) {
     for (const std::size_t count : {5000U, 20000U, 65000U, 131000U, 260000U}) {
       Points points(count);
@@ -126,11 +127,17 @@ TEST(Garbage, OfPointsThatFillTheAirNothingIsValid) {
       const pose_wall_result r = engine.process(cloud_of(points, 0));
       expect_promises(r, points_max);
       for (const pose_wall_value& v : r.quantity) EXPECT_NE(v.state, POSE_WALL_VALID) << points_max << " " << count;
+      if (r.voxels == 0) {
+        ++without_voxels;
+        EXPECT_NE(r.frame_reasons & POSE_WALL_R_LEAF_GROWN, 0U) << points_max << " " << count;
+        for (const pose_wall_value& v : r.quantity) EXPECT_NE(v.reasons & POSE_WALL_R_LEAF_GROWN, 0U) << points_max;
+      }
       for (std::uint32_t q = POSE_WALL_YAW; q < POSE_WALL_QUANTITIES; ++q) {
         EXPECT_EQ(r.quantity[q].state, POSE_WALL_INVALID) << points_max << " " << count;
       }
     }
   }
+  EXPECT_GT(without_voxels, 0);
 }
 
 // A real-looking frame with a growing share of its coordinates replaced: the engine measures, weakens, holds, gives up.

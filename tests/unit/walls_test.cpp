@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/band_fixture.hpp"
+#include "support/ray_scene.hpp"
 
 namespace pose_wall {
 namespace {
@@ -163,6 +164,49 @@ TEST(Walls, ARailInFrontIsNotTheWall) {
   const WallResult left = band.walls().side[0];
   if (is_good(left)) {
     EXPECT_NEAR(left.distance_m[0], 2.5, left.distance_bound_m[0] + 0.02);
+  }
+}
+
+// Pipes as thick as a leg from the floor to the roof, a finger's breadth apart: nothing is seen between them.
+TEST(Walls, PipesOneAboveTheOtherAreDoubted) {
+  constexpr double kRadius_m = 0.2, kPitch_m = 0.42;
+  BandFixture band;
+  band.add_wall(-2.5, kLongWall);
+  for (double x = -8.0; x < 8.0; x += 0.06) {
+    for (double h = 0.3; h < 2.4; h += 0.03) {
+      const double off = h - kPitch_m * std::round(h / kPitch_m);
+      if (std::fabs(off) > kRadius_m) continue;
+      const double front = std::sqrt(kRadius_m * kRadius_m - off * off);
+      band.points().add(x, 2.7 - front + band.noise().normal(0.01), h + test::kFloorZ_m);
+    }
+  }
+  const WallsResult r = band.walls();
+  ASSERT_TRUE(r.side[0].fit.found && r.side[1].fit.found);
+  EXPECT_NE(r.side[0].fit.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U);
+  EXPECT_EQ(r.side[1].fit.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U);
+  for (int end = 0; end < 2; ++end) {
+    EXPECT_GE(r.side[0].distance_bound_m[end], 2.0);
+    EXPECT_LT(r.side[1].distance_bound_m[end], 0.1);
+  }
+}
+
+// Half of a pair whose other half is a conveyor after all.
+TEST(Walls, WhatIsLeftOfAPairMustBeAsLongAsAWallAlone) {
+  for (const double half_length_m : {1.75, 12.0}) {
+    BandFixture band;
+    test::RayScene scene;
+    scene.set_noise(0.01);
+    scene.add(test::level_panel(test::kFloorZ_m));
+    scene.add(test::side_panel(3.0, {-half_length_m, half_length_m}, {test::kFloorZ_m, 1.8}));
+    scene.add(test::side_panel(-3.0, {-half_length_m, half_length_m}, {test::kFloorZ_m, 0.1}));
+    scene.add(test::side_panel(-6.0, {-16.0, 16.0}, {test::kFloorZ_m, 1.8}, true));
+    scene.scan({-22.5, 22.5, 0.7, 0.35}, &band);
+    const WallsResult r = band.walls();
+    ASSERT_TRUE(r.side[0].fit.found && r.side[1].fit.found) << half_length_m;
+    EXPECT_TRUE(r.side[1].fit.refused) << half_length_m;
+    const bool short_alone = half_length_m < 2.5;
+    EXPECT_EQ(r.side[0].fit.refused, short_alone) << half_length_m;
+    EXPECT_EQ((r.side[0].fit.reasons & POSE_WALL_R_WALL_SHORT) != 0, short_alone) << half_length_m;
   }
 }
 
