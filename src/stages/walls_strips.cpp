@@ -60,44 +60,53 @@ bool agree(const WallSurface& a, const WallSurface& b) {
   return true;
 }
 
-StripFronts measure_fronts(const WallSurface& fit) {
-  StripFronts fronts;
-  // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
-  if (!(fit.strips->layers().step_m >= kFrontStepMin_m)) return fronts;
-  const double from_m = 0.5 * fit.strips->layers().step_m, range_m = 2.0 * fit.strips->layers().step_m;
-  std::uint32_t count = 0;
-  double sum = 0.0;
+// Residuals between the two of points in strips' columns.
+Span<float> fronts_between(const WallSurface& fit, double from_m, double to_m) {
   const WallPoints& points = *fit.points;
-  const Span<float> residuals = points.spare;
   const double foreshortening = fit.irls.over.foreshortening();
-  const FourFloats from = all_four(static_cast<float>(from_m)), to = all_four(static_cast<float>(from_m + range_m));
+  const FourFloats from = all_four(static_cast<float>(from_m)), to = all_four(static_cast<float>(to_m));
+  std::uint32_t count = 0;
   for_each_four(points.at.count, [&](std::uint32_t k, FourTruths counts) {
     const FourFloats r = points.at.four_distances(k, fit.irls.over, foreshortening);
     FourTruths stands_out = counts & (r >= from) & (r <= to);
     if (!any_of(stands_out)) return;
     stands_out &= points.columns_of(k).is_strip;
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (stands_out[lane] == 0) continue;
-      residuals[count++] = r[lane];
-      sum += static_cast<double>(r[lane]);
+      if (stands_out[lane] != 0) points.spare[count++] = r[lane];
     }
   });
-  if (count < kFrontPointsMin) return fronts;
-  // Flanks pull the mean down; a few rounds of a narrowing window find where most of the fronts are.
-  double centre = sum / count, window = range_m;
+  return points.spare.first(count);
+}
+
+// Flanks pull the mean down; a few rounds of a narrowing window find where most of the fronts are.
+double where_most_are(Span<float> residuals, double* window_m) {
+  double sum = 0.0;
+  for (const float r : residuals) sum += static_cast<double>(r);
+  double centre = sum / residuals.size();
   for (int round = 0; round < kFrontRounds; ++round) {
-    window *= 0.6;
+    *window_m *= 0.6;
     double inside = 0.0, inside_sum = 0.0;
-    for (const float r : residuals.first(count)) {
-      if (!(std::fabs(static_cast<double>(r) - centre) <= window)) continue;
+    for (const float r : residuals) {
+      if (!(std::fabs(static_cast<double>(r) - centre) <= *window_m)) continue;
       inside += 1.0;
       inside_sum += static_cast<double>(r);
     }
     if (inside > 0.0) centre = inside_sum / inside;
   }
-  for (float& r : residuals.first(count)) r -= static_cast<float>(centre);
-  const double scale = robust_scale(residuals.first(count), window);
-  fronts.step_m = centre;
+  return centre;
+}
+
+StripFronts measure_fronts(const WallSurface& fit) {
+  StripFronts fronts;
+  // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
+  const double step_m = fit.strips->layers().step_m;
+  if (!(step_m >= kFrontStepMin_m)) return fronts;
+  const Span<float> residuals = fronts_between(fit, 0.5 * step_m, 2.5 * step_m);
+  if (residuals.size() < kFrontPointsMin) return fronts;
+  double window_m = 2.0 * step_m;
+  fronts.step_m = where_most_are(residuals, &window_m);
+  for (float& r : residuals) r -= static_cast<float>(fronts.step_m);
+  const double scale = robust_scale(residuals, window_m);
   fronts.scale_m = scale < kFrontScaleMin_m ? kFrontScaleMin_m : (scale > kFrontScaleMax_m ? kFrontScaleMax_m : scale);
   fronts.found = true;
   return fronts;
