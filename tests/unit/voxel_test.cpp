@@ -115,13 +115,19 @@ TEST(Voxel, RangeIsFromTheSensorAndBoxesAreInBase) {
   EXPECT_EQ(c.dropped_body, 1U);  // at 1 m in base
 }
 
-TEST(Voxel, AnyLayoutGivesTheSameVoxels) {
-  test::Noise noise(1);
+// Evenly over a box around the origin, by half its sides.
+test::Points scattered(std::uint32_t seed, int count, double along_m, double up_m) {
+  test::Noise noise(seed);
   test::Points points;
-  for (int i = 0; i < 3000; ++i) {
-    points.push_back({static_cast<float>(noise.uniform(-9, 9)), static_cast<float>(noise.uniform(-9, 9)),
-                      static_cast<float>(noise.uniform(-2, 2))});
+  for (int i = 0; i < count; ++i) {
+    const double x = noise.uniform(-along_m, along_m), y = noise.uniform(-along_m, along_m);
+    points.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(noise.uniform(-up_m, up_m))});
   }
+  return points;
+}
+
+TEST(Voxel, AnyLayoutGivesTheSameVoxels) {
+  const test::Points points = scattered(1, 3000, 9, 2);
   const std::uint64_t expected = voxels_of(test::cloud_of(points, 0), test::settings_with()).result.fingerprint;
   for (const bool float64 : {false, true}) {
     for (const bool big_endian : {false, true}) {
@@ -134,12 +140,7 @@ TEST(Voxel, AnyLayoutGivesTheSameVoxels) {
 }
 
 TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
-  test::Noise noise(2);
-  test::Points points;
-  for (int i = 0; i < 40000; ++i) {
-    points.push_back({static_cast<float>(noise.uniform(-3, 3)), static_cast<float>(noise.uniform(-3, 3)),
-                      static_cast<float>(noise.uniform(-1, 1))});
-  }
+  test::Points points = scattered(2, 40000, 3, 1);
   const Settings settings = test::settings_with({{"points_max", "5000"}});
   const Voxels first = voxels_of(test::cloud_of(points, 0), settings);
   EXPECT_TRUE(first.result.leaf_grown);
@@ -157,12 +158,7 @@ TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
 
 // Large voxels of points that fill the air would lie in layers, each like a floor.
 TEST(Voxel, WherePointsFillTheAirThereAreNoVoxels) {
-  test::Noise noise(3);
-  test::Points points;
-  for (int i = 0; i < 40000; ++i) {
-    points.push_back({static_cast<float>(noise.uniform(-20, 20)), static_cast<float>(noise.uniform(-20, 20)),
-                      static_cast<float>(noise.uniform(-2.5, 2.5))});
-  }
+  const test::Points points = scattered(3, 40000, 20, 2.5);
   const Voxels v = voxels_of(test::cloud_of(points, 0), test::settings_with({{"points_max", "5000"}}));
   EXPECT_FALSE(v.result.fits);
   EXPECT_TRUE(v.result.leaf_grown);
