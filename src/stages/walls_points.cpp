@@ -86,13 +86,13 @@ void WallPoints::sort_by_patch(PatchGrid* patches, Span<std::uint32_t> places) {
   }
   // Each goes to where its patch has got to.
   for_each_patch(at, *patches, [&](std::uint32_t k, std::uint32_t patch) { places[k] = patch_end[patch]++; });
-  for (Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) {
+  for_each_row([&](Span<float>* row) {
     for (std::uint32_t k = 0; k < at.count; ++k) spare[places[k]] = (*row)[k];
     const Span<float> sorted = spare;
     spare = *row;
     *row = sorted;
     pad(sorted, at.count);
-  }
+  });
 }
 
 void WallPoints::keep(Span<const float> weights) {
@@ -100,13 +100,13 @@ void WallPoints::keep(Span<const float> weights) {
   for (std::uint32_t& end : patch_end) {
     for (; k < end; ++k) {
       if (!(weights[k] > 0.0F)) continue;
-      for (const Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) (*row)[kept] = (*row)[k];
+      for_each_row([&](const Span<float>* row) { (*row)[kept] = (*row)[k]; });
       ++kept;
     }
     end = kept;
   }
   at.count = kept;
-  for (const Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) pad(*row, kept);
+  for_each_row([&](const Span<float>* row) { pad(*row, kept); });
 }
 
 void WallPoints::mark_columns(const StripProfile& strips) {

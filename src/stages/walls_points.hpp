@@ -52,6 +52,12 @@ struct WallPoints {
            static_cast<float>(z_per_r) * load_four(&at.r[k]);
   }
 
+  // What belongs to a point and moves with it.
+  template <typename Visit>
+  void for_each_row(const Visit& visit) {
+    for (Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) visit(row);
+  }
+
   static constexpr float kStripMark = 2.0F;
   Span<float> column_mark;  // probability of the surface, less kStripMark where the column is a strip's
   Span<std::uint32_t> patch_room;
