@@ -222,6 +222,24 @@ TEST(Walls, BeyondTheLastWallIsExtrapolation) {
   EXPECT_GT(r.side[0].distance_sigma_m[0], r.side[0].distance_sigma_m[1]);
 }
 
+// Shorter than two columns of the grid: each of them holds points of the wall beside the step.
+TEST(Walls, AShortStepAtASamplingPointIsToldAndBounded) {
+  constexpr double kFrom_m = -2.42, kTo_m = -1.66;
+  for (const double by_m : {0.08, 0.12, 0.3, -0.08, -0.12, -0.3}) {
+    BandFixture band;
+    band.add_wall(2.5, {-8.0, kFrom_m, 0.3, 2.4});
+    band.add_wall(2.5 - by_m, {kFrom_m + 0.05, kTo_m, 0.3, 2.4});
+    band.add_wall(2.5, {kTo_m + 0.05, 8.0, 0.3, 2.4});
+    band.add_wall(-2.5, kLongWall);
+    const WallsResult r = band.walls();
+    ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1])) << by_m;
+    EXPECT_TRUE(r.side[0].extrapolated[1]) << by_m;
+    EXPECT_GE(r.side[0].distance_bound_m[1], std::fabs(r.side[0].distance_m[1] - (2.5 - by_m))) << by_m;
+    EXPECT_FALSE(r.side[0].extrapolated[0]) << by_m;
+    EXPECT_FALSE(r.side[1].extrapolated[1]) << by_m;
+  }
+}
+
 TEST(Walls, TheLastFramesPlaneIsNeverTrusted) {
   BandFixture band;
   band.add_wall(2.5, kLongWall);

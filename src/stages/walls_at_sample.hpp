@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What is seen of the wall right at a sampling point: the plane may be right and the wall elsewhere just there.
+
+#pragma once
+
+#include "stages/walls_evidence.hpp"
+#include "stages/walls_scene.hpp"
+#include "stages/walls_surface.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+struct AtSample {
+  bool interrupted = false;  // the wall stands out there, steps back, or a road branches off
+  double bound_m = 0.0;      // by which the distance may be off for it
+};
+
+// wall: its plane and direction are set. distance_m: the plane's, at the sampling point.
+AtSample look_at_sample(const WallScene& scene, const WallSurface& surface, const WallGrid& grid,
+                        const WallResult& wall, const Eigen::Vector3d& sample_level_m, double distance_m);
+
+}  // namespace pose_wall
