@@ -115,6 +115,16 @@ TEST(Campaign, FreshRemovesNothingThatIsNoCampaigns) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("records/mine.txt")));
 }
 
+TEST(Campaign, FreshRemovesWhatAnOlderVersionLeft) {
+  const TempFolder folder;
+  ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
+  std::ofstream(folder.file("campaign.json")) << R"({"identity": {"version": "0.0.1", "program": "1"}, "runs": 4})";
+  const Ran refused = campaign_in(folder.path());
+  EXPECT_EQ(refused.exit_status, 1);
+  EXPECT_NE(refused.errors.find("another folder is needed, or --fresh"), std::string::npos) << refused.errors;
+  EXPECT_EQ(campaign_in(folder.path(), {"--fresh"}).exit_status, 0);
+}
+
 TEST(Campaign, BlanksBesideTheCommasOfNamesDoNotMatter) {
   const TempFolder folder;
   const auto run = [&folder](const std::string& scenes, const std::string& sensors) {

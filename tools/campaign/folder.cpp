@@ -44,7 +44,7 @@ std::filesystem::path record_file(const std::filesystem::path& folder, const Run
 
 void prepare_folder(const std::filesystem::path& folder, const Manifest& manifest, bool fresh) {
   if (fresh && std::filesystem::exists(records_in(folder))) {
-    read_manifest(folder);  // throws where no campaign was run: somebody else's records stay
+    if (!holds_campaign(folder)) read_manifest(folder);  // throws and says why: somebody else's records stay
     std::filesystem::remove_all(records_in(folder));
     for (const char* of_old_card :
          {"card.md", "card.json", "frames.csv", "stanford_angles.svg", "stanford_distances.svg"}) {

@@ -150,6 +150,12 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
   if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file_in(folder).string()));
 }
 
+bool holds_campaign(const std::filesystem::path& folder) {
+  std::ifstream in(file_in(folder));
+  const auto page = nlohmann::json::parse(in, nullptr, false);
+  return page.is_object() && page.contains("identity") && page["identity"].contains("program");
+}
+
 Manifest read_manifest(const std::filesystem::path& folder) {
   std::ifstream in(file_in(folder));
   if (!in)
@@ -169,7 +175,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     page.at("engine").at("set").get_to(manifest.engine.settings);
     return manifest;
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(fmt::format("{}: not as this version writes it ({}); another folder is needed",
+    throw std::runtime_error(fmt::format("{}: not as this version writes it ({}); another folder is needed, or --fresh",
                                          file_in(folder).string(), error.what()));
   }
 }

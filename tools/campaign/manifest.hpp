@@ -35,6 +35,9 @@ Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs,
 // A line in words per thing that differs; empty when both are of one campaign.
 std::string difference(const Manifest& records, const Manifest& now);
 
+// Whether a campaign was run there, by this version or by an older one that wrote less.
+bool holds_campaign(const std::filesystem::path& folder);
+
 // Both throw std::runtime_error that names the file.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 Manifest read_manifest(const std::filesystem::path& folder);
