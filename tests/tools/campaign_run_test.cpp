@@ -23,6 +23,7 @@ namespace {
 
 using test::Ran;
 using test::TempFolder;
+using test::text_of;
 
 // Two scenes, one with an event, one sensor, two draws of a few frames.
 Ran campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {
@@ -31,11 +32,6 @@ Ran campaign_in(const std::string& folder, const std::vector<std::string>& more 
                                     "4",         "--quiet"};
   words.insert(words.end(), more.begin(), more.end());
   return test::command(words);
-}
-
-std::string text_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 void expect_same(const TempFolder& a, const TempFolder& b) {

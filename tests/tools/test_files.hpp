@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 
@@ -83,6 +84,12 @@ bool survives_damage(Reader read, const std::string& file) {
 }
 
 // A folder of its own for each test, gone afterwards.
+// All of a file; empty where there is none.
+inline std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 class TempFolder {
  public:
   TempFolder() {

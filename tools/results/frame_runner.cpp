@@ -29,7 +29,7 @@ FrameRunner::FrameRunner(const api::Config& config, double rate_hz) : stamps_(ra
   engine_.set_clock(steady_ns);
 }
 
-FrameOutcome FrameRunner::run(const std::filesystem::path& path) {
+FrameOutcome FrameRunner::run(const std::filesystem::path& path, const Look& look) {
   FrameOutcome outcome;
   outcome.frame = next_frame_++;
   outcome.source = path.string();
@@ -45,6 +45,11 @@ FrameOutcome FrameRunner::run(const std::filesystem::path& path) {
     outcome.total_ms = millis_since(start_ns);
     if (status != POSE_WALL_OK) throw FrameError(pose_wall_status_text(status));
     outcome.result = result;
+    if (look) {
+      pose_wall_points points{};
+      engine_.last_points(points);
+      look(frame.cloud, points, result);
+    }
   } catch (const std::exception& error) {
     outcome.error = error.what();
   }

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 
 #include "frames/frame_stamps.hpp"
 #include "pose_wall.hpp"
@@ -19,8 +20,11 @@ class FrameRunner {
   // Throws ConfigError when the engine refuses the config.
   FrameRunner(const api::Config& config, double rate_hz);
 
+  // A processed frame: the points as they came and what became of them. For the call only.
+  using Look = std::function<void(const pose_wall_cloud&, const pose_wall_points&, const pose_wall_result&)>;
+
   // Frames are numbered in the order of the calls. Never throws: what is wrong with a frame stands in the outcome.
-  FrameOutcome run(const std::filesystem::path& path);
+  FrameOutcome run(const std::filesystem::path& path, const Look& look = {});
 
   std::size_t block_bytes() const { return engine_.block_bytes(); }
 

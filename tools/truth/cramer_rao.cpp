@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <string>
 
 #include "config_file/resolved_frames.hpp"
 #include "frames/point_position.hpp"
@@ -72,22 +71,13 @@ struct CramerRao::Gathered {
 
 CramerRao::CramerRao(const api::Config& config, double range_noise_m)
     : range_noise_m_(range_noise_m),
-      range_min_m_(config.number("range_min")),
-      range_max_m_(config.number("range_max")),
+      mount_(config),
       wall_z_min_m_(config.number("wall_z_min")),
       wall_z_max_m_(config.number("wall_z_max")) {
   const ResolvedFrames frames = resolve_frames(config);
   forward_base_ = vector_of(frames.forward_base);
   for (std::size_t i = 0; i < samples_base_m_.size(); ++i) {
     samples_base_m_[i] = vector_of(frames.sampling_points_base_m[i]);
-  }
-  sensor_base_m_ = vector_of(frames.extrinsic_position_m);
-  R_base_lidar_ = (Eigen::AngleAxisd(config.number("extrinsic_yaw"), Eigen::Vector3d::UnitZ()) *
-                   Eigen::AngleAxisd(config.number("extrinsic_pitch"), Eigen::Vector3d::UnitY()) *
-                   Eigen::AngleAxisd(config.number("extrinsic_roll"), Eigen::Vector3d::UnitX()))
-                      .toRotationMatrix();
-  for (std::size_t i = 0; i < body_boxes_m_.size(); ++i) {
-    pose_wall_config_get_box(config.get(), ("body_box_" + std::to_string(i + 1)).c_str(), body_boxes_m_[i].data());
   }
 }
 
@@ -140,18 +130,6 @@ CramerRao::Slopes CramerRao::slopes_at(const Parameters& p) const {
   return slopes;
 }
 
-bool CramerRao::usable(const Eigen::Vector3d& ray_m, const Eigen::Vector3d& p_base) const {
-  const double range_m = ray_m.norm();
-  if (!(range_m >= range_min_m_ && range_m <= range_max_m_)) return false;
-  for (const auto& box : body_boxes_m_) {
-    const bool has_volume = box[1] > box[0] && box[3] > box[2] && box[5] > box[4];
-    const bool inside = p_base.x() >= box[0] && p_base.x() <= box[1] && p_base.y() >= box[2] && p_base.y() <= box[3] &&
-                        p_base.z() >= box[4] && p_base.z() <= box[5];
-    if (has_volume && inside) return false;
-  }
-  return true;
-}
-
 CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parameters& parameters, const Slopes& slopes,
                                       const View& view) const {
   const Planes planes = planes_of(parameters);
@@ -165,9 +143,9 @@ CramerRao::Gathered CramerRao::gather(const pose_wall_cloud& cloud, const Parame
   };
   Gathered gathered;
   for (std::uint32_t i = 0; i < cloud.width * cloud.height; ++i) {
-    const Eigen::Vector3d ray_m = R_base_lidar_ * point_position(cloud, i / cloud.width, i % cloud.width);
-    const Eigen::Vector3d p = ray_m + sensor_base_m_;
-    if (!usable(ray_m, p)) continue;
+    const Eigen::Vector3d ray_m = mount_.R_base_lidar() * point_position(cloud, i / cloud.width, i % cloud.width);
+    const Eigen::Vector3d p = ray_m + mount_.position_base_m();
+    if (!mount_.is_used(ray_m.norm(), p)) continue;
     const Eigen::Vector4d point(p.x(), p.y(), p.z(), 1.0);
     const double height_m = planes.col(kFloorPlane).dot(point);
     for (int s = 0; s < kSurfaces; ++s) {

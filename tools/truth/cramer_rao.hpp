@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 
+#include "frames/sensor_mount.hpp"
 #include "pose_wall.hpp"
 #include "truth/truth_csv.hpp"
 
@@ -68,15 +69,12 @@ class CramerRao {
   Slopes slopes_at(const Parameters& parameters) const;
   Gathered gather(const pose_wall_cloud& cloud, const Parameters& parameters, const Slopes& slopes,
                   const View& view) const;
-  bool usable(const Eigen::Vector3d& ray_m, const Eigen::Vector3d& p_base) const;
 
   double range_noise_m_;
+  SensorMount mount_;
   Eigen::Vector3d forward_base_;
   std::array<Eigen::Vector3d, 4> samples_base_m_;  // left front, left back, right front, right back
-  Eigen::Matrix3d R_base_lidar_;
-  Eigen::Vector3d sensor_base_m_;
-  double range_min_m_, range_max_m_, wall_z_min_m_, wall_z_max_m_;
-  std::array<std::array<double, 6>, 4> body_boxes_m_{};
+  double wall_z_min_m_, wall_z_max_m_;
 };
 
 }  // namespace pose_wall::tools

@@ -15,12 +15,12 @@
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
 #include "frames/input_list.hpp"
-#include "frames/text_cursor.hpp"
 #include "results/frame_runner.hpp"
 #include "results/result_output.hpp"
 #include "results/run_summary.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
+#include "verbs/rate.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -34,13 +34,6 @@ struct RunOptions {
   double rate_hz = 10.0;
   bool quiet = false;
 };
-
-// Accepts what is inside, so that "nan" is refused.
-std::string rate_fault(const std::string& word) {
-  const std::optional<double> rate_hz = parse_number<double>(word);
-  if (rate_hz && *rate_hz >= 0.001 && *rate_hz <= 1e6) return "";
-  return fmt::format("'{}' is refused; a number from 0.001 to 1000000 is allowed", word);
-}
 
 void print_start(const RunOptions& options, const LoadedConfig& loaded, const FrameRunner& runner, std::size_t frames) {
   fmt::print(stderr, "pose_wall {}: {}, config {}, {:.1f} MB for the engine\n{}", pose_wall_version(),

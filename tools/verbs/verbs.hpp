@@ -17,6 +17,7 @@ constexpr int kExitUsage = 2;       // bad usage or config
 void add_run(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);
 void add_demo(CLI::App& app, int& exit_code);
+void add_report(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_check_config(CLI::App& app, int& exit_code);

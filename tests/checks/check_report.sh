@@ -1,0 +1,24 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+#
+# check_report.sh POSE_WALL PYTHON [SCREENSHOT_PREFIX]: a report of a simulated drive, used in a headless browser.
+set -eu
+pose_wall=$1 python=$2
+here=$(cd "$(dirname "$0")" && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$pose_wall" sim --scene nominal --sensor vlp16 --frames 40 --set speed_mps=0.3 --quiet --output "$folder/road"
+echo "no cloud" > "$folder/road/frames/000017b.pcd"
+status=0
+"$pose_wall" report --quiet --config "$folder/road/pose_wall.yaml" --truth "$folder/road/truth.csv" \
+  --output "$folder/report.html" "$folder/road/frames" 2> "$folder/said" || status=$?
+[ "$status" -eq 1 ] && grep -q 000017b.pcd "$folder/said" || { cat "$folder/said"; echo "the broken frame was not named"; exit 1; }
+"$python" "$here/check_report_page.py" "$folder/report.html" 41 ${3:+"$3"}
+
+# A check that cannot fail is none.
+sed 's/function show_frame/function show_no_frame/' "$folder/report.html" > "$folder/broken.html"
+if "$python" "$here/check_report_page.py" "$folder/broken.html" 41 > /dev/null 2>&1; then
+  echo "a page with a broken script was let through"
+  exit 1
+fi

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a report holds every frame with the numbers that run writes, names what could not be read, stays one file
+// that asks for nothing, thins long recordings, and leaves what was there alone where it cannot be made. What the page
+// does in a browser: checks/check_report_page.py.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "csv/csv_table.hpp"
+#include "ran_command.hpp"
+#include "report/cloud_choice.hpp"
+#include "report/columns.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::command;
+using test::contains;
+using test::Ran;
+using test::TempFolder;
+using test::text_of;
+
+// The same way back, by the rules of RFC 4648.
+std::string from_base64(const std::string& text) {
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    group = group << 6 | static_cast<std::uint32_t>(digits.find(c));
+    bits += 6;
+    if (bits >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255U);
+  }
+  return bytes;
+}
+
+template <typename Number>
+std::vector<Number> column(const nlohmann::json& data, const char* name) {
+  const std::string bytes = from_base64(data.at(name));
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  return numbers;
+}
+
+nlohmann::json data_of(const std::string& file) {
+  const std::string page = text_of(file), start = "<script id=\"data\" type=\"application/json\">";
+  const std::size_t from = page.find(start) + start.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+// A simulated road in a folder.
+struct Road {
+  explicit Road(const std::string& frames) {
+    EXPECT_EQ(command({"sim", "--scene", "clean", "--sensor", "vlp16", "--frames", frames, "--quiet", "--output",
+                       folder.file("road")})
+                  .exit_status,
+              0);
+  }
+  Ran report(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words = {"report",
+                                      "--config",
+                                      folder.file("road/pose_wall.yaml"),
+                                      "--output",
+                                      folder.file("out.html"),
+                                      folder.file("road/frames")};
+    words.insert(words.end(), more.begin(), more.end());
+    return command(words);
+  }
+  nlohmann::json data() const { return data_of(folder.file("out.html")); }
+
+  TempFolder folder;
+};
+
+TEST(Base64, IsThatOfTheStandard) {
+  // RFC 4648, section 10.
+  EXPECT_EQ(report::base64(""), "");
+  EXPECT_EQ(report::base64("f"), "Zg==");
+  EXPECT_EQ(report::base64("fo"), "Zm8=");
+  EXPECT_EQ(report::base64("foo"), "Zm9v");
+  EXPECT_EQ(report::base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(report::base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(ReportVerb, HoldsTheNumbersThatRunWrites) {
+  const Road road("3");
+  const Ran ran = road.report({"--truth", road.folder.file("road/truth.csv")});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "3 frames, points of 3 of them")) << ran.errors;
+  ASSERT_EQ(command({"run", "--quiet", "--config", road.folder.file("road/pose_wall.yaml"), "--output",
+                     road.folder.file("o.csv"), road.folder.file("road/frames")})
+                .exit_status,
+            0);
+  std::ifstream stream(road.folder.file("o.csv"));
+  const CsvTable table = CsvTable::parse(stream);
+  const nlohmann::json data = road.data();
+  const auto values = column<float>(data, "value"), levels = column<float>(data, "level");
+  const auto truth = column<float>(data, "truth");
+  ASSERT_EQ(values.size(), 21U);
+  const char* const names[] = {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"};
+  for (std::size_t f = 0; f < 3; ++f) {
+    for (std::size_t q = 0; q < 7; ++q) {
+      const std::string name = names[q];
+      EXPECT_FLOAT_EQ(values[7 * f + q], static_cast<float>(table.number(f, *table.find_column(name)))) << name << f;
+      EXPECT_FLOAT_EQ(levels[7 * f + q], static_cast<float>(table.number(f, *table.find_column(name + "_pl"))));
+      EXPECT_NEAR(values[7 * f + q], truth[7 * f + q], levels[7 * f + q]) << name << f;
+    }
+  }
+  EXPECT_GT(column<std::uint8_t>(data, "point_label").size(), 1000U);
+}
+
+TEST(ReportVerb, IsOneFileThatAsksForNothing) {
+  const Road road("1");
+  ASSERT_EQ(road.report().exit_status, 0);
+  const std::string page = text_of(road.folder.file("out.html"));
+  for (const char* outside : {"http://", "https://", "src=", "<link", "@import", "url("}) {
+    EXPECT_FALSE(contains(page, outside)) << outside;
+  }
+  EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.html.part")));
+  ASSERT_EQ(road.report().exit_status, 0);
+}
+
+TEST(ReportVerb, AFileThatCannotBeReadIsAFrameThatSaysSo) {
+  const Road road("2");
+  road.folder.write("road/frames/000000a.pcd", "no cloud");
+  const Ran ran = road.report();
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.errors, "000000a.pcd")) << ran.errors;
+  const nlohmann::json data = road.data();
+  ASSERT_EQ(data.at("frames"), 3);
+  EXPECT_EQ(data.at("error")[0], "");
+  EXPECT_NE(data.at("error")[1], "");
+  EXPECT_EQ(column<std::uint8_t>(data, "state")[7], POSE_WALL_INVALID);
+  EXPECT_EQ(column<std::uint32_t>(data, "cloud_frame"), (std::vector<std::uint32_t>{0, 2}));
+}
+
+TEST(ReportVerb, NamesCannotBreakOutOfTheData) {
+  const Road road("1");
+  // A file "script>.pcd" in a folder "<".
+  std::filesystem::create_directories(road.folder.file("<"));
+  std::filesystem::rename(road.folder.file("road/frames/000000.pcd"), road.folder.file("</script>.pcd"));
+  const std::string title = "</title></script><b>&";
+  ASSERT_EQ(
+      command({"report", "--quiet", "--title", title, "--output", road.folder.file("out.html"), road.folder.file("<")})
+          .exit_status,
+      0);
+  EXPECT_EQ(road.data().at("head").at("title"), title);
+  EXPECT_EQ(road.data().at("source")[0], road.folder.file("</script>.pcd"));
+  EXPECT_TRUE(contains(text_of(road.folder.file("out.html")), "<title>&lt;/title>&lt;/script>&lt;b>&amp;</title>"));
+}
+
+TEST(ReportVerb, WhatWasThereStaysWhereNothingCanBeMade) {
+  const Road road("1");
+  road.folder.write("out.html", "precious");
+  EXPECT_EQ(road.report({"--config", "nowhere.yaml"}).exit_status, 2);
+  EXPECT_EQ(road.report({"--truth", "nowhere.csv"}).exit_status, 2);
+  EXPECT_EQ(road.report({"--language", "fr"}).exit_status, 2);
+  EXPECT_EQ(text_of(road.folder.file("out.html")), "precious");
+  const std::string frame = road.folder.file("road/frames/000000.pcd"), before = text_of(frame);
+  const Ran ran = command({"report", "--output", frame, frame});
+  EXPECT_EQ(ran.exit_status, 2);
+  EXPECT_TRUE(contains(ran.errors, "it would be overwritten")) << ran.errors;
+  EXPECT_EQ(text_of(frame), before);
+  EXPECT_EQ(command({"report", "--output", road.folder.path(), frame}).exit_status, 2);
+}
+
+TEST(CloudChoice, LongRecordingsKeepSomeCloudsAndTheChanges) {
+  pose_wall_result result{};
+  report::CloudChoice few(100, 100000);
+  EXPECT_EQ(few.points_per_frame(), 1000U);
+  for (std::size_t f = 0; f < 100; ++f) EXPECT_TRUE(few.takes(f, result)) << f;
+
+  report::CloudChoice many(10000, 1'200'000);
+  std::size_t taken = 0, changes_seen = 0;
+  for (std::size_t f = 0; f < 10000; ++f) {
+    const bool changes = f % 97 == 13;
+    if (changes) result.quantity[2].state ^= POSE_WALL_VALID;
+    const bool takes = many.takes(f, result);
+    taken += takes ? 1 : 0;
+    changes_seen += changes && takes ? 1 : 0;
+  }
+  EXPECT_EQ(changes_seen, 103U) << "each of them, while there are no more than two hundred";
+  EXPECT_GE(taken, 400U);
+  EXPECT_LE(taken * many.points_per_frame(), 1'200'000U);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

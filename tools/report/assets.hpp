@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The files of page/, put into the program by the build.
+
+#pragma once
+
+#include <string_view>
+
+namespace pose_wall::tools::report {
+
+struct Assets {
+  std::string_view html, style, script;
+};
+Assets assets();
+
+}  // namespace pose_wall::tools::report

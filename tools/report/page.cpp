@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "report/page.hpp"
+
+#include <stdexcept>
+
+#include "config_file/key_table.hpp"
+#include "report/assets.hpp"
+
+namespace pose_wall::tools::report {
+namespace {
+
+// Each name stands once in the HTML.
+void put_in(std::string* text, std::string_view name, std::string_view content) {
+  const std::size_t at = text->find(name);
+  if (at == std::string::npos) throw std::logic_error("the page has no place for " + std::string(name));
+  text->replace(at, name.size(), content);
+}
+
+// A "</script>" in a file's name must not end the data.
+std::string script_safe(std::string text) {
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  return text;
+}
+
+std::string html_safe(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "&lt;";
+    } else if (c == '&') {
+      safe += "&amp;";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+nlohmann::ordered_json words_of_engine() {
+  nlohmann::ordered_json words;
+  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
+    words["reason_names"].push_back(pose_wall_reason_name(bit));
+    words["reason_texts"].push_back(pose_wall_reason_text(bit));
+  }
+  for (std::uint32_t stage = 0; stage < POSE_WALL_STAGES; ++stage)
+    words["stages"].push_back(pose_wall_stage_name(stage));
+  return words;
+}
+
+nlohmann::ordered_json settings_of(const LoadedConfig& loaded) {
+  const api::Config defaults;
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const pose_wall_key_info& key : config_keys()) {
+    const std::string value = config_value_text(*loaded.config.get(), key);
+    const std::string usual = config_value_text(*defaults.get(), key);
+    if (value != usual) rows.push_back({key.name, value, usual});
+  }
+  return rows;
+}
+
+nlohmann::ordered_json head_of(const PageHead& head, const LoadedConfig& loaded) {
+  return {{"title", head.title},
+          {"language", head.language},
+          {"truth", head.truth},
+          {"complete", head.complete},
+          {"inputs", head.inputs},
+          {"version", pose_wall_version()},
+          {"settings", settings_of(loaded)},
+          {"alert_deg", loaded.config.number("alert_limit_angle_deg")},
+          {"alert_m", loaded.config.number("alert_limit_distance")},
+          {"wall_z_min", loaded.config.number("wall_z_min")},
+          {"wall_z_max", loaded.config.number("wall_z_max")}};
+}
+
+}  // namespace
+
+std::string page(const PageHead& head, const LoadedConfig& loaded, const PageData& data) {
+  nlohmann::ordered_json all = data.json();
+  all["head"] = head_of(head, loaded);
+  all["words"] = words_of_engine();
+  const Assets parts = assets();
+  std::string text(parts.html);
+  put_in(&text, "@title@", html_safe(head.title));
+  put_in(&text, "/*@style@*/", parts.style);
+  put_in(&text, "/*@script@*/", parts.script);
+  // Last: what is in the data is not looked at for names again.
+  put_in(&text, "@data@", script_safe(all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  return text;
+}
+
+}  // namespace pose_wall::tools::report

@@ -1,0 +1,67 @@
+// The data as typed arrays, and how they are asked for.
+
+function bytesOf(text) {
+  const raw = atob(text);
+  const bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
+  return bytes.buffer;
+}
+
+class Recording {
+  constructor(data) {
+    const float = (name) => new Float32Array(bytesOf(data[name]));
+    const whole = (name) => new Uint32Array(bytesOf(data[name]));
+    Object.assign(this, { head: data.head, words: data.words, frames: data.frames, source: data.source, error: data.error });
+    for (const name of ['value', 'raw', 'sigma', 'level', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor',
+      'machine', 'stage_ms']) this[name] = float(name);
+    for (const name of ['reasons', 'frame_reasons', 'counts', 'cloud_frame', 'cloud_first']) this[name] = whole(name);
+    this.state = new Uint8Array(bytesOf(data.state));
+    this.stamp_s = new Float64Array(bytesOf(data.stamp_s));
+    this.point_cm = new Int16Array(bytesOf(data.point_cm));
+    this.point_label = new Uint8Array(bytesOf(data.point_label));
+    this.has_truth = this.truth.some(Number.isFinite);
+  }
+
+  at(frame, quantity) { return 7 * frame + quantity; }
+  is_angle(quantity) { return quantity < 3; }
+  // To degrees, or metres as they are.
+  unit(quantity) { return this.is_angle(quantity) ? 180 / Math.PI : 1; }
+  alert(quantity) { return this.is_angle(quantity) ? this.head.alert_deg : this.head.alert_m; }
+  error_of(frame, quantity) {
+    const i = this.at(frame, quantity);
+    let error = this.value[i] - this.truth[i];
+    if (this.is_angle(quantity)) error = Math.atan2(Math.sin(error), Math.cos(error));
+    return error * this.unit(quantity);
+  }
+  reason_bits(bits) {
+    const out = [];
+    for (let bit = 0; bit < this.words.reason_names.length; ++bit) if (bits >>> bit & 1) out.push(bit);
+    return out;
+  }
+
+  // The last frame up to this one whose points are kept: its place in the list of clouds, or -1.
+  cloud_at(frame) {
+    let low = 0, high = this.cloud_frame.length;
+    while (low < high) {
+      const middle = low + high >> 1;
+      if (this.cloud_frame[middle] <= frame) low = middle + 1; else high = middle;
+    }
+    return low - 1;
+  }
+  cloud_range(cloud) {
+    const next = cloud + 1 < this.cloud_first.length ? this.cloud_first[cloud + 1] : this.point_label.length;
+    return [this.cloud_first[cloud], next];
+  }
+}
+
+function quantile(numbers, share) {
+  const sorted = Array.from(numbers).filter(Number.isFinite).sort((a, b) => a - b);
+  return sorted.length ? sorted[Math.round(share * (sorted.length - 1))] : NaN;
+}
+
+function number_text(value, digits) { return Number.isFinite(value) ? value.toFixed(digits) : '–'; }
+
+function amount_text(recording, quantity, value) {
+  if (!Number.isFinite(value)) return '–';
+  return recording.is_angle(quantity) ? `${value.toFixed(3)}°` : `${value.toFixed(3)} m`;
+}

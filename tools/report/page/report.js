@@ -1,0 +1,180 @@
+// Puts the page together and reacts to the reader.
+
+const page = { language: 'en', frame: 0, timer: null };
+
+function element(tag, text, name) {
+  const out = document.createElement(tag);
+  if (text !== undefined) out.textContent = text;
+  if (name) out.className = name;
+  return out;
+}
+
+function table(head, rows) {
+  const out = element('table'), top = element('tr');
+  head.forEach((words) => top.append(element('th', words)));
+  out.append(top);
+  for (const cells of rows) {
+    const row = element('tr');
+    for (const cell of cells) row.append(cell instanceof Node ? cell : element('td', cell));
+    out.append(row);
+  }
+  return out;
+}
+
+function fill(id, ...nodes) { document.getElementById(id).replaceChildren(...nodes); }
+function words() { return WORDS[page.language]; }
+function percent(share) { return `${(100 * share).toFixed(1)} %`; }
+function reason_text(bit) {
+  const name = recording.words.reason_names[bit];
+  return words().reason_texts ? words().reason_texts[name] || name : recording.words.reason_texts[bit];
+}
+function state_cell(state) { return element('td', words().states[STATES[state]], `state ${STATES[state]}`); }
+
+function show_verdict() {
+  const w = words(), lines = [element('p', w[`verdict_${summary.grade}`])];
+  const say = (text) => lines.push(element('p', text));
+  if (!recording.head.complete) say(w.interrupted(recording));
+  if (summary.unreadable) say(w.verdict_unreadable(summary.unreadable));
+  if (!recording.has_truth) say(w.verdict_no_truth);
+  else {
+    say(summary.misleading ? w.verdict_misleading(summary.misleading) : w.verdict_no_misleading);
+    if (summary.beyond) say(w.verdict_beyond(summary.beyond));
+  }
+  for (const x of summary.quantities) {
+    if (x.valid >= 0.9) continue;
+    say(w.verdict_value(w.names[x.name], percent(x.valid), x.reasons.length ? reason_text(x.reasons[0][0]) : ''));
+  }
+  fill('verdict', ...lines);
+  document.getElementById('verdict').className = `panel ${summary.grade}`;
+}
+
+function show_summary() {
+  const w = words(), share = (n) => percent(n / Math.max(1, summary.readable.length));
+  const head = ['', w.states.valid, w.states.degraded, w.states.held, w.states.invalid, w.median, w.median_level];
+  if (recording.has_truth) head.push(w.rmse, w.max_error, w.beyond, w.misleading);
+  fill('summary', table(head, summary.quantities.map((x) => {
+    const cells = [w.names[x.name], share(x.states[3]), share(x.states[2]), share(x.states[1]), share(x.states[0]),
+      amount_text(recording, x.q, x.median), amount_text(recording, x.q, x.level)];
+    if (recording.has_truth) cells.push(amount_text(recording, x.q, x.rmse), amount_text(recording, x.q, x.largest), String(x.beyond), String(x.misleading));
+    return cells;
+  })));
+  const rows = [];
+  for (const x of summary.quantities) {
+    for (const [bit, frames] of x.reasons.slice(0, 3)) rows.push([w.names[x.name], element('td', reason_text(bit), 'words'), String(frames)]);
+  }
+  fill('reasons', element('h2', w.reasons), table(['', w.reason, w.frames_with], rows));
+  show_times();
+}
+
+function show_times() {
+  const w = words(), of = (numbers) => [0.5, 0.99, 1].map((share) => `${number_text(quantile(numbers, share), 2)} ms`);
+  const rows = [[w.engine, ...of(recording.engine_ms)]], stages = recording.words.stages;
+  stages.forEach((name, k) => {
+    rows.push([`${w.stage} ${name}`, ...of(summary.readable.map((f) => recording.stage_ms[stages.length * f + k]))]);
+  });
+  const stamps = stamp_health(recording);
+  rows.push([w.rate, number_text(stamps.rate, 2), '', ''], [w.gaps, String(stamps.gaps), '', '']);
+  fill('times', element('h2', w.times), table(['', w.p50, w.p99, w.worst], rows));
+}
+
+function show_settings() {
+  const w = words(), rows = recording.head.settings;
+  fill('settings', rows.length ? table([w.key, w.set_to, w.default_is], rows) : element('p', w.all_default, 'faint'));
+}
+
+function show_values(f) {
+  const w = words(), head = ['', w.value, w.level, w.sigma, w.state, w.age];
+  if (recording.has_truth) head.push(w.truth, w.error);
+  fill('values', table(head.concat([w.why]), QUANTITIES.map((name, q) => {
+    const i = recording.at(f, q), unit = recording.unit(q), amount = (x) => amount_text(recording, q, x * unit);
+    const cells = [w.names[name], amount(recording.value[i]), amount(recording.level[i]), amount(recording.sigma[i]),
+      state_cell(recording.state[i]), `${number_text(recording.age_s[i], 1)} s`];
+    if (recording.has_truth) cells.push(amount(recording.truth[i]), amount_text(recording, q, recording.error_of(f, q)));
+    return cells.concat([element('td', recording.reason_bits(recording.reasons[i]).map(reason_text).join('; '), 'words')]);
+  })));
+}
+
+function show_frame(f) {
+  const w = words();
+  page.frame = Math.min(Math.max(0, f), recording.frames - 1);
+  f = page.frame;
+  document.getElementById('slider').value = f;
+  document.getElementById('frame-name').textContent = `${w.frame} ${f} · ${recording.source[f].split('/').pop()}`;
+  const cloud_of = viewer.draw(f);
+  show_values(f);
+  const notes = [recording.error[f] ? `${w.unreadable}: ${recording.error[f]}` : w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
+  for (const bit of recording.reason_bits(recording.frame_reasons[f])) notes.push(reason_text(bit));
+  if (cloud_of >= 0 && cloud_of !== f) notes.push(w.no_cloud(cloud_of));
+  document.getElementById('frame-note').textContent = notes.join(' · ');
+  charts.mark(f);
+}
+
+function show_layers() {
+  const w = words(), box = (text, style, checked, change) => {
+    const out = element('label'), input = element('input'), mark = element('i');
+    input.type = 'checkbox';
+    input.checked = checked;
+    input.addEventListener('change', () => { change(input.checked); viewer.draw(page.frame); });
+    mark.style.background = `var(--${style})`;
+    out.append(input, mark, text);
+    return out;
+  };
+  fill('layers', ...LAYERS.map((name, k) => box(w.layers[k], name, viewer.shown[k], (on) => { viewer.shown[k] = on; })),
+    box(w.planes, 'ink', viewer.planes_shown, (on) => { viewer.planes_shown = on; }));
+}
+
+function play(on) {
+  clearInterval(page.timer);
+  page.timer = on ? setInterval(() => {
+    if (page.frame + 1 >= recording.frames) play(false); else show_frame(page.frame + 1);
+  }, 100) : null;
+  document.getElementById('play').textContent = on ? words().pause : words().play;
+}
+
+function show_all() {
+  const w = words();
+  document.documentElement.lang = page.language;
+  document.querySelectorAll('[data-word]').forEach((node) => { node.textContent = w[node.dataset.word]; });
+  document.getElementById('title').textContent = recording.head.title;
+  document.getElementById('subtitle').textContent = w.subtitle(recording);
+  document.getElementById('language').textContent = w.other_language;
+  document.getElementById('theme').textContent = w.theme;
+  play(page.timer !== null);
+  show_layers();
+  show_verdict();
+  show_summary();
+  show_settings();
+  show_frame(page.frame);
+}
+
+function listen() {
+  const slider = document.getElementById('slider'), on = (id, event, act) => document.getElementById(id).addEventListener(event, act);
+  slider.max = recording.frames - 1;
+  slider.addEventListener('input', () => show_frame(Number(slider.value)));
+  on('play', 'click', () => {
+    if (page.timer === null && page.frame + 1 >= recording.frames) show_frame(0);
+    play(page.timer === null);
+  });
+  on('language', 'click', () => { page.language = page.language === 'en' ? 'zh' : 'en'; show_all(); });
+  on('theme', 'click', () => {
+    const root = document.documentElement;
+    root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
+    show_frame(page.frame);
+  });
+  document.addEventListener('keydown', (event) => {
+    if (event.target.tagName === 'INPUT') return;
+    const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: -10, PageDown: 10 }[event.key];
+    if (step) { event.preventDefault(); show_frame(page.frame + step); }
+    if (event.key === ' ' && event.target.tagName !== 'BUTTON') { event.preventDefault(); play(page.timer === null); }
+  });
+  window.addEventListener('resize', () => show_frame(page.frame));
+}
+
+const recording = new Recording(JSON.parse(document.getElementById('data').textContent));
+const summary = summarise(recording);
+const viewer = new Viewer(recording);
+const charts = new Charts(recording, document.getElementById('charts'), (f) => show_frame(f));
+page.language = recording.head.language;
+document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+listen();
+show_all();

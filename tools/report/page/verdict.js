@@ -1,0 +1,49 @@
+// What the recording comes to, as numbers; the page puts them into words.
+
+function summarise(recording) {
+  const readable = [];
+  for (let f = 0; f < recording.frames; ++f) if (!recording.error[f]) readable.push(f);
+  const quantities = QUANTITIES.map((name, q) => {
+    const states = [0, 0, 0, 0], reasons = new Map();
+    const values = [], levels = [];
+    let squares = 0, errors = 0, largest = 0, beyond = 0, misleading = 0;
+    for (const f of readable) {
+      const i = recording.at(f, q), state = recording.state[i];
+      ++states[state];
+      if (state !== 3) for (const bit of recording.reason_bits(recording.reasons[i])) reasons.set(bit, (reasons.get(bit) || 0) + 1);
+      if (state === 0) continue;
+      values.push(recording.value[i] * recording.unit(q));
+      levels.push(recording.level[i] * recording.unit(q));
+      const error = Math.abs(recording.error_of(f, q));
+      // Valid where there is nothing to measure misleads, too.
+      if (recording.has_truth && state === 3 && !(error <= recording.alert(q))) ++misleading;
+      if (!Number.isFinite(error)) continue;
+      ++errors;
+      squares += error * error;
+      largest = Math.max(largest, error);
+      if (!(error <= recording.level[i] * recording.unit(q))) ++beyond;
+    }
+    const top = [...reasons].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+    return { name, q, states, reasons: top, median: quantile(values, 0.5), level: quantile(levels, 0.5),
+      errors, rmse: Math.sqrt(squares / errors), largest: errors ? largest : NaN, beyond, misleading,
+      valid: readable.length ? states[3] / readable.length : 0,
+      usable: readable.length ? (states[3] + states[2]) / readable.length : 0 };
+  });
+  const sum = (member) => quantities.reduce((total, x) => total + x[member], 0);
+  return { readable, unreadable: recording.frames - readable.length, quantities, misleading: sum('misleading'),
+    beyond: sum('beyond'), grade: grade_of(quantities, sum('misleading'), sum('beyond'), readable.length) };
+}
+
+function grade_of(quantities, misleading, beyond, readable) {
+  const worst_valid = Math.min(...quantities.map((x) => x.valid)), worst_usable = Math.min(...quantities.map((x) => x.usable));
+  if (!readable || misleading > 0 || worst_usable < 0.5) return 'bad';
+  return worst_valid >= 0.9 && beyond === 0 ? 'good' : 'fair';
+}
+
+// Steps between stamps: the usual rate, and how often one was more than half a step late.
+function stamp_health(recording) {
+  const steps = [];
+  for (let f = 1; f < recording.frames; ++f) steps.push(recording.stamp_s[f] - recording.stamp_s[f - 1]);
+  const usual = quantile(steps, 0.5);
+  return { rate: 1 / usual, gaps: steps.filter((step) => !(step > 0 && step < 1.5 * usual)).length };
+}

@@ -1,0 +1,161 @@
+// One frame: from above and in section, points by what became of them. Metres along the road, to its left and up.
+
+const LAYERS = ['other', 'floor', 'left', 'right', 'dropped'];
+
+class View {
+  // axes: which two of (along, left, up) lie to the right and up on the screen, and the sign of each.
+  constructor(canvas, axes, usual, on_change) {
+    Object.assign(this, { canvas, axes, usual, centre: null, metres: null });
+    this.reset();
+    canvas.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      this.zoom(event.deltaY > 0 ? 1.2 : 1 / 1.2, event.offsetX, event.offsetY);
+      on_change();
+    }, { passive: false });
+    canvas.addEventListener('pointermove', (event) => {
+      if (!(event.buttons & 1)) return;
+      this.centre[0] -= event.movementX / this.scale();
+      this.centre[1] += event.movementY / this.scale();
+      on_change();
+    });
+    canvas.addEventListener('dblclick', () => { this.reset(); on_change(); });
+  }
+
+  reset() { this.centre = this.usual.centre.slice(); this.metres = this.usual.metres.slice(); }
+  scale() { return Math.min(this.canvas.clientWidth / this.metres[0], this.canvas.clientHeight / this.metres[1]); }
+  zoom(factor, x, y) {
+    const s = this.scale();
+    const dx = (x - this.canvas.clientWidth / 2) / s, dy = (this.canvas.clientHeight / 2 - y) / s;
+    this.centre = [this.centre[0] + dx * (1 - factor), this.centre[1] + dy * (1 - factor)];
+    this.metres = this.metres.map((m) => Math.min(400, Math.max(1, m * factor)));
+  }
+  place(p) {
+    const s = this.scale(), [right, up] = this.axes;
+    return [this.canvas.clientWidth / 2 + s * (right.sign * p[right.axis] - this.centre[0]),
+      this.canvas.clientHeight / 2 - s * (up.sign * p[up.axis] - this.centre[1])];
+  }
+}
+
+class Viewer {
+  constructor(recording) {
+    this.recording = recording;
+    this.shown = LAYERS.map(() => true);
+    this.planes_shown = true;
+    const again = () => this.draw(this.frame);
+    this.top = new View(document.getElementById('top'), [{ axis: 0, sign: 1 }, { axis: 1, sign: 1 }], { centre: [0, 0], metres: [26, 12] }, again);
+    this.section = new View(document.getElementById('section'), [{ axis: 1, sign: -1 }, { axis: 2, sign: 1 }], { centre: [0, 0.2], metres: [9, 6] }, again);
+  }
+
+  draw(frame) {
+    this.frame = frame;
+    const cloud = this.recording.cloud_at(frame);
+    this.draw_view(this.top, cloud, () => true);
+    this.draw_view(this.section, cloud, (k) => Math.abs(this.recording.point_cm[3 * k]) <= 150);
+    return cloud < 0 ? -1 : this.recording.cloud_frame[cloud];
+  }
+
+  draw_view(view, cloud, in_view) {
+    const { pen, width, height } = begin(view.canvas);
+    this.draw_grid(pen, view, width, height);
+    if (cloud >= 0) this.draw_points(pen, view, cloud, in_view);
+    if (!this.planes_shown) return;
+    this.draw_walls(pen, view);
+    if (view === this.section) this.draw_floor(pen, view);
+    if (view === this.top) this.draw_machine(pen, view);
+    this.draw_distances(pen, view);
+    this.draw_sensor(pen, view);
+  }
+
+  draw_grid(pen, view, width, height) {
+    const step = round_step(width / view.scale(), 8), s = view.scale();
+    const first_x = Math.ceil((view.centre[0] - width / 2 / s) / step) * step;
+    const first_y = Math.ceil((view.centre[1] - height / 2 / s) / step) * step;
+    for (let x = first_x; x < view.centre[0] + width / 2 / s; x += step) {
+      const at = width / 2 + s * (x - view.centre[0]);
+      stroke(pen, [[at, 0], [at, height]], colour('line'), 1);
+      label(pen, `${Number((view.axes[0].sign * x).toFixed(3))} m`, at, height - 5, colour('faint'), 'center');
+    }
+    for (let y = first_y; y < view.centre[1] + height / 2 / s; y += step) {
+      const at = height / 2 - s * (y - view.centre[1]);
+      stroke(pen, [[0, at], [width, at]], colour('line'), 1);
+    }
+  }
+
+  draw_points(pen, view, cloud, in_view) {
+    const r = this.recording, [from, to] = r.cloud_range(cloud), size = Math.min(3, Math.max(1.2, view.scale() / 40));
+    LAYERS.forEach((layer, kind) => {
+      if (!this.shown[kind]) return;
+      pen.fillStyle = colour(layer);
+      for (let k = from; k < to; ++k) {
+        if (r.point_label[k] !== kind || !in_view(k)) continue;
+        const [x, y] = view.place([r.point_cm[3 * k] / 100, r.point_cm[3 * k + 1] / 100, r.point_cm[3 * k + 2] / 100]);
+        pen.fillRect(x - size / 2, y - size / 2, size, size);
+      }
+    });
+  }
+
+  // [found, normal along, left, up, d, along_min, along_max, rms] of a side.
+  wall(side) { return this.recording.planes.subarray(8 * (2 * this.frame + side), 8 * (2 * this.frame + side) + 8); }
+  floor_up() { return this.recording.floor[3 * this.frame + 1]; }
+  machine_point(k) { return Array.from(this.recording.machine.subarray(27 * this.frame + 3 * k, 27 * this.frame + 3 * k + 3)); }
+
+  draw_walls(pen, view) {
+    for (const side of [0, 1]) {
+      const [found, along, left, up, d, from, to] = this.wall(side);
+      if (!found) continue;
+      const left_at = (a, h) => -(d + along * a + up * h) / left, style = colour(side ? 'right' : 'left');
+      const at = (a, h) => view.place([a, left_at(a, h), h]);
+      if (view === this.top) {
+        stroke(pen, [at(-60, 0), at(60, 0)], style, 1.2, [3, 6]);
+        stroke(pen, [at(from, 0), at(to, 0)], style, 2.6);
+      } else {
+        const low = this.floor_up();
+        stroke(pen, [at(0, low), at(0, low + this.recording.head.wall_z_max)], style, 2.6);
+      }
+    }
+  }
+
+  draw_floor(pen, view) {
+    const known = this.recording.floor[3 * this.frame] > 0;
+    if (known) stroke(pen, [view.place([0, -30, this.floor_up()]), view.place([0, 30, this.floor_up()])], colour('floor'), 2.2);
+  }
+
+  draw_machine(pen, view) {
+    const corners = [0, 1, 2, 3].map((k) => view.place(this.machine_point(k)));
+    pen.globalAlpha = 0.55;
+    pen.fillStyle = colour('machine');
+    pen.beginPath();
+    corners.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+    pen.fill();
+    pen.globalAlpha = 1;
+    stroke(pen, corners.concat([corners[0]]), colour('machine'), 1.5);
+    const nose = [0, 1].map((i) => (corners[0][i] + corners[1][i]) / 2);
+    dot(pen, nose, 4, colour('machine'));
+  }
+
+  draw_sensor(pen, view) { dot(pen, view.place(this.machine_point(4)), 4, colour('ink')); }
+
+  draw_distances(pen, view) {
+    const r = this.recording;
+    for (let k = 0; k < 4; ++k) {
+      const q = 3 + k, i = r.at(this.frame, q), style = colour(STATES[r.state[i]]), start = this.machine_point(5 + k);
+      const from = view.place(start);
+      if (view === this.top) dot(pen, from, 4.5, colour('ink'));
+      if (!Number.isFinite(r.value[i]) || r.state[i] === 0) continue;
+      const foot = this.foot_of(start, k < 2 ? 0 : 1, r.value[i]), to = view.place(foot);
+      if (view === this.section && k % 2) continue;
+      stroke(pen, [from, to], style, 2.2, r.state[i] >= 2 ? [] : [6, 5]);
+      const text = `${QUANTITIES[q]} ${r.value[i].toFixed(3)} ± ${r.level[i].toFixed(3)} m`, middle = [0, 1].map((a) => (from[a] + to[a]) / 2);
+      if (view === this.section) label(pen, text, middle[0], middle[1] - 6, style, 'center');
+      else label(pen, text, middle[0] + (k % 2 ? -7 : 7), middle[1] + 4, style, k % 2 ? 'right' : 'left');
+    }
+  }
+
+  // Where the distance meets the plane; where there is none, straight to the side by what is held.
+  foot_of(p, side, held_m) {
+    const [found, along, left, up, d] = this.wall(side);
+    if (!found) return [p[0], p[1] + (side ? -held_m : held_m), p[2]];
+    const gap = along * p[0] + left * p[1] + up * p[2] + d;
+    return [p[0] - gap * along, p[1] - gap * left, p[2] - gap * up];
+  }
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "verbs/output_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+
+namespace pose_wall::tools {
+
+OutputFile::OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs)
+    : path_(path), part_(path + ".part") {
+  std::error_code ignored;
+  for (const std::filesystem::path& input : inputs) {
+    if (std::filesystem::equivalent(path_, input, ignored)) {
+      throw std::invalid_argument(fmt::format("--output {}: this is an input; it would be overwritten", path));
+    }
+  }
+  if (std::filesystem::is_directory(path_, ignored)) {
+    throw std::invalid_argument(fmt::format("--output {}: this is a folder; a file is allowed", path));
+  }
+  errno = 0;
+  stream_.open(part_, std::ios::binary | std::ios::trunc);
+  if (!stream_) {
+    throw std::invalid_argument(
+        fmt::format("--output {}: cannot be written: {}", path, std::generic_category().message(errno)));
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (!stream_.is_open()) return;
+  stream_.close();
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void OutputFile::write(std::string_view text) {
+  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream_.flush()) throw std::runtime_error(fmt::format("{}: could not be written to the end", path_.string()));
+  stream_.close();
+  std::error_code error;
+  std::filesystem::rename(part_, path_, error);
+  if (error) throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.message()));
+}
+
+}  // namespace pose_wall::tools

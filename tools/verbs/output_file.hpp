@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A file that is written whole or not at all.
+
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pose_wall::tools {
+
+class OutputFile {
+ public:
+  // Opens PATH.part beside it, so that what cannot be written is known before the work is done. Throws
+  // std::invalid_argument when that fails or when the path is one of the inputs.
+  OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();  // without write(): what was there before stays
+
+  // Then it takes the path's place. Throws std::runtime_error that names the file.
+  void write(std::string_view text);
+
+ private:
+  std::filesystem::path path_, part_;
+  std::ofstream stream_;
+};
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_wall report: frames in, a page to look at out.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "config_file/load_config.hpp"
+#include "frames/input_list.hpp"
+#include "report/page.hpp"
+#include "results/frame_runner.hpp"
+#include "results/run_summary.hpp"
+#include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
+#include "terminal/progress_bar.hpp"
+#include "truth/truth_csv.hpp"
+#include "verbs/output_file.hpp"
+#include "verbs/rate.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr int kExitInterrupted = 130;
+
+struct ReportOptions {
+  std::string config_file;
+  std::vector<std::string> settings;
+  std::vector<std::string> inputs;
+  std::string output = "report.html";
+  std::string truth;
+  std::string title;
+  std::string language = "en";
+  double rate_hz = 10.0;
+  std::size_t points_max = 1'200'000;
+  bool quiet = false;
+};
+
+std::map<std::uint64_t, TruthRow> truth_by_frame(const std::string& file) {
+  std::map<std::uint64_t, TruthRow> rows;
+  if (file.empty()) return rows;
+  for (const TruthRow& row : read_truth_csv(file)) rows[row.frame] = row;
+  return rows;
+}
+
+struct Shown {
+  RunSummary summary;
+  bool complete = true;
+};
+
+Shown process_frames(const ReportOptions& options, const FrameInputs& inputs, FrameRunner& runner,
+                     report::PageData& data) {
+  const auto truth = truth_by_frame(options.truth);
+  const InterruptWatch watch;
+  ProgressBar bar(inputs.files.size(), !options.quiet && is_terminal(2));
+  Shown shown;
+  for (const auto& file : inputs.files) {
+    if (InterruptWatch::is_interrupted()) {
+      shown.complete = false;
+      break;
+    }
+    const FrameOutcome outcome = runner.run(
+        file, [&data](const auto& cloud, const auto& points, const auto& result) { data.look(cloud, points, result); });
+    if (!outcome.result) bar.print_above(fmt::format("pose_wall report: {}: {}", outcome.source, outcome.error));
+    shown.summary.add(outcome);
+    const auto row = truth.find(outcome.frame);
+    data.add(outcome, row == truth.end() ? nullptr : &row->second);
+    bar.advance(file.filename().string());
+  }
+  return shown;
+}
+
+std::string title_of(const ReportOptions& options) {
+  if (!options.title.empty()) return options.title;
+  std::filesystem::path first = std::filesystem::path(options.inputs.front()).lexically_normal();
+  if (!first.has_filename()) first = first.parent_path();
+  return first.filename().string() == "frames" && first.has_parent_path() ? first.parent_path().filename().string()
+                                                                          : first.filename().string();
+}
+
+int report_frames(const ReportOptions& options) {
+  const LoadedConfig loaded = load_config(
+      options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file), options.settings);
+  const FrameInputs inputs = collect_inputs(options.inputs);
+  for (const std::string& error : inputs.errors) fmt::print(stderr, "pose_wall report: {}\n", error);
+  if (inputs.files.empty()) throw std::invalid_argument("no frame to report on");
+  OutputFile output(options.output, inputs.files);
+  FrameRunner runner(loaded.config, options.rate_hz);
+  report::PageData data(loaded.config, inputs.files.size(), options.points_max);
+
+  const auto started = std::chrono::steady_clock::now();
+  const Shown shown = process_frames(options, inputs, runner, data);
+  const std::string page = report::page(
+      {title_of(options), options.language, options.truth, shown.complete, inputs.files.size()}, loaded, data);
+  output.write(page);
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (!options.quiet) {
+    fmt::print(stderr, "{}\n{}: {:.1f} MB, {}, points of {} of them, {:.1f} s. Open it in a browser.\n",
+               shown.summary.text(wall_s), options.output, 1e-6 * static_cast<double>(page.size()),
+               counted(data.frames(), "frame"), data.clouds(), wall_s);
+  }
+  if (!shown.complete) {
+    fmt::print(stderr, "interrupted: the report shows {} of {} frames\n", data.frames(), inputs.files.size());
+    return kExitInterrupted;
+  }
+  return inputs.errors.empty() && shown.summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* verb = app.add_subcommand("report", "Measure frames and write a page to look at them in a browser");
+  verb->add_option("INPUT", options->inputs,
+                   "Frame files (.pcd, .bin of KITTI, .ply) or folders of them, sorted by plain name order")
+      ->required();
+  verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
+  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("-o,--output", options->output, "The page")->capture_default_str();
+  verb->add_option("--truth", options->truth, "truth.csv of pose_wall sim; its frame numbers count the inputs from 0")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--title", options->title, "Heading; default: the name of the first input");
+  verb->add_option("--language", options->language, "The page opens in: en or zh; it has a button for the other")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"en", "zh"}));
+  verb->add_option("-r,--rate", options->rate_hz, "Frames per second, for frames without stamps")
+      ->capture_default_str()
+      ->check(rate_fault, "0.001 to 1000000");
+  verb->add_option("--points", options->points_max, "Points in the page, of all frames together: 9 bytes each")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{20'000'000}));
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
+  verb->footer(
+      "Example:\n"
+      "  pose_wall sim --scene nominal --frames 100 --output road\n"
+      "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
+      "The page is one file and needs no network: time series with protection levels and states, every frame from\n"
+      "above and in section, summary and verdict, in English and Chinese. Of long recordings it keeps the points of\n"
+      "some 400 frames and of those in which a state changes. Ctrl-C ends it early; the page then shows what was "
+      "read.\n"
+      "Exit status: 0 done, 1 an input could not be read (the others are shown), 2 bad usage or config, 130 "
+      "interrupted.");
+  verb->callback([options, &exit_code] { exit_code = report_frames(*options); });
+}
+
+}  // namespace pose_wall::tools
