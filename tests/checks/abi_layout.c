@@ -131,8 +131,14 @@ static int pointers_layout(void) {
   return padded + struct_end("pose_wall_points", sizeof(pose_wall_points));
 }
 
+static int image_layout(void) {
+  int padded = 0;
+#include "image_members.def"
+  return padded;
+}
+
 int main(void) {
-  const int padded =
-      config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout() + pointers_layout();
+  const int padded = config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout() +
+                     pointers_layout() + image_layout();
   return padded == 0 ? 0 : 1;
 }
