@@ -241,6 +241,45 @@ class Archive(BrokenProject):
         self.fails("error", *self.link(SOURCE, EXAMPLE.replace("int main", "inline static auto_t main")))
 
 
+class Image(BrokenProject):
+    def setUp(self):
+        super().setUp()
+        source = CHECKS.parent.parent
+        shutil.copytree(source / "tools/plc", self.root / "tools/plc")
+        for path in ("include/pose_wall.h", "tests/checks/image_members.def", "tests/checks/abi_layout.txt"):
+            (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source / path, self.root / path)
+
+    def check(self):
+        return "python3", self.root / "tools/plc/generate.py", "--check", self.root
+
+    def change(self, path, old, new):
+        text = (self.root / path).read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        self.write(path, text.replace(old, new, 1))
+
+    def test_passes(self):
+        self.passes(*self.check())
+
+    def test_header_edited_by_hand(self):
+        self.change("include/pose_wall.h", "int32_t value_mm;", "uint32_t value_mm;")
+        self.fails("include/pose_wall.h is not what", *self.check())
+
+    def test_structured_text_edited_by_hand(self):
+        self.change("tools/plc/PoseWallImage.st", "value_mm : DINT", "value_mm : INT")
+        self.fails("PoseWallImage.st is not what", *self.check())
+
+    def test_reason_added(self):
+        self.change("include/pose_wall.h", "POSE_WALL_R_CURVED = 1 << 19", "POSE_WALL_R_BENT = 1 << 19")
+        self.fails("PoseWallImage.st is not what", *self.check())
+
+    def test_description_differs_from_the_pinned_layout(self):
+        self.change("tools/plc/image.def", "value_mm        int32", "value_mm        float")
+        self.fails("include/pose_wall.h is not what", *self.check())
+        self.change("tests/checks/abi_layout.txt", "  verdict                           32", "  verdict     36")
+        self.fails("does not hold what image.def says of pose_wall_image:", *self.check())
+
+
 class Abi(BrokenProject):
     def layout(self, printed, expected):
         self.write("printed", printed)
