@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The structured text of tools/plc, read and run by structured_text.py (not by a vendor's compiler): it parses, its types
-are those of image.def, its CRC is zlib's, it decodes images to the very numbers, and FB_PoseWall watches, holds,
+"""The structured text of tools/plc, read and run by structured_text.py (not by a vendor's compiler): it parses, its
+types are those of image.def, its CRC is zlib's, it decodes images to the very numbers, and FB_PoseWall watches, holds,
 substitutes and asks for the safe state.
 
 usage: plc_test.py ROOT"""
@@ -28,7 +28,7 @@ STRUCTS = description.read_structs()
 WORDS = description.image_words(STRUCTS)
 STATE = {"invalid": 0, "held": 1, "degraded": 2, "valid": 3}
 FAULT = {"none": 0, "silent": 1, "version": 2, "crc": 3, "config": 4}
-CYCLE_MS = 10
+CYCLE_MS = 20
 
 
 def program():
@@ -144,7 +144,7 @@ class FunctionBlock(unittest.TestCase):
                          (FAULT[fault], safe_state, yaw))
 
     def test_before_anything_has_come(self):
-        self.cycles(10, [0] * 60)
+        self.cycles(20, [0] * 60)
         self.expect("version", True, 0)
 
     def test_good_images(self):
@@ -156,7 +156,7 @@ class FunctionBlock(unittest.TestCase):
     def test_a_sequence_that_stands_still(self):
         self.frames()
         words = image_words(self.sequence)
-        self.cycles(200, words)  # 290 ms since it was new
+        self.cycles(200, words)  # 280 ms since it was new
         self.expect("none", False, -1500)
         self.assertTrue(self.block["xAlive"])
         self.cycles(40, words)  # the watchdog is at 300 ms, now the value is held
@@ -175,7 +175,7 @@ class FunctionBlock(unittest.TestCase):
         for word in (3, 13, 59):
             words = image_words(self.sequence + 1)
             words[word] ^= 1 << 9
-            self.cycles(10, words)
+            self.cycles(20, words)
             self.expect("crc", False, -1500)
         self.cycles(900, words)
         self.expect("crc", True, 0)
