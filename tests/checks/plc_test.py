@@ -28,6 +28,9 @@ STRUCTS = description.read_structs()
 WORDS = description.image_words(STRUCTS)
 STATE = {"invalid": 0, "held": 1, "degraded": 2, "valid": 3}
 FAULT = {"none": 0, "silent": 1, "version": 2, "crc": 3, "config": 4}
+CHANNELS = {"fbRoll": "roll", "fbPitch": "pitch", "fbYaw": "yaw", "fbLeftFront": "d_lf", "fbLeftBack": "d_lb",
+            "fbRightFront": "d_rf", "fbRightBack": "d_rb"}
+LIMIT = {"mdeg": 1000, "mm": 100}  # FB_PoseWall's own defaults
 CYCLE_MS = 20
 
 
@@ -198,6 +201,20 @@ class FunctionBlock(unittest.TestCase):
             self.expect("none", False, -1500)
             self.frames(2, {"diAngleSubstitute_mdeg": 7}, yaw__state=STATE[state], yaw__value_mdeg=99)
             self.expect("none", True, 7)
+
+    def test_every_channel_has_its_own_value_and_limit(self):
+        unit = {block: "mm" if member.startswith("d_") else "mdeg" for block, member in CHANNELS.items()}
+        values = {f"{member}__value_{unit[block]}": 10 + i for i, (block, member) in enumerate(CHANNELS.items())}
+        for wrong, member in CHANNELS.items():
+            limit = LIMIT[unit[wrong]]
+            self.frames(1, {"tHold": 500}, **values, **{f"{member}__protection_{unit[wrong]}": limit})
+            self.assertEqual([self.block[block]["diOut"] for block in CHANNELS], list(range(10, 17)))
+            self.assertTrue(all(self.block[block]["xFresh"] for block in CHANNELS))
+            self.frames(1, **values, **{f"{member}__protection_{unit[wrong]}": limit + 1})
+            self.assertEqual([block for block in CHANNELS if not self.block[block]["xFresh"]], [wrong])
+            self.assertFalse(self.block["xSafeState"])
+            self.frames(1, {"tHold": 40}, **values, **{f"{member}__protection_{unit[wrong]}": limit + 1})
+            self.assertTrue(self.block["xSafeState"])
 
     def test_degraded_within_the_limit_when_asked_for(self):
         self.frames(inputs={"xTakeDegraded": True}, yaw__state=STATE["degraded"])

@@ -13,11 +13,10 @@ int main() {
   if (config.set("forward_axis", "+X") != POSE_WALL_OK || engine.open(config) != POSE_WALL_OK) return 2;
   pose_wall_cloud cloud;
   pose_wall_result result = pose_wall::api::make_result();
-  pose_wall_image image;
-  image.struct_size = sizeof image;
+  pose_wall_image image = pose_wall::api::make_image();
   if (pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, 0) != POSE_WALL_OK) return 3;
   if (engine.process(cloud, result) != POSE_WALL_OK) return 4;
-  if (pose_wall_image_fill(engine.get(), &result, &image) != POSE_WALL_OK) return 5;
+  if (engine.fill_image(result, image) != POSE_WALL_OK) return 5;
   std::printf("pose_wall %s: %s\n", pose_wall_version(), pose_wall_state_name(image.verdict));
   return pose_wall_image_check(&image) == POSE_WALL_OK && image.verdict == POSE_WALL_INVALID ? 0 : 6;
 }
