@@ -342,13 +342,19 @@ class Abi(BrokenProject):
         self.write("printed", printed)
         self.write("expected", expected)
         program, file = f"-DPROGRAM={self.root}/printed", f"-DEXPECTED={self.root}/expected"
-        return tool("CMAKE", "cmake"), program, file, "-DEMULATOR=cat", "-P", CHECKS / "check_abi.cmake"
+        header = f"-DHEADER={self.root}/include/pose_wall.h"
+        return tool("CMAKE", "cmake"), program, file, "-DEMULATOR=cat", header, "-P", CHECKS / "check_abi.cmake"
 
     def test_passes(self):
         self.passes(*self.layout("pose_wall_field 8\n", "pose_wall_field 8\n"))
 
     def test_moved(self):
         self.fails("are laid out otherwise", *self.layout("pose_wall_field 8\n", "pose_wall_field 12\n"))
+
+    def test_struct_forgotten(self):
+        struct = "typedef struct pose_wall_plane {\n  double d_m;\n} pose_wall_plane;\n"
+        self.write("include/pose_wall.h", HEADER + struct)
+        self.fails("does not hold pose_wall_plane", *self.layout("pose_wall_field 8\n", "pose_wall_field 8\n"))
 
     def test_program_fails(self):
         command = list(self.layout("", ""))
