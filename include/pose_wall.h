@@ -87,7 +87,11 @@ enum pose_wall_status {
   /* clouds */
   POSE_WALL_E_CLOUD_FIELD = -40, /* x, y or z missing, or a field of a type that cannot be read */
   POSE_WALL_E_CLOUD_STEP = -41,  /* a field reaches past point_step, or a row past row_step */
-  POSE_WALL_E_CLOUD_SIZE = -42   /* data_bytes does not hold width x height points, or those are more than 2^26 */
+  POSE_WALL_E_CLOUD_SIZE = -42,  /* data_bytes does not hold width x height points, or those are more than 2^26 */
+
+  /* process images */
+  POSE_WALL_E_IMAGE_VERSION = -60, /* an image of another version or size */
+  POSE_WALL_E_IMAGE_CRC = -61      /* its CRC is not that of its bytes: damaged, torn, or never filled */
 };
 
 /* One English sentence, static storage; "unknown status" for anything else. */
@@ -164,6 +168,10 @@ typedef struct pose_wall_rule_fault {
 /* Checks the rules over several keys. Returns POSE_WALL_OK or POSE_WALL_E_CONFIG_RULE with the first broken rule in
  * *fault (fault may be NULL). pose_wall_memory_needed and pose_wall_open check by the same rules. */
 int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault);
+
+/* CRC-32 of all settings, for a controller to see that the engine runs with the settings it was approved with. Two
+ * builds whose tables of keys differ give different numbers for the same file. Fails iff: NULL, not initialised. */
+int32_t pose_wall_config_crc(const pose_wall_config* config, uint32_t* crc);
 
 /* ---------------------------------------------------------------------------------------------- clouds */
 
@@ -404,6 +412,89 @@ typedef struct pose_wall_points {
   uint32_t reserved;
 } pose_wall_points;
 int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points);
+
+/* ---------------------------------------------------------------------------------------------- process image */
+
+/* A result for a controller: 60 words of 4 bytes each, without gaps; small enough for one PROFINET submodule or one
+ * Modbus read (120 registers). tools/plc has the structured text for it, and a function block that uses it.
+ *
+ * NUMBERS   scaled integers (0.001 deg, mm) beside floats (rad, m), never NaN or infinite: those stop some controllers.
+ * What does not fit saturates at +-2147483647. No value: POSE_WALL_IMAGE_NO_VALUE in both. No protection level:
+ * POSE_WALL_IMAGE_NO_BOUND in both, the worst there is. A protection level is rounded up, by as much as its value was
+ * rounded, too: |value - truth| <= protection holds for each pair of numbers as they stand. An age that is not known or
+ * does not fit is 4294967295.
+ *
+ * BYTES   each word is in the host's order. The CRC is over the bytes as laid out low byte first, whatever the host: a
+ * controller of the other order swaps the four bytes of every word, and nothing else.
+ *
+ * CRC   CRC-32 of IEEE 802.3 (polynomial 04C11DB7 reflected, begun and ended with FFFFFFFF; "123456789" gives CBF43926)
+ * over all struct_size bytes but the four of crc32. It finds damage, not intent.
+ *
+ * SEQUENCE   frame_index + 1: a new frame changes it, and an image whose sequence stands still is an old one.
+ *
+ * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
+
+#define POSE_WALL_IMAGE_VERSION 1
+#define POSE_WALL_IMAGE_NO_VALUE (-2147483647 - 1)
+#define POSE_WALL_IMAGE_NO_BOUND 2147483647
+
+/* From here on written by tools/plc/generate.py from tools/plc/image.def. */
+
+#define POSE_WALL_IMAGE_BYTES 240
+
+/* One of the three angles. 28 bytes. */
+typedef struct pose_wall_image_angle {
+  int32_t value_mdeg;      /* 0.001 deg: what a controller acts on */
+  int32_t protection_mdeg; /* 0.001 deg: protection level, rounded up */
+  float value_rad;         /* rad: the same as value_mdeg, finer */
+  float protection_rad;    /* rad: rounded up */
+  uint32_t age_ms;         /* ms: since it was measured, rounded up */
+  uint32_t state;          /* pose_wall_state */
+  uint32_t reasons;        /* pose_wall_reason */
+} pose_wall_image_angle;
+
+/* One of the four distances. 28 bytes. */
+typedef struct pose_wall_image_distance {
+  int32_t value_mm;      /* mm: what a controller acts on */
+  int32_t protection_mm; /* mm: protection level, rounded up */
+  float value_m;         /* m: the same as value_mm, finer */
+  float protection_m;    /* m: rounded up */
+  uint32_t age_ms;       /* ms: since it was measured, rounded up */
+  uint32_t state;        /* pose_wall_state */
+  uint32_t reasons;      /* pose_wall_reason */
+} pose_wall_image_distance;
+
+/* One frame for a controller. 240 bytes. */
+typedef struct pose_wall_image {
+  uint32_t struct_size;     /* bytes: POSE_WALL_IMAGE_BYTES */
+  uint32_t version;         /* POSE_WALL_IMAGE_VERSION */
+  uint32_t crc32;           /* CRC-32 of every byte but its own four */
+  uint32_t sequence;        /* frames since the engine was opened; differs from frame to frame */
+  uint32_t config_crc32;    /* pose_wall_config_crc() of the engine's config */
+  uint32_t library_version; /* major * 65536 + minor * 256 + patch */
+  uint32_t stamp_low;       /* the frame's stamp_ns, bits 0 to 31 */
+  uint32_t stamp_high;      /* and bits 32 to 63 */
+  uint32_t verdict;         /* the worst of the seven states, pose_wall_state */
+  uint32_t valid;           /* bit q set: quantity q is valid, q as in pose_wall_quantity */
+  uint32_t frame_reasons;   /* pose_wall_reason of the frame */
+  pose_wall_image_angle roll;
+  pose_wall_image_angle pitch;
+  pose_wall_image_angle yaw;
+  pose_wall_image_distance d_lf; /* left wall at s_front */
+  pose_wall_image_distance d_lb; /* left wall at s_back */
+  pose_wall_image_distance d_rf; /* right wall at s_front */
+  pose_wall_image_distance d_rb; /* right wall at s_back */
+} pose_wall_image;
+
+/* Up to here. */
+
+/* Writes the whole image of a result that this engine gave. Set image->struct_size = sizeof *image and
+ * result->struct_size first. Fails iff: NULL, engine not open, a struct_size of another version; the image is then
+ * unchanged. Cost: some thousand simple operations. */
+int32_t pose_wall_image_fill(const pose_wall_engine* engine, const pose_wall_result* result, pose_wall_image* image);
+
+/* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, other version or size, CRC. */
+int32_t pose_wall_image_check(const pose_wall_image* image);
 
 #ifdef __cplusplus
 }

@@ -55,6 +55,12 @@ inline pose_wall_result make_result() noexcept {
   return result;
 }
 
+inline pose_wall_image make_image() noexcept {
+  pose_wall_image image{};
+  image.struct_size = sizeof image;
+  return image;
+}
+
 // Owns the block that the engine lives in. Moving keeps the block where it is; a moved-from engine is not open.
 class Engine {
  public:
@@ -81,6 +87,9 @@ class Engine {
 
   int32_t process(const pose_wall_cloud& cloud, pose_wall_result& result) noexcept {
     return pose_wall_process(engine_, &cloud, &result);
+  }
+  int32_t fill_image(const pose_wall_result& result, pose_wall_image& image) const noexcept {
+    return pose_wall_image_fill(engine_, &result, &image);
   }
   int32_t reset() noexcept { return pose_wall_reset(engine_); }
   int32_t set_clock(pose_wall_clock clock, void* user = nullptr) noexcept {

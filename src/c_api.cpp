@@ -7,6 +7,7 @@
 
 #include "config.hpp"
 #include "engine.hpp"
+#include "image.hpp"
 #include "names.hpp"
 #include "pose_wall.h"
 #include "stages/voxel_cloud_reader.hpp"
@@ -109,6 +110,10 @@ POSE_WALL_EXPORT int32_t pose_wall_config_check(const pose_wall_config* config, 
   return config != nullptr ? pose_wall::check_config(*config, fault) : POSE_WALL_E_NULL;
 }
 
+POSE_WALL_EXPORT int32_t pose_wall_config_crc(const pose_wall_config* config, uint32_t* crc) {
+  return config != nullptr && crc != nullptr ? pose_wall::config_crc(*config, crc) : POSE_WALL_E_NULL;
+}
+
 POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count,
                                                uint32_t point_step, int64_t stamp_ns) {
   if (cloud == nullptr || (data == nullptr && count > 0)) return POSE_WALL_E_NULL;
@@ -147,7 +152,9 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   const pose_wall::Settings settings = pose_wall::read_settings(*config);
   Engine* placed = nullptr;
   Engine::lay_out(block, settings, &placed);
-  placed->open(settings);
+  uint32_t crc = 0;
+  pose_wall::config_crc(*config, &crc);
+  placed->open(settings, crc);
   *engine = reinterpret_cast<pose_wall_engine*>(placed);
   return POSE_WALL_OK;
 }
@@ -184,6 +191,19 @@ POSE_WALL_EXPORT int32_t pose_wall_last_points(const pose_wall_engine* engine, p
   if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
   *points = engine_of(engine)->points();
   return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_image_fill(const pose_wall_engine* engine, const pose_wall_result* result,
+                                              pose_wall_image* image) {
+  if (engine == nullptr || result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  if (result->struct_size != sizeof(*result) || image->struct_size != sizeof(*image)) return POSE_WALL_E_STRUCT_SIZE;
+  pose_wall::fill_image(*result, engine_of(engine)->config_crc32(), image);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_image_check(const pose_wall_image* image) {
+  return image != nullptr ? pose_wall::check_image(*image) : POSE_WALL_E_NULL;
 }
 
 }  // extern "C"

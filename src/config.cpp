@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "math/crc32.hpp"
 #include "math/elementary.hpp"
 #include "number_text.hpp"
 
@@ -257,6 +258,24 @@ double reach_of(const Settings& s) {
 
 double alert_limit(std::uint32_t quantity, const Settings& settings) {
   return quantity <= POSE_WALL_YAW ? radians(settings.alert_limit_angle_deg) : settings.alert_limit_distance;
+}
+
+std::int32_t config_crc(const pose_wall_config& config, std::uint32_t* crc) {
+  if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
+  Crc32 sum;
+  sum.add_word(config.layout);
+  for (const double number : config.number) {
+    const double one_zero = number + 0.0;  // -0 and 0 are the same setting
+    std::uint64_t bits;
+    std::memcpy(&bits, &one_zero, sizeof(bits));
+    sum.add_word(static_cast<std::uint32_t>(bits & 0xFFFFFFFFU));
+    sum.add_word(static_cast<std::uint32_t>(bits >> 32U));
+  }
+  for (const auto& text : config.text) {
+    for (const char c : text) sum.add_byte(static_cast<std::uint8_t>(c));
+  }
+  *crc = sum.value();
+  return POSE_WALL_OK;
 }
 
 std::int32_t config_init(pose_wall_config* config) {

@@ -48,6 +48,7 @@ double reach_of(const Settings& settings);
 double alert_limit(std::uint32_t quantity, const Settings& settings);
 
 // What the C ABI's pose_wall_config_* functions do, once their pointers are known to be there.
+std::int32_t config_crc(const pose_wall_config& config, std::uint32_t* crc);
 std::int32_t config_init(pose_wall_config* config);
 std::int32_t config_set(pose_wall_config* config, const char* key, const char* value);
 std::int32_t config_set_number(pose_wall_config* config, const char* key, double value);

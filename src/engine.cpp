@@ -90,7 +90,8 @@ std::uint64_t Engine::lay_out(void* block, const Settings& settings, Engine** ou
   return arena.bytes();
 }
 
-void Engine::open(const Settings& settings) {
+void Engine::open(const Settings& settings, std::uint32_t config_crc32) {
+  config_crc32_ = config_crc32;
   settings_ = settings;
   axes_ = axes_of(settings.forward_axis);
   extrinsic_ = extrinsic_of(settings);

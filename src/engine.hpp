@@ -60,12 +60,13 @@ class Engine {
   // Measures (block NULL) or places an engine.
   static std::uint64_t lay_out(void* block, const Settings& settings, Engine** out);
 
-  void open(const Settings& settings);
+  void open(const Settings& settings, std::uint32_t config_crc32);
   void reset();
   void set_clock(pose_wall_clock clock, void* user);
   bool is_open() const { return magic_ == kMagic && self_ == this; }
   void process(const pose_wall_cloud& cloud, pose_wall_result* result);
   pose_wall_points points() const;
+  std::uint32_t config_crc32() const { return config_crc32_; }
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;
@@ -81,6 +82,7 @@ class Engine {
 
   std::uint64_t magic_ = 0;
   const Engine* self_ = nullptr;
+  std::uint32_t config_crc32_ = 0;
   Settings settings_{};
   Axes axes_{};
   Extrinsic extrinsic_{};

@@ -41,6 +41,10 @@ const char* status_text(std::int32_t status) {
       return "value outside the key's range, or not finite";
     case POSE_WALL_E_CONFIG_RULE:
       return "two keys contradict each other; see pose_wall_config_check()";
+    case POSE_WALL_E_IMAGE_VERSION:
+      return "an image of another version or size";
+    case POSE_WALL_E_IMAGE_CRC:
+      return "its CRC is not that of its bytes: damaged, torn, or never filled";
     case POSE_WALL_E_TEXT_LONG:
       return "text value longer than POSE_WALL_TEXT_MAX - 1";
     case POSE_WALL_E_CLOUD_FIELD:

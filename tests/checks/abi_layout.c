@@ -122,6 +122,10 @@ static int pointers_layout(void) {
   MEMBER(pose_wall_key_info, type);
   MEMBER(pose_wall_key_info, reserved);
   padded += struct_end("pose_wall_key_info", sizeof(pose_wall_key_info));
+  MEMBER(pose_wall_rule_fault, key);
+  MEMBER(pose_wall_rule_fault, other_key);
+  MEMBER(pose_wall_rule_fault, rule);
+  padded += struct_end("pose_wall_rule_fault", sizeof(pose_wall_rule_fault));
   MEMBER(pose_wall_points, x_base_m);
   MEMBER(pose_wall_points, y_base_m);
   MEMBER(pose_wall_points, z_base_m);
@@ -131,8 +135,14 @@ static int pointers_layout(void) {
   return padded + struct_end("pose_wall_points", sizeof(pose_wall_points));
 }
 
+static int image_layout(void) {
+  int padded = 0;
+#include "image_members.def"
+  return padded;
+}
+
 int main(void) {
-  const int padded =
-      config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout() + pointers_layout();
+  const int padded = config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout() +
+                     pointers_layout() + image_layout();
   return padded == 0 ? 0 : 1;
 }

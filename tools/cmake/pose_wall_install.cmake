@@ -1,17 +1,40 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# cmake --install: header, archive, package config; find_package(pose_wall) then gives pose_wall::pose_wall.
+# cmake --install: headers, archive, package config, pkg-config file, bill of materials, what a controller needs; and
+# the command where it is built. find_package(pose_wall) gives pose_wall::pose_wall. Components: development, command.
 include(CMakePackageConfigHelpers)
+include(pose_wall_sbom)
 
 set(pose_wall_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pose_wall)
+set(pose_wall_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(GLOB pose_wall_public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/pose_wall.h*)
-install(FILES ${pose_wall_public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS pose_wall EXPORT pose_wall ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${pose_wall_public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(TARGETS pose_wall EXPORT pose_wall ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 # The exported targets need nothing that a package config would have to look for, so they are the config.
-install(EXPORT pose_wall FILE pose_wall-config.cmake NAMESPACE pose_wall:: DESTINATION ${pose_wall_package_dir})
+install(EXPORT pose_wall FILE pose_wall-config.cmake NAMESPACE pose_wall:: DESTINATION ${pose_wall_package_dir}
+  COMPONENT development)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/pose_wall-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/pose_wall-config-version.cmake DESTINATION ${pose_wall_package_dir})
+install(FILES ${PROJECT_BINARY_DIR}/pose_wall-config-version.cmake DESTINATION ${pose_wall_package_dir}
+  COMPONENT development)
+
+# A relative path, whatever the prefix: with an absolute CMAKE_INSTALL_LIBDIR the package cannot be moved anyway.
+file(RELATIVE_PATH pose_wall_prefix_from_pc /prefix/${pose_wall_pc_dir} /prefix)
+string(REGEX REPLACE "/$" "" pose_wall_prefix_from_pc "${pose_wall_prefix_from_pc}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/pose_wall.pc.in ${PROJECT_BINARY_DIR}/pose_wall.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/pose_wall.pc DESTINATION ${pose_wall_pc_dir} COMPONENT development)
+
+set(pose_wall_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libpose-wall-dev)
+pose_wall_sbom(pose_wall ${PROJECT_BINARY_DIR}/pose_wall.spdx.json)
+install(FILES ${PROJECT_BINARY_DIR}/pose_wall.spdx.json DESTINATION ${pose_wall_doc_dir} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pose_wall_doc_dir} RENAME copyright COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/ DESTINATION ${pose_wall_doc_dir}/plc COMPONENT development
+  FILES_MATCHING PATTERN "*.st" PATTERN "controller.c" PATTERN "README.md")
 if(TARGET pose_wall_cli)
-  install(TARGETS pose_wall_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS pose_wall_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-wall RENAME copyright
+    COMPONENT command)
+endif()
+if(PROJECT_IS_TOP_LEVEL)
+  include(pose_wall_package)
 endif()

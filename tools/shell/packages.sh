@@ -8,7 +8,7 @@
 packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev libcli11-dev libyaml-dev liblzf-dev
   libfmt-dev nlohmann-json3-dev"
 # shellcheck disable=SC2034
-packages_to_test="libgtest-dev python3"
+packages_to_test="libgtest-dev python3 pkg-config"
 
 need_packages() {
   local missing="" as_root="" package

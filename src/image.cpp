@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "image.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "math/crc32.hpp"
+#include "math/finite.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kMilliDegreesPerRadian = 180000.0 / 3.14159265358979323846;
+constexpr double kMillimetresPerMetre = 1000.0;
+constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr double kIntegerMax = 2147483647.0;
+constexpr double kUnsignedMax = 4294967295.0;
+// The floats of "no value" and "no bound". A float that is known stays within +-kFloatMax.
+constexpr float kNoValue = -2147483648.0F;
+constexpr float kNoBound = 2147483648.0F;
+constexpr double kFloatMax = 2147483520.0;  // the last float before 2^31
+
+static_assert(sizeof(pose_wall_image) == POSE_WALL_IMAGE_BYTES && POSE_WALL_IMAGE_BYTES % 4 == 0,
+              "image.def and the compiler disagree");
+
+double within(double value, double limit) {
+  if (value > limit) return limit;
+  return value < -limit ? -limit : value;
+}
+
+std::int32_t nearest_integer(double value) {
+  return static_cast<std::int32_t>(within(std::floor(value + 0.5), kIntegerMax));
+}
+
+std::int32_t integer_above(double value) {
+  return static_cast<std::int32_t>(within(std::ceil(value), kIntegerMax));
+}
+
+float float_above(double value) {
+  float f = static_cast<float>(within(value, kFloatMax));
+  if (static_cast<double>(f) < value && value <= kFloatMax) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &f, sizeof(bits));
+    ++bits;  // the next float of a positive one
+    std::memcpy(&f, &bits, sizeof(f));
+  }
+  return f;
+}
+
+std::uint32_t milliseconds_above(double seconds) {
+  const double milliseconds = std::ceil(seconds * kMillisecondsPerSecond);
+  return milliseconds >= 0.0 && milliseconds < kUnsignedMax ? static_cast<std::uint32_t>(milliseconds) : 0xFFFFFFFFU;
+}
+
+// What angles and distances have in common, in the order of the members of both.
+struct Numbers {
+  std::int32_t value_scaled = POSE_WALL_IMAGE_NO_VALUE;
+  std::int32_t protection_scaled = POSE_WALL_IMAGE_NO_BOUND;
+  float value = kNoValue;
+  float protection = kNoBound;
+};
+
+// What is no state is none to act on.
+std::uint32_t known_state(std::uint32_t state) {
+  return state <= POSE_WALL_VALID ? state : static_cast<std::uint32_t>(POSE_WALL_INVALID);
+}
+
+// A bound past what the type can tell is none.
+Numbers numbers_of(const pose_wall_value& v, double scale) {
+  Numbers n;
+  if (!is_finite(v.value)) return n;
+  n.value_scaled = nearest_integer(v.value * scale);
+  n.value = static_cast<float>(within(v.value, kFloatMax));
+  if (!is_finite(v.protection_level) || v.protection_level < 0.0) return n;
+  const double rounded_scaled = std::fabs(v.value * scale - static_cast<double>(n.value_scaled));
+  const double rounded = std::fabs(v.value - static_cast<double>(n.value));
+  n.protection_scaled = integer_above(v.protection_level * scale + rounded_scaled);
+  if (v.protection_level + rounded <= kFloatMax) n.protection = float_above(v.protection_level + rounded);
+  return n;
+}
+
+pose_wall_image_angle angle_of(const pose_wall_value& v) {
+  const Numbers n = numbers_of(v, kMilliDegreesPerRadian);
+  return {n.value_scaled, n.protection_scaled, n.value, n.protection, milliseconds_above(v.age_s), known_state(v.state),
+          v.reasons};
+}
+
+pose_wall_image_distance distance_of(const pose_wall_value& v) {
+  const Numbers n = numbers_of(v, kMillimetresPerMetre);
+  return {n.value_scaled, n.protection_scaled, n.value, n.protection, milliseconds_above(v.age_s), known_state(v.state),
+          v.reasons};
+}
+
+std::uint32_t crc_of(const pose_wall_image& image) {
+  constexpr std::size_t kWords = sizeof(image) / sizeof(std::uint32_t);
+  constexpr std::size_t kCrcWord = offsetof(pose_wall_image, crc32) / sizeof(std::uint32_t);
+  std::uint32_t words[kWords];
+  std::memcpy(words, &image, sizeof(words));
+  Crc32 crc;
+  for (std::size_t i = 0; i < kWords; ++i) {
+    if (i != kCrcWord) crc.add_word(words[i]);
+  }
+  return crc.value();
+}
+
+void fill_head(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image) {
+  image->version = POSE_WALL_IMAGE_VERSION;
+  image->sequence = static_cast<std::uint32_t>(result.frame_index + 1);
+  image->config_crc32 = config_crc32;
+  image->library_version = POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH;
+  const std::uint64_t stamp = static_cast<std::uint64_t>(result.stamp_ns);
+  image->stamp_low = static_cast<std::uint32_t>(stamp & 0xFFFFFFFFU);
+  image->stamp_high = static_cast<std::uint32_t>(stamp >> 32U);
+  image->verdict = POSE_WALL_VALID;
+  image->valid = 0;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const std::uint32_t state = known_state(result.quantity[q].state);
+    if (state < image->verdict) image->verdict = state;
+    if (state == POSE_WALL_VALID) image->valid |= 1U << q;
+  }
+  image->frame_reasons = result.frame_reasons;
+}
+
+}  // namespace
+
+void fill_image(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image) {
+  fill_head(result, config_crc32, image);
+  image->roll = angle_of(result.quantity[POSE_WALL_ROLL]);
+  image->pitch = angle_of(result.quantity[POSE_WALL_PITCH]);
+  image->yaw = angle_of(result.quantity[POSE_WALL_YAW]);
+  image->d_lf = distance_of(result.quantity[POSE_WALL_D_LF]);
+  image->d_lb = distance_of(result.quantity[POSE_WALL_D_LB]);
+  image->d_rf = distance_of(result.quantity[POSE_WALL_D_RF]);
+  image->d_rb = distance_of(result.quantity[POSE_WALL_D_RB]);
+  image->crc32 = crc_of(*image);
+}
+
+std::int32_t check_image(const pose_wall_image& image) {
+  if (image.struct_size != sizeof(image) || image.version != POSE_WALL_IMAGE_VERSION) return POSE_WALL_E_IMAGE_VERSION;
+  return image.crc32 == crc_of(image) ? POSE_WALL_OK : POSE_WALL_E_IMAGE_CRC;
+}
+
+}  // namespace pose_wall

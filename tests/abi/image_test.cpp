@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the process image holds the result's numbers, rounded so that no pair of value and protection level promises
+// more than the result did; it never holds NaN; what does not fit saturates; damage to any bit is found; refused calls
+// change nothing. Does not prove: that a controller reads it so (tests/checks/plc_test.py).
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "support/clouds.hpp"
+#include "support/engine_under_test.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+pose_wall_config small_config() {
+  return config_with({{"points_max", "5000"}});
+}
+
+// A result as an engine could have given it: 1.2345 deg and 2.3456 m, everywhere valid.
+pose_wall_result some_result() {
+  pose_wall_result r{};
+  r.struct_size = sizeof r;
+  r.frame_index = 41;
+  r.stamp_ns = -2;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const bool angle = q <= POSE_WALL_YAW;
+    r.quantity[q].value = angle ? 1.2345 * kDegree : 2.3456;
+    r.quantity[q].protection_level = angle ? 0.5 * kDegree : 0.05;
+    r.quantity[q].age_s = 0.1001;
+    r.quantity[q].state = POSE_WALL_VALID;
+    r.quantity[q].reasons = 1U << q;
+  }
+  return r;
+}
+
+pose_wall_image image_of(const pose_wall_result& result) {
+  static EngineUnderTest engine(small_config());
+  pose_wall_image image;
+  std::memset(&image, 0x5A, sizeof image);
+  image.struct_size = sizeof image;
+  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_image_check(&image), POSE_WALL_OK);
+  return image;
+}
+
+pose_wall_image_distance distance_image(double value, double protection) {
+  pose_wall_result r = some_result();
+  r.quantity[POSE_WALL_D_LF].value = value;
+  r.quantity[POSE_WALL_D_LF].protection_level = protection;
+  return image_of(r).d_lf;
+}
+
+TEST(Image, HoldsTheResult) {
+  const pose_wall_image image = image_of(some_result());
+  EXPECT_EQ(image.version, 1U);
+  EXPECT_EQ(image.sequence, 42U);
+  EXPECT_EQ(image.stamp_low, 0xFFFFFFFEU);
+  EXPECT_EQ(image.stamp_high, 0xFFFFFFFFU);
+  EXPECT_EQ(image.library_version,
+            POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH);
+  EXPECT_EQ(image.verdict, static_cast<std::uint32_t>(POSE_WALL_VALID));
+  EXPECT_EQ(image.valid, 0x7FU);
+  EXPECT_EQ(image.yaw.value_mdeg, 1235);  // 1234.5 rounds up
+  EXPECT_FLOAT_EQ(image.yaw.value_rad, static_cast<float>(1.2345 * kDegree));
+  EXPECT_EQ(image.d_rb.value_mm, 2346);
+  EXPECT_FLOAT_EQ(image.d_rb.value_m, 2.3456F);
+  EXPECT_EQ(image.d_rb.age_ms, 101U);
+  EXPECT_EQ(image.roll.reasons, 1U);
+  EXPECT_EQ(image.d_rb.reasons, 1U << POSE_WALL_D_RB);
+}
+
+TEST(Image, TheVerdictIsTheWorstState) {
+  pose_wall_result r = some_result();
+  r.quantity[POSE_WALL_D_RF].state = POSE_WALL_HELD;
+  r.quantity[POSE_WALL_PITCH].state = POSE_WALL_DEGRADED;
+  const pose_wall_image image = image_of(r);
+  EXPECT_EQ(image.verdict, static_cast<std::uint32_t>(POSE_WALL_HELD));
+  EXPECT_EQ(image.valid, 0x7FU & ~(1U << POSE_WALL_D_RF) & ~(1U << POSE_WALL_PITCH));
+  r.quantity[POSE_WALL_YAW].state = 77;
+  EXPECT_EQ(image_of(r).verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+  EXPECT_EQ(image_of(r).yaw.state, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+}
+
+// Truth at the far end of the result's bound stays within the image's: in whole millimetres and in floats.
+TEST(Image, ProtectionCoversTheRoundingOfItsValue) {
+  for (int i = 0; i < 2000; ++i) {
+    const double value = 1.0 + 0.00137 * i, protection = 0.00011 * i;
+    const pose_wall_image_distance d = distance_image(value, protection);
+    const double off_mm = std::fabs(value * 1e3 - d.value_mm),
+                 off_m = std::fabs(value - static_cast<double>(d.value_m));
+    EXPECT_GE(d.protection_mm, protection * 1e3 + off_mm) << i;
+    EXPECT_LE(d.protection_mm, protection * 1e3 + off_mm + 1.0) << i;
+    EXPECT_GE(static_cast<double>(d.protection_m), protection + off_m) << i;
+    EXPECT_LE(static_cast<double>(d.protection_m), protection + off_m + 1e-6) << i;
+  }
+}
+
+TEST(Image, NoNumberIsTheWorstNumber) {
+  for (const double nothing : {kNaN, kInfinity, -kInfinity}) {
+    const pose_wall_image_distance none = distance_image(nothing, nothing);
+    EXPECT_EQ(none.value_mm, POSE_WALL_IMAGE_NO_VALUE);
+    EXPECT_EQ(none.value_m, -2147483648.0F);
+    EXPECT_EQ(none.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
+    EXPECT_EQ(none.protection_m, 2147483648.0F);
+    const pose_wall_image_distance unbound = distance_image(2.0, nothing);
+    EXPECT_EQ(unbound.value_mm, 2000);
+    EXPECT_EQ(unbound.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
+    EXPECT_EQ(unbound.protection_m, 2147483648.0F);
+  }
+  EXPECT_EQ(distance_image(2.0, -1.0).protection_mm, POSE_WALL_IMAGE_NO_BOUND);
+}
+
+TEST(Image, WhatDoesNotFitSaturates) {
+  for (const double far : {3e6, 1e300}) {
+    EXPECT_EQ(distance_image(far, 0.1).value_mm, 2147483647);
+    // 3e6 m and 0.1 m end 852516453 mm beyond the largest value.
+    EXPECT_EQ(distance_image(far, 0.1).protection_mm, far > 1e9 ? POSE_WALL_IMAGE_NO_BOUND : 852516453);
+    EXPECT_EQ(distance_image(-far, 0.1).value_mm, -2147483647);
+    EXPECT_EQ(distance_image(1.0, far).protection_mm, POSE_WALL_IMAGE_NO_BOUND);
+  }
+  EXPECT_EQ(distance_image(1e300, 0.1).value_m, 2147483520.0F);
+  EXPECT_EQ(distance_image(1.0, 1e300).protection_m, 2147483648.0F);
+  pose_wall_result r = some_result();
+  for (const double age_s : {1e9, kNaN, -1.0}) {
+    r.quantity[POSE_WALL_D_LF].age_s = age_s;
+    EXPECT_EQ(image_of(r).d_lf.age_ms, 0xFFFFFFFFU) << age_s;
+  }
+}
+
+TEST(Image, DamageToAnyBitIsFound) {
+  const pose_wall_image good = image_of(some_result());
+  for (std::size_t bit = 0; bit < 8 * sizeof good; ++bit) {
+    pose_wall_image damaged;
+    unsigned char bytes[sizeof good];
+    std::memcpy(bytes, &good, sizeof good);
+    bytes[bit / 8] = static_cast<unsigned char>(bytes[bit / 8] ^ (1U << bit % 8));
+    std::memcpy(&damaged, bytes, sizeof damaged);
+    EXPECT_EQ(pose_wall_image_check(&damaged), bit < 64 ? POSE_WALL_E_IMAGE_VERSION : POSE_WALL_E_IMAGE_CRC) << bit;
+  }
+  const pose_wall_image zeros{};
+  EXPECT_EQ(pose_wall_image_check(&zeros), POSE_WALL_E_IMAGE_VERSION);
+  EXPECT_EQ(pose_wall_image_check(nullptr), POSE_WALL_E_NULL);
+}
+
+TEST(Image, OfFramesOfAnEngine) {
+  EngineUnderTest engine(small_config());
+  pose_wall_cloud cloud;
+  pose_wall_image image;
+  image.struct_size = sizeof image;
+  for (std::uint32_t frame = 1; frame <= 3; ++frame) {
+    ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, frame * 100000000LL), POSE_WALL_OK);
+    const pose_wall_result result = engine.process(cloud);
+    ASSERT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+    EXPECT_EQ(image.sequence, frame);
+    EXPECT_EQ(image.verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+    EXPECT_EQ(image.d_lf.value_mm, POSE_WALL_IMAGE_NO_VALUE);
+    EXPECT_EQ(image.frame_reasons, result.frame_reasons);
+  }
+  std::uint32_t crc = 0;
+  const pose_wall_config config = small_config();
+  ASSERT_EQ(pose_wall_config_crc(&config, &crc), POSE_WALL_OK);
+  EXPECT_EQ(image.config_crc32, crc);
+}
+
+TEST(Image, RefusedCallsChangeNothing) {
+  EngineUnderTest engine(small_config());
+  pose_wall_result result = some_result();
+  pose_wall_image image, before;
+  std::memset(&image, 0x5A, sizeof image);
+  before = image;
+  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_image_fill(nullptr, &result, &image), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image_fill(engine.get(), nullptr, &image), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(std::memcmp(&image, &before, sizeof image), 0);
+  before.struct_size = image.struct_size = sizeof image;
+  result.struct_size = 8;
+  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(std::memcmp(&image, &before, sizeof image), 0);
+}
+
+TEST(ConfigCrc, ToldBySettingsAlone) {
+  pose_wall_config a = config_with(), b = config_with();
+  std::uint32_t crc_a = 1, crc_b = 2;
+  ASSERT_EQ(pose_wall_config_crc(&a, &crc_a), POSE_WALL_OK);
+  set(&b, "s_front", "2");
+  set(&b, "lateral_offset_left", "-0.0");
+  ASSERT_EQ(pose_wall_config_crc(&b, &crc_b), POSE_WALL_OK);
+  EXPECT_EQ(crc_a, crc_b) << "the same settings, written otherwise";
+  for (const auto& [key, value] : {KeyValue{"s_front", "2.001"}, {"forward_axis", "-X"}, {"lidar_frame", "os"}}) {
+    pose_wall_config c = config_with({{key, value}});
+    ASSERT_EQ(pose_wall_config_crc(&c, &crc_b), POSE_WALL_OK);
+    EXPECT_NE(crc_a, crc_b) << key;
+  }
+}
+
+TEST(ConfigCrc, Refusals) {
+  pose_wall_config config = config_with();
+  std::uint32_t crc = 7;
+  EXPECT_EQ(pose_wall_config_crc(nullptr, &crc), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_crc(&config, nullptr), POSE_WALL_E_NULL);
+  config.layout = 0;
+  EXPECT_EQ(pose_wall_config_crc(&config, &crc), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(crc, 7U);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""Writes what follows from image.def: the image's structs in include/pose_wall.h, PoseWallImage.st, and the members
+that tests/checks/abi_layout.c looks at. States, reasons and versions are those of pose_wall.h.
+
+usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
+                                       tests/checks/abi_layout.txt pins other offsets than image.def gives"""
+
+import itertools
+import pathlib
+import re
+import sys
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+
+import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
+import structured_text_words as words  # noqa: E402  pylint: disable=wrong-import-position
+
+BEGIN = "/* From here on written by tools/plc/generate.py from tools/plc/image.def. */\n"
+END = "/* Up to here. */\n"
+LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
+
+
+def c_struct(structs, struct):
+    rows = []
+    for member in struct.members:
+        kind = description.TYPES[member.type][0] if member.type in description.TYPES else member.type
+        comment = ": ".join(text for text in (member.unit, member.comment) if text)
+        rows.append((f"  {kind} {member.name};", f"/* {comment} */" if comment else ""))
+    lines = []
+    for commented, run in itertools.groupby(rows, key=lambda row: bool(row[1])):  # as clang-format aligns them
+        run = list(run)
+        width = max(len(code) for code, _ in run)
+        lines += [f"{code:<{width}} {comment}" if commented else code for code, comment in run]
+    size = description.size_of(structs, struct.name)
+    return "\n".join([f"/* {struct.comment} {size} bytes. */", f"typedef struct {struct.name} {{", *lines,
+                      f"}} {struct.name};"])
+
+
+def header(structs, text):
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    size = 4 * len(description.image_words(structs))
+    parts = [f"#define POSE_WALL_IMAGE_BYTES {size}", *(c_struct(structs, struct) for struct in structs.values())]
+    return before + BEGIN + "\n" + "\n\n".join(parts) + "\n\n" + END + after
+
+
+def layout_members(structs):
+    lines = [LICENCE + "//\n// Written by tools/plc/generate.py from tools/plc/image.def.\n"]
+    for struct in structs.values():
+        lines += [f"MEMBER({struct.name}, {member.name});" for member in struct.members]
+        lines.append(f'padded += struct_end("{struct.name}", sizeof({struct.name}));')
+    return "\n".join(lines) + "\n"
+
+
+def layout_faults(structs, pinned_text):
+    """Where the pinned layout differs from the description."""
+    for struct in structs.values():
+        lines = [f"  {m.name:<30} {at:5} {size:5}\n" for m, at, size in description.offsets(structs, struct.name)]
+        expected = "".join(lines) + f"{struct.name} {description.size_of(structs, struct.name)}\n"
+        if not re.search(r"^" + re.escape(expected), pinned_text, re.M):
+            yield f"abi_layout.txt does not hold what image.def says of {struct.name}:\n{expected}"
+
+
+def outputs(root):
+    structs = description.read_structs()
+    header_text = (root / "include/pose_wall.h").read_text(encoding="utf-8")
+    return {
+        root / "include/pose_wall.h": header(structs, header_text),
+        root / "tools/plc/PoseWallImage.st": words.structured_text(structs, header_text),
+        root / "tests/checks/image_members.def": layout_members(structs),
+    }
+
+
+def check(root):
+    faults = [f"{path.relative_to(root)} is not what tools/plc/generate.py writes from image.def"
+              for path, text in outputs(root).items()
+              if not path.exists() or path.read_text(encoding="utf-8") != text]
+    pinned_text = (root / "tests/checks/abi_layout.txt").read_text(encoding="utf-8")
+    return faults + list(layout_faults(description.read_structs(), pinned_text))
+
+
+def main():
+    root = pathlib.Path(sys.argv[-1])
+    if "--check" in sys.argv:
+        faults = check(root)
+        print("\n".join(faults) or f"{len(outputs(root))} files are as image.def says")
+        sys.exit(1 if faults else 0)
+    for path, text in outputs(root).items():
+        path.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
