@@ -66,8 +66,9 @@ else()
   set(POSE_WALL_AARCH64 OFF)
 endif()
 
-# Merges the objects of a target and makes hidden symbols local. --force-group-allocation dissolves COMDAT groups: a
-# group whose signature is local could not be merged any more.
+# Merges the objects of a target and makes all symbols local but pose_wall_*; hidden visibility alone leaves the
+# standard library's templates global and weak wherever the compiler does not inline them. --force-group-allocation
+# dissolves COMDAT groups: a group whose signature is local could not be merged any more.
 function(pose_wall_one_object objects output)
   if(NOT CMAKE_LINKER OR NOT CMAKE_OBJCOPY)
     message(FATAL_ERROR "pose_wall needs GNU ld and objcopy (package binutils) to build its archive; "
@@ -75,7 +76,7 @@ function(pose_wall_one_object objects output)
   endif()
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
-    COMMAND ${CMAKE_OBJCOPY} --localize-hidden ${output}
+    COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=pose_wall_* ${output}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
     COMMENT "Merging the engine into one object, pose_wall_* global"
     COMMAND_EXPAND_LISTS VERBATIM)
