@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# AArch64 without an operating system and without a C library, as on bare metal or in a small real-time system: Clang, no
-# library function known to the compiler, no unaligned access, no position-independent code, the oldest core. Eigen's
+# AArch64 without an operating system and without a C library, as on bare metal or in a small real-time system: Clang,
+# no library function known to the compiler, no unaligned access, no position-independent code, the oldest core. Eigen's
 # headers want those of a C++ library, so these are read; nothing of the library itself is linked.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
@@ -22,9 +22,9 @@ set(bare -mcpu=cortex-a53 -ffreestanding -fno-pic -mno-unaligned-access)
 list(JOIN bare " " bare)
 file(GLOB headers /usr/aarch64-linux-gnu/include/c++/*)
 list(GET headers -1 headers)
+list(TRANSFORM headers REPLACE "(.+)" "-isystem \\1 -isystem \\1/aarch64-linux-gnu")
 set(CMAKE_C_FLAGS_INIT "${bare}")
-set(CMAKE_CXX_FLAGS_INIT
-  "${bare} -D_GNU_SOURCE -isystem ${headers} -isystem ${headers}/aarch64-linux-gnu -isystem /usr/aarch64-linux-gnu/include")
+set(CMAKE_CXX_FLAGS_INIT "${bare} -D_GNU_SOURCE ${headers} -isystem /usr/aarch64-linux-gnu/include")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-nostdlib -static --ld-path=${CMAKE_LINKER}")
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

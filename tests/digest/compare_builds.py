@@ -19,7 +19,8 @@ from check_digests import differences, lines_of
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-GCC, CLANG = ["-DCMAKE_C_COMPILER=gcc", "-DCMAKE_CXX_COMPILER=g++"], ["-DCMAKE_C_COMPILER=clang", "-DCMAKE_CXX_COMPILER=clang++"]
+GCC, CLANG = ([f"-DCMAKE_C_COMPILER={c}", f"-DCMAKE_CXX_COMPILER={cpp}"]
+              for c, cpp in (("gcc", "g++"), ("clang", "clang++")))
 ARM_GCC, ARM_CLANG, BARE = ([f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/toolchains/{name}.cmake"] for name in (
     "aarch64-linux-gnu", "aarch64-linux-gnu-clang", "aarch64-none-elf"))
 ON_ARM = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu"]

@@ -66,17 +66,27 @@ else()
   set(POSE_WALL_AARCH64 OFF)
 endif()
 
+# GNU's: beside Clang CMake takes LLVM's where they are installed, and lld knows nothing of groups.
+set(POSE_WALL_LD ${CMAKE_LINKER})
+set(POSE_WALL_OBJCOPY ${CMAKE_OBJCOPY})
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND NOT CMAKE_CROSSCOMPILING)
+  unset(POSE_WALL_LD)
+  unset(POSE_WALL_OBJCOPY)
+  find_program(POSE_WALL_LD NAMES ld.bfd ld)
+  find_program(POSE_WALL_OBJCOPY NAMES objcopy)
+endif()
+
 # Merges the objects of a target and makes all symbols local but pose_wall_*; hidden visibility alone leaves the
 # standard library's templates global and weak wherever the compiler does not inline them. --force-group-allocation
 # dissolves COMDAT groups: a group whose signature is local could not be merged any more.
 function(pose_wall_one_object objects output)
-  if(NOT CMAKE_LINKER OR NOT CMAKE_OBJCOPY)
+  if(NOT POSE_WALL_LD OR NOT POSE_WALL_OBJCOPY)
     message(FATAL_ERROR "pose_wall needs GNU ld and objcopy (package binutils) to build its archive; "
-                        "CMAKE_LINKER is '${CMAKE_LINKER}', CMAKE_OBJCOPY is '${CMAKE_OBJCOPY}'")
+                        "here are '${POSE_WALL_LD}' and '${POSE_WALL_OBJCOPY}'")
   endif()
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
-    COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=pose_wall_* ${output}
+    COMMAND ${POSE_WALL_LD} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
+    COMMAND ${POSE_WALL_OBJCOPY} --wildcard --keep-global-symbol=pose_wall_* ${output}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
     COMMENT "Merging the engine into one object, pose_wall_* global"
     COMMAND_EXPAND_LISTS VERBATIM)
