@@ -4,7 +4,9 @@
 """The most stack that any function of the C ABI can need, from the call graph: no recursion, no frame of unknown size,
 and at most so many bytes.
 
-    check_stack.py FOLDER LIMIT      FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
+    check_stack.py FOLDER LIMIT [README.md]      FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
+
+README.md: what its table of archives says of aarch64's stack has to be so.
 
 What the engine asks of the C library (memcpy, memset, sqrt) is counted as LIBRARY bytes each; the caller's own clock is
 not counted.
@@ -19,6 +21,7 @@ EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.M
 BYTES = re.compile(r"\\n(\d+) bytes \(([^)]*)\)")
 LIBRARY = 256
 CALLER_S = "__indirect_call"
+TOLERANCE = 0.05  # of the figure in README.md, both ways
 
 
 def read(folder):
@@ -51,8 +54,20 @@ def deepest(function, sizes, calls, known, path):
     return known[function]
 
 
+def differs_from(readme, worst):
+    """In words; README's row of aarch64 ends with the stack in KiB."""
+    text = pathlib.Path(readme).read_text(encoding="utf-8")
+    row = re.search(r"^\| aarch64 \|.*\| ([0-9.]+) KiB \|$", text, re.MULTILINE)
+    if row is None:
+        return [f"{readme}: no row '| aarch64 | ... | N KiB |' to compare with"]
+    noted, found = float(row[1]), worst / 1024
+    if abs(found - noted) <= TOLERANCE * noted:
+        return []
+    return [f"README.md says {noted} KiB of stack; it is {found:.1f}"]
+
+
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         raise SystemExit(__doc__)
     limit = int(sys.argv[2])
     sizes, calls, faults = read(sys.argv[1])
@@ -66,6 +81,8 @@ def main():
     print(f"{worst:7d} bytes at most, of {limit}; {len(roots)} functions looked at")
     if worst > limit:
         faults.append(f"{worst} bytes of stack are more than {limit}")
+    if len(sys.argv) == 4:
+        faults += differs_from(sys.argv[3], worst)
     for fault in faults:
         print(fault)
     raise SystemExit(1 if faults else 0)

@@ -12,7 +12,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 "$nm" "$archive" > "$work/nm"
-awk 'NF == 3 && $2 ~ /^[A-Z]$/ {print $3}' "$work/nm" | sort -u > "$work/defined"
+awk 'NF == 3 && $2 ~ /^[A-Zu]$/ {print $3}' "$work/nm" | sort -u > "$work/defined"
 awk 'NF == 2 && $1 ~ /^[UwvWV]$/ {print $2}' "$work/nm" | sort -u > "$work/imported"
 # Comments end up on lines of their own or behind code; a declaration's name is what stands before "(".
 sed -e 's://.*::' -e 's:/\*.*\*/::' "$header" | sed '/\/\*/,/\*\//d' | grep -v typedef |

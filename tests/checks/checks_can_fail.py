@@ -49,6 +49,15 @@ class BrokenProject(unittest.TestCase):
         self.assertNotEqual(status, 0, text)
         self.assertIn(fault, text)
 
+    def archive(self, source, *flags):
+        self.write("part.c", source)
+        part, archive = self.root / "part.o", self.root / "lib.a"
+        archive.unlink(missing_ok=True)
+        compiler = [tool("CC", "cc"), "-c", "-O1", *flags, f"-I{self.root}/include", self.root / "part.c", "-o", part]
+        self.passes(*compiler)
+        self.passes("ar", "rcs", archive, part)
+        return archive
+
 
 class Layers(BrokenProject):
     def check(self):
@@ -128,6 +137,15 @@ class Stack(BrokenProject):
         self.graph("b", [("inner", "901 bytes (static)")], [])
         self.fails("1001 bytes of stack are more than 1000", *self.check())
 
+    def test_readme(self):
+        self.graph("a", [("pose_wall_open", "512 bytes (static)")], [])
+        self.write("README.md", "| aarch64 | 1 KiB | 0.5 KiB |\n")
+        self.passes(*self.check(), self.root / "README.md")
+        self.write("README.md", "| aarch64 | 1 KiB | 0.8 KiB |\n")
+        self.fails("README.md says 0.8 KiB of stack; it is 0.5", *self.check(), self.root / "README.md")
+        self.write("README.md", "")
+        self.fails("no row", *self.check(), self.root / "README.md")
+
     def test_recursion(self):
         sizes = [("pose_wall_open", "1 bytes (static)"), ("b", "1 bytes (static)")]
         self.graph("a", sizes, [("pose_wall_open", "b"), ("b", "b")])
@@ -189,15 +207,6 @@ class Format(BrokenProject):
 
 
 class Archive(BrokenProject):
-    def archive(self, source):
-        self.write("part.c", source)
-        part, archive = self.root / "part.o", self.root / "lib.a"
-        archive.unlink(missing_ok=True)
-        compiler = [tool("CC", "cc"), "-c", "-O1", f"-I{self.root}/include", self.root / "part.c", "-o", part]
-        self.passes(*compiler)
-        self.passes("ar", "rcs", archive, part)
-        return archive
-
     def symbols(self, source):
         header, allowed = self.root / "include/pose_wall.h", CHECKS / "symbols_allowed.txt"
         return CHECKS / "check_symbols.sh", tool("NM", "nm"), self.archive(source), header, allowed
@@ -335,6 +344,108 @@ class Consumer(BrokenProject):
                    "Name: pose_wall\nDescription: x\nVersion: 0.1.0\nCflags: -I/opt/pose_wall/include\n")
         self.fails("pkg-config points elsewhere", CHECKS / "consume.sh", tool("CMAKE", "cmake"), CHECKS.parent.parent,
                    self.root / "moved", tool("CC", "cc"), "c++", "-")
+
+
+class ArchiveSections(BrokenProject):
+    WITHOUT_TABLES = ("-fno-asynchronous-unwind-tables", "-O1")
+
+    def sections(self, source, *more):
+        archive = self.archive(source, *self.WITHOUT_TABLES)
+        return CHECKS / "check_archive.py", tool("READELF", "readelf"), archive, *more
+
+    def test_passes(self):
+        self.passes(*self.sections(SOURCE))
+
+    def test_state(self):
+        state = SOURCE.replace("return 1;", "static uint32_t calls; return ++calls;")
+        self.fails("section .bss: 4 bytes that can be written to", *self.sections(state))
+        state = SOURCE.replace("return 1;", "static uint32_t calls = 7; return ++calls;")
+        self.fails("section .data: 4 bytes that can be written to", *self.sections(state))
+
+    def test_weak(self):
+        weak = SOURCE + "__attribute__((weak)) int pose_wall_inner(void) { return 1; }\n"
+        self.fails("pose_wall_inner is weak: a linker would merge it", *self.sections(weak))
+
+    def test_common(self):
+        common = SOURCE + "__attribute__((common)) int pose_wall_shared;\n"
+        self.fails("pose_wall_shared is common: a linker would merge it", *self.sections(common))
+
+    def test_before_main(self):
+        early = SOURCE + "__attribute__((constructor)) static void early(void) { __asm__ volatile(\"nop\"); }\n"
+        self.fails("section .init_array", *self.sections(early))
+
+    def test_unwind_tables(self):
+        self.fails("section .eh_frame", CHECKS / "check_archive.py", tool("READELF", "readelf"),
+                   self.archive(SOURCE, "-fasynchronous-unwind-tables"))
+
+    def test_too_large(self):
+        self.fails("bytes of text are more than 3", *self.sections(SOURCE, "--text-max", "3"))
+
+    def test_readme(self):
+        readme = self.root / "README.md"
+        head = "| archive | text | data | relocated | functions |\n| --- | --- | --- | --- | --- |\n"
+        self.write("README.md", head + "| here | 0 KiB | 0 KiB | 0 KiB | 1 |\n")
+        self.passes(*self.sections(SOURCE, "--readme", readme, "here"))
+        self.write("README.md", head + "| here | 7 KiB | 0 KiB | 0 KiB | 2 |\n")
+        self.fails("README.md says text 7; it is 0.0", *self.sections(SOURCE, "--readme", readme, "here"))
+        self.fails("README.md says functions 2; it is 1.0", *self.sections(SOURCE, "--readme", readme, "here"))
+        self.fails("no row 'there'", *self.sections(SOURCE, "--readme", readme, "there"))
+
+
+class Digests(BrokenProject):
+    NOTED = "road 3 100 00aa 00bb 21/21\n"
+
+    def check(self, noted, printed):
+        self.write("noted.txt", "# a word\n" + noted)
+        self.write("printed.txt", printed)
+        return CHECKS.parent / "digest/check_digests.py", self.root / "noted.txt", "cat", self.root / "printed.txt"
+
+    def test_passes(self):
+        self.passes(*self.check(self.NOTED, self.NOTED))
+
+    def test_other_bits(self):
+        other = self.NOTED.replace("00bb", "00bc")
+        self.fails("road: results 00bc, noted 00bb", *self.check(self.NOTED, other))
+
+    def test_other_points(self):
+        other = self.NOTED.replace("00aa", "00ab")
+        self.fails("road: points given 00ab, noted 00aa", *self.check(self.NOTED, other))
+
+    def test_missing_and_new(self):
+        self.fails("road: missing", *self.check(self.NOTED, self.NOTED.replace("road", "lane")))
+        self.fails("lane: not noted", *self.check(self.NOTED, self.NOTED + self.NOTED.replace("road", "lane")))
+
+    def test_nothing(self):
+        self.fails("nothing was checked", *self.check("", ""))
+
+    def test_program_fails(self):
+        self.fails("status 1", CHECKS.parent / "digest/check_digests.py", self.root / "noted.txt", "false")
+
+
+class TwoVersions(BrokenProject):
+    def program(self, binding):
+        """Two archives with a function `inner` each, and a program of both."""
+        objects = []
+        for name in ("first", "second"):
+            inner = f"{binding} int inner(void) {{ return 1; }}\n"
+            self.write(f"{name}.c", f"{inner}int {name}(void);\nint {name}(void) {{ return inner(); }}\n")
+            objects.append(self.root / f"{name}.o")
+            self.passes(tool("CC", "cc"), "-c", "-O0", self.root / f"{name}.c", "-o", objects[-1])
+        self.write("main.c", "int first(void);\nint second(void);\nint main(void) { return first() - second(); }\n")
+        self.passes(tool("CC", "cc"), self.root / "main.c", *objects, "-o", self.root / "program")
+        return CHECKS / "two_versions/check_kept.sh", tool("NM", "nm"), *objects, self.root / "program"
+
+    def test_passes(self):
+        self.passes(*self.program("static"))
+
+    def test_merged(self):
+        self.fails("inner: 1 of 2 left", *self.program("__attribute__((weak))"))
+
+    def test_nothing_in_both(self):
+        check, nm, first, _, program = self.program("static")
+        self.write("other.c", "int other(void);\nint other(void) { return 1; }\n")
+        self.passes(tool("CC", "cc"), "-c", self.root / "other.c", "-o", self.root / "other.o")
+        self.fails("nothing was checked", check, nm, first, self.root / "other.o", program)
 
 
 class Abi(BrokenProject):

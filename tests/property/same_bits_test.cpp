@@ -3,7 +3,7 @@
 
 // Proves: nothing but the set of points, the stamps and the config decides the result, to the last bit: not what the
 // block held before, not the order of points, not another engine, not how a driver lays the points out.
-// Does not prove: equal bits from another compiler or on another machine.
+// Does not prove: equal bits from another compiler or on another machine; tests/digest does.
 
 #include <gtest/gtest.h>
 

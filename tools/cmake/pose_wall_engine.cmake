@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# pose_wall_engine_library(SOURCES a.cpp b.cpp ...)
+# pose_wall_engine_library(SOURCES a.cpp b.cpp ... [COMPACT b.cpp ...])
 #
 # Makes two targets from the engine's sources:
 #   pose_wall_objects  the objects as compiled, for white-box tests and stage benchmarks (internal names visible)
 #   pose_wall          the archive users link (alias pose_wall::pose_wall): all objects in one, in which only
 #                      pose_wall_* is global. Otherwise the weak Eigen and std symbols in here would be merged by the
 #                      linker with those of a user's program, built with other flags.
+# COMPACT names those of the sources that a release compiles for less code.
 function(pose_wall_engine_library)
-  cmake_parse_arguments(PARSE_ARGV 0 engine "" "" "SOURCES")
+  cmake_parse_arguments(PARSE_ARGV 0 engine "" "" "SOURCES;COMPACT")
   find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
   add_library(pose_wall_objects OBJECT ${engine_SOURCES})
   pose_wall_compile_strictly(pose_wall_objects)
   pose_wall_engine_flags(pose_wall_objects)
-  set_target_properties(pose_wall_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_source_files_properties(${engine_COMPACT} PROPERTIES COMPILE_OPTIONS "$<${pose_wall_quick}:-O2>")
+  if(NOT POSE_WALL_BARE)  # where nothing is loaded to another place, tables of pointers need no relocation
+    set_target_properties(pose_wall_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
   if(POSE_WALL_CALL_GRAPH)
     target_compile_options(pose_wall_objects PRIVATE -fcallgraph-info=su)  # beside the objects, for check_stack.py
   endif()
@@ -36,13 +40,17 @@ function(pose_wall_engine_library)
   target_link_libraries(pose_wall INTERFACE m)
 endfunction()
 
+# A release, and a subproject of a build without a build type: it gets a quick engine, too.
+set(pose_wall_quick $<OR:$<CONFIG:Release>,$<STREQUAL:$<CONFIG>,>>)
+
 # What keeps the heap, the C++ runtime and other bits on other machines out of the engine.
 function(pose_wall_engine_flags target)
   target_compile_options(${target} PRIVATE
     -fno-exceptions -fno-rtti -fno-threadsafe-statics
     -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections
-    # a subproject of a build without a build type gets a quick engine, too
-    $<$<OR:$<CONFIG:Release>,$<STREQUAL:$<CONFIG>,>>:-O3>
+    $<${pose_wall_quick}:-O3>
+    # Nothing is ever thrown through the engine; debuggers have tables of their own.
+    $<$<NOT:$<CONFIG:Debug>>:-fno-asynchronous-unwind-tables -fno-unwind-tables>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
     $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
   # These change what a header means or the bits it computes: who includes engine headers must compile alike. A failed
@@ -58,16 +66,27 @@ else()
   set(POSE_WALL_AARCH64 OFF)
 endif()
 
-# Merges the objects of a target and makes hidden symbols local. --force-group-allocation dissolves COMDAT groups: a
-# group whose signature is local could not be merged any more.
+# GNU's: beside Clang CMake takes LLVM's where they are installed, and lld knows nothing of groups.
+set(POSE_WALL_LD ${CMAKE_LINKER})
+set(POSE_WALL_OBJCOPY ${CMAKE_OBJCOPY})
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND NOT CMAKE_CROSSCOMPILING)
+  unset(POSE_WALL_LD)
+  unset(POSE_WALL_OBJCOPY)
+  find_program(POSE_WALL_LD NAMES ld.bfd ld)
+  find_program(POSE_WALL_OBJCOPY NAMES objcopy)
+endif()
+
+# Merges the objects of a target and makes all symbols local but pose_wall_*; hidden visibility alone leaves the
+# standard library's templates global and weak wherever the compiler does not inline them. --force-group-allocation
+# dissolves COMDAT groups: a group whose signature is local could not be merged any more.
 function(pose_wall_one_object objects output)
-  if(NOT CMAKE_LINKER OR NOT CMAKE_OBJCOPY)
+  if(NOT POSE_WALL_LD OR NOT POSE_WALL_OBJCOPY)
     message(FATAL_ERROR "pose_wall needs GNU ld and objcopy (package binutils) to build its archive; "
-                        "CMAKE_LINKER is '${CMAKE_LINKER}', CMAKE_OBJCOPY is '${CMAKE_OBJCOPY}'")
+                        "here are '${POSE_WALL_LD}' and '${POSE_WALL_OBJCOPY}'")
   endif()
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
-    COMMAND ${CMAKE_OBJCOPY} --localize-hidden ${output}
+    COMMAND ${POSE_WALL_LD} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
+    COMMAND ${POSE_WALL_OBJCOPY} --wildcard --keep-global-symbol=pose_wall_* ${output}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
     COMMENT "Merging the engine into one object, pose_wall_* global"
     COMMAND_EXPAND_LISTS VERBATIM)

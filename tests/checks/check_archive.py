@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""What the archive holds: one object without state, without code that runs before main, without anything a linker would
+merge with a user's, without tables to unwind; and of the size that README.md says.
+
+    check_archive.py READELF ARCHIVE [--text-max BYTES] [--readme README.md ROW]
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+HEX = r"[0-9a-f]+"
+SECTION = re.compile(rf"^\s*\[\s*\d+\]\s+(\.\S+)\s+(\S+)\s+{HEX}\s+{HEX}\s+({HEX})\s+{HEX}\s+([A-Za-z]*)\s")
+SYMBOL = re.compile(r"^\s*\d+: [0-9a-f]+\s+\S+\s+(\S+)\s+(GLOBAL|WEAK|UNIQUE)\s+\S+\s+(\S+)\s+(\S+)")
+# Read-only once the loader has filled in where the library lies.
+RELOCATED = ".data.rel.ro"
+FORBIDDEN = re.compile(r"^\.(init|fini|preinit|ctors|dtors|eh_frame|gcc_except_table|tdata|tbss)")
+TOLERANCE = 0.02  # of sizes in README.md, both ways
+
+
+def read(readelf, archive, option):
+    return subprocess.run([readelf, option, archive], check=True, capture_output=True, text=True).stdout
+
+
+def sizes_of(text):
+    """Bytes by what is asked of them, and faults."""
+    sizes, faults, seen = {"text": 0, "writable": 0, "relocated": 0}, [], 0
+    for line in text.splitlines():
+        match = SECTION.match(line)
+        if match is None:
+            continue
+        name, bytes_, flags, seen = match[1], int(match[3], 16), match[4], seen + 1
+        if FORBIDDEN.match(name) and bytes_ > 0 and "A" in flags:
+            faults.append(f"section {name} of {bytes_} bytes: nothing may run before main, unwind or lie in a thread")
+        if "A" not in flags:
+            continue
+        kind = "text" if "W" not in flags else ("relocated" if name.startswith(RELOCATED) else "writable")
+        sizes[kind] += bytes_
+        if kind == "writable" and bytes_ > 0:
+            faults.append(f"section {name}: {bytes_} bytes that can be written to; the engine has no state of its own")
+    return sizes, faults if seen else ["no sections at all: nothing was checked"]
+
+
+def symbols_of(text):
+    """How many functions are global, and faults."""
+    functions, faults = 0, []
+    for match in filter(None, map(SYMBOL.match, text.splitlines())):
+        kind, binding, where, name = match.groups()
+        if where == "UND":
+            continue
+        if binding != "GLOBAL" or where == "COM":
+            faults.append(f"{name} is {binding.lower() if where != 'COM' else 'common'}: a linker would merge it")
+        functions += kind == "FUNC"
+    return functions, faults
+
+
+def in_readme(path, row):
+    """Numbers of a row by the heads of their columns."""
+    lines = [[cell.strip() for cell in line.strip().strip("|").split("|")]
+             for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines() if line.startswith("|")]
+    for at, cells in enumerate(lines):
+        if cells[0] == row:
+            head = next(line for line in reversed(lines[:at]) if "---" not in line[0] and "text" in line)
+            return {key: float(value.split()[0]) for key, value in zip(head[1:], cells[1:]) if value[:1].isdigit()}
+    sys.exit(f"{path}: no row '{row}' in a table with a column 'text'")
+
+
+def compare(noted, found):
+    out = []
+    for column, value in found.items():
+        before = noted.get(column)
+        if before is None:
+            out.append(f"README.md has no number for '{column}'; it is {value:.1f}")
+        elif abs(value - before) > TOLERANCE * value + 0.05:
+            out.append(f"README.md says {column} {before:g}; it is {value:.1f}")
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("readelf")
+    parser.add_argument("archive")
+    parser.add_argument("--text-max", type=int)
+    parser.add_argument("--readme", nargs=2, metavar=("README", "ROW"))
+    options = parser.parse_args()
+    sizes, faults = sizes_of(read(options.readelf, options.archive, "-SW"))
+    functions, merged = symbols_of(read(options.readelf, options.archive, "-sW"))
+    faults += merged
+    if not read(options.readelf, options.archive, "-gW").count("There are no section groups"):
+        faults.append("there are section groups: a linker would keep one of two")
+    if options.text_max is not None and sizes["text"] > options.text_max:
+        faults.append(f"{sizes['text']} bytes of text are more than {options.text_max}")
+    if options.readme:
+        faults += compare(in_readme(*options.readme), {
+            "text": sizes["text"] / 1024, "data": sizes["writable"] / 1024,
+            "relocated": sizes["relocated"] / 1024, "functions": functions})
+    print("\n".join(faults) or f"text {sizes['text'] / 1024:.1f} KiB, no writable data, "
+          f"{sizes['relocated'] / 1024:.1f} KiB of relocated constants, {functions} functions")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
