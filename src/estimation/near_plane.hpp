@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Which points lie on a plane or behind it: most lie well before it, and are passed over four at a time.
+// Which points lie on a plane, behind it or within a slab: most lie elsewhere and are passed over four at a time.
 
 #pragma once
 
@@ -45,6 +45,22 @@ void for_each_up_to(const PointSet& points, const Plane& plane, double limit_m, 
     if (!any_of(r <= limit)) continue;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
       if (r[lane] <= limit[lane]) visit(i + lane, r[lane]);
+    }
+  }
+}
+
+// Calls visit(i) for the points whose signed distance from the plane lies between the limits, in their order.
+template <typename Visit>
+void for_each_between(const PointSet& points, const Plane& plane, double low_m, double high_m, const Visit& visit) {
+  const FourDistances distances(plane);
+  const FourFloats low = all_four(static_cast<float>(low_m)), high = all_four(static_cast<float>(high_m));
+  for (std::uint32_t i = 0; i < points.count; i += kFour) {
+    const std::uint32_t left = points.count - i, lanes = left < kFour ? left : kFour;
+    const FourFloats r = lanes == kFour ? distances.of(points, i) : distances.of_some(points, i, lanes);
+    const FourTruths between = (r >= low) & (r <= high);
+    if (!any_of(between)) continue;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      if (between[lane] != 0) visit(i + lane);
     }
   }
 }

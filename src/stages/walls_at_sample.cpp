@@ -23,6 +23,9 @@ constexpr double kBackMargin = 2.5;  // the deepest part of an opening is in its
 constexpr std::uint32_t kOtherPointsMin = 10;
 constexpr double kOff_m = 0.1;
 
+// By so much more than asked for is looked at in floats; what counts is told in doubles.
+constexpr double kFloats_m = 0.001;
+
 // Where the wall is not seen near a sampling point because something stands before it from top to bottom, that may be
 // the wall itself, standing out: by how much it is nearer to the sampling point than the plane. 0 where nothing is.
 double stands_out_at(const WallScene& scene, const WallGrid& grid, const WallResult& wall,
@@ -31,14 +34,14 @@ double stands_out_at(const WallScene& scene, const WallGrid& grid, const WallRes
   const double along_m = wall.along_level.dot(sample_level_m);
   const double to_machine_m = wall.fit.plane.signed_distance(sample_level_m);
   Distances nearer;
-  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
+  for_each_between(scene.band_level, wall.fit.plane, kOff_m - kFloats_m, to_machine_m, [&](std::uint32_t i) {
     const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = wall.fit.plane.signed_distance(p), beside_m = wall.along_level.dot(p) - along_m;
-    if (!(r >= kOff_m && r <= to_machine_m - kOff_m) || !(std::fabs(beside_m) <= kWindow_m)) continue;
+    if (!(r >= kOff_m && r <= to_machine_m - kOff_m) || !(std::fabs(beside_m) <= kWindow_m)) return;
     const double lateral_m = to_machine_m - r;
     const double away_m = std::sqrt(lateral_m * lateral_m + beside_m * beside_m);
     if (away_m < distance_m && grid.gap_to_solid_m(along_m + beside_m) > 0.0) nearer.add(away_m);
-  }
+  });
   return nearer.count() >= kOtherPointsMin ? distance_m - nearer.at_rank(kOtherPointsMin) : 0.0;
 }
 
@@ -83,10 +86,12 @@ void add_short_steps(const WallScene& scene, const WallSurface& surface, const W
   const double along_m = wall.along_level.dot(sample_level_m);
   const double nearest_m = wall.fit.plane.signed_distance(sample_level_m) - kOff_m;
   StepProfile profile(kStep_m + kPerRoughness * surface.patch.tau_m);
-  for_each_up_to(scene.band_level, wall.fit.plane, nearest_m, [&](std::uint32_t i, float distance_m) {
+  const Plane across{wall.along_level, -along_m};
+  constexpr double kReach_m = StepProfile::kHalf_m + kFloats_m;
+  for_each_between(scene.band_level, across, -kReach_m, kReach_m, [&](std::uint32_t i) {
     const Eigen::Vector3d p = scene.band_level.at(i);
-    if (!surface.heights.contain(p.z())) return;
-    profile.add(wall.along_level.dot(p) - along_m, static_cast<double>(distance_m));
+    const double r = wall.fit.plane.signed_distance(p);
+    if (r <= nearest_m && surface.heights.contain(p.z())) profile.add(across.signed_distance(p), r);
   });
   *out_m = larger(*out_m, profile.before_m());
   *back_m = larger(*back_m, profile.behind_m());

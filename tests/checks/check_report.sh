@@ -13,7 +13,11 @@ echo "no cloud" > "$folder/road/frames/000017b.pcd"
 status=0
 "$pose_wall" report --quiet --config "$folder/road/pose_wall.yaml" --truth "$folder/road/truth.csv" \
   --output "$folder/report.html" "$folder/road/frames" 2> "$folder/said" || status=$?
-[ "$status" -eq 1 ] && grep -q 000017b.pcd "$folder/said" || { cat "$folder/said"; echo "the broken frame was not named"; exit 1; }
+if [ "$status" -ne 1 ] || ! grep -q 000017b.pcd "$folder/said"; then
+  cat "$folder/said"
+  echo "the broken frame was not named"
+  exit 1
+fi
 "$python" "$here/check_report_page.py" "$folder/report.html" 41 ${3:+"$3"}
 
 # A check that cannot fail is none.

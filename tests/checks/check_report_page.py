@@ -103,38 +103,41 @@ def check(browser, frames, prefix):
     run, checks = browser.run, Checks(browser)
     text = lambda name: run(f"return document.getElementById('{name}').textContent")
     checks.hold("the verdict says something", len(text("verdict")) > 20)
-    checks.hold(f"the slider reaches {frames} frames", int(run("return document.getElementById('slider').max")) == frames - 1)
+    slider_at = lambda: int(run("return document.getElementById('slider').value"))
+    last = int(run("return document.getElementById('slider').max"))
+    checks.hold(f"the slider reaches {frames} frames", last == frames - 1)
     checks.hold("seven charts, seven rows of values", run(
-        "return document.querySelectorAll('.chart canvas').length == 7 && document.querySelectorAll('#values tr').length == 8"))
+        "const count = (what) => document.querySelectorAll(what).length;"
+        "return count('.chart canvas') == 7 && count('#values tr') == 8"))
     for canvas in ("top", "section", "chart-yaw"):
         checks.hold(f"{canvas} is not empty", run(
-            f"const c = document.getElementById('{canvas}'); return c.getContext('2d').getImageData(0, 0, c.width, c.height)"
-            ".data.some((x) => x)"))
+            f"const c = document.getElementById('{canvas}'), pen = c.getContext('2d');"
+            "return pen.getImageData(0, 0, c.width, c.height).data.some((x) => x)"))
     if prefix:
         browser.screenshot(f"{prefix}_light_en.png")
     slide = "const s = document.getElementById('slider'); s.value = %d; s.dispatchEvent(new Event('input'));"
     checks.changes("the slider moves the view", "top", slide % (frames // 2))
     checks.hold("the slider names the frame", f"frame {frames // 2} " in text("frame-name"))
+    toggle = "document.querySelectorAll('#layers input')[%d].click()"
     for k, layer in enumerate(("other", "floor", "left", "right")):
         if not run(f"return recording.point_label.includes({k})"):
             continue
-        checks.changes(f"the layer '{layer}' can be taken away", "top", f"document.querySelectorAll('#layers input')[{k}].click()")
-        run(f"document.querySelectorAll('#layers input')[{k}].click()")
-    checks.changes("the planes can be taken away", "section", "document.querySelectorAll('#layers input')[5].click()")
-    run("document.querySelectorAll('#layers input')[5].click()")
-    checks.changes("the wheel zooms the view", "top",
-                   "document.getElementById('top').dispatchEvent(new WheelEvent('wheel', {deltaY: -1, cancelable: true}))")
-    checks.changes("a double click takes the zoom back", "top",
-                   "document.getElementById('top').dispatchEvent(new MouseEvent('dblclick'))")
+        checks.changes(f"the layer '{layer}' can be taken away", "top", toggle % k)
+        run(toggle % k)
+    checks.changes("the planes can be taken away", "section", toggle % 5)
+    run(toggle % 5)
+    on_top = "document.getElementById('top').dispatchEvent(new %s)"
+    checks.changes("the wheel zooms the view", "top", on_top % "WheelEvent('wheel', {deltaY: -1, cancelable: true})")
+    checks.changes("a double click takes the zoom back", "top", on_top % "MouseEvent('dblclick')")
     run(slide % 0)
     run("const c = document.getElementById('chart-yaw'), b = c.getBoundingClientRect();"
         "c.dispatchEvent(new PointerEvent('pointerdown', {clientX: b.left + 0.8 * b.width, clientY: b.top + 20}))")
-    checks.hold("a click into a chart goes to the frame", int(run("return document.getElementById('slider').value")) > frames // 2)
+    checks.hold("a click into a chart goes to the frame", slider_at() > frames // 2)
     run(slide % 0)
     run("document.getElementById('play').click()")
     time.sleep(1.0)
     run("document.getElementById('play').click()")
-    checks.hold("play goes on by itself", int(run("return document.getElementById('slider').value")) > 0)
+    checks.hold("play goes on by itself", slider_at() > 0)
     first_theme = run("return document.documentElement.dataset.theme")
     checks.changes("the theme changes the pictures", "top", "document.getElementById('theme').click()")
     checks.hold("the theme has changed", run("return document.documentElement.dataset.theme") != first_theme)

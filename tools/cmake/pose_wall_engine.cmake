@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# pose_wall_engine_library(SOURCES a.cpp b.cpp ... [COMPACT b.cpp ...])
+# pose_wall_engine_library(SOURCES a.cpp b.cpp ... [COMPACT b.cpp ...] [SMALL c.cpp ...])
 #
 # Makes two targets from the engine's sources:
 #   pose_wall_objects  the objects as compiled, for white-box tests and stage benchmarks (internal names visible)
 #   pose_wall          the archive users link (alias pose_wall::pose_wall): all objects in one, in which only
 #                      pose_wall_* is global. Otherwise the weak Eigen and std symbols in here would be merged by the
 #                      linker with those of a user's program, built with other flags.
-# COMPACT names those of the sources that a release compiles for less code.
+# COMPACT and SMALL name those of the sources that a release compiles for less and for the least code.
 function(pose_wall_engine_library)
-  cmake_parse_arguments(PARSE_ARGV 0 engine "" "" "SOURCES;COMPACT")
+  cmake_parse_arguments(PARSE_ARGV 0 engine "" "" "SOURCES;COMPACT;SMALL")
   find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
   add_library(pose_wall_objects OBJECT ${engine_SOURCES})
   pose_wall_compile_strictly(pose_wall_objects)
   pose_wall_engine_flags(pose_wall_objects)
   set_source_files_properties(${engine_COMPACT} PROPERTIES COMPILE_OPTIONS "$<${pose_wall_quick}:-O2>")
+  set_source_files_properties(${engine_SMALL} PROPERTIES COMPILE_OPTIONS "$<${pose_wall_quick}:-Os>")
   if(NOT POSE_WALL_BARE)  # where nothing is loaded to another place, tables of pointers need no relocation
     set_target_properties(pose_wall_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()
