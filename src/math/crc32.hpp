@@ -12,17 +12,14 @@ namespace pose_wall {
 // Without a table: an image has 240 bytes, and a table of four words for each would be read cold.
 class Crc32 {
  public:
-  void add_byte(std::uint8_t byte) {
-    crc_ ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc_ = (crc_ >> 1U) ^ ((crc_ & 1U) != 0 ? 0xEDB88320U : 0U);
-  }
+  void add_byte(std::uint8_t byte) { add_low_bits(byte, 8); }
   // Low byte first, on every host.
-  void add_word(std::uint32_t word) {
-    for (unsigned shift = 0; shift < 32; shift += 8) add_byte(static_cast<std::uint8_t>(word >> shift & 0xFFU));
-  }
+  void add_word(std::uint32_t word) { add_low_bits(word, 32); }
   std::uint32_t value() const { return ~crc_; }
 
  private:
+  void add_low_bits(std::uint32_t word, int bits);
+
   std::uint32_t crc_ = 0xFFFFFFFFU;
 };
 

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""As checks_can_fail.py, for the checks of the process image and of what is packed."""
+
+import shutil
+import sys
+import unittest
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+
+from checks_can_fail import CHECKS, BrokenProject, tool  # noqa: E402  pylint: disable=wrong-import-position
+
+
+class Image(BrokenProject):
+    def setUp(self):
+        super().setUp()
+        source = CHECKS.parent.parent
+        shutil.copytree(source / "tools/plc", self.root / "tools/plc")
+        for path in ("include/pose_wall.h", "tests/checks/image_members.def", "tests/checks/abi_layout.txt"):
+            (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source / path, self.root / path)
+
+    def check(self):
+        return "python3", self.root / "tools/plc/generate.py", "--check", self.root
+
+    def change(self, path, old, new):
+        text = (self.root / path).read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        self.write(path, text.replace(old, new, 1))
+
+    def test_passes(self):
+        self.passes(*self.check())
+
+    def test_header_edited_by_hand(self):
+        self.change("include/pose_wall.h", "int32_t value_mm;", "uint32_t value_mm;")
+        self.fails("include/pose_wall.h is not what", *self.check())
+
+    def test_structured_text_edited_by_hand(self):
+        self.change("tools/plc/PoseWallImage.st", "value_mm : DINT", "value_mm : INT")
+        self.fails("PoseWallImage.st is not what", *self.check())
+
+    def test_reason_added(self):
+        self.change("include/pose_wall.h", "POSE_WALL_R_CURVED = 1 << 19", "POSE_WALL_R_BENT = 1 << 19")
+        self.fails("PoseWallImage.st is not what", *self.check())
+
+    def test_description_differs_from_the_pinned_layout(self):
+        self.change("tools/plc/image.def", "value_mm        int32", "value_mm        float")
+        self.fails("include/pose_wall.h is not what", *self.check())
+        self.change("tests/checks/abi_layout.txt", "  verdict                           32", "  verdict     36")
+        self.fails("does not hold what image.def says of pose_wall_image:", *self.check())
+
+
+class BillOfMaterials(BrokenProject):
+    def setUp(self):
+        super().setUp()
+        self.write("eigen/Eigen/Core", '#include "src/Core/util/Macros.h"\n')
+        self.eigen("3.4.0")
+        self.write("lib.a", "archive")
+        self.passes(tool("CMAKE", "cmake"), f"-DOUTPUT={self.root}/bill.json", f"-DLIBRARY={self.root}/lib.a",
+                    "-DVERSION=0.1.0", f"-DEIGEN={self.root}/eigen", "-DCOMPILER=GNU 12.2.0", "-P",
+                    CHECKS.parent.parent / "tools/cmake/write_sbom.cmake")
+
+    def eigen(self, version):
+        parts = zip(("WORLD", "MAJOR", "MINOR"), version.split("."))
+        text = "".join(f"#define EIGEN_{name}_VERSION {number}\n" for name, number in parts)
+        self.write("eigen/Eigen/src/Core/util/Macros.h", text)
+
+    def check(self, version="0.1.0"):
+        return (CHECKS / "check_sbom.py", self.root / "bill.json", self.root / "lib.a", version, tool("CC", "cc"),
+                self.root / "eigen")
+
+    def change(self, old, new):
+        text = (self.root / "bill.json").read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        self.write("bill.json", text.replace(old, new))
+
+    def test_passes(self):
+        self.passes(*self.check())
+
+    def test_other_eigen(self):
+        self.eigen("3.3.9")
+        self.fails("Eigen is 3.3.9, the bill says 3.4.0", *self.check())
+
+    def test_other_version(self):
+        self.fails("pose_wall is 0.2.0, the bill says 0.1.0", *self.check("0.2.0"))
+
+    def test_other_archive(self):
+        self.write("lib.a", "another archive")
+        self.fails("the digest is not that of the archive", *self.check())
+
+    def test_licence(self):
+        self.change("MPL-2.0", "MIT")
+        self.fails("licences of Eigen", *self.check())
+
+    def test_missing_fields(self):
+        for field in ("spdxVersion", "dataLicense", "documentNamespace", "created", "downloadLocation"):
+            self.setUp()
+            self.change(f'"{field}"', '"other"')
+            self.fails(field, *self.check())
+
+
+class Consumer(BrokenProject):
+    def test_package_that_was_moved_without_its_paths(self):
+        self.write("moved/lib/pkgconfig/pose_wall.pc",
+                   "Name: pose_wall\nDescription: x\nVersion: 0.1.0\nCflags: -I/opt/pose_wall/include\n")
+        self.fails("pkg-config points elsewhere", CHECKS / "consume.sh", tool("CMAKE", "cmake"), CHECKS.parent.parent,
+                   self.root / "moved", tool("CC", "cc"), "c++", "-")
+
+
+if __name__ == "__main__":
+    unittest.main()
