@@ -34,8 +34,8 @@
  * two iteration caps and the size of the incoming cloud. ERRORS   every call that can fail returns a status:
  * POSE_WALL_OK (0) or a negative pose_wall_status. A refused call changes nothing. "I was called wrongly" is a status;
  * "I looked and could not measure" is not an error: the call returns POSE_WALL_OK and the states and reasons in the
- * result tell it. FLOATS   IEEE 754 without fast-math; the same build and input give the same bits, whatever the block
- * held before.
+ * result tell it. FLOATS   IEEE 754 without fast-math; the same version and input give the same bits, on x86-64 and
+ * AArch64, by GCC and Clang, whatever the block held before.
  */
 
 #ifndef POSE_WALL_H
