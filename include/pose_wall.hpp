@@ -82,6 +82,7 @@ class Engine {
   int32_t process(const pose_wall_cloud& cloud, pose_wall_result& result) noexcept {
     return pose_wall_process(engine_, &cloud, &result);
   }
+  int32_t age(int64_t stamp_ns, pose_wall_result& result) noexcept { return pose_wall_age(engine_, stamp_ns, &result); }
   int32_t reset() noexcept { return pose_wall_reset(engine_); }
   int32_t set_clock(pose_wall_clock clock, void* user = nullptr) noexcept {
     return pose_wall_set_clock(engine_, clock, user);
