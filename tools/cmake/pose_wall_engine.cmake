@@ -36,8 +36,8 @@ function(pose_wall_engine_library)
   target_link_libraries(pose_wall INTERFACE m)
 endfunction()
 
-# What keeps the heap, the C++ runtime and other bits on other machines out of the engine.
-function(pose_wall_engine_flags target)
+# What keeps the C++ runtime out of what users link, and the symbols of ours inside.
+function(pose_wall_bare_flags target)
   target_compile_options(${target} PRIVATE
     -fno-exceptions -fno-rtti -fno-threadsafe-statics
     -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections
@@ -45,6 +45,11 @@ function(pose_wall_engine_flags target)
     $<$<OR:$<CONFIG:Release>,$<STREQUAL:$<CONFIG>,>>:-O3>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
     $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
+endfunction()
+
+# That, and what keeps the heap and other bits on other machines out of the engine.
+function(pose_wall_engine_flags target)
+  pose_wall_bare_flags(${target})
   # These change what a header means or the bits it computes: who includes engine headers must compile alike. A failed
   # Eigen assertion traps in every build type; Eigen's own would bring assert(), and with it stdio and abort().
   target_compile_options(${target} PUBLIC
@@ -69,7 +74,7 @@ function(pose_wall_one_object objects output)
     COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
     COMMAND ${CMAKE_OBJCOPY} --localize-hidden ${output}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
-    COMMENT "Merging the engine into one object, pose_wall_* global"
+    COMMENT "Merging ${objects} into one object, pose_wall_* global"
     COMMAND_EXPAND_LISTS VERBATIM)
   set_source_files_properties(${output} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 endfunction()
