@@ -42,7 +42,7 @@ TEST(RuntimeThinning, OffUnlessAllowed) {
   RuntimeUnderTest runtime([](pose_wall_runtime_options* o) { o->watchdog_ns = 0; });
   runtime.clock.set_step(100 * kMs);
   runtime.start();
-  overload(&runtime, 20, true);
+  overload(&runtime, 6, true);
   const pose_wall_runtime_statistics s = runtime.statistics();
   EXPECT_GT(s.dropped[POSE_WALL_RUNTIME_DROP_OVERTAKEN], 0U);
   EXPECT_EQ(s.thinned, 0U);
@@ -57,11 +57,11 @@ TEST(RuntimeThinning, FramesGoFirstThenPointsAndItIsSaid) {
     o->watchdog_ns = 0;
   });
   runtime.start();
-  overload(&runtime, 5, true);
+  overload(&runtime, 3, true);
   EXPECT_EQ(runtime.statistics().thinning, 1U) << "no time passes in the engine: dropping is enough";
   EXPECT_EQ(best_state(runtime.latest()), static_cast<std::uint32_t>(POSE_WALL_VALID));
   runtime.clock.set_step(100 * kMs);
-  overload(&runtime, 10, true);
+  overload(&runtime, 4, true);
   const pose_wall_publication p = runtime.latest();
   EXPECT_EQ(p.thinning, 2U);
   const double share = p.result.points_in / static_cast<double>(room_points(1).size());
@@ -69,7 +69,7 @@ TEST(RuntimeThinning, FramesGoFirstThenPointsAndItIsSaid) {
   EXPECT_EQ(best_state(p), static_cast<std::uint32_t>(POSE_WALL_DEGRADED)) << "measured, but never better than that";
   EXPECT_GT(runtime.statistics().thinned, 0U);
   runtime.clock.set_step(0);
-  overload(&runtime, 30, false);
+  overload(&runtime, 14, false);
   EXPECT_EQ(runtime.latest().thinning, 1U);
   EXPECT_EQ(best_state(runtime.latest()), static_cast<std::uint32_t>(POSE_WALL_VALID));
   EXPECT_EQ(runtime.statistics().thinning_worst, 2U);
