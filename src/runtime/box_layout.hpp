@@ -15,7 +15,7 @@ namespace pose_wall::runtime {
 constexpr std::uint64_t kBoxAlignment = 64;
 constexpr std::uint64_t kHeaderBytes = POSE_WALL_BOX_HEADER_BYTES;
 constexpr std::uint32_t kRecordSync = 0x43525750U;  // "PWRC"
-constexpr char kBoxMagic[] = "PWALLBOX";
+constexpr char kBoxMagic[8] = {'P', 'W', 'A', 'L', 'L', 'B', 'O', 'X'};
 
 // The header.
 constexpr std::uint32_t kAtVersion = 8, kAtHeaderBytes = 12, kAtBoxBytes = 16, kAtConfigBytes = 24, kAtResultBytes = 28,

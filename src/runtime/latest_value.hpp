@@ -13,16 +13,19 @@
 
 namespace pose_wall::runtime {
 
+constexpr std::uint32_t kLatestCells = 4;
+constexpr int kLatestAttempts = 1000;
+
 template <typename T>
 class LatestValue {
  public:
   // One thread only.
   void store(const T& value) {
     const std::uint64_t turn = turn_.load(std::memory_order_relaxed) + 1;
-    Cell& cell = cell_[turn % kCells];
+    Cell& cell = cell_[turn % kLatestCells];
     const std::uint64_t version = cell.version.load(std::memory_order_relaxed);
     cell.version.store(version + 1, std::memory_order_relaxed);  // odd: being written
-    for (std::uint32_t i = 0; i < kWords; ++i) {
+    for (std::uint32_t i = 0; i < words(); ++i) {
       // Release: who reads this word sees the odd version, too.
       cell.word[i].store(word_of(value, i), std::memory_order_release);
     }
@@ -33,13 +36,13 @@ class LatestValue {
   // False: nothing was stored yet. A reader whose cell was overwritten takes the newer one; the cap is for the case
   // that cannot be, a writer faster than any copy.
   bool load(T* value) const {
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    for (int attempt = 0; attempt < kLatestAttempts; ++attempt) {
       const std::uint64_t turn = turn_.load(std::memory_order_acquire);
       if (turn == 0) return false;
-      const Cell& cell = cell_[turn % kCells];
+      const Cell& cell = cell_[turn % kLatestCells];
       const std::uint64_t before = cell.version.load(std::memory_order_acquire);
       T copy;
-      for (std::uint32_t i = 0; i < kWords; ++i) set_word(&copy, i, cell.word[i].load(std::memory_order_acquire));
+      for (std::uint32_t i = 0; i < words(); ++i) set_word(&copy, i, cell.word[i].load(std::memory_order_acquire));
       if (before % 2 == 0 && cell.version.load(std::memory_order_relaxed) == before) {
         *value = copy;
         return true;
@@ -52,14 +55,12 @@ class LatestValue {
   void clear() { turn_.store(0, std::memory_order_release); }
 
  private:
-  static constexpr std::uint32_t kCells = 4;
-  static constexpr std::uint32_t kWords = sizeof(T) / 8;
-  static constexpr int kAttempts = 1000;
+  static constexpr std::uint32_t words() { return sizeof(T) / 8; }
   static_assert(sizeof(T) % 8 == 0, "made of whole words");
 
   struct Cell {
     std::atomic<std::uint64_t> version{0};
-    std::atomic<std::uint64_t> word[kWords] = {};
+    std::atomic<std::uint64_t> word[words()] = {};
   };
 
   static std::uint64_t word_of(const T& value, std::uint32_t i) {
@@ -71,7 +72,7 @@ class LatestValue {
     std::memcpy(reinterpret_cast<unsigned char*>(value) + 8 * i, &word, 8);
   }
 
-  Cell cell_[kCells];
+  Cell cell_[kLatestCells];
   std::atomic<std::uint64_t> turn_{0};
 };
 

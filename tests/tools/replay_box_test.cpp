@@ -93,7 +93,7 @@ class ReplayBox : public ::testing::Test {
   }
 
   TempFolder folder_;
-  const std::string path_ = (folder_.path() / "box.pwbox").string();
+  const std::string path_ = folder_.file("box.pwbox");
 };
 
 TEST_F(ReplayBox, AGoodBoxComesOutAgain) {
