@@ -76,6 +76,7 @@ enum pose_wall_status {
   POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine */
   POSE_WALL_E_INDEX = -6,        /* index out of range */
   POSE_WALL_E_BUFFER_SMALL = -7, /* text does not fit the caller's buffer */
+  POSE_WALL_E_MEMENTO = -8,      /* not what pose_wall_save wrote, of another version, or damaged */
 
   /* configuration */
   POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
@@ -224,6 +225,10 @@ typedef struct pose_wall_cloud {
 int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
                               int64_t stamp_ns);
 
+/* Whether pose_wall_process would take this cloud: looks at the description only, at no point. Fails as it does: NULL,
+ * struct_size, POSE_WALL_E_CLOUD_*. */
+int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud);
+
 /* ---------------------------------------------------------------------------------------------- result */
 
 /* The seven quantities, in the order of pose_wall_result.quantity. */
@@ -287,9 +292,11 @@ enum pose_wall_reason {
   POSE_WALL_R_RATE_LIMITED = 1 << 24,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
   POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held value's protection level passed the alert limit, or hold_max passed */
   POSE_WALL_R_WALL_TOO_NEAR = 1 << 26, /* returns nearer than range_min block the view to this side */
-  POSE_WALL_R_NEVER_MEASURED = 1 << 27
+  POSE_WALL_R_NEVER_MEASURED = 1 << 27,
+  /* between frames */
+  POSE_WALL_R_NO_FRAME = 1 << 28 /* told by pose_wall_age: no frame has come since */
 };
-#define POSE_WALL_REASON_COUNT 28
+#define POSE_WALL_REASON_COUNT 29
 
 /* Short lower-case names for logs and CSV, static storage: "wall_short", "valid", "d_lf". */
 const char* pose_wall_reason_name(uint32_t bit_index);
@@ -393,6 +400,25 @@ int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, voi
  * refused with a status and leaves engine and result unchanged; a cloud of garbage points is processed, and the result
  * says what could not be measured. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
 int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud, pose_wall_result* result);
+
+/* What the seven quantities are at stamp_ns when no frame has come since the last: held and aged by the rules of a
+ * frame that measures nothing, then invalid, with POSE_WALL_R_NO_FRAME. For the time in which a sensor is silent;
+ * stamp_ns is in the clock of the frames' stamps, and at or before the last frame's nothing ages. frame_index is the
+ * last frame's (0 before the first), there are no planes and no counts. Set result->struct_size first. Fails iff: NULL,
+ * engine not open, struct_size. It changes one thing only: what it told invalid stays so until it is measured again,
+ * even where the next frame's stamp would say that less time has passed. The next frame is smoothed over its own time
+ * since the last one. */
+int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result);
+
+/* All that an engine remembers from frame to frame, as bytes, so that any frame can be computed again: an engine of the
+ * same version and config that loads what was saved before a frame gives the same bits for that frame. The same on
+ * every machine. load checks its length, version and checksum, and takes nothing of what it refuses; it is trusted like
+ * the config, since whoever writes it can make the engine believe a past. Neither touches what pose_wall_last_points
+ * gives. save fails iff: NULL, engine not open, POSE_WALL_E_BUFFER_SMALL; load also with POSE_WALL_E_MEMENTO. Cost: no
+ * more than copying. */
+uint64_t pose_wall_memento_bytes(void);
+int32_t pose_wall_save(const pose_wall_engine* engine, void* memento, uint64_t bytes);
+int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes);
 
 enum pose_wall_label {
   POSE_WALL_LABEL_OTHER = 0,

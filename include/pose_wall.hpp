@@ -88,6 +88,7 @@ class Engine {
   int32_t process(const pose_wall_cloud& cloud, pose_wall_result& result) noexcept {
     return pose_wall_process(engine_, &cloud, &result);
   }
+  int32_t age(int64_t stamp_ns, pose_wall_result& result) noexcept { return pose_wall_age(engine_, stamp_ns, &result); }
   int32_t fill_image(const pose_wall_result& result, pose_wall_image& image) const noexcept {
     return pose_wall_image_fill(engine_, &result, &image);
   }

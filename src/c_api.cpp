@@ -7,6 +7,7 @@
 
 #include "config.hpp"
 #include "engine.hpp"
+#include "engine_memento.hpp"
 #include "image.hpp"
 #include "names.hpp"
 #include "pose_wall.h"
@@ -133,6 +134,11 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const voi
   return POSE_WALL_OK;
 }
 
+POSE_WALL_EXPORT int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud) {
+  if (cloud == nullptr) return POSE_WALL_E_NULL;
+  return cloud->struct_size == sizeof(*cloud) ? pose_wall::check_cloud(*cloud) : POSE_WALL_E_STRUCT_SIZE;
+}
+
 POSE_WALL_EXPORT int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes) {
   if (config == nullptr || bytes == nullptr) return POSE_WALL_E_NULL;
   const int32_t status = pose_wall::check_config(*config, nullptr);
@@ -183,6 +189,38 @@ POSE_WALL_EXPORT int32_t pose_wall_process(pose_wall_engine* engine, const pose_
   *result = pose_wall_result{};
   result->struct_size = sizeof(*result);
   engine_of(engine)->process(*cloud, result);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result) {
+  if (engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  *result = pose_wall_result{};
+  result->struct_size = sizeof(*result);
+  engine_of(engine)->age(stamp_ns, result);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT uint64_t pose_wall_memento_bytes(void) {
+  return pose_wall::memento_bytes();
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_save(const pose_wall_engine* engine, void* memento, uint64_t bytes) {
+  if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
+  pose_wall::save_memory(engine_of(engine)->memory(), memento);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes) {
+  if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
+  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
+  pose_wall::Memory memory;
+  if (!pose_wall::load_memory(memento, &memory)) return POSE_WALL_E_MEMENTO;
+  engine_of(engine)->set_memory(memory);
   return POSE_WALL_OK;
 }
 

@@ -44,6 +44,14 @@ void refuse_all(std::uint32_t reason, FrameFindings* found) {
   for (WallResult& wall : found->walls.side) refuse(reason, &wall.fit);
 }
 
+double least_confidence(const pose_wall_result& result) {
+  double least = 1.0;
+  for (const pose_wall_value& v : result.quantity) {
+    if (v.confidence < least) least = v.confidence;
+  }
+  return least;
+}
+
 // The walls say that the level may be off by a turn: about base X that is roll, about base Y pitch.
 void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level, FloorResult* floor) {
   if (!(tilt_level_rad.squaredNorm() > 0.0)) return;
@@ -186,10 +194,7 @@ void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
   smooth_and_hold(found->measured, timing, found->stamp_ns, settings_, &memory_.temporal, &result->quantity);
   report_findings(*found, result);
   result->frame_index = memory_.frames++;
-  result->confidence = 1.0;
-  for (const pose_wall_value& v : result->quantity) {
-    if (v.confidence < result->confidence) result->confidence = v.confidence;
-  }
+  result->confidence = least_confidence(*result);
   label_points(*found);
   remember(*found);
 }
@@ -246,6 +251,18 @@ void Engine::label_points(const FrameFindings& found) {
   for_each_up_to(cloud, floor, floor_reach_m, [&](std::uint32_t i, float distance_m) {
     if (static_cast<double>(distance_m) >= -floor_reach_m) scratch_.marks[i] = POSE_WALL_LABEL_FLOOR;
   });
+}
+
+void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {
+  FrameFindings nothing;
+  nothing.stamp_ns = stamp_ns;
+  nothing.reasons = POSE_WALL_R_NO_FRAME;
+  // A leap, or a stamp from before the last frame, is that frame's matter when it comes.
+  const double elapsed_s = time_frame(memory_.temporal, stamp_ns, settings_).dt_s;
+  age_values(elapsed_s, nothing.reasons, settings_, &memory_.temporal, &result->quantity);
+  report_findings(nothing, result);
+  result->frame_index = memory_.frames > 0 ? memory_.frames - 1 : 0;
+  result->confidence = least_confidence(*result);
 }
 
 pose_wall_points Engine::points() const {

@@ -65,8 +65,12 @@ class Engine {
   void set_clock(pose_wall_clock clock, void* user);
   bool is_open() const { return magic_ == kMagic && self_ == this; }
   void process(const pose_wall_cloud& cloud, pose_wall_result* result);
+  // What the seven are at a time without a frame.
+  void age(std::int64_t stamp_ns, pose_wall_result* result);
   pose_wall_points points() const;
   std::uint32_t config_crc32() const { return config_crc32_; }
+  const Memory& memory() const { return memory_; }
+  void set_memory(const Memory& memory) { memory_ = memory; }
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;

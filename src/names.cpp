@@ -33,6 +33,8 @@ const char* status_text(std::int32_t status) {
       return "index out of range";
     case POSE_WALL_E_BUFFER_SMALL:
       return "text does not fit the caller's buffer";
+    case POSE_WALL_E_MEMENTO:
+      return "not what pose_wall_save() wrote, of another version, or damaged";
     case POSE_WALL_E_KEY_UNKNOWN:
       return "no such key";
     case POSE_WALL_E_VALUE_TYPE:
@@ -116,6 +118,8 @@ const char* reason_name(std::uint32_t bit_index) {  // NOLINT(readability-functi
       return "wall_too_near";
     case POSE_WALL_R_NEVER_MEASURED:
       return "never_measured";
+    case POSE_WALL_R_NO_FRAME:
+      return "no_frame";
     default:
       return "unknown";
   }
@@ -182,6 +186,8 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
       return "returns nearer than range_min block the view to this side";
     case POSE_WALL_R_NEVER_MEASURED:
       return "there was no good measurement yet";
+    case POSE_WALL_R_NO_FRAME:
+      return "no frame has come since";
     default:
       return "unknown reason";
   }

@@ -70,6 +70,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_report(app, exit_code);
   add_eval(app, exit_code);
   add_campaign(app, exit_code);
+  add_replay_box(app, exit_code);
   add_check_config(app, exit_code);
   app.footer(
       "Examples:\n"

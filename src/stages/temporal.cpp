@@ -120,6 +120,18 @@ pose_wall_value blank() {
   return v;
 }
 
+void pass_time(double elapsed_s, Track* t) {
+  if (!(elapsed_s > 0.0)) return;
+  t->age_s += elapsed_s;
+  t->good.age_s += elapsed_s;
+}
+
+void set_confidence(const Track& t, std::uint32_t quantity, const Settings& s, pose_wall_value* out) {
+  if (t.has_value) out->sigma = t.sigma;
+  const double alert = alert_limit(quantity, s);
+  out->confidence = out->state == POSE_WALL_INVALID ? 0.0 : alert / (alert + out->protection_level);
+}
+
 }  // namespace
 
 double fastest(std::uint32_t quantity, const Settings& s) {
@@ -158,10 +170,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     const Measurement& m = measured.quantity[q];
     pose_wall_value& out = (*values)[q];
     out = blank();
-    if (elapsed_s > 0.0) {
-      t.age_s += elapsed_s;
-      t.good.age_s += elapsed_s;
-    }
+    pass_time(elapsed_s, &t);
     // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
     // bound any more.
     if (timing.back || state->still_frames > kStillFramesMax) t.expired = true;
@@ -171,9 +180,23 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     } else {
       set_held(m, q, settings, &t, &out);
     }
-    if (t.has_value) out.sigma = t.sigma;
-    const double alert = alert_limit(q, settings);
-    out.confidence = out.state == POSE_WALL_INVALID ? 0.0 : alert / (alert + out.protection_level);
+    set_confidence(t, q, settings, &out);
+  }
+}
+
+void age_values(double elapsed_s, std::uint32_t reasons, const Settings& settings, TemporalState* state,
+                pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
+  Measurement nothing;
+  nothing.reasons = reasons;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    // A copy: the next frame counts its own time from the last one, and this time would count twice.
+    Track aged = state->track[q];
+    pose_wall_value& out = (*values)[q];
+    out = blank();
+    pass_time(elapsed_s, &aged);
+    set_held(nothing, q, settings, &aged, &out);
+    set_confidence(aged, q, settings, &out);
+    state->track[q].expired = aged.expired;
   }
 }
 

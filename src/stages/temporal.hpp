@@ -56,4 +56,9 @@ FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const 
 void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
                      const Settings& settings, TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES]);
 
+// What a frame that measures nothing would give, elapsed_s after the last one. Of it only this is kept: what has
+// expired stays so.
+void age_values(double elapsed_s, std::uint32_t reasons, const Settings& settings, TemporalState* state,
+                pose_wall_value (*values)[POSE_WALL_QUANTITIES]);
+
 }  // namespace pose_wall

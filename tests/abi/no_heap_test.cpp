@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
@@ -115,6 +116,7 @@ TEST_F(NoHeap, NoCallAllocates) {
   std::uint64_t bytes = 0;
   ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
   AlignedBlock block(bytes, Dirt::kRandom);
+  std::vector<unsigned char> memento(pose_wall_memento_bytes());
   pose_wall_result result{};
   result.struct_size = sizeof result;
   std::int32_t worst = POSE_WALL_OK;
@@ -131,6 +133,9 @@ TEST_F(NoHeap, NoCallAllocates) {
                 note(pose_wall_process(engine, &cloud, &result));
               }
               note(pose_wall_last_points(engine, &last));
+              note(pose_wall_age(engine, 300000000, &result));
+              note(pose_wall_save(engine, memento.data(), memento.size()));
+              note(pose_wall_load(engine, memento.data(), memento.size()));
               note(pose_wall_reset(engine));
               const pose_wall_cloud nothing = cloud_of(Points(), 0);
               note(pose_wall_process(engine, &nothing, &result));

@@ -30,6 +30,7 @@ TEST(AbiNumbers, Status) {
   EXPECT_EQ(POSE_WALL_E_ENGINE, -5);
   EXPECT_EQ(POSE_WALL_E_INDEX, -6);
   EXPECT_EQ(POSE_WALL_E_BUFFER_SMALL, -7);
+  EXPECT_EQ(POSE_WALL_E_MEMENTO, -8);
   EXPECT_EQ(POSE_WALL_E_KEY_UNKNOWN, -20);
   EXPECT_EQ(POSE_WALL_E_VALUE_TYPE, -21);
   EXPECT_EQ(POSE_WALL_E_VALUE_RANGE, -22);
@@ -65,20 +66,35 @@ TEST(AbiNumbers, KindsAndOrders) {
 }
 
 TEST(AbiNumbers, Reasons) {
-  const int reasons[] = {POSE_WALL_R_NO_POINTS,          POSE_WALL_R_LEAF_GROWN,
-                         POSE_WALL_R_STAMP_STILL,        POSE_WALL_R_STAMP_BACK,
-                         POSE_WALL_R_STAMP_LEAP,         POSE_WALL_R_FROZEN,
-                         POSE_WALL_R_FLOOR_NOT_FOUND,    POSE_WALL_R_FLOOR_FEW_INLIERS,
-                         POSE_WALL_R_FLOOR_THIN,         POSE_WALL_R_FLOOR_AMBIGUOUS,
-                         POSE_WALL_R_WALL_NOT_FOUND,     POSE_WALL_R_WALL_FEW_INLIERS,
-                         POSE_WALL_R_WALL_SHORT,         POSE_WALL_R_WALL_LEANS,
-                         POSE_WALL_R_WALL_SEEN_THROUGH,  POSE_WALL_R_WALL_AMBIGUOUS,
-                         POSE_WALL_R_WALLS_NOT_PARALLEL, POSE_WALL_R_YAW_OUT_OF_RANGE,
-                         POSE_WALL_R_CROSS_ROAD,         POSE_WALL_R_CURVED,
-                         POSE_WALL_R_EXTRAPOLATED,       POSE_WALL_R_LEVEL_MISSING,
-                         POSE_WALL_R_ALERT_LIMIT,        POSE_WALL_R_INNOVATION,
-                         POSE_WALL_R_RATE_LIMITED,       POSE_WALL_R_HOLD_EXPIRED,
-                         POSE_WALL_R_WALL_TOO_NEAR,      POSE_WALL_R_NEVER_MEASURED};
+  const int reasons[] = {POSE_WALL_R_NO_POINTS,
+                         POSE_WALL_R_LEAF_GROWN,
+                         POSE_WALL_R_STAMP_STILL,
+                         POSE_WALL_R_STAMP_BACK,
+                         POSE_WALL_R_STAMP_LEAP,
+                         POSE_WALL_R_FROZEN,
+                         POSE_WALL_R_FLOOR_NOT_FOUND,
+                         POSE_WALL_R_FLOOR_FEW_INLIERS,
+                         POSE_WALL_R_FLOOR_THIN,
+                         POSE_WALL_R_FLOOR_AMBIGUOUS,
+                         POSE_WALL_R_WALL_NOT_FOUND,
+                         POSE_WALL_R_WALL_FEW_INLIERS,
+                         POSE_WALL_R_WALL_SHORT,
+                         POSE_WALL_R_WALL_LEANS,
+                         POSE_WALL_R_WALL_SEEN_THROUGH,
+                         POSE_WALL_R_WALL_AMBIGUOUS,
+                         POSE_WALL_R_WALLS_NOT_PARALLEL,
+                         POSE_WALL_R_YAW_OUT_OF_RANGE,
+                         POSE_WALL_R_CROSS_ROAD,
+                         POSE_WALL_R_CURVED,
+                         POSE_WALL_R_EXTRAPOLATED,
+                         POSE_WALL_R_LEVEL_MISSING,
+                         POSE_WALL_R_ALERT_LIMIT,
+                         POSE_WALL_R_INNOVATION,
+                         POSE_WALL_R_RATE_LIMITED,
+                         POSE_WALL_R_HOLD_EXPIRED,
+                         POSE_WALL_R_WALL_TOO_NEAR,
+                         POSE_WALL_R_NEVER_MEASURED,
+                         POSE_WALL_R_NO_FRAME};
   ASSERT_LE(sizeof reasons / sizeof reasons[0], static_cast<std::size_t>(POSE_WALL_REASON_COUNT));
   for (std::size_t bit = 0; bit < sizeof reasons / sizeof reasons[0]; ++bit) EXPECT_EQ(reasons[bit], 1 << bit);
 }

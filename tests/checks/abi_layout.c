@@ -7,6 +7,8 @@
 #include <stdio.h>
 
 #include "pose_wall.h"
+#include "pose_wall_box.h"
+#include "pose_wall_runtime.h"
 
 static size_t filled = 0;
 
@@ -141,8 +143,124 @@ static int image_layout(void) {
   return padded;
 }
 
+static int publication_layout(void) {
+  MEMBER(pose_wall_publication, struct_size);
+  MEMBER(pose_wall_publication, cause);
+  MEMBER(pose_wall_publication, thinning);
+  MEMBER(pose_wall_publication, reserved);
+  MEMBER(pose_wall_publication, index);
+  MEMBER(pose_wall_publication, frame);
+  MEMBER(pose_wall_publication, received_ns);
+  MEMBER(pose_wall_publication, published_ns);
+  MEMBER(pose_wall_publication, result);
+  return struct_end("pose_wall_publication", sizeof(pose_wall_publication));
+}
+
+static int runtime_options_layout(void) {
+  MEMBER(pose_wall_runtime_options, struct_size);
+  MEMBER(pose_wall_runtime_options, queue_frames);
+  MEMBER(pose_wall_runtime_options, cloud_points_max);
+  MEMBER(pose_wall_runtime_options, point_bytes_max);
+  MEMBER(pose_wall_runtime_options, thinning_max);
+  MEMBER(pose_wall_runtime_options, box_clouds);
+  MEMBER(pose_wall_runtime_options, box_backlog);
+  MEMBER(pose_wall_runtime_options, worker_priority);
+  MEMBER(pose_wall_runtime_options, worker_cpu);
+  MEMBER(pose_wall_runtime_options, lock_memory);
+  MEMBER(pose_wall_runtime_options, required);
+  MEMBER(pose_wall_runtime_options, reserved);
+  MEMBER(pose_wall_runtime_options, frame_period_max_ns);
+  MEMBER(pose_wall_runtime_options, watchdog_ns);
+  MEMBER(pose_wall_runtime_options, watchdog_every_ns);
+  MEMBER(pose_wall_runtime_options, clock);
+  MEMBER(pose_wall_runtime_options, clock_user);
+  MEMBER(pose_wall_runtime_options, callback);
+  MEMBER(pose_wall_runtime_options, callback_user);
+  MEMBER(pose_wall_runtime_options, sink);
+  MEMBER(pose_wall_runtime_options, sink_user);
+  MEMBER(pose_wall_runtime_options, box_bytes);
+  return struct_end("pose_wall_runtime_options", sizeof(pose_wall_runtime_options));
+}
+
+static int runtime_times_layout(void) {
+  MEMBER(pose_wall_runtime_times, count);
+  MEMBER(pose_wall_runtime_times, p50_ns);
+  MEMBER(pose_wall_runtime_times, p99_ns);
+  MEMBER(pose_wall_runtime_times, p999_ns);
+  MEMBER(pose_wall_runtime_times, worst_ns);
+  return struct_end("pose_wall_runtime_times", sizeof(pose_wall_runtime_times));
+}
+
+static int runtime_statistics_layout(void) {
+  MEMBER(pose_wall_runtime_statistics, struct_size);
+  MEMBER(pose_wall_runtime_statistics, state);
+  MEMBER(pose_wall_runtime_statistics, pushed);
+  MEMBER(pose_wall_runtime_statistics, processed);
+  MEMBER(pose_wall_runtime_statistics, dropped);
+  MEMBER(pose_wall_runtime_statistics, filling);
+  MEMBER(pose_wall_runtime_statistics, waiting);
+  MEMBER(pose_wall_runtime_statistics, in_work);
+  MEMBER(pose_wall_runtime_statistics, waiting_worst);
+  MEMBER(pose_wall_runtime_statistics, published);
+  MEMBER(pose_wall_runtime_statistics, silences);
+  MEMBER(pose_wall_runtime_statistics, thinned);
+  MEMBER(pose_wall_runtime_statistics, thinning);
+  MEMBER(pose_wall_runtime_statistics, thinning_worst);
+  MEMBER(pose_wall_runtime_statistics, newest_age_ns);
+  MEMBER(pose_wall_runtime_statistics, box_written);
+  MEMBER(pose_wall_runtime_statistics, box_lost);
+  MEMBER(pose_wall_runtime_statistics, box_failed);
+  MEMBER(pose_wall_runtime_statistics, box_bytes_written);
+  MEMBER(pose_wall_runtime_statistics, priority_error);
+  MEMBER(pose_wall_runtime_statistics, affinity_error);
+  MEMBER(pose_wall_runtime_statistics, lock_error);
+  MEMBER(pose_wall_runtime_statistics, thread_error);
+  MEMBER(pose_wall_runtime_statistics, push);
+  MEMBER(pose_wall_runtime_statistics, wait);
+  MEMBER(pose_wall_runtime_statistics, work);
+  MEMBER(pose_wall_runtime_statistics, latency);
+  MEMBER(pose_wall_runtime_statistics, callback);
+  MEMBER(pose_wall_runtime_statistics, sink);
+  MEMBER(pose_wall_runtime_statistics, stage);
+  return struct_end("pose_wall_runtime_statistics", sizeof(pose_wall_runtime_statistics));
+}
+
+static int box_info_layout(void) {
+  MEMBER(pose_wall_box_info, config);
+  MEMBER(pose_wall_box_info, version);
+  MEMBER(pose_wall_box_info, box_bytes);
+  return struct_end("pose_wall_box_info", sizeof(pose_wall_box_info));
+}
+
+static int box_record_layout(void) {
+  MEMBER(pose_wall_box_record, offset);
+  MEMBER(pose_wall_box_record, sequence);
+  MEMBER(pose_wall_box_record, received_ns);
+  MEMBER(pose_wall_box_record, stamp_ns);
+  MEMBER(pose_wall_box_record, digest);
+  MEMBER(pose_wall_box_record, passed_over);
+  MEMBER(pose_wall_box_record, memento);
+  MEMBER(pose_wall_box_record, result);
+  MEMBER(pose_wall_box_record, points);
+  MEMBER(pose_wall_box_record, x);
+  MEMBER(pose_wall_box_record, y);
+  MEMBER(pose_wall_box_record, z);
+  MEMBER(pose_wall_box_record, intensity);
+  MEMBER(pose_wall_box_record, kind);
+  MEMBER(pose_wall_box_record, damaged);
+  MEMBER(pose_wall_box_record, thinning);
+  MEMBER(pose_wall_box_record, point_count);
+  MEMBER(pose_wall_box_record, point_bytes);
+  MEMBER(pose_wall_box_record, big_endian);
+  MEMBER(pose_wall_box_record, left_out_not_finite);
+  MEMBER(pose_wall_box_record, left_out_zero);
+  return struct_end("pose_wall_box_record", sizeof(pose_wall_box_record));
+}
+
 int main(void) {
-  const int padded = config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout() +
-                     pointers_layout() + image_layout();
+  int padded = config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout();
+  padded += pointers_layout() + image_layout();
+  padded += publication_layout() + runtime_options_layout() + runtime_times_layout() + runtime_statistics_layout() +
+            box_info_layout() + box_record_layout();
   return padded == 0 ? 0 : 1;
 }

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """Includes go one way: math, containers <- estimation <- types <- stages <- engine <- c_api; stages meet only in
-types.hpp; the engine takes nothing but Eigen and small parts of the standard library; tools see it by its header.
+types.hpp; the engine takes nothing but Eigen and small parts of the standard library; tools and the runtime see it by
+its header.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
 
@@ -31,6 +32,10 @@ ENGINE_HEADERS = {
     "Eigen/Core", "Eigen/Cholesky", "Eigen/Dense", "Eigen/Eigenvalues", "Eigen/Geometry", "Eigen/LU", "Eigen/SVD",
 }
 PUBLIC_HEADERS = {"pose_wall.h", "pose_wall.hpp"}
+# The threads around the engine: no part of it, no Eigen.
+RUNTIME_HEADERS = {h for h in ENGINE_HEADERS if not h.startswith("Eigen/")} | {
+    "atomic", "pthread.h", "sched.h", "errno.h", "time.h", "sys/mman.h"}
+RUNTIME_PUBLIC = {"pose_wall.h", "pose_wall_runtime.h", "pose_wall_box.h"}
 C_HEADERS = {"stddef.h", "stdint.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 
@@ -78,16 +83,28 @@ def engine_fault(src, path, bracket, name):
     return None
 
 
+def runtime_fault(path, bracket, name):
+    """Why a file of the runtime may not include `name`, or None."""
+    if bracket == "<":
+        return None if name in RUNTIME_HEADERS | C_HEADERS else f"<{name}> is not on the runtime's list of headers"
+    known = name in RUNTIME_PUBLIC or ("/" not in name and (path.parent / name).exists())
+    return None if known else f'the runtime includes "{name}"; it sees the engine only through pose_wall.h'
+
+
 def faults(root):
     src, include, tools = root / "src", root / "include", root / "tools"
     for path in sources(src):
         for bracket, name in includes(path):
-            fault = engine_fault(src, path, bracket, name)
+            of_runtime = path.is_relative_to(src / "runtime")
+            fault = runtime_fault(path, bracket, name) if of_runtime else engine_fault(src, path, bracket, name)
             if fault:
                 yield path, fault
-    for bracket, name in includes(include / "pose_wall.h"):
-        if name not in C_HEADERS:
-            yield include / "pose_wall.h", f"includes {name}; it may include {', '.join(sorted(C_HEADERS))}"
+    for header, allowed in ((include / "pose_wall.h", C_HEADERS),
+                            (include / "pose_wall_runtime.h", C_HEADERS | {"pose_wall.h"}),
+                            (include / "pose_wall_box.h", C_HEADERS | {"pose_wall.h"})):
+        for bracket, name in includes(header) if header.exists() else ():
+            if name not in allowed:
+                yield header, f"includes {name}; it may include {', '.join(sorted(allowed))}"
     for path in sources(tools):
         for bracket, name in includes(path):
             inside = not (tools / name).exists() and not (path.parent / name).exists() and (src / name).exists()

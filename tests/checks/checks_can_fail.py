@@ -109,6 +109,25 @@ class Layers(BrokenProject):
         self.include("tools/main.cpp", '#include "../src/engine.hpp"')
         self.fails("tools see the engine only through", *self.check())
 
+    def test_runtime_includes_engine(self):
+        self.include("src/engine.hpp", "")
+        self.include("src/runtime/worker.cpp", '#include "engine.hpp"')
+        self.fails("it sees the engine only through pose_wall.h", *self.check())
+
+    def test_engine_includes_runtime(self):
+        self.include("src/runtime/worker.hpp", "")
+        self.include("src/engine.cpp", '#include "runtime/worker.hpp"')
+        self.fails('engine includes "runtime/worker.hpp"', *self.check())
+
+    def test_runtime_takes_the_heap(self):
+        self.include("src/runtime/worker.hpp", "#include <vector>")
+        self.fails("<vector> is not on the runtime's list", *self.check())
+
+    def test_runtime_passes(self):
+        self.include("src/runtime/worker.hpp", '#include <pthread.h>\n#include "pose_wall.h"')
+        self.include("src/runtime/worker.cpp", '#include "worker.hpp"')
+        self.passes(*self.check())
+
     def test_public_header_includes_more(self):
         self.write("include/pose_wall.h", HEADER + "#include <stdio.h>\n")
         self.fails("includes stdio.h", *self.check())

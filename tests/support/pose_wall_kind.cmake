@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# pose_wall_test_kind(<kind> [WHITE_BOX] [NATIVE] TIMEOUT <seconds> [NEEDS <target>])
+# pose_wall_test_kind(<kind> [WHITE_BOX] [NATIVE] TIMEOUT <seconds> [NEEDS <target>] [ONLY <target>...])
 # The executable pose_wall_<kind>_tests from <kind>/*_test.cpp, one ctest entry per case, labelled with the kind.
+# ONLY: links these beside the archive, and none of the tools.
 # Nothing is made when the folder is empty, a needed target is not part of this build, or a NATIVE kind is cross built.
 function(pose_wall_test_kind kind)
-  cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX;NATIVE" "TIMEOUT;NEEDS" "")
+  cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX;NATIVE" "TIMEOUT;NEEDS" "ONLY")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/*_test.cpp)
   if(CMAKE_CROSSCOMPILING)
     if(kind_NATIVE)
@@ -26,7 +27,7 @@ function(pose_wall_test_kind kind)
   set(target pose_wall_${kind}_tests)
   add_executable(${target} ${sources})
   pose_wall_compile_strictly(${target})
-  # What is tested is optimised as ever; the tests themselves, under sanitizers, take twice as long to compile if they are.
+  # What is tested is optimised as ever; under sanitizers the tests themselves would take twice as long to compile.
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(${target} PRIVATE -O0)
   endif()
@@ -39,9 +40,9 @@ function(pose_wall_test_kind kind)
   else()
     target_link_libraries(${target} PRIVATE pose_wall::pose_wall)
   endif()
-  target_link_libraries(${target} PRIVATE pose_wall_test_support GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE ${kind_ONLY} pose_wall_test_support GTest::gtest_main)
   foreach(library IN ITEMS pose_wall_tools pose_wall_picture pose_wall_sim)
-    if(TARGET ${library})
+    if(TARGET ${library} AND NOT kind_ONLY)
       target_link_libraries(${target} PRIVATE ${library})
     endif()
   endforeach()

@@ -44,8 +44,8 @@ endfunction()
 # A release, and a subproject of a build without a build type: it gets a quick engine, too.
 set(pose_wall_quick $<OR:$<CONFIG:Release>,$<STREQUAL:$<CONFIG>,>>)
 
-# What keeps the heap, the C++ runtime and other bits on other machines out of the engine.
-function(pose_wall_engine_flags target)
+# What keeps the C++ runtime out of what users link, and the symbols of ours inside.
+function(pose_wall_bare_flags target)
   target_compile_options(${target} PRIVATE
     -fno-exceptions -fno-rtti -fno-threadsafe-statics
     -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections
@@ -54,6 +54,11 @@ function(pose_wall_engine_flags target)
     $<$<NOT:$<CONFIG:Debug>>:-fno-asynchronous-unwind-tables -fno-unwind-tables>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
     $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
+endfunction()
+
+# That, and what keeps the heap and other bits on other machines out of the engine.
+function(pose_wall_engine_flags target)
+  pose_wall_bare_flags(${target})
   # These change what a header means or the bits it computes: who includes engine headers must compile alike. A failed
   # Eigen assertion traps in every build type; Eigen's own would bring assert(), and with it stdio and abort().
   target_compile_options(${target} PUBLIC
@@ -89,7 +94,7 @@ function(pose_wall_one_object objects output)
     COMMAND ${POSE_WALL_LD} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
     COMMAND ${POSE_WALL_OBJCOPY} --wildcard --keep-global-symbol=pose_wall_* ${output}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
-    COMMENT "Merging the engine into one object, pose_wall_* global"
+    COMMENT "Merging ${objects} into one object, pose_wall_* global"
     COMMAND_EXPAND_LISTS VERBATIM)
   set_source_files_properties(${output} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 endfunction()

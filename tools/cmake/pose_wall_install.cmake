@@ -8,9 +8,14 @@ include(pose_wall_sbom)
 
 set(pose_wall_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pose_wall)
 set(pose_wall_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-file(GLOB pose_wall_public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/pose_wall.h*)
+file(GLOB pose_wall_public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/pose_wall*.h*)
 install(FILES ${pose_wall_public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-install(TARGETS pose_wall EXPORT pose_wall ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+set(pose_wall_archives pose_wall)
+if(TARGET pose_wall_runtime)
+  list(APPEND pose_wall_archives pose_wall_runtime)
+endif()
+install(TARGETS ${pose_wall_archives} EXPORT pose_wall ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  COMPONENT development)
 # The exported targets need nothing that a package config would have to look for, so they are the config.
 install(EXPORT pose_wall FILE pose_wall-config.cmake NAMESPACE pose_wall:: DESTINATION ${pose_wall_package_dir}
   COMPONENT development)

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/*
+ * The black box: what went into the engine and what came out of it, as a ring of records in one file. Every record
+ * carries what the engine remembered before it (pose_wall_save), so each can be computed again without the others: old
+ * ones may be overwritten, damaged ones passed over. In libpose_wall_runtime.a; reads memory, opens no file.
+ *
+ * FILE. Little-endian throughout; all offsets are multiples of 64. Bytes 0 to 4095 are the header:
+ *
+ *       0  8 bytes  "PWALLBOX"
+ *       8  u32      format version, POSE_WALL_BOX_VERSION
+ *      12  u32      bytes of this header, 4096
+ *      16  u64      bytes of the file at most (the ring ends there)
+ *      24  u32      sizeof(pose_wall_config)        28  u32  sizeof(pose_wall_result)
+ *      32  u32      pose_wall_memento_bytes()       36  u32  POSE_WALL_ABI_VERSION
+ *      40  24 bytes pose_wall_version(), zeros behind
+ *      64           the config, as in memory; zeros behind
+ *    4092  u32      CRC-32 of bytes 0 to 4091
+ *
+ * From byte 4096 on records follow each other. One that does not fit before the end of the ring begins at 4096 again
+ * and overwrites the oldest. A record is a multiple of 64 bytes:
+ *
+ *       0  u32  sync, "PWRC"                         4  u32  kind, pose_wall_box_kind
+ *       8  u64  bytes of the record                 16  u64  sequence: counts events from 0; a gap is what was not
+ *      24  i64  received_ns, see                             recorded or was lost
+ *               pose_wall_publication               32  i64  stamp of the frame, or that was asked for
+ *      40  u64  bytes of the cloud in the record    48  u32  thinning
+ *      52  u32  CRC-32 of everything behind byte 64 56  u32  0
+ *      60  u32  CRC-32 of bytes 0 to 59
+ *      64       cloud's description, 64 bytes:       0  u64  digest of the cloud's bytes (FNV-1a, 64 bits)
+ *               8 u32 points    12 u32 bytes of a point    16 u32 big_endian    20 u32 left out: not finite
+ *              24 u32 left out: zero                28  u32 0   32  x, y, z, intensity: u32 offset, u32 type each
+ *     128       memento before the event, zeros up to the next multiple of 64
+ *               result as published, zeros up to the next multiple of 64
+ *               the cloud's points, zeros up to the end of the record
+ *
+ * The head is written last, so a record that was cut off by a crash has none, or an old one whose CRC no longer holds.
+ * CRC-32 is that of zlib and Ethernet (reflected 0xEDB88320). It finds accidents; it is no signature.
+ */
+
+#ifndef POSE_WALL_BOX_H
+#define POSE_WALL_BOX_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "pose_wall.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define POSE_WALL_BOX_VERSION 1
+#define POSE_WALL_BOX_HEADER_BYTES 4096
+
+enum pose_wall_box_status {
+  POSE_WALL_BOX_E_FORMAT = -80,  /* no black box, or its header is damaged */
+  POSE_WALL_BOX_E_VERSION = -81, /* of a build whose structs differ from this one's */
+  POSE_WALL_BOX_E_END = -82,     /* no further record */
+  POSE_WALL_BOX_E_EMPTY = -83    /* the record holds a digest only: nothing to compute */
+};
+
+enum pose_wall_box_kind {
+  POSE_WALL_BOX_FRAME = 1,  /* pose_wall_process */
+  POSE_WALL_BOX_SILENCE = 2 /* pose_wall_age */
+};
+
+typedef struct pose_wall_box_info {
+  pose_wall_config config;
+  char version[24]; /* of the library that wrote it, zero-terminated */
+  uint64_t box_bytes;
+} pose_wall_box_info;
+
+/* Reads the header. Fails iff: NULL, POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION; *info is then unchanged. */
+int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info);
+
+/* One record. The pointers point into the caller's bytes. */
+typedef struct pose_wall_box_record {
+  uint64_t offset; /* of its head */
+  uint64_t sequence;
+  int64_t received_ns;
+  int64_t stamp_ns;
+  uint64_t digest;
+  uint64_t passed_over; /* bytes between the record before, or the search's start, and this one that are none */
+  const void* memento;
+  const void* result; /* a pose_wall_result; copy it out, it may be misaligned for the machine */
+  const void* points; /* NULL: the digest only */
+  pose_wall_field x, y, z, intensity;
+  uint32_t kind;    /* pose_wall_box_kind */
+  uint32_t damaged; /* 1: head whole, but the rest is not what was written or is cut off: only the sequence holds */
+  uint32_t thinning;
+  uint32_t point_count;
+  uint32_t point_bytes;
+  uint32_t big_endian;
+  uint32_t left_out_not_finite;
+  uint32_t left_out_zero;
+} pose_wall_box_record;
+
+/* The next record at or behind *offset (begin with POSE_WALL_BOX_HEADER_BYTES), in the order of the file, which is not
+ * that of the sequence once the ring has come round. Moves *offset behind it. Whatever the bytes are, it reads none
+ * outside of them and ends after one pass. At the end POSE_WALL_BOX_E_END, with passed_over set. Fails else iff: NULL.
+ */
+int32_t pose_wall_box_next(const void* bytes, uint64_t count, uint64_t* offset, pose_wall_box_record* record);
+
+/* Computes a record again, on an engine that was opened with the box's config: loads the memento, does what was done,
+ * and gives the result as the runtime published it (stage_ns apart: there is no clock). Set result->struct_size first.
+ * Fails as pose_wall_load and pose_wall_process, iff NULL, or with POSE_WALL_BOX_E_EMPTY. */
+int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine, pose_wall_result* result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_BOX_H */

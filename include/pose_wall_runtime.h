@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/*
+ * pose_wall_runtime: the engine of pose_wall.h on a machine that runs. Frames are handed over by the thread that
+ * receives them and are worked by a thread of the runtime's own; results are there for every thread at any time. A
+ * second archive, libpose_wall_runtime.a: POSIX threads and pose_wall.h, nothing else.
+ *
+ *     pose_wall_runtime_options options;
+ *     pose_wall_runtime_options_init(&options);
+ *     options.callback = on_result;                                          optional
+ *     pose_wall_runtime_memory_needed(&config, &options, &bytes);
+ *     pose_wall_runtime_open(&config, &options, block, bytes, &runtime);     all the memory there is
+ *     pose_wall_runtime_start(runtime);
+ *     for every frame: pose_wall_runtime_push(runtime, &cloud);              returns before the frame is worked
+ *     elsewhere:       pose_wall_runtime_latest(runtime, &publication);      never waits
+ *     pose_wall_runtime_stop(runtime);
+ *     pose_wall_runtime_close(runtime);                                      then free the block
+ *
+ * THREADS. push: any thread, one at a time. latest: any thread, any number of them, without a lock. statistics_now,
+ * tick, request_stop: any thread, the callback too. start, stop, wait_idle, close: any thread but the callback's and
+ * the sink's (POSE_WALL_RUNTIME_E_THREAD). The callback runs on the worker's thread, the sink on the recorder's. None
+ * of these is for signal handlers.
+ *
+ * STATES. stopped (after open, and after stop) -> start -> running -> request_stop or stop -> stopping -> stop ->
+ * stopped. stop comes back from any state and may be called twice, and by two threads at once.
+ *
+ * QUEUE. Newest wins: when a frame comes and all places are taken, the OLDEST that waits is dropped and counted. At any
+ * time pushed = processed + in_work + waiting + filling + the sum of dropped[].
+ *
+ * MEMORY. The caller's block and the threads' stacks (of the system's default size). Nothing is allocated after start.
+ * A cloud is copied in push; the caller may reuse it when push returns.
+ *
+ * TIME. push costs one pass over the cloud, in the caller's thread, and two short locks that no thread holds while it
+ * works, calls back or writes. The worker never waits for a disk.
+ *
+ * SILENCE. When no frame comes for watchdog_ns, the worker publishes what pose_wall_age says: values age, are held,
+ * then invalid. A worker that hangs (in the callback) cannot publish: who acts on `latest` must compare published_ns
+ * with a clock of its own.
+ *
+ * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
+ * when the frames that are worked lie further apart than frame_period_max_ns, points are left out: every second return,
+ * then three of four, and so on. No threshold is ever loosened. Because gaps in a wall may go unnoticed in a thinned
+ * cloud (pose_wall.h, pose_wall_cloud), nothing from one is ever published as better than degraded, and `thinning` says
+ * so. The region is never narrowed: a cropped cloud looks full of holes.
+ *
+ * ERRORS. POSE_WALL_OK or a negative status, of pose_wall.h or of this header. A refused call changes nothing but the
+ * counters.
+ */
+
+#ifndef POSE_WALL_RUNTIME_H
+#define POSE_WALL_RUNTIME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "pose_wall.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Raised when a struct or function of this header changes incompatibly. */
+#define POSE_WALL_RUNTIME_ABI_VERSION 1
+uint32_t pose_wall_runtime_abi_version(void);
+
+/* ---------------------------------------------------------------------------------------------- status */
+
+/* Beside those of pose_wall.h. Pinned by a test and never reused. */
+enum pose_wall_runtime_status {
+  POSE_WALL_RUNTIME_E_OPTION = -100,  /* an option out of its range, or `reserved` not zero */
+  POSE_WALL_RUNTIME_E_HANDLE = -101,  /* not an open runtime */
+  POSE_WALL_RUNTIME_E_STATE = -102,   /* not in this state: not running, or not stopped */
+  POSE_WALL_RUNTIME_E_THREAD = -103,  /* not from the callback or the sink: it would wait for itself */
+  POSE_WALL_RUNTIME_E_BUSY = -104,    /* another thread is inside push */
+  POSE_WALL_RUNTIME_E_LARGE = -105,   /* more points than cloud_points_max, or wider than point_bytes_max */
+  POSE_WALL_RUNTIME_E_NOTHING = -106, /* nothing published since start */
+  POSE_WALL_RUNTIME_E_SYSTEM = -107   /* the system refused a thread, or what `required` asks for */
+};
+/* One English sentence, static storage; for every status of pose_wall.h too. */
+const char* pose_wall_runtime_status_text(int32_t status);
+
+/* ---------------------------------------------------------------------------------------------- publications */
+
+enum pose_wall_runtime_cause {
+  POSE_WALL_RUNTIME_FRAME = 1,  /* a frame was worked */
+  POSE_WALL_RUNTIME_SILENCE = 2 /* no frame came for watchdog_ns: aged values, POSE_WALL_R_NO_FRAME */
+};
+
+typedef struct pose_wall_publication {
+  uint32_t struct_size; /* set by the caller of pose_wall_runtime_latest to sizeof */
+  uint32_t cause;       /* pose_wall_runtime_cause */
+  uint32_t thinning;    /* of every so many returns one was used; 1: all. Above 1 no state is better than degraded */
+  uint32_t reserved;
+  uint64_t index;       /* counts publications from 0, over all starts */
+  uint64_t frame;       /* counts pushes from 0, over all starts; of a silence: the last frame that was worked */
+  int64_t received_ns;  /* runtime's clock, at the start of that frame's push */
+  int64_t published_ns; /* runtime's clock */
+  pose_wall_result
+      result; /* points that push leaves out for they hold no return are counted in it as the engine does */
+} pose_wall_publication;
+
+/* Called on the worker's thread after `latest` holds the same. What it takes, the next frame waits for. The pointer is
+ * good until it returns. */
+typedef void (*pose_wall_runtime_callback)(void* user, const pose_wall_publication* publication);
+
+/* ---------------------------------------------------------------------------------------------- black box */
+
+/* Where the black box is written: `count` bytes at `offset` of a file of at most box_bytes. 0: written. Anything else:
+ * not written, the record counts as failed and the next one is tried. It may be as slow as a disk is: only the
+ * recorder's thread waits for it. Format and reader: pose_wall_box.h. */
+typedef int32_t (*pose_wall_runtime_sink)(void* user, uint64_t offset, const void* bytes, uint64_t count);
+
+/* ---------------------------------------------------------------------------------------------- options */
+
+/* Bits of `required`. */
+enum pose_wall_runtime_wish {
+  POSE_WALL_RUNTIME_PRIORITY = 1,
+  POSE_WALL_RUNTIME_AFFINITY = 2,
+  POSE_WALL_RUNTIME_LOCK = 4
+};
+
+typedef struct pose_wall_runtime_options {
+  uint32_t struct_size;      /* set by pose_wall_runtime_options_init */
+  uint32_t queue_frames;     /* 2; 1 to 64 that may wait. More hide longer stalls and make results older */
+  uint32_t cloud_points_max; /* 262144; 1 to 2^26 points a cloud may hold, with those that hold no return */
+  uint32_t point_bytes_max;  /* 16; 12 to 32: x, y, z of 4 or 8 bytes each, and intensity where intensity_weight > 0 */
+  uint32_t thinning_max;     /* 1: never leave out a return. 2, 4, 8 or 16: see OVERLOAD */
+  uint32_t box_clouds;       /* 1: the black box holds whole clouds. 0: their digests; nothing can be computed again */
+  uint32_t box_backlog;      /* 2; 1 to 64 records that may wait for the sink; what comes then is not recorded */
+  int32_t worker_priority;   /* 0: as the caller's thread. 1 to 99: SCHED_FIFO */
+  int32_t worker_cpu;        /* -1: any. Else the worker runs on this processor only, 0 to 1023 */
+  uint32_t lock_memory;      /* 0 or 1: mlock the block (not the stacks) */
+  uint32_t required;         /* of pose_wall_runtime_wish: what start must be granted; the rest is only reported */
+  uint32_t reserved;         /* 0 */
+  int64_t
+      frame_period_max_ns;   /* 100 ms: frames are dropped, not thinned, as long as worked ones are no further apart */
+  int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published */
+  int64_t watchdog_every_ns; /* 100 ms: and again so often, until a frame comes */
+  pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once. With a clock of the
+                                caller's nothing but pose_wall_runtime_tick wakes the worker for the watchdog */
+  void* clock_user;
+  pose_wall_runtime_callback callback; /* or NULL */
+  void* callback_user;
+  pose_wall_runtime_sink sink; /* or NULL: no black box */
+  void* sink_user;
+  uint64_t box_bytes; /* of the ring file; at least what one whole record needs */
+} pose_wall_runtime_options;
+
+/* Fills every option with its default (the figure in its comment). Fails iff: NULL. */
+int32_t pose_wall_runtime_options_init(pose_wall_runtime_options* options);
+
+/* ---------------------------------------------------------------------------------------------- life */
+
+typedef struct pose_wall_runtime pose_wall_runtime;
+
+/* Bytes of the block: the engine's, and (queue_frames + 2, with a sink + box_backlog) frames of cloud_points_max x
+ * point_bytes_max bytes. Fails iff: NULL, struct_size, an option, the config (as pose_wall_memory_needed). */
+int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config, const pose_wall_runtime_options* options,
+                                        uint64_t* bytes);
+
+/* Places a runtime in block, which may hold anything, must be aligned to POSE_WALL_BLOCK_ALIGNMENT, stays the caller's
+ * and must not move. Starts no thread. Fails as memory_needed, and for a block too small or misaligned. */
+int32_t pose_wall_runtime_open(const pose_wall_config* config, const pose_wall_runtime_options* options, void* block,
+                               uint64_t block_bytes, pose_wall_runtime** runtime);
+
+/* Starts the threads, with an engine that remembers nothing and a black box from its beginning (what the sink wrote
+ * before is overwritten: give each start a file of its own). Counters go on. Returns when the worker runs. Fails iff:
+ * not open, not stopped, called back, POSE_WALL_RUNTIME_E_SYSTEM; then it is stopped.
+ */
+int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
+
+/* Waits until every frame is worked, every tick looked at and every record written, or the runtime stops
+ * (POSE_WALL_RUNTIME_E_STATE). For tests and for work offline: a frame that is pushed meanwhile is waited for as well.
+ */
+int32_t pose_wall_runtime_wait_idle(pose_wall_runtime* runtime);
+
+/* Asks the worker to end after what it is at; push is refused from now on. Returns at once. Fails iff: not running. */
+int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime);
+
+/* Ends the threads and waits for them: for the frame in work, the callback, and the records that wait for the sink.
+ * Frames that wait are dropped and counted. Stopped already: nothing happens. Fails iff: not open, called back. */
+int32_t pose_wall_runtime_stop(pose_wall_runtime* runtime);
+
+/* After this the block is the caller's again. Fails iff: not open, not stopped, a push or another call still inside. */
+int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
+
+/* ---------------------------------------------------------------------------------------------- frames and results */
+
+/* Checks the cloud, copies what the engine reads of it, and queues it. Points that are not finite or exactly zero are
+ * left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused is counted as
+ * pushed and dropped, but not when the runtime is not running. Fails iff: NULL, not open, not running, another thread
+ * inside push, struct_size or a description that pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
+int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
+
+/* The newest publication. No lock, no wait: one copy, repeated only if three newer ones were published meanwhile. Set
+ * publication->struct_size first. Fails iff: NULL, not open, struct_size, not running, POSE_WALL_RUNTIME_E_NOTHING. */
+int32_t pose_wall_runtime_latest(const pose_wall_runtime* runtime, pose_wall_publication* publication);
+
+/* Has the worker look at its clock. Fails iff: NULL, not open, not running. */
+int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime);
+
+/* ---------------------------------------------------------------------------------------------- statistics */
+
+enum pose_wall_runtime_state {
+  POSE_WALL_RUNTIME_STOPPED = 0,
+  POSE_WALL_RUNTIME_STARTING = 1,
+  POSE_WALL_RUNTIME_RUNNING = 2,
+  POSE_WALL_RUNTIME_STOPPING = 3
+};
+
+/* Why a pushed frame was not worked; index of dropped[]. */
+enum pose_wall_runtime_drop {
+  POSE_WALL_RUNTIME_DROP_DESCRIPTION = 0, /* refused: the cloud's description */
+  POSE_WALL_RUNTIME_DROP_LARGE = 1,       /* refused: too large */
+  POSE_WALL_RUNTIME_DROP_BUSY = 2,        /* refused: another thread was inside push */
+  POSE_WALL_RUNTIME_DROP_OVERTAKEN = 3,   /* the oldest that waited, when a newer one needed its place */
+  POSE_WALL_RUNTIME_DROP_STOPPED = 4,     /* still waiting, or being copied, at stop */
+  POSE_WALL_RUNTIME_DROP_ENGINE = 5,      /* the engine refused it: never seen; push checks the same */
+  POSE_WALL_RUNTIME_DROPS = 6
+};
+const char* pose_wall_runtime_drop_name(uint32_t drop);
+
+/* From a histogram of 32 steps per doubling: quantiles are rounded up by at most 1/32, worst is exact. 0 when count is
+ * 0. Since open. */
+typedef struct pose_wall_runtime_times {
+  uint64_t count;
+  int64_t p50_ns;
+  int64_t p99_ns;
+  int64_t p999_ns;
+  int64_t worst_ns;
+} pose_wall_runtime_times;
+
+typedef struct pose_wall_runtime_statistics {
+  uint32_t struct_size; /* set by the caller to sizeof */
+  uint32_t state;       /* pose_wall_runtime_state */
+  uint64_t pushed;
+  uint64_t processed;
+  uint64_t dropped[POSE_WALL_RUNTIME_DROPS];
+  uint32_t filling; /* 0 or 1: being copied by push */
+  uint32_t waiting; /* queue depth */
+  uint32_t in_work; /* 0 or 1 */
+  uint32_t waiting_worst;
+  uint64_t published;
+  uint64_t silences; /* of those published: by the watchdog */
+  uint64_t thinned;  /* of those processed: thinned */
+  uint32_t thinning; /* of the next push */
+  uint32_t thinning_worst;
+  int64_t newest_age_ns; /* now minus received_ns of the newest worked frame; -1 before the first */
+  uint64_t box_written;  /* records */
+  uint64_t box_lost;     /* not recorded: box_backlog records were waiting for the sink */
+  uint64_t box_failed;   /* the sink said so */
+  uint64_t box_bytes_written;
+  int32_t priority_error; /* of the last start: 0 granted or not asked for, else errno */
+  int32_t affinity_error;
+  int32_t lock_error;
+  int32_t thread_error;
+  pose_wall_runtime_times push;     /* inside push, accepted frames */
+  pose_wall_runtime_times wait;     /* from the start of push until the worker takes it */
+  pose_wall_runtime_times work;     /* inside the engine */
+  pose_wall_runtime_times latency;  /* from the start of push until published */
+  pose_wall_runtime_times callback; /* inside the callback */
+  pose_wall_runtime_times sink;     /* to write one record */
+  pose_wall_runtime_times stage[POSE_WALL_STAGES];
+} pose_wall_runtime_statistics;
+
+/* A consistent picture of the counters; the times are read beside them without a lock. Set struct_size first. Fails
+ * iff: NULL, not open, struct_size. */
+int32_t pose_wall_runtime_statistics_now(const pose_wall_runtime* runtime, pose_wall_runtime_statistics* statistics);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_RUNTIME_H */

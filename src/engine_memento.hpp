@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the engine remembers, as bytes that are the same on every machine.
+
+#pragma once
+
+#include <cstdint>
+
+#include "engine.hpp"
+
+namespace pose_wall {
+
+std::uint64_t memento_bytes();
+void save_memory(const Memory& memory, void* to);
+// False, and *memory unchanged, where `from` is damaged or of another version.
+bool load_memory(const void* from, Memory* memory);
+
+}  // namespace pose_wall

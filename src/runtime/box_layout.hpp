@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Where everything lies in a black box; the picture is in pose_wall_box.h. Writer and reader use these alone.
+
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "pose_wall_box.h"
+
+namespace pose_wall::runtime {
+
+constexpr std::uint64_t kBoxAlignment = 64;
+constexpr std::uint64_t kHeaderBytes = POSE_WALL_BOX_HEADER_BYTES;
+constexpr std::uint32_t kRecordSync = 0x43525750U;  // "PWRC"
+constexpr char kBoxMagic[8] = {'P', 'W', 'A', 'L', 'L', 'B', 'O', 'X'};
+
+// The header.
+constexpr std::uint32_t kAtVersion = 8, kAtHeaderBytes = 12, kAtBoxBytes = 16, kAtConfigBytes = 24, kAtResultBytes = 28,
+                        kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtHeaderCrc = 4092,
+                        kLibraryBytes = 24;
+static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtHeaderCrc, "the config fits the header");
+
+// The head of a record.
+constexpr std::uint32_t kAtSync = 0, kAtKind = 4, kAtRecordBytes = 8, kAtSequence = 16, kAtReceived = 24, kAtStamp = 32,
+                        kAtCloudBytes = 40, kAtThinning = 48, kAtBodyCrc = 52, kAtHeadZero = 56, kAtHeadCrc = 60;
+constexpr std::uint64_t kHeadBytes = 64;
+
+// The cloud's description, from the end of the head.
+constexpr std::uint32_t kAtDigest = 0, kAtPoints = 8, kAtPointBytes = 12, kAtBigEndian = 16, kAtNotFinite = 20,
+                        kAtZero = 24, kAtFields = 32;
+constexpr std::uint64_t kDescriptionBytes = 64;
+
+constexpr std::uint64_t aligned(std::uint64_t bytes) {
+  return (bytes + kBoxAlignment - 1) & ~(kBoxAlignment - 1);
+}
+
+inline std::uint64_t memento_room() {
+  return aligned(pose_wall_memento_bytes());
+}
+constexpr std::uint64_t kResultRoom = aligned(sizeof(pose_wall_result));
+
+inline std::uint64_t body_without_cloud() {
+  return kDescriptionBytes + memento_room() + kResultRoom;
+}
+
+// The machines that record are little-endian; pose_wall_runtime_open refuses a sink on others.
+template <typename T>
+void put(T value, unsigned char* to) {
+  std::memcpy(to, &value, sizeof(value));
+}
+template <typename T>
+T get(const unsigned char* from) {
+  T value;
+  std::memcpy(&value, from, sizeof(value));
+  return value;
+}
+
+inline bool machine_is_little_endian() {
+  const std::uint32_t probe = 1;
+  unsigned char first;
+  std::memcpy(&first, &probe, 1);
+  return first == 1;
+}
+
+}  // namespace pose_wall::runtime

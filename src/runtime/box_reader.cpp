@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Finds records in bytes that nobody vouches for. Every offset is checked in 64 bits before it is used.
+
+#include "box_layout.hpp"
+#include "checksums.hpp"
+#include "finish_result.hpp"
+#include "pose_wall_box.h"
+#include "runtime_export.hpp"
+#include "status.hpp"
+
+namespace pose_wall::runtime {
+namespace {
+
+bool head_is_whole(const unsigned char* head) {
+  return get<std::uint32_t>(head + kAtSync) == kRecordSync &&
+         get<std::uint32_t>(head + kAtHeadCrc) == crc32(head, kAtHeadCrc);
+}
+
+bool body_is_whole(const unsigned char* head, std::uint64_t room) {
+  const std::uint64_t bytes = get<std::uint64_t>(head + kAtRecordBytes);
+  const std::uint64_t cloud_bytes = get<std::uint64_t>(head + kAtCloudBytes);
+  const std::uint64_t fixed = kHeadBytes + body_without_cloud();
+  if (bytes > room || bytes < fixed || cloud_bytes > bytes - fixed) return false;
+  if (bytes != fixed + aligned(cloud_bytes)) return false;
+  if (get<std::uint32_t>(head + kAtBodyCrc) != crc32(head + kHeadBytes, bytes - kHeadBytes)) return false;
+  const unsigned char* const description = head + kHeadBytes;
+  const std::uint64_t points = get<std::uint32_t>(description + kAtPoints);
+  return cloud_bytes == 0 || cloud_bytes == points * get<std::uint32_t>(description + kAtPointBytes);
+}
+
+pose_wall_field field_at(const unsigned char* description, std::uint32_t index) {
+  const unsigned char* const at = description + kAtFields + 8 * index;
+  return {get<std::uint32_t>(at), get<std::uint32_t>(at + 4)};
+}
+
+void read_body(const unsigned char* head, pose_wall_box_record* record) {
+  const unsigned char* const description = head + kHeadBytes;
+  record->digest = get<std::uint64_t>(description + kAtDigest);
+  record->point_count = get<std::uint32_t>(description + kAtPoints);
+  record->point_bytes = get<std::uint32_t>(description + kAtPointBytes);
+  record->big_endian = get<std::uint32_t>(description + kAtBigEndian);
+  record->left_out_not_finite = get<std::uint32_t>(description + kAtNotFinite);
+  record->left_out_zero = get<std::uint32_t>(description + kAtZero);
+  record->x = field_at(description, 0);
+  record->y = field_at(description, 1);
+  record->z = field_at(description, 2);
+  record->intensity = field_at(description, 3);
+  record->memento = description + kDescriptionBytes;
+  record->result = description + kDescriptionBytes + memento_room();
+  const bool with_points = get<std::uint64_t>(head + kAtCloudBytes) > 0 || record->point_count == 0;
+  record->points = with_points ? description + body_without_cloud() : nullptr;
+}
+
+// At `offset` is a whole head. Returns where to go on.
+std::uint64_t read_record(const unsigned char* bytes, std::uint64_t count, std::uint64_t offset,
+                          pose_wall_box_record* record) {
+  const unsigned char* const head = bytes + offset;
+  record->offset = offset;
+  record->kind = get<std::uint32_t>(head + kAtKind);
+  record->sequence = get<std::uint64_t>(head + kAtSequence);
+  record->received_ns = get<std::int64_t>(head + kAtReceived);
+  record->stamp_ns = get<std::int64_t>(head + kAtStamp);
+  record->thinning = get<std::uint32_t>(head + kAtThinning);
+  if (!body_is_whole(head, count - offset)) {
+    record->damaged = 1;
+    return offset + kHeadBytes;  // what lies behind may be another record's
+  }
+  read_body(head, record);
+  return offset + get<std::uint64_t>(head + kAtRecordBytes);
+}
+
+pose_wall_cloud cloud_of(const pose_wall_box_record& record) {
+  pose_wall_cloud cloud{};
+  cloud.struct_size = sizeof(cloud);
+  cloud.big_endian = record.big_endian;
+  cloud.data = record.points;
+  cloud.data_bytes = static_cast<std::uint64_t>(record.point_count) * record.point_bytes;
+  cloud.width = record.point_count;
+  cloud.height = 1;
+  cloud.point_step = record.point_bytes;
+  cloud.stamp_ns = record.stamp_ns;
+  cloud.x = record.x;
+  cloud.y = record.y;
+  cloud.z = record.z;
+  cloud.intensity = record.intensity;
+  return cloud;
+}
+
+std::int32_t check_header(const unsigned char* header, std::uint64_t count) {
+  if (count < kHeaderBytes || std::memcmp(header, kBoxMagic, 8) != 0) return POSE_WALL_BOX_E_FORMAT;
+  if (get<std::uint32_t>(header + kAtHeaderCrc) != crc32(header, kAtHeaderCrc)) return POSE_WALL_BOX_E_FORMAT;
+  const bool same = get<std::uint32_t>(header + kAtVersion) == POSE_WALL_BOX_VERSION &&
+                    get<std::uint32_t>(header + kAtHeaderBytes) == kHeaderBytes &&
+                    get<std::uint32_t>(header + kAtConfigBytes) == sizeof(pose_wall_config) &&
+                    get<std::uint32_t>(header + kAtResultBytes) == sizeof(pose_wall_result) &&
+                    get<std::uint32_t>(header + kAtMementoBytes) == pose_wall_memento_bytes() &&
+                    get<std::uint32_t>(header + kAtAbi) == POSE_WALL_ABI_VERSION;
+  return ok_if(same, POSE_WALL_BOX_E_VERSION);
+}
+
+}  // namespace
+}  // namespace pose_wall::runtime
+
+using namespace pose_wall::runtime;  // NOLINT(google-build-using-namespace): of this file's own parts
+
+extern "C" {
+
+POSE_WALL_EXPORT int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info) {
+  if (bytes == nullptr || info == nullptr) return POSE_WALL_E_NULL;
+  const unsigned char* const header = static_cast<const unsigned char*>(bytes);
+  const int32_t status = check_header(header, count);
+  if (status != POSE_WALL_OK) return status;
+  std::memcpy(&info->config, header + kAtConfig, sizeof(info->config));
+  std::memcpy(info->version, header + kAtLibrary, kLibraryBytes);
+  info->version[kLibraryBytes - 1] = '\0';
+  info->box_bytes = get<uint64_t>(header + kAtBoxBytes);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_box_next(const void* bytes, uint64_t count, uint64_t* offset,
+                                            pose_wall_box_record* record) {
+  if (bytes == nullptr || offset == nullptr || record == nullptr) return POSE_WALL_E_NULL;
+  const unsigned char* const start = static_cast<const unsigned char*>(bytes);
+  *record = pose_wall_box_record{};
+  const uint64_t from = *offset;
+  // An offset near 2^64 must not come round.
+  uint64_t at = from < count ? aligned(from) : count;
+  while (at < count && count - at >= kHeadBytes && !head_is_whole(start + at)) at += kBoxAlignment;
+  const bool found = at < count && count - at >= kHeadBytes;
+  const uint64_t end = found ? at : count;
+  record->passed_over = end > from ? end - from : 0;
+  *offset = found ? read_record(start, count, at, record) : end;
+  return ok_if(found, POSE_WALL_BOX_E_END);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine,
+                                               pose_wall_result* result) {
+  if (record == nullptr || engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  const bool silence = record->kind == POSE_WALL_BOX_SILENCE;
+  if (record->memento == nullptr || (record->points == nullptr && !silence)) return POSE_WALL_BOX_E_EMPTY;
+  int32_t status = pose_wall_load(engine, record->memento, pose_wall_memento_bytes());
+  if (status != POSE_WALL_OK) return status;
+  if (silence) return pose_wall_age(engine, record->stamp_ns, result);
+  const pose_wall_cloud cloud = cloud_of(*record);
+  status = pose_wall_process(engine, &cloud, result);
+  if (status == POSE_WALL_OK) {
+    finish_result(record->left_out_not_finite, record->left_out_zero, record->thinning, result);
+  }
+  return status;
+}
+
+}  // extern "C"

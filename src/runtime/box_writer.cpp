@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "box_writer.hpp"
+
+#include <cstring>
+#include <initializer_list>
+
+#include "box_layout.hpp"
+#include "checksums.hpp"
+
+namespace pose_wall::runtime {
+namespace {
+
+constexpr unsigned char kZeros[kBoxAlignment] = {};
+
+std::uint64_t head_and_body_bytes() {
+  return kHeadBytes + body_without_cloud();
+}
+
+}  // namespace
+
+std::uint64_t BoxWriter::scratch_bytes() {
+  const std::uint64_t record = head_and_body_bytes();
+  return record > kHeaderBytes ? record : kHeaderBytes;
+}
+
+std::uint64_t BoxWriter::box_bytes_min(std::uint64_t cloud_bytes_max) {
+  return kHeaderBytes + head_and_body_bytes() + aligned(cloud_bytes_max);
+}
+
+void BoxWriter::open(const pose_wall_runtime_options& options, unsigned char* scratch) {
+  sink_ = options.sink;
+  sink_user_ = options.sink_user;
+  box_bytes_ = options.box_bytes & ~(kBoxAlignment - 1);
+  with_clouds_ = options.box_clouds != 0;
+  scratch_ = scratch;
+}
+
+bool BoxWriter::sink(std::uint64_t offset, const void* bytes, std::uint64_t count) {
+  if (count == 0) return true;
+  if (sink_(sink_user_, offset, bytes, count) != 0) return false;
+  bytes_written_ += count;
+  return true;
+}
+
+bool BoxWriter::begin(const pose_wall_config& config) {
+  unsigned char* const header = scratch_;
+  std::memset(header, 0, kHeaderBytes);
+  std::memcpy(header, kBoxMagic, 8);
+  put<std::uint32_t>(POSE_WALL_BOX_VERSION, header + kAtVersion);
+  put<std::uint32_t>(kHeaderBytes, header + kAtHeaderBytes);
+  put<std::uint64_t>(box_bytes_, header + kAtBoxBytes);
+  put<std::uint32_t>(sizeof(pose_wall_config), header + kAtConfigBytes);
+  put<std::uint32_t>(sizeof(pose_wall_result), header + kAtResultBytes);
+  put<std::uint32_t>(static_cast<std::uint32_t>(pose_wall_memento_bytes()), header + kAtMementoBytes);
+  put<std::uint32_t>(POSE_WALL_ABI_VERSION, header + kAtAbi);
+  const char* const version = pose_wall_version();
+  for (std::uint32_t i = 0; i + 1 < kLibraryBytes && version[i] != '\0'; ++i) {
+    header[kAtLibrary + i] = static_cast<unsigned char>(version[i]);
+  }
+  std::memcpy(header + kAtConfig, &config, sizeof(config));
+  put<std::uint32_t>(crc32(header, kAtHeaderCrc), header + kAtHeaderCrc);
+  at_ = kHeaderBytes;
+  begun_ = sink(0, header, kHeaderBytes);
+  return begun_;
+}
+
+void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
+  std::memset(body, 0, body_without_cloud());
+  const pose_wall_cloud& c = slot.cloud;
+  put<std::uint64_t>(fnv1a(c.data, c.data_bytes), body + kAtDigest);
+  put<std::uint32_t>(c.width, body + kAtPoints);
+  put<std::uint32_t>(c.point_step, body + kAtPointBytes);
+  put<std::uint32_t>(c.big_endian, body + kAtBigEndian);
+  put<std::uint32_t>(slot.left_out_not_finite, body + kAtNotFinite);
+  put<std::uint32_t>(slot.left_out_zero, body + kAtZero);
+  unsigned char* to = body + kAtFields;
+  for (const pose_wall_field& field : {c.x, c.y, c.z, c.intensity}) {
+    put<std::uint32_t>(field.offset, to);
+    put<std::uint32_t>(field.type, to + 4);
+    to += 8;
+  }
+  std::memcpy(body + kDescriptionBytes, slot.memento, pose_wall_memento_bytes());
+  std::memcpy(body + kDescriptionBytes + memento_room(), &slot.publication.result, sizeof(pose_wall_result));
+}
+
+void BoxWriter::fill_head(const FrameSlot& slot, std::uint64_t record_bytes, std::uint64_t cloud_bytes,
+                          std::uint32_t body_crc, unsigned char* head) const {
+  put<std::uint32_t>(kRecordSync, head + kAtSync);
+  put<std::uint32_t>(slot.kind, head + kAtKind);
+  put<std::uint64_t>(record_bytes, head + kAtRecordBytes);
+  put<std::uint64_t>(slot.sequence, head + kAtSequence);
+  put<std::int64_t>(slot.publication.received_ns, head + kAtReceived);
+  put<std::int64_t>(slot.publication.result.stamp_ns, head + kAtStamp);
+  put<std::uint64_t>(cloud_bytes, head + kAtCloudBytes);
+  put<std::uint32_t>(slot.publication.thinning, head + kAtThinning);
+  put<std::uint32_t>(body_crc, head + kAtBodyCrc);
+  put<std::uint32_t>(0, head + kAtHeadZero);
+  put<std::uint32_t>(crc32(head, kAtHeadCrc), head + kAtHeadCrc);
+}
+
+bool BoxWriter::write(const FrameSlot& slot) {
+  if (!begun_) return false;
+  unsigned char* const head = scratch_;
+  unsigned char* const body = scratch_ + kHeadBytes;
+  const std::uint64_t body_bytes = body_without_cloud();
+  const std::uint64_t cloud_bytes = with_clouds_ ? slot.cloud.data_bytes : 0;
+  const std::uint64_t padding = aligned(cloud_bytes) - cloud_bytes;
+  const std::uint64_t record_bytes = kHeadBytes + body_bytes + cloud_bytes + padding;
+  if (at_ + record_bytes > box_bytes_) at_ = kHeaderBytes;
+  fill_body(slot, body);
+  Crc32 crc;
+  crc.add(body, body_bytes);
+  crc.add(slot.cloud.data, cloud_bytes);
+  crc.add(kZeros, padding);
+  fill_head(slot, record_bytes, cloud_bytes, crc.value(), head);
+  const std::uint64_t at_body = at_ + kHeadBytes, at_cloud = at_body + body_bytes;
+  // The head last: what is cut off before has none.
+  const bool written = sink(at_body, body, body_bytes) && sink(at_cloud, slot.cloud.data, cloud_bytes) &&
+                       sink(at_cloud + cloud_bytes, kZeros, padding) && sink(at_, head, kHeadBytes);
+  if (written) at_ += record_bytes;
+  return written;
+}
+
+}  // namespace pose_wall::runtime

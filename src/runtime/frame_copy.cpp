@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "frame_copy.hpp"
+
+#include <cstring>
+
+#include "overload.hpp"
+
+namespace pose_wall::runtime {
+namespace {
+
+enum class Point { kReturn, kNotFinite, kZero };
+
+std::uint32_t bytes_of(std::uint32_t type) {
+  switch (type) {
+    case POSE_WALL_FIELD_INT8:
+    case POSE_WALL_FIELD_UINT8:
+      return 1;
+    case POSE_WALL_FIELD_INT16:
+    case POSE_WALL_FIELD_UINT16:
+      return 2;
+    case POSE_WALL_FIELD_INT32:
+    case POSE_WALL_FIELD_UINT32:
+    case POSE_WALL_FIELD_FLOAT32:
+      return 4;
+    case POSE_WALL_FIELD_FLOAT64:
+      return 8;
+    default:
+      return 0;
+  }
+}
+
+// The number's bits, most significant first in the word, whatever the byte order of the cloud.
+std::uint64_t bits_of(const unsigned char* bytes, std::uint32_t count, bool big_endian) {
+  std::uint64_t bits = 0;
+  for (std::uint32_t i = 0; i < count; ++i) bits = bits << 8 | bytes[big_endian ? i : count - 1 - i];
+  return bits;
+}
+
+struct Coordinate {
+  bool finite;
+  bool zero;
+};
+
+// By the bits. The engine reads doubles as floats: below half the smallest float they are zero, and the tie with it is
+// rounded to zero as well.
+Coordinate read(const unsigned char* bytes, std::uint32_t type, bool big_endian) {
+  if (type == POSE_WALL_FIELD_FLOAT32) {
+    const std::uint64_t bits = bits_of(bytes, 4, big_endian) & 0x7FFFFFFFU;
+    return {bits < 0x7F800000U, bits == 0};
+  }
+  const std::uint64_t bits = bits_of(bytes, 8, big_endian) & 0x7FFFFFFFFFFFFFFFULL;
+  constexpr std::uint64_t kHalfTheSmallestFloat = 0x3690000000000000ULL;
+  return {bits < 0x7FF0000000000000ULL, bits <= kHalfTheSmallestFloat};
+}
+
+Point judge(const pose_wall_cloud& cloud, const unsigned char* point) {
+  const bool big = cloud.big_endian != 0;
+  const Coordinate x = read(point + cloud.x.offset, cloud.x.type, big);
+  const Coordinate y = read(point + cloud.y.offset, cloud.y.type, big);
+  const Coordinate z = read(point + cloud.z.offset, cloud.z.type, big);
+  if (!(x.finite && y.finite && z.finite)) return Point::kNotFinite;
+  return x.zero && y.zero && z.zero ? Point::kZero : Point::kReturn;
+}
+
+struct Copier {
+  const pose_wall_cloud& from;
+  pose_wall_field field[4];  // x, y, z, intensity of the source
+  std::uint32_t bytes[4];
+  std::uint32_t fields;
+
+  unsigned char* copy(const unsigned char* point, unsigned char* to) const {
+    for (std::uint32_t k = 0; k < fields; ++k) {
+      std::memcpy(to, point + field[k].offset, bytes[k]);
+      to += bytes[k];
+    }
+    return to;
+  }
+};
+
+Copier copier_of(const pose_wall_cloud& cloud, bool with_intensity) {
+  Copier c{cloud, {cloud.x, cloud.y, cloud.z, cloud.intensity}, {}, 3};
+  if (with_intensity && cloud.intensity.type != POSE_WALL_FIELD_NONE) c.fields = 4;
+  for (std::uint32_t k = 0; k < c.fields; ++k) c.bytes[k] = bytes_of(c.field[k].type);
+  return c;
+}
+
+pose_wall_cloud packed(const Copier& c, std::uint32_t point_bytes, const unsigned char* data, std::uint64_t bytes) {
+  pose_wall_cloud cloud{};
+  cloud.struct_size = sizeof(cloud);
+  cloud.big_endian = c.from.big_endian;
+  cloud.data = data;
+  cloud.data_bytes = bytes;
+  cloud.point_step = point_bytes;
+  cloud.width = static_cast<std::uint32_t>(bytes / point_bytes);
+  cloud.height = 1;
+  cloud.stamp_ns = c.from.stamp_ns;
+  pose_wall_field* const to[] = {&cloud.x, &cloud.y, &cloud.z, &cloud.intensity};
+  std::uint32_t offset = 0;
+  for (std::uint32_t k = 0; k < c.fields; ++k) {
+    *to[k] = {offset, c.field[k].type};
+    offset += c.bytes[k];
+  }
+  return cloud;
+}
+
+}  // namespace
+
+std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity) {
+  const Copier c = copier_of(cloud, with_intensity);
+  std::uint32_t sum = 0;
+  for (std::uint32_t k = 0; k < c.fields; ++k) sum += c.bytes[k];
+  return sum;
+}
+
+void copy_frame(const pose_wall_cloud& cloud, bool with_intensity, std::uint32_t thinning, FrameSlot* slot) {
+  const Copier copier = copier_of(cloud, with_intensity);
+  const bool filter = copier.fields == 3;
+  const std::uint64_t row_step =
+      cloud.row_step != 0 ? cloud.row_step : static_cast<std::uint64_t>(cloud.width) * cloud.point_step;
+  EvenChoice choice(thinning);
+  std::uint32_t not_finite = 0, zero = 0;
+  unsigned char* to = slot->points;
+  for (std::uint32_t row = 0; row < cloud.height; ++row) {
+    const unsigned char* point = static_cast<const unsigned char*>(cloud.data) + row * row_step;
+    for (std::uint32_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
+      const Point kind = filter ? judge(cloud, point) : Point::kReturn;
+      not_finite += kind == Point::kNotFinite ? 1U : 0U;
+      zero += kind == Point::kZero ? 1U : 0U;
+      if (kind == Point::kReturn && choice.takes_next()) to = copier.copy(point, to);
+    }
+  }
+  slot->left_out_not_finite = not_finite;
+  slot->left_out_zero = zero;
+  slot->cloud =
+      packed(copier, packed_bytes(cloud, with_intensity), slot->points, static_cast<std::uint64_t>(to - slot->points));
+}
+
+}  // namespace pose_wall::runtime

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The newest of a series of values, for readers that must never wait. Four cells, each with a sequence lock (Boehm
+// 2012: every word is atomic, so a torn read is a wrong read and not undefined): a reader is disturbed only by a writer
+// that comes round to its cell while it copies, and a writer that is put to sleep in the middle disturbs nobody.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+
+namespace pose_wall::runtime {
+
+constexpr std::uint32_t kLatestCells = 4;
+constexpr int kLatestAttempts = 1000;
+
+template <typename T>
+class LatestValue {
+ public:
+  // One thread only.
+  void store(const T& value) {
+    const std::uint64_t turn = turn_.load(std::memory_order_relaxed) + 1;
+    Cell& cell = cell_[turn % kLatestCells];
+    const std::uint64_t version = cell.version.load(std::memory_order_relaxed);
+    cell.version.store(version + 1, std::memory_order_relaxed);  // odd: being written
+    for (std::uint32_t i = 0; i < words(); ++i) {
+      // Release: who reads this word sees the odd version, too.
+      cell.word[i].store(word_of(value, i), std::memory_order_release);
+    }
+    cell.version.store(version + 2, std::memory_order_release);
+    turn_.store(turn, std::memory_order_release);
+  }
+
+  // False: nothing was stored yet. A reader whose cell was overwritten takes the newer one; the cap is for the case
+  // that cannot be, a writer faster than any copy.
+  bool load(T* value) const {
+    for (int attempt = 0; attempt < kLatestAttempts; ++attempt) {
+      const std::uint64_t turn = turn_.load(std::memory_order_acquire);
+      if (turn == 0) return false;
+      const Cell& cell = cell_[turn % kLatestCells];
+      const std::uint64_t before = cell.version.load(std::memory_order_acquire);
+      T copy;
+      for (std::uint32_t i = 0; i < words(); ++i) set_word(&copy, i, cell.word[i].load(std::memory_order_acquire));
+      if (before % 2 == 0 && cell.version.load(std::memory_order_relaxed) == before) {
+        *value = copy;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // While no thread stores or loads.
+  void clear() { turn_.store(0, std::memory_order_release); }
+
+ private:
+  static constexpr std::uint32_t words() { return sizeof(T) / 8; }
+  static_assert(sizeof(T) % 8 == 0, "made of whole words");
+
+  struct Cell {
+    std::atomic<std::uint64_t> version{0};
+    std::atomic<std::uint64_t> word[words()] = {};
+  };
+
+  static std::uint64_t word_of(const T& value, std::uint32_t i) {
+    std::uint64_t word;
+    std::memcpy(&word, reinterpret_cast<const unsigned char*>(&value) + 8 * i, 8);
+    return word;
+  }
+  static void set_word(T* value, std::uint32_t i, std::uint64_t word) {
+    std::memcpy(reinterpret_cast<unsigned char*>(value) + 8 * i, &word, 8);
+  }
+
+  Cell cell_[kLatestCells];
+  std::atomic<std::uint64_t> turn_{0};
+};
+
+}  // namespace pose_wall::runtime

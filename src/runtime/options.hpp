@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The options' defaults and ranges, and what memory they come to.
+
+#pragma once
+
+#include <cstdint>
+
+#include "pose_wall_runtime.h"
+
+namespace pose_wall::runtime {
+
+void set_defaults(pose_wall_runtime_options* options);
+
+// POSE_WALL_OK, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_RUNTIME_E_OPTION.
+std::int32_t check_options(const pose_wall_runtime_options& options);
+
+std::uint32_t slots_of(const pose_wall_runtime_options& options);
+std::uint64_t cloud_bytes_max(const pose_wall_runtime_options& options);
+
+}  // namespace pose_wall::runtime

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// When points are left out, and how many. Frames go first: points only when frames were dropped while those that were
+// worked took, several in a row, longer than the longest period that is wanted between them.
+
+#pragma once
+
+#include <cstdint>
+
+namespace pose_wall::runtime {
+
+class Overload {
+ public:
+  Overload(std::uint32_t thinning_max, std::int64_t frame_period_max_ns)
+      : thinning_max_(thinning_max), period_max_ns_(frame_period_max_ns) {}
+
+  // After each worked frame: how it had been thinned, what it took, and whether a frame was dropped since the last one.
+  // A frame that was thinned otherwise than asked for now was queued before, and says nothing.
+  void note(std::uint32_t thinning, std::int64_t work_ns, bool dropped) {
+    if (thinning != thinning_) return;
+    const bool too_slow = work_ns > period_max_ns_;
+    // Twice the points take at most twice the time; a quarter of the period stays free, so that it does not swing.
+    const bool has_room = thinning_ > 1 && work_ns < period_max_ns_ / 8 * 3;
+    slow_ = too_slow ? slow_ + 1 : 0;
+    dropped_ = too_slow && (dropped_ || dropped);
+    roomy_ = has_room ? roomy_ + 1 : 0;
+    if (slow_ >= kSlowFrames && dropped_ && thinning_ * 2 <= thinning_max_) {
+      set(thinning_ * 2);
+    } else if (roomy_ >= kRoomyFrames) {
+      set(thinning_ / 2);
+    }
+  }
+
+  std::uint32_t thinning() const { return thinning_; }
+
+  static constexpr std::uint32_t kSlowFrames = 3;
+  static constexpr std::uint32_t kRoomyFrames = 20;
+
+ private:
+  void set(std::uint32_t thinning) {
+    thinning_ = thinning;
+    slow_ = roomy_ = 0;
+    dropped_ = false;
+  }
+
+  std::uint32_t thinning_max_;
+  std::int64_t period_max_ns_;
+  std::uint32_t thinning_ = 1, slow_ = 0, roomy_ = 0;
+  bool dropped_ = false;  // while it was slow
+};
+
+// Which returns stay: by a hash of their number. Every n-th would take away whole lines of a sensor that delivers
+// column by column, and steps of any fixed length do so for some number of lines. By a hash the returns of a direction
+// are thinned as if by chance, which is what the engine's test for silent directions (Poisson's law) allows for; the
+// same cloud is always thinned the same way.
+class EvenChoice {
+ public:
+  explicit EvenChoice(std::uint32_t thinning) : limit_(thinning > 1 ? 0xFFFFFFFFU / thinning : 0xFFFFFFFFU) {}
+
+  bool takes_next() { return mixed(number_++) <= limit_; }
+
+ private:
+  // The finalizer of MurmurHash3 (Appleby), which every bit of the number passes to every bit of the hash.
+  static std::uint32_t mixed(std::uint32_t h) {
+    h = (h ^ h >> 16) * 0x85EBCA6BU;
+    h = (h ^ h >> 13) * 0xC2B2AE35U;
+    return h ^ h >> 16;
+  }
+
+  std::uint32_t limit_;
+  std::uint32_t number_ = 0;
+};
+
+}  // namespace pose_wall::runtime

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The runtime: one lock over what changes hands, and nothing done under it but that.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "block_walk.hpp"
+#include "box_writer.hpp"
+#include "frame_slot.hpp"
+#include "histogram.hpp"
+#include "latest_value.hpp"
+#include "overload.hpp"
+#include "pose_wall_runtime.h"
+#include "threads.hpp"
+
+namespace pose_wall::runtime {
+
+// Each is written by one thread: push by who is inside push, sink by the recorder, the others by the worker.
+struct Times {
+  Histogram push, wait, work, latency, callback, sink;
+  Histogram stage[POSE_WALL_STAGES];
+};
+
+// Under the lock.
+struct Counters {
+  std::uint64_t pushed = 0, processed = 0;
+  std::uint64_t dropped[POSE_WALL_RUNTIME_DROPS] = {};
+  std::uint64_t published = 0, silences = 0, thinned = 0;
+  std::uint64_t box_written = 0, box_lost = 0, box_failed = 0, box_bytes_written = 0;
+  std::uint32_t waiting_worst = 0, thinning_worst = 1;
+  std::int32_t priority_error = 0, affinity_error = 0, lock_error = 0, thread_error = 0;
+};
+
+// Where everything lies in the caller's block:
+//
+//   | Runtime | engine | box scratch | points, memento of slot 0 | of slot 1 | ... |
+//
+class Runtime {
+ public:
+  Runtime(const pose_wall_config& config, const pose_wall_runtime_options& options);
+
+  // Measures (block NULL) or places all but the Runtime itself, which comes first.
+  static std::uint64_t lay_out(void* block, std::uint64_t engine_bytes, const pose_wall_runtime_options& options,
+                               Runtime* runtime);
+  std::int32_t open(std::uint64_t block_bytes);
+  bool is_open() const { return magic_ == kMagic && self_ == this; }
+
+  std::int32_t start();
+  std::int32_t wait_idle();
+  std::int32_t request_stop();
+  std::int32_t stop();
+  std::int32_t close();
+  std::int32_t push(const pose_wall_cloud& cloud);
+  std::int32_t latest(pose_wall_publication* publication) const;
+  std::int32_t tick();
+  void statistics(pose_wall_runtime_statistics* out);
+
+ private:
+  static constexpr std::uint64_t kMagic = 0x706F73652D72756EULL;
+
+  std::int64_t now() const { return options_.clock != nullptr ? options_.clock(options_.clock_user) : monotonic_ns(); }
+  bool own_thread_calls() const;
+  bool is_idle() const;
+
+  // runtime_life.cpp
+  std::int32_t start_threads();
+  void end_threads();
+  void drop_waiting();
+
+  // runtime_push.cpp
+  std::int32_t refusal(const pose_wall_cloud& cloud, pose_wall_runtime_drop* why) const;
+  std::int32_t queue(FrameSlot* slot, std::uint64_t epoch);
+
+  // runtime_worker.cpp
+  static void* run_worker(void* runtime);
+  void take_wishes();
+  void work();
+  void wait_for_work();
+  bool silence_is_due(std::int64_t now_ns) const;
+  void work_frame(FrameSlot* slot);
+  void work_silence(FrameSlot* slot);
+  std::int32_t measure(FrameSlot* slot, std::int64_t* work_ns);
+  void publish(pose_wall_publication* publication);
+  void conclude(FrameSlot* slot);
+  void hand_on(FrameSlot* slot);
+
+  // runtime_recorder.cpp
+  static void* run_recorder(void* runtime);
+  void record();
+
+  std::uint64_t magic_ = 0;
+  const Runtime* self_ = nullptr;
+  std::uint64_t block_bytes_ = 0;
+  pose_wall_config config_;
+  pose_wall_runtime_options options_;
+  bool with_intensity_ = false;
+  pose_wall_engine* engine_ = nullptr;
+  void* engine_block_ = nullptr;
+  std::uint64_t engine_bytes_ = 0;
+  BoxWriter box_;
+
+  // Under the lock from here.
+  mutable Mutex lock_;
+  Condition changed_;
+  std::uint32_t state_ = POSE_WALL_RUNTIME_STOPPED;
+  std::uint64_t epoch_ = 0;  // of the start; a push that began before a stop does not end up behind it
+  bool worker_ready_ = false, joining_ = false, recorder_may_end_ = false;
+  bool has_worker_ = false, has_recorder_ = false;
+  pthread_t worker_{}, recorder_{};
+  FrameSlot slot_[kSlotsMax];
+  SlotList free_, waiting_, to_record_;
+  bool filling_ = false;                 // a push is copying
+  bool busy_ = false, in_work_ = false;  // the worker is at something; it is a frame
+  bool look_ = false;                    // tick asked for a look at the clock
+  bool recording_ = false;
+  std::uint32_t callers_inside_ = 0;  // in wait_idle or stop: close must not pull the lock from under them
+  bool dropped_since_ = false;        // overtaken since the last worked frame
+  std::uint32_t thinning_ = 1;
+  std::int64_t newest_received_ns_ = 0;
+  bool has_newest_ = false;
+  Counters counters_;
+
+  // Of the worker alone.
+  Overload overload_;
+  std::uint64_t events_ = 0, publications_ = 0, last_frame_ = 0;
+  std::int64_t last_stamp_ns_ = 0, silent_since_ns_ = 0, next_silence_ns_ = 0;
+  pose_wall_publication publication_{};
+
+  // Without a lock.
+  std::atomic<std::uint32_t> running_{0};
+  LatestValue<pose_wall_publication> latest_;
+  Times times_;
+};
+
+}  // namespace pose_wall::runtime

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the archive shows.
+
+#pragma once
+
+#if defined(__GNUC__)
+#define POSE_WALL_EXPORT __attribute__((visibility("default")))
+#else
+#define POSE_WALL_EXPORT
+#endif

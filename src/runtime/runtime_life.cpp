@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Open, start, stop, close, and waiting.
+
+#include <errno.h>  // NOLINT(modernize-deprecated-headers): POSIX names
+#include <sys/mman.h>
+
+#include "options.hpp"
+#include "runtime.hpp"
+#include "status.hpp"
+
+namespace pose_wall::runtime {
+
+Runtime::Runtime(const pose_wall_config& config, const pose_wall_runtime_options& options)
+    : config_(config), options_(options), overload_(options.thinning_max, options.frame_period_max_ns) {}
+
+std::uint64_t Runtime::lay_out(void* block, std::uint64_t engine_bytes, const pose_wall_runtime_options& options,
+                               Runtime* runtime) {
+  BlockWalk walk(block);
+  walk.take(sizeof(Runtime));
+  unsigned char* const engine_block = walk.take(engine_bytes);
+  const bool has_box = options.sink != nullptr;
+  unsigned char* const scratch = has_box ? walk.take(BoxWriter::scratch_bytes()) : nullptr;
+  if (runtime != nullptr) {
+    runtime->engine_block_ = engine_block;
+    runtime->engine_bytes_ = engine_bytes;
+    runtime->box_.open(options, scratch);
+  }
+  for (std::uint32_t i = 0; i < slots_of(options); ++i) {
+    unsigned char* const points = walk.take(cloud_bytes_max(options));
+    unsigned char* const memento = has_box ? walk.take(pose_wall_memento_bytes()) : nullptr;
+    if (runtime == nullptr) continue;
+    runtime->slot_[i].points = points;
+    runtime->slot_[i].memento = memento;
+    runtime->free_.push(&runtime->slot_[i]);
+  }
+  return walk.bytes();
+}
+
+std::int32_t Runtime::open(std::uint64_t block_bytes) {
+  const std::int32_t status = pose_wall_open(&config_, engine_block_, engine_bytes_, &engine_);
+  if (status != POSE_WALL_OK) return status;
+  double weight = 0.0;
+  pose_wall_config_get_number(&config_, "intensity_weight", &weight);
+  with_intensity_ = weight > 0.0;
+  pose_wall_set_clock(
+      engine_, [](void* user) { return static_cast<const Runtime*>(user)->now(); }, this);
+  block_bytes_ = block_bytes;
+  lock_.open();
+  changed_.open();
+  self_ = this;
+  magic_ = kMagic;
+  return POSE_WALL_OK;
+}
+
+bool Runtime::own_thread_calls() const {
+  const pthread_t caller = pthread_self();
+  return (has_worker_ && pthread_equal(caller, worker_) != 0) ||
+         (has_recorder_ && pthread_equal(caller, recorder_) != 0);
+}
+
+std::int32_t Runtime::start() {
+  Locked locked(&lock_);
+  if (own_thread_calls()) return POSE_WALL_RUNTIME_E_THREAD;
+  if (state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
+  state_ = POSE_WALL_RUNTIME_STARTING;
+  ++epoch_;
+  pose_wall_reset(engine_);
+  latest_.clear();
+  overload_ = Overload(options_.thinning_max, options_.frame_period_max_ns);
+  thinning_ = 1;
+  has_newest_ = worker_ready_ = recorder_may_end_ = dropped_since_ = false;
+  events_ = 0;
+  last_stamp_ns_ = 0;
+  const std::int32_t status = start_threads();
+  if (status != POSE_WALL_OK) {
+    state_ = POSE_WALL_RUNTIME_STOPPING;
+    end_threads();
+    return status;
+  }
+  state_ = POSE_WALL_RUNTIME_RUNNING;
+  running_.store(1, std::memory_order_release);
+  changed_.wake_all();
+  return POSE_WALL_OK;
+}
+
+// Under the lock, which the new threads wait for.
+std::int32_t Runtime::start_threads() {
+  Counters& c = counters_;
+  c.priority_error = c.affinity_error = c.lock_error = c.thread_error = 0;
+  if (options_.lock_memory != 0 && mlock(this, block_bytes_) != 0) c.lock_error = errno;
+  if (options_.sink != nullptr) {
+    c.thread_error = pthread_create(&recorder_, nullptr, run_recorder, this);
+    has_recorder_ = c.thread_error == 0;
+  }
+  if (c.thread_error == 0) {
+    c.thread_error = pthread_create(&worker_, nullptr, run_worker, this);
+    has_worker_ = c.thread_error == 0;
+  }
+  while (has_worker_ && !worker_ready_) changed_.wait(&lock_);
+  const std::uint32_t refused = (c.priority_error != 0 ? std::uint32_t{POSE_WALL_RUNTIME_PRIORITY} : 0U) |
+                                (c.affinity_error != 0 ? std::uint32_t{POSE_WALL_RUNTIME_AFFINITY} : 0U) |
+                                (c.lock_error != 0 ? std::uint32_t{POSE_WALL_RUNTIME_LOCK} : 0U);
+  const bool granted = c.thread_error == 0 && (refused & options_.required) == 0;
+  return ok_if(granted, POSE_WALL_RUNTIME_E_SYSTEM);
+}
+
+// Under the lock, in state STOPPING, by one thread. The worker first: what it did last is still recorded.
+void Runtime::end_threads() {
+  running_.store(0, std::memory_order_release);
+  joining_ = true;
+  changed_.wake_all();
+  if (has_worker_) {
+    Unlocked unlocked(&lock_);
+    pthread_join(worker_, nullptr);
+  }
+  has_worker_ = false;
+  drop_waiting();
+  recorder_may_end_ = true;
+  changed_.wake_all();
+  if (has_recorder_) {
+    Unlocked unlocked(&lock_);
+    pthread_join(recorder_, nullptr);
+  }
+  has_recorder_ = joining_ = false;
+  state_ = POSE_WALL_RUNTIME_STOPPED;
+  changed_.wake_all();
+}
+
+void Runtime::drop_waiting() {
+  while (!waiting_.empty()) {
+    free_.push(waiting_.pop());
+    ++counters_.dropped[POSE_WALL_RUNTIME_DROP_STOPPED];
+  }
+}
+
+std::int32_t Runtime::request_stop() {
+  Locked locked(&lock_);
+  if (state_ != POSE_WALL_RUNTIME_RUNNING) return POSE_WALL_RUNTIME_E_STATE;
+  state_ = POSE_WALL_RUNTIME_STOPPING;
+  running_.store(0, std::memory_order_release);
+  changed_.wake_all();
+  return POSE_WALL_OK;
+}
+
+std::int32_t Runtime::stop() {
+  Locked locked(&lock_);
+  if (own_thread_calls()) return POSE_WALL_RUNTIME_E_THREAD;
+  ++callers_inside_;
+  while (state_ == POSE_WALL_RUNTIME_STARTING) changed_.wait(&lock_);
+  if (joining_) {
+    // Another thread is at it.
+    const std::uint64_t epoch = epoch_;
+    while (joining_ && epoch == epoch_) changed_.wait(&lock_);
+  } else if (state_ != POSE_WALL_RUNTIME_STOPPED) {
+    state_ = POSE_WALL_RUNTIME_STOPPING;
+    end_threads();
+  }
+  --callers_inside_;
+  return POSE_WALL_OK;
+}
+
+bool Runtime::is_idle() const {
+  return waiting_.empty() && !busy_ && !look_ && to_record_.empty() && !recording_;
+}
+
+std::int32_t Runtime::wait_idle() {
+  Locked locked(&lock_);
+  if (own_thread_calls()) return POSE_WALL_RUNTIME_E_THREAD;
+  ++callers_inside_;
+  const std::uint64_t epoch = epoch_;
+  while (state_ == POSE_WALL_RUNTIME_RUNNING && epoch == epoch_ && !is_idle()) changed_.wait(&lock_);
+  --callers_inside_;
+  const bool idle = state_ == POSE_WALL_RUNTIME_RUNNING && epoch == epoch_;
+  return ok_if(idle, POSE_WALL_RUNTIME_E_STATE);
+}
+
+std::int32_t Runtime::tick() {
+  Locked locked(&lock_);
+  if (state_ != POSE_WALL_RUNTIME_RUNNING) return POSE_WALL_RUNTIME_E_STATE;
+  look_ = true;
+  changed_.wake_all();
+  return POSE_WALL_OK;
+}
+
+std::int32_t Runtime::close() {
+  {
+    Locked locked(&lock_);
+    if (own_thread_calls()) return POSE_WALL_RUNTIME_E_THREAD;
+    if (state_ != POSE_WALL_RUNTIME_STOPPED || filling_ || callers_inside_ > 0) return POSE_WALL_RUNTIME_E_STATE;
+    magic_ = 0;
+    self_ = nullptr;
+  }
+  changed_.close();
+  lock_.close();
+  if (options_.lock_memory != 0) munlock(this, block_bytes_);
+  return POSE_WALL_OK;
+}
+
+}  // namespace pose_wall::runtime

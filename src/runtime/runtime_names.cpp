@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Names and sentences.
+
+#include "pose_wall_box.h"
+#include "pose_wall_runtime.h"
+#include "runtime_export.hpp"
+
+extern "C" {
+
+POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
+  switch (status) {
+    case POSE_WALL_RUNTIME_E_OPTION:
+      return "an option is out of its range, or reserved is not zero";
+    case POSE_WALL_RUNTIME_E_HANDLE:
+      return "not an open runtime";
+    case POSE_WALL_RUNTIME_E_STATE:
+      return "not allowed in this state: the runtime does not run, or is not stopped";
+    case POSE_WALL_RUNTIME_E_THREAD:
+      return "not allowed from the callback or the sink: it would wait for itself";
+    case POSE_WALL_RUNTIME_E_BUSY:
+      return "another thread is inside pose_wall_runtime_push()";
+    case POSE_WALL_RUNTIME_E_LARGE:
+      return "the cloud has more points than cloud_points_max, or wider ones than point_bytes_max";
+    case POSE_WALL_RUNTIME_E_NOTHING:
+      return "nothing was published since the start";
+    case POSE_WALL_RUNTIME_E_SYSTEM:
+      return "the system refused a thread, or what the options require; see the *_error statistics";
+    case POSE_WALL_BOX_E_FORMAT:
+      return "no black box, or its header is damaged";
+    case POSE_WALL_BOX_E_VERSION:
+      return "a black box of a build whose structs differ from this one's";
+    case POSE_WALL_BOX_E_END:
+      return "no further record";
+    case POSE_WALL_BOX_E_EMPTY:
+      return "the record holds a digest only: there is nothing to compute";
+    default:
+      return pose_wall_status_text(status);
+  }
+}
+
+POSE_WALL_EXPORT const char* pose_wall_runtime_drop_name(uint32_t drop) {
+  switch (drop) {
+    case POSE_WALL_RUNTIME_DROP_DESCRIPTION:
+      return "description";
+    case POSE_WALL_RUNTIME_DROP_LARGE:
+      return "large";
+    case POSE_WALL_RUNTIME_DROP_BUSY:
+      return "busy";
+    case POSE_WALL_RUNTIME_DROP_OVERTAKEN:
+      return "overtaken";
+    case POSE_WALL_RUNTIME_DROP_STOPPED:
+      return "stopped";
+    case POSE_WALL_RUNTIME_DROP_ENGINE:
+      return "engine";
+    default:
+      return "unknown";
+  }
+}
+
+}  // extern "C"

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the recorder's thread does: it alone waits for the sink.
+
+#include "runtime.hpp"
+
+namespace pose_wall::runtime {
+
+void* Runtime::run_recorder(void* runtime) {
+  static_cast<Runtime*>(runtime)->record();
+  return nullptr;
+}
+
+// At a stop it goes on until nothing waits: what was worked last is what an incident is about.
+void Runtime::record() {
+  bool begun = box_.begin(config_);
+  Locked locked(&lock_);
+  if (!begun) ++counters_.box_failed;
+  while (!to_record_.empty() || !recorder_may_end_) {
+    if (to_record_.empty()) {
+      changed_.wait(&lock_);
+      continue;
+    }
+    FrameSlot* const slot = to_record_.pop();
+    recording_ = true;
+    bool written = false;
+    {
+      Unlocked unlocked(&lock_);
+      const std::int64_t begin_ns = now();
+      // A disk that was not there at the start may be by now.
+      begun = begun || box_.begin(config_);
+      written = begun && box_.write(*slot);
+      if (written) times_.sink.add(now() - begin_ns);
+    }
+    ++(written ? counters_.box_written : counters_.box_failed);
+    counters_.box_bytes_written = box_.bytes_written();
+    recording_ = false;
+    free_.push(slot);
+    changed_.wake_all();
+  }
+}
+
+}  // namespace pose_wall::runtime

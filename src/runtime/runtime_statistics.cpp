@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What can be read while it runs.
+
+#include "runtime.hpp"
+#include "status.hpp"
+
+namespace pose_wall::runtime {
+
+std::int32_t Runtime::latest(pose_wall_publication* publication) const {
+  if (running_.load(std::memory_order_acquire) == 0) return POSE_WALL_RUNTIME_E_STATE;
+  return ok_if(latest_.load(publication), POSE_WALL_RUNTIME_E_NOTHING);
+}
+
+void Runtime::statistics(pose_wall_runtime_statistics* out) {
+  pose_wall_runtime_statistics s{};
+  s.struct_size = sizeof(s);
+  const std::int64_t now_ns = now();
+  {
+    Locked locked(&lock_);
+    const Counters& c = counters_;
+    s.state = state_;
+    s.pushed = c.pushed;
+    s.processed = c.processed;
+    for (int i = 0; i < POSE_WALL_RUNTIME_DROPS; ++i) s.dropped[i] = c.dropped[i];
+    s.filling = filling_ ? 1 : 0;
+    s.waiting = waiting_.count();
+    s.in_work = in_work_ ? 1 : 0;
+    s.waiting_worst = c.waiting_worst;
+    s.published = c.published;
+    s.silences = c.silences;
+    s.thinned = c.thinned;
+    s.thinning = thinning_;
+    s.thinning_worst = c.thinning_worst;
+    s.newest_age_ns = has_newest_ ? now_ns - newest_received_ns_ : -1;
+    s.box_written = c.box_written;
+    s.box_lost = c.box_lost;
+    s.box_failed = c.box_failed;
+    s.box_bytes_written = c.box_bytes_written;
+    s.priority_error = c.priority_error;
+    s.affinity_error = c.affinity_error;
+    s.lock_error = c.lock_error;
+    s.thread_error = c.thread_error;
+  }
+  s.push = times_.push.times();
+  s.wait = times_.wait.times();
+  s.work = times_.work.times();
+  s.latency = times_.latency.times();
+  s.callback = times_.callback.times();
+  s.sink = times_.sink.times();
+  for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) s.stage[stage] = times_.stage[stage].times();
+  *out = s;
+}
+
+}  // namespace pose_wall::runtime

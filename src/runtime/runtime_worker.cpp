@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the worker's thread does: frames, and the watchdog when there are none.
+
+#include "finish_result.hpp"
+#include "pose_wall_box.h"
+#include "runtime.hpp"
+
+namespace pose_wall::runtime {
+namespace {
+
+// Stamps are anybody's numbers.
+std::int64_t saturated_sum(std::int64_t a, std::int64_t b) {
+  std::int64_t sum;
+  if (!__builtin_add_overflow(a, b, &sum)) return sum;
+  return b > 0 ? INT64_MAX : INT64_MIN;
+}
+
+}  // namespace
+
+void* Runtime::run_worker(void* runtime) {
+  Runtime* const r = static_cast<Runtime*>(runtime);
+  r->take_wishes();
+  r->work();
+  return nullptr;
+}
+
+void Runtime::take_wishes() {
+  const int priority_error = options_.worker_priority > 0 ? set_priority(options_.worker_priority) : 0;
+  const int affinity_error = options_.worker_cpu >= 0 ? set_processor(options_.worker_cpu) : 0;
+  silent_since_ns_ = now();
+  next_silence_ns_ = silent_since_ns_ + options_.watchdog_ns;
+  Locked locked(&lock_);
+  counters_.priority_error = priority_error;
+  counters_.affinity_error = affinity_error;
+  worker_ready_ = true;
+  changed_.wake_all();
+}
+
+void Runtime::work() {
+  Locked locked(&lock_);
+  while (state_ != POSE_WALL_RUNTIME_STOPPING) {
+    look_ = false;
+    const bool has_frame = !waiting_.empty();
+    if (!has_frame && !silence_is_due(now())) {
+      changed_.wake_all();  // who waits for idleness must see that a tick was looked at
+      wait_for_work();
+      continue;
+    }
+    busy_ = true;
+    in_work_ = has_frame;
+    FrameSlot* const slot = has_frame ? waiting_.pop() : free_.pop();
+    has_frame ? work_frame(slot) : work_silence(slot);
+    in_work_ = busy_ = false;
+    changed_.wake_all();
+  }
+}
+
+bool Runtime::silence_is_due(std::int64_t now_ns) const {
+  return options_.watchdog_ns > 0 && now_ns >= next_silence_ns_;
+}
+
+void Runtime::wait_for_work() {
+  if (options_.watchdog_ns > 0 && options_.clock == nullptr) {
+    changed_.wait_until(&lock_, next_silence_ns_);
+  } else {
+    changed_.wait(&lock_);
+  }
+}
+
+// Under the lock, which is free while the engine works and the callback runs.
+void Runtime::work_frame(FrameSlot* slot) {
+  const bool dropped = dropped_since_;
+  dropped_since_ = false;
+  std::int32_t status = POSE_WALL_OK;
+  std::int64_t work_ns = 0;
+  {
+    Unlocked unlocked(&lock_);
+    status = measure(slot, &work_ns);
+  }
+  if (status != POSE_WALL_OK) {
+    free_.push(slot);
+    ++counters_.dropped[POSE_WALL_RUNTIME_DROP_ENGINE];
+    return;
+  }
+  overload_.note(slot->publication.thinning, work_ns, dropped);
+  thinning_ = overload_.thinning();
+  if (thinning_ > counters_.thinning_worst) counters_.thinning_worst = thinning_;
+  if (slot->publication.thinning > 1) ++counters_.thinned;
+  newest_received_ns_ = slot->publication.received_ns;
+  has_newest_ = true;
+  conclude(slot);
+  ++counters_.processed;
+}
+
+std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
+  pose_wall_publication& p = slot->publication;
+  const std::int64_t begin_ns = now();
+  if (slot->memento != nullptr) pose_wall_save(engine_, slot->memento, pose_wall_memento_bytes());
+  p.result.struct_size = sizeof(p.result);
+  const std::int32_t status = pose_wall_process(engine_, &slot->cloud, &p.result);
+  if (status != POSE_WALL_OK) return status;
+  finish_result(slot->left_out_not_finite, slot->left_out_zero, p.thinning, &p.result);
+  slot->kind = POSE_WALL_BOX_FRAME;
+  p.cause = POSE_WALL_RUNTIME_FRAME;
+  last_frame_ = p.frame;
+  last_stamp_ns_ = p.result.stamp_ns;
+  silent_since_ns_ = p.received_ns;
+  next_silence_ns_ = saturated_sum(p.received_ns, options_.watchdog_ns);
+  publish(&p);
+  *work_ns = p.published_ns - begin_ns;
+  times_.wait.add(begin_ns - p.received_ns);
+  times_.work.add(*work_ns);
+  times_.latency.add(p.published_ns - p.received_ns);
+  for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) times_.stage[stage].add(p.result.stage_ns[stage]);
+  return POSE_WALL_OK;
+}
+
+void Runtime::work_silence(FrameSlot* slot) {
+  {
+    Unlocked unlocked(&lock_);
+    const std::int64_t now_ns = now();
+    slot->cloud = pose_wall_cloud{};
+    slot->left_out_not_finite = slot->left_out_zero = 0;
+    slot->kind = POSE_WALL_BOX_SILENCE;
+    pose_wall_publication& p = slot->publication;
+    p = pose_wall_publication{};
+    p.cause = POSE_WALL_RUNTIME_SILENCE;
+    p.thinning = 1;
+    p.frame = last_frame_;
+    p.received_ns = silent_since_ns_;
+    if (slot->memento != nullptr) pose_wall_save(engine_, slot->memento, pose_wall_memento_bytes());
+    p.result.struct_size = sizeof(p.result);
+    pose_wall_age(engine_, saturated_sum(last_stamp_ns_, now_ns - silent_since_ns_), &p.result);
+    next_silence_ns_ = saturated_sum(now_ns, options_.watchdog_every_ns);
+    publish(&p);
+  }
+  ++counters_.silences;
+  conclude(slot);
+}
+
+// Readers first, then the black box, then the callback, which may take its time or never come back.
+void Runtime::publish(pose_wall_publication* p) {
+  p->struct_size = sizeof(*p);
+  p->index = publications_++;
+  p->published_ns = now();
+  latest_.store(*p);
+  publication_ = *p;
+}
+
+void Runtime::conclude(FrameSlot* slot) {
+  ++counters_.published;
+  slot->sequence = events_++;
+  hand_on(slot);
+  if (options_.callback == nullptr) return;
+  Unlocked unlocked(&lock_);
+  const std::int64_t begin_ns = now();
+  options_.callback(options_.callback_user, &publication_);
+  times_.callback.add(now() - begin_ns);
+}
+
+// To the recorder, if it keeps up: the worker waits for no disk.
+void Runtime::hand_on(FrameSlot* slot) {
+  const std::uint32_t at_recorder = to_record_.count() + (recording_ ? 1U : 0U);
+  if (options_.sink != nullptr && at_recorder < options_.box_backlog) {
+    to_record_.push(slot);
+    changed_.wake_all();
+    return;
+  }
+  if (options_.sink != nullptr) ++counters_.box_lost;
+  free_.push(slot);
+}
+
+}  // namespace pose_wall::runtime

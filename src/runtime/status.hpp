@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "pose_wall.h"
+
+namespace pose_wall::runtime {
+
+// The statuses are of several enums; all are int32_t to the outside.
+constexpr std::int32_t ok_if(bool good, std::int32_t otherwise) {
+  return good ? std::int32_t{POSE_WALL_OK} : otherwise;
+}
+
+}  // namespace pose_wall::runtime

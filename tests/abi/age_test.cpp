@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: between frames the engine tells what a frame without a measurement would tell at that time, bit for bit;
+// asking changes no later frame, except that what was told invalid is not held again; and a wrong call changes nothing.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "support/clouds.hpp"
+#include "support/engine_under_test.hpp"
+#include "support/room.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+constexpr std::int64_t kMs = 1000000;
+
+pose_wall_result age(EngineUnderTest* engine, std::int64_t stamp_ns) {
+  pose_wall_result result{};
+  result.struct_size = sizeof result;
+  EXPECT_EQ(pose_wall_age(engine->get(), stamp_ns, &result), POSE_WALL_OK);
+  return result;
+}
+
+// Everything but the reasons, which tell the two apart.
+void expect_same_values(pose_wall_result aged, pose_wall_result framed) {
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    EXPECT_EQ(aged.quantity[q].reasons & ~std::uint32_t{POSE_WALL_R_NO_FRAME},
+              framed.quantity[q].reasons & POSE_WALL_R_HOLD_EXPIRED);
+    aged.quantity[q].reasons = framed.quantity[q].reasons = 0;
+  }
+  EXPECT_EQ(std::memcmp(aged.quantity, framed.quantity, sizeof aged.quantity), 0);
+  EXPECT_EQ(aged.confidence, framed.confidence);
+  EXPECT_EQ(aged.stamp_ns, framed.stamp_ns);
+}
+
+TEST(Age, TellsWhatAFrameThatMeasuresNothingWould) {
+  const Points room = room_points(1);
+  bool held = false, invalid = false;
+  for (const std::int64_t ms : {1, 50, 100, 400, 900, 1999, 2001, 60000}) {
+    EngineUnderTest asked(small_config()), shown(small_config());
+    asked.process(cloud_of(room, 7 * kMs));
+    ASSERT_GE(shown.process(cloud_of(room, 7 * kMs)).quantity[POSE_WALL_D_LF].state, POSE_WALL_DEGRADED);
+    const pose_wall_result aged = age(&asked, (7 + ms) * kMs);
+    expect_same_values(aged, shown.process(cloud_of(Points(), (7 + ms) * kMs)));
+    EXPECT_EQ(aged.frame_reasons, POSE_WALL_R_NO_FRAME);
+    EXPECT_EQ(aged.frame_index, 0U);
+    held = held || aged.quantity[POSE_WALL_D_LF].state == POSE_WALL_HELD;
+    invalid = invalid || aged.quantity[POSE_WALL_D_LF].state == POSE_WALL_INVALID;
+  }
+  EXPECT_TRUE(held && invalid);
+}
+
+TEST(Age, TheNextFrameDoesNotNotice) {
+  EngineUnderTest asked(small_config()), left_alone(small_config());
+  for (std::uint32_t frame = 0; frame < 4; ++frame) {
+    const Points room = room_points(frame);
+    const std::int64_t stamp_ns = 100 * kMs * frame;
+    const pose_wall_result one = asked.process(cloud_of(room, stamp_ns));
+    const pose_wall_result two = left_alone.process(cloud_of(room, stamp_ns));
+    EXPECT_EQ(std::memcmp(&one, &two, sizeof one), 0) << "frame " << frame;
+    age(&asked, stamp_ns + 60 * kMs);
+    age(&asked, stamp_ns + 90 * kMs);
+  }
+}
+
+TEST(Age, WhatWasToldInvalidIsNotHeldAgain) {
+  EngineUnderTest asked(small_config()), left_alone(small_config());
+  const Points room = room_points(1);
+  asked.process(cloud_of(room, 0));
+  left_alone.process(cloud_of(room, 0));
+  EXPECT_EQ(age(&asked, 10000 * kMs).quantity[POSE_WALL_D_LF].state, POSE_WALL_INVALID);
+  EXPECT_EQ(age(&asked, 1 * kMs).quantity[POSE_WALL_D_LF].state, POSE_WALL_INVALID);
+  // The sensor's clock says that only 100 ms have passed.
+  EXPECT_EQ(asked.process(cloud_of(Points(), 100 * kMs)).quantity[POSE_WALL_D_LF].state, POSE_WALL_INVALID);
+  EXPECT_EQ(left_alone.process(cloud_of(Points(), 100 * kMs)).quantity[POSE_WALL_D_LF].state, POSE_WALL_HELD);
+  EXPECT_GE(asked.process(cloud_of(room, 200 * kMs)).quantity[POSE_WALL_D_LF].state, POSE_WALL_DEGRADED);
+}
+
+TEST(Age, BeforeTheFirstFrameNothingIsKnown) {
+  EngineUnderTest engine(small_config());
+  for (const pose_wall_value& v : age(&engine, 5).quantity) {
+    EXPECT_EQ(v.state, POSE_WALL_INVALID);
+    EXPECT_EQ(v.reasons, POSE_WALL_R_NEVER_MEASURED | POSE_WALL_R_NO_FRAME);
+    EXPECT_TRUE(std::isnan(v.value) && std::isnan(v.raw) && std::isnan(v.sigma) && std::isnan(v.protection_level));
+    EXPECT_EQ(v.confidence, 0.0);
+  }
+}
+
+TEST(Age, BackwardsNothingAges) {
+  EngineUnderTest engine(small_config());
+  engine.process(cloud_of(room_points(1), 1000 * kMs));
+  for (const std::int64_t stamp_ns : {1000 * kMs, 999 * kMs, std::numeric_limits<std::int64_t>::min()}) {
+    const pose_wall_value v = age(&engine, stamp_ns).quantity[POSE_WALL_D_LF];
+    EXPECT_EQ(v.state, POSE_WALL_HELD);
+    EXPECT_EQ(v.age_s, 0.0);
+  }
+}
+
+TEST(Age, WrongCallsChangeNothing) {
+  EngineUnderTest engine(small_config());
+  pose_wall_result result;
+  std::memset(&result, 0x5A, sizeof result);
+  const pose_wall_result before = result;
+  EXPECT_EQ(pose_wall_age(nullptr, 0, &result), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_age(engine.get(), 0, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_age(engine.get(), 0, &result), POSE_WALL_E_STRUCT_SIZE);
+  AlignedBlock garbage(1 << 16, Dirt::kRandom);
+  EXPECT_EQ(pose_wall_age(static_cast<pose_wall_engine*>(garbage.data()), 0, &result), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(std::memcmp(&result, &before, sizeof result), 0);
+}
+
+TEST(CloudCheck, SaysWhatProcessWouldSay) {
+  const Points room = room_points(1);
+  EngineUnderTest engine(small_config());
+  pose_wall_cloud cloud = cloud_of(room, 0);
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_cloud_check(nullptr), POSE_WALL_E_NULL);
+  cloud.data_bytes -= 1;
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_E_CLOUD_SIZE);
+  cloud = cloud_of(room, 0);
+  cloud.x.type = POSE_WALL_FIELD_INT8;
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_E_CLOUD_FIELD);
+  cloud.struct_size = 1;
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_E_STRUCT_SIZE);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: with what was saved before a frame another engine computes that frame to the same bits, whatever came before
+// it; and a memento that is damaged in any one bit, cut off or of another version is refused and changes nothing.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "support/clouds.hpp"
+#include "support/engine_under_test.hpp"
+#include "support/room.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+using Memento = std::vector<unsigned char>;
+
+Memento save(EngineUnderTest* engine) {
+  Memento memento(pose_wall_memento_bytes());
+  EXPECT_EQ(pose_wall_save(engine->get(), memento.data(), memento.size()), POSE_WALL_OK);
+  return memento;
+}
+
+std::int32_t load(EngineUnderTest* engine, const Memento& memento) {
+  return pose_wall_load(engine->get(), memento.data(), memento.size());
+}
+
+// Frames, gaps, a frozen sensor, stamps that stand still, jump back and leap.
+TEST(Memento, AnyFrameCanBeComputedAgain) {
+  EngineUnderTest all(small_config());
+  const std::int64_t stamps_ms[] = {0, 100, 200, 200, 300, 250, 350, 5000, 5100, 5200, 5300};
+  std::uint32_t at = 0;
+  for (const std::int64_t ms : stamps_ms) {
+    ++at;
+    const bool silent = at == 4 || at == 10;
+    const Points points = silent ? Points() : room_points(at == 7 ? 6 : at);
+    const pose_wall_cloud cloud = cloud_of(points, ms * 1000000);
+    const Memento before = save(&all);
+    const pose_wall_result expected = all.process(cloud);
+    EngineUnderTest other(small_config());
+    ASSERT_EQ(load(&other, before), POSE_WALL_OK);
+    const pose_wall_result again = other.process(cloud);
+    EXPECT_EQ(std::memcmp(&expected, &again, sizeof again), 0) << "frame " << at;
+    EXPECT_EQ(save(&other), save(&all));
+  }
+}
+
+// Without what came before, the second frame comes out otherwise: the test above can fail.
+TEST(Memento, WithoutItTheSameFrameIsAnother) {
+  EngineUnderTest all(small_config()), fresh(small_config());
+  all.process(cloud_of(room_points(1), 0));
+  const Points second = room_points(2);
+  const pose_wall_result after = all.process(cloud_of(second, 100000000));
+  const pose_wall_result alone = fresh.process(cloud_of(second, 100000000));
+  EXPECT_NE(std::memcmp(&after.quantity, &alone.quantity, sizeof after.quantity), 0);
+}
+
+TEST(Memento, EveryFlippedBitIsFound) {
+  EngineUnderTest engine(small_config()), other(small_config());
+  engine.process(cloud_of(room_points(1), 0));
+  const Memento good = save(&engine), fresh = save(&other);
+  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+    Memento bad = good;
+    bad[bit / 8] = static_cast<unsigned char>(bad[bit / 8] ^ (1U << bit % 8));
+    ASSERT_EQ(load(&other, bad), POSE_WALL_E_MEMENTO) << "bit " << bit;
+  }
+  EXPECT_EQ(save(&other), fresh);
+  EXPECT_EQ(load(&other, good), POSE_WALL_OK);
+}
+
+TEST(Memento, WrongCallsChangeNothing) {
+  EngineUnderTest engine(small_config());
+  Memento memento = save(&engine), untouched(memento.size(), 0x5A);
+  EXPECT_EQ(pose_wall_save(engine.get(), untouched.data(), untouched.size() - 1), POSE_WALL_E_BUFFER_SMALL);
+  EXPECT_EQ(pose_wall_save(nullptr, untouched.data(), untouched.size()), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_save(engine.get(), nullptr, 1 << 20), POSE_WALL_E_NULL);
+  EXPECT_EQ(untouched, Memento(memento.size(), 0x5A));
+  EXPECT_EQ(pose_wall_load(engine.get(), memento.data(), memento.size() - 1), POSE_WALL_E_BUFFER_SMALL);
+  EXPECT_EQ(pose_wall_load(engine.get(), nullptr, 1 << 20), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_load(nullptr, memento.data(), memento.size()), POSE_WALL_E_NULL);
+  AlignedBlock garbage(1 << 16, Dirt::kRandom);
+  pose_wall_engine* const none = static_cast<pose_wall_engine*>(garbage.data());
+  EXPECT_EQ(pose_wall_load(none, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_save(none, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: what the black box holds computes to the same bits again, frame by frame, in any order, also after the ring
+// came round; cut off at any byte it still gives all whole records; any flipped bit is found; a slow or broken disk
+// stops nothing but the record, and is counted.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <map>
+#include <thread>
+#include <vector>
+
+#include "pose_wall_box.h"
+#include "runtime/checksums.hpp"
+#include "support/engine_under_test.hpp"
+#include "support/runtime_under_test.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+// A disk in memory, with a gate before it, which breaks on demand.
+struct Disk {
+  Bytes bytes;
+  Gate gate;
+  std::atomic<bool> broken{false};
+
+  static std::int32_t write(void* self, std::uint64_t offset, const void* from, std::uint64_t count) {
+    Disk& disk = *static_cast<Disk*>(self);
+    disk.gate.pass();
+    if (disk.broken) return 5;
+    if (disk.bytes.size() < offset + count) disk.bytes.resize(offset + count);
+    std::memcpy(disk.bytes.data() + offset, from, count);
+    return 0;
+  }
+};
+
+RuntimeUnderTest::Change onto(Disk* disk, std::uint64_t box_bytes, bool clouds = true) {
+  return [=](pose_wall_runtime_options* o) {
+    o->sink = Disk::write;
+    o->sink_user = disk;
+    o->box_bytes = box_bytes;
+    o->box_clouds = clouds ? 1 : 0;
+  };
+}
+
+struct Found {
+  std::map<std::uint64_t, pose_wall_box_record> whole;  // by sequence
+  std::size_t damaged = 0;
+  std::uint64_t passed_over = 0;
+};
+
+Found read(const Bytes& bytes) {
+  Found found;
+  std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+  pose_wall_box_record record;
+  while (pose_wall_box_next(bytes.data(), bytes.size(), &offset, &record) == POSE_WALL_OK) {
+    found.passed_over += record.passed_over;
+    if (record.damaged != 0) {
+      ++found.damaged;
+    } else {
+      EXPECT_TRUE(found.whole.emplace(record.sequence, record).second) << "twice: " << record.sequence;
+    }
+  }
+  found.passed_over += record.passed_over;
+  return found;
+}
+
+// Frames, a silence, a bad cloud of garbage, a gap; few points, so that bits can be flipped one by one where `small`.
+RuntimeUnderTest::Publications record(RuntimeUnderTest* runtime, int frames, bool small) {
+  runtime->start();
+  for (int i = 0; i < frames; ++i) {
+    const Points points = small || i % 5 == 4 ? Points(static_cast<std::size_t>(i) % 3, {1, 2, 3})
+                                              : room_points(static_cast<std::uint32_t>(i));
+    runtime->push(points, i * 100 * kMs);
+    runtime->wait_idle();
+    if (i % 4 == 2) runtime->pass(400 * kMs);
+  }
+  EXPECT_EQ(pose_wall_runtime_stop(runtime->get()), POSE_WALL_OK);
+  return runtime->published();
+}
+
+void expect_computes_to(const pose_wall_box_record& record, const pose_wall_publication& published,
+                        EngineUnderTest* engine) {
+  pose_wall_result again{};
+  again.struct_size = sizeof again;
+  ASSERT_EQ(pose_wall_box_compute(&record, engine->get(), &again), POSE_WALL_OK);
+  EXPECT_EQ(std::memcmp(&again, record.result, sizeof again), 0) << "event " << record.sequence;
+  EXPECT_EQ(std::memcmp(&published.result, record.result, sizeof again), 0) << "event " << record.sequence;
+  EXPECT_EQ(record.received_ns, published.received_ns);
+}
+
+TEST(Box, EveryEventComputesToTheSameBits) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 64 << 20));
+  const auto published = record(&runtime, 12, false);
+  pose_wall_box_info info;
+  ASSERT_EQ(pose_wall_box_open(disk.bytes.data(), disk.bytes.size(), &info), POSE_WALL_OK);
+  EXPECT_STREQ(info.version, pose_wall_version());
+  const Found found = read(disk.bytes);
+  ASSERT_EQ(found.whole.size(), published.size());
+  EXPECT_EQ(found.damaged, 0U);
+  EXPECT_EQ(found.passed_over, 0U);
+  EngineUnderTest engine(info.config);
+  for (auto it = found.whole.rbegin(); it != found.whole.rend(); ++it) {
+    expect_computes_to(it->second, published[it->first], &engine);
+  }
+  EXPECT_EQ(runtime.statistics().box_written, published.size());
+  EXPECT_EQ(runtime.statistics().box_bytes_written, disk.bytes.size());
+}
+
+TEST(Box, TheNewestRemainWhenTheRingComesRound) {
+  Disk disk;
+  const std::uint64_t room_for_few = 3 << 20;
+  RuntimeUnderTest runtime(onto(&disk, room_for_few));
+  const auto published = record(&runtime, 40, false);
+  EXPECT_LE(disk.bytes.size(), room_for_few);
+  const Found found = read(disk.bytes);
+  ASSERT_GE(found.whole.size(), 5U);
+  ASSERT_LT(found.whole.size(), published.size());
+  EXPECT_EQ(found.whole.rbegin()->first, published.size() - 1);
+  EXPECT_EQ(found.whole.rbegin()->first - found.whole.begin()->first + 1, found.whole.size()) << "no gap";
+  EngineUnderTest engine(small_config());
+  for (const auto& [sequence, record] : found.whole) expect_computes_to(record, published[sequence], &engine);
+}
+
+TEST(Box, CutOffAnywhereAllWholeRecordsRemain) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20));
+  record(&runtime, 4, true);
+  std::vector<std::uint64_t> ends;
+  for (const auto& [sequence, record] : read(disk.bytes).whole) ends.push_back(record.offset);
+  ends.push_back(disk.bytes.size());
+  ends.erase(ends.begin());
+  ASSERT_EQ(ends.size(), 5U) << "four frames and a silence";
+  pose_wall_box_info info;
+  for (std::size_t size = 0; size <= disk.bytes.size(); ++size) {
+    const Bytes cut(disk.bytes.begin(), disk.bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    const std::int32_t expected = size < POSE_WALL_BOX_HEADER_BYTES ? int{POSE_WALL_BOX_E_FORMAT} : int{POSE_WALL_OK};
+    ASSERT_EQ(pose_wall_box_open(cut.data(), cut.size(), &info), cut.data() == nullptr ? POSE_WALL_E_NULL : expected);
+    if (size < POSE_WALL_BOX_HEADER_BYTES) continue;
+    const auto whole = std::count_if(ends.begin(), ends.end(), [&](std::uint64_t end) { return end <= size; });
+    const Found found = read(cut);
+    ASSERT_EQ(found.whole.size(), static_cast<std::size_t>(whole)) << size << " bytes";
+    const bool at_an_end = size == POSE_WALL_BOX_HEADER_BYTES || std::count(ends.begin(), ends.end(), size) > 0;
+    ASSERT_EQ(found.damaged + found.passed_over == 0, at_an_end) << size << " bytes";
+  }
+}
+
+TEST(Box, EveryFlippedBitIsFound) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20));
+  record(&runtime, 2, true);
+  const std::size_t all = read(disk.bytes).whole.size();
+  ASSERT_EQ(all, 2U);
+  pose_wall_box_info info;
+  for (std::size_t bit = 0; bit < 8 * disk.bytes.size(); ++bit) {
+    Bytes bad = disk.bytes;
+    bad[bit / 8] = static_cast<unsigned char>(bad[bit / 8] ^ (1U << bit % 8));
+    if (bit / 8 < POSE_WALL_BOX_HEADER_BYTES) {
+      ASSERT_NE(pose_wall_box_open(bad.data(), bad.size(), &info), POSE_WALL_OK) << "bit " << bit;
+      continue;
+    }
+    const Found found = read(bad);
+    ASSERT_EQ(found.whole.size(), all - 1) << "bit " << bit;
+    ASSERT_GT(found.damaged + found.passed_over, 0U) << "bit " << bit;
+  }
+}
+
+TEST(Box, ASlowDiskLosesRecordsAndNothingElse) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20));
+  disk.gate.shut();
+  runtime.start();
+  const Points few(3, {1, 1, 1});
+  constexpr std::uint64_t kFrames = 20;
+  for (std::uint64_t i = 0; i < kFrames; ++i) {
+    runtime.push(few, static_cast<std::int64_t>(i));
+    while (runtime.statistics().processed <= i) std::this_thread::yield();
+  }
+  pose_wall_runtime_statistics s = runtime.statistics();
+  EXPECT_EQ(s.processed, kFrames);
+  EXPECT_EQ(dropped(s), 0U);
+  EXPECT_EQ(s.box_lost, kFrames - 2) << "two wait for the disk";
+  disk.gate.open();
+  EXPECT_EQ(pose_wall_runtime_stop(runtime.get()), POSE_WALL_OK);
+  s = runtime.statistics();
+  EXPECT_EQ(s.box_written, 2U) << "stop waits for what is due";
+  EXPECT_EQ(read(disk.bytes).whole.size(), 2U);
+}
+
+TEST(Box, ABrokenDiskIsCountedAndTriedAgain) {
+  Disk disk;
+  disk.broken = true;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20));
+  runtime.start();
+  const Points few(3, {1, 1, 1});
+  for (int i = 0; i < 6; ++i) {
+    if (i == 3) disk.broken = false;
+    runtime.push(few, i);
+    runtime.wait_idle();
+  }
+  const pose_wall_runtime_statistics s = runtime.statistics();
+  EXPECT_EQ(s.processed, 6U);
+  EXPECT_EQ(s.box_failed, 4U) << "the header, three records";
+  EXPECT_EQ(s.box_written, 3U);
+  const Found found = read(disk.bytes);
+  EXPECT_EQ(found.whole.begin()->first, 3U);
+  EXPECT_EQ(found.whole.size(), 3U);
+}
+
+TEST(Box, DigestsAloneAreSmallAndSaySo) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20, false));
+  const Points room = room_points(1);
+  runtime.start();
+  runtime.push(room, 5);
+  runtime.wait_idle();
+  pose_wall_runtime_stop(runtime.get());
+  EXPECT_LT(disk.bytes.size(), 10000U);
+  const Found found = read(disk.bytes);
+  ASSERT_EQ(found.whole.size(), 1U);
+  const pose_wall_box_record& r = found.whole.at(0);
+  EXPECT_EQ(r.points, nullptr);
+  EXPECT_EQ(r.digest, runtime::fnv1a(room.data(), 12 * room.size()));
+  EngineUnderTest engine(small_config());
+  pose_wall_result result{};
+  result.struct_size = sizeof result;
+  EXPECT_EQ(pose_wall_box_compute(&r, engine.get(), &result), POSE_WALL_BOX_E_EMPTY);
+}
+
+// The reader's own word for it: known answers of both sums.
+TEST(Box, Checksums) {
+  EXPECT_EQ(runtime::crc32("123456789", 9), 0xCBF43926U);
+  EXPECT_EQ(runtime::fnv1a("a", 1), 0xAF63DC4C8601EC8CULL);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: numbers of the public enums are those that programs were built against; every wrong call is refused by the
+// status in the header and changes nothing; options out of range are refused one by one.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "pose_wall_box.h"
+#include "support/runtime_under_test.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+std::int32_t sink(void* /*user*/, std::uint64_t /*offset*/, const void* /*bytes*/, std::uint64_t /*count*/) {
+  return 0;
+}
+
+TEST(RuntimeAbi, Numbers) {
+  EXPECT_EQ(pose_wall_runtime_abi_version(), 1U);
+  const int statuses[] = {POSE_WALL_RUNTIME_E_OPTION,  POSE_WALL_RUNTIME_E_HANDLE, POSE_WALL_RUNTIME_E_STATE,
+                          POSE_WALL_RUNTIME_E_THREAD,  POSE_WALL_RUNTIME_E_BUSY,   POSE_WALL_RUNTIME_E_LARGE,
+                          POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM};
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(statuses[i], -100 - i);
+  const int of_box[] = {POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION, POSE_WALL_BOX_E_END, POSE_WALL_BOX_E_EMPTY};
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(of_box[i], -80 - i);
+  const int drops[] = {POSE_WALL_RUNTIME_DROP_DESCRIPTION,
+                       POSE_WALL_RUNTIME_DROP_LARGE,
+                       POSE_WALL_RUNTIME_DROP_BUSY,
+                       POSE_WALL_RUNTIME_DROP_OVERTAKEN,
+                       POSE_WALL_RUNTIME_DROP_STOPPED,
+                       POSE_WALL_RUNTIME_DROP_ENGINE,
+                       POSE_WALL_RUNTIME_DROPS};
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(drops[i], i);
+  EXPECT_EQ(POSE_WALL_RUNTIME_FRAME, 1);
+  EXPECT_EQ(POSE_WALL_RUNTIME_SILENCE, 2);
+}
+
+TEST(RuntimeAbi, EveryStatusAndDropHasAText) {
+  std::set<std::string> texts;
+  for (int status = -100; status >= -107; --status) texts.insert(pose_wall_runtime_status_text(status));
+  for (int status = -80; status >= -83; --status) texts.insert(pose_wall_runtime_status_text(status));
+  EXPECT_EQ(texts.size(), 12U);
+  EXPECT_STREQ(pose_wall_runtime_status_text(POSE_WALL_E_NULL), pose_wall_status_text(POSE_WALL_E_NULL));
+  EXPECT_EQ(texts.count(pose_wall_runtime_status_text(-99)), 0U);
+  std::set<std::string> names;
+  for (std::uint32_t d = 0; d <= POSE_WALL_RUNTIME_DROPS; ++d) names.insert(pose_wall_runtime_drop_name(d));
+  EXPECT_EQ(names.size(), POSE_WALL_RUNTIME_DROPS + 1U);
+}
+
+TEST(RuntimeRefusals, OptionsOutOfRange) {
+  const pose_wall_config config = small_config();
+  using Change = std::function<void(pose_wall_runtime_options*)>;
+  const Change wrong[] = {
+      [](auto* o) { o->queue_frames = 0; },     [](auto* o) { o->queue_frames = 65; },
+      [](auto* o) { o->cloud_points_max = 0; }, [](auto* o) { o->cloud_points_max = (1U << 26) + 1; },
+      [](auto* o) { o->point_bytes_max = 11; }, [](auto* o) { o->point_bytes_max = 33; },
+      [](auto* o) { o->thinning_max = 0; },     [](auto* o) { o->thinning_max = 3; },
+      [](auto* o) { o->thinning_max = 32; },    [](auto* o) { o->box_clouds = 2; },
+      [](auto* o) { o->box_backlog = 0; },      [](auto* o) { o->box_backlog = 65; },
+      [](auto* o) { o->worker_priority = -1; }, [](auto* o) { o->worker_priority = 100; },
+      [](auto* o) { o->worker_cpu = -2; },      [](auto* o) { o->worker_cpu = 1024; },
+      [](auto* o) { o->lock_memory = 2; },      [](auto* o) { o->required = 8; },
+      [](auto* o) { o->reserved = 1; },         [](auto* o) { o->frame_period_max_ns = 0; },
+      [](auto* o) { o->watchdog_ns = -1; },     [](auto* o) { o->watchdog_every_ns = 0; },
+      [](auto* o) { o->sink = sink; },          [](auto* o) { o->watchdog_ns = INT64_MAX; },
+  };
+  std::size_t number = 0;
+  for (const Change& change : wrong) {
+    pose_wall_runtime_options options;
+    pose_wall_runtime_options_init(&options);
+    std::uint64_t bytes = 7;
+    ASSERT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_OK);
+    bytes = 7;
+    change(&options);
+    EXPECT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_RUNTIME_E_OPTION) << number;
+    EXPECT_EQ(bytes, 7U);
+    ++number;
+  }
+}
+
+TEST(RuntimeRefusals, BlocksAndPointers) {
+  const pose_wall_config config = small_config();
+  pose_wall_runtime_options options;
+  EXPECT_EQ(pose_wall_runtime_options_init(nullptr), POSE_WALL_E_NULL);
+  pose_wall_runtime_options_init(&options);
+  options.cloud_points_max = 100;
+  std::uint64_t bytes = 0;
+  ASSERT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_OK);
+  AlignedBlock block(bytes + 64, Dirt::kRandom);
+  pose_wall_runtime* r = nullptr;
+  char* const start = static_cast<char*>(block.data());
+  EXPECT_EQ(pose_wall_runtime_open(&config, &options, start + 8, bytes, &r), POSE_WALL_E_BLOCK_ALIGN);
+  EXPECT_EQ(pose_wall_runtime_open(&config, &options, start, bytes - 1, &r), POSE_WALL_E_BLOCK_SMALL);
+  EXPECT_EQ(pose_wall_runtime_open(nullptr, &options, start, bytes, &r), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_runtime_open(&config, nullptr, start, bytes, &r), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_runtime_open(&config, &options, nullptr, bytes, &r), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_runtime_open(&config, &options, start, bytes, nullptr), POSE_WALL_E_NULL);
+  pose_wall_runtime_options old = options;
+  old.struct_size = 8;
+  EXPECT_EQ(pose_wall_runtime_open(&config, &old, start, bytes, &r), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(r, nullptr);
+}
+
+TEST(RuntimeRefusals, NoHandleAndNoStruct) {
+  AlignedBlock garbage(1 << 20, Dirt::kRandom);
+  pose_wall_runtime* const none = static_cast<pose_wall_runtime*>(garbage.data());
+  const Points few(3, {1, 1, 1});
+  const pose_wall_cloud cloud = cloud_of(few, 0);
+  pose_wall_publication p{};
+  pose_wall_runtime_statistics s{};
+  for (pose_wall_runtime* const r : {none, static_cast<pose_wall_runtime*>(nullptr)}) {
+    const std::int32_t expected = r == nullptr ? int{POSE_WALL_E_NULL} : int{POSE_WALL_RUNTIME_E_HANDLE};
+    EXPECT_EQ(pose_wall_runtime_start(r), expected);
+    EXPECT_EQ(pose_wall_runtime_stop(r), expected);
+    EXPECT_EQ(pose_wall_runtime_close(r), expected);
+    EXPECT_EQ(pose_wall_runtime_tick(r), expected);
+    EXPECT_EQ(pose_wall_runtime_wait_idle(r), expected);
+    EXPECT_EQ(pose_wall_runtime_request_stop(r), expected);
+    EXPECT_EQ(pose_wall_runtime_push(r, &cloud), expected);
+    EXPECT_EQ(pose_wall_runtime_latest(r, &p), expected);
+    EXPECT_EQ(pose_wall_runtime_statistics_now(r, &s), expected);
+  }
+  RuntimeUnderTest runtime;
+  runtime.start();
+  EXPECT_EQ(pose_wall_runtime_latest(runtime.get(), &p), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_runtime_statistics_now(runtime.get(), &s), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_runtime_push(runtime.get(), nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_runtime_latest(runtime.get(), nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_runtime_statistics_now(runtime.get(), nullptr), POSE_WALL_E_NULL);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

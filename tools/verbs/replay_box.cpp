@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_wall replay-box: what the black box holds, computed again; every bit must come out as it was published.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "box/box_replay.hpp"
+#include "terminal/counted.hpp"
+#include "terminal/progress_bar.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr int kExitDiffers = 3;
+
+struct ReplayOptions {
+  std::string file;
+  bool quiet = false;
+};
+
+void print(const ReplayOptions& options, const BoxReplay& r) {
+  fmt::print("{}: recorded by pose_wall {}; {} ({} to {}): {}, {}\n", options.file, r.version,
+             counted(r.records, "event"), r.first_sequence, r.last_sequence, counted(r.frames, "frame"),
+             counted(r.silences, "silence"));
+  fmt::print("  {} bit for bit as recorded, {} otherwise\n", r.equal, r.different);
+  if (r.thinned > 0) fmt::print("  {} of a thinned cloud\n", counted(r.thinned, "frame"));
+  if (r.digests_only > 0) fmt::print("  {} only as digests: there is nothing to compute\n", r.digests_only);
+  if (r.missing > 0) fmt::print("  {} missing: lost to a slow disk, or damaged\n", counted(r.missing, "event"));
+  if (r.damaged > 0) fmt::print("  {} damaged or cut off\n", counted(r.damaged, "record"));
+  if (r.refused > 0) fmt::print("  {} refused by this build's engine\n", counted(r.refused, "record"));
+  if (r.passed_over > 0) fmt::print("  {} between the records are none\n", counted(r.passed_over, "byte"));
+  if (!r.first) return;
+  const BoxDifference& d = *r.first;
+  fmt::print("first difference: event {}, frame {}, stamp {}: {}\n  recorded {}\n  computed {}\n", d.sequence,
+             d.frame_index, d.stamp_ns, d.what.field, d.what.recorded, d.what.computed);
+}
+
+int replay(const ReplayOptions& options) {
+  BoxReplay result;
+  try {
+    std::unique_ptr<ProgressBar> bar;
+    result = replay_box(options.file, [&](std::uint64_t done, std::uint64_t of) {
+      if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2));
+      bar->advance(fmt::format("event {}", done));
+    });
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "pose_wall replay-box: {}\n", error.what());
+    return kExitUnreadable;
+  }
+  print(options, result);
+  if (result.different > 0) return kExitDiffers;
+  return result.is_whole() && result.reproduced() ? kExitDone : kExitUnreadable;
+}
+
+}  // namespace
+
+void add_replay_box(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<ReplayOptions>();
+  CLI::App* verb = app.add_subcommand("replay-box", "Compute a black box again and compare every bit");
+  verb->add_option("FILE", options->file, "A black box, as the runtime wrote it")->required();
+  verb->add_flag("-q,--quiet", options->quiet, "No progress on stderr");
+  verb->footer(
+      "Example:\n  pose_wall replay-box box.pwbox\n"
+      "Exit status: 0 every event computes to the recorded bits and nothing is damaged, 1 damaged, no black box, or "
+      "digests only,\n3 a result differs (the first difference is named).");
+  verb->callback([options, &exit_code] { exit_code = replay(*options); });
+}
+
+}  // namespace pose_wall::tools
