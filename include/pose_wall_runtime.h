@@ -137,8 +137,9 @@ typedef struct pose_wall_runtime_options {
       frame_period_max_ns;   /* 100 ms: frames are dropped, not thinned, as long as worked ones are no further apart */
   int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published */
   int64_t watchdog_every_ns; /* 100 ms: and again so often, until a frame comes */
-  pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once. With a clock of the
-                                caller's nothing but pose_wall_runtime_tick wakes the worker for the watchdog */
+  pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once, also
+                                under the lock: it must not call the runtime. With a clock of the caller's nothing but
+                                pose_wall_runtime_tick wakes the worker for the watchdog */
   void* clock_user;
   pose_wall_runtime_callback callback; /* or NULL */
   void* callback_user;

@@ -13,16 +13,15 @@
 
 namespace pose_wall::runtime {
 
-constexpr std::uint32_t kLatestCells = 4;
 constexpr int kLatestAttempts = 1000;
 
-template <typename T>
+template <typename T, std::uint32_t kCells = 4>
 class LatestValue {
  public:
   // One thread only.
   void store(const T& value) {
     const std::uint64_t turn = turn_.load(std::memory_order_relaxed) + 1;
-    Cell& cell = cell_[turn % kLatestCells];
+    Cell& cell = cell_[turn % kCells];
     const std::uint64_t version = cell.version.load(std::memory_order_relaxed);
     cell.version.store(version + 1, std::memory_order_relaxed);  // odd: being written
     for (std::uint32_t i = 0; i < words(); ++i) {
@@ -39,7 +38,7 @@ class LatestValue {
     for (int attempt = 0; attempt < kLatestAttempts; ++attempt) {
       const std::uint64_t turn = turn_.load(std::memory_order_acquire);
       if (turn == 0) return false;
-      const Cell& cell = cell_[turn % kLatestCells];
+      const Cell& cell = cell_[turn % kCells];
       const std::uint64_t before = cell.version.load(std::memory_order_acquire);
       T copy;
       for (std::uint32_t i = 0; i < words(); ++i) set_word(&copy, i, cell.word[i].load(std::memory_order_acquire));
@@ -72,7 +71,7 @@ class LatestValue {
     std::memcpy(reinterpret_cast<unsigned char*>(value) + 8 * i, &word, 8);
   }
 
-  Cell cell_[kLatestCells];
+  Cell cell_[kCells];
   std::atomic<std::uint64_t> turn_{0};
 };
 
