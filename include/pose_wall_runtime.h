@@ -34,9 +34,9 @@
  * TIME. push costs one pass over the cloud, in the caller's thread, and two short locks that no thread holds while it
  * works, calls back or writes. The worker never waits for a disk.
  *
- * SILENCE. When no frame comes for watchdog_ns, the worker publishes what pose_wall_age says: values age, are held,
- * then invalid. A worker that hangs (in the callback) cannot publish: who acts on `latest` must compare published_ns
- * with a clock of its own.
+ * SILENCE. When the newest frame that was worked is older than watchdog_ns (none came, or the worker is that late), the
+ * worker publishes what pose_wall_age says: values age, are held, then invalid. A worker that hangs (in the callback)
+ * cannot publish: who acts on `latest` must compare published_ns with a clock of its own.
  *
  * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
  * when the frames that are worked lie further apart than frame_period_max_ns, points are left out: every second return,
@@ -84,7 +84,7 @@ const char* pose_wall_runtime_status_text(int32_t status);
 
 enum pose_wall_runtime_cause {
   POSE_WALL_RUNTIME_FRAME = 1,  /* a frame was worked */
-  POSE_WALL_RUNTIME_SILENCE = 2 /* no frame came for watchdog_ns: aged values, POSE_WALL_R_NO_FRAME */
+  POSE_WALL_RUNTIME_SILENCE = 2 /* the newest worked frame is older than watchdog_ns: aged values, R_NO_FRAME */
 };
 
 typedef struct pose_wall_publication {

@@ -42,8 +42,10 @@ void Runtime::work() {
   Locked locked(&lock_);
   while (state_ != POSE_WALL_RUNTIME_STOPPING) {
     look_ = false;
-    const bool has_frame = !waiting_.empty();
-    if (!has_frame && !silence_is_due(now())) {
+    // Silence goes first: where frames are worked late, the newest that is known is old all the same.
+    const bool silent = silence_is_due(now());
+    const bool has_frame = !silent && !waiting_.empty();
+    if (!silent && !has_frame) {
       changed_.wake_all();  // who waits for idleness must see that a tick was looked at
       wait_for_work();
       continue;

@@ -48,6 +48,27 @@ TEST(RuntimeWatchdog, ValuesAgeAreHeldAndEnd) {
   EXPECT_GE(runtime.latest().result.quantity[POSE_WALL_D_LF].state, POSE_WALL_DEGRADED);
 }
 
+// A worker that is late tells the age of what it knows, though frames wait.
+TEST(RuntimeWatchdog, LateFramesAreOldFrames) {
+  RuntimeUnderTest runtime;
+  runtime.gate.shut();
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.gate.wait_until_somebody_is_inside();
+  runtime.push(room_points(2), 100 * kMs);
+  runtime.clock.advance(400 * kMs);
+  runtime.gate.open();
+  runtime.wait_idle();
+  std::vector<std::uint32_t> causes;
+  for (const pose_wall_publication& p : runtime.published()) causes.push_back(p.cause);
+  EXPECT_EQ(causes, (std::vector<std::uint32_t>{POSE_WALL_RUNTIME_FRAME, POSE_WALL_RUNTIME_SILENCE,
+                                                POSE_WALL_RUNTIME_FRAME, POSE_WALL_RUNTIME_SILENCE}));
+  const pose_wall_publication p = runtime.latest();
+  EXPECT_EQ(p.frame, 1U);
+  EXPECT_NEAR(p.result.quantity[POSE_WALL_D_LF].age_s, 0.4, 1e-9);
+  EXPECT_NE(p.result.quantity[POSE_WALL_D_LF].state, static_cast<std::uint32_t>(POSE_WALL_VALID));
+}
+
 TEST(RuntimeWatchdog, SpeaksBeforeTheFirstFrameToo) {
   RuntimeUnderTest runtime;
   runtime.start();
