@@ -260,10 +260,20 @@ double alert_limit(std::uint32_t quantity, const Settings& settings) {
   return quantity <= POSE_WALL_YAW ? radians(settings.alert_limit_angle_deg) : settings.alert_limit_distance;
 }
 
+static void add_text(const char* text, Crc32* sum) {
+  for (; *text != '\0'; ++text) sum->add_byte(static_cast<std::uint8_t>(*text));
+  sum->add_byte(0);
+}
+
 std::int32_t config_crc(const pose_wall_config& config, std::uint32_t* crc) {
   if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
   Crc32 sum;
   sum.add_word(config.layout);
+  // What the numbers are of: a build that names, orders or measures them otherwise has other settings.
+  for (const Row& row : kRows) {
+    add_text(row.info.name, &sum);
+    add_text(row.info.unit, &sum);
+  }
   for (const double number : config.number) {
     const double one_zero = number + 0.0;  // -0 and 0 are the same setting
     std::uint64_t bits;

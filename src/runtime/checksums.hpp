@@ -19,7 +19,7 @@ struct CrcTable {
     }
   }
 };
-inline constexpr CrcTable kCrcTable{};
+constexpr CrcTable kCrcTable{};  // not inline: that would be a unique symbol, which objcopy keeps global
 
 // zlib's and Ethernet's: reflected 0xEDB88320.
 class Crc32 {

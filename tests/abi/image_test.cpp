@@ -206,6 +206,30 @@ TEST(ConfigCrc, ToldBySettingsAlone) {
   }
 }
 
+// So that another table of keys gives another number.
+TEST(ConfigCrc, CoversNamesUnitsNumbersAndTexts) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  const auto add = [&crc](const void* bytes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      crc ^= static_cast<const unsigned char*>(bytes)[i];
+      for (int bit = 0; bit < 8; ++bit) crc = crc >> 1U ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+    }
+  };
+  pose_wall_config config = config_with({{"s_front", "2.5"}, {"lidar_frame", "os"}});
+  add(&config.layout, sizeof config.layout);
+  for (std::uint32_t key = 0; key < pose_wall_config_key_count(); ++key) {
+    pose_wall_key_info info;
+    ASSERT_EQ(pose_wall_config_key(key, &info), POSE_WALL_OK);
+    add(info.name, std::strlen(info.name) + 1);
+    add(info.unit, std::strlen(info.unit) + 1);
+  }
+  add(config.number, sizeof config.number);
+  add(config.text, sizeof config.text);
+  std::uint32_t told = 0;
+  ASSERT_EQ(pose_wall_config_crc(&config, &told), POSE_WALL_OK);
+  EXPECT_EQ(told, ~crc);
+}
+
 TEST(ConfigCrc, Refusals) {
   pose_wall_config config = config_with();
   std::uint32_t crc = 7;

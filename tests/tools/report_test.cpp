@@ -148,14 +148,15 @@ TEST(ReportVerb, NamesCannotBreakOutOfTheData) {
   // A file "script>.pcd" in a folder "<".
   std::filesystem::create_directories(road.folder.file("<"));
   std::filesystem::rename(road.folder.file("road/frames/000000.pcd"), road.folder.file("</script>.pcd"));
-  const std::string title = "</title></script><b>&";
+  const std::string title = "</title></script>@data@<b>&";
   ASSERT_EQ(
       command({"report", "--quiet", "--title", title, "--output", road.folder.file("out.html"), road.folder.file("<")})
           .exit_status,
       0);
   EXPECT_EQ(road.data().at("head").at("title"), title);
   EXPECT_EQ(road.data().at("source")[0], road.folder.file("</script>.pcd"));
-  EXPECT_TRUE(contains(text_of(road.folder.file("out.html")), "<title>&lt;/title>&lt;/script>&lt;b>&amp;</title>"));
+  EXPECT_TRUE(
+      contains(text_of(road.folder.file("out.html")), "<title>&lt;/title>&lt;/script>@data@&lt;b>&amp;</title>"));
 }
 
 TEST(ReportVerb, WhatWasThereStaysWhereNothingCanBeMade) {

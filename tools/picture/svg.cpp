@@ -10,22 +10,6 @@
 namespace pose_wall::tools::picture {
 namespace {
 
-std::string escaped(std::string_view words) {
-  std::string safe;
-  for (const char letter : words) {
-    if (letter == '&') {
-      safe += "&amp;";
-    } else if (letter == '<') {
-      safe += "&lt;";
-    } else if (letter == '"') {
-      safe += "&quot;";
-    } else {
-      safe += letter;
-    }
-  }
-  return safe;
-}
-
 std::string attributes(const Stroke& stroke) {
   if (stroke.width <= 0.0) return R"(stroke="none")";
   const std::string dashes = stroke.dashes.empty() ? "" : fmt::format(R"( stroke-dasharray="{}")", stroke.dashes);
@@ -44,6 +28,22 @@ std::string_view name(Anchor anchor) {
 }
 
 }  // namespace
+
+std::string escaped(std::string_view words) {
+  std::string safe;
+  for (const char letter : words) {
+    if (letter == '&') {
+      safe += "&amp;";
+    } else if (letter == '<') {
+      safe += "&lt;";
+    } else if (letter == '"') {
+      safe += "&quot;";
+    } else {
+      safe += letter;
+    }
+  }
+  return safe;
+}
 
 Svg::Svg(double width, double height, std::string_view background) {
   body_ = fmt::format(

@@ -10,6 +10,9 @@
 
 namespace pose_wall::tools::picture {
 
+// Words as they stand in SVG or HTML.
+std::string escaped(std::string_view words);
+
 struct Pixel {
   double x;
   double y;

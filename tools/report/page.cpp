@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "config_file/key_table.hpp"
+#include "picture/svg.hpp"
 #include "report/assets.hpp"
 
 namespace pose_wall::tools::report {
@@ -24,20 +25,6 @@ std::string script_safe(std::string text) {
     text.replace(at, 1, "\\u003c");
   }
   return text;
-}
-
-std::string html_safe(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '&') {
-      safe += "&amp;";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
 }
 
 nlohmann::ordered_json words_of_engine() {
@@ -84,11 +71,11 @@ std::string page(const PageHead& head, const LoadedConfig& loaded, const PageDat
   all["words"] = words_of_engine();
   const Assets parts = assets();
   std::string text(parts.html);
-  put_in(&text, "@title@", html_safe(head.title));
   put_in(&text, "/*@style@*/", parts.style);
   put_in(&text, "/*@script@*/", parts.script);
-  // Last: what is in the data is not looked at for names again.
+  // From the end on: what a name was replaced by is not looked at for names again.
   put_in(&text, "@data@", script_safe(all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  put_in(&text, "@title@", picture::escaped(head.title));
   return text;
 }
 

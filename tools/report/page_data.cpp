@@ -38,7 +38,8 @@ void PageData::look(const pose_wall_cloud& cloud, const pose_wall_points& points
   cloud_first_.add(point_label_.size());
   const std::size_t most = choice_.points_per_frame();
   add_dropped(cloud, frame, most / kDroppedShare);
-  const std::size_t stride = std::max<std::size_t>(1, (points.count + most - 1) / most);
+  const std::size_t rest = most - most / kDroppedShare;
+  const std::size_t stride = std::max<std::size_t>(1, (points.count + rest - 1) / rest);
   for (std::size_t i = 0; i < points.count; i += stride) {
     add_point(frame.from_base(points.x_base_m[i], points.y_base_m[i], points.z_base_m[i]), points.label[i]);
   }

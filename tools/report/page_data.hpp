@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "frames/sensor_mount.hpp"
+#include "config_file/sensor_mount.hpp"
 #include "picture/drawn_frame.hpp"
 #include "report/cloud_choice.hpp"
 #include "report/columns.hpp"

@@ -15,7 +15,7 @@
 #include <array>
 #include <cstddef>
 
-#include "frames/sensor_mount.hpp"
+#include "config_file/sensor_mount.hpp"
 #include "pose_wall.hpp"
 #include "truth/truth_csv.hpp"
 

@@ -43,7 +43,10 @@ void OutputFile::write(std::string_view text) {
   stream_.close();
   std::error_code error;
   std::filesystem::rename(part_, path_, error);
-  if (error) throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.message()));
+  if (!error) return;
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+  throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.message()));
 }
 
 }  // namespace pose_wall::tools

@@ -141,13 +141,18 @@ class Charts {
   draw_lines(pen, columns, x_of, y_of) {
     const runs = (value, style, width, dash) => {
       let run = [];
+      const finish = () => {
+        // A single frame between two gaps would be a line without length.
+        if (run.length && run.every(([x]) => x === run[0][0])) dot(pen, run[0], 2, style);
+        stroke(pen, run, style, width, dash);
+        run = [];
+      };
       for (const c of columns) {
         const points = value(c);
-        if (!points.every(Number.isFinite)) { stroke(pen, run, style, width, dash); run = []; continue; }
-        for (const v of points) run.push([x_of((c.f + c.to) / 2), y_of(v)]);
+        if (points.every(Number.isFinite)) for (const v of points) run.push([x_of((c.f + c.to) / 2), y_of(v)]);
+        else finish();
       }
-      if (run.length === 1 || (run.length === 2 && run[0][0] === run[1][0])) dot(pen, run[0], 2, style);
-      stroke(pen, run, style, width, dash);
+      finish();
     };
     runs((c) => [c.low, c.high], colour('left'), 1.6);
     if (this.recording.has_truth) runs((c) => [c.truth], colour('truth'), 1.2, [5, 4]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "frames/sensor_mount.hpp"
+#include "config_file/sensor_mount.hpp"
 
 #include <Eigen/Geometry>
 #include <string>
