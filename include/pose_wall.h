@@ -202,7 +202,8 @@ typedef struct pose_wall_field {
  * direction. A cloud that was cropped or put together from several sensors looks full of holes, and its walls may be
  * refused (POSE_WALL_R_WALL_SEEN_THROUGH). In one that was thinned, or from a sensor with fewer than about 600 returns
  * a turn in each 2 degrees of elevation, gaps may go UNNOTICED. What is to be left out belongs in range_min, range_max
- * and the body boxes. */
+ * and the body boxes. Points made by hand must be a scan, too: rays at even angles, each to the first surface, with a
+ * roof where the walls end; tools/example.c makes one. */
 typedef struct pose_wall_cloud {
   uint32_t struct_size; /* sizeof(pose_wall_cloud) */
   uint32_t big_endian;  /* 0 or 1: byte order of the fields */

@@ -16,7 +16,7 @@
 #include "pose_wall.h"
 
 #define POINTS_MAX 200000
-#define BLOCK_BYTES (64 * 1024 * 1024)
+#define BLOCK_BYTES (5 * 1024 * 1024) /* pose_wall_memory_needed says how much; 4.4 MiB by default */
 
 static float points[POINTS_MAX][3];
 
@@ -29,21 +29,26 @@ static void* aligned_block(void) {
   return memory + (alignment - start % alignment) % alignment;
 }
 
-/* Walls, floor and roof of a straight roadway, seen from 1 m above the floor by a machine turned left. */
+static const double pi = 3.14159265358979;
+
+/* One scan of a straight roadway, from 1 m above the floor by a machine turned left: rays at even angles, each to the
+ * first surface. Points spread evenly over the walls would look full of holes, and so would walls without a roof. */
 static uint32_t make_roadway(void) {
-  const double half_width_m = 2.0, floor_m = -1.0, roof_m = 1.8, turned_left_rad = 3.0 * 3.14159265358979 / 180.0;
+  const double half_width_m = 2.0, floor_m = -1.0, roof_m = 1.8, turned_left_rad = 3.0 * pi / 180.0;
   const double c = cos(turned_left_rad), s = sin(turned_left_rad);
   uint32_t count = 0;
-  for (double along_m = -8.0; along_m < 8.0; along_m += 0.06) {
-    for (double t = 0.0; t < 1.0; t += 0.02) {
-      const double across_m = half_width_m * (2.0 * t - 1.0), up_m = floor_m + t * (roof_m - floor_m);
-      const double section[4][2] = {
-          {half_width_m, up_m}, {-half_width_m, up_m}, {across_m, floor_m}, {across_m, roof_m}};
-      for (int i = 0; i < 4 && count < POINTS_MAX; ++i, ++count) {
-        points[count][0] = (float)(c * along_m + s * section[i][0]);
-        points[count][1] = (float)(-s * along_m + c * section[i][0]);
-        points[count][2] = (float)section[i][1];
-      }
+  for (int ring = 0; ring < 64; ++ring) {
+    for (int column = 0; column < 1024 && count < POINTS_MAX; ++column) {
+      const double up = (-22.5 + 45.0 * ring / 63.0) * pi / 180.0, round = 2.0 * pi * column / 1024.0;
+      const double ray[3] = {cos(up) * cos(round), cos(up) * sin(round), sin(up)};
+      const double to_wall_m = half_width_m / fmax(fabs(ray[1]), 1e-9);
+      const double to_level_m = (ray[2] < 0.0 ? floor_m : roof_m) / ray[2];
+      const double range_m = fmin(to_wall_m, to_level_m);
+      if (range_m > 60.0) continue;
+      points[count][0] = (float)(range_m * (c * ray[0] + s * ray[1]));
+      points[count][1] = (float)(range_m * (-s * ray[0] + c * ray[1]));
+      points[count][2] = (float)(range_m * ray[2]);
+      ++count;
     }
   }
   return count;
@@ -66,7 +71,7 @@ static void print_result(const pose_wall_result* result) {
   for (uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const pose_wall_value* value = &result->quantity[q];
     const int is_angle = q <= POSE_WALL_YAW;
-    const double scale = is_angle ? 180.0 / 3.14159265358979 : 1.0;
+    const double scale = is_angle ? 180.0 / pi : 1.0;
     printf("%-6s %8.3f %-3s within %.3f  %s", pose_wall_quantity_name(q), value->value * scale, is_angle ? "deg" : "m",
            value->protection_level * scale, pose_wall_state_name(value->state));
     for (uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -101,5 +106,6 @@ int main(int argc, char** argv) {
   status = pose_wall_process(engine, &cloud, &result);
   if (status != POSE_WALL_OK) return refuse("pose_wall_process", status);
   print_result(&result);
-  return 0;
+  /* Of the roadway above every value is known. */
+  return argc > 1 || result.quantity[POSE_WALL_YAW].state == POSE_WALL_VALID ? 0 : 1;
 }

@@ -49,7 +49,7 @@ TEST(RunVerb, OneRowPerFrameAndStampsByRate) {
   const Ran ran = command({"run", "--rate", "20", "--output", folder.file("o.csv"), folder.file("f")});
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
   EXPECT_TRUE(contains(ran.errors, "forward_axis +X")) << ran.errors;
-  EXPECT_TRUE(contains(ran.errors, "3 frames; engine: median")) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "3 frames; engine, elapsed: median")) << ran.errors;
   const CsvTable table = read(folder.file("o.csv"));
   ASSERT_EQ(table.rows(), 3U);
   EXPECT_EQ(table.number(2, *table.find_column("stamp_ns")), 100000000.0);

@@ -162,6 +162,8 @@ TEST(ReportVerb, NamesCannotBreakOutOfTheData) {
 TEST(ReportVerb, WhatWasThereStaysWhereNothingCanBeMade) {
   const Road road("1");
   road.folder.write("out.html", "precious");
+  const std::string broken = road.folder.write("broken.pcd", "no cloud");
+  EXPECT_EQ(command({"report", "--output", road.folder.file("out.html"), broken}).exit_status, 1);
   EXPECT_EQ(road.report({"--config", "nowhere.yaml"}).exit_status, 2);
   EXPECT_EQ(road.report({"--truth", "nowhere.csv"}).exit_status, 2);
   EXPECT_EQ(road.report({"--language", "fr"}).exit_status, 2);

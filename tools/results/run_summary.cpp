@@ -86,7 +86,7 @@ std::string RunSummary::times_text(double wall_s) const {
   const double engine_s = std::accumulate(times_ms_.begin(), times_ms_.end(), 0.0) * 1e-3;
   const auto count = static_cast<double>(times_ms_.size());
   return fmt::format(
-      "{}; engine: median {:.2f} ms, 95 % {:.2f} ms, max {:.2f} ms, {:.1f} frames/s; with reading: {:.1f} "
+      "{}; engine, elapsed: median {:.2f} ms, 95 % {:.2f} ms, max {:.2f} ms, {:.1f} frames/s; with reading: {:.1f} "
       "frames/s\n",
       counted(frames_, "frame"), quantile(times_ms_, 0.5), quantile(times_ms_, 0.95), quantile(times_ms_, 1.0),
       engine_s > 0.0 ? count / engine_s : 0.0, wall_s > 0.0 ? static_cast<double>(frames_) / wall_s : 0.0);

@@ -54,6 +54,13 @@ void print_memory(const LoadedConfig& loaded) {
              POSE_WALL_BLOCK_ALIGNMENT);
 }
 
+// What a controller compares with the image's config_crc32.
+void print_crc(const LoadedConfig& loaded) {
+  uint32_t crc = 0;
+  pose_wall_config_crc(loaded.config.get(), &crc);
+  fmt::print("settings' CRC: 16#{:08X} (dwConfigCrc of FB_PoseWall, config_crc32 of the process image)\n", crc);
+}
+
 // The manual of all keys, under the headings of the table.
 void print_keys() {
   const char* kManualIndent = "    ";
@@ -80,6 +87,7 @@ int check_config(const CheckConfigOptions& options) {
   const LoadedConfig loaded = load_config(file, options.settings);
   fmt::print("{}", resolved_frames_text(resolve_frames(loaded.config), ""));
   print_memory(loaded);
+  print_crc(loaded);
   fmt::print("\n");
   print_values(loaded);
   return kExitDone;

@@ -101,6 +101,10 @@ int report_frames(const ReportOptions& options) {
 
   const auto started = std::chrono::steady_clock::now();
   const Shown shown = process_frames(options, inputs, runner, data);
+  if (shown.summary.frames() == shown.summary.unreadable()) {
+    fmt::print(stderr, "pose_wall report: no frame could be read; {} is not written\n", options.output);
+    return kExitUnreadable;
+  }
   const std::string page = report::page(
       {title_of(options), options.language, options.truth, shown.complete, inputs.files.size()}, loaded, data);
   output.write(page);
