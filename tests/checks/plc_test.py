@@ -26,6 +26,7 @@ TYPES_TEXT = (ROOT / "tools/plc/PoseWallImage.st").read_text(encoding="utf-8")
 BLOCK_TEXT = (ROOT / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8")
 STRUCTS = description.read_structs()
 WORDS = description.image_words(STRUCTS)
+WORD_OF = {word.path: i for i, word in enumerate(WORDS)}
 STATE = {"invalid": 0, "held": 1, "degraded": 2, "valid": 3}
 FAULT = {"none": 0, "silent": 1, "version": 2, "crc": 3, "config": 4}
 CHANNELS = {"fbRoll": "roll", "fbPitch": "pitch", "fbYaw": "yaw", "fbLeftFront": "d_lf", "fbLeftBack": "d_lb",
@@ -83,6 +84,8 @@ class Text(unittest.TestCase):
                                ("stImage.roll.state", "stImage.roll.status", "has no status"),
                                ("tonHold : TON", "tonHold : TUN", "type TUN is not known"),
                                ("diOut := diValue;", "diOut = diValue;", "expected :="),
+                               ("VAR_IN_OUT\n  adwImage : T_PoseWallWords;\nEND_VAR\nVAR_INPUT",
+                                "VAR_INPUT\n  adwImage : T_PoseWallWords;", "adwImage is an input"),
                                ("xNew : BOOL;", "xNew : BOOL; xNew : BOOL;", "declared twice")):
             self.assertIn(good, BLOCK_TEXT)
             with self.assertRaisesRegex(structured_text.Fault, why):
@@ -188,6 +191,52 @@ class FunctionBlock(unittest.TestCase):
         self.expect("none", False, -1500)
         self.frames(1, {"dwConfigCrc": 0xBAD, "tHold": 50})
         self.expect("config", True, 0)
+
+    def test_damage_after_other_settings_brings_nothing_back(self):
+        self.frames(inputs={"dwConfigCrc": 0xC0FFEE})
+        other = image_words(self.sequence + 1, config_crc32=0xBAD)
+        self.cycles(20, other)
+        self.expect("config", False, -1500)
+        self.assertFalse(self.block["xAlive"])
+        other[WORD_OF["yaw.value_mdeg"]] ^= 1
+        self.cycles(20, other)
+        self.expect("crc", False, -1500)
+        self.assertFalse(self.block["xAlive"])
+        self.cycles(20, image_words(self.sequence))  # an old image of the approved settings
+        self.assertFalse(self.block["xAlive"])
+        self.sequence += 1
+        self.frames(1)
+        self.expect("none", False, -1500)
+        self.assertTrue(self.block["xAlive"])
+
+    def old_images(self, buffers, for_ms):
+        for cycle in range(for_ms // CYCLE_MS):
+            self.cycles(CYCLE_MS, image_words(self.sequence - buffers + 1 + cycle % buffers))
+
+    def test_old_images_in_turn(self):
+        for buffers in (2, 3):
+            self.setUp()
+            self.frames(9)
+            self.old_images(buffers, 400)
+            self.expect("silent", False, -1500)
+            self.assertFalse(self.block["xAlive"])
+            self.old_images(buffers, 1000)
+            self.expect("silent", True, 0)
+
+    def test_a_sequence_that_begins_anew(self):
+        self.frames(9)
+        self.sequence = 3  # the images of 1 to 3 were missed
+        self.frames(3)
+        self.assertFalse(self.block["xAlive"])
+        self.frames(1, yaw__value_mdeg=-1600)
+        self.expect("none", False, -1600)
+        self.assertTrue(self.block["xAlive"])
+
+    def test_a_sequence_with_gaps(self):
+        self.frames()
+        self.sequence += 1000
+        self.frames(1, yaw__value_mdeg=-1600)
+        self.expect("none", False, -1600)
 
     def test_other_version(self):
         self.frames(1, version=2)
