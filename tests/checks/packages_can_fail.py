@@ -44,6 +44,17 @@ class Image(BrokenProject):
         self.change("include/pose_wall.h", "POSE_WALL_R_CURVED = 1 << 19", "POSE_WALL_R_BENT = 1 << 19")
         self.fails("PoseWallImage.st is not what", *self.check())
 
+    def test_number_of_the_header_changed(self):
+        self.change("include/pose_wall.h", "NO_BOUND 2147483647", "NO_BOUND 2147483646")
+        self.fails("PoseWallImage.st is not what", *self.check())
+
+    def test_other_description(self):
+        """Nothing but image.def knows where a member lies, and how many there are."""
+        self.change("tools/plc/image.def", "STRUCT pose_wall_image ST_PoseWallImage | One frame for a controller.\n",
+                    "STRUCT pose_wall_image ST_PoseWallImage | One frame for a controller.\nspare uint32 | - | spare\n")
+        self.passes("python3", self.root / "tools/plc/generate.py", self.root)
+        self.passes("python3", CHECKS / "plc_test.py", self.root)
+
     def test_description_differs_from_the_pinned_layout(self):
         self.change("tools/plc/image.def", "value_mm        int32", "value_mm        float")
         self.fails("include/pose_wall.h is not what", *self.check())
