@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """On the same simulated frames the controller's example prints, digit by digit, what `pose_wall run` writes, and its
-images hold these numbers, rounded. The controller may be of another machine, run by an emulator.
+images hold these numbers, rounded; options that it does not know it refuses. The controller may be of another machine,
+run by an emulator.
 
 usage: check_controller.py ROOT POSE_WALL CONTROLLER [EMULATOR...]"""
 
@@ -72,6 +73,14 @@ def compare(lines, images, rows):
         yield from (f"image {i}: {fault}" for fault in image_faults(images[i * size:(i + 1) * size], row))
 
 
+def option_faults(frame, *controller):
+    """What the controller does not know it must not pass over."""
+    for words in (["-q", "x", frame], ["-q"], ["-o"]):
+        done = subprocess.run([*controller, *words], capture_output=True, text=True, check=False)
+        if done.returncode != 2 or f"{words[0]}: is no option" not in done.stderr:
+            yield f"{words}: status {done.returncode}, {done.stdout}{done.stderr}"
+
+
 def second_as_kitti(frames):
     """The same points once more as a KITTI .bin: the simulator's .pcd have x y z intensity in float32, too."""
     raw = frames[1].read_bytes()
@@ -91,6 +100,7 @@ def main():
         with open(folder / "run.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         faults = list(compare(lines, (folder / "images.bin").read_bytes(), rows))
+        faults += option_faults(frames[1], *emulator, controller)
     if not any(row["yaw_state"] in ("valid", "degraded") for row in rows):
         faults.append("nothing was measured: nothing was compared")
     print("\n".join(faults) or f"{FRAMES} frames: the same numbers, and images that hold them")
