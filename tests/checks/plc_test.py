@@ -9,6 +9,7 @@ usage: plc_test.py ROOT"""
 
 import pathlib
 import random
+import re
 import struct
 import sys
 import unittest
@@ -51,7 +52,8 @@ def crc_of(words):
 def image_words(sequence=1, **changes):
     """The words of an image in which everything is valid, but for `changes` by path with "__" for the dot."""
     values = {word.path: 0 for word in WORDS}
-    values |= {"struct_size": 4 * len(WORDS), "version": define("VERSION"), "sequence": sequence, "config_crc32": 0xC0FFEE, "verdict": 3}
+    values |= {"struct_size": 4 * len(WORDS), "version": define("VERSION"), "sequence": sequence,
+               "config_crc32": 0xC0FFEE, "verdict": 3}
     values |= {path: STATE["valid"] for path in values if path.endswith(".state")}
     values |= {"yaw.value_mdeg": -1500, "yaw.protection_mdeg": 300, "d_lf.value_mm": 2100, "d_lf.protection_mm": 40}
     values |= {path.replace("__", "."): value for path, value in changes.items()}
@@ -76,6 +78,11 @@ class Text(unittest.TestCase):
         reasons = {name: bit for name, bit in read.constants.items() if name.startswith("POSE_WALL_R_")}
         self.assertEqual(reasons, description.read_enum(HEADER, "pose_wall_reason"))
         self.assertEqual(len(reasons), description.read_define(HEADER, "POSE_WALL_REASON_COUNT"))
+
+    def test_readme_is_right_where_it_is_installed(self):
+        readme = (ROOT / "tools/plc/README.md").read_text(encoding="utf-8")
+        for link in re.findall(r"\]\(([^)]*)\)", readme):
+            self.assertTrue(link.endswith((".st", "controller.c")), f"{link} is not installed beside README.md")
 
     def test_every_block_has_its_end(self):
         for word in ("END_IF;", "END_FOR;", "END_VAR", "END_FUNCTION\n", "END_FUNCTION_BLOCK", "END_TYPE"):
