@@ -144,7 +144,8 @@ sys.exit(done.returncode)
             "raw = bytearray(images.read_bytes()); raw[20] ^= 1; images.write_bytes(raw)"))
 
     def test_an_image_too_few(self):
-        self.fails("3.0 images", *self.wrapper("raw = images.read_bytes(); images.write_bytes(raw[:len(raw) * 3 // 4])"))
+        self.fails("3.0 images", *self.wrapper(
+            "raw = images.read_bytes(); images.write_bytes(raw[:len(raw) * 3 // 4])"))
 
     def test_unknown_options_passed_over(self):
         self.write("deaf.py", """import subprocess, sys
