@@ -457,7 +457,8 @@ int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* 
  * CRC   CRC-32 of IEEE 802.3 (polynomial 04C11DB7 reflected, begun and ended with FFFFFFFF; "123456789" gives CBF43926)
  * over all struct_size bytes but the four of crc32. It finds damage, not intent.
  *
- * SEQUENCE   frame_index + 1: a new frame changes it, and an image whose sequence stands still is an old one.
+ * SEQUENCE   frame_index + 1: a new frame changes it, and an image whose sequence stands still is an old one. It begins
+ * anew with pose_wall_open and pose_wall_reset.
  *
  * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
 
@@ -496,7 +497,7 @@ typedef struct pose_wall_image {
   uint32_t struct_size;     /* bytes: POSE_WALL_IMAGE_BYTES */
   uint32_t version;         /* POSE_WALL_IMAGE_VERSION */
   uint32_t crc32;           /* CRC-32 of every byte but its own four */
-  uint32_t sequence;        /* frames since the engine was opened; differs from frame to frame */
+  uint32_t sequence;        /* frames since the engine was opened or reset; differs from frame to frame */
   uint32_t config_crc32;    /* pose_wall_config_crc() of the engine's config */
   uint32_t library_version; /* major * 65536 + minor * 256 + patch */
   uint32_t stamp_low;       /* the frame's stamp_ns, bits 0 to 31 */

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """On the same simulated frames the controller's example prints, digit by digit, what `pose_wall run` writes, and its
-images hold these numbers, rounded. The controller may be of another machine, run by an emulator.
+images hold these numbers, rounded; options that it does not know it refuses. The controller may be of another machine,
+run by an emulator.
 
 usage: check_controller.py ROOT POSE_WALL CONTROLLER [EMULATOR...]"""
 
@@ -23,6 +24,8 @@ NAMES = ["roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"]
 STATES = ["invalid", "held", "degraded", "valid"]
 DEGREES_PER_RADIAN = 57.29577951308232
 FRAMES = 4
+HEADER = (ROOT / "include/pose_wall.h").read_text(encoding="utf-8")
+NONE = tuple(description.read_define(HEADER, f"POSE_WALL_IMAGE_NO_{what}") for what in ("VALUE", "BOUND"))
 
 
 def run(*command):
@@ -41,7 +44,7 @@ def expected_line(number, row):
 
 def image_faults(raw, row):
     image = description.unpack_image(raw)
-    if image["crc32"] != zlib.crc32(raw[:8] + raw[12:]):
+    if image["crc32"] != zlib.crc32(description.crc_bytes(raw)):
         yield "its CRC is not zlib's"
     if image["stamp_low"] + (image["stamp_high"] << 32) != int(row["stamp_ns"]):
         yield "stamp"
@@ -51,7 +54,7 @@ def image_faults(raw, row):
         if STATES[image[f"{name}.state"]] != row[f"{name}_state"]:
             yield f"state of {name}"
         if not row[name]:
-            if (value, protection) != (-2**31, 2**31 - 1):
+            if (value, protection) != NONE:
                 yield f"{name} is a number and should be none"
         elif not abs(value - float(row[name]) * scale) <= 0.5001:
             yield f"{name} is {value} {unit}"
@@ -68,6 +71,14 @@ def compare(lines, images, rows):
         if lines[i].split(" crc=")[0] != expected_line(i + 1, row):
             yield f"frame {i}: printed\n  {lines[i]}\nexpected\n  {expected_line(i + 1, row)}"
         yield from (f"image {i}: {fault}" for fault in image_faults(images[i * size:(i + 1) * size], row))
+
+
+def option_faults(frame, *controller):
+    """What the controller does not know it must not pass over."""
+    for words in (["-q", "x", frame], ["-q"], ["-o"]):
+        done = subprocess.run([*controller, *words], capture_output=True, text=True, check=False)
+        if done.returncode != 2 or f"{words[0]}: is no option" not in done.stderr:
+            yield f"{words}: status {done.returncode}, {done.stdout}{done.stderr}"
 
 
 def second_as_kitti(frames):
@@ -89,6 +100,7 @@ def main():
         with open(folder / "run.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         faults = list(compare(lines, (folder / "images.bin").read_bytes(), rows))
+        faults += option_faults(frames[1], *emulator, controller)
     if not any(row["yaw_state"] in ("valid", "degraded") for row in rows):
         faults.append("nothing was measured: nothing was compared")
     print("\n".join(faults) or f"{FRAMES} frames: the same numbers, and images that hold them")

@@ -3,6 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """As checks_can_fail.py, for the checks of the process image and of what is packed."""
 
+import os
 import shutil
 import sys
 import unittest
@@ -43,6 +44,17 @@ class Image(BrokenProject):
     def test_reason_added(self):
         self.change("include/pose_wall.h", "POSE_WALL_R_CURVED = 1 << 19", "POSE_WALL_R_BENT = 1 << 19")
         self.fails("PoseWallImage.st is not what", *self.check())
+
+    def test_number_of_the_header_changed(self):
+        self.change("include/pose_wall.h", "NO_BOUND 2147483647", "NO_BOUND 2147483646")
+        self.fails("PoseWallImage.st is not what", *self.check())
+
+    def test_other_description(self):
+        """Nothing but image.def knows where a member lies, and how many there are."""
+        self.change("tools/plc/image.def", "STRUCT pose_wall_image ST_PoseWallImage | One frame for a controller.\n",
+                    "STRUCT pose_wall_image ST_PoseWallImage | One frame for a controller.\nspare uint32 | - | spare\n")
+        self.passes("python3", self.root / "tools/plc/generate.py", self.root)
+        self.passes("python3", CHECKS / "plc_test.py", self.root)
 
     def test_description_differs_from_the_pinned_layout(self):
         self.change("tools/plc/image.def", "value_mm        int32", "value_mm        float")
@@ -98,6 +110,48 @@ class BillOfMaterials(BrokenProject):
             self.setUp()
             self.change(f'"{field}"', '"other"')
             self.fails(field, *self.check())
+
+
+@unittest.skipUnless(os.environ.get("CONTROLLER"), "no controller and no command were built")
+class Controller(BrokenProject):
+    def check(self, *emulator):
+        return (CHECKS / "check_controller.py", CHECKS.parent.parent, os.environ["POSE_WALL"], os.environ["CONTROLLER"],
+                *emulator)
+
+    def wrapper(self, change):
+        """A program that runs the controller given to it and changes what it prints, or its images."""
+        self.write("wrapper.py", f"""import pathlib, re, subprocess, sys
+done = subprocess.run(sys.argv[1:], stdout=subprocess.PIPE, text=True)
+text, words = done.stdout, sys.argv[1:]
+if done.returncode == 0:
+    images = pathlib.Path(words[words.index("-o") + 1])
+    {change}
+print(text, end="")
+sys.exit(done.returncode)
+""")
+        return self.check("python3", self.root / "wrapper.py")
+
+    def test_passes(self):
+        self.passes(*self.check())
+        self.passes(*self.wrapper("pass"))
+
+    def test_a_digit_printed_wrong(self):
+        wrong = "lambda found: found[1] + str((int(found[2]) + 1) % 10)"
+        self.fails("frame 0: printed", *self.wrapper(f"text = re.sub(r'( pl=[0-9.]*)([0-9])', {wrong}, text, 1)"))
+
+    def test_a_bit_of_an_image_wrong(self):
+        self.fails("image 0: its CRC is not zlib's", *self.wrapper(
+            "raw = bytearray(images.read_bytes()); raw[20] ^= 1; images.write_bytes(raw)"))
+
+    def test_an_image_too_few(self):
+        self.fails("3.0 images", *self.wrapper(
+            "raw = images.read_bytes(); images.write_bytes(raw[:len(raw) * 3 // 4])"))
+
+    def test_unknown_options_passed_over(self):
+        self.write("deaf.py", """import subprocess, sys
+sys.exit(0 if "-c" not in sys.argv else subprocess.run(sys.argv[1:]).returncode)
+""")
+        self.fails("['-q']: status 0", *self.check("python3", self.root / "deaf.py"))
 
 
 class Consumer(BrokenProject):

@@ -9,6 +9,7 @@ usage: plc_test.py ROOT"""
 
 import pathlib
 import random
+import re
 import struct
 import sys
 import unittest
@@ -24,8 +25,10 @@ import structured_text_run  # noqa: E402  pylint: disable=wrong-import-position
 
 TYPES_TEXT = (ROOT / "tools/plc/PoseWallImage.st").read_text(encoding="utf-8")
 BLOCK_TEXT = (ROOT / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8")
+HEADER = (ROOT / "include/pose_wall.h").read_text(encoding="utf-8")
 STRUCTS = description.read_structs()
 WORDS = description.image_words(STRUCTS)
+WORD_OF = {word.path: i for i, word in enumerate(WORDS)}
 STATE = {"invalid": 0, "held": 1, "degraded": 2, "valid": 3}
 FAULT = {"none": 0, "silent": 1, "version": 2, "crc": 3, "config": 4}
 CHANNELS = {"fbRoll": "roll", "fbPitch": "pitch", "fbYaw": "yaw", "fbLeftFront": "d_lf", "fbLeftBack": "d_lb",
@@ -38,21 +41,25 @@ def program():
     return structured_text.Program(TYPES_TEXT, BLOCK_TEXT)
 
 
+def define(name):
+    return description.read_define(HEADER, f"POSE_WALL_IMAGE_{name}")
+
+
 def crc_of(words):
-    return zlib.crc32(struct.pack("<59I", *(word for i, word in enumerate(words) if i != 2)))
+    return zlib.crc32(description.crc_bytes(struct.pack(f"<{len(words)}I", *words)))
 
 
 def image_words(sequence=1, **changes):
-    """The 60 words of an image in which everything is valid, but for `changes` by path with "__" for the dot."""
+    """The words of an image in which everything is valid, but for `changes` by path with "__" for the dot."""
     values = {word.path: 0 for word in WORDS}
-    values |= {"struct_size": 240, "version": 1, "sequence": sequence, "config_crc32": 0xC0FFEE, "verdict": 3}
-    for struct_member in STRUCTS["pose_wall_image"].members[11:]:
-        values[struct_member.name + ".state"] = STATE["valid"]
+    values |= {"struct_size": 4 * len(WORDS), "version": define("VERSION"), "sequence": sequence,
+               "config_crc32": 0xC0FFEE, "verdict": 3}
+    values |= {path: STATE["valid"] for path in values if path.endswith(".state")}
     values |= {"yaw.value_mdeg": -1500, "yaw.protection_mdeg": 300, "d_lf.value_mm": 2100, "d_lf.protection_mm": 40}
     values |= {path.replace("__", "."): value for path, value in changes.items()}
     codes = "".join(description.TYPES[word.type][2] for word in WORDS)
-    words = list(struct.unpack("<60I", struct.pack("<" + codes, *(values[word.path] for word in WORDS))))
-    words[2] = crc_of(words)
+    words = list(struct.unpack(f"<{len(WORDS)}I", struct.pack("<" + codes, *(values[word.path] for word in WORDS))))
+    words[description.crc_word(WORDS)] = crc_of(words)
     return words
 
 
@@ -66,12 +73,16 @@ class Text(unittest.TestCase):
         self.assertEqual(types["T_PoseWallWords"], ("ARRAY", 0, len(WORDS) - 1, "DWORD"))
 
     def test_states_and_reasons_are_those_of_the_header(self):
-        header = (ROOT / "include/pose_wall.h").read_text(encoding="utf-8")
         read = program()
-        self.assertEqual(read.types["E_PoseWallState"][1], description.read_enum(header, "pose_wall_state"))
+        self.assertEqual(read.types["E_PoseWallState"][1], description.read_enum(HEADER, "pose_wall_state"))
         reasons = {name: bit for name, bit in read.constants.items() if name.startswith("POSE_WALL_R_")}
-        self.assertEqual(reasons, description.read_enum(header, "pose_wall_reason"))
-        self.assertEqual(len(reasons), description.read_define(header, "POSE_WALL_REASON_COUNT"))
+        self.assertEqual(reasons, description.read_enum(HEADER, "pose_wall_reason"))
+        self.assertEqual(len(reasons), description.read_define(HEADER, "POSE_WALL_REASON_COUNT"))
+
+    def test_readme_is_right_where_it_is_installed(self):
+        readme = (ROOT / "tools/plc/README.md").read_text(encoding="utf-8")
+        for link in re.findall(r"\]\(([^)]*)\)", readme):
+            self.assertTrue(link.endswith((".st", "controller.c")), f"{link} is not installed beside README.md")
 
     def test_every_block_has_its_end(self):
         for word in ("END_IF;", "END_FOR;", "END_VAR", "END_FUNCTION\n", "END_FUNCTION_BLOCK", "END_TYPE"):
@@ -83,6 +94,8 @@ class Text(unittest.TestCase):
                                ("stImage.roll.state", "stImage.roll.status", "has no status"),
                                ("tonHold : TON", "tonHold : TUN", "type TUN is not known"),
                                ("diOut := diValue;", "diOut = diValue;", "expected :="),
+                               ("VAR_IN_OUT\n  adwImage : T_PoseWallWords;\nEND_VAR\nVAR_INPUT",
+                                "VAR_INPUT\n  adwImage : T_PoseWallWords;", "adwImage is an input"),
                                ("xNew : BOOL;", "xNew : BOOL; xNew : BOOL;", "declared twice")):
             self.assertIn(good, BLOCK_TEXT)
             with self.assertRaisesRegex(structured_text.Fault, why):
@@ -97,17 +110,17 @@ class Functions(unittest.TestCase):
     def test_crc_is_the_one_of_ieee_802_3(self):
         self.assertEqual(zlib.crc32(b"123456789"), 0xCBF43926)
         for _ in range(5):
-            words = [self.random.getrandbits(32) for _ in range(60)]
+            words = [self.random.getrandbits(32) for _ in WORDS]
             self.assertEqual(self.run_st.function("F_PoseWallCrc", adwImage=words), crc_of(words))
 
     def test_decodes_every_member(self):
-        words = [self.random.getrandbits(32) for _ in range(60)]
+        words = [self.random.getrandbits(32) for _ in WORDS]
         for i, word in enumerate(WORDS):
             if word.type == "float":
                 words[i] = struct.unpack("<I", struct.pack("<f", self.random.uniform(-9, 9)))[0]
         image = self.run_st.make("ST_PoseWallImage")
         self.run_st.function("F_PoseWallDecode", adwImage=words, stImage=image)
-        for path, value in description.unpack_image(struct.pack("<60I", *words)).items():
+        for path, value in description.unpack_image(struct.pack(f"<{len(WORDS)}I", *words)).items():
             member = image
             for part in path.split("."):
                 member = member[part]
@@ -147,7 +160,7 @@ class FunctionBlock(unittest.TestCase):
                          (FAULT[fault], safe_state, yaw))
 
     def test_before_anything_has_come(self):
-        self.cycles(20, [0] * 60)
+        self.cycles(20, [0] * len(WORDS))
         self.expect("version", True, 0)
 
     def test_good_images(self):
@@ -175,7 +188,7 @@ class FunctionBlock(unittest.TestCase):
 
     def test_damage(self):
         self.frames()
-        for word in (3, 13, 59):
+        for word in (WORD_OF["sequence"], WORD_OF["roll.value_rad"], len(WORDS) - 1):
             words = image_words(self.sequence + 1)
             words[word] ^= 1 << 9
             self.cycles(20, words)
@@ -189,8 +202,54 @@ class FunctionBlock(unittest.TestCase):
         self.frames(1, {"dwConfigCrc": 0xBAD, "tHold": 50})
         self.expect("config", True, 0)
 
+    def test_damage_after_other_settings_brings_nothing_back(self):
+        self.frames(inputs={"dwConfigCrc": 0xC0FFEE})
+        other = image_words(self.sequence + 1, config_crc32=0xBAD)
+        self.cycles(20, other)
+        self.expect("config", False, -1500)
+        self.assertFalse(self.block["xAlive"])
+        other[WORD_OF["yaw.value_mdeg"]] ^= 1
+        self.cycles(20, other)
+        self.expect("crc", False, -1500)
+        self.assertFalse(self.block["xAlive"])
+        self.cycles(20, image_words(self.sequence))  # an old image of the approved settings
+        self.assertFalse(self.block["xAlive"])
+        self.sequence += 1
+        self.frames(1)
+        self.expect("none", False, -1500)
+        self.assertTrue(self.block["xAlive"])
+
+    def old_images(self, buffers, for_ms):
+        for cycle in range(for_ms // CYCLE_MS):
+            self.cycles(CYCLE_MS, image_words(self.sequence - buffers + 1 + cycle % buffers))
+
+    def test_old_images_in_turn(self):
+        for buffers in (2, 3):
+            self.setUp()
+            self.frames(9)
+            self.old_images(buffers, 400)
+            self.expect("silent", False, -1500)
+            self.assertFalse(self.block["xAlive"])
+            self.old_images(buffers, 1000)
+            self.expect("silent", True, 0)
+
+    def test_a_sequence_that_begins_anew(self):
+        self.frames(9)
+        self.sequence = 3  # the images of 1 to 3 were missed
+        self.frames(3)
+        self.assertFalse(self.block["xAlive"])
+        self.frames(1, yaw__value_mdeg=-1600)
+        self.expect("none", False, -1600)
+        self.assertTrue(self.block["xAlive"])
+
+    def test_a_sequence_with_gaps(self):
+        self.frames()
+        self.sequence += 1000
+        self.frames(1, yaw__value_mdeg=-1600)
+        self.expect("none", False, -1600)
+
     def test_other_version(self):
-        self.frames(1, version=2)
+        self.frames(1, version=define("VERSION") + 1)
         self.expect("version", True, 0)
 
     def test_a_value_that_is_not_valid_is_held_and_then_replaced(self):
@@ -223,7 +282,8 @@ class FunctionBlock(unittest.TestCase):
         self.expect("none", True, 0)
 
     def test_no_value_and_no_bound(self):
-        for change in ({"yaw__value_mdeg": -2**31}, {"yaw__protection_mdeg": 2**31 - 1}, {"yaw__protection_mdeg": -1}):
+        for change in ({"yaw__value_mdeg": define("NO_VALUE")}, {"yaw__protection_mdeg": define("NO_BOUND")},
+                       {"yaw__protection_mdeg": -1}):
             self.setUp()
             self.frames(**change)
             self.expect("none", True, 0)

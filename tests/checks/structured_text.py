@@ -260,7 +260,7 @@ class Program:
         if name in self.units and self.units[name].kind == "FUNCTION" and name != self.current.name:
             self.tokens.next()
             self.tokens.expect("(")
-            return f"run.function('{name}', {self.arguments()})"
+            return f"run.function('{name}', {self.arguments(self.units[name])})"
         if name in STANDARD:
             self.tokens.next()
             self.tokens.expect("(")
@@ -270,11 +270,14 @@ class Program:
             return f"run.{name}({', '.join(arguments)})"
         return self.variable()
 
-    def arguments(self):
+    def arguments(self, called=None):
         texts = []
         while True:
             name = self.tokens.name()
             self.tokens.expect(":=")
+            given = self.current.variables.get(self.tokens.peek(), ("",))[0]
+            if called and called.variables.get(name, ("",))[0] == "VAR_IN_OUT" and given == "VAR_INPUT":
+                self.tokens.fault(f"{self.tokens.peek()} is an input, {called.name} may write to it")
             texts.append(f"{name}={self.expression()}")
             if self.tokens.expect(",", ")") == ")":
                 return ", ".join(texts)

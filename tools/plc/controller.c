@@ -181,12 +181,15 @@ int main(int argc, char** argv) {
   int first = 1;
   if (pose_wall_abi_version() != POSE_WALL_ABI_VERSION) return complain("libpose_wall.a", "of another ABI");
   pose_wall_config_init(&config);
-  for (; first + 1 < argc && argv[first][0] == '-'; first += 2) {
-    if (strcmp(argv[first], "-c") == 0) {
-      if (read_config(argv[first + 1], &config) != 0) return 2;
-    } else if (strcmp(argv[first], "-o") == 0) {
-      images = fopen(argv[first + 1], "wb");
-      if (images == NULL) return complain(argv[first + 1], "cannot be written");
+  for (; first < argc && argv[first][0] == '-'; first += 2) {
+    const char* word = first + 1 < argc ? argv[first + 1] : NULL;
+    if (word != NULL && strcmp(argv[first], "-c") == 0) {
+      if (read_config(word, &config) != 0) return 2;
+    } else if (word != NULL && strcmp(argv[first], "-o") == 0) {
+      images = fopen(word, "wb");
+      if (images == NULL) return complain(word, "cannot be written");
+    } else {
+      return complain(argv[first], "is no option, or lacks its file"), 2;
     }
   }
   if (first >= argc) return complain("usage", "controller [-c pose_wall.yaml] [-o images.bin] FRAME..."), 2;

@@ -53,6 +53,16 @@ def image_words(structs=None):
     return list(words_of(structs, list(structs)[-1]))
 
 
+def crc_word(words):
+    return next(i for i, word in enumerate(words) if word.path == "crc32")
+
+
+def crc_bytes(raw):
+    """Of an image's bytes those that its CRC is over."""
+    at = WORD * crc_word(image_words())
+    return raw[:at] + raw[at + WORD:]
+
+
 def size_of(structs, kind):
     return WORD if kind in TYPES else sum(size_of(structs, m.type) for m in structs[kind].members)
 
@@ -81,4 +91,6 @@ def read_enum(header_text, name):
 
 
 def read_define(header_text, name):
-    return int(re.search(rf"#define {name} (\d+)", header_text).group(1))
+    """A whole number, or a sum of some: (-2147483647 - 1)."""
+    text = re.search(rf"#define {name} +([-+() 0-9]+)", header_text).group(1)
+    return sum(int(part) for part in re.findall(r"[-+]?\d+", text.replace(" ", "")))

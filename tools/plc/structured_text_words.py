@@ -49,11 +49,17 @@ def struct_type(structs, struct):
     return f"\n(* {struct.comment} *)\nTYPE {struct.st_name} :\nSTRUCT\n{rows}\nEND_STRUCT;\nEND_TYPE\n"
 
 
-def constants(header_text, size):
-    rows = [("POSE_WALL_IMAGE_BYTES", "UDINT", size), ("POSE_WALL_IMAGE_LAST_WORD", "DINT", size // 4 - 1),
-            ("POSE_WALL_IMAGE_CRC_WORD", "DINT", 2),
-            ("POSE_WALL_IMAGE_VERSION", "UDINT", description.read_define(header_text, "POSE_WALL_IMAGE_VERSION")),
-            ("POSE_WALL_IMAGE_NO_VALUE", "DINT", "DINT#-2147483648"), ("POSE_WALL_IMAGE_NO_BOUND", "DINT", 2147483647)]
+def literal(number):
+    return f"DINT#{number}" if number < 0 else number
+
+
+def constants(header_text, image_words):
+    rows = [("POSE_WALL_IMAGE_BYTES", "UDINT", description.WORD * len(image_words)),
+            ("POSE_WALL_IMAGE_LAST_WORD", "DINT", len(image_words) - 1),
+            ("POSE_WALL_IMAGE_CRC_WORD", "DINT", description.crc_word(image_words))]
+    rows += [(name, kind, literal(description.read_define(header_text, name)))
+             for name, kind in (("POSE_WALL_IMAGE_VERSION", "UDINT"), ("POSE_WALL_IMAGE_NO_VALUE", "DINT"),
+                                ("POSE_WALL_IMAGE_NO_BOUND", "DINT"))]
     rows += [(name, "DWORD", f"16#{bit:08X}") for name, bit in description.read_enum(header_text,
                                                                                      "pose_wall_reason").items()]
     lines = "\n".join(f"  {name} : {kind} := {value};" for name, kind, value in rows)
@@ -81,5 +87,5 @@ def structured_text(structs, header_text):
     parts = [HEAD, enumeration(states), *(struct_type(structs, struct) for struct in structs.values()),
              "\n(* The image as it arrives: each word with its low byte first. *)\nTYPE T_PoseWallWords :\n"
              f"  ARRAY [0..{len(image_words) - 1}] OF DWORD;\nEND_TYPE\n",
-             constants(header_text, 4 * len(image_words)), REAL, state_function(states), decode_function(image_words)]
+             constants(header_text, image_words), REAL, state_function(states), decode_function(image_words)]
     return "".join(parts)
