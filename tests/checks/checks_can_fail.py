@@ -285,6 +285,12 @@ class ArchiveSections(BrokenProject):
         state = SOURCE.replace("return 1;", "static uint32_t calls = 7; return ++calls;")
         self.fails("section .data: 4 bytes that can be written to", *self.sections(state))
 
+    def test_state_in_a_section_of_its_own(self):
+        state = SOURCE.replace("return 1;", "return ++calls;")
+        for name in ("my_state", ".my.state"):
+            own = f'static unsigned calls __attribute__((section("{name}"))) = 7;\n'
+            self.fails(f"section {name}: 4 bytes that can be written to", *self.sections(own + state))
+
     def test_weak(self):
         weak = SOURCE + "__attribute__((weak)) int pose_wall_inner(void) { return 1; }\n"
         self.fails("pose_wall_inner is weak: a linker would merge it", *self.sections(weak))
@@ -303,6 +309,11 @@ class ArchiveSections(BrokenProject):
 
     def test_too_large(self):
         self.fails("bytes of text are more than 3", *self.sections(SOURCE, "--text-max", "3"))
+
+    def test_nothing_to_check(self):
+        self.write("readelf", "#!/bin/sh\necho '  [ 0]      NULL      0000 0000 00 00      0   0  0'\n")
+        (self.root / "readelf").chmod(0o755)
+        self.fails("nothing was checked", CHECKS / "check_archive.py", self.root / "readelf", "-")
 
     def test_readme(self):
         readme = self.root / "README.md"
