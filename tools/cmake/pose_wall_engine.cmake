@@ -52,6 +52,8 @@ function(pose_wall_bare_flags target)
     $<${pose_wall_quick}:-O3>
     # Nothing is ever thrown through the engine; debuggers have tables of their own.
     $<$<NOT:$<CONFIG:Debug>>:-fno-asynchronous-unwind-tables -fno-unwind-tables>
+    # Clang makes a call of bcmp, which is no C, of a memcmp that asks for equality alone
+    $<$<CXX_COMPILER_ID:Clang>:-fno-builtin-bcmp>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
     $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
 endfunction()
