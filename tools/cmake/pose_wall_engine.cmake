@@ -11,6 +11,11 @@
 # COMPACT and SMALL name those of the sources that a release compiles for less and for the least code.
 function(pose_wall_engine_library)
   cmake_parse_arguments(PARSE_ARGV 0 engine "" "" "SOURCES;COMPACT;SMALL")
+  foreach(source IN LISTS engine_COMPACT engine_SMALL)
+    if(NOT source IN_LIST engine_SOURCES)
+      message(FATAL_ERROR "${source} is to be compiled for less code but is none of the engine's SOURCES")
+    endif()
+  endforeach()
   find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
   add_library(pose_wall_objects OBJECT ${engine_SOURCES})
