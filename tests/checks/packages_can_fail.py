@@ -3,6 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """As checks_can_fail.py, for the checks of the process image and of what is packed."""
 
+import json
 import shutil
 import sys
 import unittest
@@ -98,6 +99,30 @@ class BillOfMaterials(BrokenProject):
             self.setUp()
             self.change(f'"{field}"', '"other"')
             self.fails(field, *self.check())
+
+
+class Presets(BrokenProject):
+    """What test.sh takes are the workflows, and of each it knows what to install."""
+
+    SOURCE = CHECKS.parent.parent
+
+    def packages(self, preset):
+        return "bash", "-c", f". {self.SOURCE}/tools/shell/packages.sh; packages_of {preset}"
+
+    def test_workflows(self):
+        presets = json.loads((self.SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))
+        names = [workflow["name"] for workflow in presets["workflowPresets"]]
+        self.fails(f"there are: {' '.join(names)}\n", self.SOURCE / "tools/test.sh", "arm")
+        for name in names:
+            self.passes(*self.packages(name))
+        status, text = self.run_check(*self.packages("arm64-clang"))
+        self.assertEqual(status, 0)
+        self.assertLessEqual({"cmake", "clang", "g++-aarch64-linux-gnu", "libgtest-dev"}, set(text.split()))
+
+    def test_refused(self):
+        self.fails("there is no preset 'arm'", self.SOURCE / "tools/test.sh", "arm")
+        self.fails("there is no preset 'arm64 bare'", self.SOURCE / "tools/test.sh", "arm64", "bare")
+        self.fails("", *self.packages("bench"))
 
 
 class Consumer(BrokenProject):
