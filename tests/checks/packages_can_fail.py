@@ -125,6 +125,44 @@ class Presets(BrokenProject):
         self.fails("", *self.packages("bench"))
 
 
+@unittest.skipUnless(shutil.which("dpkg-deb"), "dpkg-deb is not installed")
+class Packages(BrokenProject):
+    """Of a command that is none; the library's packages, which are asked for after it, are missing."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("CMakeLists.txt", "project(pose_wall VERSION 0.2.0 LANGUAGES C CXX)\n")
+
+    def pack(self, version, depends, program):
+        control = f"Package: pose-wall\nVersion: {version}\nArchitecture: amd64\nMaintainer: x <x@y>\n{depends}"
+        self.write("deb/DEBIAN/control", f"{control}Description: x\n")
+        self.write("deb/usr/bin/pose_wall", f"#!/bin/sh\n{program}\n")
+        (self.root / "deb/usr/bin/pose_wall").chmod(0o755)
+        self.passes("dpkg-deb", "--root-owner-group", "-b", self.root / "deb",
+                    self.root / f"pose-wall_{version}_amd64.deb")
+
+    def check(self):
+        return CHECKS / "check_package.sh", tool("CMAKE", "cmake"), self.root, self.root, "amd64", "cc", "c++", "-"
+
+    def test_of_another_version_only(self):
+        self.pack("0.1.0", "Depends: libyaml-0-2\n", "echo 0.1.0")
+        self.fails("has no pose-wall_0.2.0_amd64.deb", *self.check())
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo pose_wall 0.2.0")
+        self.fails("has no libpose-wall-dev_0.2.0_amd64.deb", *self.check())
+
+    def test_depends_on_nothing(self):
+        self.pack("0.2.0", "", "echo 0.2.0")
+        self.fails("the command needs libyaml", *self.check())
+        self.pack("0.2.0", "Depends: libc6\n", "echo 0.2.0")
+        self.fails("depends on 'libc6'; the command needs libyaml", *self.check())
+
+    def test_does_not_run(self):
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "exit 1")
+        self.fails("the command does not run", *self.check())
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo 0.1.0")
+        self.fails("the command says it is '0.1.0', not 0.2.0", *self.check())
+
+
 class Consumer(BrokenProject):
     def test_package_that_was_moved_without_its_paths(self):
         self.write("moved/lib/pkgconfig/pose_wall.pc",
