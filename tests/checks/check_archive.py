@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 HEX = r"[0-9a-f]+"
-SECTION = re.compile(rf"^\s*\[\s*\d+\]\s+(\.\S+)\s+(\S+)\s+{HEX}\s+{HEX}\s+({HEX})\s+{HEX}\s+([A-Za-z]*)\s")
+SECTION = re.compile(rf"^\s*\[\s*[1-9]\d*\]\s+(\S+)\s+(\S+)\s+{HEX}\s+{HEX}\s+({HEX})\s+{HEX}\s+([A-Za-z]*)\s")
 SYMBOL = re.compile(r"^\s*\d+: [0-9a-f]+\s+\S+\s+(\S+)\s+(GLOBAL|WEAK|UNIQUE)\s+\S+\s+(\S+)\s+(\S+)")
 # Read-only once the loader has filled in where the library lies.
 RELOCATED = ".data.rel.ro"

@@ -3,8 +3,8 @@
 # Copyright (c) 2026 the pose_wall authors
 #
 # The library's packages hold the same files, of the right machine, and serve users' projects wherever they are
-# unpacked. With POSE_WALL in the environment (the native command), a controller linked from the package must print the
-# numbers of `pose_wall run`.
+# unpacked. The command's package (amd64) depends on what the command needs, and the command runs. With POSE_WALL in the
+# environment (the native command), a controller linked from the package must print the numbers of `pose_wall run`.
 # usage: check_package.sh CMAKE SOURCE_DIR PACKAGES_DIR ARCHITECTURE CC CXX TOOLCHAIN_FILE [EMULATOR...]
 # TOOLCHAIN_FILE: - for none
 set -eu
@@ -14,10 +14,32 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 complain() { echo "$1"; exit 1; }
 
-deb=$(ls "$packages"/libpose-wall-dev_*_"$architecture".deb)
-tgz=$(ls "$packages"/libpose-wall-dev_*_"$architecture".tar.gz)
-for field in Package:libpose-wall-dev "Architecture:$architecture" Section:libdevel Depends: "Version:$(
-  sed -n 's/^project(pose_wall VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")"; do
+version=$(sed -n 's/^project(pose_wall VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
+named() { # package, ending: packages of older versions may lie beside
+  [ -s "$packages/$1_${version}_$architecture.$2" ] || complain "$packages has no $1_${version}_$architecture.$2"
+}
+
+if [ "$architecture" = amd64 ]; then
+  named pose-wall deb
+  deb=$packages/pose-wall_${version}_$architecture.deb
+  depends=$(dpkg-deb -f "$deb" Depends)
+  case $depends in
+    *libyaml*) ;;
+    *) complain "$deb: depends on '$depends'; the command needs libyaml" ;;
+  esac
+  dpkg-deb -x "$deb" "$work/command"
+  found=$("$work/command/usr/bin/pose_wall" --version) || complain "$deb: the command does not run"
+  case $found in
+    *"$version"*) ;;
+    *) complain "$deb: the command says it is '$found', not $version" ;;
+  esac
+fi
+
+named libpose-wall-dev deb
+named libpose-wall-dev tar.gz
+deb=$packages/libpose-wall-dev_${version}_$architecture.deb
+tgz=${deb%.deb}.tar.gz
+for field in Package:libpose-wall-dev "Architecture:$architecture" Section:libdevel Depends: "Version:$version"; do
   found=$(dpkg-deb -f "$deb" "${field%%:*}")
   [ "$found" = "${field#*:}" ] || complain "$deb: ${field%%:*} is '$found', not '${field#*:}'"
 done

@@ -285,6 +285,12 @@ class ArchiveSections(BrokenProject):
         state = SOURCE.replace("return 1;", "static uint32_t calls = 7; return ++calls;")
         self.fails("section .data: 4 bytes that can be written to", *self.sections(state))
 
+    def test_state_in_a_section_of_its_own(self):
+        state = SOURCE.replace("return 1;", "return ++calls;")
+        for name in ("my_state", ".my.state"):
+            own = f'static unsigned calls __attribute__((section("{name}"))) = 7;\n'
+            self.fails(f"section {name}: 4 bytes that can be written to", *self.sections(own + state))
+
     def test_weak(self):
         weak = SOURCE + "__attribute__((weak)) int pose_wall_inner(void) { return 1; }\n"
         self.fails("pose_wall_inner is weak: a linker would merge it", *self.sections(weak))
@@ -303,6 +309,11 @@ class ArchiveSections(BrokenProject):
 
     def test_too_large(self):
         self.fails("bytes of text are more than 3", *self.sections(SOURCE, "--text-max", "3"))
+
+    def test_nothing_to_check(self):
+        self.write("readelf", "#!/bin/sh\necho '  [ 0]      NULL      0000 0000 00 00      0   0  0'\n")
+        (self.root / "readelf").chmod(0o755)
+        self.fails("nothing was checked", CHECKS / "check_archive.py", self.root / "readelf", "-")
 
     def test_readme(self):
         readme = self.root / "README.md"
@@ -343,6 +354,54 @@ class Digests(BrokenProject):
 
     def test_program_fails(self):
         self.fails("status 1", CHECKS.parent / "digest/check_digests.py", self.root / "noted.txt", "false")
+
+
+class CompareBuilds(BrokenProject):
+    """Of builds that are none: the program prints what is noted, and of recordings what the test says."""
+
+    COMPARE = CHECKS.parent / "digest/compare_builds.py"
+    BOTH = "a.xyz 1 10 00aa 00bb 7/7\nb.xyz 1 10 00cc 00dd 7/7\n"
+    BUILDS = "x86-64-gcc-O1,x86-64-gcc-O2"
+
+    def setUp(self):
+        super().setUp()
+        noted = self.COMPARE.parent / "digests.txt"
+        self.script("program", f'[ $# -gt 0 ] || exec cat {noted}\ncat "$(dirname "$0")/../recorded"')
+        self.script("cmake", f'[ "$1" = -G ] || exit 0\nmkdir -p "$6/tests"\n'
+                    f'cp {self.root}/bin/program "$6/tests/pose_wall_digest"')
+        self.script("qemu-aarch64-static", 'shift 2; exec "$@"')
+
+    def script(self, name, text):
+        self.write(f"bin/{name}", f"#!/bin/sh\n{text}\n")
+        (self.root / "bin" / name).chmod(0o755)
+
+    def compare(self, builds, of_the_second, *recorded):
+        for name in builds.split(","):
+            self.write(f"out/{name}/recorded", of_the_second if name.endswith("O2") else self.BOTH)
+        path = f"PATH={self.root}/bin:{os.environ['PATH']}"
+        more = ("--recorded", *recorded) if recorded else ()
+        return "env", path, self.COMPARE, self.root / "out", "--builds", builds, *more
+
+    def test_passes(self):
+        kept = self.COMPARE.parent / "__pycache__"
+        before = kept.exists()
+        self.passes(*self.compare(self.BUILDS, ""))
+        self.passes(*self.compare(self.BUILDS, self.BOTH, "a.xyz", "b.xyz"))
+        self.passes(*self.compare(self.BUILDS + ",aarch64-none-elf-clang-Os", self.BOTH, "a.xyz", "b.xyz"))
+        self.assertEqual(kept.exists(), before, "the sources stay as they are")
+
+    def test_other_bits(self):
+        other = self.BOTH.replace("00dd", "00de")
+        self.fails("b.xyz: results 00de, noted 00dd", *self.compare(self.BUILDS, other, "a.xyz", "b.xyz"))
+
+    def test_a_recording_is_lost(self):
+        lost = self.BOTH.splitlines()[0]
+        self.fails("b.xyz: missing", *self.compare(self.BUILDS, lost, "a.xyz", "b.xyz"))
+        self.fails("no sequence at all", *self.compare(self.BUILDS, "", "a.xyz", "b.xyz"))
+
+    def test_nothing_to_compare_with(self):
+        for builds in ("x86-64-gcc-O1", "x86-64-gcc-O1,aarch64-none-elf-clang-Os"):
+            self.fails("recordings are compared between builds", *self.compare(builds, self.BOTH, "a.xyz"))
 
 
 class TwoVersions(BrokenProject):

@@ -3,6 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """As checks_can_fail.py, for the checks of the process image and of what is packed."""
 
+import json
 import os
 import shutil
 import sys
@@ -152,6 +153,68 @@ sys.exit(done.returncode)
 sys.exit(0 if "-c" not in sys.argv else subprocess.run(sys.argv[1:]).returncode)
 """)
         self.fails("['-q']: status 0", *self.check("python3", self.root / "deaf.py"))
+
+
+class Presets(BrokenProject):
+    """What test.sh takes are the workflows, and of each it knows what to install."""
+
+    SOURCE = CHECKS.parent.parent
+
+    def packages(self, preset):
+        return "bash", "-c", f". {self.SOURCE}/tools/shell/packages.sh; packages_of {preset}"
+
+    def test_workflows(self):
+        presets = json.loads((self.SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))
+        names = [workflow["name"] for workflow in presets["workflowPresets"]]
+        self.fails(f"there are: {' '.join(names)}\n", self.SOURCE / "tools/test.sh", "arm")
+        for name in names:
+            self.passes(*self.packages(name))
+        status, text = self.run_check(*self.packages("arm64-clang"))
+        self.assertEqual(status, 0)
+        self.assertLessEqual({"cmake", "clang", "g++-aarch64-linux-gnu", "libgtest-dev"}, set(text.split()))
+
+    def test_refused(self):
+        self.fails("there is no preset 'arm'", self.SOURCE / "tools/test.sh", "arm")
+        self.fails("there is no preset 'arm64 bare'", self.SOURCE / "tools/test.sh", "arm64", "bare")
+        self.fails("", *self.packages("bench"))
+
+
+@unittest.skipUnless(shutil.which("dpkg-deb"), "dpkg-deb is not installed")
+class Packages(BrokenProject):
+    """Of a command that is none; the library's packages, which are asked for after it, are missing."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("CMakeLists.txt", "project(pose_wall VERSION 0.2.0 LANGUAGES C CXX)\n")
+
+    def pack(self, version, depends, program):
+        control = f"Package: pose-wall\nVersion: {version}\nArchitecture: amd64\nMaintainer: x <x@y>\n{depends}"
+        self.write("deb/DEBIAN/control", f"{control}Description: x\n")
+        self.write("deb/usr/bin/pose_wall", f"#!/bin/sh\n{program}\n")
+        (self.root / "deb/usr/bin/pose_wall").chmod(0o755)
+        self.passes("dpkg-deb", "--root-owner-group", "-b", self.root / "deb",
+                    self.root / f"pose-wall_{version}_amd64.deb")
+
+    def check(self):
+        return CHECKS / "check_package.sh", tool("CMAKE", "cmake"), self.root, self.root, "amd64", "cc", "c++", "-"
+
+    def test_of_another_version_only(self):
+        self.pack("0.1.0", "Depends: libyaml-0-2\n", "echo 0.1.0")
+        self.fails("has no pose-wall_0.2.0_amd64.deb", *self.check())
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo pose_wall 0.2.0")
+        self.fails("has no libpose-wall-dev_0.2.0_amd64.deb", *self.check())
+
+    def test_depends_on_nothing(self):
+        self.pack("0.2.0", "", "echo 0.2.0")
+        self.fails("the command needs libyaml", *self.check())
+        self.pack("0.2.0", "Depends: libc6\n", "echo 0.2.0")
+        self.fails("depends on 'libc6'; the command needs libyaml", *self.check())
+
+    def test_does_not_run(self):
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "exit 1")
+        self.fails("the command does not run", *self.check())
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo 0.1.0")
+        self.fails("the command says it is '0.1.0', not 0.2.0", *self.check())
 
 
 class Consumer(BrokenProject):

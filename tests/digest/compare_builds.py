@@ -6,7 +6,8 @@ all give the same digests: of the roadways, as digests.txt notes them, and of re
 
     compare_builds.py OUTPUT [--builds NAME,NAME...] [--recorded FILE.xyz...]
 
-OUTPUT is a folder for the builds. FILE.xyz is what recorded_frames.py makes of a recording. Needs clang,
+OUTPUT is a folder for the builds. FILE.xyz is what real_frames.sh makes of a recording. Recordings are compared between
+builds, so at least two have to read them; the one without an operating system reads no files. Needs clang,
 g++-aarch64-linux-gnu, qemu-user-static. All builds: some ten minutes on two cores.
 """
 
@@ -15,7 +16,9 @@ import pathlib
 import subprocess
 import sys
 
-from check_digests import differences, lines_of
+sys.dont_write_bytecode = True  # the sources stay as they are
+
+from check_digests import differences, lines_of  # noqa: E402  pylint: disable=wrong-import-position
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -61,11 +64,8 @@ def build(folder, configure, flags):
     return folder / "tests/pose_wall_digest"
 
 
-def digests(program, emulator, recorded):
-    made = lines_of(quietly(emulator + [program]))
-    if recorded and "none-elf" not in str(program):
-        made.update(lines_of(quietly(emulator + [program] + recorded)))
-    return made
+def reads_files(name):
+    return "none-elf" not in name
 
 
 def main():
@@ -74,20 +74,24 @@ def main():
     parser.add_argument("--builds", default=",".join(name for name, *_ in BUILDS), help="names, separated by commas")
     parser.add_argument("--recorded", nargs="*", default=[])
     options = parser.parse_args()
-    wanted = options.builds.split(",")
-    unknown = set(wanted) - {name for name, *_ in BUILDS}
+    wanted = set(options.builds.split(","))
+    unknown = wanted - {name for name, *_ in BUILDS}
     if unknown:
         sys.exit(f"no such build: {', '.join(sorted(unknown))}")
-    expected, failed = lines_of((HERE / "digests.txt").read_text(encoding="utf-8")), False
+    if options.recorded and sum(map(reads_files, wanted)) < 2:
+        sys.exit("recordings are compared between builds: name two or more that read files")
+    noted, recordings, failed = lines_of((HERE / "digests.txt").read_text(encoding="utf-8")), None, False
     for name, configure, flags, emulator in BUILDS:
         if name not in wanted:
             continue
-        program = build(options.output / name, configure, flags)
-        found = digests(program, emulator, options.recorded)
-        # The first build says what is expected of recorded frames.
-        expected = {**found, **expected}
-        asked = {key: fields for key, fields in expected.items() if key in found or not key.endswith(".xyz")}
-        worse = differences(asked, found)
+        program = emulator + [build(options.output / name, configure, flags)]
+        found = lines_of(quietly(program))
+        worse = differences(noted, found)
+        if options.recorded and reads_files(name):
+            recorded = lines_of(quietly(program + options.recorded))
+            recordings = recordings or recorded  # the first build says what is expected
+            worse += differences(recordings, recorded)
+            found.update(recorded)
         print(f"{name:28} {len(found):3d} sequences  {'DIFFERS' if worse else 'the same bits'}", flush=True)
         print("".join(f"    {line}\n" for line in worse), end="", flush=True)
         failed = failed or bool(worse)

@@ -11,6 +11,11 @@
 # COMPACT and SMALL name those of the sources that a release compiles for less and for the least code.
 function(pose_wall_engine_library)
   cmake_parse_arguments(PARSE_ARGV 0 engine "" "" "SOURCES;COMPACT;SMALL")
+  foreach(source IN LISTS engine_COMPACT engine_SMALL)
+    if(NOT source IN_LIST engine_SOURCES)
+      message(FATAL_ERROR "${source} is to be compiled for less code but is none of the engine's SOURCES")
+    endif()
+  endforeach()
   find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
   add_library(pose_wall_objects OBJECT ${engine_SOURCES})
@@ -52,6 +57,8 @@ function(pose_wall_bare_flags target)
     $<${pose_wall_quick}:-O3>
     # Nothing is ever thrown through the engine; debuggers have tables of their own.
     $<$<NOT:$<CONFIG:Debug>>:-fno-asynchronous-unwind-tables -fno-unwind-tables>
+    # Clang makes a call of bcmp, which is no C, of a memcmp that asks for equality alone
+    $<$<CXX_COMPILER_ID:Clang>:-fno-builtin-bcmp>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
     $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
 endfunction()

@@ -21,6 +21,14 @@ set(CPACK_STRIP_FILES OFF)  # would take the archive's symbols
 set(CPACK_COMPONENTS_ALL development)
 if(TARGET pose_wall_cli)
   list(APPEND CPACK_COMPONENTS_ALL command)
+  # Without the first CPack fails, without the second the package silently depends on nothing.
+  find_program(POSE_WALL_FILE file)
+  find_program(POSE_WALL_SHLIBDEPS dpkg-shlibdeps)
+  if(NOT POSE_WALL_FILE OR NOT POSE_WALL_SHLIBDEPS)
+    list(REMOVE_ITEM CPACK_GENERATOR DEB)
+    message(STATUS "cpack will make no .deb: what the command depends on is looked up by file and dpkg-shlibdeps "
+                   "(packages file, dpkg-dev), here are '${POSE_WALL_FILE}' and '${POSE_WALL_SHLIBDEPS}'")
+  endif()
 endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 

@@ -2,13 +2,29 @@
 # Copyright (c) 2026 the pose_wall authors
 # shellcheck shell=bash
 #
-# For sourcing, after steps.sh: need_packages PACKAGE... installs those that are missing, and says which.
+# For sourcing, after steps.sh: need_packages PACKAGE... installs those that are missing, and says which; packages_of
+# PRESET prints those that a preset needs.
 
 # shellcheck disable=SC2034  # read by those who source this
 packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev libcli11-dev libyaml-dev liblzf-dev
   libfmt-dev nlohmann-json3-dev"
 # shellcheck disable=SC2034
 packages_to_test="libgtest-dev python3 pkg-config"
+packages_to_cross="cmake ninja-build libeigen3-dev g++-aarch64-linux-gnu qemu-user-static"
+# shellcheck disable=SC2034
+packages_to_pack="dpkg-dev file" # dpkg-shlibdeps looks up what the command depends on, and asks `file` what it is
+# shellcheck disable=SC2034
+presets_to_test="release debug asan tsan arm64 arm64-clang arm64-asan bare"
+
+# shellcheck disable=SC2086  # lists of words
+packages_of() { # preset: what it takes to build it and to run its tests
+  case $1 in
+    release | debug | asan | tsan) echo $packages_to_build $packages_to_test ;;
+    arm64 | arm64-asan) echo $packages_to_cross $packages_to_test ;;
+    arm64-clang | bare) echo $packages_to_cross clang $packages_to_test ;;
+    *) return 1 ;;
+  esac
+}
 
 need_packages() {
   local missing="" as_root="" package
