@@ -84,7 +84,7 @@ class Charts {
     pen.clip();
     const columns = this.columns(q, inside);
     this.draw_band(pen, columns, x_of, y_of);
-    this.draw_lines(pen, columns, x_of, y_of);
+    this.draw_lines(pen, columns, x_of, y_of, this.recording.alert(q));
     pen.restore();
     this.draw_states(pen, columns, x_of, bottom, inside);
     if (this.frame !== undefined) stroke(pen, [[x_of(this.frame), 0], [x_of(this.frame), height]], colour('ink'), 1);
@@ -138,7 +138,7 @@ class Charts {
     pen.globalAlpha = 1;
   }
 
-  draw_lines(pen, columns, x_of, y_of) {
+  draw_lines(pen, columns, x_of, y_of, alert) {
     const runs = (value, style, width, dash) => {
       let run = [];
       const finish = () => {
@@ -154,6 +154,8 @@ class Charts {
       }
       finish();
     };
+    runs((c) => [c.low - alert], colour('faint'), 1, [1, 4]);
+    runs((c) => [c.high + alert], colour('faint'), 1, [1, 4]);
     runs((c) => [c.low, c.high], colour('left'), 1.6);
     if (this.recording.has_truth) runs((c) => [c.truth], colour('truth'), 1.2, [5, 4]);
   }

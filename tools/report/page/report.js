@@ -37,12 +37,13 @@ function show_verdict() {
   if (summary.unreadable) say(w.verdict_unreadable(summary.unreadable));
   if (!recording.has_truth) say(w.verdict_no_truth);
   else {
-    say(summary.misleading ? w.verdict_misleading(summary.misleading) : w.verdict_no_misleading);
+    say(summary.misleading ? w.verdict_misleading(summary.misleading) : w.verdict_no_misleading(summary.valid));
     if (summary.beyond) say(w.verdict_beyond(summary.beyond));
   }
   for (const x of summary.quantities) {
     if (x.valid >= 0.9) continue;
-    say(w.verdict_value(w.names[x.name], percent(x.valid), x.reasons.length ? reason_text(x.reasons[0][0]) : ''));
+    say(w.verdict_value(w.names[x.name], x.valid ? percent(x.valid) : '', percent(x.usable), amount_text(recording, x.q, x.level),
+      amount_text(recording, x.q, recording.alert(x.q)), x.reasons.length ? reason_text(x.reasons[0][0]) : ''));
   }
   fill('verdict', ...lines);
   document.getElementById('verdict').className = `panel ${summary.grade}`;

@@ -30,8 +30,9 @@ function summarise(recording) {
       usable: readable.length ? (states[3] + states[2]) / readable.length : 0 };
   });
   const sum = (member) => quantities.reduce((total, x) => total + x[member], 0);
+  const valid = quantities.reduce((total, x) => total + x.states[3], 0);
   return { readable, unreadable: recording.frames - readable.length, quantities, misleading: sum('misleading'),
-    beyond: sum('beyond'), grade: grade_of(quantities, sum('misleading'), sum('beyond'), readable.length) };
+    valid, beyond: sum('beyond'), grade: grade_of(quantities, sum('misleading'), sum('beyond'), readable.length) };
 }
 
 function grade_of(quantities, misleading, beyond, readable) {
