@@ -36,10 +36,6 @@ function(pose_wall_engine_library)
   # SYSTEM: Eigen's own headers are not held to our warnings.
   target_link_libraries(pose_wall_objects PUBLIC Eigen3::Eigen)
 
-  if(POSE_WALL_PRECOMPILE_HEADERS AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")  # the delivered one: each file as it is
-    target_precompile_headers(pose_wall_objects PRIVATE <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky>)
-  endif()
-
   pose_wall_one_object(pose_wall_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o)
   add_library(pose_wall STATIC ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o)
   add_library(pose_wall::pose_wall ALIAS pose_wall)
