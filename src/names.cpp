@@ -15,7 +15,7 @@ std::uint32_t bit_of(std::uint32_t bit_index) {
 
 }  // namespace
 
-const char* status_text(std::int32_t status) {
+const char* status_text(std::int32_t status) {  // NOLINT(readability-function-size): a table
   switch (status) {
     case POSE_WALL_OK:
       return "ok";
