@@ -34,35 +34,36 @@ class FourDistances {
   FourFloats nx_, ny_, nz_, d_;
 };
 
-// Calls visit(i, distance) for the points whose signed distance from the plane is at most limit_m, in their order.
-template <typename Visit>
-void for_each_up_to(const PointSet& points, const Plane& plane, double limit_m, const Visit& visit) {
+// Calls visit(i, distance) for the points whose signed distance from the plane is among those that keep asks for, in
+// their order.
+template <typename Keep, typename Visit>
+void for_each_where(const PointSet& points, const Plane& plane, const Keep& keep, const Visit& visit) {
   const FourDistances distances(plane);
-  const FourFloats limit = all_four(static_cast<float>(limit_m));
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
     const std::uint32_t left = points.count - i, lanes = left < kFour ? left : kFour;
     const FourFloats r = lanes == kFour ? distances.of(points, i) : distances.of_some(points, i, lanes);
-    if (!any_of(r <= limit)) continue;
+    const FourTruths kept = keep(r);
+    if (!any_of(kept)) continue;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      if (r[lane] <= limit[lane]) visit(i + lane, r[lane]);
+      if (kept[lane] != 0) visit(i + lane, r[lane]);
     }
   }
 }
 
-// Calls visit(i) for the points whose signed distance from the plane lies between the limits, in their order.
+// At most limit_m.
+template <typename Visit>
+void for_each_up_to(const PointSet& points, const Plane& plane, double limit_m, const Visit& visit) {
+  const FourFloats limit = all_four(static_cast<float>(limit_m));
+  for_each_where(
+      points, plane, [&limit](FourFloats r) -> FourTruths { return r <= limit; }, visit);
+}
+
+// From low_m to high_m.
 template <typename Visit>
 void for_each_between(const PointSet& points, const Plane& plane, double low_m, double high_m, const Visit& visit) {
-  const FourDistances distances(plane);
   const FourFloats low = all_four(static_cast<float>(low_m)), high = all_four(static_cast<float>(high_m));
-  for (std::uint32_t i = 0; i < points.count; i += kFour) {
-    const std::uint32_t left = points.count - i, lanes = left < kFour ? left : kFour;
-    const FourFloats r = lanes == kFour ? distances.of(points, i) : distances.of_some(points, i, lanes);
-    const FourTruths between = (r >= low) & (r <= high);
-    if (!any_of(between)) continue;
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      if (between[lane] != 0) visit(i + lane);
-    }
-  }
+  for_each_where(
+      points, plane, [&](FourFloats r) -> FourTruths { return (r >= low) & (r <= high); }, visit);
 }
 
 }  // namespace pose_wall

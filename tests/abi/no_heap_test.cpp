@@ -10,76 +10,20 @@
 #include <new>
 #include <vector>
 
+#include "soak/heap_count.hpp"
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-// Of the sanitizer's runtime; GCC does not ship the header that declares it.
-extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
-                                                         void (*on_free)(const volatile void*));
-#endif
-
-namespace {
-// volatile: compilers know malloc and may think that it does not look at these.
-thread_local volatile bool counting = false;
-thread_local volatile int calls = 0;
-
-void count_call() {
-  if (counting) calls = calls + 1;
-}
-}  // namespace
-
-#if !defined(__SANITIZE_ADDRESS__)
-// The C library's own entry points beneath malloc and friends; operator new comes by malloc.
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void __libc_free(void* block);
-
-void* malloc(std::size_t size) {
-  count_call();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  count_call();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* block, std::size_t size) {
-  count_call();
-  return __libc_realloc(block, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  count_call();
-  return __libc_memalign(alignment, size);
-}
-void free(void* block) {
-  count_call();
-  __libc_free(block);
-}
-}
-#endif
 
 namespace pose_wall::test {
 namespace {
 
 class NoHeap : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-#if defined(__SANITIZE_ADDRESS__)
-    __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { count_call(); },
-                                              [](const volatile void*) { count_call(); });
-#endif
-  }
-
   template <typename Call>
-  static int heap_calls(const Call& call) {
-    calls = 0;
-    counting = true;
+  static std::uint64_t heap_calls(const Call& call) {
+    tools::start_counting_heap_calls();
     call();
-    counting = false;
-    return calls;
+    return tools::stop_counting_heap_calls();
   }
 };
 
@@ -101,13 +45,13 @@ TEST_F(NoHeap, TheCounterCounts) {
               void* volatile block = std::malloc(100);
               std::free(block);
             }),
-            2);
+            2U);
   EXPECT_GE(heap_calls([] {
               int* volatile number = new int(7);
               delete number;
             }),
-            2);
-  EXPECT_EQ(heap_calls([] {}), 0);
+            2U);
+  EXPECT_EQ(heap_calls([] {}), 0U);
 }
 
 TEST_F(NoHeap, NoCallAllocates) {
@@ -140,7 +84,7 @@ TEST_F(NoHeap, NoCallAllocates) {
               const pose_wall_cloud nothing = cloud_of(Points(), 0);
               note(pose_wall_process(engine, &nothing, &result));
             }),
-            0);
+            0U);
   EXPECT_EQ(worst, POSE_WALL_OK);
 }
 
@@ -157,7 +101,7 @@ TEST_F(NoHeap, NotOnGarbageEither) {
   pose_wall_result result{};
   result.struct_size = sizeof result;
   const pose_wall_cloud cloud = cloud_of(points, 0);
-  EXPECT_EQ(heap_calls([&] { pose_wall_process(engine.get(), &cloud, &result); }), 0);
+  EXPECT_EQ(heap_calls([&] { pose_wall_process(engine.get(), &cloud, &result); }), 0U);
 }
 
 }  // namespace

@@ -6,66 +6,27 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdlib>
 
+#include "soak/heap_count.hpp"
 #include "support/runtime_under_test.hpp"
-
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-#define POSE_WALL_OWN_MALLOC 0  // theirs must not be replaced; the release build counts
-#else
-#define POSE_WALL_OWN_MALLOC 1
-#endif
-
-namespace {
-std::atomic<bool> counting{false};
-std::atomic<int> calls{0};
-
-[[maybe_unused]] void count_call() {
-  if (counting.load(std::memory_order_relaxed)) calls.fetch_add(1, std::memory_order_relaxed);
-}
-}  // namespace
-
-#if POSE_WALL_OWN_MALLOC
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void __libc_free(void* block);
-
-void* malloc(std::size_t size) {
-  count_call();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  count_call();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* block, std::size_t size) {
-  count_call();
-  return __libc_realloc(block, size);
-}
-void free(void* block) {
-  count_call();
-  __libc_free(block);
-}
-}
-#endif
 
 namespace pose_wall::test {
 namespace {
+
+using tools::start_counting_heap_calls;
+using tools::stop_counting_heap_calls;
 
 std::int32_t to_nowhere(void* /*user*/, std::uint64_t /*offset*/, const void* /*bytes*/, std::uint64_t /*count*/) {
   return 0;
 }
 
 TEST(RuntimeNoHeap, NothingAfterStart) {
-  if (POSE_WALL_OWN_MALLOC == 0) GTEST_SKIP() << "a sanitizer has its own malloc";
-  counting = true;
+  if (!tools::heap_calls_are_counted()) GTEST_SKIP() << "a sanitizer has its own malloc";
+  start_counting_heap_calls();
   void* volatile block = std::malloc(100);
   std::free(block);
-  counting = false;
-  ASSERT_GE(calls.exchange(0), 2) << "the counter does not count";
+  ASSERT_GE(stop_counting_heap_calls(), 2U) << "the counter does not count";
 
   const pose_wall_config config = small_config();
   StandingClock clock;
@@ -88,7 +49,7 @@ TEST(RuntimeNoHeap, NothingAfterStart) {
   p.struct_size = sizeof p;
   s.struct_size = sizeof s;
 
-  counting = true;
+  start_counting_heap_calls();
   for (std::int64_t i = 0; i < 50; ++i) {
     pose_wall_cloud cloud = cloud_of(i % 3 == 0 ? few : room, i * kMs);
     if (i % 10 == 9) cloud.data_bytes = 1;
@@ -100,9 +61,8 @@ TEST(RuntimeNoHeap, NothingAfterStart) {
     pose_wall_runtime_statistics_now(r, &s);
   }
   pose_wall_runtime_wait_idle(r);
-  counting = false;
+  EXPECT_EQ(stop_counting_heap_calls(), 0U);
   pose_wall_runtime_statistics_now(r, &s);
-  EXPECT_EQ(calls, 0);
   EXPECT_GT(s.processed, 10U);
   EXPECT_GT(s.silences, 0U);
   EXPECT_GT(s.box_written, 10U);

@@ -14,16 +14,22 @@ namespace {
 std::atomic<bool> counting{false};
 std::atomic<std::uint64_t> calls{0};
 
-void count_call() {
+[[maybe_unused]] void count_call() {
   if (counting.load(std::memory_order_relaxed)) calls.fetch_add(1, std::memory_order_relaxed);
 }
 }  // namespace
 
-// The C library's own entry points beneath malloc and friends.
+#if defined(__SANITIZE_ADDRESS__)
+// Of the sanitizer's runtime; GCC does not ship the header that declares it.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
+                                                         void (*on_free)(const volatile void*));
+#elif !defined(__SANITIZE_THREAD__)
+// The C library's own entry points beneath malloc and friends; operator new comes by malloc.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* block);
 
 void* malloc(std::size_t size) {
@@ -38,20 +44,39 @@ void* realloc(void* block, std::size_t size) {
   count_call();
   return __libc_realloc(block, size);
 }
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  count_call();
+  return __libc_memalign(alignment, size);
+}
 void free(void* block) {
   count_call();
   __libc_free(block);
 }
 }
+#endif
 
 namespace pose_wall::tools {
 
+bool heap_calls_are_counted() {
+#if defined(__SANITIZE_THREAD__)
+  return false;
+#else
+  return true;
+#endif
+}
+
 void start_counting_heap_calls() {
+#if defined(__SANITIZE_ADDRESS__)
+  static const int hooked = __sanitizer_install_malloc_and_free_hooks(
+      [](const volatile void*, std::size_t) { count_call(); }, [](const volatile void*) { count_call(); });
+  static_cast<void>(hooked);
+#endif
   calls = 0;
   counting = true;
 }
 
-std::uint64_t heap_calls() {
+std::uint64_t stop_counting_heap_calls() {
+  counting = false;
   return calls;
 }
 

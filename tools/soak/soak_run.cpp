@@ -87,7 +87,7 @@ class Soak {
     pose_wall_runtime_wait_idle(runtime_);
     look();
     outcome_.resident_end_kb = resident_kb();
-    outcome_.heap_calls = heap_calls();
+    outcome_.heap_calls = stop_counting_heap_calls();
     need(pose_wall_runtime_stop(runtime_));
     outcome_.statistics = statistics();
     return outcome_;

@@ -29,7 +29,6 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr int kExitGate = 3;
-constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 
 struct CampaignOptions {
   campaign::PlanRequest plan;

@@ -25,26 +25,20 @@
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "truth/truth_csv.hpp"
+#include "verbs/frame_options.hpp"
 #include "verbs/output_file.hpp"
-#include "verbs/rate.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-constexpr int kExitInterrupted = 130;
-
 struct ReportOptions {
-  std::string config_file;
-  std::vector<std::string> settings;
-  std::vector<std::string> inputs;
+  FrameOptions frames;
   std::string output = "report.html";
   std::string truth;
   std::string title;
   std::string language = "en";
-  double rate_hz = 10.0;
   std::size_t points_max = 1'200'000;
-  bool quiet = false;
 };
 
 std::map<std::uint64_t, TruthRow> truth_by_frame(const std::string& file) {
@@ -63,7 +57,7 @@ Shown process_frames(const ReportOptions& options, const FrameInputs& inputs, Fr
                      report::PageData& data) {
   const auto truth = truth_by_frame(options.truth);
   const InterruptWatch watch;
-  ProgressBar bar(inputs.files.size(), !options.quiet && is_terminal(2));
+  ProgressBar bar(inputs.files.size(), !options.frames.quiet && is_terminal(2));
   Shown shown;
   for (const auto& file : inputs.files) {
     if (InterruptWatch::is_interrupted()) {
@@ -83,20 +77,19 @@ Shown process_frames(const ReportOptions& options, const FrameInputs& inputs, Fr
 
 std::string title_of(const ReportOptions& options) {
   if (!options.title.empty()) return options.title;
-  std::filesystem::path first = std::filesystem::path(options.inputs.front()).lexically_normal();
+  std::filesystem::path first = std::filesystem::path(options.frames.inputs.front()).lexically_normal();
   if (!first.has_filename()) first = first.parent_path();
   return first.filename().string() == "frames" && first.has_parent_path() ? first.parent_path().filename().string()
                                                                           : first.filename().string();
 }
 
 int report_frames(const ReportOptions& options) {
-  const LoadedConfig loaded = load_config(
-      options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file), options.settings);
-  const FrameInputs inputs = collect_inputs(options.inputs);
+  const LoadedConfig loaded = options.frames.load();
+  const FrameInputs inputs = collect_inputs(options.frames.inputs);
   for (const std::string& error : inputs.errors) fmt::print(stderr, "pose_wall report: {}\n", error);
   if (inputs.files.empty()) throw std::invalid_argument("no frame to report on");
   OutputFile output(options.output, inputs.files);
-  FrameRunner runner(loaded.config, options.rate_hz);
+  FrameRunner runner(loaded.config, options.frames.rate_hz);
   report::PageData data(loaded.config, inputs.files.size(), options.points_max);
 
   const auto started = std::chrono::steady_clock::now();
@@ -109,7 +102,7 @@ int report_frames(const ReportOptions& options) {
       {title_of(options), options.language, options.truth, shown.complete, inputs.files.size()}, loaded, data);
   output.write(page);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (!options.quiet) {
+  if (!options.frames.quiet) {
     fmt::print(stderr, "{}\n{}: {:.1f} MB, {}, points of {} of them, {:.1f} s. Open it in a browser.\n",
                shown.summary.text(wall_s), options.output, 1e-6 * static_cast<double>(page.size()),
                counted(data.frames(), "frame"), data.clouds(), wall_s);
@@ -126,12 +119,7 @@ int report_frames(const ReportOptions& options) {
 void add_report(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* verb = app.add_subcommand("report", "Measure frames and write a page to look at them in a browser");
-  verb->add_option("INPUT", options->inputs,
-                   "Frame files (.pcd, .bin of KITTI, .ply) or folders of them, sorted by plain name order")
-      ->required();
-  verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
-  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
-      ->allow_extra_args(false);
+  add_frame_options(verb, &options->frames);
   verb->add_option("-o,--output", options->output, "The page")->capture_default_str();
   verb->add_option("--truth", options->truth, "truth.csv of pose_wall sim; its frame numbers count the inputs from 0")
       ->check(CLI::ExistingFile);
@@ -139,13 +127,9 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("--language", options->language, "The page opens in: en or zh; it has a button for the other")
       ->capture_default_str()
       ->check(CLI::IsMember({"en", "zh"}));
-  verb->add_option("-r,--rate", options->rate_hz, "Frames per second, for frames without stamps")
-      ->capture_default_str()
-      ->check(rate_fault, "0.001 to 1000000");
   verb->add_option("--points", options->points_max, "Points in the page, of all frames together: 9 bytes each")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1000}, std::size_t{20'000'000}));
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->footer(
       "Example:\n"
       "  pose_wall sim --scene nominal --frames 100 --output road\n"

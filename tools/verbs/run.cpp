@@ -20,24 +20,20 @@
 #include "results/run_summary.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
-#include "verbs/rate.hpp"
+#include "verbs/frame_options.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 struct RunOptions {
-  std::string config_file;
-  std::vector<std::string> settings;
-  std::vector<std::string> inputs;
+  FrameOptions frames;
   std::string output;
-  double rate_hz = 10.0;
-  bool quiet = false;
 };
 
 void print_start(const RunOptions& options, const LoadedConfig& loaded, const FrameRunner& runner, std::size_t frames) {
   fmt::print(stderr, "pose_wall {}: {}, config {}, {:.1f} MB for the engine\n{}", pose_wall_version(),
-             counted(frames, "frame"), options.config_file.empty() ? "defaults" : options.config_file,
+             counted(frames, "frame"), options.frames.config_file.empty() ? "defaults" : options.frames.config_file,
              static_cast<double>(runner.block_bytes()) * 1e-6,
              resolved_frames_text(resolve_frames(loaded.config), "  "));
 }
@@ -46,7 +42,7 @@ void print_start(const RunOptions& options, const LoadedConfig& loaded, const Fr
 bool process_frames(const RunOptions& options, const FrameInputs& inputs, FrameRunner& runner, ResultOutput& output,
                     RunSummary& summary) {
   // A bar between rows of the table on the same terminal would spoil both.
-  const bool show_bar = !options.quiet && is_terminal(2) && !(output.is_stdout() && is_terminal(1));
+  const bool show_bar = !options.frames.quiet && is_terminal(2) && !(output.is_stdout() && is_terminal(1));
   ProgressBar bar(inputs.files.size(), show_bar);
   for (const auto& file : inputs.files) {
     const FrameOutcome outcome = runner.run(file);
@@ -59,13 +55,11 @@ bool process_frames(const RunOptions& options, const FrameInputs& inputs, FrameR
 }
 
 int run(const RunOptions& options) {
-  const std::optional<std::string> config_file =
-      options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
-  const LoadedConfig loaded = load_config(config_file, options.settings);
-  const FrameInputs inputs = collect_inputs(options.inputs);
-  FrameRunner runner(loaded.config, options.rate_hz);
+  const LoadedConfig loaded = options.frames.load();
+  const FrameInputs inputs = collect_inputs(options.frames.inputs);
+  FrameRunner runner(loaded.config, options.frames.rate_hz);
   ResultOutput output(options.output, inputs.files);
-  if (!options.quiet) print_start(options, loaded, runner, inputs.files.size());
+  if (!options.frames.quiet) print_start(options, loaded, runner, inputs.files.size());
   for (const std::string& error : inputs.errors) fmt::print(stderr, "pose_wall run: {}\n", error);
 
   const auto started = std::chrono::steady_clock::now();
@@ -73,7 +67,7 @@ int run(const RunOptions& options) {
   const bool written = process_frames(options, inputs, runner, output, summary);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!written) fmt::print(stderr, "pose_wall run: {} could not be written to the end\n", output.name());
-  if (!options.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
+  if (!options.frames.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
   return written && inputs.errors.empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
 
@@ -82,17 +76,8 @@ int run(const RunOptions& options) {
 void add_run(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = app.add_subcommand("run", "Measure attitude and wall distances in frames of a LiDAR");
-  verb->add_option("INPUT", options->inputs,
-                   "Frame files (.pcd, .bin of KITTI, .ply) or folders of them, sorted by plain name order")
-      ->required();
-  verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
-  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
-      ->allow_extra_args(false);
+  add_frame_options(verb, &options->frames);
   verb->add_option("-o,--output", options->output, "CSV file for the results; default: standard output");
-  verb->add_option("-r,--rate", options->rate_hz, "Frames per second, for frames without stamps")
-      ->capture_default_str()
-      ->check(rate_fault, "0.001 to 1000000");
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->footer(
       "Example:\n  pose_wall run --config config/pose_wall.yaml --set forward_axis=+Y --output out.csv frames/\n"
       "A file name of 16 to 19 digits is the frame's stamp in nanoseconds; other frames are 1/rate apart.\n"

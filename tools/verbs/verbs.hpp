@@ -11,8 +11,9 @@ namespace pose_wall::tools {
 
 // Exit codes of every verb.
 constexpr int kExitDone = 0;
-constexpr int kExitUnreadable = 1;  // an input could not be read, or a result not written
-constexpr int kExitUsage = 2;       // bad usage or config
+constexpr int kExitUnreadable = 1;     // an input could not be read, or a result not written
+constexpr int kExitUsage = 2;          // bad usage or config
+constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 
 void add_run(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);

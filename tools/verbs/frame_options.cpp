@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "verbs/frame_options.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "frames/text_cursor.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+// Accepts what is inside, so that "nan" is refused.
+std::string rate_fault(const std::string& word) {
+  const std::optional<double> rate_hz = parse_number<double>(word);
+  if (rate_hz && *rate_hz >= 0.001 && *rate_hz <= 1e6) return "";
+  return fmt::format("'{}' is refused; a number from 0.001 to 1000000 is allowed", word);
+}
+
+}  // namespace
+
+LoadedConfig FrameOptions::load() const {
+  return load_config(config_file.empty() ? std::nullopt : std::optional<std::string>(config_file), settings);
+}
+
+void add_frame_options(CLI::App* verb, FrameOptions* options) {
+  verb->add_option("INPUT", options->inputs,
+                   "Frame files (.pcd, .bin of KITTI, .ply) or folders of them, sorted by plain name order")
+      ->required();
+  verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
+  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("-r,--rate", options->rate_hz, "Frames per second, for frames without stamps")
+      ->capture_default_str()
+      ->check(rate_fault, "0.001 to 1000000");
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
+}
+
+}  // namespace pose_wall::tools

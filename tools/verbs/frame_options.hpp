@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What every verb that measures frames of files is told.
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "config_file/load_config.hpp"
+
+namespace pose_wall::tools {
+
+struct FrameOptions {
+  std::vector<std::string> inputs;
+  std::string config_file;  // empty: the defaults
+  std::vector<std::string> settings;
+  double rate_hz = 10.0;
+  bool quiet = false;
+
+  // Throws ConfigError.
+  LoadedConfig load() const;
+};
+
+// INPUT, --config, --set, --rate and --quiet. The options must live as long as the verb.
+void add_frame_options(CLI::App* verb, FrameOptions* options);
+
+}  // namespace pose_wall::tools
