@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line/grammar.hpp"
 #include "pose_wall.h"
 #include "terminal/did_you_mean.hpp"
 #include "verbs/verbs.hpp"
@@ -72,6 +73,9 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_campaign(app, exit_code);
   add_replay_box(app, exit_code);
   add_check_config(app, exit_code);
+  add_completion(app, exit_code);
+  add_man(app, exit_code);
+  name_values(app);
   app.footer(
       "Examples:\n"
       "  pose_wall demo                                               a simulated roadway, measured, with a picture\n"
