@@ -20,6 +20,10 @@
 namespace pose_wall::tools {
 namespace {
 
+constexpr const char* kDescription =
+    "How a tunnelling machine stands in its roadway, from one 3D LiDAR: roll, pitch, yaw and four wall distances per "
+    "frame.";
+
 std::vector<std::string> verb_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* verb : app.get_subcommands({})) names.push_back(verb->get_name());
@@ -40,7 +44,9 @@ bool is_unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
 }
 
 std::string unknown_option_hint(const CLI::App& app) {
-  for (const CLI::App* verb : app.get_subcommands()) {
+  std::vector<const CLI::App*> parts = {&app};
+  for (const CLI::App* verb : app.get_subcommands()) parts.push_back(verb);
+  for (const CLI::App* verb : parts) {
     std::vector<std::string> names;
     for (const CLI::Option* option : verb->get_options()) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -90,11 +96,15 @@ void add_verbs(CLI::App& app, int& exit_code) {
 
 }  // namespace
 
+CommandGrammar command_grammar() {
+  CLI::App app(kDescription, "pose_wall");
+  int exit_code = kExitDone;
+  add_verbs(app, exit_code);
+  return grammar_of(app);
+}
+
 int run_command(int argc, const char* const* argv) {
-  CLI::App app(
-      "How a tunnelling machine stands in its roadway, from one 3D LiDAR: roll, pitch, yaw and four wall "
-      "distances per frame.",
-      "pose_wall");
+  CLI::App app(kDescription, "pose_wall");
   int exit_code = kExitDone;
   add_verbs(app, exit_code);
   if (is_unknown_verb(app, argc, argv)) return kExitUsage;

@@ -19,36 +19,32 @@ _pose_wall() {
     return
   fi
   [[ $word == = ]] && word='' at=$((at + 1))
-  option=${
-  COMP_WORDS[at - 1]
-}
-if
-  [[$option == = ]];
-then option = $ {
-  COMP_WORDS[at - 2]
-}
-if
-  [[$option != -*]];
-then key = $option option = $ {
-  COMP_WORDS[at - 3]
-}
-[[$option == = ]]&& option = ${COMP_WORDS[at - 4]} fi elif [[$word == -- *= *]];
-then option = ${word % %= * } before = ${word % %= * } = word = ${word # *= } fi if [[$option == -*&& $word == *= *]];
-then key = ${word % %= * } before += $key = word = ${word # *= } fi if words = $(_pose_wall_values
-                                                                                 "$verb"
-                                                                                 "$option");
-then[[-n $key]]&& words = $(_pose_wall_key_values "$key") if _pose_wall_is_list
-    "$verb"
-    "$option" && [[$word == *, *]];
-then before += ${word %, *}, word =
-                                 ${
-                                     word##*,
-                                 } fi COMPREPLY =
-                                     ($(compgen - P "$before" - W "$words" --"$word")) [[${COMPREPLY[0]} == *= ]] &&
-                                     compopt - o nospace 2 > / dev / null elif [[$word == -*]];
-then COMPREPLY = ($(compgen - W "$(_pose_wall_options " $verb ")" --"$word")) elif words =
-    $(_pose_wall_values "$verb" '');
-then COMPREPLY = ($(compgen - W "$words" --"$word")) fi
+  option=${COMP_WORDS[at - 1]}
+  if [[ $option == = ]]; then
+    option=${COMP_WORDS[at - 2]}
+    if [[ $option != -* ]]; then
+      key=$option option=${COMP_WORDS[at - 3]}
+      [[ $option == = ]] && option=${COMP_WORDS[at - 4]}
+    fi
+  elif [[ $word == --*=* ]]; then
+    option=${word%%=*} before=${word%%=*}= word=${word#*=}
+  fi
+  if [[ $option == -* && $word == *=* ]]; then
+    key=${word%%=*} before+=$key= word=${word#*=}
+  fi
+  if words=$(_pose_wall_values "$verb" "$option"); then
+    [[ -n $key ]] && words=$(_pose_wall_key_values "$key")
+    if _pose_wall_is_list "$verb" "$option" && [[ $word == *,* ]]; then
+      before+=${word%,*}, word=${word##*,}
+    fi
+    COMPREPLY=($(compgen -P "$before" -W "$words" -- "$word"))
+    [[ ${COMPREPLY[0]-} == *= ]] && compopt -o nospace 2> /dev/null
+  elif [[ $word == -* ]]; then
+    COMPREPLY=($(compgen -W "$(_pose_wall_options "$verb")" -- "$word"))
+  elif words=$(_pose_wall_values "$verb" ''); then
+    COMPREPLY=($(compgen -W "$words" -- "$word"))
+  fi
+  return 0
 }
 complete -o bashdefault -o default -F _pose_wall pose_wall
 )bash";

@@ -127,6 +127,7 @@ void name_values(CLI::App& app) {
 
 CommandGrammar grammar_of(const CLI::App& app) {
   CommandGrammar grammar{verb_grammar(app), {}};
+  grammar.command.name.clear();
   for (const CLI::App* verb : app.get_subcommands({})) {
     if (!verb->get_group().empty()) grammar.verbs.push_back(verb_grammar(*verb));
   }
