@@ -7,14 +7,15 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
-#include "frames/input_list.hpp"
+#include "inputs/frame_sequence.hpp"
 #include "results/frame_runner.hpp"
 #include "results/result_output.hpp"
 #include "results/run_summary.hpp"
@@ -39,28 +40,28 @@ void print_start(const RunOptions& options, const LoadedConfig& loaded, const Fr
 }
 
 // False when the output could not be written.
-bool process_frames(const RunOptions& options, const FrameInputs& inputs, FrameRunner& runner, ResultOutput& output,
+bool process_frames(const RunOptions& options, FrameSequence& inputs, FrameRunner& runner, ResultOutput& output,
                     RunSummary& summary) {
   // A bar between rows of the table on the same terminal would spoil both.
   const bool show_bar = !options.frames.quiet && is_terminal(2) && !(output.is_stdout() && is_terminal(1));
-  ProgressBar bar(inputs.files.size(), show_bar);
-  for (const auto& file : inputs.files) {
-    const FrameOutcome outcome = runner.run(file);
+  ProgressBar bar(inputs.frames(), show_bar);
+  while (std::optional<SourcedFrame> frame = inputs.next()) {
+    const FrameOutcome outcome = runner.run(std::move(*frame));
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
     summary.add(outcome);
     if (!output.write(outcome)) return false;
-    bar.advance(file.filename().string());
+    bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
   return true;
 }
 
 int run(const RunOptions& options) {
   const LoadedConfig loaded = options.frames.load();
-  const FrameInputs inputs = collect_inputs(options.frames.inputs);
+  FrameSequence inputs = options.frames.open();
   FrameRunner runner(loaded.config, options.frames.rate_hz);
-  ResultOutput output(options.output, inputs.files);
-  if (!options.frames.quiet) print_start(options, loaded, runner, inputs.files.size());
-  for (const std::string& error : inputs.errors) fmt::print(stderr, "pose_wall run: {}\n", error);
+  ResultOutput output(options.output, inputs.files());
+  if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
+  for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
 
   const auto started = std::chrono::steady_clock::now();
   RunSummary summary;
@@ -68,7 +69,7 @@ int run(const RunOptions& options) {
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!written) fmt::print(stderr, "pose_wall run: {} could not be written to the end\n", output.name());
   if (!options.frames.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
-  return written && inputs.errors.empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
+  return written && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
 
 }  // namespace
