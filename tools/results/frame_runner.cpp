@@ -6,9 +6,9 @@
 #include <chrono>
 #include <ctime>
 #include <string>
+#include <utility>
 
 #include "config_file/load_config.hpp"
-#include "frames/load_frame.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -36,15 +36,18 @@ FrameRunner::FrameRunner(const api::Config& config, double rate_hz) : stamps_(ra
   engine_.set_clock(steady_ns);
 }
 
-FrameOutcome FrameRunner::run(const std::filesystem::path& path, const Look& look) {
+FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
   FrameOutcome outcome;
   outcome.frame = next_frame_++;
-  outcome.source = path.string();
-  outcome.stamp_ns = stamps_.next(path);
+  outcome.source = std::move(sourced.name);
+  outcome.stamp_ns = stamps_.next(sourced.stamp_ns);
+  outcome.load_ms = sourced.load_ms;
+  if (!sourced.frame) {
+    outcome.error = std::move(sourced.error);
+    return outcome;
+  }
   try {
-    const std::int64_t load_start_ns = steady_ns(nullptr);
-    Frame frame = load_frame(path);
-    outcome.load_ms = millis_since(load_start_ns);
+    Frame& frame = *sourced.frame;
     frame.cloud.stamp_ns = outcome.stamp_ns;
     pose_wall_result result = api::make_result();
     const double start_processor_ms = processor_millis();

@@ -7,15 +7,16 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
-#include "frames/input_list.hpp"
+#include "inputs/frame_sequence.hpp"
 #include "results/frame_runner.hpp"
 #include "results/result_output.hpp"
 #include "results/run_summary.hpp"
@@ -68,22 +69,23 @@ struct Outputs {
 };
 
 // What could not be written, or nothing. Ctrl-C ends it after the frame at work.
-std::string process_frames(const RunOptions& options, const FrameInputs& inputs, FrameRunner& runner,
+std::string process_frames(const RunOptions& options, FrameSequence& inputs, FrameRunner& runner,
                            const Outputs& outputs, RunSummary& summary) {
   // A bar between rows of the table on the same terminal would spoil both.
   const bool show_bar = !options.frames.quiet && is_terminal(2) && !(outputs.results.is_stdout() && is_terminal(1));
-  ProgressBar bar(inputs.files.size(), show_bar);
+  ProgressBar bar(inputs.frames(), show_bar);
   const FrameRunner::Look look = [&outputs](const auto&, const auto& points, const auto& result) {
     if (outputs.annotated) outputs.annotated->look(points, result);
   };
-  for (const auto& file : inputs.files) {
-    if (InterruptWatch::is_interrupted()) break;
-    const FrameOutcome outcome = runner.run(file, look);
+  while (!InterruptWatch::is_interrupted()) {
+    std::optional<SourcedFrame> frame = inputs.next();
+    if (!frame) break;
+    const FrameOutcome outcome = runner.run(std::move(*frame), look);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
     summary.add(outcome);
     const std::string fault = outputs.write(outcome);
     if (!fault.empty()) return fault;
-    bar.advance(file.filename().string());
+    bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
   return "";
 }
@@ -96,13 +98,13 @@ int tell_interrupted(std::size_t frames, std::size_t of) {
 
 int run(const RunOptions& options) {
   const LoadedConfig loaded = options.frames.load();
-  const FrameInputs inputs = collect_inputs(options.frames.inputs);
+  FrameSequence inputs = options.frames.open();
   FrameRunner runner(loaded.config, options.frames.rate_hz);
   std::optional<AnnotatedFolder> annotated = annotated_folder(options);
-  ResultOutput output(options.output, inputs.files,
+  ResultOutput output(options.output, inputs.files(),
                       options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv);
-  if (!options.frames.quiet) print_start(options, loaded, runner, inputs.files.size());
-  for (const std::string& error : inputs.errors) fmt::print(stderr, "pose_wall run: {}\n", error);
+  if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
+  for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
 
   const auto started = std::chrono::steady_clock::now();
   RunSummary summary;
@@ -111,10 +113,10 @@ int run(const RunOptions& options) {
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);
   if (!options.frames.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
-  if (summary.frames() < inputs.files.size() && InterruptWatch::is_interrupted()) {
-    return tell_interrupted(summary.frames(), inputs.files.size());
+  if (summary.frames() < inputs.frames() && InterruptWatch::is_interrupted()) {
+    return tell_interrupted(summary.frames(), inputs.frames());
   }
-  return fault.empty() && inputs.errors.empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
+  return fault.empty() && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
 
 }  // namespace
