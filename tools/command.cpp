@@ -71,6 +71,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_eval(app, exit_code);
   add_campaign(app, exit_code);
   add_replay_box(app, exit_code);
+  add_explain(app, exit_code);
   add_check_config(app, exit_code);
   app.footer(
       "Examples:\n"
@@ -80,6 +81,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
       "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page to look at\n"
       "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
       "  pose_wall campaign --size small --output card                thousands of such roads: may it be believed?\n"
+      "  pose_wall explain -c road/pose_wall.yaml --frame 12 road/frames      why frame 12 came out as it did\n"
       "  pose_wall check-config road/pose_wall.yaml                   what the settings come to\n"
       "Each verb has its own --help.");
 }
