@@ -72,12 +72,14 @@ void add_verbs(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("pose_wall {} (ABI {})", pose_wall_version(), pose_wall_abi_version()));
   add_run(app, exit_code);
+  add_doctor(app, exit_code);
   add_sim(app, exit_code);
   add_demo(app, exit_code);
   add_report(app, exit_code);
   add_eval(app, exit_code);
   add_campaign(app, exit_code);
   add_replay_box(app, exit_code);
+  add_explain(app, exit_code);
   add_check_config(app, exit_code);
   add_completion(app, exit_code);
   add_man(app, exit_code);
@@ -86,10 +88,12 @@ void add_verbs(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  pose_wall demo                                               a simulated roadway, measured, with a picture\n"
       "  pose_wall sim --scene clean --frames 50 --output road        frames with their truth\n"
+      "  pose_wall doctor -o pose_wall.yaml frames                    settings for frames of your own\n"
       "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
       "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page to look at\n"
       "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
       "  pose_wall campaign --size small --output card                thousands of such roads: may it be believed?\n"
+      "  pose_wall explain -c road/pose_wall.yaml --frame 12 road/frames      why frame 12 came out as it did\n"
       "  pose_wall check-config road/pose_wall.yaml                   what the settings come to\n"
       "Each verb has its own --help.");
 }
