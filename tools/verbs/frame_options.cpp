@@ -25,6 +25,10 @@ LoadedConfig FrameOptions::load() const {
   return load_config(config_file.empty() ? std::nullopt : std::optional<std::string>(config_file), settings);
 }
 
+FrameSequence FrameOptions::open() const {
+  return FrameSequence(inputs, input);
+}
+
 void add_frame_options(CLI::App* verb, FrameOptions* options) {
   verb->add_option("INPUT", options->inputs,
                    "Frame files (.pcd, .bin of KITTI, .ply) or folders of them, sorted by plain name order")

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config_file/load_config.hpp"
+#include "inputs/frame_sequence.hpp"
 
 namespace pose_wall::tools {
 
@@ -19,9 +20,13 @@ struct FrameOptions {
   std::vector<std::string> settings;
   double rate_hz = 10.0;
   bool quiet = false;
+  InputOptions input;
 
   // Throws ConfigError.
   LoadedConfig load() const;
+
+  // Opens the inputs; throws std::invalid_argument.
+  FrameSequence open() const;
 };
 
 // INPUT, --config, --set, --rate and --quiet. The options must live as long as the verb.

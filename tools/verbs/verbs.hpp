@@ -24,6 +24,9 @@ void add_report(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_replay_box(CLI::App& app, int& exit_code);
+void add_explain(CLI::App& app, int& exit_code);
 void add_check_config(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
+void add_man(CLI::App& app, int& exit_code);
 
 }  // namespace pose_wall::tools
