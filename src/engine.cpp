@@ -106,16 +106,41 @@ void Engine::open(const Settings& settings, std::uint32_t config_crc32) {
   reset();
   self_ = this;
   magic_ = kMagic;
+  seal();
 }
 
 void Engine::reset() {
   scratch_.reset();
   memory_ = Memory{};
+  seal();
 }
 
 void Engine::set_clock(pose_wall_clock clock, void* user) {
   clock_ = clock;
   clock_user_ = user;
+  seal();
+}
+
+bool Engine::is_open() const {
+  return magic_ == kMagic && self_ == this && seal_ == sum();
+}
+
+void Engine::set_memory(const Memory& memory) {
+  memory_ = memory;
+  seal();
+}
+
+// FNV-1a by words: each step maps different sums to different ones, so no change of a single word goes unnoticed.
+std::uint64_t Engine::sum() const {
+  static_assert(sizeof(Engine) % sizeof(std::uint64_t) == 0, "whole words");
+  const unsigned char* const bytes = reinterpret_cast<const unsigned char*>(this);
+  std::uint64_t sum = 0xCBF29CE484222325ULL;
+  for (std::size_t at = sizeof(seal_); at < sizeof(Engine); at += sizeof(std::uint64_t)) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + at, sizeof(word));
+    sum = (sum ^ word) * 0x100000001B3ULL;
+  }
+  return sum;
 }
 
 void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
@@ -143,6 +168,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   stage_done(POSE_WALL_STAGE_OUTPUT);
 
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) result->stage_ns[stage] = at[stage + 1] - at[stage];
+  seal();
 }
 
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
@@ -260,6 +286,7 @@ void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {
   // A leap, or a stamp from before the last frame, is that frame's matter when it comes.
   const double elapsed_s = time_frame(memory_.temporal, stamp_ns, settings_).dt_s;
   age_values(elapsed_s, nothing.reasons, settings_, &memory_.temporal, &result->quantity);
+  seal();
   report_findings(nothing, result);
   result->frame_index = memory_.frames > 0 ? memory_.frames - 1 : 0;
   result->confidence = least_confidence(*result);

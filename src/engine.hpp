@@ -63,14 +63,15 @@ class Engine {
   void open(const Settings& settings, std::uint32_t config_crc32);
   void reset();
   void set_clock(pose_wall_clock clock, void* user);
-  bool is_open() const { return magic_ == kMagic && self_ == this; }
+  // And nobody else has written to it since its last call.
+  bool is_open() const;
   void process(const pose_wall_cloud& cloud, pose_wall_result* result);
   // What the seven are at a time without a frame.
   void age(std::int64_t stamp_ns, pose_wall_result* result);
   pose_wall_points points() const;
   std::uint32_t config_crc32() const { return config_crc32_; }
   const Memory& memory() const { return memory_; }
-  void set_memory(const Memory& memory) { memory_ = memory; }
+  void set_memory(const Memory& memory);
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;
@@ -83,7 +84,12 @@ class Engine {
   void remember(const FrameFindings& found);
   void label_points(const FrameFindings& found);
   std::int64_t now() const { return clock_ != nullptr ? clock_(clock_user_) : 0; }
+  std::uint64_t sum() const;
+  void seal() { seal_ = sum(); }
 
+  // The sum of all that follows. Settings, memory and the scratch's places are believed as they stand: a bit that falls
+  // over in them between two calls would be told as a value.
+  std::uint64_t seal_ = 0;
   std::uint64_t magic_ = 0;
   const Engine* self_ = nullptr;
   std::uint32_t config_crc32_ = 0;
