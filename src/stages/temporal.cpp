@@ -51,6 +51,18 @@ bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Tra
   return limited;
 }
 
+// Member by member: a struct's copy may bring padding along that nobody wrote, and the engine's sum is over padding,
+// too.
+void keep_good(const Measurement& m, Track* t) {
+  LastGood& good = t->good;
+  good.exists = true;
+  good.raw = m.raw;
+  good.raw_protection = m.protection;
+  good.value = t->value;
+  good.value_protection = t->protection;
+  good.age_s = 0.0;
+}
+
 void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
   out->reasons = m.reasons;
@@ -77,7 +89,7 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   const bool within = t->protection <= alert_limit(quantity, s);
   if (!within) out->reasons |= POSE_WALL_R_ALERT_LIMIT;
   const bool valid = within && !m.weak && t->to_confirm == 0;
-  if (valid) t->good = {true, m.raw, m.protection, t->value, t->protection, 0.0};
+  if (valid) keep_good(m, t);
   out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->raw = m.raw;
   out->value = t->value;

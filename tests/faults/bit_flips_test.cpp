@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: a bit that falls over in the engine's block between two calls is either noticed (every bit of what lives on:
-// settings, memory, pointers, the sum itself; the engine is refused until it is opened again) or without any effect
-// (the scratch: the next result has the same bits). Does not prove: anything of bits that fall over during a call.
+// settings, memory, the sum itself; the engine is refused until it is opened again) or without any effect
+// (the scratch and its pointers: the next result has the same bits). Does not prove: anything of bits that fall over
+// during a call.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +65,7 @@ TEST(BitFlips, EveryBitOfWhatLivesOnIsNoticed) {
   result.struct_size = sizeof result;
   before = result;
   std::uint64_t unnoticed = 0;
-  for (std::uint64_t bit = 0; bit < 8 * sizeof(Engine); ++bit) {
+  for (std::uint64_t bit = 0; bit < 8 * Engine::guarded_bytes(); ++bit) {
     disturbed.flip(bit);
     const std::int32_t status = pose_wall_process(disturbed.engine(), &cloud, &result);
     if (status != POSE_WALL_E_ENGINE || !same(result, before)) {
@@ -87,7 +88,7 @@ TEST(BitFlips, ManyBitsOfWhatLivesOnAreNoticed) {
   for (std::uint32_t round = 0; round < 20000; ++round) {
     std::uint64_t bits[8];
     const std::uint32_t count = 2 + round % 7;
-    for (std::uint32_t i = 0; i < count; ++i) bits[i] = (random() % sizeof(Engine)) * 8 + i;  // all different
+    for (std::uint32_t i = 0; i < count; ++i) bits[i] = (random() % Engine::guarded_bytes()) * 8 + i;  // all different
     for (std::uint32_t i = 0; i < count; ++i) block.flip(bits[i]);
     ASSERT_EQ(pose_wall_age(block.engine(), 0, &result), POSE_WALL_E_ENGINE) << round;
     for (std::uint32_t i = 0; i < count; ++i) block.flip(bits[i]);
@@ -97,7 +98,7 @@ TEST(BitFlips, ManyBitsOfWhatLivesOnAreNoticed) {
 TEST(BitFlips, EveryCallRefusesADamagedEngineUntilItIsOpenedAgain) {
   OpenBlock block;
   block.processed(0);
-  const std::uint64_t some_double = 8 * (sizeof(Engine) / 2) + 40;
+  const std::uint64_t some_double = 8 * 8 * (Engine::guarded_bytes() / 16) + 40;
   block.flip(some_double);
   pose_wall_engine* const e = block.engine();
   pose_wall_result result{};
@@ -126,8 +127,8 @@ TEST(BitFlips, TheScratchMayHoldAnything) {
   undisturbed.processed(0);
   std::mt19937 random(2);
   for (std::uint32_t round = 1; round <= 12; ++round) {
-    unsigned char* const scratch = disturbed.bytes() + sizeof(Engine);
-    const std::uint64_t count = disturbed.size() - sizeof(Engine);
+    unsigned char* const scratch = disturbed.bytes() + Engine::guarded_bytes();
+    const std::uint64_t count = disturbed.size() - Engine::guarded_bytes();
     for (std::uint64_t i = 0; i < count; ++i) {
       const unsigned char all[] = {static_cast<unsigned char>(~scratch[i]), 0, 0xFF,
                                    static_cast<unsigned char>(round > 3 ? random() : 0)};
@@ -143,8 +144,8 @@ TEST(BitFlips, SingleBitsOfTheScratchHaveNoEffect) {
   undisturbed.processed(0);
   std::mt19937_64 random(3);
   for (std::uint32_t round = 1; round <= 60; ++round) {
-    const std::uint64_t scratch_bits = 8 * (disturbed.size() - sizeof(Engine));
-    disturbed.flip(8 * sizeof(Engine) + random() % scratch_bits);
+    const std::uint64_t scratch_bits = 8 * (disturbed.size() - Engine::guarded_bytes());
+    disturbed.flip(8 * Engine::guarded_bytes() + random() % scratch_bits);
     ASSERT_TRUE(same(disturbed.processed(round), undisturbed.processed(round))) << "round " << round;
   }
 }

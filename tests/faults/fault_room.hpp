@@ -43,8 +43,8 @@ inline bool matches(const std::string& states, std::string pattern) {
   if (states.size() != pattern.size()) return false;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const char s = states[i], p = pattern[i];
-    const bool live = s == 'V' || s == 'D', fits = s == p || p == '.' || (p == 'L' && live) || (p == 'h' && !live) ||
-                                                   (p == 'x' && s != 'V');
+    const bool live = s == 'V' || s == 'D',
+               fits = s == p || p == '.' || (p == 'L' && live) || (p == 'h' && !live) || (p == 'x' && s != 'V');
     if (!fits) return false;
   }
   return true;
