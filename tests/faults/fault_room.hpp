@@ -74,7 +74,8 @@ class FaultRoom {
   }
   // A good frame; nothing it tells is wrong.
   pose_wall_result good(std::int64_t stamp_ns) {
-    const pose_wall_result r = process(cloud_of(room_frame(frames_++), stamp_ns));
+    const pose_wall_result r = process(cloud_of(room_frame(frames_), stamp_ns));
+    frames_ += 2;  // never the last one again, nor what a case made of frame 1
     EXPECT_EQ(misleading(r, kRoomTruth), "") << states_of(r) << " at " << stamp_ns;
     return r;
   }
