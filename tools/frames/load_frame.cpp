@@ -74,7 +74,10 @@ bool has_frame_ending(const std::filesystem::path& path) {
 Frame load_frame(const std::filesystem::path& path) {
   const Format* format = find_format(path);
   if (format == nullptr) {
-    throw FrameError(fmt::format("unknown ending '{}'; {} are read", path.extension().string(), frame_endings_text()));
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) throw FrameError("no such file");
+    throw FrameError(fmt::format("unknown ending '{}'; {} are read, and bags and captures by their content",
+                                 path.extension().string(), frame_endings_text()));
   }
   return format->read(read_bytes(path));
 }

@@ -37,11 +37,14 @@ class FrameSequence {
 
  private:
   void add(const std::string& argument, const InputOptions& options);
+  void add_bag(const std::string& argument, const std::vector<std::filesystem::path>& files,
+               const InputOptions& options);
 
   std::vector<std::unique_ptr<FrameSource>> sources_;
   std::vector<std::filesystem::path> files_;
   std::vector<std::string> errors_;
   std::size_t current_ = 0;
+  bool bag_seen_ = false;
 };
 
 }  // namespace pose_wall::tools
