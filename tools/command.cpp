@@ -68,6 +68,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_sim(app, exit_code);
   add_demo(app, exit_code);
   add_report(app, exit_code);
+  add_info(app, exit_code);
   add_eval(app, exit_code);
   add_campaign(app, exit_code);
   add_replay_box(app, exit_code);
@@ -78,6 +79,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene clean --frames 50 --output road        frames with their truth\n"
       "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
       "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page to look at\n"
+      "  pose_wall info road.bag                                      what a recording holds\n"
       "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
       "  pose_wall campaign --size small --output card                thousands of such roads: may it be believed?\n"
       "  pose_wall check-config road/pose_wall.yaml                   what the settings come to\n"

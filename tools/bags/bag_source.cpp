@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kTopicsShown = 20;
 
-std::string list_of(const std::vector<BagTopicCount>& topics, bool with_type) {
+std::string list_of(const std::vector<SourceTopic>& topics, bool with_type) {
   std::string list;
   for (std::size_t i = 0; i < topics.size() && i < kTopicsShown; ++i) {
     list += fmt::format("{}{} ({}{})", i == 0 ? "" : ", ", topics[i].name,
@@ -52,7 +52,7 @@ void Bag::add(const std::filesystem::path& path) {
   const std::vector<BagTopic>& found = file.reader->topics();
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto known = std::find_if(topics_.begin(), topics_.end(),
-                                    [&](const BagTopicCount& topic) { return topic.name == found[i].name; });
+                                    [&](const SourceTopic& topic) { return topic.name == found[i].name; });
     if (known != topics_.end()) {
       known->messages += survey.messages[i];
     } else {
@@ -62,25 +62,38 @@ void Bag::add(const std::filesystem::path& path) {
   files_.push_back(std::move(file));
 }
 
-std::string Bag::choose_topic(const std::string& wanted) const {
-  std::vector<BagTopicCount> clouds;
+std::vector<SourceTopic> Bag::cloud_topics() const {
+  std::vector<SourceTopic> clouds;
   std::copy_if(topics_.begin(), topics_.end(), std::back_inserter(clouds),
-               [](const BagTopicCount& topic) { return topic.has_clouds; });
-  if (clouds.empty() && faults_ > 0) return wanted;  // reading it says what is wrong
-  if (clouds.empty()) {
+               [](const SourceTopic& topic) { return topic.has_clouds; });
+  // Of a bag with faults the reading says what is wrong.
+  if (clouds.empty() && faults_ == 0) {
     throw FrameError(fmt::format("no topic of sensor_msgs/PointCloud2; topics: {}",
                                  topics_.empty() ? "none" : list_of(topics_, true)));
   }
+  return clouds;
+}
+
+std::string Bag::fullest_topic() const {
+  const std::vector<SourceTopic> clouds = cloud_topics();
+  const auto fullest = std::max_element(
+      clouds.begin(), clouds.end(), [](const SourceTopic& a, const SourceTopic& b) { return a.messages < b.messages; });
+  return fullest != clouds.end() ? fullest->name : "";
+}
+
+std::string Bag::choose_topic(const std::string& wanted) const {
+  const std::vector<SourceTopic> clouds = cloud_topics();
+  if (clouds.empty()) return wanted;
   if (!wanted.empty()) {
     std::vector<std::string> names;
-    for (const BagTopicCount& topic : clouds) names.push_back(topic.name);
+    for (const SourceTopic& topic : clouds) names.push_back(topic.name);
     if (std::find(names.begin(), names.end(), wanted) != names.end()) return wanted;
     throw std::invalid_argument(fmt::format("--topic {}: no clouds of this name{}; topics with clouds: {}", wanted,
                                             did_you_mean(wanted, names), list_of(clouds, false)));
   }
-  std::vector<BagTopicCount> filled;
+  std::vector<SourceTopic> filled;
   std::copy_if(clouds.begin(), clouds.end(), std::back_inserter(filled),
-               [](const BagTopicCount& topic) { return topic.messages > 0; });
+               [](const SourceTopic& topic) { return topic.messages > 0; });
   if (filled.size() > 1) {
     throw std::invalid_argument(
         fmt::format("several topics with clouds: {}. Name one with --topic", list_of(filled, false)));
@@ -90,9 +103,16 @@ std::string Bag::choose_topic(const std::string& wanted) const {
 
 BagSource::BagSource(std::unique_ptr<Bag> bag, std::string topic) : bag_(std::move(bag)), topic_(std::move(topic)) {
   frames_ = bag_->faults();
-  for (const BagTopicCount& known : bag_->topics()) {
+  for (const SourceTopic& known : bag_->topics()) {
     if (known.name == topic_) frames_ += static_cast<std::size_t>(known.messages);
   }
+}
+
+SourceAbout BagSource::about() const {
+  const std::size_t files = bag_->files().size();
+  std::string kind(bag_kind_name(bag_->kind()));
+  if (files > 1) kind += fmt::format(" of {} files", files);
+  return {std::move(kind), bag_->topics(), topic_};
 }
 
 SourcedFrame BagSource::frame_of(const Bag::File& file, const BagMessage& message) {

@@ -18,14 +18,6 @@
 
 namespace pose_wall::tools {
 
-// A topic as its bag names it; several connections of one name are one.
-struct BagTopicCount {
-  std::string name;
-  std::string type;
-  std::uint64_t messages = 0;
-  bool has_clouds = false;
-};
-
 // What the files of a bag hold; goes through them once.
 class Bag {
  public:
@@ -37,7 +29,8 @@ class Bag {
     std::unique_ptr<BagReader> reader;
   };
 
-  const std::vector<BagTopicCount>& topics() const { return topics_; }
+  // Several connections of one name are one topic.
+  const std::vector<SourceTopic>& topics() const { return topics_; }
   std::size_t faults() const { return faults_; }
   std::vector<File>& files() { return files_; }
   BagKind kind() const { return kind_; }
@@ -46,11 +39,15 @@ class Bag {
   // command line has to say more, FrameError when the bag holds no clouds.
   std::string choose_topic(const std::string& wanted) const;
 
+  // The topic of clouds with the most messages; throws FrameError when the bag holds no clouds.
+  std::string fullest_topic() const;
+
  private:
+  std::vector<SourceTopic> cloud_topics() const;
   void add(const std::filesystem::path& path);
 
   std::vector<File> files_;
-  std::vector<BagTopicCount> topics_;
+  std::vector<SourceTopic> topics_;
   std::size_t faults_ = 0;
   BagKind kind_ = BagKind::kRos1;
 };
@@ -62,6 +59,7 @@ class BagSource : public FrameSource {
 
   std::optional<SourcedFrame> next() override;
   std::size_t frames() const override { return frames_; }
+  SourceAbout about() const override;
 
  private:
   SourcedFrame frame_of(const Bag::File& file, const BagMessage& message);

@@ -42,7 +42,8 @@ void FrameSequence::add_bag(const std::string& argument, const std::vector<std::
   files_.insert(files_.end(), files.begin(), files.end());
   auto bag = std::make_unique<Bag>(files);
   try {
-    std::string topic = bag->choose_topic(options.topic);
+    const bool fullest = options.fullest_topic && options.topic.empty();
+    std::string topic = fullest ? bag->fullest_topic() : bag->choose_topic(options.topic);
     sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument(fmt::format("{}: {}", argument, fault.what()));
