@@ -21,6 +21,7 @@ constexpr double kDegPerRad = 57.29577951308232;
 constexpr double kElevationBinsPerDeg = 20.0;
 constexpr double kRangeMin_m = 1.0;  // nearer, offsets between lasers and origin bend the rings
 constexpr std::size_t kRingsMax = 256;
+constexpr std::size_t kRingsByElevationMax = 128;
 
 struct Directions {
   std::vector<std::size_t> elevations =
@@ -68,7 +69,7 @@ std::size_t rings_by_elevation(const Directions& directions) {
     if (occupied && !inside) ++groups;
     inside = occupied;
   }
-  return groups >= 4 && groups <= kRingsMax && filled <= 4 * groups ? groups : 0;
+  return groups >= 4 && groups <= kRingsByElevationMax && filled <= 4 * groups ? groups : 0;
 }
 
 std::size_t distinct_values(const pose_wall_cloud& cloud, const pose_wall_field& field) {

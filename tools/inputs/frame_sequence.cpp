@@ -13,6 +13,7 @@
 #include "bags/rosbag2_folder.hpp"
 #include "frames/file_source.hpp"
 #include "frames/input_list.hpp"
+#include "packets/packet_source.hpp"
 
 namespace pose_wall::tools {
 
@@ -26,6 +27,11 @@ FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const In
 void FrameSequence::add(const std::string& argument, const InputOptions& options) {
   try {
     if (is_rosbag2_folder(argument)) return add_bag(argument, rosbag2_files(argument), options);
+    if (is_packet_capture(argument)) {
+      sources_.push_back(open_packet_capture(argument, options.metadata));
+      files_.emplace_back(argument);
+      return;
+    }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);
   } catch (const FrameError& fault) {
     errors_.push_back(fmt::format("{}: {}", argument, fault.what()));

@@ -31,6 +31,9 @@ FrameSequence FrameOptions::open() const {
 
 void add_input_options(CLI::App* verb, InputOptions* options) {
   verb->add_option("-t,--topic", options->topic, "Topic of a bag, where it has several with clouds");
+  verb->add_option("--metadata", options->metadata,
+                   "What an Ouster capture was recorded with; default: its name, .json")
+      ->check(CLI::ExistingFile);
 }
 
 void add_frame_options(CLI::App* verb, FrameOptions* options) {

@@ -30,9 +30,8 @@ struct FrameOptions {
 };
 
 constexpr const char* kInputHelp =
-    "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, or bags (ROS 1, MCAP, "
-    "SQLite, "
-    "folders of rosbag2)";
+    "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, bags (ROS 1, MCAP, SQLite, "
+    "folders of rosbag2) or captures of packets (Ouster, VLP-16)";
 
 // What tells how inputs are to be read.
 void add_input_options(CLI::App* verb, InputOptions* options);
