@@ -41,7 +41,7 @@ inline std::uint32_t scan_road(const roadway& road, std::uint32_t frame) {
 inline roadway plain_road() {
   roadway road{};
   road.name = "plain";
-  road.scanner = {16, 360, {-0.1317, 0.1317}};
+  road.scanner = {14, 300, {-0.1317, 0.1317}};
   road.half_width_m = 2.5;
   road.height_m = 3.2;
   road.face_x_m = 12.0;

@@ -5,7 +5,8 @@
 # Fuzzes, one process per target and as many side by side as the machine has processors, then shrinks what was found
 # worth keeping and prints a table. Needs `cmake --preset fuzz && cmake --build --preset fuzz`.
 # usage: tests/fuzz/run.sh [SECONDS per target, 60] [TARGET...]      without names: all targets
-#        JOBS=n    so many side by side
+#        JOBS=n      so many side by side
+#        TIMEOUT=n   an input that takes more than so many seconds (10) is a finding; more on a machine that is busy
 # Grown corpora: build/fuzz/corpus/TARGET, begun from tests/fuzz/corpus/TARGET; findings: build/fuzz/findings/TARGET;
 # logs: build/fuzz/logs/TARGET.log. Exit status 1 where there are findings.
 set -euo pipefail
@@ -31,15 +32,15 @@ max_len_of() {
 }
 
 options_of() { # what both fuzzing and shrinking are given
-  local words=$build/words/$1
-  echo "-max_len=$(max_len_of "$1") -timeout=10 -rss_limit_mb=2048 -artifact_prefix=$build/findings/$1/"
-  [ ! -f "tests/fuzz/words/$1.dict" ] || words="-dict=tests/fuzz/words/$1.dict" && [ ! -f "${words#-dict=}" ] || echo "$words"
+  local words=tests/fuzz/words/$1.dict
+  echo "-max_len=$(max_len_of "$1") -timeout=${TIMEOUT:-10} -report_slow_units=${TIMEOUT:-10} -rss_limit_mb=2048 -artifact_prefix=$build/findings/$1/"
+  [ ! -f "$words" ] || echo "-dict=$words"
 }
 
 fuzz() { # target
   local program=$build/tests/pose_wall_$1_fuzz corpus=$build/corpus/$1 noted=tests/fuzz/corpus/$1 options
   mkdir -p "$corpus" "$build/findings/$1" "$noted"
-  options=$(options_of "$1")
+  options=$(options_of "$1" | tr '\n' ' ')
   # A crash ends libFuzzer; what is left of the time goes on behind it, so that one finding does not hide the next.
   local until=$(($(date +%s) + seconds)) left
   : > "$build/logs/$1.log"
