@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ran_command.hpp"
@@ -86,14 +85,19 @@ TEST(DoctorVerb, TellsTheSameInTablesAndJson) {
 }
 
 TEST(DoctorVerb, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
-  const std::pair<Road, const char*> cases[] = {
-      {Road({}, "1"), "1 frame"},
-      {Road({"--scene", "no_floor"}), "floor"},
-      {Road({"--set", "walls=none"}), "walls"},
-      {Road({"--set", "unit_scale=1000"}), "millimetres?"},
-      {Road({"--set", "sway_roll_deg=8", "--set", "sway_period_s=0.4"}, "5"), "the sensor moved"},
+  struct {
+    std::vector<std::string> words;
+    const char* frames;
+    const char* reason;
+  } const cases[] = {
+      {{}, "1", "1 frame"},
+      {{"--scene", "no_floor"}, "4", "floor"},
+      {{"--set", "walls=none"}, "4", "walls"},
+      {{"--set", "unit_scale=1000"}, "4", "millimetres?"},
+      {{"--set", "sway_roll_deg=8", "--set", "sway_period_s=0.4"}, "5", "the sensor moved"},
   };
-  for (const auto& [road, reason] : cases) {
+  for (const auto& [words, frames, reason] : cases) {
+    const Road road(words, frames);
     EXPECT_EQ(road.doctor({"-o", road.folder.file("out.yaml")}).exit_status, 3) << reason;
     EXPECT_TRUE(contains(road.page, "not usable because")) << reason;
     EXPECT_TRUE(contains(road.page, reason)) << road.page;

@@ -19,6 +19,7 @@ constexpr double kMargin_m = 0.1;
 constexpr double kBegins_m = 2.5;
 constexpr std::size_t kCellsMin = 3;
 constexpr double kRoofGap_m = 0.3;
+constexpr double kAboveSensor_m = 1.5;  // a raised boom
 constexpr std::size_t kBoxes = 4;
 
 // The room in which a body may be: not at the floor, the roof, the walls or a face.
@@ -26,7 +27,7 @@ class BodyRoom {
  public:
   BodyRoom(const RoadFrame& frame, const RoadAxis& road, const RoadEnds& ends)
       : sensor_(frame.of_base(frame.mount().position_base_m())),
-        top_m_(std::isfinite(ends.roof_m) ? ends.roof_m - kRoofGap_m : kNear_m),
+        top_m_(std::fmin(ends.roof_m - kRoofGap_m, sensor_.z() + kAboveSensor_m)),
         left_m_(std::isfinite(road.left_m) ? road.left_m - clearance_m(road.left_m - sensor_.y()) : kNear_m),
         right_m_(std::isfinite(road.right_m) ? road.right_m - clearance_m(road.right_m + sensor_.y()) : kNear_m),
         ahead_m_(ends.face_plus_m.value_or(2.0 * kNear_m) - 0.8),
@@ -80,7 +81,8 @@ double share_inside(const std::vector<KeptFrame>& frames, const RoadFrame& frame
     all += kept.count();
     for (std::size_t i = 0; i < kept.count(); ++i) {
       const Eigen::Vector3d p = frame.to_base(kept.point(i));
-      inside += std::any_of(boxes.begin(), boxes.end(), [&p](const Box& box) { return box.holds(p); }) ? std::size_t{1} : 0;
+      inside +=
+          std::any_of(boxes.begin(), boxes.end(), [&p](const Box& box) { return box.holds(p); }) ? std::size_t{1} : 0;
     }
   }
   return share(inside, all);

@@ -66,14 +66,6 @@ void propose_mount(const MountChoice& mount, Proposal& proposal) {
   proposal.lower("ground_height_max", std::ceil(20.0 * (height_m + kHeightRoom_m)) / 20.0, height);
 }
 
-std::string box_text(const Box& box) {
-  // Outwards to the centimetre.
-  const auto down = [](double m) { return std::max(std::floor(100.0 * m) / 100.0, -20.0); };
-  const auto up = [](double m) { return std::min(std::ceil(100.0 * m) / 100.0, 20.0); };
-  return fmt::format("{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", down(box.low_m.x()), up(box.high_m.x()),
-                     down(box.low_m.y()), up(box.high_m.y()), down(box.low_m.z()), up(box.high_m.z()));
-}
-
 // Boxes that were told stay, and what they hold is no longer there to be found.
 void propose_boxes(const BodySeen& body, Proposal& proposal) {
   int slot = 1;
@@ -117,6 +109,7 @@ Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::op
     d.ahead = look_ahead(story, d.proposal);
     if (!d.ahead.axis.empty()) {
       d.proposal.set("forward_axis", d.ahead.axis, d.ahead.reason);
+      d.proposal.state("forward_axis", d.ahead.reason);
       d.check = check(d.proposal.config(), recording.kept);
     }
   }

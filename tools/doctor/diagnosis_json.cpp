@@ -129,7 +129,8 @@ std::string diagnosis_json(const Diagnosis& d) {
     if (d.mount->story.floor.is_found()) {
       json["road"] = road(d);
       json["body"] = near(d.mount->story);
-      json["range_noise"] = {{"repeated_m", number(d.mount->story.noise.repeated_m)},
+      json["range_noise"] = {{"m", number(d.mount->story.noise.best_m())},
+                             {"repeated_m", number(d.mount->story.noise.repeated_m)},
                              {"plane_m", number(d.mount->story.noise.plane_m)}};
     }
   }

@@ -25,7 +25,7 @@ std::string millimetres(double m) {
   return std::isfinite(m) ? fmt::format("{:.1f} mm", 1e3 * m) : "-";
 }
 
-std::string box_text(const Box& box) {
+std::string corners_text(const Box& box) {
   return fmt::format("x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m", box.low_m.x(), box.high_m.x(),
                      box.low_m.y(), box.high_m.y(), box.low_m.z(), box.high_m.z());
 }
@@ -45,7 +45,8 @@ void add_frames(TextTable& table, const StampHealth& h) {
       {"frames", std::to_string(h.frames),
        fmt::format("{} unreadable, {} empty, {} cut, {} repeated", h.unreadable, h.empty, h.cut, h.repeated)});
   if (!h.has_stamps()) {
-    table.add_row({"rate", fmt::format("{:.1f} Hz", h.rate_hz), "assumed (--rate): the frames carry no stamps"});
+    table.add_row({"rate", h.rate_hz > 0.0 ? fmt::format("{:.1f} Hz", h.rate_hz) : "unknown",
+                   "assumed (--rate): the frames carry no stamps"});
     return;
   }
   table.add_row({"rate", fmt::format("{:.2f} Hz", h.rate_hz),
@@ -91,11 +92,9 @@ void add_road(TextTable& table, const Diagnosis& d) {
 
 void add_near(TextTable& table, const MountStory& story) {
   const RangeNoise& n = story.noise;
-  const bool again = std::isfinite(n.repeated_m);
-  table.add_row({"range noise", millimetres(again ? n.repeated_m : n.plane_m),
-                 again ? fmt::format("from directions that came again ({}); off floor and walls {}",
-                                     percent(n.repeated_share), millimetres(n.plane_m))
-                       : "off floor and walls, rock included; directions do not come again"});
+  table.add_row({"range noise", millimetres(n.best_m()),
+                 fmt::format("{} from directions that came again ({} of them), {} off floor and walls, rock included",
+                             millimetres(n.repeated_m), percent(n.repeated_share), millimetres(n.plane_m))});
   const BodySeen& b = story.body;
   if (b.slices < 2) {
     table.add_row({"body", "unknown", "one frame does not show what stays"});
@@ -104,8 +103,8 @@ void add_near(TextTable& table, const MountStory& story) {
   table.add_row({"body", b.boxes_base.empty() ? "none seen" : counted(b.boxes_base.size(), "box", "boxes"),
                  fmt::format("{} of the returns; {} of the near ones moved", percent(b.in_boxes_share),
                              percent(b.passing_share))});
-  for (const Box& box : b.boxes_base) table.add_row({"", "", box_text(box)});
-  for (const Box& box : b.unexplained) table.add_row({"", "no body?", box_text(box)});
+  for (const Box& box : b.boxes_base) table.add_row({"", "", corners_text(box)});
+  for (const Box& box : b.unexplained) table.add_row({"", "no body?", corners_text(box)});
 }
 
 std::string check_text(const Check& check) {

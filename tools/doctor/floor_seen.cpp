@@ -30,11 +30,6 @@ double angle_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Nearest turn to the one told before, so that a file does not change from 3.1 to -3.1.
-double within_half_turn(double rad) {
-  return std::remainder(rad, 2.0 * M_PI);
-}
-
 }  // namespace
 
 FloorSeen look_at_floor(const api::Config& config, const std::vector<KeptFrame>& frames, std::size_t frames_max) {
@@ -74,12 +69,15 @@ FloorSeen look_at_floor(const api::Config& config, const std::vector<KeptFrame>&
 }
 
 void level_mount(api::Config& config, const Eigen::Vector3d& up_lidar) {
-  config.set("extrinsic_roll", std::atan2(up_lidar.y(), up_lidar.z()));
+  // Of the same turns the one nearest to what was set, so that 3.14 does not become -3.14.
+  const double before = config.number("extrinsic_roll");
+  const double roll = std::atan2(up_lidar.y(), up_lidar.z());
+  config.set("extrinsic_roll", before + std::remainder(roll - before, 2.0 * M_PI));
   config.set("extrinsic_pitch", std::atan2(-up_lidar.x(), std::hypot(up_lidar.y(), up_lidar.z())));
 }
 
 void flip_mount(api::Config& config) {
-  config.set("extrinsic_roll", within_half_turn(config.number("extrinsic_roll") + M_PI));
+  config.set("extrinsic_roll", std::remainder(config.number("extrinsic_roll") + M_PI, 2.0 * M_PI));
 }
 
 double tilt_rad(const api::Config& config, const Eigen::Vector3d& up_lidar) {

@@ -71,6 +71,26 @@ MountChoice by_what_is_seen(MountStory upright, MountStory flipped) {
   return chosen(std::move(upright), std::move(flipped), false, "nothing tells floor from roof; upright is usual");
 }
 
+void look_around(MountStory& story, const api::Config& config, const std::vector<KeptFrame>& frames) {
+  story.road = look_along_road(config, frames, kSearchFrames);
+  const RoadFrame frame(story.config, story.floor, story.road.azimuth_base_rad);
+  story.ends = look_at_ends(frames, frame, story.road);
+  story.body = look_for_body(frames, frame, story.road, story.ends);
+  story.noise = look_at_noise(frames, frame, story.road);
+}
+
+api::Config without(api::Config config, const std::vector<Box>& boxes) {
+  std::size_t next = 0;
+  for (int slot = 1; slot <= 4 && next < boxes.size(); ++slot) {
+    const std::string key = fmt::format("body_box_{}", slot);
+    double told[6] = {};
+    pose_wall_config_get_box(config.get(), key.c_str(), told);
+    if (told[1] > told[0]) continue;
+    config.set(key.c_str(), box_text(boxes[next++]).c_str());
+  }
+  return config;
+}
+
 }  // namespace
 
 MountStory tell_story(const api::Config& told, bool flipped, const std::vector<KeptFrame>& frames) {
@@ -90,11 +110,11 @@ MountStory tell_story(const api::Config& told, bool flipped, const std::vector<K
   story.config = unlevelled;
   if (story.tilt_rad * kDegPerRad >= kTiltMin_deg) level_mount(story.config, story.floor.up_lidar);
 
-  story.road = look_along_road(story.config, frames, kSearchFrames);
-  const RoadFrame frame(story.config, story.floor, story.road.azimuth_base_rad);
-  story.ends = look_at_ends(frames, frame, story.road);
-  story.body = look_for_body(frames, frame, story.road, story.ends);
-  story.noise = look_at_noise(frames, frame, story.road);
+  look_around(story, story.config, frames);
+  // False returns of the housing and a body close by may hide the road: once more without them.
+  if (!story.road.is_found && !story.body.boxes_base.empty()) {
+    look_around(story, without(story.config, story.body.boxes_base), frames);
+  }
   return story;
 }
 

@@ -3,6 +3,8 @@
 
 #include "doctor/near_cells.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bitset>
 #include <cmath>
@@ -134,6 +136,14 @@ std::vector<Box> boxes_of(std::vector<Piece> pieces, std::size_t boxes_max) {
   boxes.reserve(pieces.size());
   for (const Piece& piece : pieces) boxes.push_back(box_around(piece));
   return boxes;
+}
+
+std::string box_text(const Box& box) {
+  // Outwards to the centimetre.
+  const auto down = [](double m) { return std::max(std::floor(100.0 * m) / 100.0, -20.0); };
+  const auto up = [](double m) { return std::min(std::ceil(100.0 * m) / 100.0, 20.0); };
+  return fmt::format("{:.2f} {:.2f} {:.2f} {:.2f} {:.2f} {:.2f}", down(box.low_m.x()), up(box.high_m.x()),
+                     down(box.low_m.y()), up(box.high_m.y()), down(box.low_m.z()), up(box.high_m.z()));
 }
 
 }  // namespace pose_wall::tools::doctor

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -49,6 +50,9 @@ struct Box {
     return (p.array() >= low_m.array()).all() && (p.array() <= high_m.array()).all();
   }
 };
+
+// As the config has it, outwards to the centimetre.
+std::string box_text(const Box& box);
 
 Box box_around(const Piece& piece);
 

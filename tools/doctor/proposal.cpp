@@ -79,6 +79,8 @@ std::string Proposal::yaml(const std::vector<std::string>& head) const {
     if (change != changes_.rend()) {
       const std::string before = change->before.empty() ? "none" : change->before;
       text += "\n" + comment(fmt::format("{} (was {})", change->reason, before));
+    } else if (const auto stated = stated_.find(key.name); stated != stated_.end()) {
+      text += "\n" + comment(stated->second);
     } else if (is_told(key.name) && !value.empty()) {
       text += "\n" + comment("as told: " + told_.origin(key.name));
     } else {

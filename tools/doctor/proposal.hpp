@@ -6,7 +6,9 @@
 
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config_file/load_config.hpp"
@@ -27,6 +29,8 @@ class Proposal {
   // A key of the mounting or of the machine. Nothing where it has this value already. Throws std::logic_error when the
   // engine refuses it.
   void set(const std::string& key, const std::string& value, const std::string& reason);
+  // Writes a key with this reason even where it keeps its value: one that nobody should leave unread.
+  void state(const std::string& key, const std::string& reason) { stated_[key] = reason; }
   // Only a smaller ground_height_max, a larger ground_height_min: nothing otherwise.
   void raise(const std::string& key, double value, const std::string& reason);
   void lower(const std::string& key, double value, const std::string& reason);
@@ -45,6 +49,7 @@ class Proposal {
   LoadedConfig told_;
   api::Config config_;
   std::vector<Change> changes_;
+  std::map<std::string, std::string> stated_;
 };
 
 }  // namespace pose_wall::tools::doctor

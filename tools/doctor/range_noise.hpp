@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct RangeNoise {
   double repeated_m = 0.0;      // standard deviation; NaN where directions do not come again
   double repeated_share = 0.0;  // of the returns of one frame, those whose direction came again
   double plane_m = 0.0;         // rock included; NaN where there is no plane
+
+  // The smaller of the two: a sensor that moves spoils the one, rock the other. NaN where there is neither.
+  double best_m() const { return std::fmin(repeated_m, plane_m); }
 };
 
 RangeNoise look_at_noise(const std::vector<KeptFrame>& frames, const RoadFrame& frame, const RoadAxis& road);

@@ -73,10 +73,12 @@ void visit_points(const std::vector<KeptFrame>& frames, const RoadFrame& frame, 
   }
 }
 
-// The highest level that holds a fair part of what is above the sensor, between the walls and not far away.
+// The level below which nine tenths lie of what is above a metre, between the walls and not far away.
 double roof_of(const std::vector<KeptFrame>& frames, const RoadFrame& frame, const RoadAxis& road) {
-  const double left = std::isfinite(road.left_m) ? road.left_m : road.right_m;
-  const double right = std::isfinite(road.right_m) ? road.right_m : road.left_m;
+  constexpr double kAside_m = 3.0;  // where no walls are seen
+  double left = std::isfinite(road.left_m) ? road.left_m : road.right_m;
+  double right = std::isfinite(road.right_m) ? road.right_m : road.left_m;
+  if (!std::isfinite(left)) left = right = kAside_m;
   std::vector<double> heights;
   visit_points(frames, frame, [&](const Eigen::Vector3d& p) {
     const bool between = p.y() > -right + 0.2 * (left + right) && p.y() < left - 0.2 * (left + right);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "doctor/statistics.hpp"
 
@@ -14,13 +15,18 @@ namespace {
 
 constexpr double kBin_deg = 0.05;
 constexpr std::size_t kBins = 3600;
-// Nearer, the offsets of the lasers in their housing spread a ring.
-constexpr double kRangeMin_m = 1.5;
+// Nearer, the offsets of the lasers in their housing blur a ring.
+constexpr double kFar_m = 3.0;
+// Fewer are no rings: an even cover has a hollow by chance.
+constexpr int kRingsMin = 8;
+constexpr double kRingShareMax = 0.4;
+
+using Histogram = std::array<std::size_t, kBins>;
 
 struct Directions {
-  std::array<std::size_t, kBins> by_elevation{};
+  Histogram by_elevation{}, far_by_elevation{};
   std::array<std::size_t, 360> by_azimuth{};
-  std::size_t count = 0;
+  std::size_t count = 0, far = 0;
   std::vector<double> ranges_m;
 };
 
@@ -31,12 +37,16 @@ Directions directions_of(const std::vector<KeptFrame>& frames) {
       const Eigen::Vector3d p = frame.point(i);
       const double range = p.norm();
       if (i % 16 == 0) seen.ranges_m.push_back(range);
-      if (!(range >= kRangeMin_m)) continue;
+      if (!(range >= 0.3)) continue;
       const double elevation_deg = std::asin(std::clamp(p.z() / range, -1.0, 1.0)) * kDegPerRad;
       const double azimuth_deg = std::atan2(p.y(), p.x()) * kDegPerRad + 180.0;
-      ++seen.by_elevation[std::min(static_cast<std::size_t>((elevation_deg + 90.0) / kBin_deg), kBins - 1)];
+      const std::size_t bin = std::min(static_cast<std::size_t>((elevation_deg + 90.0) / kBin_deg), kBins - 1);
+      ++seen.by_elevation[bin];
       ++seen.by_azimuth[std::min(static_cast<std::size_t>(azimuth_deg), std::size_t{359})];
       ++seen.count;
+      if (range < kFar_m) continue;
+      ++seen.far_by_elevation[bin];
+      ++seen.far;
     }
   }
   return seen;
@@ -52,24 +62,35 @@ double elevation_deg_at(const Directions& seen, double fraction) {
   return 90.0;
 }
 
-// Rings are peaks that stand apart: between them next to nothing. Each counts by its own height, since far walls answer
-// the middle rings less often than floor and roof the outer ones.
-int rings_of(const Directions& seen) {
-  constexpr std::size_t kReach = 3;  // bins to both sides of a peak
+// Rings are peaks with a hollow between them that falls below half of either: each is measured by its own height, since
+// far walls answer the middle rings less often than floor and roof the outer ones.
+int rings_in(const Histogram& histogram, std::size_t count) {
+  const std::size_t least = std::max<std::size_t>(count / 4000, 8);
   int rings = 0;
-  std::size_t in_peaks = 0, last = 0;
-  const std::size_t least = std::max<std::size_t>(seen.count / 5000, 8);
-  for (std::size_t bin = kReach; bin + kReach < kBins; ++bin) {
-    const std::size_t here = seen.by_elevation[bin];
-    const auto* around = &seen.by_elevation[bin - kReach];
-    const bool highest = here >= *std::max_element(around, around + 2 * kReach + 1);
-    if (here < least || !highest || (last != 0 && bin - last <= kReach)) continue;
-    ++rings;
-    last = bin;
-    in_peaks += here + seen.by_elevation[bin - 1] + seen.by_elevation[bin + 1];
+  std::size_t top = 0, hollow = 0, sum = 0, most = 0;
+  for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
+    const std::size_t here = histogram[bin - 1] + histogram[bin] + histogram[bin + 1];
+    sum += histogram[bin];
+    if (top == 0) {  // in a hollow: a ring begins where it is twice as high
+      hollow = std::min(hollow, here);
+      if (here >= least && here > 2 * hollow) top = here;
+    } else {
+      top = std::max(top, here);
+      if (2 * here < top) {
+        ++rings;
+        most = std::max(most, std::exchange(sum, 0));
+        top = 0;
+        hollow = here;
+      }
+    }
   }
-  // An even cover has peaks by chance, three bins wide in every seven.
-  return share(in_peaks, seen.count) > 0.75 ? rings : 0;
+  // An even cover is one broad peak, with chance hollows where it thins out.
+  return rings >= kRingsMin && share(most, count) < kRingShareMax ? rings : 0;
+}
+
+// Far returns show rings best, and a deck right under the sensor hides the lower ones from them.
+int rings_of(const Directions& seen) {
+  return std::max(rings_in(seen.far_by_elevation, seen.far), rings_in(seen.by_elevation, seen.count));
 }
 
 bool is_near(double value, double wanted, double tolerance) {

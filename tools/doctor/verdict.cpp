@@ -80,7 +80,8 @@ void judge_road(const Diagnosis& d, Verdict& v) {
   }
   const bool turned =
       has_moved(road.azimuth_spread_rad * kDegPerRad, road.azimuth_sigma_rad * kDegPerRad, kAzimuthMoved_deg);
-  if (turned || has_moved(road.distance_spread_m, road.distance_sigma_m, kDistanceMoved_m)) {
+  const bool told = !v.against.empty() && v.against.back().find("moved") != std::string::npos;
+  if (!told && (turned || has_moved(road.distance_spread_m, road.distance_sigma_m, kDistanceMoved_m))) {
     v.against.push_back(
         fmt::format("the sensor moved while it was recorded (the road by {:.1f} deg, walls by {:.2f} m)",
                     road.azimuth_spread_rad * kDegPerRad, road.distance_spread_m));
@@ -137,15 +138,15 @@ void doubt_mount(const Diagnosis& d, Verdict& v) {
   if (!d.mount->is_sure) {
     const std::string other =
         d.mount->other ? fmt::format("; the other plane is {:.2f} m away", d.mount->other->floor.height_m) : "";
-    v.confirm.push_back(fmt::format("mounted {}, {:.2f} m above the floor? {}{} (--height M decides)",
-                                    story.is_flipped ? "upside down" : "upright", story.floor.height_m, d.mount->reason,
-                                    other));
+    v.buts.push_back(fmt::format("upright or upside down is not certain ({}): --height M decides", d.mount->reason));
+    v.confirm.push_back(fmt::format("mounted {}, {:.2f} m above the floor?{}",
+                                    story.is_flipped ? "upside down" : "upright", story.floor.height_m, other));
   }
   if (story.floor.tilt_level_rad * kDegPerRad > 1.0) {
     v.buts.push_back(
         fmt::format("the mounting's tilt is known within {:.1f} deg only", story.floor.tilt_level_rad * kDegPerRad));
   }
-  const double noise_m = std::isfinite(story.noise.repeated_m) ? story.noise.repeated_m : story.noise.plane_m;
+  const double noise_m = story.noise.best_m();
   if (noise_m > kNoiseMax_m) v.buts.push_back(fmt::format("ranges scatter by {:.0f} mm", 1e3 * noise_m));
   if (!d.ahead.axis.empty() && !d.ahead.is_known) {
     v.buts.push_back(fmt::format("{} is a guess: which end of the road is ahead cannot be seen", d.ahead.axis));
