@@ -15,7 +15,8 @@ rsvg-convert --width 1000 demo/demo.svg > "$here/demo_props.png"
 "$pose_wall" sim --quiet --scene nominal --sensor os1-64 --frames 60 --set speed_mps=0.3 --output road
 "$pose_wall" report --quiet --config road/pose_wall.yaml --truth road/truth.csv --output road.html road/frames
 chromium --headless=new --no-sandbox --disable-gpu --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND' \
-  --window-size=1150,1000 --virtual-time-budget=3000 --screenshot="$here/report.png" "file://$folder/road.html" 2> said || {
+  --window-size=1150,1000 --virtual-time-budget=3000 \
+  --screenshot="$here/report.png" "file://$folder/road.html" 2> said || {
   cat said
   exit 1
 }
