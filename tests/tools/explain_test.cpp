@@ -174,7 +174,7 @@ const Refused kRefused[] = {
      0,
      "aarr",
      "left wall",
-     "2.00 m are needed (wall_length_min)"},
+     "alone it must be supported over 5.00 m (wall_alone_length_min); it is over 2.00 m"},
     {"pipes_before_a_dark_wall",
      {"pipes_before_dark_wall"},
      {},
