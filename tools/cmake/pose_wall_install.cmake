@@ -40,6 +40,14 @@ if(TARGET pose_wall_cli)
   install(TARGETS pose_wall_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-wall RENAME copyright
     COMPONENT command)
+  set(pose_wall_words ${PROJECT_BINARY_DIR}/tools/words)
+  install(FILES ${pose_wall_words}/pose_wall.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+  install(FILES ${pose_wall_words}/pose_wall.bash RENAME pose_wall
+    DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT command)
+  install(FILES ${pose_wall_words}/_pose_wall DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/site-functions
+    COMPONENT command)
+  install(FILES ${pose_wall_words}/pose_wall.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
+    COMPONENT command)
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   include(pose_wall_package)

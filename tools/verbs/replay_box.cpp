@@ -47,7 +47,7 @@ int replay(const ReplayOptions& options) {
   try {
     std::unique_ptr<ProgressBar> bar;
     result = replay_box(options.file, [&](std::uint64_t done, std::uint64_t of) {
-      if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2));
+      if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2), "events");
       bar->advance(fmt::format("event {}", done));
     });
   } catch (const std::runtime_error& error) {
