@@ -14,6 +14,7 @@
 #include "stages/quality.hpp"
 #include "stages/voxel.hpp"
 #include "stages/walls_parallel.hpp"
+#include "trace/trace.hpp"
 
 namespace pose_wall {
 namespace {
@@ -54,6 +55,8 @@ double least_confidence(const pose_wall_result& result) {
 
 // The walls say that the level may be off by a turn: about base X that is roll, about base Y pitch.
 void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level, FloorResult* floor) {
+  POSE_WALL_NOTE(trace::gate_of(POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_FLOOR_BY_WALLS, tilt_level_rad.norm(), 0.0,
+                                !(tilt_level_rad.squaredNorm() > 0.0)));
   if (!(tilt_level_rad.squaredNorm() > 0.0)) return;
   const Eigen::Vector3d tilt_base_rad = level.R_level_base.transpose() * tilt_level_rad;
   floor->roll_bound_rad += std::fabs(tilt_base_rad.x());
@@ -176,11 +179,16 @@ void Engine::place_scratch() {
 
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
   if (found->voxels.leaf_grown) found->reasons |= POSE_WALL_R_LEAF_GROWN;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEAF, found->voxels.leaf_m, settings_.voxel_leaf,
+                             !found->voxels.leaf_grown && found->voxels.fits));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_VOXELS_FIT, found->voxels.fits));
   if (!found->voxels.fits) {
     found->reasons |= POSE_WALL_R_LEAF_GROWN;
     refuse_all(POSE_WALL_R_LEAF_GROWN, found);
     return;
   }
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_POINTS, scratch_.cloud_base.count, kPointsMin,
+                             scratch_.cloud_base.count >= kPointsMin));
   if (scratch_.cloud_base.count < kPointsMin) {
     found->reasons |= POSE_WALL_R_NO_POINTS;
     refuse_all(POSE_WALL_R_NO_POINTS, found);
@@ -201,6 +209,8 @@ void Engine::level_and_cut(FrameFindings* found) {
 }
 
 void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
+  POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_WALLS));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL, !found->floor.fit.refused));
   if (found->floor.fit.refused) {
     for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
     return;
@@ -236,6 +246,10 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   memory_.repeats = repeated ? memory_.repeats + 1 : 0;
   memory_.fingerprint = found->voxels.fingerprint;
   const bool frozen = repeated && !timing.still;
+  POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_REPEATED, memory_.repeats, 0.0, !frozen));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FROZEN, memory_.repeats, settings_.frozen_frames,
+                             !frozen || memory_.repeats <= settings_.frozen_frames));
   if (frozen) found->reasons |= POSE_WALL_R_FROZEN;
   std::uint32_t reasons = timing.reasons;
   if (frozen) reasons |= POSE_WALL_R_FROZEN;
