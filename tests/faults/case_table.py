@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""case_table.py [--check] TESTS README: the table of the fault campaigns, from the cases that the program TESTS lists, in
-README between its two marks. --check: fails where it is another."""
+"""case_table.py [--check] TESTS README: the table of the fault campaigns, from the cases that the program TESTS lists,
+in README between its two marks. --check: fails where it is another."""
 
 import re
 import subprocess
@@ -13,11 +13,11 @@ BEGIN, END = "<!-- cases -->\n", "<!-- /cases -->\n"
 
 # What is done, and what must come of it. A group that is missing here, or has no cases, is an error.
 GROUPS = {
-    "Descriptions": ("a cloud's description lies", "refused, nothing changed; or read as it says and nothing wrong told"),
+    "Descriptions": ("a cloud's description lies", "refused, nothing changed; or read as it says, nothing wrong"),
     "CoordinateTypes": ("every type of x, y, z", "refused but for floats"),
     "IntensityTypes": ("any bytes as intensity", "measured, right"),
     "PointFaults": ("points without number, range, shape or sense", "states of the table, nothing wrong, back at once"),
-    "UndetectableFaults": ("axes mirrored, scaled", "measured; a jump in a sequence is degraded, its level reaches to both"),
+    "UndetectableFaults": ("axes mirrored, scaled", "measured; in a sequence the jump is degraded, level up to both"),
     "Capacity": ("points_max and one more or less", "the leaf grows from one more on"),
     "Stamps": ("stamps still, back, ahead, at the ends", "states of the table, flagged, nothing wrong"),
     "NotOpened": ("every call without open", "refused"),
@@ -28,7 +28,7 @@ GROUPS = {
     "Rules": ("keys that contradict each other", "nothing is opened"),
     "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),
     "BitFlips": ("bits fall over in the block between calls", "state: refused until opened again; scratch: same bits"),
-    "PoisonedSequence": ("each frame garbage, alone and with the next", "nothing wrong meanwhile, back within 4 frames"),
+    "PoisonedSequence": ("each frame garbage, alone and with the next", "nothing wrong, back within 4 frames"),
     "PoisonedSequenceItself": ("the same without", "all valid"),
     "RefusedThreads": ("a thread is not made", "start says so, works the next time"),
     "FaultyDisks": ("the n-th write of the record fails", "counted, frames go on"),
