@@ -33,7 +33,8 @@ max_len_of() {
 
 options_of() { # what both fuzzing and shrinking are given
   local words=tests/fuzz/words/$1.dict
-  echo "-max_len=$(max_len_of "$1") -timeout=${TIMEOUT:-10} -report_slow_units=${TIMEOUT:-10} -rss_limit_mb=2048 -artifact_prefix=$build/findings/$1/"
+  echo "-max_len=$(max_len_of "$1") -timeout=${TIMEOUT:-10} -report_slow_units=${TIMEOUT:-10} -rss_limit_mb=2048"
+  echo "-artifact_prefix=$build/findings/$1/"
   [ ! -f "$words" ] || echo "-dict=$words"
 }
 
