@@ -40,8 +40,8 @@ inline ContractLimits limits_of(const pose_wall_config& config) {
   const double turned_rad = 2.0 * kPerDegree_rad * number_of(config, "wall_parallel_within_deg");
   const double tilt_rad = kPerDegree_rad * number_of(config, "ground_tilt_max_deg") + kRounding_rad;
   const double yaw_rad = kPerDegree_rad * number_of(config, "yaw_max_deg") + turned_rad + kRounding_rad;
-  const double sensor_m = std::hypot(number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
-                                     number_of(config, "extrinsic_z"));
+  const double sensor_m =
+      std::hypot(number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"), number_of(config, "extrinsic_z"));
   // A plane goes through points that the sensor saw; so it is no further from the sampling point than they are.
   const double seen_m = number_of(config, "range_max") + sensor_m + 1.0;
   ContractLimits limits{};

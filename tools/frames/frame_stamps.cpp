@@ -20,9 +20,9 @@ std::optional<std::int64_t> stamp_from_name(const std::filesystem::path& path) {
   return stamp_ns;
 }
 
-std::int64_t FrameStamps::next(const std::filesystem::path& path) {
-  if (const std::optional<std::int64_t> named_ns = stamp_from_name(path)) {
-    base_ns_ = *named_ns;
+std::int64_t FrameStamps::next(const std::optional<std::int64_t>& stamp_ns) {
+  if (stamp_ns) {
+    base_ns_ = *stamp_ns;
     frames_since_base_ = 1;
     return base_ns_;
   }

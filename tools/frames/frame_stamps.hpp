@@ -11,7 +11,7 @@
 
 namespace pose_wall::tools {
 
-// The formats that are read carry no stamp. A file name (without ending) of 16 to 19 digits and nothing else is a stamp
+// Files of single frames carry no stamp. A file name (without ending) of 16 to 19 digits and nothing else is a stamp
 // in nanoseconds; any other name gives none.
 std::optional<std::int64_t> stamp_from_name(const std::filesystem::path& path);
 
@@ -21,7 +21,8 @@ class FrameStamps {
  public:
   explicit FrameStamps(double rate_hz) : rate_hz_(rate_hz) {}
 
-  std::int64_t next(const std::filesystem::path& path);
+  std::int64_t next(const std::optional<std::int64_t>& stamp_ns);
+  std::int64_t next(const std::filesystem::path& path) { return next(stamp_from_name(path)); }
 
  private:
   double rate_hz_;

@@ -4,10 +4,11 @@
 #include "results/frame_runner.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <string>
+#include <utility>
 
 #include "config_file/load_config.hpp"
-#include "frames/load_frame.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -21,6 +22,12 @@ double millis_since(std::int64_t start_ns) {
   return static_cast<double>(steady_ns(nullptr) - start_ns) * 1e-6;
 }
 
+double processor_millis() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
 }  // namespace
 
 FrameRunner::FrameRunner(const api::Config& config, double rate_hz) : stamps_(rate_hz) {
@@ -29,20 +36,25 @@ FrameRunner::FrameRunner(const api::Config& config, double rate_hz) : stamps_(ra
   engine_.set_clock(steady_ns);
 }
 
-FrameOutcome FrameRunner::run(const std::filesystem::path& path, const Look& look) {
+FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
   FrameOutcome outcome;
   outcome.frame = next_frame_++;
-  outcome.source = path.string();
-  outcome.stamp_ns = stamps_.next(path);
+  outcome.source = std::move(sourced.name);
+  outcome.stamp_ns = stamps_.next(sourced.stamp_ns);
+  outcome.load_ms = sourced.load_ms;
+  if (!sourced.frame) {
+    outcome.error = std::move(sourced.error);
+    return outcome;
+  }
   try {
-    const std::int64_t load_start_ns = steady_ns(nullptr);
-    Frame frame = load_frame(path);
-    outcome.load_ms = millis_since(load_start_ns);
+    Frame& frame = *sourced.frame;
     frame.cloud.stamp_ns = outcome.stamp_ns;
     pose_wall_result result = api::make_result();
+    const double start_processor_ms = processor_millis();
     const std::int64_t start_ns = steady_ns(nullptr);
     const std::int32_t status = engine_.process(frame.cloud, result);
     outcome.total_ms = millis_since(start_ns);
+    outcome.processor_ms = processor_millis() - start_processor_ms;
     if (status != POSE_WALL_OK) throw FrameError(pose_wall_status_text(status));
     outcome.result = result;
     if (look) {

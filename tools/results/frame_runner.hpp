@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Reads a frame file and puts it through the engine, with times.
+// Puts frames through the engine, with times.
 
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 
+#include "frames/frame_source.hpp"
 #include "frames/frame_stamps.hpp"
 #include "pose_wall.hpp"
 #include "results/result_csv.hpp"
@@ -24,7 +24,10 @@ class FrameRunner {
   using Look = std::function<void(const pose_wall_cloud&, const pose_wall_points&, const pose_wall_result&)>;
 
   // Frames are numbered in the order of the calls. Never throws: what is wrong with a frame stands in the outcome.
-  FrameOutcome run(const std::filesystem::path& path, const Look& look = {});
+  FrameOutcome run(SourcedFrame sourced, const Look& look = {});
+
+  // What it remembers can be saved before a frame.
+  pose_wall_engine* engine() { return engine_.get(); }
 
   std::size_t block_bytes() const { return engine_.block_bytes(); }
 

@@ -9,7 +9,7 @@
 packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev libcli11-dev libyaml-dev liblzf-dev
   libfmt-dev nlohmann-json3-dev"
 # shellcheck disable=SC2034
-packages_to_test="libgtest-dev python3 pkg-config"
+packages_to_test="libgtest-dev python3 pkg-config groff-base"
 packages_to_cross="cmake ninja-build libeigen3-dev g++-aarch64-linux-gnu qemu-user-static"
 # shellcheck disable=SC2034
 packages_to_pack="dpkg-dev file" # dpkg-shlibdeps looks up what the command depends on, and asks `file` what it is

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config_file/load_config.hpp"
+#include "inputs/frame_sequence.hpp"
 
 namespace pose_wall::tools {
 
@@ -19,12 +20,23 @@ struct FrameOptions {
   std::vector<std::string> settings;
   double rate_hz = 10.0;
   bool quiet = false;
+  InputOptions input;
 
   // Throws ConfigError.
   LoadedConfig load() const;
+
+  // Opens the inputs; throws std::invalid_argument.
+  FrameSequence open() const;
 };
 
-// INPUT, --config, --set, --rate and --quiet. The options must live as long as the verb.
+constexpr const char* kInputHelp =
+    "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, bags (ROS 1, MCAP, SQLite, "
+    "folders of rosbag2) or captures of packets (Ouster, VLP-16)";
+
+// What tells how inputs are to be read.
+void add_input_options(CLI::App* verb, InputOptions* options);
+
+// INPUT, those, --config, --set, --rate and --quiet. The options must live as long as the verb.
 void add_frame_options(CLI::App* verb, FrameOptions* options);
 
 }  // namespace pose_wall::tools

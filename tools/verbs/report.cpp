@@ -14,10 +14,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config_file/load_config.hpp"
-#include "frames/input_list.hpp"
+#include "inputs/frame_sequence.hpp"
 #include "report/page.hpp"
 #include "results/frame_runner.hpp"
 #include "results/run_summary.hpp"
@@ -26,6 +27,7 @@
 #include "terminal/progress_bar.hpp"
 #include "truth/truth_csv.hpp"
 #include "verbs/frame_options.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
@@ -53,24 +55,24 @@ struct Shown {
   bool complete = true;
 };
 
-Shown process_frames(const ReportOptions& options, const FrameInputs& inputs, FrameRunner& runner,
-                     report::PageData& data) {
+Shown process_frames(const ReportOptions& options, FrameSequence& inputs, FrameRunner& runner, report::PageData& data) {
   const auto truth = truth_by_frame(options.truth);
   const InterruptWatch watch;
-  ProgressBar bar(inputs.files.size(), !options.frames.quiet && is_terminal(2));
+  ProgressBar bar(inputs.frames(), !options.frames.quiet && is_terminal(2));
   Shown shown;
-  for (const auto& file : inputs.files) {
+  while (std::optional<SourcedFrame> frame = inputs.next()) {
     if (InterruptWatch::is_interrupted()) {
       shown.complete = false;
       break;
     }
     const FrameOutcome outcome = runner.run(
-        file, [&data](const auto& cloud, const auto& points, const auto& result) { data.look(cloud, points, result); });
+        std::move(*frame),
+        [&data](const auto& cloud, const auto& points, const auto& result) { data.look(cloud, points, result); });
     if (!outcome.result) bar.print_above(fmt::format("pose_wall report: {}: {}", outcome.source, outcome.error));
     shown.summary.add(outcome);
     const auto row = truth.find(outcome.frame);
     data.add(outcome, row == truth.end() ? nullptr : &row->second);
-    bar.advance(file.filename().string());
+    bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
   return shown;
 }
@@ -85,12 +87,12 @@ std::string title_of(const ReportOptions& options) {
 
 int report_frames(const ReportOptions& options) {
   const LoadedConfig loaded = options.frames.load();
-  const FrameInputs inputs = collect_inputs(options.frames.inputs);
-  for (const std::string& error : inputs.errors) fmt::print(stderr, "pose_wall report: {}\n", error);
-  if (inputs.files.empty()) throw std::invalid_argument("no frame to report on");
-  OutputFile output(options.output, inputs.files);
+  FrameSequence inputs = options.frames.open();
+  for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall report: {}\n", error);
+  if (inputs.frames() == 0) throw std::invalid_argument("no frame to report on");
+  OutputFile output(options.output, inputs.files());
   FrameRunner runner(loaded.config, options.frames.rate_hz);
-  report::PageData data(loaded.config, inputs.files.size(), options.points_max);
+  report::PageData data(loaded.config, inputs.frames(), options.points_max);
 
   const auto started = std::chrono::steady_clock::now();
   const Shown shown = process_frames(options, inputs, runner, data);
@@ -98,8 +100,8 @@ int report_frames(const ReportOptions& options) {
     fmt::print(stderr, "pose_wall report: no frame could be read; {} is not written\n", options.output);
     return kExitUnreadable;
   }
-  const std::string page = report::page(
-      {title_of(options), options.language, options.truth, shown.complete, inputs.files.size()}, loaded, data);
+  const std::string page =
+      report::page({title_of(options), options.language, options.truth, shown.complete, inputs.frames()}, loaded, data);
   output.write(page);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!options.frames.quiet) {
@@ -108,10 +110,10 @@ int report_frames(const ReportOptions& options) {
                counted(data.frames(), "frame"), data.clouds(), wall_s);
   }
   if (!shown.complete) {
-    fmt::print(stderr, "interrupted: the report shows {} of {} frames\n", data.frames(), inputs.files.size());
+    fmt::print(stderr, "interrupted: the report shows {} of {} frames\n", data.frames(), inputs.frames());
     return kExitInterrupted;
   }
-  return inputs.errors.empty() && shown.summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
+  return inputs.errors().empty() && shown.summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
 
 }  // namespace
@@ -126,7 +128,7 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("--title", options->title, "Heading; default: the name of the first input");
   verb->add_option("--language", options->language, "The page opens in: en or zh; it has a button for the other")
       ->capture_default_str()
-      ->check(CLI::IsMember({"en", "zh"}));
+      ->check(one_of({"en", "zh"}));
   verb->add_option("--points", options->points_max, "Points in the page, of all frames together: 9 bytes each")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1000}, std::size_t{20'000'000}));

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The words INPUT... of a command line as one row of frames.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frames/frame_source.hpp"
+
+namespace pose_wall::tools {
+
+// What the command line says about how inputs are to be read.
+struct InputOptions {
+  std::string topic;           // of bags; empty: the only one with clouds
+  bool fullest_topic = false;  // where `topic` is empty and several topics have clouds: take the one with most messages
+  std::string metadata;        // of captures of packets; empty: the file of the same name with the ending .json
+};
+
+class FrameSequence {
+ public:
+  // Opens every input. One that cannot be opened stands in errors(), the others are read. Throws std::invalid_argument
+  // when the options do not fit what the inputs hold.
+  explicit FrameSequence(const std::vector<std::string>& arguments, const InputOptions& options = {});
+
+  // The next frame of the first input that has one left, with the time it took to load; nothing at the end.
+  std::optional<SourcedFrame> next();
+
+  std::size_t frames() const;
+
+  // Of the first input; there is one unless errors() says why not.
+  SourceAbout about() const { return sources_.empty() ? SourceAbout{} : sources_.front()->about(); }
+  const std::vector<std::string>& errors() const { return errors_; }          // each names the input
+  const std::vector<std::filesystem::path>& files() const { return files_; }  // all that are read
+
+ private:
+  void add(const std::string& argument, const InputOptions& options);
+  void add_bag(const std::string& argument, const std::vector<std::filesystem::path>& files,
+               const InputOptions& options);
+
+  std::vector<std::unique_ptr<FrameSource>> sources_;
+  std::vector<std::filesystem::path> files_;
+  std::vector<std::string> errors_;
+  std::size_t current_ = 0;
+  bool bag_seen_ = false;
+};
+
+}  // namespace pose_wall::tools
