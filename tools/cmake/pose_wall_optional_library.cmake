@@ -15,7 +15,7 @@ function(pose_wall_optional_library name what header library)
     message(STATUS "Not read by this build: ${what} (no ${header} and lib${library})")
     return()
   endif()
-  target_compile_definitions(pose_wall_tools PRIVATE POSE_WALL_HAS_${name}=1)
+  target_compile_definitions(pose_wall_tools PUBLIC POSE_WALL_HAS_${name}=1)  # the tests ask, too
   target_include_directories(pose_wall_tools SYSTEM PRIVATE ${${name}_INCLUDE_DIR})
   target_link_libraries(pose_wall_tools PRIVATE ${${name}_LIBRARY})
 endfunction()
