@@ -14,6 +14,7 @@
 #include "stages/quality.hpp"
 #include "stages/voxel.hpp"
 #include "stages/walls_parallel.hpp"
+#include "trace/trace.hpp"
 
 namespace pose_wall {
 namespace {
@@ -54,6 +55,8 @@ double least_confidence(const pose_wall_result& result) {
 
 // The walls say that the level may be off by a turn: about base X that is roll, about base Y pitch.
 void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level, FloorResult* floor) {
+  POSE_WALL_NOTE(trace::gate_of(POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_FLOOR_BY_WALLS, tilt_level_rad.norm(), 0.0,
+                                !(tilt_level_rad.squaredNorm() > 0.0)));
   if (!(tilt_level_rad.squaredNorm() > 0.0)) return;
   const Eigen::Vector3d tilt_base_rad = level.R_level_base.transpose() * tilt_level_rad;
   floor->roll_bound_rad += std::fabs(tilt_base_rad.x());
@@ -82,12 +85,6 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   arena.go_behind_all();
 }
 
-void Scratch::reset() {
-  cloud_base.count = 0;
-  band_level.count = 0;
-  beyond_level.count = 0;
-}
-
 std::uint64_t Engine::lay_out(void* block, const Settings& settings, Engine** out) {
   Arena arena(block);
   Engine* engine = arena.take_one<Engine>();
@@ -106,19 +103,44 @@ void Engine::open(const Settings& settings, std::uint32_t config_crc32) {
   reset();
   self_ = this;
   magic_ = kMagic;
+  seal();
 }
 
 void Engine::reset() {
-  scratch_.reset();
   memory_ = Memory{};
+  points_ = pose_wall_points{};
+  seal();
 }
 
 void Engine::set_clock(pose_wall_clock clock, void* user) {
   clock_ = clock;
   clock_user_ = user;
+  seal();
+}
+
+bool Engine::is_open() const {
+  return magic_ == kMagic && self_ == this && seal_ == sum();
+}
+
+void Engine::set_memory(const Memory& memory) {
+  memory_ = memory;
+  seal();
+}
+
+// FNV-1a by words: each step maps different sums to different ones, so no change of a single word goes unnoticed.
+std::uint64_t Engine::sum() const {
+  const unsigned char* const bytes = reinterpret_cast<const unsigned char*>(this);
+  std::uint64_t sum = 0xCBF29CE484222325ULL;
+  for (std::size_t at = sizeof(seal_); at < guarded_bytes(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + at, sizeof(word));
+    sum = (sum ^ word) * 0x100000001B3ULL;
+  }
+  return sum;
 }
 
 void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
+  place_scratch();
   FrameFindings found;
   found.stamp_ns = cloud.stamp_ns;
   // Each frame draws the same numbers, so that a frame's result does not hang on how many came before it.
@@ -143,15 +165,30 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   stage_done(POSE_WALL_STAGE_OUTPUT);
 
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) result->stage_ns[stage] = at[stage + 1] - at[stage];
+  const PointSet& c = scratch_.cloud_base;
+  points_ = {c.x.data(), c.y.data(), c.z.data(), scratch_.marks.data(), c.count, 0};
+  seal();
+}
+
+// Anew in every frame: a pointer that was changed since the last one would be believed, too.
+void Engine::place_scratch() {
+  Arena arena(this);
+  arena.take<Engine>(1);
+  scratch_.lay_out(arena, settings_.points_max);
 }
 
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
   if (found->voxels.leaf_grown) found->reasons |= POSE_WALL_R_LEAF_GROWN;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEAF, found->voxels.leaf_m, settings_.voxel_leaf,
+                             !found->voxels.leaf_grown && found->voxels.fits));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_VOXELS_FIT, found->voxels.fits));
   if (!found->voxels.fits) {
     found->reasons |= POSE_WALL_R_LEAF_GROWN;
     refuse_all(POSE_WALL_R_LEAF_GROWN, found);
     return;
   }
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_POINTS, scratch_.cloud_base.count, kPointsMin,
+                             scratch_.cloud_base.count >= kPointsMin));
   if (scratch_.cloud_base.count < kPointsMin) {
     found->reasons |= POSE_WALL_R_NO_POINTS;
     refuse_all(POSE_WALL_R_NO_POINTS, found);
@@ -172,6 +209,8 @@ void Engine::level_and_cut(FrameFindings* found) {
 }
 
 void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
+  POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_WALLS));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL, !found->floor.fit.refused));
   if (found->floor.fit.refused) {
     for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
     return;
@@ -207,6 +246,10 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   memory_.repeats = repeated ? memory_.repeats + 1 : 0;
   memory_.fingerprint = found->voxels.fingerprint;
   const bool frozen = repeated && !timing.still;
+  POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_REPEATED, memory_.repeats, 0.0, !frozen));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FROZEN, memory_.repeats, settings_.frozen_frames,
+                             !frozen || memory_.repeats <= settings_.frozen_frames));
   if (frozen) found->reasons |= POSE_WALL_R_FROZEN;
   std::uint32_t reasons = timing.reasons;
   if (frozen) reasons |= POSE_WALL_R_FROZEN;
@@ -260,14 +303,10 @@ void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {
   // A leap, or a stamp from before the last frame, is that frame's matter when it comes.
   const double elapsed_s = time_frame(memory_.temporal, stamp_ns, settings_).dt_s;
   age_values(elapsed_s, nothing.reasons, settings_, &memory_.temporal, &result->quantity);
+  seal();
   report_findings(nothing, result);
   result->frame_index = memory_.frames > 0 ? memory_.frames - 1 : 0;
   result->confidence = least_confidence(*result);
-}
-
-pose_wall_points Engine::points() const {
-  const PointSet& c = scratch_.cloud_base;
-  return {c.x.data(), c.y.data(), c.z.data(), scratch_.marks.data(), c.count, 0};
 }
 
 }  // namespace pose_wall

@@ -12,12 +12,17 @@
 #include <string>
 #include <vector>
 
+#include "command_line/grammar.hpp"
 #include "pose_wall.h"
 #include "terminal/did_you_mean.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
 namespace {
+
+constexpr const char* kDescription =
+    "How a tunnelling machine stands in its roadway, from one 3D LiDAR: roll, pitch, yaw and four wall distances per "
+    "frame.";
 
 std::vector<std::string> verb_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -39,7 +44,9 @@ bool is_unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
 }
 
 std::string unknown_option_hint(const CLI::App& app) {
-  for (const CLI::App* verb : app.get_subcommands()) {
+  std::vector<const CLI::App*> parts = {&app};
+  for (const CLI::App* verb : app.get_subcommands()) parts.push_back(verb);
+  for (const CLI::App* verb : parts) {
     std::vector<std::string> names;
     for (const CLI::Option* option : verb->get_options()) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -65,6 +72,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("pose_wall {} (ABI {})", pose_wall_version(), pose_wall_abi_version()));
   add_run(app, exit_code);
+  add_doctor(app, exit_code);
   add_sim(app, exit_code);
   add_demo(app, exit_code);
   add_report(app, exit_code);
@@ -72,27 +80,37 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_eval(app, exit_code);
   add_campaign(app, exit_code);
   add_replay_box(app, exit_code);
+  add_explain(app, exit_code);
   add_check_config(app, exit_code);
+  add_completion(app, exit_code);
+  add_man(app, exit_code);
+  name_values(app);
   app.footer(
       "Examples:\n"
       "  pose_wall demo                                               a simulated roadway, measured, with a picture\n"
       "  pose_wall sim --scene clean --frames 50 --output road        frames with their truth\n"
+      "  pose_wall doctor -o pose_wall.yaml frames                    settings for frames of your own\n"
       "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
       "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page to look at\n"
       "  pose_wall info road.bag                                      what a recording holds\n"
       "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
       "  pose_wall campaign --size small --output card                thousands of such roads: may it be believed?\n"
+      "  pose_wall explain -c road/pose_wall.yaml --frame 12 road/frames      why frame 12 came out as it did\n"
       "  pose_wall check-config road/pose_wall.yaml                   what the settings come to\n"
       "Each verb has its own --help.");
 }
 
 }  // namespace
 
+CommandGrammar command_grammar() {
+  CLI::App app(kDescription, "pose_wall");
+  int exit_code = kExitDone;
+  add_verbs(app, exit_code);
+  return grammar_of(app);
+}
+
 int run_command(int argc, const char* const* argv) {
-  CLI::App app(
-      "How a tunnelling machine stands in its roadway, from one 3D LiDAR: roll, pitch, yaw and four wall "
-      "distances per frame.",
-      "pose_wall");
+  CLI::App app(kDescription, "pose_wall");
   int exit_code = kExitDone;
   add_verbs(app, exit_code);
   if (is_unknown_verb(app, argc, argv)) return kExitUsage;

@@ -5,9 +5,14 @@
 
 #pragma once
 
+#include "command_line/grammar.hpp"
+
 namespace pose_wall::tools {
 
 // What main() does; returns the exit status.
 int run_command(int argc, const char* const* argv);
+
+// All that can be said to it.
+CommandGrammar command_grammar();
 
 }  // namespace pose_wall::tools

@@ -13,6 +13,7 @@
 #include "math/larger.hpp"
 #include "math/rotation.hpp"
 #include "stages/ground_fit.hpp"
+#include "stages/ground_notes.hpp"
 #include "stages/ground_search.hpp"
 
 namespace pose_wall {
@@ -87,12 +88,16 @@ std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const 
   for (std::uint32_t k = 0; k < list->count(); ++k) {
     const IrlsResult refined =
         irls_tukey(cloud, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
+    POSE_WALL_NOTE(note_refined_floor(refined, 1.0 - (*list)[k].cost, s, sensor));
     if (!refined.solved || !may_be_floor(refined.plane, s, sensor)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);
+    POSE_WALL_NOTE(if (repeats) trace::fate(refined.plane, POSE_WALL_TRACE_REPEATS));
     if (repeats) continue;
+    POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_UNSUPPORTED));
     if (mlesac_score(cloud, all, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
     scratch->grid.mark(cloud, all, refined.plane, s.ground_ransac_thresh);
+    POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
     if (has_much_below(scratch->grid, refined.plane, cloud, s.ground_roi_radius_max, sensor, kBelowShareMax)) continue;
     out[count++] = {refined.plane, scratch->grid.evidence(axes), false};
   }
@@ -132,6 +137,9 @@ void reach_to_rivals(const Candidate& best, Span<const Candidate> candidates, Fl
   for (const Candidate& rival : candidates) {
     if (&rival == &best || rival.evidence.score_m2 < kRivalShare * best.evidence.score_m2) continue;
     if (rival.ghost && best.evidence.area_m2 >= kSureArea_m2) continue;
+    POSE_WALL_NOTE(trace::fate(rival.plane, POSE_WALL_TRACE_RIVAL));
+    POSE_WALL_NOTE(
+        trace::gate(POSE_WALL_TRACE_FLOOR_RIVAL, rival.evidence.score_m2 / best.evidence.score_m2, kRivalShare, false));
     const RollPitch b = roll_pitch_of_up(rival.plane.n);
     roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad));
     pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
@@ -149,6 +157,11 @@ void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& bes
   };
   // The fit may have wandered off on a few points of something else.
   const bool stayed = may_be_floor(out->fit.plane, s, sensor) && same_floor(out->fit.plane, best.plane);
+  POSE_WALL_NOTE(note_floor_gates(s, sensor, best.plane, out->fit));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_AREA, best.evidence.area_m2, kAreaMin_m2,
+                             best.evidence.area_m2 >= kAreaMin_m2));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_SPREAD, best.evidence.across_spread_m, kAcrossSpreadMin_m,
+                             best.evidence.across_spread_m >= kAcrossSpreadMin_m));
   refuse_unless(stayed, POSE_WALL_R_FLOOR_NOT_FOUND);
   refuse_unless(out->fit.inliers >= s.ground_inlier_min, POSE_WALL_R_FLOOR_FEW_INLIERS);
   refuse_unless(best.evidence.area_m2 >= kAreaMin_m2, POSE_WALL_R_FLOOR_THIN);
@@ -165,6 +178,8 @@ bool stands_alone(const Candidate& best, Span<const Candidate> candidates) {
   if (best.evidence.area_m2 >= kSmallArea_m2) return true;
   for (const Candidate& rival : candidates) {
     if (&rival == &best || rival.ghost || rival.evidence.score_m2 < kEqualShare * best.evidence.score_m2) continue;
+    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_ALONE, rival.evidence.score_m2 / best.evidence.score_m2,
+                               kEqualShare, lie_alike(best.plane, rival.plane)));
     if (!lie_alike(best.plane, rival.plane)) return false;
   }
   return true;
@@ -179,6 +194,7 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   none.roi_radius_m = radius_m;
   const std::uint32_t n = within_radius(cloud, open, radius_m, scratch->candidates);
   none.candidates = n;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, n, kCandidatesMin, n >= kCandidatesMin));
   if (n < kCandidatesMin) return none;
   const Span<const std::uint32_t> all = scratch->candidates.first(n);
   const std::uint32_t low = lowest_part(cloud, all, s.ground_z_percentile, scratch->low);
@@ -190,6 +206,7 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   const std::uint32_t count = weigh(cloud, all, s, axes, sensor, &list, scratch, candidates);
   mark_ghosts(cloud, all, s, sensor, scratch, Span<Candidate>(candidates, count));
   const Candidate* best = best_of(Span<const Candidate>(candidates, count));
+  POSE_WALL_NOTE(note_floor_choice(Span<const Candidate>(candidates, count), best));
   if (best == nullptr) return none;
 
   FloorResult out = fit_floor(cloud, open, radius_m, best->plane, s, sensor, scratch);
@@ -266,6 +283,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
   int best = 0;
   double radius_m = settings.ground_roi_radius;
   for (int step = 0; step < kRadiusSteps; ++step) {
+    POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(step), radius_m));
     within[step] = floor_within(radius_m, cloud_base, scratch->open.first(open), settings, axes, sensor_base_m,
                                 last_floor, random, scratch);
     // Of refused ones the widest that got furthest tells why.
@@ -277,6 +295,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
     radius_m = radius_m * kRadiusGrowth < settings.ground_roi_radius_max ? radius_m * kRadiusGrowth
                                                                          : settings.ground_roi_radius_max;
   }
+  POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(best)));
   FloorResult out = within[best];
   for (const FloorResult& other : within) reach_to_other(other, settings, &out);
   if (best > 0) widen(settings, &out);  // the first radius is the configured one: it was not picked for its claim

@@ -11,6 +11,7 @@
 #include "estimation/tangent_frame.hpp"
 #include "estimation/tukey.hpp"
 #include "math/elementary.hpp"
+#include "trace/trace.hpp"
 
 namespace pose_wall {
 namespace {
@@ -154,6 +155,8 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   reach_to_patches(roll, &out->roll_bound_rad);
   reach_to_patches(pitch, &out->pitch_bound_rad);
   const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BEND, bent, kBendMatters * radians(s.alert_limit_angle_deg),
+                             !(bent > kBendMatters * radians(s.alert_limit_angle_deg))));
   if (bent > kBendMatters * radians(s.alert_limit_angle_deg)) out->fit.reasons |= POSE_WALL_R_CURVED;
 }
 
@@ -181,6 +184,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_FIT, uneven.solved));
   if (!uneven.solved) {
     out.fit.refused = true;
     out.fit.reasons |= POSE_WALL_R_FLOOR_THIN;

@@ -8,6 +8,7 @@
 
 #include "estimation/mlesac.hpp"
 #include "math/elementary.hpp"
+#include "stages/ground_notes.hpp"
 
 namespace pose_wall {
 namespace {
@@ -74,14 +75,16 @@ std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings
   };
   if (in.last_floor != nullptr) score(*in.last_floor);
   const std::uint32_t draws = settings.ground_iterations * kDrawsPerIteration;
+  POSE_WALL_NOTE(BestOutside outside(*subset, settings, in.sensor_base_m));
   for (std::uint32_t draw = 0; draw < draws && scored < settings.ground_iterations; ++draw) {
     Plane plane;
     // Every other draw from all points: where reflections lie lowest, the low points hold no floor.
     const Span<const std::uint32_t> from = draw % 2 == 1 ? in.open : in.low;
-    if (draw_plane(in.points_base, from, random, &plane) && may_be_floor(plane, settings, in.sensor_base_m)) {
-      score(plane);
-    }
+    if (!draw_plane(in.points_base, from, random, &plane)) continue;
+    POSE_WALL_NOTE(outside.offer(plane));
+    if (may_be_floor(plane, settings, in.sensor_base_m)) score(plane);
   }
+  POSE_WALL_NOTE(outside.note());
   return scored;
 }
 

@@ -9,6 +9,7 @@
 #include "math/elementary.hpp"
 #include "math/finite.hpp"
 #include "math/larger.hpp"
+#include "trace/trace.hpp"
 
 namespace pose_wall {
 namespace {
@@ -155,6 +156,9 @@ void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
   const Quadrant sides[2] = {kLeft, kRight};
   for (int side = 0; side < 2; ++side) {
     const std::uint32_t near = counts.near_by_quadrant[sides[side]], kept = counts.kept_by_quadrant[sides[side]];
+    POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALL_NEAR, near,
+                                  larger(kept, kShareOfCloud * counts.points_in),
+                                  near <= kept || near < kShareOfCloud * counts.points_in));
     if (near <= kept || static_cast<double>(near) < kShareOfCloud * static_cast<double>(counts.points_in)) continue;
     (*walls)[side].fit.refused = true;
     (*walls)[side].fit.reasons |= POSE_WALL_R_WALL_TOO_NEAR;
@@ -172,6 +176,9 @@ Measurements measure_quantities(const FloorResult& floor, const LevelResult& lev
   out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;
   out.left_right_yaw_difference_rad = walls[0].yaw_rad - walls[1].yaw_rad;
   for (std::uint32_t i = 0; i < POSE_WALL_QUANTITIES; ++i) {
+    POSE_WALL_NOTE(if ((q[i].reasons & POSE_WALL_R_ALERT_LIMIT) != 0 || q[i].measured)
+                       trace::gate_of(POSE_WALL_TRACE_QUANTITY + i, POSE_WALL_TRACE_LEVEL_RAW, q[i].protection,
+                                      alert_limit(i, settings), q[i].protection <= alert_limit(i, settings)));
     if (q[i].measured && !(q[i].protection <= alert_limit(i, settings))) q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
   }
   return out;

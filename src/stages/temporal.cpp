@@ -7,6 +7,7 @@
 
 #include "math/elementary.hpp"
 #include "math/finite.hpp"
+#include "trace/trace.hpp"
 
 namespace pose_wall {
 namespace {
@@ -45,10 +46,46 @@ bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Tra
   const double trust = m.protection > alert ? alert / m.protection : 1.0;  // a weak measurement pulls less
   double change = trust * gain(t->age_s, s.temporal_smoothing_tau) * (m.raw - t->value);
   const double limit = radians(s.yaw_rate_limit_deg);
+  POSE_WALL_NOTE(if (quantity == POSE_WALL_YAW)
+                     trace::gate(POSE_WALL_TRACE_RATE, std::fabs(change), limit, !(std::fabs(change) > limit)));
   const bool limited = quantity == POSE_WALL_YAW && std::fabs(change) > limit;
   if (limited) change = change > 0.0 ? limit : -limit;
   t->value += change;
   return limited;
+}
+
+#ifdef POSE_WALL_TRACE
+void note_timing(const FrameTiming& t, const Settings& s) {
+  trace::subject(POSE_WALL_TRACE_FRAME);
+  trace::gate(POSE_WALL_TRACE_STAMP_STILL, !t.still);
+  trace::gate(POSE_WALL_TRACE_STAMP_BACK, t.dt_s, 0.0, !t.back);
+  trace::gate(POSE_WALL_TRACE_STAMP_LEAP, t.dt_s, s.stamp_gap_max, !t.leap);
+}
+
+void note_innovation(const Measurement& m, std::uint32_t quantity, const Settings& s, const Track& t) {
+  if (!t.good.exists) return;
+  const double reach = m.protection + t.good.raw_protection + fastest(quantity, s) * t.good.age_s;
+  trace::gate(POSE_WALL_TRACE_INNOVATION, std::fabs(m.raw - t.good.raw), reach, t.to_confirm == 0);
+}
+
+void note_held(const pose_wall_value& v, std::uint32_t quantity, const Settings& s, const Track& t) {
+  const double alert = alert_limit(quantity, s);
+  trace::gate(POSE_WALL_TRACE_HELD_LEVEL, v.protection_level, alert, v.protection_level <= alert);
+  trace::gate(POSE_WALL_TRACE_HELD_AGE, v.age_s, s.hold_max, v.age_s <= s.hold_max);
+  trace::gate(POSE_WALL_TRACE_HELD_BEFORE, !t.expired);
+}
+#endif
+
+// Member by member: a struct's copy may bring padding along that nobody wrote, and the engine's sum is over padding,
+// too.
+void keep_good(const Measurement& m, Track* t) {
+  LastGood& good = t->good;
+  good.exists = true;
+  good.raw = m.raw;
+  good.raw_protection = m.protection;
+  good.value = t->value;
+  good.value_protection = t->protection;
+  good.age_s = 0.0;
 }
 
 void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
@@ -68,6 +105,7 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   t->age_s = 0.0;
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
   t->protection = m.protection + std::fabs(t->value - m.raw);
+  POSE_WALL_NOTE(note_innovation(m, quantity, s, *t));
   if (t->to_confirm > 0) {
     const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
     const double away = larger_or_nan(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
@@ -75,9 +113,10 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
     out->reasons |= POSE_WALL_R_INNOVATION;
   }
   const bool within = t->protection <= alert_limit(quantity, s);
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL_SMOOTHED, t->protection, alert_limit(quantity, s), within));
   if (!within) out->reasons |= POSE_WALL_R_ALERT_LIMIT;
   const bool valid = within && !m.weak && t->to_confirm == 0;
-  if (valid) t->good = {true, m.raw, m.protection, t->value, t->protection, 0.0};
+  if (valid) keep_good(m, t);
   out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->raw = m.raw;
   out->value = t->value;
@@ -88,6 +127,7 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
 void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t, pose_wall_value* out) {
   out->reasons = m.reasons;
   out->raw = not_a_number();
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_EVER, t->has_value));
   if (!t->has_value) {
     out->reasons |= POSE_WALL_R_NEVER_MEASURED;
     out->state = POSE_WALL_INVALID;
@@ -101,6 +141,7 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   out->age_s = hold_good ? t->good.age_s : t->age_s;
   out->protection_level = hold_good ? good_level : last_level;
   const bool within = out->protection_level <= alert_limit(quantity, s) && out->age_s <= s.hold_max;
+  POSE_WALL_NOTE(note_held(*out, quantity, s, *t));
   t->expired = t->expired || !within;
   if (t->expired) out->reasons |= POSE_WALL_R_HOLD_EXPIRED;
   out->state = t->expired ? POSE_WALL_INVALID : POSE_WALL_HELD;
@@ -149,6 +190,7 @@ FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const 
   t.still = stamp_ns == state.stamp_ns;
   t.back = stamp_ns < state.stamp_ns;
   t.leap = t.dt_s > settings.stamp_gap_max;
+  POSE_WALL_NOTE(note_timing(t, settings));
   if (t.still) t.reasons |= POSE_WALL_R_STAMP_STILL;
   if (t.back) t.reasons |= POSE_WALL_R_STAMP_BACK;
   if (t.leap) t.reasons |= POSE_WALL_R_STAMP_LEAP;
@@ -171,6 +213,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     pose_wall_value& out = (*values)[q];
     out = blank();
     pass_time(elapsed_s, &t);
+    POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
     // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
     // bound any more.
     if (timing.back || state->still_frames > kStillFramesMax) t.expired = true;

@@ -10,6 +10,7 @@
 #include "math/larger.hpp"
 #include "stages/walls_edges.hpp"
 #include "stages/walls_measure.hpp"
+#include "stages/walls_notes.hpp"
 #include "stages/walls_select.hpp"
 #include "stages/walls_sight.hpp"
 
@@ -40,6 +41,52 @@ std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const 
   return faults;
 }
 
+#ifdef POSE_WALL_TRACE
+// As faults_of() asks.
+void note_faults(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
+  const double lean_rad = std::fabs(lean_of(plane));
+  trace::gate(POSE_WALL_TRACE_WALL_INLIERS, evidence.inliers, s.wall_inlier_min, evidence.inliers >= s.wall_inlier_min);
+  trace::gate(POSE_WALL_TRACE_WALL_LENGTH, evidence.length_m, s.wall_length_min,
+              evidence.length_m >= s.wall_length_min);
+  trace::gate(POSE_WALL_TRACE_WALL_SOLID, evidence.seen_through, kSeenThroughMax,
+              evidence.seen_through <= kSeenThroughMax);
+  trace::gate(POSE_WALL_TRACE_WALL_LEAN, lean_rad, radians(s.wall_lean_max_deg),
+              lean_rad <= radians(s.wall_lean_max_deg));
+}
+
+void note_fitted(const Plane& plane, const WallEvidence& evidence, const Settings& s, bool stayed) {
+  note_faults(plane, evidence, s);
+  trace::gate(POSE_WALL_TRACE_FIT_STAYED, stayed);
+}
+
+// The gates of the plane that is chosen, or of the one that shows most where none is.
+void note_side(const WallChoice& choice, const WallCandidates (&beside)[2], int side, const Settings& s) {
+  trace::subject(trace::side_subject(side));
+  trace::attempt(0);
+  const WallCandidate* const shown = choice.side[side] != nullptr ? choice.side[side] : strongest(beside[side]);
+  trace::gate(POSE_WALL_TRACE_WALL_PLANES, beside[side].count, 1.0, shown != nullptr);
+  if (shown != nullptr) note_faults(shown->plane, shown->evidence, s);
+  for (std::uint32_t i = 0; i < beside[side].count; ++i) note_chosen(beside[side].item[i], choice, side);
+  trace::attempt(1);
+}
+
+void note_explained(double share, bool explained) {
+  trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_EXPLAINED, share, kExplainedMin, explained);
+}
+
+void note_sight(const WallSight& sight, const WallEdges& edges, bool grooved) {
+  trace::gate(POSE_WALL_TRACE_WALL_BRIGHT, !sight.dim);
+  trace::gate(POSE_WALL_TRACE_WALL_TOP_SEEN, !edges.top_unseen);
+  trace::gate(POSE_WALL_TRACE_WALL_OPEN_DOUBT, sight.open, kOpenDoubt, !(sight.open > kOpenDoubt));
+  trace::gate(POSE_WALL_TRACE_WALL_GROOVES, !grooved);
+  trace::gate(POSE_WALL_TRACE_WALL_SILENT, sight.silent, kSilentMax, sight.silent <= kSilentMax);
+  trace::gate(POSE_WALL_TRACE_WALL_OPEN, sight.open, kOpenMax, sight.open <= kOpenMax);
+  trace::gate(POSE_WALL_TRACE_WALL_TOPLESS, sight.topless, kToplessMax, sight.topless <= kToplessMax);
+  trace::gate(POSE_WALL_TRACE_WALL_ISLAND, !edges.island);
+  trace::gate(POSE_WALL_TRACE_WALL_LOW, !edges.low);
+}
+#endif
+
 void thin_out(const PointSet& band_level, PointSet* thin_level) {
   const std::uint32_t stride = band_level.count / kThinMost + 1;
   thin_level->count = 0;
@@ -56,14 +103,18 @@ void weigh(const WallScene& scene, const SideView& view, WallSearch* search, Wal
   out->count = 0;
   for (std::uint32_t k = 0; k < search->list().count(); ++k) {
     Plane plane = search->list()[k].plane;
+    POSE_WALL_NOTE(note_drawn_wall(plane));
     if (!refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, &scratch->fit, &plane)) continue;
+    POSE_WALL_NOTE(note_refined_wall(plane));
     if (!may_be_wall(plane, view, radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < out->count; ++j) repeats = repeats || same(out->item[j].plane, plane);
+    POSE_WALL_NOTE(trace::fate(plane, POSE_WALL_TRACE_REPEATS));
     if (repeats) continue;
     mark_wall(scene, plane, along_of(plane, view.along_level), MarkWidth::kThreshold, &scratch->grid);
     const WallEvidence evidence = scratch->grid.evidence();
     out->item[out->count++] = {plane, evidence, faults_of(plane, evidence, scene.settings)};
+    POSE_WALL_NOTE(note_weighed_wall(out->item[out->count - 1]));
   }
 }
 
@@ -80,6 +131,7 @@ void search_both(const WallScene& scene, const SideView (&views)[2], const Plane
     if (other.count() > 0) scratch->search[side].offer_offsets(other[0].plane.n);
   }
   for (int side = 0; side < 2; ++side) {
+    POSE_WALL_NOTE(trace::subject(subject_of(scene, views[side])));
     weigh(scene, views[side], &scratch->search[side], scratch, &out[side]);
     scored[side] = scratch->search[side].scored();
   }
@@ -104,6 +156,7 @@ void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, W
   const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
   const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
   const bool little_seen = sight.dim || edges.top_unseen, open = sight.open > kOpenDoubt;
+  POSE_WALL_NOTE(note_sight(sight, edges, grooved));
   if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
   if (open) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
   if (grooved) wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
@@ -125,7 +178,11 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   wall.along_min_m = chosen.evidence.along_min_m;
   wall.along_max_m = chosen.evidence.along_max_m;
   if (choice.rival[side] != nullptr) reach_to_rival(scene, choice.rival[side]->plane, side, &wall);
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_SOLID_DOUBT, chosen.evidence.seen_through, kSeenThroughDoubt,
+                             !(chosen.evidence.seen_through > kSeenThroughDoubt)));
   if (chosen.evidence.seen_through > kSeenThroughDoubt) wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FIT_INLIERS, wall.fit.inliers, scene.settings.wall_inlier_min,
+                             wall.fit.inliers >= scene.settings.wall_inlier_min));
   if (!(wall.fit.inliers >= scene.settings.wall_inlier_min)) {
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
@@ -134,6 +191,8 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   const SideView view{scene.forward_level, side == 0 ? scene.left_level : Eigen::Vector3d(-scene.left_level)};
   const std::uint32_t faults =
       wall.fit.found ? faults_of(wall.fit.plane, scratch->grid.evidence(), scene.settings) : 0U;
+  POSE_WALL_NOTE(if (wall.fit.found) note_fitted(wall.fit.plane, scratch->grid.evidence(), scene.settings,
+                                                 faults == 0 && SameWall{view}(wall.fit.plane, chosen.plane)));
   if (wall.fit.found && (faults != 0 || !SameWall{view}(wall.fit.plane, chosen.plane))) {
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND | faults;
@@ -142,6 +201,8 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
     wall.fit.refused = true;
     wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
   }
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_YAW, std::fabs(wall.yaw_rad), radians(scene.settings.yaw_max_deg),
+                             std::fabs(wall.yaw_rad) <= radians(scene.settings.yaw_max_deg)));
   if (wall.fit.found) look_closely(scene, surface.grooved, scratch, &wall);
   return wall;
 }
@@ -152,6 +213,8 @@ void doubt_what_is_left(const WallCandidate& left, const WallCandidate& other, c
   constexpr double kApart_rad = 0.035;  // 2 degrees
   const double apart = angle_in_plan(left.plane, other.plane);
   if (apart > kApart_rad) out->yaw_bound_rad += apart;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEFT_ALONE, left.evidence.length_m, s.wall_alone_length_min,
+                             left.evidence.length_m >= s.wall_alone_length_min));
   if (left.evidence.length_m >= s.wall_alone_length_min) return;
   out->fit.refused = true;
   out->fit.reasons |= POSE_WALL_R_WALL_SHORT;
@@ -221,9 +284,11 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
 
   note_directions(scene, &scratch->sight);
   const bool explained = explained_share(scene, choice) >= kExplainedMin;
+  POSE_WALL_NOTE(note_explained(explained_share(scene, choice), explained));
   WallsResult out;
   out.tilt_level_rad = tilt_by_walls(scene, beside);
   for (int side = 0; side < 2; ++side) {
+    POSE_WALL_NOTE(note_side(choice, beside, side, scene.settings));
     if (choice.side[side] != nullptr) out.side[side] = measure(scene, choice, side, scratch);
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.refused = out.side[side].fit.refused || choice.refused[side];
@@ -235,6 +300,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   }
   for (int side = 0; side < 2; ++side) {
     if (out.side[1 - side].fit.refused && choice.side[0] != nullptr && choice.side[1] != nullptr) {
+      POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
       doubt_what_is_left(*choice.side[side], *choice.side[1 - side], scene.settings, &out.side[side]);
     }
   }

@@ -9,6 +9,7 @@
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "stages/walls_at_sample.hpp"
+#include "trace/trace.hpp"
 
 namespace pose_wall {
 namespace {
@@ -54,6 +55,9 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, WallResult* out
   out->yaw_sigma_rad *= surface.strips != nullptr ? kStripsStretch : (rock ? kRockStretch : 1.0);
   out->yaw_bias_rad_per_m = -sign * patch.bias_response[1] / upright;
   out->yaw_bound_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_BEND, out->yaw_bound_rad,
+                             kBendMatters * radians(scene.settings.alert_limit_angle_deg),
+                             !(out->yaw_bound_rad > kBendMatters * radians(scene.settings.alert_limit_angle_deg))));
   if (out->yaw_bound_rad > kBendMatters * radians(scene.settings.alert_limit_angle_deg)) {
     out->fit.reasons |= POSE_WALL_R_CURVED;
   }
@@ -89,6 +93,14 @@ bool clear_of_cuts(const WallScene& scene, const Heights& heights, double z_leve
          z_level_m >= heights.min_m + (foot_is_cut ? kBegins_m : 0.0);
 }
 
+#ifdef POSE_WALL_TRACE
+void note_sample(int quantity, double gap_m, const AtSample& seen) {
+  const auto subject = static_cast<std::uint32_t>(POSE_WALL_TRACE_QUANTITY + quantity);
+  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_GAP, gap_m, kExtrapolated_m, !(gap_m > kExtrapolated_m));
+  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_STEP, seen.bound_m, 0.0, !seen.interrupted);
+}
+#endif
+
 void set_distances(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
                    WallResult* out) {
   const TangentFrame& f = surface.frame();
@@ -101,6 +113,8 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     out->distance_sigma_m[end] = std::sqrt(patch.variance_at(u, v));
     double& bound = out->distance_bound_m[end];
     const double bend = std::fabs(patch.bend_at(u, v));
+    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_SAMPLE_BEND, bend, kBendMatters * scene.settings.alert_limit_distance,
+                               !(bend > kBendMatters * scene.settings.alert_limit_distance)));
     if (bend > kBendMatters * scene.settings.alert_limit_distance) out->fit.reasons |= POSE_WALL_R_CURVED;
     bound = scene.settings.range_bias_max * std::fabs(bias) + bend;
     const bool in_band = scene.in_band(sample.z());
@@ -110,6 +124,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double along_m = out->along_level.dot(sample);
     const AtSample seen = look_at_sample(scene, surface, grid, *out, sample, out->distance_m[end]);
     out->extrapolated[end] = seen.interrupted || grid.gap_to_solid_m(along_m) > kExtrapolated_m;
+    POSE_WALL_NOTE(note_sample(POSE_WALL_D_LF + 2 * side + end, grid.gap_to_solid_m(along_m), seen));
     bound += seen.bound_m;
   }
 }
@@ -119,6 +134,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
 WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid) {
   WallResult out;
   const PatchFit& patch = surface.patch;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_FIT, patch.solved));
   if (!patch.solved) {
     out.fit.refused = true;
     out.fit.reasons = POSE_WALL_R_WALL_SHORT;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
+#include "trace/trace.hpp"
 
 namespace pose_wall {
 namespace {
@@ -126,6 +127,62 @@ const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate* c
   return best;
 }
 
+#ifdef POSE_WALL_TRACE
+double parallel_by(const Plane& a, const Plane& b) {
+  return std::fabs(a.n.dot(b.n));
+}
+
+// Of the planes that pass their own gates, the strongest of each side: why these are no pair.
+void note_pair(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
+  const WallCandidate* a = pair.a != nullptr ? pair.a : best_single(*lists[0], 0.0);
+  const WallCandidate* b = pair.b != nullptr ? pair.b : best_single(*lists[1], 0.0);
+  trace::subject(POSE_WALL_TRACE_WALLS);
+  if (a == nullptr || b == nullptr) return;
+  const double cosine = parallel_by(a->plane, b->plane), length_m = a->evidence.length_m + b->evidence.length_m;
+  trace::gate(POSE_WALL_TRACE_PAIR_PARALLEL, cosine, s.wall_parallel_cos, cosine > s.wall_parallel_cos);
+  trace::gate(POSE_WALL_TRACE_PAIR_LENGTH, length_m, kPairLengthMin_m, length_m >= kPairLengthMin_m);
+  if (pair.a != nullptr) trace::gate(POSE_WALL_TRACE_PAIR_CONTESTED, !contested(pair, lists, s.wall_parallel_cos));
+}
+
+// Two that are long enough to stand alone, and are no pair.
+void note_not_parallel(const WallChoice& out, const WallCandidates* const (&lists)[2], const Settings& s) {
+  const WallCandidate* const a = best_single(*lists[0], s.wall_alone_length_min);
+  const WallCandidate* const b = best_single(*lists[1], s.wall_alone_length_min);
+  for (int side = 0; side < 2; ++side) {
+    if ((out.reasons[side] & POSE_WALL_R_WALLS_NOT_PARALLEL) == 0) continue;
+    trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALLS_PARALLEL, parallel_by(a->plane, b->plane),
+                   s.wall_parallel_cos, false);
+  }
+}
+
+void note_lone_across(double lone_m2, double sides_m2) {
+  trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS_ALONE, lone_m2 / sides_m2, kLoneCrossShare,
+                 !(lone_m2 > kLoneCrossShare * sides_m2));
+}
+
+// As faults_of() and best_single() ask; where both sides were refused together, that is all that is said.
+void note_none(const WallCandidates& list, int side, bool refused, double length_min_m) {
+  const WallCandidate* const best = strongest(list);
+  if (refused || best == nullptr) return;
+  const WallEvidence& e = best->evidence;
+  const double span_m = e.along_max_m - e.along_min_m, filled = span_m > 0.0 ? e.length_m / span_m : 0.0;
+  const std::uint32_t subject = trace::side_subject(side);
+  trace::gate_of(subject, POSE_WALL_TRACE_WALL_LENGTH_ALONE, e.length_m, length_min_m, e.length_m >= length_min_m);
+  trace::gate_of(subject, POSE_WALL_TRACE_WALL_FILLED, filled, kFilledShare, e.length_m >= kFilledShare * span_m);
+  trace::gate_of(subject, POSE_WALL_TRACE_WALL_CHOSEN, 0.0, 1.0, false);
+}
+
+void note_rival(const WallChoice& out, int side) {
+  const WallCandidate* const rival = out.rival[side];
+  if (rival == nullptr) return;
+  const WallCandidate& chosen = *out.side[side];
+  double share = lies_behind(rival->plane, chosen.plane) ? kBehindShare : kRivalShare;
+  if (goes_on_behind(*rival, chosen)) share = kGoesOnShare;
+  trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALL_RIVAL,
+                 rival->evidence.score_m2 / chosen.evidence.score_m2, share, false);
+}
+#endif
+
 void refuse_both(std::uint32_t reason, WallChoice* out) {
   for (int side = 0; side < 2; ++side) {
     out->refused[side] = true;
@@ -166,9 +223,13 @@ bool stands_across(const WallChoice& sides, double sides_score, const WallCandid
     return out;
   };
   const WallCandidates a = across(ahead), b = across(behind);
+  POSE_WALL_NOTE(const double pair = best_pair(a, b, s.wall_parallel_cos).score);
+  POSE_WALL_NOTE(
+      trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair / sides_score, 1.0, !(pair > sides_score)));
   if (best_pair(a, b, s.wall_parallel_cos).score > sides_score) return true;
   if (!alone) return false;
   for (const WallCandidate* lone : {best_single(a, s.wall_length_min), best_single(b, s.wall_length_min)}) {
+    POSE_WALL_NOTE(if (lone != nullptr) note_lone_across(lone->evidence.score_m2, sides_score));
     if (lone != nullptr && lone->evidence.score_m2 > kLoneCrossShare * sides_score) return true;
   }
   return false;
@@ -194,6 +255,7 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
   WallChoice out;
   const WallCandidates* const lists[2] = {&left, &right};
   Pair pair = best_pair(left, right, settings.wall_parallel_cos);
+  POSE_WALL_NOTE(note_pair(pair, lists, settings));
   if (pair.a != nullptr && contested(pair, lists, settings.wall_parallel_cos)) pair = Pair{};
   double score = pair.score;
   double alone = 0.0;
@@ -201,6 +263,9 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
     const WallCandidate* lone = best_single(*list, settings.wall_alone_length_min);
     if (lone != nullptr && lone->evidence.score_m2 > alone) alone = lone->evidence.score_m2;
   }
+  POSE_WALL_NOTE(if (pair.a != nullptr) trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_PAIR_SHARE,
+                                                       alone > 0.0 ? pair.score / alone : 1.0, kPairShare,
+                                                       pair.score >= kPairShare * alone));
   // A pair that shows much less than one wall alone is a pair by chance.
   if (pair.a != nullptr && pair.score >= kPairShare * alone) {
     out.side[0] = pair.a;
@@ -208,14 +273,17 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
   } else {
     score = 0.0;
     choose_single(lists, settings.wall_alone_length_min, &out);
+    POSE_WALL_NOTE(note_not_parallel(out, lists, settings));
     for (const WallCandidate* c : out.side) score += c != nullptr ? c->evidence.score_m2 : 0.0;
   }
   for (int side = 0; side < 2; ++side) {
     if (out.side[side] == nullptr) {
+      POSE_WALL_NOTE(note_none(*lists[side], side, out.refused[side], settings.wall_alone_length_min));
       if (!out.refused[side]) out.reasons[side] |= faults_of(*lists[side], settings.wall_alone_length_min);
       out.refused[side] = true;
     } else {
       out.rival[side] = rival_of(*lists[side], out.side[side]);
+      POSE_WALL_NOTE(note_rival(out, side));
     }
   }
   const bool any = out.side[0] != nullptr || out.side[1] != nullptr;

@@ -118,6 +118,12 @@ def check(browser, frames, prefix):
     slide = "const s = document.getElementById('slider'); s.value = %d; s.dispatchEvent(new Event('input'));"
     checks.changes("the slider moves the view", "top", slide % (frames // 2))
     checks.hold("the slider names the frame", f"frame {frames // 2} " in text("frame-name"))
+    broken = run("return recording.error.findIndex((text) => text)")
+    if broken >= 0:
+        run(slide % broken)
+        states = run("return Array.from(document.querySelectorAll('#values .state'), (x) => x.textContent)")
+        checks.hold(f"a frame that could not be read says so {states}", states == ["unreadable"] * 7)
+        run(slide % (frames // 2))
     toggle = "document.querySelectorAll('#layers input')[%d].click()"
     for k, layer in enumerate(("other", "floor", "left", "right")):
         if not run(f"return recording.point_label.includes({k})"):

@@ -44,7 +44,8 @@ TEST(LoadFrame, EndingDecidesAndFaultsAreSaid) {
   const TempFolder folder;
   EXPECT_EQ(load_frame(folder.write("a.BIN", kPoint)).cloud.width, 1U);
   EXPECT_NE(load_refusal(folder.write("a.txt", kPoint)).find(".pcd, .bin (KITTI), .ply"), std::string::npos);
-  EXPECT_EQ(load_refusal(folder.file("missing.pcd")), "no such file");
+  EXPECT_EQ(load_refusal(folder.file("missing.pcd")), "not there: no such file or folder");
+  EXPECT_EQ(load_refusal(folder.file("nofolder")), "not there: no such file or folder") << "not an unknown ending";
   std::filesystem::create_directories(folder.file("folder.ply"));
   EXPECT_EQ(load_refusal(folder.file("folder.ply")), "not a regular file");
 }

@@ -18,25 +18,14 @@ function(pose_wall_engine_library)
   endforeach()
   find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
-  add_library(pose_wall_objects OBJECT ${engine_SOURCES})
-  pose_wall_compile_strictly(pose_wall_objects)
-  pose_wall_engine_flags(pose_wall_objects)
+  pose_wall_engine_objects(pose_wall_objects ${engine_SOURCES})
   set_source_files_properties(${engine_COMPACT} PROPERTIES COMPILE_OPTIONS "$<${pose_wall_quick}:-O2>")
   set_source_files_properties(${engine_SMALL} PROPERTIES COMPILE_OPTIONS "$<${pose_wall_quick}:-Os>")
-  if(NOT POSE_WALL_BARE)  # where nothing is loaded to another place, tables of pointers need no relocation
-    set_target_properties(pose_wall_objects PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  endif()
   if(POSE_WALL_CALL_GRAPH)
     target_compile_options(pose_wall_objects PRIVATE -fcallgraph-info=su)  # beside the objects, for check_stack.py
   endif()
-  target_include_directories(pose_wall_objects
-    PUBLIC ${PROJECT_SOURCE_DIR}/include
-    INTERFACE ${PROJECT_SOURCE_DIR}/src
-    PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  # SYSTEM: Eigen's own headers are not held to our warnings.
-  target_link_libraries(pose_wall_objects PUBLIC Eigen3::Eigen)
 
-  pose_wall_one_object(pose_wall_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o)
+  pose_wall_one_object(pose_wall_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o pose_wall_*)
   add_library(pose_wall STATIC ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o)
   add_library(pose_wall::pose_wall ALIAS pose_wall)
   # C: whoever links the archive needs no C++ runtime.
@@ -44,6 +33,38 @@ function(pose_wall_engine_library)
   target_include_directories(pose_wall INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(pose_wall INTERFACE m)
+endfunction()
+
+# The objects of the engine, compiled as every engine is.
+function(pose_wall_engine_objects target)
+  add_library(${target} OBJECT ${ARGN})
+  pose_wall_compile_strictly(${target})
+  pose_wall_engine_flags(${target})
+  if(NOT POSE_WALL_BARE)  # where nothing is loaded to another place, tables of pointers need no relocation
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
+  target_include_directories(${target}
+    PUBLIC ${PROJECT_SOURCE_DIR}/include
+    INTERFACE ${PROJECT_SOURCE_DIR}/src
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  # SYSTEM: Eigen's own headers are not held to our warnings.
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen)
+endfunction()
+
+# pose_wall_traced_library(SOURCES more.cpp ...)
+#
+# pose_wall_traced: the same sources and these, compiled so that they take notes (src/trace). Only pose_wall_trace_* is
+# global in it, so a program may link it beside the plain archive. Not installed. pose_wall_traced_objects: its objects.
+function(pose_wall_traced_library)
+  cmake_parse_arguments(PARSE_ARGV 0 traced "" "" "SOURCES")
+  get_target_property(engine_sources pose_wall_objects SOURCES)
+  pose_wall_engine_objects(pose_wall_traced_objects ${engine_sources} ${traced_SOURCES})
+  target_compile_definitions(pose_wall_traced_objects PRIVATE POSE_WALL_TRACE=1)
+  pose_wall_one_object(pose_wall_traced_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_traced.o pose_wall_trace_*)
+  add_library(pose_wall_traced STATIC ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_traced.o)
+  set_target_properties(pose_wall_traced PROPERTIES LINKER_LANGUAGE C)
+  target_include_directories(pose_wall_traced INTERFACE ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(pose_wall_traced INTERFACE m)
 endfunction()
 
 # A release, and a subproject of a build without a build type: it gets a quick engine, too.
@@ -60,7 +81,8 @@ function(pose_wall_bare_flags target)
     # Clang makes a call of bcmp, which is no C, of a memcmp that asks for equality alone
     $<$<CXX_COMPILER_ID:Clang>:-fno-builtin-bcmp>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
-    $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
+    $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>
+    $<$<BOOL:${POSE_WALL_COVERAGE}>:-fprofile-instr-generate> $<$<BOOL:${POSE_WALL_COVERAGE}>:-fcoverage-mapping>)
 endfunction()
 
 # That, and what keeps the heap and other bits on other machines out of the engine.
@@ -89,19 +111,19 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND NOT CMAKE_CROSSCOMPILING)
   find_program(POSE_WALL_OBJCOPY NAMES objcopy)
 endif()
 
-# Merges the objects of a target and makes all symbols local but pose_wall_*; hidden visibility alone leaves the
-# standard library's templates global and weak wherever the compiler does not inline them. --force-group-allocation
+# Merges the objects of a target and makes all symbols local but those of the pattern; hidden visibility alone leaves
+# the standard library's templates global and weak wherever the compiler does not inline them. --force-group-allocation
 # dissolves COMDAT groups: a group whose signature is local could not be merged any more.
-function(pose_wall_one_object objects output)
+function(pose_wall_one_object objects output global)
   if(NOT POSE_WALL_LD OR NOT POSE_WALL_OBJCOPY)
     message(FATAL_ERROR "pose_wall needs GNU ld and objcopy (package binutils) to build its archive; "
                         "here are '${POSE_WALL_LD}' and '${POSE_WALL_OBJCOPY}'")
   endif()
   add_custom_command(OUTPUT ${output}
     COMMAND ${POSE_WALL_LD} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
-    COMMAND ${POSE_WALL_OBJCOPY} --wildcard --keep-global-symbol=pose_wall_* ${output}
+    COMMAND ${POSE_WALL_OBJCOPY} --wildcard --keep-global-symbol=${global} ${output}
     DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
-    COMMENT "Merging ${objects} into one object, pose_wall_* global"
+    COMMENT "Merging ${objects} into one object, ${global} global"
     COMMAND_EXPAND_LISTS VERBATIM)
   set_source_files_properties(${output} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
 endfunction()

@@ -9,6 +9,7 @@ include(pose_wall_sbom)
 set(pose_wall_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pose_wall)
 set(pose_wall_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(GLOB pose_wall_public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/pose_wall*.h*)
+list(FILTER pose_wall_public_headers EXCLUDE REGEX "pose_wall_trace\\.h$")  # of a library that stays in the build
 install(FILES ${pose_wall_public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 set(pose_wall_archives pose_wall)
 if(TARGET pose_wall_runtime)
@@ -38,6 +39,14 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/ DESTINATION ${pose_wall_doc_d
 if(TARGET pose_wall_cli)
   install(TARGETS pose_wall_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-wall RENAME copyright
+    COMPONENT command)
+  set(pose_wall_words ${PROJECT_BINARY_DIR}/tools/words)
+  install(FILES ${pose_wall_words}/pose_wall.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+  install(FILES ${pose_wall_words}/pose_wall.bash RENAME pose_wall
+    DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT command)
+  install(FILES ${pose_wall_words}/_pose_wall DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/site-functions
+    COMPONENT command)
+  install(FILES ${pose_wall_words}/pose_wall.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
     COMPONENT command)
 endif()
 if(PROJECT_IS_TOP_LEVEL)

@@ -15,9 +15,9 @@ function(pose_wall_optional_library name what header library)
     message(STATUS "Not read by this build: ${what} (no ${header} and lib${library})")
     return()
   endif()
-  target_compile_definitions(pose_wall_tools PUBLIC POSE_WALL_HAS_${name}=1)  # the tests ask, too
-  target_include_directories(pose_wall_tools SYSTEM PRIVATE ${${name}_INCLUDE_DIR})
-  target_link_libraries(pose_wall_tools PRIVATE ${${name}_LIBRARY})
+  target_compile_definitions(pose_wall_files PRIVATE POSE_WALL_HAS_${name}=1)
+  target_include_directories(pose_wall_files SYSTEM PRIVATE ${${name}_INCLUDE_DIR})
+  target_link_libraries(pose_wall_files PRIVATE ${${name}_LIBRARY})
 endfunction()
 
 pose_wall_optional_library(LZ4 "lz4 in bags" lz4frame.h lz4)

@@ -44,7 +44,6 @@ const Format* find_format(const std::filesystem::path& path) {
 
 Bytes read_bytes(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw FrameError("no such file");
   if (!std::filesystem::is_regular_file(path, error)) throw FrameError("not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw FrameError(error.message());
@@ -72,6 +71,9 @@ bool has_frame_ending(const std::filesystem::path& path) {
 }
 
 Frame load_frame(const std::filesystem::path& path) {
+  // Before its ending is judged: a mistyped folder has none.
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw FrameError("not there: no such file or folder");
   const Format* format = find_format(path);
   if (format == nullptr) {
     std::error_code ignored;

@@ -5,19 +5,19 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
+#include <string>
+
+#include "frames/whole_file.hpp"
 
 namespace pose_wall::tools {
 
 void write_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, std::size_t count) {
-  std::ofstream out(file, std::ios::binary);
-  out << fmt::format(
+  std::string bytes = fmt::format(
       "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\n"
       "COUNT 1 1 1 1\nWIDTH {0}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {0}\nDATA binary\n",
       count);
-  out.write(reinterpret_cast<const char*>(xyz_intensity), static_cast<std::streamsize>(4 * sizeof(float) * count));
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
+  bytes.append(reinterpret_cast<const char*>(xyz_intensity), 4 * sizeof(float) * count);
+  write_whole_file(file, bytes);
 }
 
 }  // namespace pose_wall::tools

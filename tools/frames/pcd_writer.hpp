@@ -8,8 +8,8 @@
 
 namespace pose_wall::tools {
 
-// Binary PCD with the fields x y z intensity, four native floats per point, as one row. Throws std::runtime_error that
-// names the file.
+// Binary PCD with the fields x y z intensity, four native floats per point, as one row; there whole or not at all.
+// Throws std::runtime_error that names the file.
 void write_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, std::size_t count);
 
 }  // namespace pose_wall::tools

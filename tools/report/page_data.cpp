@@ -18,6 +18,8 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Beside pose_wall_label.
 constexpr std::uint8_t kDropped = 4;
+// Beside pose_wall_state: what the engine never saw is not invalid, which would be its word.
+constexpr std::uint32_t kUnreadable = POSE_WALL_VALID + 1;
 // Of the points of a frame, at most one in so many may be dropped ones.
 constexpr std::size_t kDroppedShare = 8;
 
@@ -71,7 +73,7 @@ void PageData::add(const FrameOutcome& outcome, const TruthRow* truth) {
   errors_.push_back(outcome.error);
   // What stays of a frame that could not be read: nothing of it is known.
   pose_wall_result result = api::make_result();
-  for (pose_wall_value& value : result.quantity) value = {kNone, kNone, kNone, kNone, 0.0, kNone, POSE_WALL_INVALID, 0};
+  for (pose_wall_value& value : result.quantity) value = {kNone, kNone, kNone, kNone, kNone, kNone, kUnreadable, 0};
   if (outcome.result) result = *outcome.result;
   add_values(result);
   for (std::size_t q = 0; q < kTruthQuantities; ++q) truth_.add(truth != nullptr ? truth->value[q] : kNone);

@@ -4,6 +4,7 @@
 #include "results/frame_runner.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,12 @@ std::int64_t steady_ns(void* /*user*/) {
 
 double millis_since(std::int64_t start_ns) {
   return static_cast<double>(steady_ns(nullptr) - start_ns) * 1e-6;
+}
+
+double processor_millis() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
 }  // namespace
@@ -43,9 +50,11 @@ FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
     Frame& frame = *sourced.frame;
     frame.cloud.stamp_ns = outcome.stamp_ns;
     pose_wall_result result = api::make_result();
+    const double start_processor_ms = processor_millis();
     const std::int64_t start_ns = steady_ns(nullptr);
     const std::int32_t status = engine_.process(frame.cloud, result);
     outcome.total_ms = millis_since(start_ns);
+    outcome.processor_ms = processor_millis() - start_processor_ms;
     if (status != POSE_WALL_OK) throw FrameError(pose_wall_status_text(status));
     outcome.result = result;
     if (look) {

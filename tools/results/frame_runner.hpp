@@ -26,6 +26,9 @@ class FrameRunner {
   // Frames are numbered in the order of the calls. Never throws: what is wrong with a frame stands in the outcome.
   FrameOutcome run(SourcedFrame sourced, const Look& look = {});
 
+  // What it remembers can be saved before a frame.
+  pose_wall_engine* engine() { return engine_.get(); }
+
   std::size_t block_bytes() const { return engine_.block_bytes(); }
 
  private:

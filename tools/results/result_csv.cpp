@@ -128,7 +128,7 @@ std::string reason_names(std::uint32_t reasons) {
 std::vector<std::string> result_head() {
   std::vector<std::string> head = {"frame", "source", "stamp_ns", "confidence", "status", "reason", "total_ms"};
   for (const Column& column : result_columns()) head.push_back(column.name);
-  head.insert(head.end(), {"load_ms", "error"});
+  head.insert(head.end(), {"load_ms", "processor_ms", "error"});
   return head;
 }
 
@@ -144,7 +144,8 @@ std::vector<std::string> result_cells(const FrameOutcome& outcome) {
   for (const Column& column : result_columns()) {
     cells.push_back(outcome.result ? column.cell(*outcome.result) : std::string{});
   }
-  cells.insert(cells.end(), {csv_number(outcome.load_ms), outcome.error});
+  cells.insert(cells.end(),
+               {csv_number(outcome.load_ms), outcome.result ? csv_number(outcome.processor_ms) : "", outcome.error});
   return cells;
 }
 

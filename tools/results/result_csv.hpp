@@ -22,7 +22,8 @@ struct FrameOutcome {
   std::optional<pose_wall_result> result;  // none: the frame could not be read, or the engine refused its layout
   std::string error;                       // then why
   double load_ms = 0.0;
-  double total_ms = 0.0;  // in the engine
+  double total_ms = 0.0;      // in the engine, elapsed
+  double processor_ms = 0.0;  // what of it the thread was running: other programs do not count
 };
 
 std::vector<std::string> result_head();

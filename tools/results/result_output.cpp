@@ -10,11 +10,13 @@
 #include <system_error>
 
 #include "csv/csv_table.hpp"
+#include "results/result_json.hpp"
 
 namespace pose_wall::tools {
 
-ResultOutput::ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs)
-    : name_(path.empty() ? "standard output" : path), stream_(path.empty() ? &std::cout : &file_) {
+ResultOutput::ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs,
+                           ResultFormat format)
+    : name_(path.empty() ? "standard output" : path), format_(format), stream_(path.empty() ? &std::cout : &file_) {
   if (!path.empty()) {
     for (const std::filesystem::path& input : inputs) {
       std::error_code ignored;
@@ -29,12 +31,14 @@ ResultOutput::ResultOutput(const std::string& path, const std::vector<std::files
           fmt::format("--output {}: cannot be written: {}", path, std::generic_category().message(errno)));
     }
   }
-  *stream_ << csv_line(result_head()) << std::flush;
+  if (format_ == ResultFormat::kCsv) *stream_ << csv_line(result_head());
+  *stream_ << std::flush;
   if (!*stream_) throw OutputError(fmt::format("{}: cannot be written", name_));
 }
 
 bool ResultOutput::write(const FrameOutcome& outcome) {
-  *stream_ << csv_line(result_cells(outcome)) << std::flush;
+  const bool is_json = format_ == ResultFormat::kJson;
+  *stream_ << (is_json ? result_json_line(outcome) : csv_line(result_cells(outcome))) << std::flush;
   return static_cast<bool>(*stream_);
 }
 

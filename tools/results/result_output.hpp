@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Where the table of results goes: a file or standard output.
+// Where the results go, row by row: a file or standard output, as CSV or as lines of JSON.
 
 #pragma once
 
@@ -21,11 +21,14 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+enum class ResultFormat { kCsv, kJson };
+
 class ResultOutput {
  public:
-  // Opens the file (standard output for an empty path) and writes the head. Throws OutputError when it cannot be
-  // written or is one of the inputs.
-  ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs);
+  // Opens the file (standard output for an empty path) and writes the head of a CSV. Throws OutputError when it cannot
+  // be written or is one of the inputs.
+  ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs,
+               ResultFormat format = ResultFormat::kCsv);
 
   // False when the row did not reach its place (disk full, pipe closed). Rows are flushed one by one, so that a
   // reader behind a pipe sees each frame as it is done.
@@ -36,6 +39,7 @@ class ResultOutput {
 
  private:
   std::string name_;
+  ResultFormat format_;
   std::ofstream file_;
   std::ostream* stream_;
 };

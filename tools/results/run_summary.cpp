@@ -58,7 +58,8 @@ void RunSummary::add(const FrameOutcome& outcome) {
   }
   const std::uint32_t reasons = all_reasons(*outcome.result);
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) reasons_[bit] += reasons >> bit & 1U;
-  times_ms_.push_back(outcome.total_ms);
+  elapsed_ms_.push_back(outcome.total_ms);
+  processor_ms_.push_back(outcome.processor_ms);
 }
 
 std::string RunSummary::text(double wall_s) const {
@@ -82,14 +83,20 @@ std::string RunSummary::quantities_text() const {
 }
 
 std::string RunSummary::times_text(double wall_s) const {
-  if (times_ms_.empty()) return fmt::format("{}, none processed\n", counted(frames_, "frame"));
-  const double engine_s = std::accumulate(times_ms_.begin(), times_ms_.end(), 0.0) * 1e-3;
-  const auto count = static_cast<double>(times_ms_.size());
-  return fmt::format(
-      "{}; engine, elapsed: median {:.2f} ms, 95 % {:.2f} ms, max {:.2f} ms, {:.1f} frames/s; with reading: {:.1f} "
-      "frames/s\n",
-      counted(frames_, "frame"), quantile(times_ms_, 0.5), quantile(times_ms_, 0.95), quantile(times_ms_, 1.0),
-      engine_s > 0.0 ? count / engine_s : 0.0, wall_s > 0.0 ? static_cast<double>(frames_) / wall_s : 0.0);
+  if (elapsed_ms_.empty()) return fmt::format("{}, none processed\n", counted(frames_, "frame"));
+  TextTable table({"engine, per frame", "median", "95 %", "max", "frames/s"});
+  const auto add = [&table](const char* what, const std::vector<double>& times_ms) {
+    const double sum_s = std::accumulate(times_ms.begin(), times_ms.end(), 0.0) * 1e-3;
+    std::vector<std::string> cells = {what};
+    for (const double share : {0.5, 0.95, 1.0}) cells.push_back(fmt::format("{:.2f} ms", quantile(times_ms, share)));
+    cells.push_back(sum_s > 0.0 ? fmt::format("{:.1f}", static_cast<double>(times_ms.size()) / sum_s) : "-");
+    table.add_row(cells);
+  };
+  add("elapsed", elapsed_ms_);
+  add("processor", processor_ms_);
+  const double rate = wall_s > 0.0 ? static_cast<double>(frames_) / wall_s : 0.0;
+  return fmt::format("{}\n{} in {:.1f} s with reading and writing: {:.1f} frames/s\n", table.text(),
+                     counted(frames_, "frame"), wall_s, rate);
 }
 
 std::string RunSummary::reasons_text() const {

@@ -40,7 +40,8 @@ class RunSummary {
   std::size_t unreadable_ = 0;
   std::array<Quantity, POSE_WALL_QUANTITIES> quantities_;
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons_{};
-  std::vector<double> times_ms_;
+  std::vector<double> elapsed_ms_;
+  std::vector<double> processor_ms_;
 };
 
 // The value below which `fraction` of the values lie (nearest rank); NaN when there are none.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 
 namespace pose_wall::tools {
@@ -20,7 +21,15 @@ bool is_terminal(int stream) {
   return ::isatty(stream) == 1;
 }
 
-ProgressBar::ProgressBar(std::size_t total, bool enabled) : total_(total), enabled_(enabled) {}
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<std::uint64_t>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+ProgressBar::ProgressBar(std::size_t total, bool enabled, const char* unit)
+    : total_(total), enabled_(enabled), unit_(unit) {}
 
 ProgressBar::~ProgressBar() {
   clear();
@@ -47,8 +56,8 @@ void ProgressBar::draw(const std::string& note) {
   const std::size_t filled = total_ > 0 ? kBarCells * done_ / total_ : kBarCells;
   std::string bar;
   for (std::size_t i = 0; i < kBarCells; ++i) bar += i < filled ? "█" : "░";
-  fmt::print(stderr, "\r\x1b[K{} {}/{}  {:.1f} frames/s  {:.0f} s left  {}", bar, done_, total_, per_second, left_s,
-             note.substr(0, kNoteMax));
+  fmt::print(stderr, "\r\x1b[K{} {}/{}  {:.1f} {}/s  {} left  {}", bar, done_, total_, per_second, unit_,
+             duration_text(left_s), note.substr(0, kNoteMax));
   std::fflush(stderr);
   drawn_ = true;
 }

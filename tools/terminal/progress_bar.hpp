@@ -14,10 +14,14 @@ namespace pose_wall::tools {
 // True when the stream number (1: stdout, 2: stderr) is a terminal that a person looks at.
 bool is_terminal(int stream);
 
+// "45 s", "3 min 20 s", "2 h 05 min".
+std::string duration_text(double seconds);
+
 // Writes to stderr, and nothing at all unless enabled.
 class ProgressBar {
  public:
-  ProgressBar(std::size_t total, bool enabled);
+  // `unit`: what is counted, for the rate.
+  ProgressBar(std::size_t total, bool enabled, const char* unit = "frames");
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   ~ProgressBar();  // takes the line away
@@ -37,6 +41,7 @@ class ProgressBar {
   std::size_t total_;
   std::size_t done_ = 0;
   bool enabled_;
+  const char* unit_;
   bool drawn_ = false;
   Clock::time_point started_ = Clock::now();
   Clock::time_point drawn_at_{};

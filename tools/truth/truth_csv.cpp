@@ -11,6 +11,7 @@
 #include <string>
 
 #include "csv/csv_table.hpp"
+#include "frames/whole_file.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -49,16 +50,15 @@ std::vector<TruthRow> rows_of(const CsvTable& table) {
 }  // namespace
 
 void write_truth_csv(const std::filesystem::path& file, const std::vector<TruthRow>& rows) {
-  std::ofstream out(file);
   std::vector<std::string> cells = {"frame", "stamp_ns"};
   cells.insert(cells.end(), kNames.begin(), kNames.end());
-  out << csv_line(cells);
+  std::string text = csv_line(cells);
   for (const TruthRow& row : rows) {
     cells = {std::to_string(row.frame), std::to_string(row.stamp_ns)};
     for (const double value : row.value) cells.push_back(csv_number(value));
-    out << csv_line(cells);
+    text += csv_line(cells);
   }
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
+  write_whole_file(file, text);
 }
 
 std::vector<TruthRow> read_truth_csv(const std::filesystem::path& file) {

@@ -22,6 +22,7 @@
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
 #include "terminal/counted.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
@@ -129,7 +130,7 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
       ->transform(trimmed);
   verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial, unobservable or all")
       ->capture_default_str()
-      ->check(CLI::IsMember({"nominal", "adversarial", "unobservable", "all"}));
+      ->check(one_of({"nominal", "adversarial", "unobservable", "all"}));
   verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',')->transform(trimmed);
   verb.add_option("--draws", plan.draws, "Draws per scene and sensor, instead of the size's")
       ->check(CLI::Range(1, 1000000));
@@ -157,7 +158,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
   verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records, and run nothing");
   verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");
-  verb->add_flag("-q,--quiet", options->quiet, "Print errors only");
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors, nothing on stdout");
   verb->footer(
       "Examples:\n"
       "  pose_wall campaign --size small --gate --output /tmp/card\n"

@@ -17,6 +17,7 @@
 #include "demo/demo_setup.hpp"
 #include "demo/live_table.hpp"
 #include "results/result_output.hpp"
+#include "terminal/colours.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/verbs.hpp"
@@ -28,6 +29,7 @@ struct DemoVerb {
   DemoOptions demo;
   std::string output = "out";
   std::uint32_t frames = 100;
+  bool quiet = false;
 };
 
 constexpr std::uint32_t kRowsShown = 12;
@@ -52,21 +54,29 @@ std::string scene_name(const DemoVerb& verb) {
 
 // Processes all frames; the last one is returned for the picture.
 DemoFrame process_frames(const DemoVerb& verb, DemoRun& run, ResultOutput& output, std::vector<TruthRow>& truth) {
-  const LiveTable table(is_terminal(1));
-  fmt::print("{}", table.head());
+  const LiveTable table(wants_colours(1));
+  if (!verb.quiet) fmt::print("{}", table.head());
   const std::uint32_t stride = std::max(1u, verb.frames / kRowsShown);
   DemoFrame frame;
   for (std::uint32_t i = 0; i < verb.frames; ++i) {
     frame = run.next();
     truth.push_back(frame.truth);
     if (!output.write(frame.outcome)) throw OutputError(output.name() + " cannot be written to the end");
-    if (i % stride == 0 || i + 1 == verb.frames) {
+    if (!verb.quiet && (i % stride == 0 || i + 1 == verb.frames)) {
       fmt::print("{}", table.rows(i, frame.time_s, *frame.outcome.result, frame.truth.value, frame.outcome.total_ms));
       std::fflush(stdout);
     }
   }
-  fmt::print("{}\n", table.key());
+  if (!verb.quiet) fmt::print("{}\n", table.key());
   return frame;
+}
+
+void print_end(const DemoRun& run, const std::filesystem::path& folder) {
+  fmt::print("{}\n", run.error_table());
+  fmt::print("median per frame: engine {:.1f} ms, simulator {:.1f} ms\n", run.median_engine_ms(),
+             run.median_render_ms());
+  fmt::print("results: {}, truth: {}\n", (folder / "demo.csv").string(), (folder / "truth.csv").string());
+  fmt::print("picture: {}\n", std::filesystem::absolute(folder / "demo.svg").string());
 }
 
 int demo(const DemoVerb& verb) {
@@ -75,8 +85,9 @@ int demo(const DemoVerb& verb) {
   const std::filesystem::path folder = output_folder(verb.output);
   ResultOutput output((folder / "demo.csv").string(), {});
 
-  fmt::print("Simulated roadway '{}', sensor {}, {}\n\n", scene_name(verb), verb.demo.sensor,
-             counted(verb.frames, "frame"));
+  if (!verb.quiet)
+    fmt::print("Simulated roadway '{}', sensor {}, {}\n\n", scene_name(verb), verb.demo.sensor,
+               counted(verb.frames, "frame"));
   std::vector<TruthRow> truth;
   const DemoFrame last = process_frames(verb, run, output, truth);
   write_truth_csv(folder / "truth.csv", truth);
@@ -85,11 +96,7 @@ int demo(const DemoVerb& verb) {
              run.picture(last, fmt::format("simulated roadway '{}', sensor {}, frame {}, {:.1f} s", scene_name(verb),
                                            verb.demo.sensor, last.outcome.frame, last.time_s)));
 
-  fmt::print("{}\n", run.error_table());
-  fmt::print("median per frame: engine {:.1f} ms, simulator {:.1f} ms\n", run.median_engine_ms(),
-             run.median_render_ms());
-  fmt::print("results: {}, truth: {}\n", (folder / "demo.csv").string(), (folder / "truth.csv").string());
-  fmt::print("picture: {}\n", std::filesystem::absolute(picture).string());
+  if (!verb.quiet) print_end(run, folder);
   return kExitDone;
 }
 
@@ -122,6 +129,7 @@ void add_demo(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   verb->add_option("-o,--output", options->output, "Folder for demo.svg, demo.csv and truth.csv")
       ->capture_default_str();
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors, nothing on stdout");
   verb->footer("Example:\n  pose_wall demo --sensor os0-128 --frames 200 --output out");
   verb->callback([options, &exit_code] { exit_code = demo_or_complaint(*options); });
 }

@@ -21,16 +21,16 @@ std::filesystem::path existing_part(std::filesystem::path path) {
 
 }  // namespace
 
-void make_output_folder(const std::string& path) {
+void make_output_folder(const std::string& path, std::string_view option) {
   std::error_code error;
   const std::filesystem::path there = existing_part(path);
   if (!there.empty() && std::filesystem::exists(there, error) && !std::filesystem::is_directory(there, error)) {
     throw std::invalid_argument(
-        fmt::format("--output {}: {} is a file; allowed is a folder, one that is there or one that can be made", path,
+        fmt::format("{} {}: {} is a file; allowed is a folder, one that is there or one that can be made", option, path,
                     there.string()));
   }
   std::filesystem::create_directories(path, error);
-  if (error) throw std::runtime_error(fmt::format("--output {}: cannot be made a folder: {}", path, error.message()));
+  if (error) throw std::runtime_error(fmt::format("{} {}: cannot be made a folder: {}", option, path, error.message()));
 }
 
 }  // namespace pose_wall::tools

@@ -47,7 +47,7 @@ int replay(const ReplayOptions& options) {
   try {
     std::unique_ptr<ProgressBar> bar;
     result = replay_box(options.file, [&](std::uint64_t done, std::uint64_t of) {
-      if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2));
+      if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2), "events");
       bar->advance(fmt::format("event {}", done));
     });
   } catch (const std::runtime_error& error) {
@@ -65,7 +65,7 @@ void add_replay_box(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReplayOptions>();
   CLI::App* verb = app.add_subcommand("replay-box", "Compute a black box again and compare every bit");
   verb->add_option("FILE", options->file, "A black box, as the runtime wrote it")->required();
-  verb->add_flag("-q,--quiet", options->quiet, "No progress on stderr");
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->footer(
       "Example:\n  pose_wall replay-box box.pwbox\n"
       "Exit status: 0 every event computes to the recorded bits and nothing is damaged, 1 damaged, no black box, or "

@@ -27,6 +27,7 @@
 #include "terminal/progress_bar.hpp"
 #include "truth/truth_csv.hpp"
 #include "verbs/frame_options.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
@@ -127,7 +128,7 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("--title", options->title, "Heading; default: the name of the first input");
   verb->add_option("--language", options->language, "The page opens in: en or zh; it has a button for the other")
       ->capture_default_str()
-      ->check(CLI::IsMember({"en", "zh"}));
+      ->check(one_of({"en", "zh"}));
   verb->add_option("--points", options->points_max, "Points in the page, of all frames together: 9 bytes each")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1000}, std::size_t{20'000'000}));

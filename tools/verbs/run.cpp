@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -20,8 +21,11 @@
 #include "results/result_output.hpp"
 #include "results/run_summary.hpp"
 #include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
+#include "verbs/annotated_folder.hpp"
 #include "verbs/frame_options.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -30,7 +34,16 @@ namespace {
 struct RunOptions {
   FrameOptions frames;
   std::string output;
+  std::string format = "csv";
+  std::string annotate;  // folder; empty: none
+  std::string annotate_format = "pcd";
 };
+
+std::optional<AnnotatedFolder> annotated_folder(const RunOptions& options) {
+  if (options.annotate.empty()) return std::nullopt;
+  const CloudFormat format = options.annotate_format == "ply" ? CloudFormat::kPly : CloudFormat::kPcd;
+  return AnnotatedFolder(options.annotate, format, options.frames.inputs);
+}
 
 void print_start(const RunOptions& options, const LoadedConfig& loaded, const FrameRunner& runner, std::size_t frames) {
   fmt::print(stderr, "pose_wall {}: {}, config {}, {:.1f} MB for the engine\n{}", pose_wall_version(),
@@ -39,37 +52,71 @@ void print_start(const RunOptions& options, const LoadedConfig& loaded, const Fr
              resolved_frames_text(resolve_frames(loaded.config), "  "));
 }
 
-// False when the output could not be written.
-bool process_frames(const RunOptions& options, FrameSequence& inputs, FrameRunner& runner, ResultOutput& output,
-                    RunSummary& summary) {
+struct Outputs {
+  ResultOutput& results;
+  std::optional<AnnotatedFolder>& annotated;
+
+  // What could not be written; empty when all was.
+  std::string write(const FrameOutcome& outcome) const {
+    if (!results.write(outcome)) return fmt::format("{} could not be written to the end", results.name());
+    try {
+      if (annotated) annotated->write(outcome);
+      return "";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  }
+};
+
+// What could not be written, or nothing. Ctrl-C ends it after the frame at work.
+std::string process_frames(const RunOptions& options, FrameSequence& inputs, FrameRunner& runner,
+                           const Outputs& outputs, RunSummary& summary) {
   // A bar between rows of the table on the same terminal would spoil both.
-  const bool show_bar = !options.frames.quiet && is_terminal(2) && !(output.is_stdout() && is_terminal(1));
+  const bool show_bar = !options.frames.quiet && is_terminal(2) && !(outputs.results.is_stdout() && is_terminal(1));
   ProgressBar bar(inputs.frames(), show_bar);
-  while (std::optional<SourcedFrame> frame = inputs.next()) {
-    const FrameOutcome outcome = runner.run(std::move(*frame));
+  const FrameRunner::Look look = [&outputs](const auto&, const auto& points, const auto& result) {
+    if (outputs.annotated) outputs.annotated->look(points, result);
+  };
+  while (!InterruptWatch::is_interrupted()) {
+    std::optional<SourcedFrame> frame = inputs.next();
+    if (!frame) break;
+    const FrameOutcome outcome = runner.run(std::move(*frame), look);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
     summary.add(outcome);
-    if (!output.write(outcome)) return false;
+    const std::string fault = outputs.write(outcome);
+    if (!fault.empty()) return fault;
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
-  return true;
+  return "";
+}
+
+int tell_interrupted(std::size_t frames, std::size_t of) {
+  fmt::print(stderr, "interrupted: {} of {} measured, each with its whole row\n", frames,
+             counted(of, "frame is", "frames are"));
+  return kExitInterrupted;
 }
 
 int run(const RunOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
   FrameRunner runner(loaded.config, options.frames.rate_hz);
-  ResultOutput output(options.output, inputs.files());
+  std::optional<AnnotatedFolder> annotated = annotated_folder(options);
+  ResultOutput output(options.output, inputs.files(),
+                      options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv);
   if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
 
   const auto started = std::chrono::steady_clock::now();
   RunSummary summary;
-  const bool written = process_frames(options, inputs, runner, output, summary);
+  const InterruptWatch watch;
+  const std::string fault = process_frames(options, inputs, runner, {output, annotated}, summary);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  if (!written) fmt::print(stderr, "pose_wall run: {} could not be written to the end\n", output.name());
+  if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);
   if (!options.frames.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
-  return written && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
+  if (summary.frames() < inputs.frames() && InterruptWatch::is_interrupted()) {
+    return tell_interrupted(summary.frames(), inputs.frames());
+  }
+  return fault.empty() && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
 
 }  // namespace
@@ -78,11 +125,24 @@ void add_run(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = app.add_subcommand("run", "Measure attitude and wall distances in frames of a LiDAR");
   add_frame_options(verb, &options->frames);
-  verb->add_option("-o,--output", options->output, "CSV file for the results; default: standard output");
+  verb->add_option("-o,--output", options->output, "File for the results; default: standard output");
+  verb->add_option("--format", options->format, "Results as CSV, or as JSON: one object per line and frame")
+      ->capture_default_str()
+      ->check(one_of({"csv", "json"}));
+  CLI::Option* annotate = verb->add_option(
+      "--annotate", options->annotate,
+      "Folder for the points of each frame: base frame, label (0 other, 1 floor, 2 left, 3 right wall), distance to "
+      "its plane, colour; for CloudCompare, pcl_viewer, Open3D");
+  verb->add_option("--annotate-format", options->annotate_format, "Of these clouds, binary")
+      ->capture_default_str()
+      ->check(one_of({"pcd", "ply"}))
+      ->needs(annotate);
   verb->footer(
-      "Example:\n  pose_wall run --config config/pose_wall.yaml --set forward_axis=+Y --output out.csv frames/\n"
+      "Examples:\n  pose_wall run --config config/pose_wall.yaml --set forward_axis=+Y --output out.csv frames/\n"
+      "  pose_wall run -c config/pose_wall.yaml --format json -o out.jsonl --annotate labelled frames/\n"
       "A file name of 16 to 19 digits is the frame's stamp in nanoseconds; other frames are 1/rate apart.\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config.");
+      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n130 "
+      "interrupted by Ctrl-C: what is written is whole rows and whole files.");
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

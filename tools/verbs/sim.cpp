@@ -7,7 +7,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,12 +14,14 @@
 #include <vector>
 
 #include "frames/pcd_writer.hpp"
+#include "frames/whole_file.hpp"
 #include "sim/parameters.hpp"
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
 #include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
@@ -74,30 +75,27 @@ sim::Setup resolve_setup(const SimOptions& options) {
   return setup;
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
-}
-
 // A longer run into the same folder left frames that this run's truth knows nothing of.
-void remove_later_frames(const SimOptions& options) {
-  std::uint32_t i = options.frames;
+void remove_later_frames(const SimOptions& options, std::uint32_t i) {
   while (std::filesystem::remove(sim::frame_file(options.output, i))) ++i;
 }
 
-void write_frames(const SimOptions& options, const sim::Simulator& simulator) {
+// How many: Ctrl-C ends it after the frame at work. Those that are there have their truth.
+std::uint32_t write_frames(const SimOptions& options, const sim::Simulator& simulator) {
+  const InterruptWatch watch;
   ProgressBar bar(options.frames, !options.quiet && is_terminal(2));
   std::vector<TruthRow> truth;
-  for (std::uint32_t i = 0; i < options.frames; ++i) {
+  std::uint32_t i = 0;
+  for (; i < options.frames && !InterruptWatch::is_interrupted(); ++i) {
     const sim::Frame frame = simulator.render(i);
     const std::filesystem::path file = sim::frame_file(options.output, i);
     write_pcd_binary(file, frame.xyz_intensity.data(), frame.count());
     truth.push_back(simulator.truth(i));
     bar.advance(file.filename().string());
   }
-  remove_later_frames(options);
+  remove_later_frames(options, i);
   write_truth_csv(std::filesystem::path(options.output) / "truth.csv", truth);
+  return i;
 }
 
 int simulate(const SimOptions& options) {
@@ -107,21 +105,25 @@ int simulate(const SimOptions& options) {
   }
   if (options.output.empty()) throw std::invalid_argument("--output DIR is needed");
   const sim::Simulator simulator(resolve_setup(options), options.seed);
+  std::uint32_t written = 0;
   try {
     make_output_folder(options.output);
     std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
-    write_text(std::filesystem::path(options.output) / "pose_wall.yaml",
-               sim::engine_settings(simulator.setup(),
-                                    fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
-                                                options.seed, options.random ? ", random sizes" : "")));
-    write_frames(options, simulator);
+    write_whole_file(std::filesystem::path(options.output) / "pose_wall.yaml",
+                     sim::engine_settings(simulator.setup(),
+                                          fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
+                                                      options.seed, options.random ? ", random sizes" : "")));
+    written = write_frames(options, simulator);
   } catch (const std::runtime_error& error) {
     fmt::print(stderr, "pose_wall sim: {}\n", error.what());
     return kExitUnreadable;
   }
   if (!options.quiet)
-    fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(options.frames, "frame"));
-  return kExitDone;
+    fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
+  if (written == options.frames) return kExitDone;
+  fmt::print(stderr, "interrupted: {} of {} written, with their truth\n", written,
+             counted(options.frames, "frame is", "frames are"));
+  return kExitInterrupted;
 }
 
 }  // namespace
@@ -145,7 +147,10 @@ void add_sim(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example:\n  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
       "  pose_wall run --config /tmp/road/pose_wall.yaml --output out.csv /tmp/road/frames\n"
-      "  pose_wall eval out.csv /tmp/road/truth.csv");
+      "  pose_wall eval out.csv /tmp/road/truth.csv\n"
+      "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: the frames that are "
+      "there "
+      "are whole and have their truth.");
   verb->callback([options, &exit_code] { exit_code = simulate(*options); });
 }
 

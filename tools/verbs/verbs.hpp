@@ -13,8 +13,10 @@ namespace pose_wall::tools {
 constexpr int kExitDone = 0;
 constexpr int kExitUnreadable = 1;     // an input could not be read, or a result not written
 constexpr int kExitUsage = 2;          // bad usage or config
+constexpr int kExitNotUsable = 3;      // doctor: these frames make no measurement
 constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 
+void add_doctor(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);
 void add_demo(CLI::App& app, int& exit_code);
@@ -23,6 +25,9 @@ void add_info(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_replay_box(CLI::App& app, int& exit_code);
+void add_explain(CLI::App& app, int& exit_code);
 void add_check_config(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
+void add_man(CLI::App& app, int& exit_code);
 
 }  // namespace pose_wall::tools

@@ -114,7 +114,7 @@ class Charts {
       const c = { f, to: Math.min(last, f + per - 1), low: NaN, high: NaN, band_low: NaN, band_high: NaN, truth: NaN, state: 3 };
       for (let k = f; k <= c.to; ++k) {
         const i = r.at(k, q), v = r.value[i] * unit, level = r.level[i] * unit;
-        c.state = Math.min(c.state, r.state[i]);
+        c.state = r.state[i] === UNREADABLE || c.state === UNREADABLE ? UNREADABLE : Math.min(c.state, r.state[i]);
         if (Number.isFinite(r.truth[i])) c.truth = r.truth[i] * unit;
         if (!Number.isFinite(v) || r.state[i] === 0) continue;
         const lower = (a, b) => (a <= b ? a : b), higher = (a, b) => (a >= b ? a : b);

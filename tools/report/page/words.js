@@ -2,7 +2,8 @@
 // What the page says, in English and Chinese. Names of quantities, states and reasons are those of pose_wall.h.
 
 const QUANTITIES = ['roll', 'pitch', 'yaw', 'd_lf', 'd_lb', 'd_rf', 'd_rb'];
-const STATES = ['invalid', 'held', 'degraded', 'valid'];
+// By pose_wall_state; the last is not the engine's: a frame that it never saw.
+const STATES = ['invalid', 'held', 'degraded', 'valid', 'unreadable'], UNREADABLE = 4;
 
 const WORDS = {
   en: {
@@ -38,7 +39,7 @@ const WORDS = {
     verdict_unreadable: (n) => `${count(n, 'frame')} could not be read.`,
     verdict_no_truth: 'There is no truth to compare with: the verdict speaks of states only.',
     names: { roll: 'roll', pitch: 'pitch', yaw: 'yaw', d_lf: 'left front', d_lb: 'left back', d_rf: 'right front', d_rb: 'right back' },
-    states: { valid: 'valid', degraded: 'degraded', held: 'held', invalid: 'invalid' },
+    states: { valid: 'valid', degraded: 'degraded', held: 'held', invalid: 'invalid', unreadable: 'unreadable' },
   },
   zh: {
     other_language: 'English (EN)', theme: '深色 / 浅色', play: '▶ 播放', pause: '❚❚ 暂停',
@@ -70,7 +71,7 @@ const WORDS = {
     verdict_unreadable: (n) => `${n} 帧无法读取。`,
     verdict_no_truth: '没有真值可供对比：结论仅依据状态。',
     names: { roll: '横滚', pitch: '俯仰', yaw: '航向', d_lf: '左前', d_lb: '左后', d_rf: '右前', d_rb: '右后' },
-    states: { valid: '有效', degraded: '降级', held: '保持', invalid: '无效' },
+    states: { valid: '有效', degraded: '降级', held: '保持', invalid: '无效', unreadable: '无法读取' },
     reason_texts: {
       no_points: '滤波后点数不足', leaf_grown: '体素被放大以不超过 points_max', stamp_still: '时间戳与上一帧相同',
       stamp_back: '时间戳倒退', stamp_leap: '时间戳向前跳变', frozen: '点云与上一帧完全相同：传感器冻结',

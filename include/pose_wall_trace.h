@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/*
+ * Why a frame came out as it did: one frame computed once more, with every gate it met and every plane that was
+ * considered. For people at a desk and for tests. libpose_wall_traced.a is the engine of the same sources, which takes
+ * notes; libpose_wall.a holds nothing of this. Both may be in one program: the traced one defines pose_wall_trace_*
+ * alone. It is not installed, and no part of the ABI: what is told changes with the engine.
+ *
+ *     pose_wall_save(engine, memento, sizeof memento);     before the frame
+ *     pose_wall_process(engine, &cloud, &result);
+ *     pose_wall_trace_frame(&config, memento, sizeof memento, &cloud, block, bytes, &again, trace);
+ *
+ * result and again are the same bits (stage_ns apart, which needs a clock), so what trace tells is of both.
+ */
+
+#ifndef POSE_WALL_TRACE_H
+#define POSE_WALL_TRACE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "pose_wall.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a note is about. Quantity q is POSE_WALL_TRACE_QUANTITY + q. */
+enum pose_wall_trace_subject {
+  POSE_WALL_TRACE_FRAME = 0,
+  POSE_WALL_TRACE_FLOOR = 1,
+  POSE_WALL_TRACE_LEFT = 2,
+  POSE_WALL_TRACE_RIGHT = 3,
+  POSE_WALL_TRACE_WALLS = 4, /* both sides at once */
+  POSE_WALL_TRACE_AHEAD = 5, /* planes across the road: candidates only */
+  POSE_WALL_TRACE_BEHIND = 6,
+  POSE_WALL_TRACE_QUANTITY = 8
+};
+#define POSE_WALL_TRACE_SUBJECTS (POSE_WALL_TRACE_QUANTITY + POSE_WALL_QUANTITIES)
+
+/* In the order of the pipeline. What each asks: pose_wall_trace_gate_info. */
+enum pose_wall_trace_gate_id {
+  /* the frame */
+  POSE_WALL_TRACE_LEAF = 0,
+  POSE_WALL_TRACE_VOXELS_FIT,
+  POSE_WALL_TRACE_POINTS,
+  /* the floor, by radius */
+  POSE_WALL_TRACE_FLOOR_POINTS,
+  POSE_WALL_TRACE_FLOOR_PLANES,
+  POSE_WALL_TRACE_FLOOR_FIT,
+  POSE_WALL_TRACE_FLOOR_BEND,
+  POSE_WALL_TRACE_FLOOR_RIVAL,
+  POSE_WALL_TRACE_FLOOR_ALONE,
+  POSE_WALL_TRACE_FLOOR_TILT,
+  POSE_WALL_TRACE_FLOOR_HEIGHT_MIN,
+  POSE_WALL_TRACE_FLOOR_HEIGHT_MAX,
+  POSE_WALL_TRACE_FLOOR_STAYED,
+  POSE_WALL_TRACE_FLOOR_INLIERS,
+  POSE_WALL_TRACE_FLOOR_AREA,
+  POSE_WALL_TRACE_FLOOR_SPREAD,
+  POSE_WALL_TRACE_FLOOR_BY_WALLS,
+  /* the choice of the walls */
+  POSE_WALL_TRACE_LEVEL,
+  POSE_WALL_TRACE_WALL_PLANES,
+  POSE_WALL_TRACE_WALL_INLIERS,
+  POSE_WALL_TRACE_WALL_LENGTH,
+  POSE_WALL_TRACE_WALL_SOLID,
+  POSE_WALL_TRACE_WALL_LEAN,
+  POSE_WALL_TRACE_PAIR_PARALLEL,
+  POSE_WALL_TRACE_PAIR_LENGTH,
+  POSE_WALL_TRACE_PAIR_CONTESTED,
+  POSE_WALL_TRACE_PAIR_SHARE,
+  POSE_WALL_TRACE_WALL_LENGTH_ALONE,
+  POSE_WALL_TRACE_WALL_FILLED,
+  POSE_WALL_TRACE_WALLS_PARALLEL,
+  POSE_WALL_TRACE_WALL_CHOSEN,
+  POSE_WALL_TRACE_ACROSS,
+  POSE_WALL_TRACE_ACROSS_ALONE,
+  POSE_WALL_TRACE_EXPLAINED,
+  POSE_WALL_TRACE_WALL_RIVAL,
+  /* the fit of a chosen wall */
+  POSE_WALL_TRACE_WALL_FIT,
+  POSE_WALL_TRACE_WALL_BEND,
+  POSE_WALL_TRACE_SAMPLE_BEND,
+  POSE_WALL_TRACE_SAMPLE_GAP,
+  POSE_WALL_TRACE_SAMPLE_STEP,
+  POSE_WALL_TRACE_WALL_SOLID_DOUBT,
+  POSE_WALL_TRACE_FIT_INLIERS,
+  POSE_WALL_TRACE_FIT_STAYED,
+  POSE_WALL_TRACE_WALL_YAW,
+  /* the close look */
+  POSE_WALL_TRACE_WALL_BRIGHT,
+  POSE_WALL_TRACE_WALL_TOP_SEEN,
+  POSE_WALL_TRACE_WALL_OPEN_DOUBT,
+  POSE_WALL_TRACE_WALL_GROOVES,
+  POSE_WALL_TRACE_WALL_SILENT,
+  POSE_WALL_TRACE_WALL_OPEN,
+  POSE_WALL_TRACE_WALL_TOPLESS,
+  POSE_WALL_TRACE_WALL_ISLAND,
+  POSE_WALL_TRACE_WALL_LOW,
+  POSE_WALL_TRACE_LEFT_ALONE,
+  POSE_WALL_TRACE_WALL_NEAR,
+  /* time and the outcome */
+  POSE_WALL_TRACE_STAMP_STILL,
+  POSE_WALL_TRACE_STAMP_BACK,
+  POSE_WALL_TRACE_STAMP_LEAP,
+  POSE_WALL_TRACE_REPEATED,
+  POSE_WALL_TRACE_FROZEN,
+  POSE_WALL_TRACE_LEVEL_RAW,
+  POSE_WALL_TRACE_RATE,
+  POSE_WALL_TRACE_INNOVATION,
+  POSE_WALL_TRACE_LEVEL_SMOOTHED,
+  POSE_WALL_TRACE_EVER,
+  POSE_WALL_TRACE_HELD_LEVEL,
+  POSE_WALL_TRACE_HELD_AGE,
+  POSE_WALL_TRACE_HELD_BEFORE,
+  POSE_WALL_TRACE_GATES
+};
+
+/* What becomes of the subject when the gate does not hold. */
+enum pose_wall_trace_effect {
+  POSE_WALL_TRACE_TELLS = 0,  /* it goes on otherwise */
+  POSE_WALL_TRACE_DOUBTS = 1, /* not better than degraded, or a wider protection level */
+  POSE_WALL_TRACE_REFUSES = 2 /* not measured in this frame */
+};
+
+enum pose_wall_trace_sense {
+  POSE_WALL_TRACE_AT_LEAST = 0, /* the value is to be the limit or more */
+  POSE_WALL_TRACE_AT_MOST = 1,
+  POSE_WALL_TRACE_IS_SO = 2 /* value 1 holds, 0 does not: no amounts */
+};
+
+typedef struct pose_wall_trace_info {
+  const char* name; /* "wall_length" */
+  const char* key;  /* of the config, that sets the limit; "" where it is a constant of the engine. Two, divided by '|':
+                       of an angle and of a distance, whatever the subject is */
+  const char* unit; /* of value and limit: "m", "m2", "rad", "s", "points", "share" (of 1), "frames", or "": a bare
+                       number, or what the subject is measured in (LEVEL_*, INNOVATION, HELD_LEVEL) */
+  const char* asks; /* "the wall is supported along the road": what the value is */
+  uint32_t sense;   /* pose_wall_trace_sense */
+  uint32_t effect;  /* pose_wall_trace_effect */
+  uint32_t reasons; /* pose_wall_reason bits that it sets when it does not hold */
+  uint32_t reserved;
+} pose_wall_trace_info;
+
+/* Static storage. Fails iff: NULL, POSE_WALL_E_INDEX. */
+int32_t pose_wall_trace_gate_info(uint32_t gate, pose_wall_trace_info* info);
+
+typedef struct pose_wall_trace_gate {
+  uint32_t subject; /* pose_wall_trace_subject */
+  uint32_t gate;    /* pose_wall_trace_gate_id */
+  uint32_t attempt; /* floor: which radius, from 0. walls: 0 while planes are chosen, 1 for the fit */
+  uint32_t passed;
+  double value;
+  double limit;
+} pose_wall_trace_gate;
+
+/* What became of a plane that was considered. */
+enum pose_wall_trace_fate {
+  POSE_WALL_TRACE_CHOSEN = 0,
+  POSE_WALL_TRACE_RIVAL = 1,  /* nearly as good: the protection level reaches to it */
+  POSE_WALL_TRACE_WEAKER = 2, /* passed its gates; another one shows more */
+  POSE_WALL_TRACE_GATES_FAILED = 3,
+  POSE_WALL_TRACE_OUT_OF_RANGE = 4, /* tilt or height (floor), direction or lean (wall) */
+  POSE_WALL_TRACE_UNSUPPORTED = 5,  /* points do not hold it: a fit came to nothing, or chance explains it as well */
+  POSE_WALL_TRACE_REPEATS = 6,      /* the same surface as another one */
+  POSE_WALL_TRACE_MUCH_BELOW = 7,   /* floor: too much is seen below it */
+  POSE_WALL_TRACE_REFLECTION = 8    /* floor: seen through open floor, a mirror image in wet ground */
+};
+
+typedef struct pose_wall_trace_candidate {
+  uint32_t subject; /* floor, left, right, ahead, behind */
+  uint32_t attempt; /* floor: which radius */
+  uint32_t fate;    /* pose_wall_trace_fate */
+  uint32_t reasons; /* pose_wall_reason bits of the gates it fails */
+  double normal[3]; /* floor: base frame. walls: levelled frame */
+  double d_m;
+  double height_m; /* floor: of the sensor above it */
+  double tilt_rad; /* floor: against base. walls: lean from the vertical */
+  double score_m2; /* what it is chosen by: open or solid area, less what speaks against it */
+  double area_m2;
+  double length_m; /* walls: supported along the road */
+  double seen_through;
+  double inliers; /* walls: measured points on it */
+  double support; /* floor: about this share of the points it was tried on lies on it */
+} pose_wall_trace_candidate;
+
+#define POSE_WALL_TRACE_GATES_MAX 512
+#define POSE_WALL_TRACE_CANDIDATES_MAX 192
+#define POSE_WALL_TRACE_ATTEMPTS_MAX 16
+
+typedef struct pose_wall_trace {
+  uint32_t gates;
+  uint32_t candidates;
+  uint32_t dropped;        /* notes there was no room for */
+  uint32_t floor_attempts; /* radii that were tried */
+  uint32_t floor_attempt;  /* the one that was taken */
+  uint32_t reserved;
+  double floor_radius_m[POSE_WALL_TRACE_ATTEMPTS_MAX];
+  pose_wall_trace_gate gate[POSE_WALL_TRACE_GATES_MAX];
+  pose_wall_trace_candidate candidate[POSE_WALL_TRACE_CANDIDATES_MAX];
+} pose_wall_trace;
+
+/* Computes one frame by a fresh engine in block (pose_wall_memory_needed bytes, POSE_WALL_BLOCK_ALIGNMENT) that
+ * remembers what memento says, NULL: nothing, and fills trace with its notes. result->struct_size is to be set. Fails
+ * as pose_wall_open, pose_wall_load and pose_wall_process do; trace is then empty. One frame per thread at a time. */
+int32_t pose_wall_trace_frame(const pose_wall_config* config, const void* memento, uint64_t memento_bytes,
+                              const pose_wall_cloud* cloud, void* block, uint64_t block_bytes, pose_wall_result* result,
+                              pose_wall_trace* trace);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_TRACE_H */

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "trace/trace.hpp"
+
+namespace pose_wall::trace {
+namespace {
+
+struct Writer {
+  pose_wall_trace* to;
+  std::uint32_t subject;
+  std::uint32_t attempt;
+  bool floor_taken;
+  pose_wall_trace_candidate* last;
+};
+
+// The stages are free functions of what they are given, and the notes are to change none of them.
+thread_local Writer writer = {nullptr, 0, 0, false, nullptr};
+
+// Where there is no room, or nobody listens.
+thread_local pose_wall_trace_candidate nowhere;
+
+}  // namespace
+
+void write_to(pose_wall_trace* trace) {
+  writer = {trace, POSE_WALL_TRACE_FRAME, 0, false, nullptr};
+}
+
+void subject(std::uint32_t subject) {
+  writer.subject = subject;
+}
+
+void attempt(std::uint32_t attempt) {
+  writer.attempt = attempt;
+}
+
+void gate_of(std::uint32_t subject, pose_wall_trace_gate_id id, double value, double limit, bool passed) {
+  if (writer.to == nullptr) return;
+  if (writer.to->gates == POSE_WALL_TRACE_GATES_MAX) {
+    ++writer.to->dropped;
+    return;
+  }
+  const bool of_floor_taken = subject == POSE_WALL_TRACE_FLOOR && writer.floor_taken;
+  const std::uint32_t attempt = of_floor_taken ? writer.to->floor_attempt : writer.attempt;
+  writer.to->gate[writer.to->gates++] = {subject, id, attempt, passed ? 1U : 0U, value, limit};
+}
+
+void gate(pose_wall_trace_gate_id id, double value, double limit, bool passed) {
+  gate_of(writer.subject, id, value, limit, passed);
+}
+
+void gate(pose_wall_trace_gate_id id, bool is_so) {
+  gate_of(writer.subject, id, is_so ? 1.0 : 0.0, 1.0, is_so);
+}
+
+void floor_radius(std::uint32_t attempt, double radius_m) {
+  writer.attempt = attempt;
+  writer.subject = POSE_WALL_TRACE_FLOOR;
+  if (writer.to == nullptr || attempt >= POSE_WALL_TRACE_ATTEMPTS_MAX) return;
+  writer.to->floor_radius_m[attempt] = radius_m;
+  writer.to->floor_attempts = attempt + 1;
+}
+
+void floor_attempt_taken(std::uint32_t attempt) {
+  writer.attempt = 0;
+  writer.floor_taken = true;  // what else is said of the floor is said of this one
+  if (writer.to != nullptr) writer.to->floor_attempt = attempt;
+}
+
+pose_wall_trace_candidate* candidate(pose_wall_trace_fate fate, const Plane& plane) {
+  pose_wall_trace_candidate* out = &nowhere;
+  if (writer.to != nullptr && writer.to->candidates < POSE_WALL_TRACE_CANDIDATES_MAX) {
+    out = &writer.to->candidate[writer.to->candidates++];
+  } else if (writer.to != nullptr) {
+    ++writer.to->dropped;
+  }
+  *out = pose_wall_trace_candidate{};
+  writer.last = out;
+  out->subject = writer.subject;
+  out->attempt = writer.attempt;
+  out->fate = fate;
+  for (int k = 0; k < 3; ++k) out->normal[k] = plane.n[k];
+  out->d_m = plane.d;
+  return out;
+}
+
+void refined(pose_wall_trace_fate fate, const Plane& plane) {
+  if (writer.last == nullptr) return;
+  writer.last->fate = fate;
+  for (int k = 0; k < 3; ++k) writer.last->normal[k] = plane.n[k];
+  writer.last->d_m = plane.d;
+}
+
+pose_wall_trace_candidate* noted(const Plane& plane) {
+  if (writer.to == nullptr) return nullptr;
+  for (std::uint32_t i = writer.to->candidates; i-- > 0;) {
+    pose_wall_trace_candidate* const c = &writer.to->candidate[i];
+    const bool same = c->d_m == plane.d && c->normal[0] == plane.n.x() && c->normal[1] == plane.n.y();
+    if (same && c->subject == writer.subject && c->attempt == writer.attempt) return c;
+  }
+  return nullptr;
+}
+
+void fate(const Plane& plane, pose_wall_trace_fate fate) {
+  if (pose_wall_trace_candidate* const c = noted(plane)) c->fate = fate;
+}
+
+}  // namespace pose_wall::trace

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include <cstring>
+
+#include "pose_wall.h"
+#include "pose_wall_trace.h"
+#include "trace/trace.hpp"
+
+namespace pose_wall::trace {
+namespace {
+
+#define GATE(id, name, key, unit, sense, effect, reasons, asks) \
+  {name, key, unit, asks, POSE_WALL_TRACE_##sense, POSE_WALL_TRACE_##effect, reasons, 0},
+constexpr pose_wall_trace_info kGates[] = {
+#include "trace/gates.def"
+};
+#undef GATE
+static_assert(sizeof kGates / sizeof kGates[0] == POSE_WALL_TRACE_GATES, "gates.def and pose_wall_trace.h differ");
+
+#define GATE(id, name, key, unit, sense, effect, reasons, asks) POSE_WALL_TRACE_##id,
+constexpr std::uint32_t kIds[] = {
+#include "trace/gates.def"
+};
+#undef GATE
+
+constexpr bool in_order() {
+  for (std::uint32_t i = 0; i < POSE_WALL_TRACE_GATES; ++i) {
+    if (kIds[i] != i) return false;
+  }
+  return true;
+}
+static_assert(in_order(), "gates.def is in another order than pose_wall_trace.h");
+
+std::int32_t open(const pose_wall_config* config, const void* memento, std::uint64_t memento_bytes, void* block,
+                  std::uint64_t block_bytes, pose_wall_engine** engine) {
+  const std::int32_t status = pose_wall_open(config, block, block_bytes, engine);
+  if (status != POSE_WALL_OK || memento == nullptr) return status;
+  return pose_wall_load(*engine, memento, memento_bytes);
+}
+
+}  // namespace
+}  // namespace pose_wall::trace
+
+extern "C" {
+
+__attribute__((visibility("default"))) int32_t pose_wall_trace_gate_info(uint32_t gate, pose_wall_trace_info* info) {
+  if (info == nullptr) return POSE_WALL_E_NULL;
+  if (gate >= POSE_WALL_TRACE_GATES) return POSE_WALL_E_INDEX;
+  *info = pose_wall::trace::kGates[gate];
+  return POSE_WALL_OK;
+}
+
+__attribute__((visibility("default"))) int32_t pose_wall_trace_frame(const pose_wall_config* config,
+                                                                     const void* memento, uint64_t memento_bytes,
+                                                                     const pose_wall_cloud* cloud, void* block,
+                                                                     uint64_t block_bytes, pose_wall_result* result,
+                                                                     pose_wall_trace* trace) {
+  if (trace == nullptr) return POSE_WALL_E_NULL;
+  *trace = pose_wall_trace{};
+  pose_wall_engine* engine = nullptr;
+  int32_t status = pose_wall::trace::open(config, memento, memento_bytes, block, block_bytes, &engine);
+  if (status != POSE_WALL_OK) return status;
+  pose_wall::trace::write_to(trace);
+  status = pose_wall_process(engine, cloud, result);
+  pose_wall::trace::write_to(nullptr);
+  return status;
+}
+
+}  // extern "C"

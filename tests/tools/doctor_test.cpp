@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: on simulated mounts the doctor finds sensor, height, tilt, axis and body within the tolerances below, and the
+// settings it proposes measure the same frames within their protection levels; no gate is ever loosened; what cannot be
+// used or must not be overwritten is refused. Does not prove: anything about machines that move, or rooms that are
+// none.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "doctor/diagnosis.hpp"
+#include "doctor/trial.hpp"
+#include "sim/parameters.hpp"
+#include "sim/scenes.hpp"
+#include "sim/sensors.hpp"
+#include "sim/simulator.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr double kDegPerRad = 57.29577951308232;
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+struct Mount {
+  const char* name;
+  const char* sensor;
+  std::vector<const char*> settings;  // of the simulator
+  double roll_deg, pitch_deg, height_m;
+  const char* forward_axis;
+  double tilt_tolerance_deg, height_tolerance_m;
+};
+
+void PrintTo(const Mount& mount, std::ostream* out) {
+  *out << mount.name;
+}
+
+sim::SceneSetup setup_of(const char* sensor, const std::vector<const char*>& settings) {
+  sim::SceneSetup setup;
+  setup.sensor = sim::find_sensor(sensor)->sensor;
+  for (const char* setting : settings) sim::set_parameter(setup, setting);
+  return setup;
+}
+
+struct Simulated {
+  doctor::Recording recording;
+  std::vector<TruthRow> truth;
+  std::vector<sim::Frame> frames;
+};
+
+// `count` frames with stamps 0.1 s apart, as if their files were named by them.
+Simulated simulate(const sim::SceneSetup& setup, std::uint32_t count) {
+  const sim::Simulator simulator(setup, 7);
+  Simulated out;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    sim::Frame frame = simulator.render(i);
+    pose_wall_cloud cloud{};
+    pose_wall_cloud_xyz32(&cloud, frame.xyz_intensity.data(), static_cast<std::uint32_t>(frame.count()), 16, 0);
+    doctor::KeptFrame kept;
+    doctor::FrameNote note = doctor::note_of(cloud, kept);
+    note.stamp_ns = 1'700'000'000'000'000'000 + i * 100'000'000LL;
+    note.has_own_stamp = true;
+    out.recording.add(note, std::move(kept));
+    out.truth.push_back(simulator.truth(i));
+    out.frames.push_back(std::move(frame));
+  }
+  return out;
+}
+
+LoadedConfig told(const std::vector<std::string>& settings = {}) {
+  return load_config(std::nullopt, settings);
+}
+
+class Mounts : public ::testing::TestWithParam<Mount> {};
+
+TEST_P(Mounts, AreFoundAndTheProposalMeasures) {
+  const Mount& mount = GetParam();
+  const Simulated simulated = simulate(setup_of(mount.sensor, mount.settings), 6);
+  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(), std::nullopt);
+  ASSERT_TRUE(d.verdict.is_usable()) << d.verdict.line();
+  EXPECT_EQ(d.sensor.model, mount.sensor);
+  EXPECT_NEAR(d.mount->story.floor.height_m, mount.height_m, mount.height_tolerance_m);
+  const api::Config& config = d.proposal.config();
+  const auto off_deg = [&config](const char* key, double truth_deg) {
+    return std::fabs(std::remainder(config.number(key) * kDegPerRad - truth_deg, 360.0));
+  };
+  EXPECT_LE(off_deg("extrinsic_roll", mount.roll_deg), mount.tilt_tolerance_deg);
+  EXPECT_LE(off_deg("extrinsic_pitch", mount.pitch_deg), mount.tilt_tolerance_deg);
+  EXPECT_EQ(d.ahead.axis, mount.forward_axis) << d.ahead.reason;
+  EXPECT_TRUE(d.ahead.is_known);
+
+  const doctor::Trial trial(config, simulated.recording.kept, doctor::kAllKept);
+  ASSERT_EQ(trial.results().size(), simulated.truth.size());
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < simulated.truth.size(); ++i) {
+    for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+      const pose_wall_value& v = trial.results()[i].quantity[q];
+      if (!doctor::is_measured(v)) continue;
+      EXPECT_NEAR(v.raw, simulated.truth[i].value[q], v.protection_level) << pose_wall_quantity_name(q);
+      valid += v.state == POSE_WALL_VALID ? 1 : 0;
+    }
+  }
+  EXPECT_GT(valid, simulated.truth.size() * POSE_WALL_QUANTITIES / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Simulated, Mounts,
+    ::testing::Values(
+        Mount{"Upright", "os1-64", {"face_distance_m=9", "base_height_m=1.4"}, 0, 0, 1.4, "+X", 0.3, 0.02},
+        Mount{"Backwards",
+              "os1-64",
+              {"face_distance_m=9", "forward_axis=-X", "mount_roll_deg=-3", "mount_pitch_deg=6", "base_height_m=1.2"},
+              -3,
+              6,
+              1.2,
+              "-X",
+              0.3,
+              0.02},
+        Mount{"Leftwards",
+              "os1-64",
+              {"face_distance_m=9", "forward_axis=+Y", "turned_left_deg=4", "base_height_m=1.7", "lateral_m=0.6"},
+              0,
+              0,
+              1.7,
+              "+Y",
+              0.3,
+              0.02},
+        Mount{"RightwardsOfManyRings",
+              "os0-128",
+              {"face_distance_m=9", "forward_axis=-Y", "mount_roll_deg=8", "base_height_m=1.5"},
+              8,
+              0,
+              1.5,
+              "-Y",
+              0.3,
+              0.02},
+        Mount{"FewRings",
+              "vlp16",
+              {"face_distance_m=9", "mount_pitch_deg=-4", "base_height_m=1.5"},
+              0,
+              -4,
+              1.5,
+              "+X",
+              1.0,
+              0.05},
+        Mount{"UpsideDownOverABody",
+              "os0-128",
+              {"face_distance_m=9", "mount_roll_deg=180", "body=yes", "base_height_m=1.6"},
+              180,
+              0,
+              1.6,
+              "+X",
+              0.3,
+              0.02},
+        Mount{"UpsideDownNonRepetitive",
+              "mid360",
+              {"face_distance_m=9", "mount_roll_deg=176", "mount_pitch_deg=3", "body=yes", "base_height_m=1.5"},
+              176,
+              3,
+              1.5,
+              "+X",
+              0.6,
+              0.03}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Doctor, BoxesHoldTheBodyAndLittleElse) {
+  const Simulated simulated =
+      simulate(setup_of("os0-128", {"body=yes", "boom=yes", "base_height_m=1.6", "body_top_m=-0.5"}), 6);
+  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(), std::nullopt);
+  ASSERT_TRUE(d.mount.has_value());
+  ASSERT_FALSE(d.mount->story.body.boxes_base.empty());
+  EXPECT_TRUE(d.mount->is_sure) << "the body tells floor from roof";
+  std::size_t body = 0, body_inside = 0, others = 0, others_inside = 0;
+  for (const sim::Frame& frame : simulated.frames) {
+    for (std::size_t i = 0; i < frame.count(); ++i) {
+      const float* p = &frame.xyz_intensity[4 * i];
+      const Eigen::Vector3d point = Eigen::Vector3f(p[0], p[1], p[2]).cast<double>();
+      bool inside = false;
+      for (const doctor::Box& box : d.mount->story.body.boxes_base) inside = inside || box.holds(point);
+      const bool is_body = frame.labels[i] == sim::Label::kBody;
+      (is_body ? body : others) += 1;
+      (is_body ? body_inside : others_inside) += inside ? 1 : 0;
+    }
+  }
+  ASSERT_GT(body, 1000U);
+  EXPECT_GT(static_cast<double>(body_inside), 0.98 * static_cast<double>(body));
+  EXPECT_LT(static_cast<double>(others_inside), 0.005 * static_cast<double>(others));
+}
+
+TEST(Doctor, SaysWhatCannotBeKnown) {
+  const Simulated simulated = simulate(setup_of("os1-64", {"forward_axis=-Y", "base_height_m=1.4"}), 4);
+  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(), std::nullopt);
+  EXPECT_TRUE(d.verdict.is_usable()) << d.verdict.line();
+  EXPECT_EQ(d.mount->story.road.line, 'Y');
+  EXPECT_FALSE(d.ahead.is_known);
+  EXPECT_TRUE(says(d.verdict.line(), "is a guess")) << d.verdict.line();
+  const doctor::Diagnosis with_axis = doctor::diagnose(simulated.recording, told({"forward_axis=-Y"}), 1.4);
+  EXPECT_EQ(with_axis.ahead.axis, "-Y");
+  EXPECT_TRUE(with_axis.ahead.is_known);
+  EXPECT_TRUE(with_axis.mount->is_sure) << with_axis.mount->reason;
+  EXPECT_FALSE(says(with_axis.verdict.line(), "is a guess")) << with_axis.verdict.line();
+}
+
+TEST(Doctor, RangeNoiseIsThatOfTheSensor) {
+  for (const char* sensor : {"os1-64", "mid360"}) {
+    const sim::SceneSetup setup = setup_of(sensor, {"range_noise_m=0.02", "base_height_m=1.4"});
+    const doctor::Diagnosis d = doctor::diagnose(simulate(setup, 4).recording, told(), std::nullopt);
+    const doctor::RangeNoise& noise = d.mount->story.noise;
+    EXPECT_NEAR(std::isfinite(noise.repeated_m) ? noise.repeated_m : noise.plane_m, 0.02, 0.005) << sensor;
+  }
+}
+
+TEST(Doctor, NoGateIsEverLoosened) {
+  const Simulated simulated = simulate(setup_of("vlp16", {"body=yes", "mount_pitch_deg=5", "base_height_m=1.5"}), 4);
+  const std::vector<std::string> strict = {"ground_inlier_min=500", "ground_height_max=2.0"};
+  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(strict), std::nullopt);
+  for (const doctor::Change& change : d.proposal.changes()) {
+    EXPECT_NE(change.key, "ground_inlier_min") << "told by --set";
+  }
+  const api::Config defaults;
+  const api::Config& config = d.proposal.config();
+  for (const char* key :
+       {"alert_limit_angle_deg", "alert_limit_distance", "range_bias_max", "protection_factor", "ground_tilt_max_deg",
+        "ground_ransac_thresh", "wall_ransac_thresh", "wall_length_min", "wall_alone_length_min", "wall_lean_max_deg",
+        "wall_parallel_cos", "yaw_max_deg", "hold_max", "range_min", "range_max", "frozen_frames"}) {
+    EXPECT_EQ(config.number(key), defaults.number(key)) << key;
+  }
+  EXPECT_GE(config.number("ground_height_min"), defaults.number("ground_height_min"));
+  EXPECT_LE(config.number("ground_height_max"), 2.0);
+}
+
+TEST(Doctor, StampsAreLookedAt) {
+  doctor::Recording recording;
+  const auto add = [&recording](std::int64_t stamp_ms, std::uint64_t digest) {
+    doctor::FrameNote note;
+    note.stamp_ns = stamp_ms * 1'000'000;
+    note.has_own_stamp = true;
+    note.points = note.returns = 50;  // too few to be kept
+    note.digest = digest;
+    recording.add(note, {});
+  };
+  for (const std::int64_t stamp : {0, 100, 200, 200, 300, 900, 850, 1000, 1100}) add(stamp, recording.notes.size());
+  add(1200, recording.notes.back().digest);
+  const doctor::StampHealth health = doctor::look_at_stamps(recording);
+  EXPECT_EQ(health.frames, 10U);
+  EXPECT_NEAR(health.rate_hz, 10.0, 1e-9);
+  EXPECT_EQ(health.still, 1U);
+  EXPECT_EQ(health.back, 1U);
+  EXPECT_EQ(health.gaps, 1U);
+  EXPECT_NEAR(health.gap_max_s, 0.6, 1e-9);
+  EXPECT_EQ(health.repeated, 1U);
+}
+
+TEST(Doctor, KeepsAnEvenPartOfALongRecording) {
+  doctor::Recording recording;
+  for (std::uint32_t i = 0; i < 500; ++i) {
+    doctor::FrameNote note;
+    note.points = note.returns = 1000;
+    doctor::KeptFrame kept;
+    kept.xyz_lidar_m.assign(3, static_cast<float>(i));
+    recording.add(note, std::move(kept));
+  }
+  ASSERT_GE(recording.kept.size(), 24U);
+  ASSERT_LE(recording.kept.size(), 48U);
+  const double step = recording.kept[1].point(0).x() - recording.kept[0].point(0).x();
+  for (std::size_t i = 0; i < recording.kept.size(); ++i) {
+    EXPECT_EQ(recording.kept[i].point(0).x(), static_cast<double>(i) * step);
+  }
+  EXPECT_GT(static_cast<double>(recording.kept.size()) * step, 490.0);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: pose_wall doctor writes a file that loads and measures, never over one that is there and never for frames
+// that are of no use; its exit statuses. What it finds: doctor_test.cpp.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::command;
+using test::contains;
+using test::Ran;
+using test::TempFolder;
+using test::text_of;
+
+struct Road {
+  explicit Road(const std::vector<std::string>& more, const std::string& frames = "4") {
+    std::vector<std::string> words = {"sim",      "--quiet", "--sensor", "vlp16",
+                                      "--frames", frames,    "--output", folder.file("road")};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(command(words).exit_status, 0);
+  }
+  Ran doctor(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words = {"doctor", "--quiet", folder.file("road/frames")};
+    words.insert(words.end(), more.begin(), more.end());
+    ::testing::internal::CaptureStdout();
+    const Ran ran = command(words);
+    page = ::testing::internal::GetCapturedStdout();
+    return ran;
+  }
+
+  TempFolder folder;
+  mutable std::string page;
+};
+
+TEST(DoctorVerb, WritesAFileThatLoadsAndNeverOverTheOneThatIsThere) {
+  const Road road({"--set", "face_distance_m=8", "--set", "mount_pitch_deg=4"});
+  const std::string file = road.folder.file("out.yaml");
+  EXPECT_EQ(road.doctor({"-o", file}).exit_status, 0) << road.page;
+  const std::string text = text_of(file);
+  EXPECT_TRUE(contains(text, "\nextrinsic_pitch: 0.0")) << text;
+  EXPECT_TRUE(contains(text, "# VLP-16 class: as config/vlp16.yaml has it")) << text;
+  EXPECT_EQ(command({"run", "--quiet", "-c", file, "-o", road.folder.file("o.csv"), road.folder.file("road/frames")})
+                .exit_status,
+            0);
+  EXPECT_TRUE(contains(text_of(road.folder.file("o.csv")), ",valid,"));
+
+  const Ran again = road.doctor({"-o", file});
+  EXPECT_EQ(again.exit_status, 2);
+  EXPECT_TRUE(contains(again.errors, "--force")) << again.errors;
+  EXPECT_EQ(text_of(file), text);
+  road.folder.write("out.yaml", "old");
+  EXPECT_EQ(road.doctor({"--force", "-o", file}).exit_status, 0);
+  EXPECT_EQ(text_of(file), text);
+  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+
+  // A second look with what was written finds nothing more to level.
+  EXPECT_EQ(road.doctor({"-c", file, "--json"}).exit_status, 0);
+  for (const auto& change : nlohmann::json::parse(road.page).at("changes")) {
+    EXPECT_NE(change.at("key"), "extrinsic_pitch");
+    EXPECT_NE(change.at("key"), "forward_axis");
+  }
+}
+
+TEST(DoctorVerb, TellsTheSameInTablesAndJson) {
+  const Road road({"--set", "face_distance_m=8"});
+  EXPECT_EQ(road.doctor({"--json"}).exit_status, 0);
+  const nlohmann::json json = nlohmann::json::parse(road.page);
+  EXPECT_EQ(json.at("usable"), true);
+  EXPECT_EQ(json.at("sensor").at("class"), "vlp16");
+  EXPECT_EQ(json.at("road").at("forward_axis"), "+X");
+  const std::string verdict = json.at("verdict");
+  EXPECT_EQ(road.doctor().exit_status, 0);
+  EXPECT_EQ(road.page.substr(road.page.size() - verdict.size() - 1), verdict + "\n");
+}
+
+TEST(DoctorVerb, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
+  struct {
+    std::vector<std::string> words;
+    const char* frames;
+    const char* reason;
+  } const cases[] = {
+      {{}, "1", "1 frame"},
+      {{"--scene", "no_floor"}, "4", "floor"},
+      {{"--set", "walls=none"}, "4", "walls"},
+      {{"--set", "unit_scale=1000"}, "4", "millimetres?"},
+      {{"--set", "sway_roll_deg=8", "--set", "sway_period_s=0.4"}, "5", "the sensor moved"},
+  };
+  for (const auto& [words, frames, reason] : cases) {
+    const Road road(words, frames);
+    EXPECT_EQ(road.doctor({"-o", road.folder.file("out.yaml")}).exit_status, 3) << reason;
+    EXPECT_TRUE(contains(road.page, "not usable because")) << reason;
+    EXPECT_TRUE(contains(road.page, reason)) << road.page;
+    EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.yaml"))) << reason;
+    EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.yaml.part"))) << reason;
+  }
+}
+
+TEST(DoctorVerb, EmptyAndBrokenFramesAreNamed) {
+  const TempFolder folder;
+  folder.write("f/a.bin", "");
+  folder.write("f/b.bin", "");
+  folder.write("f/c.bin", "");
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(command({"doctor", "-q", folder.file("f")}).exit_status, 3);
+  EXPECT_TRUE(contains(::testing::internal::GetCapturedStdout(), "3 of 3 frames hold no return"));
+  folder.write("g/a.pcd", "no cloud");
+  ::testing::internal::CaptureStdout();
+  const Ran ran = command({"doctor", "-q", folder.file("g")});
+  ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.errors, "a.pcd")) << ran.errors;
+  EXPECT_EQ(command({"doctor", folder.file("f"), "--height", "99"}).exit_status, 2);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

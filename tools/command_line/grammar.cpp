@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "command_line/grammar.hpp"
+
+#include <array>
+#include <sstream>
+#include <string_view>
+
+#include "config_file/key_table.hpp"
+#include "sim/parameters.hpp"
+#include "sim/scenes.hpp"
+#include "sim/sensors.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+// By the option's long name: verbs that ask for the same call it the same.
+struct Meaning {
+  std::string_view long_name;
+  const char* value;
+  ValueKind kind;
+};
+
+constexpr std::array<Meaning, 10> kMeanings = {{
+    {"config", "FILE", ValueKind::kFile},
+    {"set", "KEY=VALUE", ValueKind::kEngineKey},
+    {"simulate", "KEY=VALUE", ValueKind::kSimulatorKey},
+    {"scene", "SCENE", ValueKind::kScene},
+    {"scenes", "SCENE,...", ValueKind::kScene},
+    {"sensor", "SENSOR", ValueKind::kSensor},
+    {"sensors", "SENSOR,...", ValueKind::kSensor},
+    {"truth", "FILE", ValueKind::kFile},
+    {"annotate", "FOLDER", ValueKind::kFile},
+    {"title", "TEXT", ValueKind::kText},
+}};
+
+std::string long_name(const CLI::Option& option) {
+  return option.get_lnames().empty() ? "" : option.get_lnames().front();
+}
+
+const Meaning* meaning_of(const CLI::Option& option) {
+  for (const Meaning& meaning : kMeanings) {
+    if (meaning.long_name == long_name(option)) return &meaning;
+  }
+  return nullptr;
+}
+
+bool is_flag(const CLI::Option& option) {
+  return option.get_items_expected_max() == 0;
+}
+
+// "TEXT:{csv,json}" gives csv and json.
+std::vector<std::string> choices_of(const std::string& type) {
+  const std::size_t from = type.find('{'), to = type.find('}');
+  std::vector<std::string> choices;
+  if (from == std::string::npos || to == std::string::npos) return choices;
+  std::istringstream words(type.substr(from + 1, to - from - 1));
+  for (std::string word; std::getline(words, word, ',');) choices.push_back(word);
+  return choices;
+}
+
+bool is_number(const std::string& type) {
+  return type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0 || type.rfind("FLOAT", 0) == 0;
+}
+
+ValueKind kind_of(const CLI::App& verb, const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  if (is_flag(option)) return ValueKind::kNone;
+  if (!choices_of(type).empty()) return ValueKind::kChoice;
+  if (is_number(type)) return ValueKind::kNumber;
+  if (verb.get_name() == "sim" && long_name(option) == "set") return ValueKind::kSimulatorKey;
+  const Meaning* meaning = meaning_of(option);
+  return meaning != nullptr ? meaning->kind : ValueKind::kFile;
+}
+
+OptionGrammar option_grammar(const CLI::App& verb, const CLI::Option& option) {
+  OptionGrammar out;
+  out.is_positional = option.get_positional();
+  for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
+  if (out.is_positional) out.names = {option.get_name(true)};
+  out.kind = kind_of(verb, option);
+  const std::string type = option.get_type_name();
+  out.choices = choices_of(type);
+  const Meaning* meaning = meaning_of(option);
+  if (!is_flag(option)) out.value = type.substr(0, type.find(':'));
+  if (out.value == "TEXT" && meaning != nullptr) out.value = meaning->value;
+  out.help = option.get_description();
+  out.default_text = option.get_default_str();
+  out.is_required = option.get_required();
+  out.is_repeatable = option.get_expected_max() > 1;
+  out.is_list = out.value.find(",...") != std::string::npos;
+  return out;
+}
+
+VerbGrammar verb_grammar(const CLI::App& verb) {
+  VerbGrammar out{verb.get_name(), verb.get_description(), verb.get_footer(), {}};
+  for (const CLI::Option* option : verb.get_options()) out.options.push_back(option_grammar(verb, *option));
+  return out;
+}
+
+template <typename Rows>
+std::vector<std::string> names_of(const Rows& rows, const char* ending = "") {
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.push_back(std::string(row.name) + ending);
+  return names;
+}
+
+}  // namespace
+
+void name_values(CLI::App& app) {
+  for (CLI::App* verb : app.get_subcommands({})) {
+    for (CLI::Option* option : verb->get_options()) {
+      const std::string type = option->get_type_name();
+      if (is_flag(*option) || type != "TEXT") continue;
+      if (option->get_positional()) {
+        option->type_name("");
+      } else if (const Meaning* meaning = meaning_of(*option)) {
+        option->type_name(meaning->value);
+      } else {
+        option->type_name(option->get_description().rfind("Folder", 0) == 0 ? "FOLDER" : "FILE");
+      }
+    }
+  }
+}
+
+CommandGrammar grammar_of(const CLI::App& app) {
+  CommandGrammar grammar{verb_grammar(app), {}};
+  grammar.command.name.clear();
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    if (!verb->get_group().empty()) grammar.verbs.push_back(verb_grammar(*verb));
+  }
+  return grammar;
+}
+
+std::vector<std::string> value_words(const OptionGrammar& option) {
+  switch (option.kind) {
+    case ValueKind::kChoice:
+      return option.choices;
+    case ValueKind::kEngineKey:
+      return names_of(config_keys(), "=");
+    case ValueKind::kSimulatorKey:
+      return names_of(sim::parameters(), "=");
+    case ValueKind::kScene:
+      return names_of(sim::scenes());
+    case ValueKind::kSensor: {
+      std::vector<std::string> names;
+      for (const sim::SensorModel& model : sim::sensor_models()) names.push_back(model.sensor.name);
+      return names;
+    }
+    default:
+      return {};
+  }
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "doctor/recording.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "frames/frame_stamps.hpp"
+#include "frames/input_list.hpp"
+#include "frames/load_frame.hpp"
+#include "frames/point_position.hpp"
+#include "terminal/interrupt.hpp"
+
+namespace pose_wall::tools::doctor {
+namespace {
+
+// Frames of a thousand points hold no roadway, and a frame without any would only spoil the statistics.
+constexpr std::uint32_t kReturnsMin = 100;
+constexpr std::size_t kKeptMax = 48;
+
+// FNV-1a, by the bytes.
+void mix(std::uint64_t& digest, float number) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &number, sizeof bits);
+  for (int shift = 0; shift < 32; shift += 8) digest = (digest ^ (bits >> shift & 255U)) * 1099511628211U;
+}
+
+void add_file(Recording& recording, const std::filesystem::path& file, FrameStamps& stamps) {
+  FrameNote note;
+  KeptFrame kept;
+  const std::int64_t stamp_ns = stamps.next(file);
+  try {
+    const Frame frame = load_frame(file);
+    if (pose_wall_cloud_check(&frame.cloud) != POSE_WALL_OK) {
+      throw FrameError(pose_wall_status_text(pose_wall_cloud_check(&frame.cloud)));
+    }
+    note = note_of(frame.cloud, kept);
+  } catch (const std::exception& error) {
+    note.error = error.what();
+    recording.errors.push_back(file.string() + ": " + error.what());
+  }
+  note.source = file.string();
+  note.stamp_ns = stamp_ns;
+  note.has_own_stamp = stamp_from_name(file).has_value();
+  recording.add(std::move(note), std::move(kept));
+}
+
+}  // namespace
+
+pose_wall_cloud KeptFrame::cloud() const {
+  pose_wall_cloud cloud{};
+  pose_wall_cloud_xyz32(&cloud, xyz_lidar_m.data(), static_cast<std::uint32_t>(count()), 3 * sizeof(float), 0);
+  return cloud;
+}
+
+void Recording::add(FrameNote note, KeptFrame frame) {
+  const bool usable = note.error.empty() && note.returns >= kReturnsMin;
+  notes.push_back(std::move(note));
+  if (!usable || readable_++ % stride_ != 0) return;
+  kept.push_back(std::move(frame));
+  if (kept.size() <= kKeptMax) return;
+  std::size_t stays = 0;
+  for (std::size_t i = 0; i < kept.size(); i += 2) {
+    if (i != stays) kept[stays] = std::move(kept[i]);
+    ++stays;
+  }
+  kept.resize(stays);
+  stride_ *= 2;
+}
+
+FrameNote note_of(const pose_wall_cloud& cloud, KeptFrame& frame) {
+  FrameNote note;
+  note.points = cloud.width * cloud.height;
+  note.digest = 14695981039346656037U;
+  frame.xyz_lidar_m.clear();
+  frame.xyz_lidar_m.reserve(std::size_t{3} * note.points);
+  for (std::uint32_t row = 0; row < cloud.height; ++row) {
+    for (std::uint32_t column = 0; column < cloud.width; ++column) {
+      const Eigen::Vector3f p = point_position(cloud, row, column).cast<float>();
+      if (!p.allFinite() || p.isZero(0.0F)) continue;
+      ++note.returns;
+      for (const float number : {p.x(), p.y(), p.z()}) {
+        frame.xyz_lidar_m.push_back(number);
+        mix(note.digest, number);
+      }
+    }
+  }
+  return note;
+}
+
+Recording read_recording(const FrameOptions& options,
+                         const std::function<void(std::size_t, const std::string&)>& progress) {
+  const FrameInputs inputs = collect_inputs(options.inputs);
+  Recording recording;
+  recording.errors = inputs.errors;
+  FrameStamps stamps(options.rate_hz);
+  for (const auto& file : inputs.files) {
+    if (InterruptWatch::is_interrupted()) {
+      recording.interrupted = true;
+      break;
+    }
+    add_file(recording, file, stamps);
+    progress(inputs.files.size(), file.filename().string());
+  }
+  return recording;
+}
+
+}  // namespace pose_wall::tools::doctor

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Numbers that are gathered and told by their quantiles: what a few bad frames cannot move.
+
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "results/run_summary.hpp"
+
+namespace pose_wall::tools::doctor {
+
+constexpr double kDegPerRad = 57.29577951308232;
+
+inline double median(const std::vector<double>& values) {
+  return quantile(values, 0.5);
+}
+
+// Nine in ten values lie within this of their median.
+inline double spread90(const std::vector<double>& values) {
+  const double middle = median(values);
+  std::vector<double> off;
+  off.reserve(values.size());
+  for (const double value : values) off.push_back(std::fabs(value - middle));
+  return quantile(off, 0.9);
+}
+
+// Standard deviation of a Gaussian, from the median of what the values are off by.
+inline double robust_sigma(const std::vector<double>& values) {
+  const double middle = median(values);
+  std::vector<double> off;
+  off.reserve(values.size());
+  for (const double value : values) off.push_back(std::fabs(value - middle));
+  return 1.4826 * median(off);
+}
+
+inline double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace pose_wall::tools::doctor

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Amounts of notes as people read them: degrees, per cent, metres to the centimetre.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "explain/notes.hpp"
+
+namespace pose_wall::tools::explain {
+
+constexpr double kDegPerRad = 57.29577951308232;
+
+std::string metres(double value_m);
+std::string degrees(double value_rad);
+std::string per_cent(double share);
+
+// What a quantity is measured in.
+std::string quantity_amount(std::uint32_t quantity, double value);
+
+// The note's value and limit, in its unit.
+std::string value_text(const Note& note);
+std::string limit_text(const Note& note);
+
+// The config's key of the limit, "" where it is a constant; of two the one that the note's subject is held to.
+std::string key_of(const Note& note);
+
+// "frame", "floor", "left wall", "both walls", "d_lf".
+std::string subject_name(std::uint32_t subject);
+
+}  // namespace pose_wall::tools::explain

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Why a frame came out as it did, in plain sentences, in the order of the pipeline.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "explain/notes.hpp"
+
+namespace pose_wall::tools::explain {
+
+enum class Verdict { kAccepted, kDoubted, kRefused };
+const char* verdict_name(Verdict verdict);  // "accepted", "doubted", "refused"
+
+struct Paragraph {
+  std::uint32_t subject;
+  Verdict verdict;
+  std::vector<std::string> sentences;
+  std::vector<std::string> helps;  // what would help, each once
+};
+
+struct Explanation {
+  std::vector<Paragraph> paragraphs;  // frame, floor, left wall, right wall
+  std::vector<std::string> outcome;   // a sentence for each of the seven quantities
+};
+
+Explanation explain_frame(const pose_wall_config& config, const pose_wall_result& result, const pose_wall_trace& trace);
+
+}  // namespace pose_wall::tools::explain

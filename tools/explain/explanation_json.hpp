@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// An explanation for programs.
+
+#pragma once
+
+#include <string>
+
+#include "explain/explanation.hpp"
+#include "explain/traced_frame.hpp"
+#include "results/result_csv.hpp"
+
+namespace pose_wall::tools::explain {
+
+// One object: the frame, a paragraph for frame, floor and each wall, the outcome, every gate and every plane. Angles in
+// rad, lengths in m, as they were compared; what is no number is null.
+std::string explanation_json(const pose_wall_config& config, const FrameOutcome& outcome, const TracedFrame& traced,
+                             const Explanation& explanation);
+
+}  // namespace pose_wall::tools::explain

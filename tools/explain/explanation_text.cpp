@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "explain/explanation_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "explain/amounts.hpp"
+#include "explain/candidate_words.hpp"
+#include "terminal/text_table.hpp"
+
+namespace pose_wall::tools::explain {
+namespace {
+
+constexpr std::size_t kWidth = 110;
+constexpr std::size_t kIndent = 2;
+// Of the planes across the road only the strongest matter.
+constexpr std::size_t kAcrossTold = 2;
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+std::string ratio_text(const Note& note) {
+  if (note.info.sense == POSE_WALL_TRACE_IS_SO || !(std::fabs(note.gate.limit) > 0.0)) return "";
+  return fmt::format("{:.3g}", note.gate.value / note.gate.limit);
+}
+
+const char* passed_text(const Note& note) {
+  if (note.passed()) return "passed";
+  switch (note.info.effect) {
+    case POSE_WALL_TRACE_REFUSES:
+      return "REFUSES";
+    case POSE_WALL_TRACE_DOUBTS:
+      return "doubts";
+    default:
+      return "tells";
+  }
+}
+
+const char* colour_of(const Note& note) {
+  if (note.passed()) return "";
+  switch (note.info.effect) {
+    case POSE_WALL_TRACE_REFUSES:
+      return "\033[31m";
+    case POSE_WALL_TRACE_DOUBTS:
+      return "\033[33m";
+    default:
+      return "\033[34m";
+  }
+}
+
+std::string coloured_rows(const std::string& table, const std::vector<Note>& notes) {
+  constexpr std::size_t kHeadLines = 2;
+  std::istringstream lines(table);
+  std::string line, out;
+  for (std::size_t row = 0; std::getline(lines, line); ++row) {
+    const std::size_t i = row - kHeadLines;
+    const std::string colour = row >= kHeadLines && i < notes.size() ? colour_of(notes[i]) : "";
+    out += colour.empty() ? line + "\n" : colour + line + "\033[0m\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string sentences_text(const Explanation& explanation) {
+  std::string out;
+  for (const Paragraph& p : explanation.paragraphs) {
+    out += fmt::format("{}: {}\n{}", capital(subject_name(p.subject)), verdict_name(p.verdict),
+                       wrapped(fmt::format("{}", fmt::join(p.sentences, " ")), kIndent, kWidth));
+    if (!p.helps.empty()) {
+      out += wrapped(fmt::format("To look at: {}.", fmt::join(p.helps, "; ")), kIndent, kWidth);
+    }
+    out += "\n";
+  }
+  out += "Outcome\n";
+  for (const std::string& sentence : explanation.outcome) out += wrapped(sentence, kIndent, kWidth);
+  return out;
+}
+
+std::string planes_text(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes) {
+  std::size_t rows = 0;
+  TextTable table({"plane of", "lies", "shows", "became of it", "score"});
+  for (const std::uint32_t subject : {POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_RIGHT,
+                                      POSE_WALL_TRACE_AHEAD, POSE_WALL_TRACE_BEHIND}) {
+    const bool is_across = subject == POSE_WALL_TRACE_AHEAD || subject == POSE_WALL_TRACE_BEHIND;
+    std::size_t told = 0;
+    for (const PlaneWords& p : planes_of(config, result, notes, subject)) {
+      if (is_across && told++ == kAcrossTold) break;
+      ++rows;
+      table.add_row({subject_name(subject), p.where, p.shows, p.fate, fmt::format("{:.2f} m²", p.candidate.score_m2)});
+    }
+  }
+  return rows > 0 ? table.text(4) : "none\n";
+}
+
+std::string gates_text(const Notes& notes, bool coloured) {
+  const std::vector<Note> all = notes.all();
+  TextTable table({"of", "gate", "key", "value", "", "limit", "ratio", ""});
+  for (const Note& note : all) {
+    const char* sense = note.info.sense == POSE_WALL_TRACE_IS_SO      ? "is"
+                        : note.info.sense == POSE_WALL_TRACE_AT_LEAST ? ">="
+                                                                      : "<=";
+    table.add_row({subject_name(note.gate.subject), note.info.name, key_of(note), value_text(note), sense,
+                   limit_text(note), ratio_text(note), passed_text(note)});
+  }
+  return coloured ? coloured_rows(table.text(3), all) : table.text(3);
+}
+
+}  // namespace pose_wall::tools::explain

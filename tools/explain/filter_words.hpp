@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What became of the points before any plane was looked for.
+
+#pragma once
+
+#include <string>
+
+#include "pose_wall.h"
+
+namespace pose_wall::tools::explain {
+
+struct FilterWords {
+  std::string sentence;  // "Of 65536 points, 65000 are farther than range_max (30.00 m), ..."
+  std::string help;      // what the largest part of the dropped ones asks for; empty where most were kept
+};
+
+FilterWords filter_words(const pose_wall_config& config, const pose_wall_result& result);
+
+}  // namespace pose_wall::tools::explain

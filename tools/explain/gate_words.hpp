@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What a gate that did not hold means, in a sentence, and what would help.
+
+#pragma once
+
+#include <string>
+
+#include "explain/notes.hpp"
+
+namespace pose_wall::tools::explain {
+
+// "It is supported over 1.50 m along the road; 2.00 m are needed (wall_length_min)."
+std::string sentence_of(const Note& note);
+
+// "Show more of the wall, ..."; empty where nothing is to be done.
+std::string help_of(const Note& note);
+
+}  // namespace pose_wall::tools::explain

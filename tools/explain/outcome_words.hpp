@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What one of the seven quantities came to, in a sentence.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "explain/notes.hpp"
+
+namespace pose_wall::tools::explain {
+
+// "d_rf: held, 1.92 m ± 0.08 m, 0.30 s old. Not measured: right wall refused."
+std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity);
+
+}  // namespace pose_wall::tools::explain

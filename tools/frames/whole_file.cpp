@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "frames/whole_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace pose_wall::tools {
+namespace {
+
+bool write_part(const std::filesystem::path& part, std::string_view bytes) {
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  return static_cast<bool>(out);
+}
+
+}  // namespace
+
+void write_whole_file(const std::filesystem::path& file, std::string_view bytes) {
+  const std::filesystem::path part = file.string() + ".part";
+  std::error_code error, ignored;
+  const bool written = write_part(part, bytes);
+  if (written) std::filesystem::rename(part, file, error);
+  if (written && !error) return;
+  std::filesystem::remove(part, ignored);
+  throw std::runtime_error(fmt::format("{}: cannot be written{}", file.string(), error ? ": " + error.message() : ""));
+}
+
+}  // namespace pose_wall::tools

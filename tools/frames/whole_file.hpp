@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Files that are there whole or not at all, whatever stops the program.
+
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace pose_wall::tools {
+
+// Writes FILE.part, which then takes the file's place. Throws std::runtime_error that names the file.
+void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace pose_wall::tools
