@@ -73,7 +73,8 @@ enum pose_wall_status {
   POSE_WALL_E_STRUCT_SIZE = -2,  /* struct_size unknown: set it to sizeof, or call the init function */
   POSE_WALL_E_BLOCK_SMALL = -3,  /* block smaller than pose_wall_memory_needed() says */
   POSE_WALL_E_BLOCK_ALIGN = -4,  /* block not aligned to POSE_WALL_BLOCK_ALIGNMENT */
-  POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine */
+  POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine, or somebody wrote
+                                    into its block, or a bit fell over: see pose_wall_open */
   POSE_WALL_E_INDEX = -6,        /* index out of range */
   POSE_WALL_E_BUFFER_SMALL = -7, /* text does not fit the caller's buffer */
   POSE_WALL_E_MEMENTO = -8,      /* not what pose_wall_save wrote, of another version, or damaged */
@@ -386,7 +387,9 @@ int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes)
 
 /* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
  * The config is copied. Fails iff: NULL, broken rule, block too small or misaligned. *engine is set only on success.
- * There is nothing to close. Cost: none to speak of; the block is cleared as it is used. */
+ * There is nothing to close. Cost: none to speak of; the block is cleared as it is used.
+ * Settings, memory and pointers in the block carry a sum, which every call checks: where a single word of them was
+ * changed from outside, the engine is refused from then on (POSE_WALL_E_ENGINE) until it is opened again. */
 int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes, pose_wall_engine** engine);
 
 /* Forgets all that was measured, as if just opened. */

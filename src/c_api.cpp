@@ -156,6 +156,7 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
   const pose_wall::Settings settings = pose_wall::read_settings(*config);
+  std::memset(block, 0, sizeof(Engine));  // its sum is over padding, too
   Engine* placed = nullptr;
   Engine::lay_out(block, settings, &placed);
   uint32_t crc = 0;
@@ -219,6 +220,7 @@ POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const void* me
   if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
   if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
   pose_wall::Memory memory;
+  std::memset(static_cast<void*>(&memory), 0, sizeof(memory));  // padding, too: see pose_wall_open
   if (!pose_wall::load_memory(memento, &memory)) return POSE_WALL_E_MEMENTO;
   engine_of(engine)->set_memory(memory);
   return POSE_WALL_OK;

@@ -85,12 +85,6 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   arena.go_behind_all();
 }
 
-void Scratch::reset() {
-  cloud_base.count = 0;
-  band_level.count = 0;
-  beyond_level.count = 0;
-}
-
 std::uint64_t Engine::lay_out(void* block, const Settings& settings, Engine** out) {
   Arena arena(block);
   Engine* engine = arena.take_one<Engine>();
@@ -109,19 +103,44 @@ void Engine::open(const Settings& settings, std::uint32_t config_crc32) {
   reset();
   self_ = this;
   magic_ = kMagic;
+  seal();
 }
 
 void Engine::reset() {
-  scratch_.reset();
   memory_ = Memory{};
+  points_ = pose_wall_points{};
+  seal();
 }
 
 void Engine::set_clock(pose_wall_clock clock, void* user) {
   clock_ = clock;
   clock_user_ = user;
+  seal();
+}
+
+bool Engine::is_open() const {
+  return magic_ == kMagic && self_ == this && seal_ == sum();
+}
+
+void Engine::set_memory(const Memory& memory) {
+  memory_ = memory;
+  seal();
+}
+
+// FNV-1a by words: each step maps different sums to different ones, so no change of a single word goes unnoticed.
+std::uint64_t Engine::sum() const {
+  const unsigned char* const bytes = reinterpret_cast<const unsigned char*>(this);
+  std::uint64_t sum = 0xCBF29CE484222325ULL;
+  for (std::size_t at = sizeof(seal_); at < guarded_bytes(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes + at, sizeof(word));
+    sum = (sum ^ word) * 0x100000001B3ULL;
+  }
+  return sum;
 }
 
 void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
+  place_scratch();
   FrameFindings found;
   found.stamp_ns = cloud.stamp_ns;
   // Each frame draws the same numbers, so that a frame's result does not hang on how many came before it.
@@ -146,6 +165,16 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   stage_done(POSE_WALL_STAGE_OUTPUT);
 
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) result->stage_ns[stage] = at[stage + 1] - at[stage];
+  const PointSet& c = scratch_.cloud_base;
+  points_ = {c.x.data(), c.y.data(), c.z.data(), scratch_.marks.data(), c.count, 0};
+  seal();
+}
+
+// Anew in every frame: a pointer that was changed since the last one would be believed, too.
+void Engine::place_scratch() {
+  Arena arena(this);
+  arena.take<Engine>(1);
+  scratch_.lay_out(arena, settings_.points_max);
 }
 
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
@@ -274,14 +303,10 @@ void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {
   // A leap, or a stamp from before the last frame, is that frame's matter when it comes.
   const double elapsed_s = time_frame(memory_.temporal, stamp_ns, settings_).dt_s;
   age_values(elapsed_s, nothing.reasons, settings_, &memory_.temporal, &result->quantity);
+  seal();
   report_findings(nothing, result);
   result->frame_index = memory_.frames > 0 ? memory_.frames - 1 : 0;
   result->confidence = least_confidence(*result);
-}
-
-pose_wall_points Engine::points() const {
-  const PointSet& c = scratch_.cloud_base;
-  return {c.x.data(), c.y.data(), c.z.data(), scratch_.marks.data(), c.count, 0};
 }
 
 }  // namespace pose_wall

@@ -32,8 +32,6 @@ struct Scratch {
   WallsScratch walls;
 
   void lay_out(Arena& arena, std::uint32_t points_max);
-  // Once, over a block that holds garbage.
-  void reset();
 };
 
 // What one frame leaves for the next.
@@ -63,18 +61,23 @@ class Engine {
   void open(const Settings& settings, std::uint32_t config_crc32);
   void reset();
   void set_clock(pose_wall_clock clock, void* user);
-  bool is_open() const { return magic_ == kMagic && self_ == this; }
+  // And nobody else has written to it since its last call.
+  bool is_open() const;
   void process(const pose_wall_cloud& cloud, pose_wall_result* result);
   // What the seven are at a time without a frame.
   void age(std::int64_t stamp_ns, pose_wall_result* result);
-  pose_wall_points points() const;
+  const pose_wall_points& points() const { return points_; }
   std::uint32_t config_crc32() const { return config_crc32_; }
   const Memory& memory() const { return memory_; }
-  void set_memory(const Memory& memory) { memory_ = memory; }
+  void set_memory(const Memory& memory);
+
+  // From the start of the block: what the sum guards. The rest may hold anything between two calls.
+  static std::uint64_t guarded_bytes() { return sizeof(Engine) - sizeof(Scratch); }
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;
 
+  void place_scratch();
   void find_floor_if_any(Random* random, FrameFindings* found);
   void level_and_cut(FrameFindings* found);
   void find_walls_if_level(Random* random, FrameFindings* found);
@@ -83,7 +86,12 @@ class Engine {
   void remember(const FrameFindings& found);
   void label_points(const FrameFindings& found);
   std::int64_t now() const { return clock_ != nullptr ? clock_(clock_user_) : 0; }
+  std::uint64_t sum() const;
+  void seal() { seal_ = sum(); }
 
+  // The sum of all that follows, but for the scratch. Settings and memory are believed as they stand: a bit that falls
+  // over in them between two calls would be told as a value.
+  std::uint64_t seal_ = 0;
   std::uint64_t magic_ = 0;
   const Engine* self_ = nullptr;
   std::uint32_t config_crc32_ = 0;
@@ -93,6 +101,7 @@ class Engine {
   pose_wall_clock clock_ = nullptr;
   void* clock_user_ = nullptr;
   Memory memory_;
+  pose_wall_points points_{};
   Scratch scratch_;
 };
 

@@ -28,7 +28,7 @@ const char* status_text(std::int32_t status) {  // NOLINT(readability-function-s
     case POSE_WALL_E_BLOCK_ALIGN:
       return "block not aligned to POSE_WALL_BLOCK_ALIGNMENT";
     case POSE_WALL_E_ENGINE:
-      return "engine pointer does not point to an open engine";
+      return "engine pointer does not point to an open engine, or somebody wrote into its block";
     case POSE_WALL_E_INDEX:
       return "index out of range";
     case POSE_WALL_E_BUFFER_SMALL:

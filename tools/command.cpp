@@ -76,6 +76,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_sim(app, exit_code);
   add_demo(app, exit_code);
   add_report(app, exit_code);
+  add_info(app, exit_code);
   add_eval(app, exit_code);
   add_campaign(app, exit_code);
   add_replay_box(app, exit_code);
@@ -91,6 +92,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
       "  pose_wall doctor -o pose_wall.yaml frames                    settings for frames of your own\n"
       "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
       "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page to look at\n"
+      "  pose_wall info road.bag                                      what a recording holds\n"
       "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
       "  pose_wall campaign --size small --output card                thousands of such roads: may it be believed?\n"
       "  pose_wall explain -c road/pose_wall.yaml --frame 12 road/frames      why frame 12 came out as it did\n"

@@ -67,6 +67,8 @@ class Runtime {
   bool is_idle() const;
 
   // runtime_life.cpp
+  std::int32_t open_engine();
+  void replace_damaged_engine();
   std::int32_t start_threads();
   void end_threads();
   void drop_waiting();

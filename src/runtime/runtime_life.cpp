@@ -38,14 +38,26 @@ std::uint64_t Runtime::lay_out(void* block, std::uint64_t engine_bytes, const po
   return walk.bytes();
 }
 
-std::int32_t Runtime::open(std::uint64_t block_bytes) {
+std::int32_t Runtime::open_engine() {
   const std::int32_t status = pose_wall_open(&config_, engine_block_, engine_bytes_, &engine_);
+  if (status != POSE_WALL_OK) return status;
+  return pose_wall_set_clock(
+      engine_, [](void* user) { return static_cast<const Runtime*>(user)->now(); }, this);
+}
+
+// An engine that finds its memory changed by others is no use any more. A new one has nothing to hold, and measures the
+// next frame.
+void Runtime::replace_damaged_engine() {
+  pose_wall_points any;
+  if (pose_wall_last_points(engine_, &any) == POSE_WALL_E_ENGINE) open_engine();
+}
+
+std::int32_t Runtime::open(std::uint64_t block_bytes) {
+  const std::int32_t status = open_engine();
   if (status != POSE_WALL_OK) return status;
   double weight = 0.0;
   pose_wall_config_get_number(&config_, "intensity_weight", &weight);
   with_intensity_ = weight > 0.0;
-  pose_wall_set_clock(
-      engine_, [](void* user) { return static_cast<const Runtime*>(user)->now(); }, this);
   block_bytes_ = block_bytes;
   lock_.open();
   changed_.open();
@@ -66,6 +78,7 @@ std::int32_t Runtime::start() {
   if (state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
   state_ = POSE_WALL_RUNTIME_STARTING;
   ++epoch_;
+  replace_damaged_engine();
   pose_wall_reset(engine_);
   latest_.clear();
   overload_ = Overload(options_.thinning_max, options_.frame_period_max_ns);

@@ -102,7 +102,10 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   if (slot->memento != nullptr) pose_wall_save(engine_, slot->memento, pose_wall_memento_bytes());
   p.result.struct_size = sizeof(p.result);
   const std::int32_t status = pose_wall_process(engine_, &slot->cloud, &p.result);
-  if (status != POSE_WALL_OK) return status;
+  if (status != POSE_WALL_OK) {
+    replace_damaged_engine();
+    return status;
+  }
   finish_result(slot->left_out_not_finite, slot->left_out_zero, p.thinning, &p.result);
   slot->kind = POSE_WALL_BOX_FRAME;
   p.cause = POSE_WALL_RUNTIME_FRAME;
@@ -132,6 +135,7 @@ void Runtime::work_silence(FrameSlot* slot) {
     p.thinning = 1;
     p.frame = last_frame_;
     p.received_ns = silent_since_ns_;
+    replace_damaged_engine();
     if (slot->memento != nullptr) pose_wall_save(engine_, slot->memento, pose_wall_memento_bytes());
     p.result.struct_size = sizeof(p.result);
     pose_wall_age(engine_, saturated_sum(last_stamp_ns_, now_ns - silent_since_ns_), &p.result);

@@ -76,6 +76,18 @@ void note_held(const pose_wall_value& v, std::uint32_t quantity, const Settings&
 }
 #endif
 
+// Member by member: a struct's copy may bring padding along that nobody wrote, and the engine's sum is over padding,
+// too.
+void keep_good(const Measurement& m, Track* t) {
+  LastGood& good = t->good;
+  good.exists = true;
+  good.raw = m.raw;
+  good.raw_protection = m.protection;
+  good.value = t->value;
+  good.value_protection = t->protection;
+  good.age_s = 0.0;
+}
+
 void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
   out->reasons = m.reasons;
@@ -104,7 +116,7 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL_SMOOTHED, t->protection, alert_limit(quantity, s), within));
   if (!within) out->reasons |= POSE_WALL_R_ALERT_LIMIT;
   const bool valid = within && !m.weak && t->to_confirm == 0;
-  if (valid) t->good = {true, m.raw, m.protection, t->value, t->protection, 0.0};
+  if (valid) keep_good(m, t);
   out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->raw = m.raw;
   out->value = t->value;

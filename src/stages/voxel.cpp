@@ -48,7 +48,7 @@ float to_float(double value) {
 double mean_intensity(const pose_wall_cloud& cloud, bool swap) {
   double sum = 0.0;
   std::uint64_t count = 0;
-  for (std::uint32_t row = 0; row < cloud.height; ++row) {
+  for (std::uint32_t row = 0; row < rows_of(cloud); ++row) {
     const unsigned char* point = row_of(cloud, row);
     for (std::uint32_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
       const double value = read_field(point, cloud.intensity, swap);
@@ -92,7 +92,7 @@ class Pass {
     *counts = IngestCounts{};
     returns_lidar->clear();
     PointBlock block;
-    for (std::uint32_t row = 0; row < cloud_.height; ++row) {
+    for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
       const unsigned char* point = row_of(cloud_, row);
       for (std::uint32_t column = 0; column < cloud_.width; ++column, point += cloud_.point_step) {
         read(point, &block);

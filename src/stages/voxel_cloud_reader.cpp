@@ -85,6 +85,10 @@ bool is_plain_xyz32(const pose_wall_cloud& cloud) {
          cloud.z.type == POSE_WALL_FIELD_FLOAT32 && !needs_swap(cloud);
 }
 
+std::uint32_t rows_of(const pose_wall_cloud& cloud) {
+  return cloud.width != 0 ? cloud.height : 0;
+}
+
 const unsigned char* row_of(const pose_wall_cloud& cloud, std::uint32_t row) {
   return static_cast<const unsigned char*>(cloud.data) + row * row_step_of(cloud);
 }

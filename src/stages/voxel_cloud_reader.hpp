@@ -26,7 +26,10 @@ bool needs_swap(const pose_wall_cloud& cloud);
 // x, y and z are native floats: the common case, read without a switch per field.
 bool is_plain_xyz32(const pose_wall_cloud& cloud);
 
-// The row's first byte; row < height.
+// Rows that hold points: none where they have no width, whatever the height says.
+std::uint32_t rows_of(const pose_wall_cloud& cloud);
+
+// The row's first byte; row < rows_of(cloud).
 const unsigned char* row_of(const pose_wall_cloud& cloud, std::uint32_t row);
 
 }  // namespace pose_wall

@@ -17,8 +17,8 @@
 namespace pose_wall::test {
 
 // Walls 2.5 m to both sides, floor 1.4 m below and roof 1.8 m above a sensor of 32 lines with 720 columns, its ranges
-// off by up to 1 cm; another seed is another frame of the same road.
-inline Points room_points(std::uint32_t seed) {
+// off by up to 1 cm; another seed is another frame of the same road. The sensor may stand left of the middle.
+inline Points room_points(std::uint32_t seed, double left_of_middle_m = 0.0) {
   constexpr int kLines = 32, kColumns = 720;
   std::mt19937 random(seed);
   Points points;
@@ -28,7 +28,8 @@ inline Points room_points(std::uint32_t seed) {
       const double elevation = (-31.0 + 2.0 * line) * M_PI / 180.0;
       const double x = std::cos(elevation) * std::cos(azimuth), y = std::cos(elevation) * std::sin(azimuth);
       const double z = std::sin(elevation);
-      const double to_wall = 2.5 / std::fabs(y), to_level = (z < 0.0 ? 1.4 : 1.8) / std::fabs(z);
+      const double to_wall = (y > 0.0 ? 2.5 - left_of_middle_m : 2.5 + left_of_middle_m) / std::fabs(y);
+      const double to_level = (z < 0.0 ? 1.4 : 1.8) / std::fabs(z);
       const double range = std::min(to_wall, to_level) + 1e-5 * (static_cast<double>(random() % 2001) - 1000.0);
       if (!(range < 30.0)) continue;
       points.push_back({static_cast<float>(range * x), static_cast<float>(range * y), static_cast<float>(range * z)});

@@ -109,6 +109,7 @@ class RuntimeUnderTest {
     return s;
   }
   pose_wall_runtime* get() const { return runtime_; }
+  AlignedBlock& block() { return block_; }
   // What the callback got; read it when the worker is idle.
   Publications published() {
     const std::lock_guard<std::mutex> lock(mutex_);

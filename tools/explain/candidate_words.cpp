@@ -16,7 +16,9 @@
 namespace pose_wall::tools::explain {
 namespace {
 
-constexpr std::size_t kToldMax = 4;
+constexpr std::size_t kToldMax = 3;
+// What shows less than this of the strongest is only counted.
+constexpr double kToldShare = 0.2;
 
 double number(const pose_wall_config& config, const char* key) {
   double value = 0.0;
@@ -46,7 +48,10 @@ double turn_rad(const pose_wall_trace_candidate& c, const std::array<double, 2>&
 }
 
 std::string where_text(const pose_wall_trace_candidate& c, const std::array<double, 2>& forward) {
-  if (is_floor(c)) return fmt::format("{} below the sensor, tilted by {}", metres(c.height_m), degrees(c.tilt_rad));
+  if (is_floor(c)) {
+    return fmt::format("{} {} the sensor, tilted by {}", metres(std::fabs(c.height_m)),
+                       c.height_m < 0.0 ? "above" : "below", degrees(c.tilt_rad));
+  }
   return fmt::format("at {}, turned by {}", metres(c.d_m), degrees(turn_rad(c, forward)));
 }
 
@@ -56,7 +61,7 @@ std::string shows_text(const pose_wall_trace_candidate& c) {
                            : fmt::format("{} of the points tried", per_cent(c.support));
   }
   if (!(c.area_m2 > 0.0)) return "nothing solid";
-  return fmt::format("solid over {} along the road, {:.2f} m²", metres(c.length_m), c.area_m2);
+  return fmt::format("{} long, {:.2f} m²", metres(c.length_m), c.area_m2);
 }
 
 std::string faults_text(const pose_wall_config& config, const pose_wall_trace_candidate& c) {
@@ -112,6 +117,19 @@ std::string fate_text(const pose_wall_config& config, const pose_wall_trace_cand
   }
 }
 
+// One surface that lies out of range is drawn again and again.
+bool is_told_already(const pose_wall_trace_candidate& c, const std::vector<PlaneWords>& told) {
+  constexpr double kSame_m = 0.1;
+  const auto is_same = [&](const PlaneWords& t) {
+    return t.candidate.fate == c.fate && std::fabs(t.candidate.height_m - c.height_m) < kSame_m;
+  };
+  return is_floor(c) && c.fate == POSE_WALL_TRACE_OUT_OF_RANGE && std::any_of(told.begin(), told.end(), is_same);
+}
+
+std::string were(std::size_t others) {
+  return others == 1 ? "1 other plane was" : counted(others, "other plane") + " were";
+}
+
 }  // namespace
 
 std::vector<PlaneWords> planes_of(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes,
@@ -126,6 +144,7 @@ std::vector<PlaneWords> planes_of(const pose_wall_config& config, const pose_wal
   std::vector<PlaneWords> out;
   out.reserve(candidates.size());
   for (const auto& c : candidates) {
+    if (is_told_already(c, out)) continue;
     out.push_back({c, where_text(c, forward), shows_text(c), fate_text(config, c, best_m2)});
   }
   return out;
@@ -138,13 +157,13 @@ std::string others_sentence(const std::vector<PlaneWords>& planes) {
     const PlaneWords& p = planes[i];
     if (i == 0 || p.candidate.fate == POSE_WALL_TRACE_CHOSEN) continue;
     ++others;
-    if (told.size() < kToldMax) told.push_back(fmt::format("{} ({}): {}", p.where, p.shows, p.fate));
+    const bool is_weak = p.candidate.score_m2 < kToldShare * planes.front().candidate.score_m2;
+    if (told.size() < kToldMax && !is_weak) told.push_back(fmt::format("{} ({}): {}", p.where, p.shows, p.fate));
   }
   if (others == 0) return "";
+  if (told.empty()) return fmt::format("{} considered, and much weaker.", were(others));
   const std::string more = others > told.size() ? fmt::format("; and {} more", others - told.size()) : "";
-  return fmt::format("{} considered: {}{}.",
-                     others == 1 ? "1 other plane was" : counted(others, "other plane") + " were",
-                     fmt::join(told, "; "), more);
+  return fmt::format("{} considered: {}{}.", were(others), fmt::join(told, "; "), more);
 }
 
 }  // namespace pose_wall::tools::explain

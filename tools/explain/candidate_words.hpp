@@ -15,7 +15,7 @@ namespace pose_wall::tools::explain {
 struct PlaneWords {
   pose_wall_trace_candidate candidate;
   std::string where;  // "at 2.41 m, turned by 1.20°"
-  std::string shows;  // "solid over 3.50 m along the road, 4.20 m²"
+  std::string shows;  // "3.50 m long, 4.20 m²": what of it is solid
   std::string fate;   // "wall_length_min asks 2.00 m"
 };
 

@@ -4,6 +4,7 @@
 #include "explain/explanation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -30,8 +31,38 @@ std::vector<Note> failed(const Notes& notes, std::uint32_t subject, std::uint32_
   return out;
 }
 
-void tell(const std::vector<Note>& notes, Paragraph* out) {
+const Note* find(const std::vector<Note>& notes, pose_wall_trace_gate_id id) {
+  const auto found = std::find_if(notes.begin(), notes.end(), [&](const Note& n) { return n.is(id); });
+  return found != notes.end() ? &*found : nullptr;
+}
+
+bool is_of_any_wall(const Note& note) {
+  return note.is(POSE_WALL_TRACE_WALL_INLIERS) || note.is(POSE_WALL_TRACE_WALL_LENGTH) ||
+         note.is(POSE_WALL_TRACE_WALL_SOLID) || note.is(POSE_WALL_TRACE_WALL_LEAN);
+}
+
+// What a weightier one says already: a doubt where the same refuses, what a wall must be to stand alone where it is
+// none, what walls explain where there are none, and what is open because it is silent.
+bool is_said_already(const Note& note, const std::vector<Note>& refusals) {
+  const Note* const silent = find(refusals, POSE_WALL_TRACE_WALL_SILENT);
+  const bool open_is_silent = silent != nullptr && note.gate.value < 1.1 * silent->gate.value;
+  if (note.is(POSE_WALL_TRACE_WALL_OPEN)) return open_is_silent;
+  if (note.is(POSE_WALL_TRACE_EXPLAINED)) {
+    return find(refusals, POSE_WALL_TRACE_WALL_CHOSEN) != nullptr ||
+           find(refusals, POSE_WALL_TRACE_WALLS_PARALLEL) != nullptr;
+  }
+  if (note.is(POSE_WALL_TRACE_WALL_LENGTH_ALONE) || note.is(POSE_WALL_TRACE_WALL_FILLED)) {
+    return std::any_of(refusals.begin(), refusals.end(), [](const Note& n) { return is_of_any_wall(n); });
+  }
+  if (note.is(POSE_WALL_TRACE_WALL_OPEN_DOUBT)) {
+    return open_is_silent || find(refusals, POSE_WALL_TRACE_WALL_OPEN) != nullptr;
+  }
+  return note.is(POSE_WALL_TRACE_WALL_SOLID_DOUBT) && find(refusals, POSE_WALL_TRACE_WALL_SOLID) != nullptr;
+}
+
+void tell(const std::vector<Note>& notes, const std::vector<Note>& refusals, Paragraph* out) {
   for (const Note& note : notes) {
+    if (is_said_already(note, refusals)) continue;
     add_once(out->sentences, sentence_of(note));
     add_once(out->helps, help_of(note));
   }
@@ -43,7 +74,34 @@ std::string first_plane(const std::vector<PlaneWords>& planes, Verdict verdict) 
   const PlaneWords& p = planes.front();
   const bool chosen = p.candidate.fate == POSE_WALL_TRACE_CHOSEN;
   if (!chosen && verdict != Verdict::kRefused) return "";
-  return fmt::format("The plane that {} lies {} ({}).", chosen ? "was chosen" : "shows most", p.where, p.shows);
+  const bool out_of_range = p.candidate.fate == POSE_WALL_TRACE_OUT_OF_RANGE;
+  return fmt::format("The plane that {} lies {} ({}){}.", chosen ? "was chosen" : "shows most", p.where, p.shows,
+                     out_of_range ? ": " + p.fate : "");
+}
+
+std::string looked_for(const Notes& notes) {
+  const std::uint32_t attempt = notes.floor_attempt();
+  const std::string radius = metres(notes.floor_radius_m(attempt));
+  if (attempt == 0) return fmt::format("It was looked for within {} of the machine.", radius);
+  return fmt::format("It was looked for within {} of the machine, and in steps up to {}, of which this is said.",
+                     metres(notes.floor_radius_m(0)), radius);
+}
+
+// No gate: where nothing is chosen beside the machine, walls ahead and behind say how it stands.
+std::string across_sentence(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes,
+                            const std::vector<PlaneWords>& beside) {
+  constexpr double kClearlyMore = 2.0;
+  std::vector<std::string> walls;
+  for (const std::uint32_t subject : {POSE_WALL_TRACE_AHEAD, POSE_WALL_TRACE_BEHIND}) {
+    const std::vector<PlaneWords> planes = planes_of(config, result, notes, subject);
+    const double beside_m2 = beside.empty() ? 0.0 : beside.front().candidate.score_m2;
+    if (planes.empty() || planes.front().candidate.reasons != 0) continue;
+    if (!(planes.front().candidate.score_m2 > kClearlyMore * beside_m2)) continue;
+    walls.push_back(fmt::format("{} {} ({})", subject_name(subject), planes.front().where, planes.front().shows));
+  }
+  if (walls.empty()) return "";
+  return fmt::format("Much more wall is seen {}: the machine seems to stand across the road.",
+                     fmt::join(walls, " and "));
 }
 
 // A frame without a floor, or without points, has nothing to say of planes.
@@ -59,9 +117,16 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
   std::stable_partition(planes.begin(), planes.end(),
                         [](const PlaneWords& p) { return p.candidate.fate == POSE_WALL_TRACE_CHOSEN; });
   if (nothing_looked_at) out.sentences.emplace_back("It was not looked for: see the frame.");
+  if (is_refused && notes.floor_attempts() > 0 && subject == POSE_WALL_TRACE_FLOOR) {
+    out.sentences.push_back(looked_for(notes));
+  }
   add_once(out.sentences, first_plane(planes, out.verdict));
-  tell(refusals, &out);
-  tell(doubts, &out);
+  tell(refusals, refusals, &out);
+  if (find(refusals, POSE_WALL_TRACE_WALL_CHOSEN) != nullptr) {
+    tell(notes.failed(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_TELLS), refusals, &out);
+    add_once(out.sentences, across_sentence(config, result, notes, planes));
+  }
+  tell(doubts, refusals, &out);
   add_once(out.sentences, others_sentence(planes));
   return out;
 }
@@ -73,7 +138,7 @@ Paragraph frame_paragraph(const pose_wall_config& config, const pose_wall_result
       POSE_WALL_TRACE_FRAME, refused ? Verdict::kRefused : (doubted ? Verdict::kDoubted : Verdict::kAccepted), {}, {}};
   for (const std::uint32_t effect : {POSE_WALL_TRACE_REFUSES, POSE_WALL_TRACE_DOUBTS, POSE_WALL_TRACE_TELLS}) {
     for (const Note& note : notes.failed(POSE_WALL_TRACE_FRAME, effect)) {
-      tell({note}, &out);
+      tell({note}, {}, &out);
       if (note.is(POSE_WALL_TRACE_POINTS)) {
         const FilterWords filters = filter_words(config, result);
         add_once(out.sentences, filters.sentence);
@@ -81,7 +146,11 @@ Paragraph frame_paragraph(const pose_wall_config& config, const pose_wall_result
       }
     }
   }
-  if (out.sentences.empty()) out.sentences.push_back(filter_words(config, result).sentence);
+  if (out.sentences.empty()) {
+    const FilterWords filters = filter_words(config, result);
+    out.sentences.push_back(filters.sentence);
+    add_once(out.helps, filters.help);
+  }
   return out;
 }
 

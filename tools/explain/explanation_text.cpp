@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kWidth = 110;
 constexpr std::size_t kIndent = 2;
+// Of the planes across the road only the strongest matter.
+constexpr std::size_t kAcrossTold = 2;
 
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
@@ -72,7 +74,7 @@ std::string sentences_text(const Explanation& explanation) {
   for (const Paragraph& p : explanation.paragraphs) {
     out += fmt::format("{}: {}\n{}", capital(subject_name(p.subject)), verdict_name(p.verdict),
                        wrapped(fmt::format("{}", fmt::join(p.sentences, " ")), kIndent, kWidth));
-    if (!p.helps.empty() && p.verdict != Verdict::kAccepted) {
+    if (!p.helps.empty()) {
       out += wrapped(fmt::format("To look at: {}.", fmt::join(p.helps, "; ")), kIndent, kWidth);
     }
     out += "\n";
@@ -83,14 +85,19 @@ std::string sentences_text(const Explanation& explanation) {
 }
 
 std::string planes_text(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes) {
+  std::size_t rows = 0;
   TextTable table({"plane of", "lies", "shows", "became of it", "score"});
   for (const std::uint32_t subject : {POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_RIGHT,
                                       POSE_WALL_TRACE_AHEAD, POSE_WALL_TRACE_BEHIND}) {
+    const bool is_across = subject == POSE_WALL_TRACE_AHEAD || subject == POSE_WALL_TRACE_BEHIND;
+    std::size_t told = 0;
     for (const PlaneWords& p : planes_of(config, result, notes, subject)) {
+      if (is_across && told++ == kAcrossTold) break;
+      ++rows;
       table.add_row({subject_name(subject), p.where, p.shows, p.fate, fmt::format("{:.2f} m²", p.candidate.score_m2)});
     }
   }
-  return table.text(4);
+  return rows > 0 ? table.text(4) : "none\n";
 }
 
 std::string gates_text(const Notes& notes, bool coloured) {

@@ -34,7 +34,7 @@ std::vector<Dropped> dropped_points(const pose_wall_config& config, const pose_w
       {r.dropped_zero, "are zero, without a return",
        "these are directions without a return: dust, mud on the window, or dark"},
       {r.dropped_near, "are nearer than " + limit_of(config, "range_min"),
-       "something close blocks the view, or the file is not in metres"},
+       "something close blocks the view: dust, spray, mud on the window, the machine itself"},
       {r.dropped_far, "are farther than " + limit_of(config, "range_max"),
        "is the file in metres? Millimetres look like this; range_max"},
       {r.dropped_body, "are inside the body boxes", "check body_box_1 to body_box_4 and the extrinsic"}};
@@ -48,11 +48,8 @@ std::vector<Dropped> dropped_points(const pose_wall_config& config, const pose_w
 FilterWords filter_words(const pose_wall_config& config, const pose_wall_result& result) {
   const std::vector<Dropped> dropped = dropped_points(config, result);
   std::vector<std::string> parts;
-  std::uint32_t sum = 0;
-  for (const Dropped& d : dropped) {
-    parts.push_back(fmt::format("{} {}", d.count, d.as));
-    sum += d.count;
-  }
+  parts.reserve(dropped.size());
+  for (const Dropped& d : dropped) parts.push_back(fmt::format("{} {}", d.count, d.as));
   FilterWords out;
   out.sentence =
       fmt::format("{} came in{}{}; {} of {} are left, and {} were dropped as lone.", counted(result.points_in, "point"),
@@ -60,7 +57,7 @@ FilterWords filter_words(const pose_wall_config& config, const pose_wall_result&
                   counted(result.voxels - result.outliers, "voxel"), metres(result.voxel_leaf_m), result.outliers);
   if (result.points_in == 0) {
     out.help = "an empty cloud came from the driver";
-  } else if (2 * static_cast<std::uint64_t>(sum) >= result.points_in) {
+  } else if (!dropped.empty() && 4 * static_cast<std::uint64_t>(dropped.front().count) >= result.points_in) {
     out.help = dropped.front().help;
   } else if (2 * result.outliers >= result.voxels) {
     out.help =

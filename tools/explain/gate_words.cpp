@@ -94,13 +94,24 @@ constexpr GateWords kChoiceWords[] = {
     {"wall_solid", "{value} of it is seen through: rays pass the plane and end behind it; {limit} is the most.",
      "pipes, props, a conveyor or a vehicle stand where the wall should be"},
     {"wall_lean", "It leans {value} from the vertical; {limit} is allowed ({key}).", "{key}"},
+    {"pair_parallel",
+     "The strongest planes of the two sides are no pair: |n_left . n_right| is {value}, more than {limit} is asked "
+     "({key}).",
+     "{key} where walls really run so"},
+    {"pair_length",
+     "The strongest planes of the two sides are no pair: together they are supported over {value}, and "
+     "{limit} are needed.",
+     "show more of the walls"},
+    {"pair_contested", "The strongest pair is contested: another plane, stronger than its partner, runs apart from it.",
+     "walls that run apart"},
+    {"pair_share",
+     "The strongest pair shows {value} of what one wall alone shows; less than {limit} is a pair by chance.",
+     "the other wall is hardly seen"},
     {"wall_length_alone",
-     "On the other side there is no parallel wall, and alone it must be supported over {limit} "
-     "({key}); it is over {value}.",
+     "It has no partner on the other side, and alone it must be supported over {limit} ({key}); it is over {value}.",
      "show more of the wall; {key}"},
     {"wall_filled",
-     "On the other side there is no parallel wall, and alone it must be solid over {limit} of its span; "
-     "it is over {value}.",
+     "It has no partner on the other side, and alone it must be solid over {limit} of its span; it is over {value}.",
      "flat spots that happen to lie in line are no wall"},
     {"walls_parallel",
      "The planes of the two sides do not run parallel: |n_left . n_right| is {value}, more than "

@@ -21,10 +21,11 @@ struct Note {
   bool is(pose_wall_trace_gate_id id) const { return gate.gate == static_cast<std::uint32_t>(id); }
 };
 
-// In the order of the pipeline; of the floor only the radius that was taken counts. Pointer must outlive it.
+// In the order of the pipeline. Of the floor one radius counts: the one that was taken, or the widest where no plane
+// was found in any. The trace must outlive it.
 class Notes {
  public:
-  explicit Notes(const pose_wall_trace& trace) : trace_(&trace) {}
+  explicit Notes(const pose_wall_trace& trace);
 
   std::vector<Note> all() const;
   std::vector<Note> of(std::uint32_t subject) const;
@@ -32,9 +33,10 @@ class Notes {
   std::vector<Note> failed(std::uint32_t subject, std::uint32_t effect) const;
   bool refused(std::uint32_t subject) const { return !failed(subject, POSE_WALL_TRACE_REFUSES).empty(); }
 
-  // Strongest first; of the floor those of the radius that was taken.
+  // Strongest first; of the floor those of the radius that counts.
   std::vector<pose_wall_trace_candidate> candidates(std::uint32_t subject) const;
-  double floor_radius_m() const { return trace_->floor_radius_m[trace_->floor_attempt]; }
+  double floor_radius_m(std::uint32_t attempt) const { return trace_->floor_radius_m[attempt]; }
+  std::uint32_t floor_attempt() const { return floor_attempt_; }
   std::uint32_t floor_attempts() const { return trace_->floor_attempts; }
   std::uint32_t dropped() const { return trace_->dropped; }
 
@@ -42,6 +44,7 @@ class Notes {
   bool counts(const pose_wall_trace_gate& gate) const;
 
   const pose_wall_trace* trace_;
+  std::uint32_t floor_attempt_;
 };
 
 }  // namespace pose_wall::tools::explain

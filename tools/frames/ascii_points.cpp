@@ -12,10 +12,10 @@
 #include <string_view>
 #include <utility>
 
+#include "frames/field_aliases.hpp"
+
 namespace pose_wall::tools {
 namespace {
-
-constexpr std::array<std::string_view, 7> kKept = {"x", "y", "z", "intensity", "time", "t", "timestamp"};
 
 struct Slot {
   std::size_t word = 0;  // position in the line
@@ -33,7 +33,7 @@ Plan make_plan(const std::vector<AsciiColumn>& columns) {
   Plan plan;
   plan.layout.big_endian = host_is_big_endian();
   for (const AsciiColumn& column : columns) {
-    if (column.count == 1 && std::find(kKept.begin(), kKept.end(), column.name) != kKept.end()) {
+    if (column.count == 1 && field_role(column.name) != FieldRole::kNone) {
       const std::uint32_t type = column.is_double ? POSE_WALL_FIELD_FLOAT64 : POSE_WALL_FIELD_FLOAT32;
       plan.slots.push_back({plan.words, plan.layout.point_step, column.is_double});
       plan.layout.fields.push_back({column.name, {plan.layout.point_step, type}});

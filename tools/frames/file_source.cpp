@@ -3,7 +3,12 @@
 
 #include "frames/file_source.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <exception>
+#include <set>
+#include <string>
 
 #include "frames/frame_stamps.hpp"
 #include "frames/load_frame.hpp"
@@ -22,6 +27,12 @@ std::optional<SourcedFrame> FileSource::next() {
     sourced.error = error.what();
   }
   return sourced;
+}
+
+SourceAbout FileSource::about() const {
+  std::set<std::string> endings;
+  for (const std::filesystem::path& file : files_) endings.insert(file.extension().string());
+  return {fmt::format("frame files ({})", fmt::join(endings, " ")), {}, ""};
 }
 
 }  // namespace pose_wall::tools

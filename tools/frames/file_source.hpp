@@ -18,6 +18,7 @@ class FileSource : public FrameSource {
 
   std::optional<SourcedFrame> next() override;
   std::size_t frames() const override { return files_.size(); }
+  SourceAbout about() const override;
 
  private:
   std::vector<std::filesystem::path> files_;

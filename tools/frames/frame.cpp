@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "frames/field_aliases.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -40,8 +42,8 @@ pose_wall_field optional_field(const std::vector<PointField>& fields, std::strin
   return field != nullptr ? field->where : pose_wall_field{0, POSE_WALL_FIELD_NONE};
 }
 
-pose_wall_field time_field(const std::vector<PointField>& fields) {
-  for (const std::string_view name : {"time", "t", "timestamp"}) {
+pose_wall_field field_of(FieldRole role, const std::vector<PointField>& fields) {
+  for (const std::string_view name : field_names(role)) {
     const pose_wall_field field = optional_field(fields, name);
     if (field.type != POSE_WALL_FIELD_NONE) return field;
   }
@@ -66,8 +68,9 @@ Frame describe_frame(Bytes bytes, const PointLayout& layout) {
   cloud.x = required_coordinate(layout.fields, "x");
   cloud.y = required_coordinate(layout.fields, "y");
   cloud.z = required_coordinate(layout.fields, "z");
-  cloud.intensity = optional_field(layout.fields, "intensity");
-  cloud.time = time_field(layout.fields);
+  cloud.intensity = field_of(FieldRole::kIntensity, layout.fields);
+  cloud.time = field_of(FieldRole::kTime, layout.fields);
+  for (const PointField& field : layout.fields) frame.fields.push_back({std::string(field.name), field.where});
   return frame;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -24,6 +25,12 @@ class FrameError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// One named field of a point, as its input names it.
+struct FrameField {
+  std::string name;
+  pose_wall_field where;
+};
+
 // Copying would leave cloud.data pointing into another frame's bytes.
 struct Frame {
   Frame() = default;
@@ -35,6 +42,7 @@ struct Frame {
 
   Bytes bytes;
   pose_wall_cloud cloud{};
+  std::vector<FrameField> fields;  // all that were kept, also those that the engine does not look at
 };
 
 // One named field of a point, as a file format describes it.

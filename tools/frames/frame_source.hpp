@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "frames/frame.hpp"
 
@@ -20,6 +21,19 @@ struct SourcedFrame {
   std::optional<Frame> frame;            // none: it could not be read
   std::string error;                     // then why
   double load_ms = 0.0;
+};
+
+struct SourceTopic {
+  std::string name;
+  std::string type;
+  std::uint64_t messages = 0;
+  bool has_clouds = false;
+};
+
+struct SourceAbout {
+  std::string kind;                 // "ROS 1 bag"
+  std::vector<SourceTopic> topics;  // of a bag
+  std::string topic;                // the one whose clouds are the frames
 };
 
 // Frames of one input, in its own order. What cannot be read is a frame with an error, and the ones after it follow
@@ -36,6 +50,8 @@ class FrameSource {
 
   // How many will come, unreadable ones included; for progress, not for allocation.
   virtual std::size_t frames() const = 0;
+
+  virtual SourceAbout about() const = 0;
 };
 
 }  // namespace pose_wall::tools

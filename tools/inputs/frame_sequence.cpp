@@ -3,23 +3,58 @@
 
 #include "inputs/frame_sequence.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
+#include "bags/bag_source.hpp"
+#include "bags/rosbag2_folder.hpp"
 #include "frames/file_source.hpp"
 #include "frames/input_list.hpp"
+#include "packets/packet_source.hpp"
 
 namespace pose_wall::tools {
 
 FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const InputOptions& options) {
   for (const std::string& argument : arguments) add(argument, options);
+  if (!options.topic.empty() && !bag_seen_ && errors_.empty()) {
+    throw std::invalid_argument(fmt::format("--topic {}: no input is a bag", options.topic));
+  }
 }
 
-void FrameSequence::add(const std::string& argument, const InputOptions& /*options*/) {
+void FrameSequence::add(const std::string& argument, const InputOptions& options) {
+  try {
+    if (is_rosbag2_folder(argument)) return add_bag(argument, rosbag2_files(argument), options);
+    if (is_packet_capture(argument)) {
+      sources_.push_back(open_packet_capture(argument, options.metadata));
+      files_.emplace_back(argument);
+      return;
+    }
+    if (recognise_bag(argument)) return add_bag(argument, {argument}, options);
+  } catch (const FrameError& fault) {
+    errors_.push_back(fmt::format("{}: {}", argument, fault.what()));
+    return;
+  }
   FrameInputs inputs = collect_inputs({argument});
   files_.insert(files_.end(), inputs.files.begin(), inputs.files.end());
   errors_.insert(errors_.end(), inputs.errors.begin(), inputs.errors.end());
   sources_.push_back(std::make_unique<FileSource>(std::move(inputs.files)));
+}
+
+void FrameSequence::add_bag(const std::string& argument, const std::vector<std::filesystem::path>& files,
+                            const InputOptions& options) {
+  files_.insert(files_.end(), files.begin(), files.end());
+  auto bag = std::make_unique<Bag>(files);
+  try {
+    const bool fullest = options.fullest_topic && options.topic.empty();
+    std::string topic = fullest ? bag->fullest_topic() : bag->choose_topic(options.topic);
+    sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(fmt::format("{}: {}", argument, fault.what()));
+  }
+  bag_seen_ = true;
 }
 
 std::optional<SourcedFrame> FrameSequence::next() {

@@ -18,8 +18,9 @@ namespace pose_wall::tools {
 
 // What the command line says about how inputs are to be read.
 struct InputOptions {
-  std::string topic;     // of bags; empty: the only one with clouds
-  std::string metadata;  // of captures of packets; empty: the file of the same name with the ending .json
+  std::string topic;           // of bags; empty: the only one with clouds
+  bool fullest_topic = false;  // where `topic` is empty and several topics have clouds: take the one with most messages
+  std::string metadata;        // of captures of packets; empty: the file of the same name with the ending .json
 };
 
 class FrameSequence {
@@ -32,16 +33,22 @@ class FrameSequence {
   std::optional<SourcedFrame> next();
 
   std::size_t frames() const;
+
+  // Of the first input; there is one unless errors() says why not.
+  SourceAbout about() const { return sources_.empty() ? SourceAbout{} : sources_.front()->about(); }
   const std::vector<std::string>& errors() const { return errors_; }          // each names the input
   const std::vector<std::filesystem::path>& files() const { return files_; }  // all that are read
 
  private:
   void add(const std::string& argument, const InputOptions& options);
+  void add_bag(const std::string& argument, const std::vector<std::filesystem::path>& files,
+               const InputOptions& options);
 
   std::vector<std::unique_ptr<FrameSource>> sources_;
   std::vector<std::filesystem::path> files_;
   std::vector<std::string> errors_;
   std::size_t current_ = 0;
+  bool bag_seen_ = false;
 };
 
 }  // namespace pose_wall::tools

@@ -11,17 +11,20 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "config_file/load_config.hpp"
+#include "explain/amounts.hpp"
 #include "explain/explanation.hpp"
 #include "explain/explanation_json.hpp"
 #include "explain/explanation_text.hpp"
 #include "explain/traced_frame.hpp"
-#include "frames/input_list.hpp"
+#include "inputs/frame_sequence.hpp"
 #include "picture/frame_picture.hpp"
 #include "results/frame_runner.hpp"
+#include "terminal/colours.hpp"
 #include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/frame_options.hpp"
 #include "verbs/output_file.hpp"
@@ -40,91 +43,94 @@ struct ExplainOptions {
 struct Explained {
   FrameOutcome outcome;  // of the engine that is delivered
   std::optional<TracedFrame> traced;
+  explain::Explanation explanation;
   std::string picture;
 };
 
-// The only place that knows where frames come from.
-class FrameList {
- public:
-  explicit FrameList(const FrameOptions& options) : inputs_(collect_inputs(options.inputs)) {
-    for (const std::string& error : inputs_.errors) fmt::print(stderr, "pose_wall explain: {}\n", error);
-  }
-
-  void expect(std::uint64_t frame) const {
-    if (frame < inputs_.files.size()) return;
-    if (inputs_.files.empty()) throw std::invalid_argument("no frame to explain");
-    throw std::invalid_argument(fmt::format("--frame {}: there {} {}, 0 to {}", frame,
-                                            inputs_.files.size() == 1 ? "is" : "are",
-                                            counted(inputs_.files.size(), "frame"), inputs_.files.size() - 1));
-  }
-  FrameOutcome run(FrameRunner& runner, std::uint64_t frame, const FrameRunner::Look& look = {}) const {
-    return runner.run(inputs_.files[static_cast<std::size_t>(frame)], look);
-  }
-  const std::vector<std::filesystem::path>& files() const { return inputs_.files; }
-
- private:
-  FrameInputs inputs_;
-};
-
-std::string picture_of(const LoadedConfig& loaded, const pose_wall_points& points, const TracedFrame& traced,
-                       const std::string& subtitle) {
-  return picture::frame_picture(
-      {loaded.config.get(), &traced.result, &points, "pose_wall: why this frame came out as it did", subtitle});
+void expect_frame(std::uint64_t frame, std::size_t frames) {
+  if (frame < frames) return;
+  if (frames == 0) throw std::invalid_argument("no frame to explain");
+  throw std::invalid_argument(fmt::format("--frame {}: there {} {}, 0 to {}", frame, frames == 1 ? "is" : "are",
+                                          counted(frames, "frame"), frames - 1));
 }
 
-// The frames before count: they left states and held values behind.
-Explained run_to_frame(const ExplainOptions& options, const LoadedConfig& loaded, const FrameList& list) {
+std::string picture_of(const LoadedConfig& loaded, const pose_wall_points& points, const Explained& explained,
+                       std::uint64_t frame) {
+  std::string subtitle = fmt::format("frame {}", frame);
+  for (const explain::Paragraph& p : explained.explanation.paragraphs) {
+    subtitle += fmt::format(", {} {}", p.subject == POSE_WALL_TRACE_FRAME ? "itself" : explain::subject_name(p.subject),
+                            explain::verdict_name(p.verdict));
+  }
+  return picture::frame_picture({loaded.config.get(), &explained.traced->result, &points,
+                                 "pose_wall: why this frame came out as it did", subtitle});
+}
+
+void explain_points(const LoadedConfig& loaded, const Memento& before, const pose_wall_cloud& cloud,
+                    const pose_wall_points& points, std::uint64_t frame, Explained* out) {
+  out->traced = trace_frame(loaded.config, before, cloud);
+  out->explanation = explain::explain_frame(*loaded.config.get(), out->traced->result, *out->traced->trace);
+  out->picture = picture_of(loaded, points, *out, frame);
+}
+
+// The frames before count: they left states and held values behind. Nothing: interrupted.
+std::optional<Explained> run_to_frame(const ExplainOptions& options, const LoadedConfig& loaded,
+                                      FrameSequence& inputs) {
   FrameRunner runner(loaded.config, options.frames.rate_hz);
+  const InterruptWatch watch;
   ProgressBar bar(static_cast<std::size_t>(options.frame) + 1, !options.frames.quiet && is_terminal(2));
-  for (std::uint64_t i = 0; i < options.frame; ++i) {
-    const FrameOutcome before = list.run(runner, i);
-    if (!before.result) bar.print_above(fmt::format("pose_wall explain: {}: {}", before.source, before.error));
-    bar.advance(before.source);
+  for (std::uint64_t i = 0; !InterruptWatch::is_interrupted(); ++i) {
+    std::optional<SourcedFrame> frame = inputs.next();
+    if (!frame) throw std::runtime_error(fmt::format("the input ended before frame {}", options.frame));
+    if (i == options.frame) {
+      const Memento before = memento_of(runner.engine());
+      Explained out;
+      out.outcome = runner.run(std::move(*frame), [&](const auto& cloud, const auto& points, const auto&) {
+        explain_points(loaded, before, cloud, points, options.frame, &out);
+      });
+      return out;
+    }
+    const FrameOutcome outcome = runner.run(std::move(*frame));
+    if (!outcome.result) bar.print_above(fmt::format("pose_wall explain: {}: {}", outcome.source, outcome.error));
+    bar.advance(outcome.source);
   }
-  const Memento memento = memento_of(runner.engine());
-  Explained out;
-  out.outcome = list.run(runner, options.frame, [&](const auto& cloud, const auto& points, const auto&) {
-    out.traced = trace_frame(loaded.config, memento, cloud);
-    out.picture = picture_of(loaded, points, *out.traced, fmt::format("frame {}", options.frame));
-  });
-  return out;
+  return std::nullopt;
 }
 
-void print_text(const ExplainOptions& options, const LoadedConfig& loaded, const Explained& explained,
-                const explain::Explanation& explanation) {
+void print_text(const ExplainOptions& options, const LoadedConfig& loaded, const Explained& explained) {
   const pose_wall_result& result = explained.traced->result;
   const explain::Notes notes(*explained.traced->trace);
   fmt::print("{}: frame {}{}\n\n{}\nPlanes that were considered\n{}\nGates\n{}", explained.outcome.source,
              options.frame,
              options.frame > 0 ? fmt::format(", after the {} before it", counted(options.frame, "frame")) : "",
-             explain::sentences_text(explanation), explain::planes_text(*loaded.config.get(), result, notes),
-             explain::gates_text(notes, is_terminal(1)));
-  if (notes.dropped() > 0) fmt::print("{} were left out for lack of room.\n", counted(notes.dropped(), "note"));
+             explain::sentences_text(explained.explanation), explain::planes_text(*loaded.config.get(), result, notes),
+             explain::gates_text(notes, wants_colours(1)));
+  if (notes.dropped() > 0) fmt::print("{} left out for lack of room.\n", counted(notes.dropped(), "note"));
 }
 
 int explain_frame(const ExplainOptions& options) {
   const LoadedConfig loaded = options.frames.load();
-  const FrameList list(options.frames);
-  list.expect(options.frame);
+  FrameSequence inputs = options.frames.open();
+  for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall explain: {}\n", error);
+  expect_frame(options.frame, inputs.frames());
   std::optional<OutputFile> picture;
-  if (!options.picture.empty()) picture.emplace(options.picture, list.files());
-  const Explained explained = run_to_frame(options, loaded, list);
-  if (!explained.outcome.result) {
-    fmt::print(stderr, "pose_wall explain: {}: {}\n", explained.outcome.source, explained.outcome.error);
+  if (!options.picture.empty()) picture.emplace(options.picture, inputs.files());
+  const std::optional<Explained> explained = run_to_frame(options, loaded, inputs);
+  if (!explained) return kExitInterrupted;
+  if (!explained->outcome.result) {
+    fmt::print(stderr, "pose_wall explain: {}: {}\n", explained->outcome.source, explained->outcome.error);
     return kExitUnreadable;
   }
-  if (!same_bits(*explained.outcome.result, explained.traced->result)) {
-    throw std::logic_error("the engine that takes notes gave another result: do not believe it, and report this");
+  if (!same_bits(*explained->outcome.result, explained->traced->result)) {
+    throw std::runtime_error(
+        "the engine that takes notes gave another result: report this, its notes are worth nothing");
   }
-  const explain::Explanation explanation =
-      explain::explain_frame(*loaded.config.get(), explained.traced->result, *explained.traced->trace);
   if (options.json) {
-    fmt::print("{}",
-               explain::explanation_json(*loaded.config.get(), explained.outcome, *explained.traced, explanation));
+    fmt::print("{}", explain::explanation_json(*loaded.config.get(), explained->outcome, *explained->traced,
+                                               explained->explanation));
   } else {
-    print_text(options, loaded, explained, explanation);
+    print_text(options, loaded, *explained);
   }
-  if (picture) picture->write(explained.picture);
+  if (picture) picture->write(explained->picture);
   return kExitDone;
 }
 

@@ -29,9 +29,18 @@ FrameSequence FrameOptions::open() const {
   return FrameSequence(inputs, input);
 }
 
+void add_input_options(CLI::App* verb, InputOptions* options) {
+  verb->add_option("-t,--topic", options->topic, "Topic of a bag, where it has several with clouds");
+  verb->add_option("--metadata", options->metadata,
+                   "What an Ouster capture was recorded with; default: its name, .json")
+      ->check(CLI::ExistingFile);
+}
+
 void add_frame_options(CLI::App* verb, FrameOptions* options) {
-  verb->add_option("INPUT", options->inputs,
-                   "Frame files (.pcd, .bin of KITTI, .ply) or folders of them, sorted by plain name order")
+  verb->add_option(
+          "INPUT", options->inputs,
+          "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, or bags (ROS 1, "
+          "MCAP, SQLite, folders of rosbag2)")
       ->required();
   verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")

@@ -29,7 +29,14 @@ struct FrameOptions {
   FrameSequence open() const;
 };
 
-// INPUT, --config, --set, --rate and --quiet. The options must live as long as the verb.
+constexpr const char* kInputHelp =
+    "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, bags (ROS 1, MCAP, SQLite, "
+    "folders of rosbag2) or captures of packets (Ouster, VLP-16)";
+
+// What tells how inputs are to be read.
+void add_input_options(CLI::App* verb, InputOptions* options);
+
+// INPUT, those, --config, --set, --rate and --quiet. The options must live as long as the verb.
 void add_frame_options(CLI::App* verb, FrameOptions* options);
 
 }  // namespace pose_wall::tools

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Which step of the engine fails from now on; see stage_wraps.hpp.
+
+#pragma once
+
+namespace pose_wall::test {
+
+enum class Fault {
+  kNone,
+  kVoxelsDoNotFit,
+  kVoxelsNone,
+  kOutliersAll,
+  kFloorNotFound,
+  kFloorNan,
+  kFloorNoHypotheses,
+  kFloorFitFails,
+  kFloorWavesUnsolved,
+  kLevelNan,
+  kBandEmpty,
+  kWallsNotFound,
+  kLeftNotFound,
+  kRightNotFound,
+  kWallsNan,
+  kRefineFails,
+  kChooseNone,
+  kSurfaceUnsolved,
+  kPatchesUnsolved,
+  kIrlsCloudUnsolved,
+  kIrlsPointsUnsolved,
+  kMeasureRefused,
+  kDirectionsNotNoted,
+  kSightSilent,
+  kSightNan,
+  kSightDim,
+  kEdgesIsland,
+  kEdgesLow,
+  kEdgesTopUnseen,
+  kSampleInterrupted,
+  kSampleNan,
+  kDistanceNan,
+  kDirectionNotShared,
+  kSidesBlocked,
+  kNothingMeasured,
+  kSmoothingSilent,
+  kReportSilent
+};
+
+namespace wraps {
+
+inline Fault fault = Fault::kNone;
+inline int failures = 0;
+
+}  // namespace wraps
+
+inline void fail_from_now_on(Fault fault) {
+  wraps::fault = fault;
+  wraps::failures = 0;
+}
+inline int failures() {
+  return wraps::failures;
+}
+
+}  // namespace pose_wall::test

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: where what the runtime stands on fails (threads, the clock, the disk, the callback, a step of its engine, the
+// engine's memory), it says so, publishes nothing wrong, loses no count, and goes on when the fault is over. More of
+// the disk and the queue is in tests/runtime.
+
+#include <pthread.h>
+
+#include <atomic>
+#include <cerrno>
+
+#include "fault_room.hpp"
+#include "faults/fault.hpp"
+#include "support/runtime_under_test.hpp"
+#include "wrapped_symbols.h"
+
+namespace {
+
+// The how-manieth thread from now on is not made; 0: all are.
+std::atomic<int> refused_thread{0};
+
+}  // namespace
+
+extern "C" int pthread_create_for_real(pthread_t*, const pthread_attr_t*, void* (*)(void*),
+                                       void*) __asm__("__real_" POSE_WALL_WRAPPED_PTHREAD_CREATE);
+extern "C" int pthread_create_wrapped(pthread_t*, const pthread_attr_t*, void* (*)(void*),
+                                      void*) __asm__("__wrap_" POSE_WALL_WRAPPED_PTHREAD_CREATE);
+
+extern "C" int pthread_create_wrapped(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
+                                      void* user) {
+  if (refused_thread > 0 && --refused_thread == 0) return EAGAIN;
+  return pthread_create_for_real(thread, attributes, run, user);
+}
+
+namespace pose_wall::test {
+namespace {
+
+// A disk that fails at its n-th write, or at every one from there on.
+struct FaultyDisk {
+  std::uint64_t writes = 0, fails_at = 0;
+  bool for_good = false;
+
+  static std::int32_t write(void* self, std::uint64_t, const void*, std::uint64_t) {
+    FaultyDisk& disk = *static_cast<FaultyDisk*>(self);
+    const std::uint64_t now = disk.writes++;
+    return now == disk.fails_at || (disk.for_good && now > disk.fails_at) ? 28 : 0;
+  }
+};
+
+RuntimeUnderTest::Change onto(FaultyDisk* disk) {
+  return [=](pose_wall_runtime_options* o) {
+    o->sink = FaultyDisk::write;
+    o->sink_user = disk;
+    o->box_bytes = 1 << 22;
+    o->box_clouds = 0;
+  };
+}
+
+std::string frame(RuntimeUnderTest* runtime, std::uint32_t i) {
+  EXPECT_EQ(runtime->push(room_frame(i), (i + 1) * kPeriod_ns), POSE_WALL_OK);
+  runtime->wait_idle();
+  const pose_wall_publication p = runtime->latest();
+  EXPECT_EQ(broken_contract(p.result, limits_of(small_config())), "");
+  EXPECT_EQ(misleading(p.result, kRoomTruth), "");
+  EXPECT_TRUE(accounts_balance(runtime->statistics()));
+  return states_of(p.result);
+}
+
+// The recorder is the first thread, the worker the second.
+class RefusedThreads : public ::testing::TestWithParam<int> {};
+
+TEST_P(RefusedThreads, StartSaysSoAndMayBeTriedAgain) {
+  FaultyDisk disk;
+  disk.fails_at = UINT64_MAX;
+  RuntimeUnderTest runtime(onto(&disk));
+  refused_thread = GetParam();
+  EXPECT_EQ(pose_wall_runtime_start(runtime.get()), POSE_WALL_RUNTIME_E_SYSTEM);
+  EXPECT_EQ(runtime.statistics().thread_error, EAGAIN);
+  const pose_wall_cloud cloud = cloud_of(room_frame(0), 0);
+  EXPECT_NE(pose_wall_runtime_push(runtime.get(), &cloud), POSE_WALL_OK);
+  runtime.start();
+  EXPECT_EQ(runtime.statistics().thread_error, 0);
+  EXPECT_EQ(frame(&runtime, 0), "VVVVVVV");
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, RefusedThreads, ::testing::Values(1, 2),
+                         [](const auto& test) { return test.param == 1 ? "recorder" : "worker"; });
+
+// A disk that fails in its header, a record's body, its head, once or for good: frames do not notice.
+class FaultyDisks : public ::testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
+
+TEST_P(FaultyDisks, FailTheRecordAlone) {
+  FaultyDisk disk;
+  std::tie(disk.fails_at, disk.for_good) = GetParam();
+  RuntimeUnderTest runtime(onto(&disk));
+  runtime.start();
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(frame(&runtime, i), "VVVVVVV") << i;
+  const pose_wall_runtime_statistics s = runtime.statistics();
+  EXPECT_EQ(s.processed, 4U);
+  EXPECT_GT(s.box_failed, 0U);
+  EXPECT_EQ(s.box_failed + s.box_written, 4U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, FaultyDisks, ::testing::Combine(::testing::Values(1U, 2U, 3U, 4U), ::testing::Bool()),
+                         [](const auto& test) {
+                           return "write_" + std::to_string(std::get<0>(test.param)) +
+                                  (std::get<1>(test.param) ? "_for_good" : "_once");
+                         });
+
+TEST(RuntimeFaults, AClockThatStandsStill) {
+  RuntimeUnderTest runtime([](auto* o) { o->watchdog_ns = 300 * kMs; });
+  runtime.start();
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(frame(&runtime, i), "VVVVVVV");
+  EXPECT_EQ(pose_wall_runtime_tick(runtime.get()), POSE_WALL_OK);
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.statistics().silences, 0U) << "no time has passed";
+}
+
+TEST(RuntimeFaults, AClockThatGoesBack) {
+  RuntimeUnderTest runtime([](auto* o) { o->watchdog_ns = 300 * kMs; });
+  runtime.clock.set_step(-1000 * kMs);
+  runtime.start();
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(frame(&runtime, i), "VVVVVVV");
+}
+
+TEST(RuntimeFaults, AClockThatLeapsBetweenFrames) {
+  RuntimeUnderTest runtime([](auto* o) { o->watchdog_ns = 300 * kMs; });
+  runtime.start();
+  frame(&runtime, 0);
+  runtime.pass(3600000 * kMs);
+  EXPECT_EQ(states_of(runtime.latest().result), "IIIIIII");
+  EXPECT_EQ(frame(&runtime, 1), "VVVVVVV");
+}
+
+TEST(RuntimeFaults, ACallbackThatDoesNotComeBackFromItsFrame) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  runtime.gate.shut();
+  EXPECT_EQ(runtime.push(room_frame(0), 0), POSE_WALL_OK);
+  runtime.gate.wait_until_somebody_is_inside();
+  // Readers have the frame, pushes do not block, the oldest go.
+  EXPECT_EQ(states_of(runtime.latest().result), "VVVVVVV");
+  for (std::uint32_t i = 1; i < 20; ++i) EXPECT_EQ(runtime.push(room_frame(i), i * kPeriod_ns), POSE_WALL_OK);
+  EXPECT_TRUE(accounts_balance(runtime.statistics()));
+  EXPECT_GT(runtime.statistics().dropped[POSE_WALL_RUNTIME_DROP_OVERTAKEN], 0U);
+  runtime.gate.open();
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.latest().result.stamp_ns, 19 * kPeriod_ns);
+}
+
+TEST(RuntimeFaults, AStepOfItsEngineFailsForAWhile) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  EXPECT_EQ(frame(&runtime, 0), "VVVVVVV");
+  fail_from_now_on(Fault::kFloorNotFound);
+  EXPECT_EQ(frame(&runtime, 1), "HHHHHHH");
+  fail_from_now_on(Fault::kNone);
+  EXPECT_EQ(frame(&runtime, 2), "VVVVVVV");
+}
+
+// Where the runtime has placed its engine.
+pose_wall_engine* engine_in(AlignedBlock* block) {
+  unsigned char* const bytes = static_cast<unsigned char*>(block->data());
+  for (std::uint64_t at = 0; at < block->size(); at += POSE_WALL_BLOCK_ALIGNMENT) {
+    auto* const engine = reinterpret_cast<pose_wall_engine*>(bytes + at);
+    pose_wall_points any;
+    if (pose_wall_last_points(engine, &any) == POSE_WALL_OK) return engine;
+  }
+  return nullptr;
+}
+
+void flip_a_bit(RuntimeUnderTest* runtime) {
+  pose_wall_engine* const engine = engine_in(&runtime->block());
+  ASSERT_NE(engine, nullptr);
+  reinterpret_cast<unsigned char*>(engine)[600] ^= 4;
+}
+
+TEST(RuntimeFaults, ABitFallsOverInItsEngine) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  frame(&runtime, 0);
+  flip_a_bit(&runtime);
+  // The frame that finds it is dropped and counted, the last publication stands; the next one is measured afresh.
+  EXPECT_EQ(runtime.push(room_frame(1), 2 * kPeriod_ns), POSE_WALL_OK);
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.statistics().dropped[POSE_WALL_RUNTIME_DROP_ENGINE], 1U);
+  EXPECT_EQ(runtime.latest().result.stamp_ns, kPeriod_ns);
+  EXPECT_EQ(frame(&runtime, 2), "VVVVVVV");
+  EXPECT_EQ(runtime.latest().result.frame_index, 0U);
+}
+
+TEST(RuntimeFaults, ABitFallsOverBeforeASilence) {
+  RuntimeUnderTest runtime([](auto* o) { o->watchdog_ns = 300 * kMs; });
+  runtime.start();
+  frame(&runtime, 0);
+  flip_a_bit(&runtime);
+  runtime.pass(301 * kMs);
+  const pose_wall_result told = runtime.latest().result;
+  EXPECT_EQ(states_of(told), "IIIIIII");
+  for (const pose_wall_value& v : told.quantity) EXPECT_NE(v.reasons & POSE_WALL_R_NEVER_MEASURED, 0U);
+  EXPECT_EQ(frame(&runtime, 1), "VVVVVVV");
+}
+
+TEST(RuntimeFaults, ABitFallsOverBetweenStopAndStart) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  frame(&runtime, 0);
+  ASSERT_EQ(pose_wall_runtime_stop(runtime.get()), POSE_WALL_OK);
+  flip_a_bit(&runtime);
+  runtime.start();
+  EXPECT_EQ(frame(&runtime, 0), "VVVVVVV");
+  EXPECT_EQ(runtime.statistics().dropped[POSE_WALL_RUNTIME_DROP_ENGINE], 0U);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

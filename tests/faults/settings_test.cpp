@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: of every key, what is below or above its range, no number, no word of it or too long is refused, by its text
+// and by its number, and changes nothing; both ends of its range are taken and, by themselves, open an engine that
+// keeps the contract; keys that contradict each other open none.
+
+#include <limits>
+#include <vector>
+
+#include "fault_room.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+pose_wall_key_info key_of(std::uint32_t index) {
+  pose_wall_key_info key;
+  EXPECT_EQ(pose_wall_config_key(index, &key), POSE_WALL_OK);
+  return key;
+}
+
+bool is_number(const pose_wall_key_info& key) {
+  return key.type == POSE_WALL_KEY_NUMBER || key.type == POSE_WALL_KEY_INTEGER;
+}
+
+std::string text_of(double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.17g", number);
+  return text;
+}
+
+void expect_refused(const char* key, const std::string& value, std::int32_t status) {
+  pose_wall_config config = config_with(), before = config;
+  EXPECT_EQ(pose_wall_config_set(&config, key, value.c_str()), status) << key << ": " << value;
+  EXPECT_EQ(std::memcmp(&config, &before, sizeof config), 0) << key << ": " << value;
+}
+
+void expect_number_refused(const char* key, double value) {
+  pose_wall_config config = config_with(), before = config;
+  const std::int32_t status = pose_wall_config_set_number(&config, key, value);
+  EXPECT_TRUE(status == POSE_WALL_E_VALUE_RANGE || status == POSE_WALL_E_VALUE_TYPE) << key << ": " << value;
+  EXPECT_EQ(std::memcmp(&config, &before, sizeof config), 0) << key << ": " << value;
+}
+
+// Whether the config opens, and how it measures the room then. What another key contradicts is refused as a whole.
+void expect_contract_with(const char* key, const std::string& value) {
+  pose_wall_config config = small_config();
+  ASSERT_EQ(pose_wall_config_set(&config, key, value.c_str()), POSE_WALL_OK) << key << ": " << value;
+  if (pose_wall_config_check(&config, nullptr) != POSE_WALL_OK) return;
+  FaultRoom room(config);
+  for (std::uint32_t i = 0; i < 2; ++i) room.process(cloud_of(room_frame(i), i * kPeriod_ns));
+}
+
+std::vector<std::uint32_t> keys_of_numbers() {
+  std::vector<std::uint32_t> keys;
+  for (std::uint32_t i = 0; i < pose_wall_config_key_count(); ++i) {
+    if (is_number(key_of(i))) keys.push_back(i);
+  }
+  return keys;
+}
+
+class Keys : public ::testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(Keys, RefuseWhatIsNoneOfTheirValues) {
+  const pose_wall_key_info key = key_of(GetParam());
+  if (key.type == POSE_WALL_KEY_TEXT) {
+    expect_refused(key.name, std::string(POSE_WALL_TEXT_MAX, 'a'), POSE_WALL_E_TEXT_LONG);
+    return;
+  }
+  if (key.type != POSE_WALL_KEY_BOX) expect_refused(key.name, "", POSE_WALL_E_VALUE_TYPE);
+  for (const char* rubbish : {"x", "1 2", "0x1", "1e", "--1", "1,5", "true", "+X-X", "\xff\xfe", "[1"}) {
+    expect_refused(key.name, rubbish, POSE_WALL_E_VALUE_TYPE);
+  }
+  for (const double no_number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                                 -std::numeric_limits<double>::infinity()}) {
+    if (is_number(key)) expect_number_refused(key.name, no_number);
+  }
+  for (const char* no_number : {"nan", "inf", "-inf", "1e999"}) {
+    pose_wall_config config = config_with();
+    EXPECT_NE(pose_wall_config_set(&config, key.name, no_number), POSE_WALL_OK) << key.name << ": " << no_number;
+  }
+}
+
+class NumberKeys : public ::testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(NumberKeys, KeepToTheirRange) {
+  const pose_wall_key_info key = key_of(GetParam());
+  const double step = key.type == POSE_WALL_KEY_INTEGER ? 1.0 : 1e-9 * (1.0 + std::fabs(key.maximum));
+  for (const double outside : {key.minimum - step, key.maximum + step, -1e300, 1e300}) {
+    expect_refused(key.name, text_of(outside), POSE_WALL_E_VALUE_RANGE);
+    expect_number_refused(key.name, outside);
+  }
+  const bool is_room = std::strcmp(key.name, "points_max") == 0;  // the most is a matter of memory, not of measuring
+  expect_contract_with(key.name, text_of(key.minimum));
+  if (!is_room) expect_contract_with(key.name, text_of(key.maximum));
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, Keys, ::testing::Range(0U, pose_wall_config_key_count()),
+                         [](const auto& test) { return std::string(key_of(test.param).name); });
+
+INSTANTIATE_TEST_SUITE_P(Faults, NumberKeys, ::testing::ValuesIn(keys_of_numbers()),
+                         [](const auto& test) { return std::string(key_of(test.param).name); });
+
+struct Rule {
+  const char* name;
+  std::vector<KeyValue> values;
+};
+
+void PrintTo(const Rule& rule, std::ostream* out) {
+  *out << rule.name;
+}
+
+const Rule kRules[] = {
+    {"sampling_points_swapped", {{"s_front", "-1"}, {"s_back", "1"}}},
+    {"sampling_points_on_one_place", {{"s_front", "1"}, {"s_back", "1"}}},
+    {"ranges_swapped", {{"range_min", "5"}, {"range_max", "4"}}},
+    {"ranges_equal", {{"range_min", "5"}, {"range_max", "5"}}},
+    {"leaf_larger_than_outlier_radius", {{"voxel_leaf", "0.2"}, {"outlier_radius", "0.1"}}},
+    {"wall_band_too_low", {{"wall_z_min", "1"}, {"wall_z_max", "1.2"}}},
+    {"wall_band_upside_down", {{"wall_z_min", "3"}, {"wall_z_max", "2"}}},
+    {"floor_heights_swapped", {{"ground_height_min", "3"}, {"ground_height_max", "2"}}},
+    {"floor_radii_swapped", {{"ground_roi_radius", "8"}, {"ground_roi_radius_max", "4"}}},
+};
+
+class Rules : public ::testing::TestWithParam<Rule> {};
+
+TEST_P(Rules, OpenNothing) {
+  pose_wall_config config = config_with();
+  for (const auto& [key, value] : GetParam().values) set(&config, key, value);
+  pose_wall_rule_fault fault{};
+  EXPECT_EQ(pose_wall_config_check(&config, &fault), POSE_WALL_E_CONFIG_RULE);
+  ASSERT_NE(fault.rule, nullptr);
+  EXPECT_STRNE(fault.rule, "");
+  AlignedBlock block(1 << 16, Dirt::kZeros);
+  pose_wall_engine* engine = nullptr;
+  EXPECT_EQ(pose_wall_open(&config, block.data(), 1U << 31, &engine), POSE_WALL_E_CONFIG_RULE);
+  EXPECT_EQ(engine, nullptr);
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, Rules, ::testing::ValuesIn(kRules),
+                         [](const auto& test) { return name_of(test.param.name); });
+
+}  // namespace
+}  // namespace pose_wall::test

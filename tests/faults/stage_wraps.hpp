@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Steps of the engine that fail on demand. The linker sends every call of them through here (wrapped_symbols.txt). To
+// be included once in the program.
+
+#pragma once
+
+#include <limits>
+
+#include "faults/fault.hpp"
+#include "report.hpp"
+#include "stages/ground.hpp"
+#include "stages/ground_fit.hpp"
+#include "stages/ground_search.hpp"
+#include "stages/level.hpp"
+#include "stages/outliers.hpp"
+#include "stages/quality.hpp"
+#include "stages/temporal.hpp"
+#include "stages/voxel.hpp"
+#include "stages/walls.hpp"
+#include "stages/walls_at_sample.hpp"
+#include "stages/walls_edges.hpp"
+#include "stages/walls_measure.hpp"
+#include "stages/walls_parallel.hpp"
+#include "stages/walls_select.hpp"
+#include "stages/walls_sight.hpp"
+#include "wrapped_symbols.h"  // written by faults.cmake
+
+namespace pose_wall::test {
+
+namespace wraps {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+inline bool fails(Fault which) {
+  if (fault != which) return false;
+  ++failures;
+  return true;
+}
+
+inline void refuse(PlaneFit* fit, std::uint32_t reason) {
+  fit->refused = true;
+  fit->reasons |= reason;
+}
+
+}  // namespace wraps
+
+}  // namespace pose_wall::test
+
+namespace pose_wall {
+
+using test::Fault;
+using test::wraps::fails;
+using test::wraps::kNan;
+using test::wraps::refuse;
+
+// POSE_WALL_WRAP(result, SYMBOL, name, (parameters)): declares name_for_real, and begins the function that stands for
+// it.
+#define POSE_WALL_WRAP(result, SYMBOL, name, parameters)                           \
+  result name##_for_real parameters __asm__("__real_" POSE_WALL_WRAPPED_##SYMBOL); \
+  result name##_wrapped parameters __asm__("__wrap_" POSE_WALL_WRAPPED_##SYMBOL);  \
+  result name##_wrapped parameters
+
+POSE_WALL_WRAP(VoxelResult, BUILD_VOXELS, build_voxels,
+               (const pose_wall_cloud& cloud, const Settings& s, const Extrinsic& extrinsic, const Axes& axes,
+                VoxelGrid* grid, ReturnsByDirection* returns, PointSet* out)) {
+  VoxelResult r = build_voxels_for_real(cloud, s, extrinsic, axes, grid, returns, out);
+  const bool overflow = fails(Fault::kVoxelsDoNotFit);
+  if (overflow || fails(Fault::kVoxelsNone)) out->count = 0;
+  if (overflow) r.fits = false;
+  return r;
+}
+
+POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
+               (const Settings& s, double leaf_m, CellIndex* cells, Span<std::uint8_t> marks, PointSet* points)) {
+  const std::uint32_t before = points->count;
+  const std::uint32_t outliers = remove_outliers_for_real(s, leaf_m, cells, marks, points);
+  if (!fails(Fault::kOutliersAll)) return outliers;
+  points->count = 0;
+  return before;
+}
+
+POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor,
+               (const PointSet& cloud, const Settings& s, const Axes& axes, const Eigen::Vector3d& sensor_m,
+                const Plane* last, Random* random, GroundScratch* scratch)) {
+  FloorResult r = find_floor_for_real(cloud, s, axes, sensor_m, last, random, scratch);
+  if (fails(Fault::kFloorNotFound)) {
+    r = FloorResult{};
+    refuse(&r.fit, POSE_WALL_R_FLOOR_NOT_FOUND);
+  }
+  if (fails(Fault::kFloorNan)) r.roll_sigma_rad = r.pitch_sigma_rad = r.roll_bound_rad = r.pitch_bound_rad = kNan;
+  return r;
+}
+
+POSE_WALL_WRAP(std::uint32_t, SEARCH_FLOOR, search_floor,
+               (const GroundSearchInput& in, const Settings& s, Random* random, PointSet* subset,
+                FloorShortlist* list)) {
+  if (fails(Fault::kFloorNoHypotheses)) return 0;
+  return search_floor_for_real(in, s, random, subset, list);
+}
+
+POSE_WALL_WRAP(FloorResult, FIT_FLOOR, fit_floor,
+               (const PointSet& cloud, Span<const std::uint32_t> open, double radius_m, const Plane& start,
+                const Settings& s, const Eigen::Vector3d& sensor_m, GroundScratch* scratch)) {
+  FloorResult r = fit_floor_for_real(cloud, open, radius_m, start, s, sensor_m, scratch);
+  if (fails(Fault::kFloorFitFails)) refuse(&r.fit, POSE_WALL_R_FLOOR_THIN);
+  return r;
+}
+
+POSE_WALL_WRAP(UnevenFit, FLOOR_WAVES, floor_waves, (UnevenPlane * self, Span<const SurfacePatch> patches)) {
+  if (fails(Fault::kFloorWavesUnsolved)) return {};
+  return floor_waves_for_real(self, patches);
+}
+
+POSE_WALL_WRAP(LevelResult, LEVEL_BY, level_by, (const Plane& floor, const Axes& axes)) {
+  LevelResult r = level_by_for_real(floor, axes);
+  if (fails(Fault::kLevelNan)) r.roll_rad = r.pitch_rad = r.forward_up = r.floor_z_level_m = kNan;
+  return r;
+}
+
+POSE_WALL_WRAP(void, CUT_WALL_BAND, cut_wall_band,
+               (const PointSet& cloud, const LevelResult& level, const Settings& s, VoxelGrid* grid, PointSet* band,
+                PointSet* beyond)) {
+  cut_wall_band_for_real(cloud, level, s, grid, band, beyond);
+  if (fails(Fault::kBandEmpty)) band->count = beyond->count = 0;
+}
+
+POSE_WALL_WRAP(WallsResult, FIND_WALLS, find_walls,
+               (const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch)) {
+  WallsResult r = find_walls_for_real(scene, last, random, scratch);
+  const bool both = fails(Fault::kWallsNotFound);
+  if (both || fails(Fault::kLeftNotFound)) refuse(&r.side[0].fit, POSE_WALL_R_WALL_NOT_FOUND);
+  if (both || fails(Fault::kRightNotFound)) refuse(&r.side[1].fit, POSE_WALL_R_WALL_NOT_FOUND);
+  if (!fails(Fault::kWallsNan)) return r;
+  for (WallResult& wall : r.side) wall.yaw_rad = wall.distance_m[0] = wall.distance_m[1] = kNan;
+  return r;
+}
+
+POSE_WALL_WRAP(bool, REFINE_HYPOTHESIS, refine_hypothesis,
+               (const PointSet& band, double thresh_m, const Eigen::Vector3d& along, WallFitScratch* scratch,
+                Plane* plane)) {
+  return !fails(Fault::kRefineFails) && refine_hypothesis_for_real(band, thresh_m, along, scratch, plane);
+}
+
+POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
+               (const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,
+                const WallCandidates& behind, const Settings& s)) {
+  WallChoice r = choose_walls_for_real(left, right, ahead, behind, s);
+  if (!fails(Fault::kChooseNone)) return r;
+  r = WallChoice{};
+  for (int side = 0; side < 2; ++side) {
+    r.refused[side] = true;
+    r.reasons[side] = POSE_WALL_R_WALL_NOT_FOUND;
+  }
+  return r;
+}
+
+POSE_WALL_WRAP(WallSurface, FIT_SURFACE, fit_surface,
+               (const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch)) {
+  WallSurface r = fit_surface_for_real(scene, start, grid, scratch);
+  if (fails(Fault::kSurfaceUnsolved)) r.patch.solved = false;
+  return r;
+}
+
+POSE_WALL_WRAP(PatchFit, PATCHES, patches, (PatchGrid * self, PatchGrid::Errors errors)) {
+  if (fails(Fault::kPatchesUnsolved)) return {};
+  return patches_for_real(self, errors);
+}
+
+POSE_WALL_WRAP(IrlsResult, IRLS_CLOUD, irls_cloud,
+               (const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
+                const Eigen::Vector3d& u_hint, const IrlsSettings& s, TangentPoints* points)) {
+  IrlsResult r = irls_cloud_for_real(cloud, indices, start, u_hint, s, points);
+  if (fails(Fault::kIrlsCloudUnsolved)) r.solved = false;
+  return r;
+}
+
+POSE_WALL_WRAP(IrlsOver, IRLS_POINTS, irls_points,
+               (const TangentPoints& points, std::uint32_t count, const PlaneOver& start, const IrlsSettings& s)) {
+  IrlsOver r = irls_points_for_real(points, count, start, s);
+  if (fails(Fault::kIrlsPointsUnsolved)) r.solved = false;
+  return r;
+}
+
+POSE_WALL_WRAP(WallResult, MEASURE_WALL, measure_wall,
+               (const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid)) {
+  WallResult r = measure_wall_for_real(scene, surface, side, grid);
+  if (fails(Fault::kMeasureRefused)) refuse(&r.fit, POSE_WALL_R_WALL_SHORT);
+  return r;
+}
+
+POSE_WALL_WRAP(void, NOTE_DIRECTIONS, note_directions, (const WallScene& scene, SightScratch* scratch)) {
+  if (!fails(Fault::kDirectionsNotNoted)) note_directions_for_real(scene, scratch);
+}
+
+POSE_WALL_WRAP(WallSight, LOOK_AT, look_at,
+               (const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along, double behind_m,
+                SightScratch* scratch)) {
+  WallSight r = look_at_for_real(scene, wall, along, behind_m, scratch);
+  if (fails(Fault::kSightSilent)) r.silent = 1.0;
+  if (fails(Fault::kSightNan)) r.silent = r.open = r.depth_m = r.topless = kNan;
+  if (fails(Fault::kSightDim)) r.dim = true;
+  return r;
+}
+
+POSE_WALL_WRAP(AtSample, LOOK_AT_SAMPLE, look_at_sample,
+               (const WallScene& scene, const WallSurface& surface, const WallGrid& grid, const WallResult& wall,
+                const Eigen::Vector3d& sample_m, double distance_m)) {
+  AtSample r = look_at_sample_for_real(scene, surface, grid, wall, sample_m, distance_m);
+  if (fails(Fault::kSampleInterrupted)) r = {true, 1.0};
+  if (fails(Fault::kSampleNan)) r.bound_m = kNan;
+  return r;
+}
+
+POSE_WALL_WRAP(WallEdges, LOOK_PAST, look_past,
+               (const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along, double margin_m,
+                EdgeScratch* scratch)) {
+  WallEdges r = look_past_for_real(scene, wall, along, margin_m, scratch);
+  r.island = r.island || fails(Fault::kEdgesIsland);
+  r.low = r.low || fails(Fault::kEdgesLow);
+  r.top_unseen = r.top_unseen || fails(Fault::kEdgesTopUnseen);
+  return r;
+}
+
+POSE_WALL_WRAP(double, DISTANCE_AT, distance_at, (const Plane& plane, const Eigen::Vector3d& sample_m)) {
+  return fails(Fault::kDistanceNan) ? kNan : distance_at_for_real(plane, sample_m);
+}
+
+POSE_WALL_WRAP(void, SHARE_DIRECTION, share_direction, (const WallScene& scene, WallResult (*walls)[2])) {
+  if (!fails(Fault::kDirectionNotShared)) share_direction_for_real(scene, walls);
+}
+
+POSE_WALL_WRAP(void, REFUSE_BLOCKED_SIDES, blocked_sides, (const IngestCounts& counts, WallResult (*walls)[2])) {
+  blocked_sides_for_real(counts, walls);
+  if (!fails(Fault::kSidesBlocked)) return;
+  for (WallResult& wall : *walls) refuse(&wall.fit, POSE_WALL_R_WALL_TOO_NEAR);
+}
+
+POSE_WALL_WRAP(Measurements, MEASURE_QUANTITIES, quantities,
+               (const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2], const Settings& s)) {
+  Measurements r = quantities_for_real(floor, level, walls, s);
+  if (!fails(Fault::kNothingMeasured)) return r;
+  r = Measurements{};
+  for (Measurement& m : r.quantity) m.reasons = POSE_WALL_R_ALERT_LIMIT;
+  return r;
+}
+
+POSE_WALL_WRAP(void, SMOOTH_AND_HOLD, smoothing,
+               (const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns, const Settings& s,
+                TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES])) {
+  if (!fails(Fault::kSmoothingSilent)) smoothing_for_real(measured, timing, stamp_ns, s, state, values);
+}
+
+POSE_WALL_WRAP(void, REPORT_FINDINGS, report, (const FrameFindings& found, pose_wall_result* result)) {
+  if (!fails(Fault::kReportSilent)) report_for_real(found, result);
+}
+
+#undef POSE_WALL_WRAP
+
+}  // namespace pose_wall

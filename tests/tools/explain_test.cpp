@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: what is noted becomes the sentence that says so, with value, limit and key; and for frames of fifteen scenes
+// that are refused for as many causes, the explanation names the cause that the scene has, of the right subject. Does
+// not prove: that the words are good ones.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "explain/explanation.hpp"
+#include "explain/explanation_text.hpp"
+#include "explain/gate_words.hpp"
+#include "pose_wall.hpp"
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools::explain {
+namespace {
+
+using test::command;
+using test::contains;
+using test::Ran;
+using test::TempFolder;
+
+// A frame without floor, with what is noted beside.
+struct Noted {
+  api::Config config;
+  pose_wall_result result = api::make_result();
+  pose_wall_trace trace{};
+
+  void note(std::uint32_t subject, std::uint32_t gate, double value, double limit, bool passed) {
+    trace.gate[trace.gates++] = {subject, gate, 0, passed ? 1U : 0U, value, limit};
+  }
+  Paragraph paragraph(std::size_t index) const {
+    return explain_frame(*config.get(), result, trace).paragraphs.at(index);
+  }
+};
+
+constexpr std::size_t kFrame = 0, kLeft = 2, kRight = 3;
+
+TEST(Sentences, AShortWallIsToldWithBothLengthsAndTheKey) {
+  Noted noted;
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_INLIERS, 1000.0, 900.0, true);
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 2.1, 4.0, false);
+  noted.note(POSE_WALL_TRACE_RIGHT, POSE_WALL_TRACE_WALL_LENGTH, 8.0, 4.0, true);
+  const Paragraph left = noted.paragraph(kLeft);
+  EXPECT_EQ(left.verdict, Verdict::kRefused);
+  ASSERT_EQ(left.sentences.size(), 1U);
+  EXPECT_EQ(left.sentences[0], "It is supported over 2.10 m along the road; 4.00 m are needed (wall_length_min).");
+  EXPECT_EQ(noted.paragraph(kRight).verdict, Verdict::kAccepted);
+  EXPECT_TRUE(noted.paragraph(kRight).sentences.empty());
+}
+
+TEST(Sentences, WhatIsOfBothWallsIsToldOfEach) {
+  Noted noted;
+  noted.note(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, 2.0, 1.0, false);
+  for (const std::size_t side : {kLeft, kRight}) {
+    EXPECT_EQ(noted.paragraph(side).verdict, Verdict::kRefused);
+    EXPECT_TRUE(contains(noted.paragraph(side).sentences.at(0), "200 % of the wall that the sides show"));
+  }
+}
+
+TEST(Sentences, ADoubtIsNoRefusalAndIsNotToldTwice) {
+  Noted noted;
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_OPEN_DOUBT, 0.05, 0.01, false);
+  EXPECT_EQ(noted.paragraph(kLeft).verdict, Verdict::kDoubted);
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_OPEN, 0.2, 0.1, false);
+  EXPECT_EQ(noted.paragraph(kLeft).verdict, Verdict::kRefused);
+  EXPECT_EQ(noted.paragraph(kLeft).sentences.size(), 1U);
+}
+
+TEST(Sentences, PointsThatAreDroppedNameTheirLimit) {
+  Noted noted;
+  noted.result.points_in = noted.result.dropped_far = 5000;
+  noted.note(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_POINTS, 0.0, 100.0, false);
+  const Paragraph frame = noted.paragraph(kFrame);
+  EXPECT_EQ(frame.verdict, Verdict::kRefused);
+  EXPECT_TRUE(contains(frame.sentences.at(1), "5000 are farther than range_max (30.00 m)")) << frame.sentences.at(1);
+  EXPECT_TRUE(contains(frame.helps.at(0), "Millimetres")) << frame.helps.at(0);
+}
+
+TEST(Sentences, EveryGateHasOneWithItsKey) {
+  for (std::uint32_t gate = 0; gate < POSE_WALL_TRACE_GATES; ++gate) {
+    Note note{{POSE_WALL_TRACE_QUANTITY, gate, 0, 0, 0.5, 0.25}, {}};
+    ASSERT_EQ(pose_wall_trace_gate_info(gate, &note.info), POSE_WALL_OK);
+    const std::string said = sentence_of(note) + help_of(note);
+    EXPECT_NE(sentence_of(note), "") << note.info.name;
+    EXPECT_EQ(said.find('{'), std::string::npos) << said;
+    const std::string key = std::string(note.info.key).substr(0, std::string(note.info.key).find('|'));
+    EXPECT_TRUE(contains(said, key)) << note.info.name << ": " << said;
+  }
+}
+
+TEST(GatesTable, RatiosAndColoursOnlyWhereTheyAreAskedFor) {
+  Noted noted;
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 1.0, 4.0, false);
+  const std::string plain = gates_text(Notes(noted.trace), false);
+  EXPECT_TRUE(contains(plain, "wall_length_min")) << plain;
+  EXPECT_TRUE(contains(plain, "0.25")) << plain;
+  EXPECT_TRUE(contains(plain, "REFUSES")) << plain;
+  EXPECT_FALSE(contains(plain, "\033")) << plain;
+  EXPECT_TRUE(contains(gates_text(Notes(noted.trace), true), "\033[31m"));
+}
+
+// A frame that is refused, and why: by the scene, which is the truth, not by the engine.
+struct Refused {
+  const char* name;
+  std::vector<std::string> scene;     // words behind `sim`
+  std::vector<std::string> settings;  // words behind `explain`
+  unsigned frame;
+  const char* verdicts;  // of frame, floor, left, right: accepted, doubted, refused
+  const char* of;        // whose sentence it is
+  const char* says;
+};
+
+void PrintTo(const Refused& r, std::ostream* os) {
+  *os << r.name;
+}
+
+class ExplainedFrame : public ::testing::TestWithParam<Refused> {};
+
+std::string all_of(const nlohmann::json& paragraph) {
+  std::string text;
+  for (const char* list : {"sentences", "to_look_at"}) {
+    for (const std::string line : paragraph[list]) text += line + " ";
+  }
+  return text;
+}
+
+TEST_P(ExplainedFrame, NamesTheCauseThatTheSceneHas) {
+  const Refused& r = GetParam();
+  const TempFolder folder;
+  std::vector<std::string> sim = {"sim", "-q", "-n", std::to_string(r.frame + 1), "-o", folder.path(), "--scene"};
+  sim.insert(sim.end(), r.scene.begin(), r.scene.end());
+  ASSERT_EQ(command(sim).exit_status, 0);
+  std::vector<std::string> words = {"explain",
+                                    "-q",
+                                    "--json",
+                                    "-c",
+                                    folder.file("pose_wall.yaml"),
+                                    "--frame",
+                                    std::to_string(r.frame),
+                                    folder.file("frames")};
+  words.insert(words.end(), r.settings.begin(), r.settings.end());
+  ::testing::internal::CaptureStdout();
+  const Ran ran = command(words);
+  const auto page = nlohmann::json::parse(::testing::internal::GetCapturedStdout());
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  std::string verdicts, told;
+  for (const auto& paragraph : page["explanation"]) {
+    verdicts += paragraph["verdict"].get<std::string>()[0];
+    if (paragraph["of"] == r.of) told = all_of(paragraph);
+  }
+  EXPECT_EQ(verdicts, r.verdicts);
+  EXPECT_TRUE(contains(told, r.says)) << r.of << ": " << told;
+}
+
+const Refused kRefused[] = {
+    {"no_return_from_the_floor", {"no_floor"}, {}, 0, "arrr", "floor", "2.10 m above the sensor"},
+    {"sensor_higher_than_the_config_says",
+     {"clean"},
+     {"-s", "ground_height_max=1.2"},
+     0,
+     "arrr",
+     "floor",
+     "lies 1.40 m below the sensor, tilted by 0.01° (79.8 % of the points tried): ground_height_max allows 1.20 m"},
+    {"walls_in_reach_for_a_short_length",
+     {"clean", "--set", "width_m=8.2"},
+     {"-s", "range_max=4.15"},
+     0,
+     "aarr",
+     "left wall",
+     "2.00 m are needed (wall_length_min)"},
+    {"pipes_before_a_dark_wall",
+     {"pipes_before_dark_wall"},
+     {},
+     0,
+     "aara",
+     "left wall",
+     "nothing comes back from 63.8 % of it"},
+    {"props_and_nothing_behind", {"props_before_void"}, {}, 0, "aara", "left wall", "it has gaps"},
+    {"conveyor_before_a_dark_wall",
+     {"conveyor_before_dark_wall"},
+     {},
+     0,
+     "aara",
+     "left wall",
+     "looks over its top: it is a conveyor"},
+    {"on_a_crossing",
+     {"crosscut", "--set", "walls=left", "--set", "crosscut_width_m=9", "--set", "crosscut_at_m=0"},
+     {},
+     0,
+     "aarr",
+     "left wall",
+     "the machine stands across a road"},
+    {"turned_square_to_the_road",
+     {"clean", "--set", "turned_left_deg=90"},
+     {},
+     0,
+     "aarr",
+     "right wall",
+     "the machine seems to stand across the road"},
+    {"turned_beyond_the_range",
+     {"clean", "--set", "turned_left_deg=48"},
+     {},
+     0,
+     "aarr",
+     "right wall",
+     "It is turned by 48.00° against the machine; beyond 45.00° (yaw_max_deg)"},
+    {"dust",
+     {"dust", "--set", "dust=0.98", "--set", "dust_range_m=0.3"},
+     {},
+     0,
+     "arrr",
+     "frame",
+     "something close blocks the view: dust"},
+    {"frozen_sensor", {"frozen"}, {}, 15, "raaa", "frame", "The very same points came 5 times again"},
+    {"something_before_the_window", {"below_range_min"}, {}, 0, "aara", "left wall", "are nearer than range_min"},
+    {"mud_on_the_window", {"half_blocked"}, {}, 0, "aaar", "right wall", "a window with mud on it"},
+    {"file_in_millimetres", {"millimetres"}, {}, 0, "rrrr", "frame", "Millimetres look like this; range_max"},
+    {"walls_that_run_apart", {"splayed_wide"}, {}, 0, "aarr", "left wall", "do not run parallel"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Refused, ExplainedFrame, ::testing::ValuesIn(kRefused),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(ExplainVerb, UsageFaultsNameWhatThereIs) {
+  const TempFolder folder;
+  ASSERT_EQ(command({"sim", "-q", "-n", "2", "-o", folder.path()}).exit_status, 0);
+  const std::string frames = folder.file("frames"), config = folder.file("pose_wall.yaml");
+  const Ran beyond = command({"explain", "-c", config, "--frame", "2", frames});
+  EXPECT_EQ(beyond.exit_status, 2);
+  EXPECT_TRUE(contains(beyond.errors, "there are 2 frames, 0 to 1")) << beyond.errors;
+  const Ran none = command({"explain", "-c", config, frames});
+  EXPECT_EQ(none.exit_status, 2);
+  EXPECT_TRUE(contains(none.errors, "--frame is required")) << none.errors;
+  EXPECT_TRUE(contains(command({"explian", frames}).errors, "did you mean 'explain'"));
+  EXPECT_TRUE(contains(command({"explain", "--farme", "0", frames}).errors, "did you mean '--frame'"));
+}
+
+TEST(ExplainVerb, TextAndPictureAreWhole) {
+  const TempFolder folder;
+  ASSERT_EQ(command({"sim", "-q", "-n", "2", "-o", folder.path()}).exit_status, 0);
+  ::testing::internal::CaptureStdout();
+  const Ran ran = command({"explain", "-q", "-c", folder.file("pose_wall.yaml"), "--frame", "1", "--picture",
+                           folder.file("why.svg"), folder.file("frames")});
+  const std::string page = ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  for (const char* part : {"frame 1, after the 1 frame before it", "Floor: accepted", "Outcome", "  yaw: valid",
+                           "Planes that were considered", "Gates", "wall_length_min"}) {
+    EXPECT_TRUE(contains(page, part)) << part;
+  }
+  EXPECT_FALSE(contains(page, "\033")) << "no colours but on a terminal";
+  const std::string picture = test::text_of(folder.file("why.svg"));
+  EXPECT_TRUE(contains(picture, "frame 1, itself accepted, floor accepted, left wall accepted")) << picture.size();
+  EXPECT_TRUE(contains(picture, "</svg>"));
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::explain

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "bags/point_cloud2.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace pose_wall::tools {
+namespace {
+
+// The bytes of a message as either serialisation lays them out.
+class MessageCursor {
+ public:
+  MessageCursor(MessageEncoding encoding, ByteView message, const Place& place)
+      : cursor_(message, place), is_cdr_(encoding == MessageEncoding::kCdr) {
+    if (is_cdr_) read_encapsulation();
+  }
+
+  template <typename Number>
+  Number number(std::string_view what) {
+    align(sizeof(Number), what);
+    return cursor_.number<Number>(what);
+  }
+
+  std::string_view text(std::string_view what) {
+    const ByteView bytes = block(what);
+    std::string_view text = text_of(bytes);
+    // CDR counts the zero that ends a text.
+    if (is_cdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
+    return text;
+  }
+
+  ByteView block(std::string_view what) { return cursor_.bytes(number<std::uint32_t>(what), what); }
+
+  bool is_cdr() const { return is_cdr_; }
+  [[noreturn]] void refuse(const std::string& why) const { cursor_.refuse(why); }
+
+ private:
+  void read_encapsulation() {
+    const ByteView head = cursor_.bytes(4, "head of a CDR message");
+    const auto kind = std::to_integer<unsigned>(head.data[0]) << 8U | std::to_integer<unsigned>(head.data[1]);
+    if (kind > 1) cursor_.refuse(fmt::format("CDR of kind {:04x}; 0000 and 0001 are read", kind));
+    cursor_.set_big_endian(kind == 0);
+    start_ = cursor_.position();
+  }
+
+  // CDR puts numbers at multiples of their size, counted from behind its head.
+  void align(std::size_t size, std::string_view what) {
+    if (!is_cdr_) return;
+    const std::size_t beyond = (cursor_.position() - start_) % size;
+    if (beyond != 0) cursor_.bytes(size - beyond, what);
+  }
+
+  ByteCursor cursor_;
+  bool is_cdr_;
+  std::size_t start_ = 0;
+};
+
+// Types of PointField and of pose_wall_field are numbered alike: 1 INT8 to 8 FLOAT64.
+constexpr std::uint8_t kTypeMax = POSE_WALL_FIELD_FLOAT64;
+
+std::uint32_t bytes_of_type(std::uint8_t type) {
+  constexpr std::uint32_t kBytes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+  return kBytes[type];
+}
+
+struct CloudHead {
+  std::uint32_t height = 0, width = 0;
+  std::uint32_t point_step = 0, row_step = 0;
+  PointLayout layout;
+  std::vector<std::uint64_t> field_ends;
+};
+
+std::int64_t read_stamp(MessageCursor& message) {
+  if (!message.is_cdr()) message.number<std::uint32_t>("header.seq");
+  // ROS 2 has signed seconds; what ROS 1 counts above them ends in 2106.
+  const std::int64_t seconds = message.is_cdr() ? std::int64_t{message.number<std::int32_t>("header.stamp")}
+                                                : std::int64_t{message.number<std::uint32_t>("header.stamp")};
+  const auto nanoseconds = message.number<std::uint32_t>("header.stamp");
+  if (nanoseconds >= 1'000'000'000) {
+    message.refuse(fmt::format("header.stamp has {} nanoseconds; less than 1000000000 are allowed", nanoseconds));
+  }
+  return seconds * 1'000'000'000 + nanoseconds;
+}
+
+void read_fields(MessageCursor& message, CloudHead& head) {
+  const auto count = message.number<std::uint32_t>("fields");
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::string_view name = message.text("name of a field");
+    const auto offset = message.number<std::uint32_t>("offset of a field");
+    const auto type = message.number<std::uint8_t>("type of a field");
+    const auto elements = message.number<std::uint32_t>("count of a field");
+    if (type < 1 || type > kTypeMax) {
+      message.refuse(fmt::format("field '{}' is of type {}; 1 to {} are allowed", name, type, kTypeMax));
+    }
+    head.layout.fields.push_back({name, {offset, type}});
+    head.field_ends.push_back(offset + std::uint64_t{bytes_of_type(type)} * std::max<std::uint32_t>(elements, 1));
+  }
+}
+
+void check_fields(const MessageCursor& message, const CloudHead& head) {
+  for (std::size_t i = 0; i < head.field_ends.size(); ++i) {
+    if (head.field_ends[i] > head.point_step) {
+      message.refuse(fmt::format("field '{}' ends at byte {} of points of {} bytes", head.layout.fields[i].name,
+                                 head.field_ends[i], head.point_step));
+    }
+  }
+}
+
+// Drivers of one row write anything as its step; it is needed from the second row on.
+std::uint64_t bytes_needed(const MessageCursor& message, const CloudHead& head) {
+  const std::uint64_t row = std::uint64_t{head.width} * head.point_step;
+  if (head.height == 0 || row == 0) return 0;
+  if (head.height > 1 && head.row_step < row) {
+    message.refuse(fmt::format("rows of {} points of {} bytes do not fit the row step of {} bytes", head.width,
+                               head.point_step, head.row_step));
+  }
+  return std::uint64_t{head.height - 1} * head.row_step + row;
+}
+
+Frame frame_of(const MessageCursor& message, CloudHead& head, ByteView data) {
+  const std::uint64_t points = std::uint64_t{head.width} * head.height;
+  if (points > std::numeric_limits<std::uint32_t>::max()) {
+    message.refuse(fmt::format("{} points; at most {} are allowed", points, std::numeric_limits<std::uint32_t>::max()));
+  }
+  const std::uint64_t needed = bytes_needed(message, head);
+  if (needed > data.size || (points > 0 && head.point_step == 0)) {
+    message.refuse(fmt::format("{} x {} points of {} bytes, rows of {} bytes, need {} bytes, but data has {}",
+                               head.width, head.height, head.point_step, head.row_step, needed, data.size));
+  }
+  head.layout.point_step = head.point_step;
+  head.layout.count = static_cast<std::uint32_t>(points);
+  Frame frame;
+  try {
+    frame = describe_frame(Bytes(data.data, data.data + data.size), head.layout);
+  } catch (const FrameError& fault) {
+    message.refuse(fault.what());
+  }
+  if (head.height > 1 && needed > 0) {
+    frame.cloud.width = head.width;
+    frame.cloud.height = head.height;
+    frame.cloud.row_step = head.row_step;
+    frame.cloud.data_bytes = needed;
+  }
+  return frame;
+}
+
+}  // namespace
+
+DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message_bytes, const Place& place) {
+  MessageCursor message(encoding, message_bytes, place);
+  DecodedCloud cloud;
+  cloud.stamp_ns = read_stamp(message);
+  cloud.frame_id = message.text("header.frame_id");
+  CloudHead head;
+  head.height = message.number<std::uint32_t>("height");
+  head.width = message.number<std::uint32_t>("width");
+  read_fields(message, head);
+  head.layout.big_endian = message.number<std::uint8_t>("is_bigendian") != 0;
+  head.point_step = message.number<std::uint32_t>("point_step");
+  head.row_step = message.number<std::uint32_t>("row_step");
+  check_fields(message, head);
+  const ByteView data = message.block("data");
+  message.number<std::uint8_t>("is_dense");
+  cloud.frame = frame_of(message, head, data);
+  return cloud;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// sensor_msgs/PointCloud2 as ROS 1 and ROS 2 (CDR) write it: one table of fields, two ways to lay it out.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bags/bag_reader.hpp"
+#include "frames/frame.hpp"
+
+namespace pose_wall::tools {
+
+struct DecodedCloud {
+  std::int64_t stamp_ns = 0;  // of its header; 0: none
+  std::string frame_id;
+  Frame frame;
+};
+
+// The points stay as they lie in the message. Throws FrameError that names the place.
+DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message, const Place& place);
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "packets/ouster.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr double kRadPerDeg = 0.017453292519943295;
+constexpr double kTurn_rad = 6.283185307179586;
+constexpr double kUnit_m = 1e-3;
+
+std::uint32_t number_at(ByteView bytes, std::size_t offset, std::size_t size) {
+  std::uint32_t number = 0;
+  for (std::size_t i = size; i-- > 0;) number = number << 8U | std::to_integer<std::uint32_t>(bytes.data[offset + i]);
+  return number;
+}
+
+struct Pixel {
+  double range_m;
+  float reflectivity;
+};
+
+Pixel pixel_of(OusterProfile profile, ByteView bytes) {
+  switch (profile) {
+    case OusterProfile::kLegacy:
+      return {kUnit_m * (number_at(bytes, 0, 4) & 0xFFFFFU), static_cast<float>(number_at(bytes, 4, 1))};
+    case OusterProfile::kSingle:
+      return {kUnit_m * (number_at(bytes, 0, 4) & 0x7FFFFU), static_cast<float>(number_at(bytes, 4, 1))};
+    case OusterProfile::kDual:
+      return {kUnit_m * (number_at(bytes, 0, 4) & 0x7FFFFU), static_cast<float>(number_at(bytes, 3, 1))};
+    case OusterProfile::kLowRate:
+      break;
+  }
+  return {kUnit_m * 8.0 * (number_at(bytes, 0, 2) & 0x7FFFU), static_cast<float>(number_at(bytes, 2, 1))};
+}
+
+}  // namespace
+
+OusterAssembler::Layout OusterAssembler::layout_of(OusterProfile profile) {
+  switch (profile) {
+    case OusterProfile::kLegacy:
+      return {0, 16, 12, 4, 0};
+    case OusterProfile::kSingle:
+      return {32, 12, 12, 0, 32};
+    case OusterProfile::kDual:
+      return {32, 12, 16, 0, 32};
+    case OusterProfile::kLowRate:
+      break;
+  }
+  return {32, 12, 4, 0, 32};
+}
+
+OusterAssembler::OusterAssembler(OusterMetadata metadata)
+    : metadata_(std::move(metadata)),
+      layout_(layout_of(metadata_.profile)),
+      kind_(fmt::format("packets of an Ouster {}", metadata_.product)) {}
+
+std::size_t OusterAssembler::packet_bytes() const {
+  const std::size_t column = layout_.column_head + metadata_.rings * layout_.pixel + layout_.column_tail;
+  return layout_.packet_head + metadata_.columns_per_packet * column + layout_.packet_tail;
+}
+
+bool OusterAssembler::add(const Datagram& datagram) {
+  if (datagram.payload.size != packet_bytes()) return false;
+  if (!sensor_) sensor_ = datagram.source_address;
+  if (*sensor_ != datagram.source_address) return false;  // of another sensor on the same wire
+  ByteCursor packet(datagram.payload);
+  std::uint32_t frame = 0;
+  if (layout_.packet_head > 0) {
+    const auto kind = packet.number<std::uint16_t>("kind of packet");
+    frame = packet.number<std::uint16_t>("frame");
+    packet.bytes(layout_.packet_head - 4, "head of a packet");
+    if (kind != 1) return false;
+  }
+  for (std::uint32_t i = 0; i < metadata_.columns_per_packet; ++i) {
+    const ByteView column =
+        packet.bytes(layout_.column_head + metadata_.rings * layout_.pixel + layout_.column_tail, "column of a packet");
+    add_column(ByteCursor(column), frame);
+  }
+  return true;
+}
+
+void OusterAssembler::add_column(ByteCursor column, std::uint32_t frame) {
+  const auto time_ns = column.number<std::uint64_t>("time of a column");
+  const auto index = column.number<std::uint16_t>("number of a column");
+  bool is_valid = false;
+  if (metadata_.profile == OusterProfile::kLegacy) {
+    frame = column.number<std::uint16_t>("frame of a column");
+    column.bytes(4, "encoder of a column");
+  } else {
+    is_valid = (column.number<std::uint16_t>("status of a column") & 1U) != 0;
+  }
+  const ByteView pixels = column.bytes(metadata_.rings * layout_.pixel, "pixels of a column");
+  if (metadata_.profile == OusterProfile::kLegacy) {
+    is_valid = column.number<std::uint32_t>("status of a column") == 0xFFFFFFFFU;
+  }
+  if (!is_valid || index >= metadata_.columns_per_frame) return;
+  if (frame_ && *frame_ != frame) end_frame();
+  if (!frame_) {
+    frame_ = frame;
+    scan_.stamp_ns = static_cast<std::int64_t>(time_ns & std::numeric_limits<std::int64_t>::max());
+    scan_.rings = metadata_.rings;
+    scan_.points.assign(std::size_t{metadata_.rings} * metadata_.columns_per_frame, ScanPoint{});
+    columns_ = 0;
+  }
+  ++columns_;
+  for (std::uint32_t ring = 0; ring < metadata_.rings; ++ring) {
+    add_pixel({pixels.data + ring * layout_.pixel, layout_.pixel}, ring, index, time_ns);
+  }
+}
+
+void OusterAssembler::add_pixel(ByteView bytes, std::uint32_t ring, std::uint32_t column, std::uint64_t time_ns) {
+  ScanPoint& point = scan_.points[std::size_t{ring} * metadata_.columns_per_frame + column];
+  const Pixel pixel = pixel_of(metadata_.profile, bytes);
+  // The rings come from the top, as rows of an image.
+  point.ring = static_cast<std::uint16_t>(metadata_.rings - 1 - ring);
+  point.t_ns = static_cast<std::uint32_t>(time_ns - static_cast<std::uint64_t>(scan_.stamp_ns));
+  if (pixel.range_m == 0.0) return;
+  point.intensity = pixel.reflectivity;
+  const double encoder_rad = kTurn_rad * (1.0 - static_cast<double>(column) / metadata_.columns_per_frame);
+  const double azimuth_rad = encoder_rad - metadata_.azimuth_deg[ring] * kRadPerDeg;
+  const double altitude_rad = metadata_.altitude_deg[ring] * kRadPerDeg;
+  const double beam_m = pixel.range_m - std::hypot(metadata_.beam_origin_out_m, metadata_.beam_origin_up_m);
+  const double flat_m = beam_m * std::cos(altitude_rad);
+  const double x_m = flat_m * std::cos(azimuth_rad) + metadata_.beam_origin_out_m * std::cos(encoder_rad);
+  const double y_m = flat_m * std::sin(azimuth_rad) + metadata_.beam_origin_out_m * std::sin(encoder_rad);
+  const double z_m = beam_m * std::sin(altitude_rad) + metadata_.beam_origin_up_m;
+  const auto& turn = metadata_.sensor_from_lidar;
+  const auto row = [&](std::size_t i) {
+    return static_cast<float>(turn[i] * x_m + turn[i + 1] * y_m + turn[i + 2] * z_m + turn[i + 3]);
+  };
+  point.x_m = row(0);
+  point.y_m = row(4);
+  point.z_m = row(8);
+}
+
+void OusterAssembler::end_frame() {
+  // A packet in a hundred may be lost; a scan that began or ended with the capture lacks more.
+  scan_.is_complete = columns_ * 100 >= metadata_.columns_per_frame * 95;
+  push(std::exchange(scan_, Scan{}));
+  frame_.reset();
+}
+
+void OusterAssembler::finish() {
+  if (frame_) end_frame();
+}
+
+}  // namespace pose_wall::tools

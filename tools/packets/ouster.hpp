@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Ouster sensors: packets of columns, which metadata describes.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "packets/ouster_metadata.hpp"
+#include "packets/scan.hpp"
+
+namespace pose_wall::tools {
+
+// Frames by the number that the sensor gives them; a column that did not come has no returns. Points in the sensor's
+// frame, x towards the front. Of two returns the first is taken. Stamps are the sensor's own.
+class OusterAssembler : public ScanAssembler {
+ public:
+  explicit OusterAssembler(OusterMetadata metadata);
+
+  bool add(const Datagram& datagram) override;
+  void finish() override;
+  const char* kind() const override { return kind_.c_str(); }
+
+  std::size_t packet_bytes() const;
+
+ private:
+  struct Layout {
+    std::size_t packet_head, column_head, pixel, column_tail, packet_tail;
+  };
+
+  static Layout layout_of(OusterProfile profile);
+  void add_column(ByteCursor column, std::uint32_t frame);
+  void add_pixel(ByteView pixel, std::uint32_t ring, std::uint32_t column, std::uint64_t time_ns);
+  void end_frame();
+
+  OusterMetadata metadata_;
+  Layout layout_;
+  std::string kind_;
+  std::optional<std::uint32_t> frame_;
+  std::optional<std::uint32_t> sensor_;
+  Scan scan_;
+  std::uint32_t columns_ = 0;  // of the frame, that came
+};
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "packets/udp_capture.hpp"
+
+#include "bags/decompress.hpp"
+
+#if POSE_WALL_HAS_PCAP
+#include <fmt/format.h>
+#include <pcap/pcap.h>
+
+#include <array>
+#include <cstdio>
+
+#include "packets/ip_packets.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+LinkType link_type(int number) {
+  switch (number) {
+    case DLT_NULL:
+    case DLT_LOOP:
+      return LinkType::kNull;
+    case DLT_EN10MB:
+      return LinkType::kEthernet;
+    case DLT_RAW:
+      return LinkType::kRaw;
+    case DLT_LINUX_SLL:
+      return LinkType::kLinuxCooked;
+#ifdef DLT_LINUX_SLL2
+    case DLT_LINUX_SLL2:
+      return LinkType::kLinuxCooked2;
+#endif
+    default:
+      break;
+  }
+  throw FrameError(
+      fmt::format("the capture's link layer is of type {}; Ethernet, Linux cooked, raw IP and loopback "
+                  "are read",
+                  number));
+}
+
+class PcapFile : public UdpCapture {
+ public:
+  explicit PcapFile(const std::string& path) : pcap_(open(path)), packets_(link_type(pcap_datalink(pcap_.get()))) {}
+
+  std::optional<Datagram> next() override {
+    while (!ended_) {
+      const long offset = std::ftell(pcap_file(pcap_.get()));
+      pcap_pkthdr* header = nullptr;
+      const unsigned char* packet = nullptr;
+      const int status = pcap_next_ex(pcap_.get(), &header, &packet);
+      if (status != 1) ended_ = true;
+      if (status == PCAP_ERROR_BREAK) break;
+      if (status != 1)
+        throw FrameError(fmt::format("offset {}: the capture is cut: {}", offset, pcap_geterr(pcap_.get())));
+      // Opened with nanoseconds: tv_usec counts them.
+      const std::int64_t captured_ns = std::int64_t{header->ts.tv_sec} * 1'000'000'000 + header->ts.tv_usec;
+      const ByteView bytes{reinterpret_cast<const std::byte*>(packet), header->caplen};
+      if (std::optional<Datagram> datagram = packets_.add(bytes, captured_ns)) return datagram;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  using Pcap = std::unique_ptr<pcap_t, decltype(&pcap_close)>;
+
+  static Pcap open(const std::string& path) {
+    std::array<char, PCAP_ERRBUF_SIZE> error{};
+    Pcap pcap(pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data()),
+              pcap_close);
+    if (!pcap) throw FrameError(fmt::format("offset 0: {}", error.data()));
+    return pcap;
+  }
+
+  Pcap pcap_;
+  IpPackets packets_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<UdpCapture> open_udp_capture(const std::string& path) {
+  return std::make_unique<PcapFile>(path);
+}
+
+}  // namespace pose_wall::tools
+
+#else
+
+namespace pose_wall::tools {
+
+std::unique_ptr<UdpCapture> open_udp_capture(const std::string& /*path*/) {
+  throw FrameError(missing_support("captures of packets", "libpcap-dev", "POSE_WALL_READ_PCAP"));
+}
+
+}  // namespace pose_wall::tools
+
+#endif
