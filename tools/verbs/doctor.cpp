@@ -66,7 +66,10 @@ int examine(const DoctorOptions& options) {
   const std::unique_ptr<OutputFile> output = open_output(options, inputs);
   const doctor::Recording recording = read_all(options, inputs);
   for (const std::string& error : recording.errors) fmt::print(stderr, "pose_wall doctor: {}\n", error);
-  if (recording.interrupted) return kExitInterrupted;
+  if (recording.interrupted) {
+    fmt::print(stderr, "interrupted: {} were read, nothing is concluded\n", counted(recording.notes.size(), "frame"));
+    return kExitInterrupted;
+  }
 
   const doctor::Diagnosis diagnosis = doctor::diagnose(recording, told, options.height_m);
   fmt::print("{}", options.json ? doctor::diagnosis_json(diagnosis) : doctor::diagnosis_text(diagnosis));
