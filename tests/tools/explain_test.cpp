@@ -244,6 +244,9 @@ TEST(ExplainVerb, UsageFaultsNameWhatThereIs) {
   const Ran none = command({"explain", "-c", config, frames});
   EXPECT_EQ(none.exit_status, 2);
   EXPECT_TRUE(contains(none.errors, "--frame is required")) << none.errors;
+  const Ran unwritable = command({"explain", "-c", config, "-n", "0", "-p", folder.file("no/why.svg"), frames});
+  EXPECT_EQ(unwritable.exit_status, 2);
+  EXPECT_TRUE(contains(unwritable.errors, "--picture " + folder.file("no/why.svg") + ": cannot")) << unwritable.errors;
   EXPECT_TRUE(contains(command({"explian", frames}).errors, "did you mean 'explain'"));
   EXPECT_TRUE(contains(command({"explain", "--farme", "0", frames}).errors, "did you mean '--frame'"));
 }
