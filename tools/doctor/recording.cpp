@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <exception>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -28,23 +26,22 @@ void mix(std::uint64_t& digest, float number) {
   for (int shift = 0; shift < 32; shift += 8) digest = (digest ^ (bits >> shift & 255U)) * 1099511628211U;
 }
 
-void add_frame(Recording& recording, const SourcedFrame& sourced, FrameStamps& stamps) {
+void add_frame(Recording& recording, SourcedFrame& sourced, FrameStamps& stamps) {
   FrameNote note;
   KeptFrame kept;
-  const std::int64_t stamp_ns = stamps.next(sourced.stamp_ns);
-  try {
-    if (!sourced.frame) throw FrameError(sourced.error);
-    const Frame& frame = *sourced.frame;
-    if (pose_wall_cloud_check(&frame.cloud) != POSE_WALL_OK) {
-      throw FrameError(pose_wall_status_text(pose_wall_cloud_check(&frame.cloud)));
+  std::string error = std::move(sourced.error);
+  if (sourced.frame) {
+    const std::int32_t status = pose_wall_cloud_check(&sourced.frame->cloud);
+    if (status == POSE_WALL_OK) {
+      note = note_of(sourced.frame->cloud, kept);
+    } else {
+      error = pose_wall_status_text(status);
     }
-    note = note_of(frame.cloud, kept);
-  } catch (const std::exception& error) {
-    note.error = error.what();
-    recording.errors.push_back(sourced.name + ": " + error.what());
   }
+  if (!error.empty()) recording.errors.push_back(sourced.name + ": " + error);
+  note.error = std::move(error);
   note.source = sourced.name;
-  note.stamp_ns = stamp_ns;
+  note.stamp_ns = stamps.next(sourced.stamp_ns);
   note.has_own_stamp = sourced.stamp_ns.has_value();
   recording.add(std::move(note), std::move(kept));
 }
@@ -92,19 +89,18 @@ FrameNote note_of(const pose_wall_cloud& cloud, KeptFrame& frame) {
   return note;
 }
 
-Recording read_recording(const FrameOptions& options,
-                         const std::function<void(std::size_t, const std::string&)>& progress) {
-  FrameSequence inputs = options.open();
+Recording read_recording(FrameSequence& inputs, double rate_hz,
+                         const std::function<void(const std::string&)>& progress) {
   Recording recording;
   recording.errors = inputs.errors();
-  FrameStamps stamps(options.rate_hz);
-  while (const std::optional<SourcedFrame> frame = inputs.next()) {
+  FrameStamps stamps(rate_hz);
+  while (std::optional<SourcedFrame> frame = inputs.next()) {
     if (InterruptWatch::is_interrupted()) {
       recording.interrupted = true;
       break;
     }
     add_frame(recording, *frame, stamps);
-    progress(inputs.frames(), std::filesystem::path(frame->name).filename().string());
+    progress(frame->name);
   }
   return recording;
 }

@@ -17,13 +17,14 @@ packages_to_cross="cmake ninja-build libeigen3-dev g++-aarch64-linux-gnu qemu-us
 # shellcheck disable=SC2034
 packages_to_pack="dpkg-dev file" # dpkg-shlibdeps looks up what the command depends on, and asks `file` what it is
 # shellcheck disable=SC2034
-presets_to_test="release debug asan tsan arm64 arm64-clang arm64-asan bare"
+presets_to_test="release debug asan tsan msan fuzz arm64 arm64-clang arm64-asan bare"
 
 # shellcheck disable=SC2086  # lists of words
 packages_of() { # preset: what it takes to build it and to run its tests
   case $1 in
     release | debug | asan) echo $packages_to_build $packages_to_read $packages_to_test ;;
     tsan) echo $packages_to_build $packages_to_test ;;
+    msan | fuzz | coverage) echo $packages_to_build $packages_to_read $packages_to_test clang llvm ;;
     arm64 | arm64-asan) echo $packages_to_cross $packages_to_test ;;
     arm64-clang | bare) echo $packages_to_cross clang $packages_to_test ;;
     *) return 1 ;;
