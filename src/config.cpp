@@ -105,6 +105,20 @@ const char* choice_at(const char* choices, std::uint32_t index) {
   return choices;
 }
 
+// The choice that a config holds, nullptr where it holds none.
+const char* choice_held(const Row& row, const pose_wall_config& config) {
+  const double index = config.number[row.slot];
+  if (!(index >= 0.0 && index < POSE_WALL_CONFIG_NUMBERS)) return nullptr;
+  return choice_at(row.info.choices, static_cast<std::uint32_t>(index));
+}
+
+// POSE_WALL_TEXT_MAX for one without its closing zero.
+std::size_t text_length(const char (&text)[POSE_WALL_TEXT_MAX]) {
+  std::size_t length = 0;
+  while (length < POSE_WALL_TEXT_MAX && text[length] != '\0') ++length;
+  return length;
+}
+
 bool in_range(const Row& row, double value) {
   return value >= row.info.minimum && value <= row.info.maximum;
 }
@@ -178,7 +192,7 @@ Box box_at(const pose_wall_config& config, std::uint32_t slot) {
   return {n[0], n[1], n[2], n[3], n[4], n[5]};
 }
 
-// Every number again, for configs whose members were written past the functions.
+// Every number and text again, for configs whose members were written past the functions.
 bool all_in_range(const pose_wall_config& config, pose_wall_rule_fault* fault) {
   for (const Row& row : kRows) {
     const std::uint32_t count = row.info.type == POSE_WALL_KEY_BOX ? kNumbersOfBox : (is_one_number(row) ? 1U : 0U);
@@ -188,10 +202,12 @@ bool all_in_range(const pose_wall_config& config, pose_wall_rule_fault* fault) {
         return false;
       }
     }
-    if (row.info.type == POSE_WALL_KEY_CHOICE &&
-        (!(config.number[row.slot] >= 0.0) || !(config.number[row.slot] < POSE_WALL_CONFIG_NUMBERS) ||
-         choice_at(row.info.choices, static_cast<std::uint32_t>(config.number[row.slot])) == nullptr)) {
+    if (row.info.type == POSE_WALL_KEY_CHOICE && choice_held(row, config) == nullptr) {
       *fault = {row.info.name, "", "not one of the key's choices"};
+      return false;
+    }
+    if (row.info.type == POSE_WALL_KEY_TEXT && text_length(config.text[row.slot]) == POSE_WALL_TEXT_MAX) {
+      *fault = {row.info.name, "", "text without an end"};
       return false;
     }
   }
@@ -344,12 +360,15 @@ std::int32_t config_get_text(const pose_wall_config& config, const char* key, ch
   const Row* row = find_row(key);
   if (row == nullptr) return POSE_WALL_E_KEY_UNKNOWN;
   const char* text = nullptr;
-  if (row->info.type == POSE_WALL_KEY_TEXT) text = config.text[row->slot];
-  if (row->info.type == POSE_WALL_KEY_CHOICE) {
-    text = choice_at(row->info.choices, static_cast<std::uint32_t>(config.number[row->slot]));
+  std::size_t length = 0;
+  if (row->info.type == POSE_WALL_KEY_TEXT) {
+    text = config.text[row->slot];
+    length = text_length(config.text[row->slot]);
+  } else if (row->info.type == POSE_WALL_KEY_CHOICE) {
+    text = choice_held(*row, config);
+    if (text != nullptr) length = choice_length(text);
   }
   if (text == nullptr) return POSE_WALL_E_VALUE_TYPE;
-  const std::size_t length = row->info.type == POSE_WALL_KEY_TEXT ? std::strlen(text) : choice_length(text);
   if (length + 1 > bytes) return POSE_WALL_E_BUFFER_SMALL;
   std::memcpy(buffer, text, length);
   buffer[length] = '\0';

@@ -38,7 +38,7 @@ typedef struct setting {
 
 typedef struct roadway {
   const char* name;
-  scanner scanner;
+  struct scanner scanner;                  /* so it is C++, too */
   double half_width_m, height_m, face_x_m; /* face_x_m: the heading's face */
   double rough_m, steel_m;                 /* bumps of the rock; how far steel sets stand out, 0: none */
   double noise_m;                          /* of a range, standard deviation */

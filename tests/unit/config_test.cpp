@@ -248,6 +248,27 @@ TEST(Config, MembersWrittenPastTheFunctionsAreCaught) {
   }
 }
 
+TEST(Config, TextsAndChoicesWrittenPastTheFunctionsAreCaught) {
+  const pose_wall_config good = test::config_with();
+  char text[2 * POSE_WALL_TEXT_MAX];
+  for (const int member : {0, 1, 2}) {
+    pose_wall_config config = good;
+    std::memset(config.text[member], 'A', POSE_WALL_TEXT_MAX);
+    pose_wall_rule_fault fault{};
+    EXPECT_EQ(check_config(config, &fault), POSE_WALL_E_CONFIG_RULE);
+    EXPECT_STREQ(fault.rule, "text without an end");
+    EXPECT_EQ(config_get_text(config, fault.key, text, POSE_WALL_TEXT_MAX), POSE_WALL_E_BUFFER_SMALL);
+    EXPECT_EQ(config_get_text(config, fault.key, text, sizeof text), POSE_WALL_OK);
+    EXPECT_EQ(std::string(text), std::string(POSE_WALL_TEXT_MAX, 'A')) << "and nothing of what lies behind";
+  }
+  for (const double no_choice : {std::nan(""), -1.0, 4.0, 1e300}) {
+    pose_wall_config config = good;
+    config.number[0] = no_choice;
+    EXPECT_EQ(check_config(config, nullptr), POSE_WALL_E_CONFIG_RULE);
+    EXPECT_EQ(config_get_text(config, "forward_axis", text, sizeof text), POSE_WALL_E_VALUE_TYPE) << no_choice;
+  }
+}
+
 TEST(Config, NotInitialisedIsRefused) {
   pose_wall_config config;
   for (const int garbage : {0x00, 0xFF, 0x41}) {

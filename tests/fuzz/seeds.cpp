@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Writes inputs to begin with, one folder per target. usage: pose_wall_fuzz_seeds FOLDER
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "fuzz/road_from_input.hpp"
+#include "support/runtime_under_test.hpp"
+
+namespace {
+
+using pose_wall::test::require;
+using Text = std::string;
+
+std::filesystem::path g_folder;
+
+void write(const char* target, const Text& bytes) {
+  static int number = 0;
+  const std::filesystem::path folder = g_folder / target;
+  std::filesystem::create_directories(folder);
+  std::ofstream out(folder / ("seed_" + std::to_string(++number)), std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  require(out.good(), "a seed is written");
+}
+
+template <typename Value>
+Text raw(const Value& value) {
+  return Text(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+Text chance(std::uint64_t seed, std::size_t count) {
+  Text bytes;
+  while (bytes.size() < count) bytes += raw(scramble(seed += 0x51));
+  return bytes.substr(0, count);
+}
+
+Text floats(std::initializer_list<float> values) {
+  Text bytes;
+  for (const float value : values) bytes += raw(value);
+  return bytes;
+}
+
+Text field(char offset, char type) {
+  return {offset, type};
+}
+
+void frames() {
+  const Text layout = Text("\0", 1) + raw<std::uint16_t>(5000) + Text("\0\x0b", 2) + raw<std::uint16_t>(0) +
+                      raw<std::int64_t>(1000000000) + field(0, 7) + field(4, 7) + field(8, 7) + field(0, 0);
+  write("frame", "\x06" + layout + Text("\x10\x01\x7f", 3));
+  write("frame", "\x02" + layout);
+  write("frame", "\x0e" + layout);
+  write("frame", Text("\0", 1) + layout + floats({1, 2, 3, -1, 2.5F, -1.4F}));
+  pose_wall_cloud cloud;
+  pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, 7);
+  write("frame", "\x01" + raw(cloud));
+}
+
+// Roads of any kind, one after the other, each with what may befall it.
+void sequences() {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    Text bytes(1, static_cast<char>(seed % 5));
+    bytes += chance(seed, 2 * (seed % 5));
+    for (std::uint64_t event = 0; event < 4; ++event) {
+      bytes += static_cast<char>((seed + event * (seed % 7)) % 8);
+      bytes += '\0';  // the next frame's stamp
+      bytes += chance(seed * 16 + event, 24);
+    }
+    write("sequence", bytes);
+  }
+  // A middling road, three times, handed over in between, then silence.
+  Text road(Text("\0", 1) + "\x60\x60\x60\x80\x60\x80\x10");
+  road += Text("\0", 1);
+  const Text frame = Text("\0\0", 2) + road;
+  write("sequence", Text("\0", 1) + frame + frame + Text("\6\0", 2) + frame + Text("\5\0\4\0", 4));
+}
+
+void mementos() {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) write("memento", Text(1, char(seed % 2)) + chance(seed, 12));
+  write("memento", Text("\x02", 1) + chance(3, 512));
+}
+
+void runtimes() {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) write("runtime", chance(seed * 7, 60));
+}
+
+void images() {
+  write("image", Text(2000, '\0'));
+  write("image", Text("\x02", 1) + chance(5, 2000));
+  write("image", Text("\x01", 1) + chance(6, 240));
+}
+
+void configs() {
+  const std::uint32_t rows = pose_wall_config_key_count();
+  for (std::uint32_t row = 0; row < rows; row += 3) {
+    pose_wall_key_info key;
+    pose_wall_config_key(row, &key);
+    write("config", Text("\0", 1) + static_cast<char>(row) + key.default_text);
+  }
+  for (const char* value :
+       {"-2.3 2.3 -0.6 0.6 -1.5 0.4", "[1, 2, 3, 4, 5, 6]", "1e-3", "-.5E+1", "0x10", "nan", "1e999"}) {
+    write("config", Text("\0", 1) + static_cast<char>(18) + value);
+  }
+  write("config", Text("\4\5", 2) + raw(0.5) + Text("\6\x20\0", 3) + raw(-1.0));
+  write("config", Text("\0", 1) + static_cast<char>(rows) + Text("no_such_key\0val", 15));
+}
+
+struct Disk {
+  Text bytes;
+  static std::int32_t write(void* self, std::uint64_t offset, const void* from, std::uint64_t count) {
+    Text& bytes = static_cast<Disk*>(self)->bytes;
+    if (bytes.size() < offset + count) bytes.resize(offset + count);
+    std::memcpy(&bytes[offset], from, count);
+    return 0;
+  }
+};
+
+Text recorded(std::uint32_t clouds) {
+  using namespace pose_wall::test;
+  Disk disk;
+  RuntimeUnderTest runtime([&](pose_wall_runtime_options* o) {
+    o->sink = Disk::write;
+    o->sink_user = &disk;
+    o->box_bytes = 4U << 20U;
+    o->box_clouds = clouds;
+  });
+  runtime.start();
+  for (std::size_t i = 0; i < 2; ++i) {
+    runtime.push(Points(i * 40, {1, 2, 3}), static_cast<std::int64_t>(i) * 100 * kMs);
+    runtime.wait_idle();
+  }
+  runtime.pass(400 * kMs);
+  pose_wall_runtime_stop(runtime.get());
+  return disk.bytes;
+}
+
+void boxes() {
+  for (const char* target : {"box", "box_file"}) {
+    for (const char mended : {'\0', '\x1f', '\x0d'}) write(target, Text(1, mended) + recorded(1));
+    write(target, Text(1, '\0') + recorded(0));
+  }
+}
+
+Text pcd(const Text& types, const Text& encoding, const Text& body) {
+  return "# .PCD\nVERSION 0.7\nFIELDS x y z intensity\n" + types + "WIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n" +
+         "POINTS 2\nDATA " + encoding + "\n" + body;
+}
+
+void readers() {
+  const Text four = "SIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n";
+  const Text points = floats({1, 2, 3, 0.5F, -1, 2.5F, -1.4F, 0.25F});
+  write("pcd", pcd(four, "ascii", "1 2 3 0.5\n-1 2.5 nan 1e40\r\n"));
+  write("pcd", pcd(four, "binary", points));
+  write("pcd", pcd("SIZE 8 8 8 2\nTYPE F F F U\nCOUNT 1 1 1 1\n", "binary", chance(1, 52)));
+  // LZF: one run of 32 literals.
+  write("pcd", pcd(four, "binary_compressed", raw<std::uint32_t>(33) + raw<std::uint32_t>(32) + "\x1f" + points));
+  const Text head =
+      "element vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty uchar intensity\n";
+  const Text face = "element face 1\nproperty list uchar int vertex_indices\n";
+  write("ply", "ply\nformat ascii 1.0\ncomment c\n" + head + face + "end_header\n1 2 3 4\n5 6 7 8\n3 0 1 0\n");
+  write("ply", "ply\nformat binary_little_endian 1.0\n" + head + "end_header\n" + chance(2, 26));
+  write("ply",
+        "ply\nformat binary_big_endian 1.0\n" + face + head + "end_header\n" + Text("\1\0\0\0\0", 5) + chance(3, 26));
+  write("kitti", points);
+  write("kitti", "");
+  write("kitti", points + points.substr(0, 7));
+}
+
+void texts() {
+  write("config_file",
+        "# comment\nforward_axis: \"-X\"\nbody_box_1: [-2.3, 2.3, -0.6, 0.6, -1.5, 0.4]\nrange_max: 40\n");
+  write("config_file", "s_front: -3.0\ns_back: +2.0\nno_such_key: 1\nrange_min: 1e9\nrange_min: 2\n");
+  write("config_file", "a: &x [1, 2]\nb: *x\n---\nc: {d: |\n  e}\n");
+  write("config_file", "lidar_frame: 'a name'\nbase_frame: >-\n  folded\n  text\n? forward_axis\n: +X\n");
+  write("csv", "frame,stamp_ns,roll,pitch,yaw,d_lf,d_lb,d_rf,d_rb\n0,100,0.1,,-1e-3,2,3,nan,4\n");
+  write("csv", "# a comment\n\na,\"b \"\"c\"\"\",\"d\ne\"\r\n1,2,3\n\"\n\",,x\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: %s FOLDER\n", argv[0]);
+    return 2;
+  }
+  g_folder = argv[1];
+  frames();
+  sequences();
+  mementos();
+  runtimes();
+  images();
+  configs();
+  boxes();
+  readers();
+  texts();
+  return 0;
+}
