@@ -60,8 +60,9 @@ def row(name, sensor, settings, found):
 
 def main():
     program, frames = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "24"
-    print("| mount | class | height (m) | roll (deg) | pitch (deg) | ahead | noise (mm) | boxes / body | floor certain | verdict |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    head = ("mount", "class", "height (m)", "roll (deg)", "pitch (deg)", "ahead", "noise (mm)", "boxes / body",
+            "floor certain", "verdict")
+    print(f"| {' | '.join(head)} |\n|{' --- |' * len(head)}")
     usable = True
     for name, sensor, settings in MOUNTS:
         with tempfile.TemporaryDirectory() as folder:
