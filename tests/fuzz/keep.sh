@@ -15,7 +15,8 @@ room_of() { # bytes for a target's inputs
     *) echo 40000 ;;
   esac
 }
-for target in ${*:-$(find $build/tests -maxdepth 1 -name 'pose_wall_*_fuzz' | sed -E 's/.*pose_wall_(.*)_fuzz/\1/' | sort)}; do
+targets=${*:-$(find $build/tests -maxdepth 1 -name 'pose_wall_*_fuzz' | sed -E 's/.*pose_wall_(.*)_fuzz/\1/' | sort)}
+for target in $targets; do
   noted=tests/fuzz/corpus/$target
   small=$build/keep/$target
   rm -rf "$small" && mkdir -p "$small" "$noted"

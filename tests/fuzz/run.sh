@@ -33,7 +33,8 @@ max_len_of() {
 
 options_of() { # what both fuzzing and shrinking are given
   local words=tests/fuzz/words/$1.dict
-  echo "-max_len=$(max_len_of "$1") -timeout=${TIMEOUT:-10} -report_slow_units=${TIMEOUT:-10} -rss_limit_mb=2048 -artifact_prefix=$build/findings/$1/"
+  echo "-max_len=$(max_len_of "$1") -timeout=${TIMEOUT:-10} -report_slow_units=${TIMEOUT:-10} -rss_limit_mb=2048"
+  echo "-artifact_prefix=$build/findings/$1/"
   [ ! -f "$words" ] || echo "-dict=$words"
 }
 
@@ -46,7 +47,8 @@ fuzz() { # target
   : > "$build/logs/$1.log"
   while left=$((until - $(date +%s))) && [ "$left" -gt 0 ]; do
     # shellcheck disable=SC2086  # a list of words
-    "$program" $options -max_total_time=$left -print_final_stats=1 "$corpus" "$noted" >> "$build/logs/$1.log" 2>&1 && break
+    "$program" $options -max_total_time=$left -print_final_stats=1 "$corpus" "$noted" \
+      >> "$build/logs/$1.log" 2>&1 && break
     [ "$(find "$build/findings/$1" -type f | wc -l)" -lt 20 ] || break
   done
   # shellcheck disable=SC2086
@@ -80,4 +82,6 @@ wait || true
 printf '%-12s %12s %8s %9s %8s %8s %9s\n' target executions edges features inputs seconds findings
 for target in $targets; do row "$target"; done
 found=$(for target in $targets; do find "$build/findings/$target" -type f; done)
-[ -z "$found" ] || { printf 'Findings, each again by build/fuzz/tests/pose_wall_TARGET_fuzz FILE:\n%s\n' "$found" && exit 1; }
+[ -n "$found" ] || exit 0
+printf 'Findings, each again by build/fuzz/tests/pose_wall_TARGET_fuzz FILE:\n%s\n' "$found"
+exit 1

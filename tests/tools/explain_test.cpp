@@ -160,7 +160,13 @@ TEST_P(ExplainedFrame, NamesTheCauseThatTheSceneHas) {
 }
 
 const Refused kRefused[] = {
-    {"no_return_from_the_floor", {"no_floor"}, {}, 0, "arrr", "floor", "2.10 m above the sensor"},
+    {"no_return_from_the_floor",
+     {"no_floor"},
+     {},
+     0,
+     "arrr",
+     "floor",
+     "2.10 m above the sensor, tilted by 0.00° (94.9 % of the points tried): no floor is above the sensor"},
     {"sensor_higher_than_the_config_says",
      {"clean"},
      {"-s", "ground_height_max=1.2"},
@@ -174,7 +180,7 @@ const Refused kRefused[] = {
      0,
      "aarr",
      "left wall",
-     "2.00 m are needed (wall_length_min)"},
+     "alone it must be supported over 5.00 m (wall_alone_length_min); it is over 2.00 m"},
     {"pipes_before_a_dark_wall",
      {"pipes_before_dark_wall"},
      {},

@@ -137,6 +137,8 @@ int explain_frame(const ExplainOptions& options) {
 int explain_or_complaint(const ExplainOptions& options) {
   try {
     return explain_frame(options);
+  } catch (const ConfigError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     fmt::print(stderr, "pose_wall explain: {}\n", error.what());
     return kExitUnreadable;

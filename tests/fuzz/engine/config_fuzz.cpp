@@ -47,9 +47,9 @@ void set_text(Input* input, pose_wall_config* config) {
     require(number >= key.minimum && number <= key.maximum, "within its range");
   }
   char text[POSE_WALL_TEXT_MAX];
-  if (known && key.type >= POSE_WALL_KEY_CHOICE && key.type <= POSE_WALL_KEY_TEXT) {
+  if (known && status == POSE_WALL_OK && key.type >= POSE_WALL_KEY_CHOICE && key.type <= POSE_WALL_KEY_TEXT) {
     require_ok(pose_wall_config_get_text(config, key.name, text, sizeof text), "get text");
-    require(status != POSE_WALL_OK || std::strcmp(text, value) == 0, "the text that was set");
+    require(std::strcmp(text, value) == 0, "the text that was set");
   }
 }
 
@@ -66,7 +66,7 @@ void set_number(Input* input, pose_wall_config* config) {
 }
 
 void write_past(Input* input, pose_wall_config* config) {
-  const std::uint32_t at = input->take<std::uint16_t>() % (sizeof *config / 8) * 8;
+  const std::size_t at = input->take<std::uint16_t>() % (sizeof *config / 8) * 8;
   const auto word = input->take<std::uint64_t>();
   std::memcpy(reinterpret_cast<unsigned char*>(config) + at, &word, sizeof word);
 }
