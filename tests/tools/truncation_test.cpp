@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: a frame's file that was cut off, at any byte, is refused with a reason, or gives the first of its points as
-// they stood: none is made up. Which lengths are taken is part of the table: a KITTI file has no header, so one that
-// ends between two points cannot be told from a shorter one.
+// they stood: none is made up. Which lengths are taken is part of the table. Two cuts cannot be told: a KITTI file has
+// no header, so one that ends between two points is a shorter one; and as many texts are written without an end to
+// their last line, the last number of the last point may have lost its last digits.
 
 #include <gtest/gtest.h>
 
@@ -27,6 +28,7 @@ struct Format {
   Frame (*read)(Bytes);
   std::string whole;
   std::set<std::size_t> lengths_taken;
+  bool last_number_may_be_short = false;
 };
 
 void PrintTo(const Format& format, std::ostream* out) {
@@ -77,11 +79,17 @@ std::string kitti() {
   return text;
 }
 
+// Cut off within the last number, or just behind it.
+Format text_format(const char* name, Frame (*read)(Bytes), const std::string& whole) {
+  const std::size_t bytes = whole.size();
+  return {name, read, whole, {bytes - 4, bytes - 3, bytes - 2, bytes - 1}, true};
+}
+
 std::vector<Format> formats() {
-  return {{"pcd_ascii", read_pcd, pcd("ascii") + kAscii, {}},
+  return {text_format("pcd_ascii", read_pcd, pcd("ascii") + kAscii),
           {"pcd_binary", read_pcd, pcd("binary") + points(), {}},
           {"pcd_binary_compressed", read_pcd, pcd("binary_compressed") + packed(columns()), {}},
-          {"ply_ascii", read_ply, ply("ascii") + kAscii, {}},
+          text_format("ply_ascii", read_ply, ply("ascii") + kAscii),
           {"ply_binary_little_endian", read_ply, ply("binary_little_endian") + points(), {}},
           {"ply_binary_big_endian", read_ply, ply("binary_big_endian") + points(true), {}},
           {"kitti", read_kitti, kitti(), {0, 16, 32}}};
@@ -102,6 +110,7 @@ TEST_P(Truncation, AtEveryByteIsRefusedOrGivesTheFirstPoints) {
       for (std::uint32_t i = 0; i < cut.cloud.width; ++i) {
         EXPECT_EQ(number_at(cut, cut.cloud.x, i), number_at(whole, whole.cloud.x, i)) << length;
         EXPECT_EQ(number_at(cut, cut.cloud.y, i), number_at(whole, whole.cloud.y, i)) << length;
+        if (f.last_number_may_be_short && i == 2) continue;
         EXPECT_EQ(number_at(cut, cut.cloud.z, i), number_at(whole, whole.cloud.z, i)) << length;
       }
     } catch (const FrameError& error) {
@@ -114,9 +123,11 @@ TEST_P(Truncation, AtEveryByteIsRefusedOrGivesTheFirstPoints) {
 INSTANTIATE_TEST_SUITE_P(Formats, Truncation, ::testing::ValuesIn(formats()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(TruncationAscii, NamesTheLineThatWasCutOff) {
-  const std::string cut = pcd("ascii") + "1.25 2.5 3.75\n-4.25 5.5 6.75\n7.25 -8.5 9.7";
-  EXPECT_EQ(test::refusal(read_pcd, cut), "line 13: has no end; the file was cut off");
+TEST(TruncationAscii, ATextWithoutAnEndToItsLastLineIsWhole) {
+  const std::string text = pcd("ascii") + kAscii;
+  const Frame frame = read_pcd(bytes_of(text.substr(0, text.size() - 1)));
+  ASSERT_EQ(frame.cloud.width, 3U);
+  EXPECT_EQ(number_at(frame, frame.cloud.z, 2), 9.75);
 }
 
 }  // namespace

@@ -37,8 +37,6 @@ class TextCursor {
   }
 
   std::size_t offset() const { return offset_; }
-  // The line given last has no end: the file was cut off, and so may be its last word.
-  bool is_cut_off() const { return offset_ > 0 && text_[offset_ - 1] != '\n'; }
   std::size_t line() const { return line_; }  // of the line given last, from 1
 
  private:
