@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: every call that is refused says why by the status in the header, and changes nothing: no config, no result,
-// no engine, no pointer.
+// no engine, no pointer. Clouds whose descriptions lie are in tests/faults.
 
 #include <gtest/gtest.h>
 
@@ -137,51 +137,6 @@ TEST(AbiRefusals, ACopiedBlockIsNoEngine) {
   ASSERT_EQ(pose_wall_open(&config, block.data(), bytes, &engine), POSE_WALL_OK);
   std::memcpy(copy.data(), block.data(), bytes);
   EXPECT_EQ(pose_wall_reset(static_cast<pose_wall_engine*>(copy.data())), POSE_WALL_E_ENGINE);
-}
-
-struct BadCloud {
-  const char* what;
-  std::int32_t status;
-  void (*spoil)(pose_wall_cloud*);
-};
-
-const BadCloud kBadClouds[] = {
-    {"struct_size 0", POSE_WALL_E_STRUCT_SIZE, [](auto* c) { c->struct_size = 0; }},
-    {"struct_size larger", POSE_WALL_E_STRUCT_SIZE, [](auto* c) { c->struct_size += 8; }},
-    {"no data", POSE_WALL_E_NULL, [](auto* c) { c->data = nullptr; }},
-    {"no x", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->x.type = POSE_WALL_FIELD_NONE; }},
-    {"y an integer", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->y.type = POSE_WALL_FIELD_INT32; }},
-    {"z unknown", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->z.type = 77; }},
-    {"byte order", POSE_WALL_E_CLOUD_FIELD, [](auto* c) { c->big_endian = 5; }},
-    {"z past the point", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->z.offset = 9; }},
-    {"offset wraps", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->x.offset = 0xFFFFFFFF; }},
-    {"point_step 0", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->point_step = 0; }},
-    {"row_step small", POSE_WALL_E_CLOUD_STEP, [](auto* c) { c->row_step = 5; }},
-    {"data short", POSE_WALL_E_CLOUD_SIZE, [](auto* c) { --c->data_bytes; }},
-    {"width huge", POSE_WALL_E_CLOUD_SIZE, [](auto* c) { c->width = 0xFFFFFFFF; }},
-    {"height huge", POSE_WALL_E_CLOUD_SIZE, [](auto* c) { c->height = 0xFFFFFFFF; }},
-};
-
-TEST(AbiRefusals, MalformedCloudsLeaveResultAndEngineAsTheyWere) {
-  const Points points = room();
-  EngineUnderTest disturbed(config_with()), undisturbed(config_with());
-  disturbed.process(cloud_of(points, 0));
-  undisturbed.process(cloud_of(points, 0));
-  pose_wall_result result;
-  for (const BadCloud& bad : kBadClouds) {
-    pose_wall_cloud cloud = cloud_of(points, 50000000);
-    bad.spoil(&cloud);
-    std::memset(&result, 0x5A, sizeof result);
-    result.struct_size = sizeof result;
-    const std::int32_t status =
-        unchanged_by(&result, [&] { return pose_wall_process(disturbed.get(), &cloud, &result); });
-    EXPECT_EQ(status, bad.status) << bad.what;
-  }
-  // The next good frame is as if nothing had happened.
-  const pose_wall_result a = disturbed.process(cloud_of(points, 100000000));
-  const pose_wall_result b = undisturbed.process(cloud_of(points, 100000000));
-  EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
-  EXPECT_EQ(a.frame_index, 1U);
 }
 
 TEST(AbiRefusals, AResultThatWasNotInitialisedIsLeftAlone) {

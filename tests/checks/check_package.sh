@@ -33,6 +33,10 @@ if [ "$architecture" = amd64 ]; then
     *"$version"*) ;;
     *) complain "$deb: the command says it is '$found', not $version" ;;
   esac
+  for file in man/man1/pose_wall.1 bash-completion/completions/pose_wall zsh/site-functions/_pose_wall \
+    fish/vendor_completions.d/pose_wall.fish; do
+    [ -s "$work/command/usr/share/$file" ] || complain "$deb has no share/$file"
+  done
 fi
 
 named libpose-wall-dev deb

@@ -187,11 +187,16 @@ class Packages(BrokenProject):
         super().setUp()
         self.write("CMakeLists.txt", "project(pose_wall VERSION 0.2.0 LANGUAGES C CXX)\n")
 
-    def pack(self, version, depends, program):
+    WORDS = ("man/man1/pose_wall.1", "bash-completion/completions/pose_wall", "zsh/site-functions/_pose_wall",
+             "fish/vendor_completions.d/pose_wall.fish")
+
+    def pack(self, version, depends, program, words=WORDS):
         control = f"Package: pose-wall\nVersion: {version}\nArchitecture: amd64\nMaintainer: x <x@y>\n{depends}"
         self.write("deb/DEBIAN/control", f"{control}Description: x\n")
         self.write("deb/usr/bin/pose_wall", f"#!/bin/sh\n{program}\n")
         (self.root / "deb/usr/bin/pose_wall").chmod(0o755)
+        for word in words:
+            self.write(f"deb/usr/share/{word}", "made\n")
         self.passes("dpkg-deb", "--root-owner-group", "-b", self.root / "deb",
                     self.root / f"pose-wall_{version}_amd64.deb")
 
@@ -215,6 +220,10 @@ class Packages(BrokenProject):
         self.fails("the command does not run", *self.check())
         self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo 0.1.0")
         self.fails("the command says it is '0.1.0', not 0.2.0", *self.check())
+
+    def test_without_words_for_shells(self):
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo 0.2.0", words=self.WORDS[:2])
+        self.fails("has no share/zsh/site-functions/_pose_wall", *self.check())
 
 
 class Consumer(BrokenProject):

@@ -16,3 +16,9 @@ endforeach()
 file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/faults/wrapped_symbols.h CONTENT "${header}" @ONLY)
 target_include_directories(pose_wall_faults_tests PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/faults)
 target_link_libraries(pose_wall_faults_tests PRIVATE pose_wall_sim)
+
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_test(NAME faults.table_lists_the_cases
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/case_table.py --check
+  $<TARGET_FILE:pose_wall_faults_tests> ${CMAKE_CURRENT_LIST_DIR}/README.md)
+set_tests_properties(faults.table_lists_the_cases PROPERTIES LABELS faults TIMEOUT 60)

@@ -160,7 +160,13 @@ TEST_P(ExplainedFrame, NamesTheCauseThatTheSceneHas) {
 }
 
 const Refused kRefused[] = {
-    {"no_return_from_the_floor", {"no_floor"}, {}, 0, "arrr", "floor", "2.10 m above the sensor"},
+    {"no_return_from_the_floor",
+     {"no_floor"},
+     {},
+     0,
+     "arrr",
+     "floor",
+     "2.10 m above the sensor, tilted by 0.00° (94.9 % of the points tried): no floor is above the sensor"},
     {"sensor_higher_than_the_config_says",
      {"clean"},
      {"-s", "ground_height_max=1.2"},
@@ -174,7 +180,7 @@ const Refused kRefused[] = {
      0,
      "aarr",
      "left wall",
-     "2.00 m are needed (wall_length_min)"},
+     "alone it must be supported over 5.00 m (wall_alone_length_min); it is over 2.00 m"},
     {"pipes_before_a_dark_wall",
      {"pipes_before_dark_wall"},
      {},
@@ -238,6 +244,9 @@ TEST(ExplainVerb, UsageFaultsNameWhatThereIs) {
   const Ran none = command({"explain", "-c", config, frames});
   EXPECT_EQ(none.exit_status, 2);
   EXPECT_TRUE(contains(none.errors, "--frame is required")) << none.errors;
+  const Ran unwritable = command({"explain", "-c", config, "-n", "0", "-p", folder.file("no/why.svg"), frames});
+  EXPECT_EQ(unwritable.exit_status, 2);
+  EXPECT_TRUE(contains(unwritable.errors, "--picture " + folder.file("no/why.svg") + ": cannot")) << unwritable.errors;
   EXPECT_TRUE(contains(command({"explian", frames}).errors, "did you mean 'explain'"));
   EXPECT_TRUE(contains(command({"explain", "--farme", "0", frames}).errors, "did you mean '--frame'"));
 }

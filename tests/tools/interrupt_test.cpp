@@ -76,7 +76,7 @@ TEST(Interrupt, RunLeavesWholeRowsAndWholeClouds) {
   const std::string csv = folder.file("o.csv");
   const auto words = long_run(folder, {"run", "-q", "-o", csv, "--annotate", folder.file("labelled")});
   EXPECT_EQ(interrupted_status(words, folder.file("said"), [&] { return lines_of(csv) > 4; }), 130);
-  EXPECT_TRUE(contains(text_of(folder.file("said")), "interrupted: ")) << text_of(folder.file("said"));
+  EXPECT_TRUE(contains(text_of(folder.file("said")), "interrupted after ")) << text_of(folder.file("said"));
   EXPECT_EQ(text_of(csv).back(), '\n');
   std::ifstream stream(csv);
   const CsvTable table = CsvTable::parse(stream);  // throws where a row has too few cells

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "csv/csv_table.hpp"
+#include "frames/file_source.hpp"
 #include "ran_command.hpp"
 #include "results/frame_runner.hpp"
 #include "results/result_json.hpp"
@@ -83,6 +84,10 @@ const json& at(const json& line, const std::string& place) {
   return *here;
 }
 
+FrameOutcome outcome_of(FrameRunner& runner, const std::string& file) {
+  return runner.run(*FileSource({file}).next());
+}
+
 void expect_same(const FrameOutcome& outcome) {
   const std::string text = result_json_line(outcome);
   ASSERT_EQ(text.find('\n'), text.size() - 1) << "one line";
@@ -103,7 +108,7 @@ TEST(ResultJson, HoldsEveryCellOfTheRow) {
         0);
     FrameRunner runner(api::Config(), 10.0);
     for (const char* frame : {"/frames/000000.pcd", "/frames/000001.pcd"}) {
-      const FrameOutcome outcome = runner.run(folder.file(scene + std::string(frame)));
+      const FrameOutcome outcome = outcome_of(runner, folder.file(scene + std::string(frame)));
       ASSERT_TRUE(outcome.result) << outcome.error;
       expect_same(outcome);
     }
@@ -113,11 +118,11 @@ TEST(ResultJson, HoldsEveryCellOfTheRow) {
 TEST(ResultJson, AFrameThatNobodyCanReadHasTheSameMembers) {
   const TempFolder folder;
   FrameRunner runner(api::Config(), 10.0);
-  const FrameOutcome good = runner.run(folder.write("a.bin", test::raw(1.0F) + std::string(12, '\0')));
+  const FrameOutcome good = outcome_of(runner, folder.write("a.bin", test::raw(1.0F) + std::string(12, '\0')));
   ASSERT_TRUE(good.result);
   expect_same(good);
   // A byte that is no UTF-8, and what JSON must write otherwise.
-  const FrameOutcome bad = runner.run(folder.write("b\xff\"\n.bin", "torn"));
+  const FrameOutcome bad = outcome_of(runner, folder.write("b\xff\"\n.bin", "torn"));
   ASSERT_FALSE(bad.result);
   const json line = json::parse(result_json_line(bad)), whole = json::parse(result_json_line(good));
   EXPECT_EQ(line.at("status"), "unreadable");

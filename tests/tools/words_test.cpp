@@ -63,6 +63,7 @@ std::vector<std::string> needed_words(const VerbGrammar& verb, const TempFolder&
     if (!option.is_positional) words.push_back(long_name(option));
     words.push_back(option.is_positional ? folder.file("good.bin") : folder.file("output"));
     if (!option.choices.empty()) words.back() = option.choices.front();
+    if (option.kind == ValueKind::kNumber) words.back() = "1";
   }
   return words;
 }

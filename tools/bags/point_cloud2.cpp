@@ -130,7 +130,7 @@ Frame frame_of(const MessageCursor& message, CloudHead& head, ByteView data) {
   const std::uint64_t needed = bytes_needed(message, head);
   if (needed > data.size || (points > 0 && head.point_step == 0)) {
     message.refuse(fmt::format("{} x {} points of {} bytes, rows of {} bytes, need {} bytes, but data has {}",
-                               head.width, head.height, head.point_step, head.row_step, needed, data.size));
+                               head.height, head.width, head.point_step, head.row_step, needed, data.size));
   }
   head.layout.point_step = head.point_step;
   head.layout.count = static_cast<std::uint32_t>(points);

@@ -77,7 +77,8 @@ std::uint64_t bytes_announced(const std::string& path) {
 
 class SqliteBag : public BagReader {
  public:
-  explicit SqliteBag(const std::string& path) : path_(path), database_(open_database(path)) {
+  explicit SqliteBag(const std::string& path)
+      : database_(open_database(path)), bytes_(std::filesystem::file_size(path)), announced_(bytes_announced(path)) {
     read_topics();
     rewind();
   }
@@ -86,18 +87,23 @@ class SqliteBag : public BagReader {
   void rewind() override {
     rows_ = prepare(database_, "SELECT id, topic_id, timestamp, data FROM messages ORDER BY id");
     ended_ = false;
+    has_ahead_ = false;
   }
   const std::vector<BagTopic>& topics() const override { return topics_; }
 
  private:
   void read_topics();
-  void check_size() const;
   BagMessage message_of_row();
+  std::optional<BagMessage> next_of_cut();
+  [[noreturn]] void refuse_cut() const;
 
-  std::string path_;
   Database database_;
   Statement rows_{nullptr, sqlite3_finalize};
   bool ended_ = false;
+  std::uint64_t bytes_ = 0, announced_ = 0;
+  bool has_ahead_ = false;
+  BagMessage ahead_;
+  Bytes ahead_bytes_, given_bytes_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_id_;
 };
@@ -114,13 +120,8 @@ void SqliteBag::read_topics() {
   if (status != SQLITE_DONE) refuse(database_.get());
 }
 
-void SqliteBag::check_size() const {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path_, error);
-  const std::uint64_t announced = bytes_announced(path_);
-  if (!error && size < announced) {
-    throw FrameError(fmt::format("offset {}: the file is cut: its head announces {} bytes", size, announced));
-  }
+void SqliteBag::refuse_cut() const {
+  throw FrameError(fmt::format("offset {}: the file is cut: its head announces {} bytes", bytes_, announced_));
 }
 
 BagMessage SqliteBag::message_of_row() {
@@ -139,12 +140,29 @@ BagMessage SqliteBag::message_of_row() {
 
 std::optional<BagMessage> SqliteBag::next() {
   if (ended_) return std::nullopt;
+  if (bytes_ < announced_) return next_of_cut();
   const int status = sqlite3_step(rows_.get());
   if (status == SQLITE_ROW) return message_of_row();
   ended_ = true;
-  check_size();
   if (status != SQLITE_DONE) refuse(database_.get());
   return std::nullopt;
+}
+
+// SQLite takes what is missing of the last page for zeros. What lies on it is the last message that can be reached, so
+// a message is given only when there is one behind it.
+std::optional<BagMessage> SqliteBag::next_of_cut() {
+  while (sqlite3_step(rows_.get()) == SQLITE_ROW) {
+    BagMessage ahead = message_of_row();
+    std::swap(given_bytes_, ahead_bytes_);
+    ahead_bytes_.assign(ahead.data.data, ahead.data.data + ahead.data.size);
+    std::swap(ahead, ahead_);
+    if (std::exchange(has_ahead_, true)) {
+      ahead.data.data = given_bytes_.data();
+      return ahead;
+    }
+  }
+  ended_ = true;
+  refuse_cut();
 }
 
 }  // namespace

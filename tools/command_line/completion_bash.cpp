@@ -38,7 +38,7 @@ _pose_wall() {
       before+=${word%,*}, word=${word##*,}
     fi
     COMPREPLY=($(compgen -P "$before" -W "$words" -- "$word"))
-    [[ ${COMPREPLY[0]-} == *= ]] && compopt -o nospace 2> /dev/null
+    if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace 2> /dev/null || :; fi
   elif [[ $word == -* ]]; then
     COMPREPLY=($(compgen -W "$(_pose_wall_options "$verb")" -- "$word"))
   elif words=$(_pose_wall_values "$verb" ''); then

@@ -3,6 +3,9 @@
 
 #include "command_line/grammar.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 #include <sstream>
 #include <string_view>
@@ -74,6 +77,17 @@ ValueKind kind_of(const CLI::App& verb, const CLI::Option& option) {
   return meaning != nullptr ? meaning->kind : ValueKind::kFile;
 }
 
+// What a manual puts behind the option.
+std::string value_name(const CLI::Option& option) {
+  const std::string type = option.get_type_name(), name = type.substr(0, type.find(':'));
+  const std::vector<std::string> choices = choices_of(type);
+  const Meaning* meaning = meaning_of(option);
+  if (is_flag(option)) return "";
+  if (!choices.empty()) return fmt::format("{}", fmt::join(choices, "|"));
+  if (is_number(type)) return name == "FLOAT" ? "NUMBER" : "N";
+  return name == "TEXT" && meaning != nullptr ? meaning->value : name;
+}
+
 OptionGrammar option_grammar(const CLI::App& verb, const CLI::Option& option) {
   OptionGrammar out;
   out.is_positional = option.get_positional();
@@ -83,9 +97,7 @@ OptionGrammar option_grammar(const CLI::App& verb, const CLI::Option& option) {
   out.kind = kind_of(verb, option);
   const std::string type = option.get_type_name();
   out.choices = choices_of(type);
-  const Meaning* meaning = meaning_of(option);
-  if (!is_flag(option)) out.value = type.substr(0, type.find(':'));
-  if (out.value == "TEXT" && meaning != nullptr) out.value = meaning->value;
+  out.value = value_name(option);
   out.help = option.get_description();
   out.default_text = option.get_default_str();
   out.is_required = option.get_required();

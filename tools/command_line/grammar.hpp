@@ -17,7 +17,7 @@ enum class ValueKind { kNone, kText, kNumber, kFile, kChoice, kEngineKey, kSimul
 
 struct OptionGrammar {
   std::vector<std::string> names;  // "-c", "--config"; the one name of a positional
-  std::string value;               // "FILE"; empty for a flag
+  std::string value;               // "FILE", "csv|json"; empty for a flag
   ValueKind kind = ValueKind::kNone;
   std::vector<std::string> choices;
   std::string help;

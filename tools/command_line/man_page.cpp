@@ -4,7 +4,6 @@
 #include "command_line/man_page.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <sstream>
@@ -42,7 +41,7 @@ std::string option_entry(const OptionGrammar& option) {
   if (option.kind != ValueKind::kNone && !option.is_positional) names += " " + italic(option.value);
   if (option.is_positional && option.is_repeatable) names += "...";
   std::string help = roff_text(option.help) + ".";
-  if (!option.choices.empty()) help += roff_text(fmt::format(" One of {}.", fmt::join(option.choices, ", ")));
+  if (option.is_positional && !option.choices.empty()) help = "One of " + roff_text(option.value) + ".";
   if (!option.default_text.empty()) help += roff_text(fmt::format(" Default: {}.", option.default_text));
   return ".TP\n" + names + "\n" + help + "\n";
 }

@@ -55,13 +55,14 @@ def row(name, sensor, settings, found):
         f"{ahead} / {truth.get('forward_axis', '+X')}",
         f"{1e3 * (found['range_noise']['m'] or float('nan')):.0f}" if "range_noise" in found else "-",
         f"{len(body.get('boxes_m', []))} / {'yes' if 'body' in truth else 'no'}",
-        found["verdict"] + " |"))
+        "yes" if floor.get("certain") else "no", "ready" if found["usable"] else "not usable")) + " |"
 
 
 def main():
     program, frames = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "24"
-    print("| mount | class | height (m) | roll (deg) | pitch (deg) | ahead | noise (mm) | boxes | verdict |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    head = ("mount", "class", "height (m)", "roll (deg)", "pitch (deg)", "ahead", "noise (mm)", "boxes / body",
+            "floor certain", "verdict")
+    print(f"| {' | '.join(head)} |\n|{' --- |' * len(head)}")
     usable = True
     for name, sensor, settings in MOUNTS:
         with tempfile.TemporaryDirectory() as folder:

@@ -5,11 +5,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "frames/frame_stamps.hpp"
-#include "frames/input_list.hpp"
-#include "frames/load_frame.hpp"
 #include "frames/point_position.hpp"
 #include "terminal/interrupt.hpp"
 
@@ -27,23 +26,23 @@ void mix(std::uint64_t& digest, float number) {
   for (int shift = 0; shift < 32; shift += 8) digest = (digest ^ (bits >> shift & 255U)) * 1099511628211U;
 }
 
-void add_file(Recording& recording, const std::filesystem::path& file, FrameStamps& stamps) {
+void add_frame(Recording& recording, SourcedFrame& sourced, FrameStamps& stamps) {
   FrameNote note;
   KeptFrame kept;
-  const std::int64_t stamp_ns = stamps.next(file);
-  try {
-    const Frame frame = load_frame(file);
-    if (pose_wall_cloud_check(&frame.cloud) != POSE_WALL_OK) {
-      throw FrameError(pose_wall_status_text(pose_wall_cloud_check(&frame.cloud)));
+  std::string error = std::move(sourced.error);
+  if (sourced.frame) {
+    const std::int32_t status = pose_wall_cloud_check(&sourced.frame->cloud);
+    if (status == POSE_WALL_OK) {
+      note = note_of(sourced.frame->cloud, kept);
+    } else {
+      error = pose_wall_status_text(status);
     }
-    note = note_of(frame.cloud, kept);
-  } catch (const std::exception& error) {
-    note.error = error.what();
-    recording.errors.push_back(file.string() + ": " + error.what());
   }
-  note.source = file.string();
-  note.stamp_ns = stamp_ns;
-  note.has_own_stamp = stamp_from_name(file).has_value();
+  if (!error.empty()) recording.errors.push_back(sourced.name + ": " + error);
+  note.error = std::move(error);
+  note.source = sourced.name;
+  note.stamp_ns = stamps.next(sourced.stamp_ns);
+  note.has_own_stamp = sourced.stamp_ns.has_value();
   recording.add(std::move(note), std::move(kept));
 }
 
@@ -90,19 +89,18 @@ FrameNote note_of(const pose_wall_cloud& cloud, KeptFrame& frame) {
   return note;
 }
 
-Recording read_recording(const FrameOptions& options,
-                         const std::function<void(std::size_t, const std::string&)>& progress) {
-  const FrameInputs inputs = collect_inputs(options.inputs);
+Recording read_recording(FrameSequence& inputs, double rate_hz,
+                         const std::function<void(const std::string&)>& progress) {
   Recording recording;
-  recording.errors = inputs.errors;
-  FrameStamps stamps(options.rate_hz);
-  for (const auto& file : inputs.files) {
+  recording.errors = inputs.errors();
+  FrameStamps stamps(rate_hz);
+  while (std::optional<SourcedFrame> frame = inputs.next()) {
     if (InterruptWatch::is_interrupted()) {
       recording.interrupted = true;
       break;
     }
-    add_file(recording, file, stamps);
-    progress(inputs.files.size(), file.filename().string());
+    add_frame(recording, *frame, stamps);
+    progress(frame->name);
   }
   return recording;
 }

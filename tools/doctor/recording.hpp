@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "inputs/frame_sequence.hpp"
 #include "pose_wall.h"
-#include "verbs/frame_options.hpp"
 
 namespace pose_wall::tools::doctor {
 
@@ -56,8 +56,8 @@ struct Recording {
 // The note of a cloud (source, stamp and error are the caller's) and its returns.
 FrameNote note_of(const pose_wall_cloud& cloud, KeptFrame& frame);
 
-// `progress` is told of every frame: how many there are, and its name.
-Recording read_recording(const FrameOptions& options,
-                         const std::function<void(std::size_t, const std::string&)>& progress);
+// To the end, or to Ctrl-C. `progress` is told the name of every frame.
+Recording read_recording(FrameSequence& inputs, double rate_hz,
+                         const std::function<void(const std::string&)>& progress);
 
 }  // namespace pose_wall::tools::doctor

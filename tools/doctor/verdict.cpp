@@ -57,6 +57,13 @@ void judge_mount(const Diagnosis& d, Verdict& v) {
     v.against.push_back(fmt::format("the floor is seen in {:.0f} % of the frames", 100.0 * floor.measured));
     return;
   }
+  // Upright is how sensors are mounted; the other way round somebody has to say it.
+  if (d.mount->story.is_flipped && !d.mount->is_sure) {
+    v.against.push_back(
+        fmt::format("{}: a roof, or the floor under a sensor upside down? --height M or extrinsic_roll "
+                    "decides",
+                    d.mount->reason));
+  }
   if (has_moved(floor.tilt_spread_rad * kDegPerRad, floor.tilt_sigma_rad * kDegPerRad, kTiltMoved_deg)) {
     v.against.push_back(fmt::format("the sensor moved while it was recorded (its tilt by {:.1f} deg): let it stand",
                                     floor.tilt_spread_rad * kDegPerRad));
@@ -138,7 +145,9 @@ void doubt_mount(const Diagnosis& d, Verdict& v) {
   if (!d.mount->is_sure) {
     const std::string other =
         d.mount->other ? fmt::format("; the other plane is {:.2f} m away", d.mount->other->floor.height_m) : "";
-    v.buts.push_back(fmt::format("upright or upside down is not certain ({}): --height M decides", d.mount->reason));
+    if (!story.is_flipped) {
+      v.buts.push_back(fmt::format("upright or upside down is not certain ({}): --height M decides", d.mount->reason));
+    }
     v.confirm.push_back(fmt::format("mounted {}, {:.2f} m above the floor?{}",
                                     story.is_flipped ? "upside down" : "upright", story.floor.height_m, other));
   }

@@ -89,6 +89,7 @@ std::string out_of_range_text(const pose_wall_config& config, const pose_wall_tr
   }
   const double lowest = number(config, "ground_height_min"), highest = number(config, "ground_height_max");
   if (c.height_m > highest) return fmt::format("ground_height_max allows {}", metres(highest));
+  if (c.height_m < 0.0) return "no floor is above the sensor";
   if (c.height_m < lowest) return fmt::format("ground_height_min asks {}", metres(lowest));
   return fmt::format("ground_tilt_max_deg allows {}°", number(config, "ground_tilt_max_deg"));
 }

@@ -83,7 +83,7 @@ std::string looked_for(const Notes& notes) {
   const std::uint32_t attempt = notes.floor_attempt();
   const std::string radius = metres(notes.floor_radius_m(attempt));
   if (attempt == 0) return fmt::format("It was looked for within {} of the machine.", radius);
-  return fmt::format("It was looked for within {} of the machine, and in steps up to {}, of which this is said.",
+  return fmt::format("It was looked for within {} of the machine, and in steps up to {}; this is of the widest look.",
                      metres(notes.floor_radius_m(0)), radius);
 }
 

@@ -185,7 +185,8 @@ constexpr GateWords kSightWords[] = {
      "The other side was refused, and alone it must be supported over {limit} ({key}); it is over "
      "{value}.",
      "see the other side; {key}"},
-    {"wall_near", "{value} returns of this side are nearer than {key}, {limit} is the most: something blocks the view.",
+    {"wall_near",
+     "{value} returns of this side are nearer than {key}; at most {limit} are let pass: something blocks the view.",
      "clean the window, or move what stands there; a smaller {key} where the wall is that near"},
 };
 

@@ -76,8 +76,6 @@ Frame load_frame(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, error)) throw FrameError("not there: no such file or folder");
   const Format* format = find_format(path);
   if (format == nullptr) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) throw FrameError("no such file");
     throw FrameError(fmt::format("unknown ending '{}'; {} are read, and bags and captures by their content",
                                  path.extension().string(), frame_endings_text()));
   }

@@ -132,7 +132,7 @@ void VelodyneAssembler::add_firing(const Firing& firing) {
     end_turn(turn_begun_);
     turn_begun_ = true;
   }
-  if (firings_.empty() && firing.azimuth_deg < 1.0) turn_begun_ = true;
+  if (firings_.empty() && firing.azimuth_deg < last_turn_deg_) turn_begun_ = true;
   if (firings_.size() == kFiringsMax) end_turn(false);
   firings_.push_back(firing);
 }
@@ -155,7 +155,7 @@ void VelodyneAssembler::end_turn(bool is_complete) {
 }
 
 void VelodyneAssembler::finish() {
-  if (!firings_.empty()) end_turn(turn_begun_ && firings_.back().azimuth_deg > 359.0);
+  if (!firings_.empty()) end_turn(turn_begun_ && firings_.back().azimuth_deg > 360.0 - last_turn_deg_);
 }
 
 }  // namespace pose_wall::tools

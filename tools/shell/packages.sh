@@ -8,6 +8,9 @@
 # shellcheck disable=SC2034  # read by those who source this
 packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev libcli11-dev libyaml-dev liblzf-dev
   libfmt-dev nlohmann-json3-dev"
+# Optional: what the command reads bags and captures with; a build without them says so when it meets one.
+# shellcheck disable=SC2034
+packages_to_read="liblz4-dev libzstd-dev libbz2-dev libsqlite3-dev libpcap-dev"
 # shellcheck disable=SC2034
 packages_to_test="libgtest-dev python3 pkg-config groff-base"
 packages_to_cross="cmake ninja-build libeigen3-dev g++-aarch64-linux-gnu qemu-user-static"
@@ -19,8 +22,9 @@ presets_to_test="release debug asan tsan msan fuzz arm64 arm64-clang arm64-asan 
 # shellcheck disable=SC2086  # lists of words
 packages_of() { # preset: what it takes to build it and to run its tests
   case $1 in
-    release | debug | asan | tsan) echo $packages_to_build $packages_to_test ;;
-    msan | fuzz | coverage) echo $packages_to_build $packages_to_test clang llvm libclang-rt-dev ;;
+    release | debug | asan) echo $packages_to_build $packages_to_read $packages_to_test ;;
+    tsan) echo $packages_to_build $packages_to_test ;;
+    msan | fuzz | coverage) echo $packages_to_build $packages_to_read $packages_to_test clang llvm libclang-rt-dev ;;
     arm64 | arm64-asan) echo $packages_to_cross $packages_to_test ;;
     arm64-clang | bare) echo $packages_to_cross clang $packages_to_test ;;
     *) return 1 ;;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -21,6 +22,7 @@
 #include "campaign/manifest.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
+#include "config_file/load_config.hpp"
 #include "terminal/counted.hpp"
 #include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
@@ -43,7 +45,14 @@ struct CampaignOptions {
   bool quiet = false;
 };
 
+// Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
+void check_settings(const campaign::EngineChoice& engine) {
+  load_config(engine.config_file.empty() ? std::nullopt : std::optional<std::string>(engine.config_file),
+              engine.settings);
+}
+
 campaign::Manifest run_campaign(const CampaignOptions& options) {
+  check_settings(options.engine);
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
   campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
   make_output_folder(options.output);
@@ -92,6 +101,8 @@ int run_verb(const CampaignOptions& options) {
   } catch (const campaign::Interrupted&) {
     return tell_interrupted(options);
   } catch (const campaign::StaleError&) {
+    throw;
+  } catch (const ConfigError&) {
     throw;
   } catch (const std::runtime_error& error) {
     fmt::print(stderr, "pose_wall campaign: {}\n", error.what());

@@ -35,22 +35,20 @@ struct DoctorOptions {
 };
 
 // Before any work is done: what stands at --output was made by somebody.
-std::unique_ptr<OutputFile> open_output(const DoctorOptions& options) {
+std::unique_ptr<OutputFile> open_output(const DoctorOptions& options, const FrameSequence& inputs) {
   if (options.output.empty()) return nullptr;
   std::error_code ignored;
   if (!options.force && std::filesystem::exists(options.output, ignored)) {
     throw std::invalid_argument(fmt::format("--output {}: is there already; --force overwrites it", options.output));
   }
-  return std::make_unique<OutputFile>(
-      options.output, std::vector<std::filesystem::path>(options.frames.inputs.begin(), options.frames.inputs.end()));
+  return std::make_unique<OutputFile>(options.output, inputs.files());
 }
 
-doctor::Recording read_all(const DoctorOptions& options) {
+doctor::Recording read_all(const DoctorOptions& options, FrameSequence& inputs) {
   const InterruptWatch watch;
-  std::optional<ProgressBar> bar;
-  return doctor::read_recording(options.frames, [&](std::size_t total, const std::string& name) {
-    if (!bar) bar.emplace(total, !options.frames.quiet && is_terminal(2));
-    bar->advance(name);
+  ProgressBar bar(inputs.frames(), !options.frames.quiet && is_terminal(2));
+  return doctor::read_recording(inputs, options.frames.rate_hz, [&bar](const std::string& name) {
+    bar.advance(std::filesystem::path(name).filename().string());
   });
 }
 
@@ -64,10 +62,14 @@ std::vector<std::string> head_of(const DoctorOptions& options, const doctor::Dia
 
 int examine(const DoctorOptions& options) {
   const LoadedConfig told = options.frames.load();
-  const std::unique_ptr<OutputFile> output = open_output(options);
-  const doctor::Recording recording = read_all(options);
+  FrameSequence inputs = options.frames.open();
+  const std::unique_ptr<OutputFile> output = open_output(options, inputs);
+  const doctor::Recording recording = read_all(options, inputs);
   for (const std::string& error : recording.errors) fmt::print(stderr, "pose_wall doctor: {}\n", error);
-  if (recording.interrupted) return kExitInterrupted;
+  if (recording.interrupted) {
+    fmt::print(stderr, "interrupted: {} were read, nothing is concluded\n", counted(recording.notes.size(), "frame"));
+    return kExitInterrupted;
+  }
 
   const doctor::Diagnosis diagnosis = doctor::diagnose(recording, told, options.height_m);
   fmt::print("{}", options.json ? doctor::diagnosis_json(diagnosis) : doctor::diagnosis_text(diagnosis));

@@ -113,7 +113,7 @@ int explain_frame(const ExplainOptions& options) {
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall explain: {}\n", error);
   expect_frame(options.frame, inputs.frames());
   std::optional<OutputFile> picture;
-  if (!options.picture.empty()) picture.emplace(options.picture, inputs.files());
+  if (!options.picture.empty()) picture.emplace(options.picture, inputs.files(), "--picture");
   const std::optional<Explained> explained = run_to_frame(options, loaded, inputs);
   if (!explained) return kExitInterrupted;
   if (!explained->outcome.result) {
@@ -137,6 +137,8 @@ int explain_frame(const ExplainOptions& options) {
 int explain_or_complaint(const ExplainOptions& options) {
   try {
     return explain_frame(options);
+  } catch (const ConfigError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     fmt::print(stderr, "pose_wall explain: {}\n", error.what());
     return kExitUnreadable;

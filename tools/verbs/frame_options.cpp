@@ -37,11 +37,8 @@ void add_input_options(CLI::App* verb, InputOptions* options) {
 }
 
 void add_frame_options(CLI::App* verb, FrameOptions* options) {
-  verb->add_option(
-          "INPUT", options->inputs,
-          "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, or bags (ROS 1, "
-          "MCAP, SQLite, folders of rosbag2)")
-      ->required();
+  verb->add_option("INPUT", options->inputs, kInputHelp)->required();
+  add_input_options(verb, &options->input);
   verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
       ->allow_extra_args(false);

@@ -25,6 +25,7 @@ struct InfoOptions {
   std::vector<std::string> inputs;
   InputOptions input;
   bool json = false;
+  bool quiet = false;
 };
 
 struct Looked {
@@ -38,7 +39,7 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
   if (!frames.errors().empty()) return {};
   InputFacts facts;
   {
-    ProgressBar bar(frames.frames(), is_terminal(2));
+    ProgressBar bar(frames.frames(), !options.quiet && is_terminal(2));
     while (const std::optional<SourcedFrame> frame = frames.next()) {
       if (InterruptWatch::is_interrupted()) break;
       facts.add(*frame);
@@ -73,6 +74,7 @@ void add_info(CLI::App& app, int& exit_code) {
   verb->add_option("INPUT", options->inputs, kInputHelp)->required();
   add_input_options(verb, &options->input);
   verb->add_flag("--json", options->json, "A list with one object per input instead of tables");
+  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->footer(
       "Example:\n  pose_wall info road.bag frames/\n"
       "Of a bag with several topics of clouds the fullest is looked at; --topic names another.\n"

@@ -11,22 +11,22 @@
 
 namespace pose_wall::tools {
 
-OutputFile::OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs)
+OutputFile::OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs, const char* option)
     : path_(path), part_(path + ".part") {
   std::error_code ignored;
   for (const std::filesystem::path& input : inputs) {
     if (std::filesystem::equivalent(path_, input, ignored)) {
-      throw std::invalid_argument(fmt::format("--output {}: this is an input; it would be overwritten", path));
+      throw std::invalid_argument(fmt::format("{} {}: this is an input; it would be overwritten", option, path));
     }
   }
   if (std::filesystem::is_directory(path_, ignored)) {
-    throw std::invalid_argument(fmt::format("--output {}: this is a folder; a file is allowed", path));
+    throw std::invalid_argument(fmt::format("{} {}: this is a folder; a file is allowed", option, path));
   }
   errno = 0;
   stream_.open(part_, std::ios::binary | std::ios::trunc);
   if (!stream_) {
     throw std::invalid_argument(
-        fmt::format("--output {}: cannot be written: {}", path, std::generic_category().message(errno)));
+        fmt::format("{} {}: cannot be written: {}", option, path, std::generic_category().message(errno)));
   }
 }
 

@@ -16,8 +16,9 @@ namespace pose_wall::tools {
 class OutputFile {
  public:
   // Opens PATH.part beside it, so that what cannot be written is known before the work is done. Throws
-  // std::invalid_argument when that fails or when the path is one of the inputs.
-  OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs);
+  // std::invalid_argument when that fails or when the path is one of the inputs. option: what the path was given by.
+  OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs,
+             const char* option = "--output");
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();  // without write(): what was there before stays

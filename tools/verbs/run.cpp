@@ -90,9 +90,8 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
   return "";
 }
 
-int tell_interrupted(std::size_t frames, std::size_t of) {
-  fmt::print(stderr, "interrupted: {} of {} measured, each with its whole row\n", frames,
-             counted(of, "frame is", "frames are"));
+int tell_interrupted(std::size_t frames) {
+  fmt::print(stderr, "interrupted after {}, each with its whole row\n", counted(frames, "frame"));
   return kExitInterrupted;
 }
 
@@ -113,9 +112,7 @@ int run(const RunOptions& options) {
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);
   if (!options.frames.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
-  if (summary.frames() < inputs.frames() && InterruptWatch::is_interrupted()) {
-    return tell_interrupted(summary.frames(), inputs.frames());
-  }
+  if (InterruptWatch::is_interrupted()) return tell_interrupted(summary.frames());
   return fault.empty() && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
 

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""case_table.py [--check] TESTS README: the table of the fault campaigns, from the cases that the program TESTS lists,
+in README between its two marks. --check: fails where it is another."""
+
+import re
+import subprocess
+import sys
+import textwrap
+
+BEGIN, END = "<!-- cases -->\n", "<!-- /cases -->\n"
+
+# What is done, and what must come of it. A group that is missing here, or has no cases, is an error.
+GROUPS = {
+    "Descriptions": ("a cloud's description lies", "refused, nothing changed; or read as it says, nothing wrong"),
+    "CoordinateTypes": ("every type of x, y, z", "refused but for floats"),
+    "IntensityTypes": ("any bytes as intensity", "measured, right"),
+    "PointFaults": ("points without number, range, shape or sense", "states of the table, nothing wrong, back at once"),
+    "UndetectableFaults": ("axes mirrored, scaled", "measured; in a sequence the jump is degraded, level up to both"),
+    "Capacity": ("points_max and one more or less", "the leaf grows from one more on"),
+    "Stamps": ("stamps still, back, ahead, at the ends", "states of the table, flagged, nothing wrong"),
+    "NotOpened": ("every call without open", "refused"),
+    "CallFaults": ("calls out of order or twice", "as the header says"),
+    "Mementos": ("load of spoilt bytes", "refused, nothing taken"),
+    "Keys": ("no value of a key, each key", "refused, nothing changed"),
+    "NumberKeys": ("below and above a key's range, and at its ends", "refused; at its ends the contract holds"),
+    "Rules": ("keys that contradict each other", "nothing is opened"),
+    "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),
+    "BitFlips": ("bits fall over in the block between calls", "state: refused until opened again; scratch: same bits"),
+    "PoisonedSequence": ("each frame garbage, alone and with the next", "nothing wrong, back within 4 frames"),
+    "PoisonedSequenceItself": ("the same without", "all valid"),
+    "RefusedThreads": ("a thread is not made", "start says so, works the next time"),
+    "FaultyDisks": ("the n-th write of the record fails", "counted, frames go on"),
+    "RuntimeFaults": ("clock, callback, a step or the memory of its engine", "says so, nothing wrong, goes on"),
+}
+
+
+def cases_of(program):
+    cases, suite = {}, None
+    listed = subprocess.run([program, "--gtest_list_tests"], check=True, capture_output=True, text=True).stdout
+    for line in listed.splitlines():
+        name = line.split("#")[0].rstrip()
+        if re.fullmatch(r"\S+\.", name):
+            suite = name[:-1].split("/")[-1]
+        elif line.startswith("  ") and suite:
+            cases.setdefault(suite, []).append(name.strip())
+    return cases
+
+
+def short(names):
+    """Cases of a suite with parameters by their parameter's name; how many tests look at each, behind it."""
+    by_name = {}
+    for name in names:
+        by_name.setdefault(name.split("/")[-1], []).append(name)
+    return [name + (f" ×{len(tests)}" if len(tests) > 1 else "") for name, tests in sorted(by_name.items())]
+
+
+def table(cases):
+    unknown, missing = set(cases) - set(GROUPS), set(GROUPS) - set(cases)
+    if unknown or missing:
+        sys.exit(f"case_table.py: groups without a line here: {sorted(unknown)}; without cases: {sorted(missing)}")
+    out = ["| group | cases | fault | what must come of it |", "| --- | --- | --- | --- |"]
+    for group, (fault, outcome) in GROUPS.items():
+        out.append(f"| `{group}` | {len(cases[group])} | {fault} | {outcome} |")
+    out.append(f"| all | {sum(len(names) for names in cases.values())} | | |")
+    for group in GROUPS:
+        out.append("")
+        out += textwrap.wrap(f"**{group}**: " + ", ".join(short(cases[group])) + ".", 120, break_on_hyphens=False)
+    return "\n".join(out) + "\n"
+
+
+def main(arguments):
+    check = arguments[:1] == ["--check"]
+    program, readme = arguments[1:] if check else arguments
+    with open(readme, encoding="utf-8") as file:
+        text = file.read()
+    begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)
+    wanted = text[:begin] + "\n" + table(cases_of(program)) + "\n" + text[end:]
+    if check and wanted != text:
+        sys.exit(f"{readme} does not list the cases there are: run tests/faults/case_table.py {program} {readme}")
+    if not check:
+        with open(readme, "w", encoding="utf-8") as file:
+            file.write(wanted)
+
+
+main(sys.argv[1:])

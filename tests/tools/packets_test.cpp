@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: packets of a VLP-16 and of Ouster sensors become frames cut where turns end, with points where the manuals
+// put them (worked out by hand), also from fragments; a capture cut at any byte says so. The capture of a real Ouster
+// is looked at in tests/real.
+
+#include <gtest/gtest.h>
+
+#if POSE_WALL_HAS_PCAP
+
+#include <cmath>
+
+#include "inputs/frame_sequence.hpp"
+#include "packets/ouster_metadata.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::number_at;
+using test::raw;
+using test::TempFolder;
+
+std::string big(std::uint16_t number) {
+  return raw(number, true);
+}
+
+std::string capture_head() {
+  return raw(0xA1B2C3D4U) + raw(std::uint16_t{2}) + raw(std::uint16_t{4}) + raw(0U) + raw(0U) + raw(65535U) + raw(1U);
+}
+
+// One IPv4 packet on Ethernet; `fragment` as its header has it.
+std::string captured(const std::string& content, std::uint32_t microseconds, std::uint16_t fragment = 0) {
+  const std::string packet = std::string(12, 'e') + big(0x0800) + "\x45" + std::string(1, '\0') +
+                             big(static_cast<std::uint16_t>(20 + content.size())) + big(77) + big(fragment) +
+                             "\x40\x11" + big(0) + "\x0A\x01\x01\x01" + "\x0A\x01\x01\x02" + content;
+  const auto size = static_cast<std::uint32_t>(packet.size());
+  return raw(1700000000U) + raw(microseconds) + raw(size) + raw(size) + packet;
+}
+
+std::string datagram(const std::string& payload) {
+  return big(2368) + big(2368) + big(static_cast<std::uint16_t>(8 + payload.size())) + big(0) + payload;
+}
+
+// Twelve blocks 6 degrees apart; all lasers at 10 m but laser 3, which has no return.
+std::string velodyne_packet(std::uint32_t first_azimuth_deg) {
+  std::string payload;
+  for (std::uint32_t block = 0; block < 12; ++block) {
+    payload += "\xFF\xEE" + raw(static_cast<std::uint16_t>((first_azimuth_deg + 6 * block) % 360 * 100));
+    for (int laser = 0; laser < 32; ++laser) payload += raw(std::uint16_t(laser % 16 == 3 ? 0 : 5000)) + "\x2A";
+  }
+  return payload + raw(0U) + "\x37\x22";
+}
+
+std::string velodyne_capture(std::uint32_t from_deg, std::uint32_t packets) {
+  std::string file = capture_head();
+  for (std::uint32_t i = 0; i < packets; ++i) {
+    file += captured(datagram(velodyne_packet((from_deg + 72 * i) % 360)), 1000 * i);
+  }
+  return file;
+}
+
+struct ReadCapture {
+  std::vector<SourcedFrame> frames;
+  std::vector<std::string> errors;
+  std::size_t announced = 0;
+};
+
+ReadCapture read(const std::string& file) {
+  FrameSequence sequence({file});
+  ReadCapture capture;
+  capture.errors = sequence.errors();
+  capture.announced = sequence.frames();
+  while (std::optional<SourcedFrame> frame = sequence.next()) {
+    if (!frame->frame) capture.errors.push_back(frame->error);
+    if (frame->frame) capture.frames.push_back(std::move(*frame));
+  }
+  return capture;
+}
+
+TEST(Velodyne, TurnsBecomeFramesAndThosePartlySeenAreLeftOut) {
+  const TempFolder folder;
+  // 180 degrees, then two turns of five packets, then 144 degrees.
+  const ReadCapture capture = read(folder.write("v.pcap", velodyne_capture(216, 14)));
+  EXPECT_TRUE(capture.errors.empty());
+  ASSERT_EQ(capture.frames.size(), 2U);
+  EXPECT_EQ(capture.announced, 2U);
+  const pose_wall_cloud& cloud = capture.frames[0].frame->cloud;
+  EXPECT_EQ(cloud.height, 16U);
+  EXPECT_EQ(cloud.width, 120U) << "60 blocks of two firings";
+  EXPECT_EQ(*capture.frames[0].stamp_ns, 1700000000002000000) << "of the packet in which it begins";
+  EXPECT_EQ(*capture.frames[1].stamp_ns, 1700000000007000000);
+  EXPECT_EQ(read(folder.write("part.pcap", velodyne_capture(90, 2))).frames.size(), 1U) << "all there is";
+}
+
+TEST(Velodyne, PointsLieWhereTheManualPutsThem) {
+  const TempFolder folder;
+  const ReadCapture capture = read(folder.write("v.pcap", velodyne_capture(0, 5)));
+  ASSERT_EQ(capture.frames.size(), 1U);
+  const Frame& frame = *capture.frames[0].frame;
+  const pose_wall_cloud& cloud = frame.cloud;
+  const auto at = [&](std::uint32_t ring, std::uint32_t firing) { return ring * cloud.width + firing; };
+  // Block 15 is at 90 degrees: to the right, which is -y. Laser 0 fires first, at -15 degrees, 11.2 mm above the
+  // origin.
+  EXPECT_NEAR(number_at(frame, cloud.x, at(0, 30)), 0.0, 1e-5);
+  EXPECT_NEAR(number_at(frame, cloud.y, at(0, 30)), -9.659258, 1e-5);
+  EXPECT_NEAR(number_at(frame, cloud.z, at(0, 30)), -2.588190 + 0.0112, 1e-5);
+  // Laser 15, at +15 degrees, fires 15 * 2.304 us later: 34.56 of the 110.592 us in which the head turns by 6 degrees.
+  const double azimuth_rad = (90.0 + 6.0 * 34.56 / 110.592) * 0.017453292519943295;
+  EXPECT_NEAR(number_at(frame, cloud.x, at(15, 30)), 9.659258 * std::cos(azimuth_rad), 1e-5);
+  EXPECT_NEAR(number_at(frame, cloud.z, at(15, 30)), 2.588190 - 0.0112, 1e-5);
+  // The second firing of a block is half a step further.
+  EXPECT_NEAR(number_at(frame, cloud.x, at(0, 31)), -9.659258 * std::sin(3.0 * 0.017453292519943295), 1e-5);
+  // Laser 3 is at 3 degrees: ring 9 from below.
+  EXPECT_EQ(number_at(frame, cloud.x, at(9, 30)), 0.0);
+  EXPECT_EQ(number_at(frame, cloud.z, at(9, 30)), 0.0);
+  EXPECT_EQ(number_at(frame, cloud.intensity, at(0, 30)), 42.0);
+}
+
+TEST(PacketCapture, CutAnywhereItSaysSo) {
+  const TempFolder folder;
+  const std::string whole = velodyne_capture(0, 11);
+  std::size_t most = 0;
+  for (std::size_t length = 0; length < whole.size(); length += length < 100 ? 1 : 97) {
+    const std::string cut = whole.substr(0, length);
+    const bool between_packets = length > 24 && (length - 24) % ((whole.size() - 24) / 11) == 0;
+    const ReadCapture capture = read(folder.write("cut.pcap", cut));
+    most = std::max(most, capture.frames.size());
+    if (between_packets) continue;
+    EXPECT_EQ(capture.errors.size(), 1U) << length;
+  }
+  EXPECT_EQ(most, 2U);
+}
+
+TEST(PacketCapture, OneWithoutKnownPacketsSaysWhatItLooksFor) {
+  const TempFolder folder;
+  const ReadCapture capture = read(folder.write("v.pcap", capture_head() + captured(datagram("hello"), 0)));
+  ASSERT_EQ(capture.errors.size(), 1U);
+  EXPECT_NE(capture.errors.front().find("--metadata"), std::string::npos) << capture.errors.front();
+}
+
+// Two rings, sixteen columns of a turn, four of a packet; beams leave level and 0.1 m out.
+std::string ouster_metadata(const std::string& profile) {
+  return R"({"prod_line": "OS-test", "beam_altitude_angles": [0, -90], "beam_azimuth_angles": [0, 0],
+ "lidar_origin_to_beam_origin_mm": 100,
+ "lidar_to_sensor_transform": [-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 36, 0, 0, 0, 1],
+ "data_format": {"columns_per_frame": 16, "columns_per_packet": 4, "pixels_per_column": 2,
+ "udp_profile_lidar": ")" +
+         profile + "\"}}";
+}
+
+// Ranges: 5 m where it is not zero for the low profile, which counts 8 mm.
+std::string ouster_pixel(const std::string& profile) {
+  if (profile == "RNG15_RFL8_NIR8") return raw(std::uint16_t{625}) + "\x07\x01";
+  if (profile == "LEGACY") return raw(0xF0000000U | 5000U) + raw(std::uint16_t{7}) + raw(0U) + std::string(2, '\0');
+  if (profile == "RNG19_RFL8_SIG16_NIR16") return raw(0xFFF80000U | 5000U) + "\x07" + std::string(7, '\0');
+  return raw(0x07000000U | 5000U) + raw(9999U) + std::string(8, '\0');
+}
+
+std::string ouster_packet(const std::string& profile, std::uint16_t frame, std::uint16_t first_column) {
+  const bool is_legacy = profile == "LEGACY";
+  std::string payload = is_legacy ? "" : raw(std::uint16_t{1}) + raw(frame) + std::string(28, '\0');
+  for (std::uint16_t i = 0; i < 4; ++i) {
+    const auto column = static_cast<std::uint16_t>(first_column + i);
+    payload += raw(std::uint64_t{1000} * (frame * 16U + column)) + raw(column);
+    payload += is_legacy ? raw(frame) + raw(0U) : raw(std::uint16_t{1});
+    payload += ouster_pixel(profile) + ouster_pixel(profile);
+    if (is_legacy) payload += raw(0xFFFFFFFFU);
+  }
+  return is_legacy ? payload : payload + std::string(32, '\0');
+}
+
+void expect_ouster_points(const Frame& frame, const std::string& profile) {
+  const pose_wall_cloud& cloud = frame.cloud;
+  EXPECT_EQ(cloud.height, 2U);
+  EXPECT_EQ(cloud.width, 16U);
+  // Level beams: 5 m in all. Column 0 looks along +x of the lidar, which is -x of the sensor; column 4 a quarter turn
+  // on.
+  EXPECT_NEAR(number_at(frame, cloud.x, 0), -5.0, 1e-6) << profile;
+  EXPECT_NEAR(number_at(frame, cloud.y, 4), 5.0, 1e-6) << profile;
+  EXPECT_NEAR(number_at(frame, cloud.z, 4), 0.036, 1e-6) << profile;
+  // Straight down: 4.9 m below, 0.1 m out.
+  EXPECT_NEAR(number_at(frame, cloud.x, 16), -0.1, 1e-6) << profile;
+  EXPECT_NEAR(number_at(frame, cloud.z, 16), -4.9 + 0.036, 1e-6) << profile;
+  EXPECT_EQ(number_at(frame, cloud.intensity, 16), 7.0) << profile;
+}
+
+TEST(Ouster, EveryProfileGivesFramesByTheirNumber) {
+  const TempFolder folder;
+  for (const char* profile : {"LEGACY", "RNG15_RFL8_NIR8", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL"}) {
+    folder.write("o.json", ouster_metadata(profile));
+    // The second half of frame 5, all of 6 and of 7.
+    std::string file = capture_head();
+    for (std::uint32_t packet = 22; packet < 32; ++packet) {
+      const auto frame = static_cast<std::uint16_t>(packet / 4);
+      file += captured(datagram(ouster_packet(profile, frame, static_cast<std::uint16_t>(packet % 4 * 4))), packet);
+    }
+    const ReadCapture capture = read(folder.write("o.pcap", file));
+    EXPECT_TRUE(capture.errors.empty()) << profile;
+    ASSERT_EQ(capture.frames.size(), 2U) << profile;
+    EXPECT_EQ(*capture.frames[0].stamp_ns, 96000);
+    expect_ouster_points(*capture.frames[0].frame, profile);
+    expect_ouster_points(*capture.frames[1].frame, profile);
+  }
+}
+
+TEST(Ouster, FragmentsArePutTogetherInAnyOrderAndAColumnThatDidNotComeIsEmpty) {
+  const TempFolder folder;
+  const std::string profile = "LEGACY";
+  folder.write("o.json", ouster_metadata(profile));
+  std::string file = capture_head();
+  for (const unsigned column : {0U, 8U, 12U}) {
+    const std::string content = datagram(ouster_packet(profile, 1, static_cast<std::uint16_t>(column)));
+    file += captured(content.substr(96), 2, 96 / 8) + captured(content.substr(0, 96), 1, 0x2000);
+  }
+  const ReadCapture capture = read(folder.write("o.pcap", file));
+  ASSERT_EQ(capture.frames.size(), 1U);
+  const Frame& frame = *capture.frames[0].frame;
+  EXPECT_NEAR(number_at(frame, frame.cloud.x, 8), 5.0, 1e-6);
+  EXPECT_EQ(number_at(frame, frame.cloud.y, 4), 0.0);
+}
+
+TEST(OusterMetadata, FaultsAreNamed) {
+  const auto refusal = [](std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+    try {
+      parse_ouster_metadata(text);
+      return std::string();
+    } catch (const FrameError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string good = ouster_metadata("LEGACY");
+  EXPECT_EQ(refusal(good, "", ""), "");
+  EXPECT_NE(refusal(good, "{", "[").find("no JSON"), std::string::npos);
+  EXPECT_NE(refusal(good, "LEGACY", "FUSA").find("'FUSA' is not read"), std::string::npos);
+  EXPECT_NE(refusal(good, "[0, -90]", "[0]").find("no list of 2 numbers"), std::string::npos);
+  EXPECT_NE(refusal(good, "\"columns_per_frame\": 16", "\"columns_per_frame\": -1").find("1 to 4096"),
+            std::string::npos);
+  EXPECT_NE(refusal(good, "lidar_to_sensor", "x").find("no 'lidar_to_sensor_transform'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools
+
+#endif
