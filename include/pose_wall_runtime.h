@@ -217,7 +217,7 @@ enum pose_wall_runtime_drop {
   POSE_WALL_RUNTIME_DROP_BUSY = 2,        /* refused: another thread was inside push */
   POSE_WALL_RUNTIME_DROP_OVERTAKEN = 3,   /* the oldest that waited, when a newer one needed its place */
   POSE_WALL_RUNTIME_DROP_STOPPED = 4,     /* still waiting, or being copied, at stop */
-  POSE_WALL_RUNTIME_DROP_ENGINE = 5,      /* the engine refused it: never seen; push checks the same */
+  POSE_WALL_RUNTIME_DROP_ENGINE = 5,      /* the engine refused it: it found its block damaged, and was opened anew */
   POSE_WALL_RUNTIME_DROPS = 6
 };
 const char* pose_wall_runtime_drop_name(uint32_t drop);

@@ -156,7 +156,8 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
   const pose_wall::Settings settings = pose_wall::read_settings(*config);
-  std::memset(block, 0, sizeof(Engine));  // its sum is over padding, too
+  // Its sum is over padding, too: whatever that holds, but nothing that nobody wrote.
+  std::memset(block, 0, sizeof(Engine));
   Engine* placed = nullptr;
   Engine::lay_out(block, settings, &placed);
   uint32_t crc = 0;

@@ -129,6 +129,8 @@ void Engine::set_memory(const Memory& memory) {
 
 // FNV-1a by words: each step maps different sums to different ones, so no change of a single word goes unnoticed.
 std::uint64_t Engine::sum() const {
+  static_assert(alignof(Engine) == alignof(Scratch) && (sizeof(Engine) - sizeof(Scratch)) % sizeof(std::uint64_t) == 0,
+                "the scratch is the last member, and whole words stand before it");
   const unsigned char* const bytes = reinterpret_cast<const unsigned char*>(this);
   std::uint64_t sum = 0xCBF29CE484222325ULL;
   for (std::size_t at = sizeof(seal_); at < guarded_bytes(); at += sizeof(std::uint64_t)) {

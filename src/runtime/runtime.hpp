@@ -98,6 +98,7 @@ class Runtime {
   const Runtime* self_ = nullptr;
   std::uint64_t block_bytes_ = 0;
   pose_wall_config config_;
+  std::uint32_t config_crc32_ = 0;  // of the config as it was opened with
   pose_wall_runtime_options options_;
   bool with_intensity_ = false;
   pose_wall_engine* engine_ = nullptr;

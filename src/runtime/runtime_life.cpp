@@ -49,12 +49,16 @@ std::int32_t Runtime::open_engine() {
 // next frame.
 void Runtime::replace_damaged_engine() {
   pose_wall_points any;
-  if (pose_wall_last_points(engine_, &any) == POSE_WALL_E_ENGINE) open_engine();
+  if (pose_wall_last_points(engine_, &any) != POSE_WALL_E_ENGINE) return;
+  // What changed the engine may have changed the config beside it: then there is nothing to open a new one by.
+  std::uint32_t crc32 = 0;
+  if (pose_wall_config_crc(&config_, &crc32) == POSE_WALL_OK && crc32 == config_crc32_) open_engine();
 }
 
 std::int32_t Runtime::open(std::uint64_t block_bytes) {
   const std::int32_t status = open_engine();
   if (status != POSE_WALL_OK) return status;
+  pose_wall_config_crc(&config_, &config_crc32_);
   double weight = 0.0;
   pose_wall_config_get_number(&config_, "intensity_weight", &weight);
   with_intensity_ = weight > 0.0;

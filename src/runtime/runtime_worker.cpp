@@ -17,6 +17,16 @@ std::int64_t saturated_sum(std::int64_t a, std::int64_t b) {
   return b > 0 ? INT64_MAX : INT64_MIN;
 }
 
+// Without an engine: nothing is known, and that is what is told.
+void tell_nothing(std::int64_t stamp_ns, pose_wall_result* result) {
+  result->stamp_ns = stamp_ns;
+  result->frame_reasons = POSE_WALL_R_NO_FRAME;
+  for (pose_wall_value& v : result->quantity) {
+    v.value = v.raw = v.sigma = v.protection_level = v.age_s = __builtin_nan("");
+    v.reasons = POSE_WALL_R_NO_FRAME | POSE_WALL_R_HOLD_EXPIRED;
+  }
+}
+
 }  // namespace
 
 void* Runtime::run_worker(void* runtime) {
@@ -138,7 +148,8 @@ void Runtime::work_silence(FrameSlot* slot) {
     replace_damaged_engine();
     if (slot->memento != nullptr) pose_wall_save(engine_, slot->memento, pose_wall_memento_bytes());
     p.result.struct_size = sizeof(p.result);
-    pose_wall_age(engine_, saturated_sum(last_stamp_ns_, now_ns - silent_since_ns_), &p.result);
+    const std::int64_t stamp_ns = saturated_sum(last_stamp_ns_, now_ns - silent_since_ns_);
+    if (pose_wall_age(engine_, stamp_ns, &p.result) != POSE_WALL_OK) tell_nothing(stamp_ns, &p.result);
     next_silence_ns_ = saturated_sum(now_ns, options_.watchdog_every_ns);
     publish(&p);
   }

@@ -61,6 +61,9 @@ for file in lib/libpose_wall.a include/pose_wall.h include/pose_wall.hpp lib/pkg
   share/doc/libpose-wall-dev/pose_wall.spdx.json share/doc/libpose-wall-dev/plc/FB_PoseWall.st; do
   [ -s "$work/a/b/moved/$file" ] || complain "the package has no $file"
 done
+for file in lib/libpose_wall_traced.a include/pose_wall_trace.h; do
+  [ ! -e "$work/a/b/moved/$file" ] || complain "the package has $file, which is for the command alone"
+done
 case $architecture in
   amd64) machine=X86-64 ;;
   arm64) machine=AArch64 ;;

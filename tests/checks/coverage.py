@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """Which lines and branches of src/ the tests reach, by Clang's counters. Runs the tests of the engine and the runtime
-(unit, property, abi, runtime, what replays the fuzz corpora, the digests' roadways), no scenarios: those go over the
-same code minutes longer. A branch is one outcome of one condition of the source; the compiler's own are none.
+(unit, property, abi, runtime, faults, what replays the fuzz corpora, the digests' roadways), no scenarios: those go
+over the same code minutes longer. A branch is one outcome of one condition of the source; the compiler's own are none.
 
 usage: cmake --preset coverage && cmake --build --preset coverage && tests/checks/coverage.py [--missing] [--again]
   --missing  also print each line and branch that was not reached
@@ -20,7 +20,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TESTS = ROOT / "build/coverage/tests"
 PROFILES = ROOT / "build/coverage/profiles"
-KINDS = ("unit", "property", "abi", "runtime")
+KINDS = ("unit", "property", "abi", "runtime", "faults")
 LINES_MIN, BRANCHES_MIN = 95.0, 90.0
 
 

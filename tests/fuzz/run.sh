@@ -81,6 +81,11 @@ wait || true
 
 printf '%-12s %12s %8s %9s %8s %8s %9s\n' target executions edges features inputs seconds findings
 for target in $targets; do row "$target"; done
+for target in $targets; do
+  grep -q 'stat::number_of_executed_units: *[1-9]' "$build/logs/$target.log" || {
+    echo "$target has not run: see $build/logs/$target.log" && exit 1
+  }
+done
 found=$(for target in $targets; do find "$build/findings/$target" -type f; done)
 [ -n "$found" ] || exit 0
 printf 'Findings, each again by build/fuzz/tests/pose_wall_TARGET_fuzz FILE:\n%s\n' "$found"

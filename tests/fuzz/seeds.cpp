@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fuzz/road_from_input.hpp"
+#include "fuzz/seed_recordings.hpp"
 #include "support/runtime_under_test.hpp"
 
 namespace {
@@ -173,6 +174,14 @@ void readers() {
   write("kitti", points + points.substr(0, 7));
 }
 
+void recordings() {
+  using namespace pose_wall::test::seeds;
+  write("bag", ros1_bag());
+  write("bag", mcap());
+  write("capture", capture(velodyne_payload()));
+  write("capture", ouster_metadata() + capture(Text(32 + 16 * 12 + 2 * 16 * 4 + 32, '\1')));
+}
+
 void texts() {
   write("config_file",
         "# comment\nforward_axis: \"-X\"\nbody_box_1: [-2.3, 2.3, -0.6, 0.6, -1.5, 0.4]\nrange_max: 40\n");
@@ -199,6 +208,7 @@ int main(int argc, char** argv) {
   configs();
   boxes();
   readers();
+  recordings();
   texts();
   return 0;
 }

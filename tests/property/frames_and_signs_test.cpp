@@ -72,7 +72,7 @@ TEST_P(FramesAndSigns, SevenNumbersAreTheTruths) {
 // which is roll or pitch by the forward axis, and some of both for a machine that is turned.
 TEST_P(FramesAndSigns, WallsThatLeanAlikeDoubtTheAngleAboutTheRoad) {
   constexpr double kFall_deg = 15.0;
-  const auto level = [this](double fall_deg, double left_deg, std::uint32_t q) {
+  const auto level = [](double fall_deg, double left_deg, std::uint32_t q) {
     sim::SceneSetup setup = sim::make_setup("clean", "os0-128", false, 1);
     setup.machine.forward_axis = GetParam();
     setup.machine.turned_left_deg = left_deg;

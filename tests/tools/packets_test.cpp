@@ -94,6 +94,29 @@ TEST(Velodyne, TurnsBecomeFramesAndThosePartlySeenAreLeftOut) {
   EXPECT_EQ(read(folder.write("part.pcap", velodyne_capture(90, 2))).frames.size(), 1U) << "all there is";
 }
 
+// In dual mode two blocks share an azimuth: the last return, and the strongest or, where the last is the strongest, the
+// second strongest. Here dust stands at 4 m before a wall at 10 m.
+TEST(Velodyne, OfTwoReturnsTheLastIsTaken) {
+  const TempFolder folder;
+  std::string file = capture_head();
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    std::string payload;
+    for (std::uint32_t block = 0; block < 12; ++block) {
+      payload += "\xFF\xEE" + raw(static_cast<std::uint16_t>((36 * i + 6 * (block / 2)) % 360 * 100));
+      for (int laser = 0; laser < 32; ++laser) payload += raw(std::uint16_t(block % 2 == 0 ? 5000 : 2000)) + "\x2A";
+    }
+    file += captured(datagram(payload + raw(0U) + "\x39\x22"), 1000 * i);
+  }
+  const ReadCapture capture = read(folder.write("dual.pcap", file));
+  ASSERT_EQ(capture.frames.size(), 1U);
+  const Frame& frame = *capture.frames[0].frame;
+  EXPECT_EQ(frame.cloud.width, 120U) << "60 pairs of blocks of two firings";
+  for (std::uint32_t i = 0; i < 16 * 120; ++i) {
+    const double x = number_at(frame, frame.cloud.x, i), y = number_at(frame, frame.cloud.y, i);
+    EXPECT_GT(std::hypot(x, y), 9.0) << i;
+  }
+}
+
 TEST(Velodyne, PointsLieWhereTheManualPutsThem) {
   const TempFolder folder;
   const ReadCapture capture = read(folder.write("v.pcap", velodyne_capture(0, 5)));

@@ -83,8 +83,7 @@ function(pose_wall_bare_flags target)
     # Clang makes a call of bcmp, which is no C, of a memcmp that asks for equality alone
     $<$<CXX_COMPILER_ID:Clang>:-fno-builtin-bcmp>
     # std::atomic would call libgcc helpers, which a plain C link on AArch64 does not always have
-    $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>
-    $<$<BOOL:${POSE_WALL_COVERAGE}>:-fprofile-instr-generate> $<$<BOOL:${POSE_WALL_COVERAGE}>:-fcoverage-mapping>)
+    $<$<BOOL:${POSE_WALL_AARCH64}>:-mno-outline-atomics>)
 endfunction()
 
 # That, and what keeps the heap and other bits on other machines out of the engine.

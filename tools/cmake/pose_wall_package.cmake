@@ -53,5 +53,5 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMMAND_DESCRIPTION
   "pose of a tunnelling machine from one LiDAR: command\n\
-Reads frames (PCD, KITTI .bin, PLY), writes one row per frame; simulates roads.")
+Reads frames (PCD, KITTI .bin, PLY, bags, captures), writes one row per frame; simulates roads.")
 include(CPack)

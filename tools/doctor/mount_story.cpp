@@ -27,7 +27,7 @@ double usable(const MountStory& story) {
 }
 
 MountChoice chosen(MountStory a, MountStory b, bool is_sure, std::string reason) {
-  MountChoice choice{std::move(a), std::nullopt, is_sure, std::move(reason)};
+  MountChoice choice{std::move(a), std::nullopt, is_sure, std::move(reason), false};
   if (b.floor.is_found()) choice.other = std::move(b);
   return choice;
 }
@@ -45,8 +45,11 @@ MountChoice by_height(MountStory upright, MountStory flipped, double height_m) {
   const bool up = has_height(upright, height_m), down = has_height(flipped, height_m);
   const std::string measured = fmt::format("--height {:.2f} m", height_m);
   if (up == down) {
-    return chosen(std::move(upright), std::move(flipped), false,
-                  up ? measured + " fits the roof as well" : "no floor is as far below as " + measured + " says");
+    MountChoice choice =
+        chosen(std::move(upright), std::move(flipped), false,
+               up ? measured + " fits the roof as well" : "no floor is as far below as " + measured + " says");
+    choice.contradicts_height = !up;
+    return choice;
   }
   if (up) return chosen(std::move(upright), std::move(flipped), true, "by " + measured);
   return chosen(std::move(flipped), std::move(upright), true, "by " + measured);
@@ -122,7 +125,7 @@ MountChoice choose_mount(const api::Config& told, bool is_told, std::optional<do
                          const std::vector<KeptFrame>& frames) {
   MountStory upright = tell_story(told, false, frames);
   if (is_told && upright.floor.is_found()) {
-    return {std::move(upright), std::nullopt, true, "as the config's extrinsic says"};
+    return {std::move(upright), std::nullopt, true, "as the config's extrinsic says", false};
   }
   MountStory flipped = tell_story(told, true, frames);
   if (height_m) return by_height(std::move(upright), std::move(flipped), *height_m);

@@ -35,6 +35,7 @@ struct MountChoice {
   std::optional<MountStory> other;  // where a floor is seen in that, too
   bool is_sure = false;
   std::string reason;
+  bool contradicts_height = false;  // no plane lies where --height says
 };
 
 // `height_m`: of the sensor above the floor, as somebody measured it. `is_told`: the config names a turn of the sensor.

@@ -51,11 +51,11 @@ void Proposal::set(const std::string& key, const std::string& value, const std::
 }
 
 void Proposal::raise(const std::string& key, double value, const std::string& reason) {
-  if (value > config_.number(key.c_str())) set(key, fmt::format("{:.2f}", value), reason);
+  if (!is_told(key) && value > config_.number(key.c_str())) set(key, fmt::format("{:.2f}", value), reason);
 }
 
 void Proposal::lower(const std::string& key, double value, const std::string& reason) {
-  if (value < config_.number(key.c_str())) set(key, fmt::format("{:.2f}", value), reason);
+  if (!is_told(key) && value < config_.number(key.c_str())) set(key, fmt::format("{:.2f}", value), reason);
 }
 
 void Proposal::take_class(const std::string& model, const std::string& title) {

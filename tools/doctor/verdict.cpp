@@ -57,6 +57,10 @@ void judge_mount(const Diagnosis& d, Verdict& v) {
     v.against.push_back(fmt::format("the floor is seen in {:.0f} % of the frames", 100.0 * floor.measured));
     return;
   }
+  if (d.mount->contradicts_height) {
+    v.against.push_back(fmt::format("{}, it is seen {:.2f} m below", d.mount->reason, floor.height_m));
+    return;
+  }
   // Upright is how sensors are mounted; the other way round somebody has to say it.
   if (d.mount->story.is_flipped && !d.mount->is_sure) {
     v.against.push_back(
@@ -157,12 +161,17 @@ void doubt_mount(const Diagnosis& d, Verdict& v) {
   }
   const double noise_m = story.noise.best_m();
   if (noise_m > kNoiseMax_m) v.buts.push_back(fmt::format("ranges scatter by {:.0f} mm", 1e3 * noise_m));
+  for (const Change& change : d.proposal.changes()) {
+    const bool is_mount = change.key == "forward_axis" || change.key.rfind("extrinsic_", 0) == 0;
+    if (!is_mount || !d.proposal.is_told(change.key)) continue;
+    v.buts.push_back(fmt::format("{} was told as {}, found as {}", change.key, change.before, change.value));
+  }
   if (!d.ahead.axis.empty() && !d.ahead.is_known) {
     v.buts.push_back(fmt::format("{} is a guess: which end of the road is ahead cannot be seen", d.ahead.axis));
   }
   if (d.ahead.is_known) v.confirm.push_back(fmt::format("{} is ahead: {}", d.ahead.axis, d.ahead.reason));
   if (story.road.is_found && std::fabs(story.road.off_line_rad) * kDegPerRad > kOffLineTold_deg) {
-    v.confirm.push_back(
+    v.buts.push_back(
         fmt::format("the road lies {:.1f} deg off {}: does the machine stand so, or the sensor on it "
                     "(extrinsic_yaw)?",
                     story.road.off_line_rad * kDegPerRad, story.road.line));

@@ -124,7 +124,10 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
   tell(refusals, refusals, &out);
   if (find(refusals, POSE_WALL_TRACE_WALL_CHOSEN) != nullptr) {
     tell(notes.failed(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_TELLS), refusals, &out);
-    add_once(out.sentences, across_sentence(config, result, notes, planes));
+    const std::string across = across_sentence(config, result, notes, planes);
+    add_once(out.sentences, across);
+    // First, for as long as that is wrong a wider gate only hides it.
+    if (!across.empty()) out.helps.insert(out.helps.begin(), "check forward_axis and extrinsic_yaw");
   }
   tell(doubts, refusals, &out);
   add_once(out.sentences, others_sentence(planes));

@@ -33,8 +33,8 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
       return;
     }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);
-  } catch (const FrameError& fault) {
-    const std::string what = fault.what();  // of a bag it names the file
+  } catch (const std::runtime_error& fault) {  // of a reader, or of the file system
+    const std::string what = fault.what();     // of a bag it names the file
     errors_.push_back(what.rfind(argument, 0) == 0 ? what : fmt::format("{}: {}", argument, what));
     return;
   }

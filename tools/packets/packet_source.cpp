@@ -103,9 +103,13 @@ class PacketSource : public FrameSource {
     while (survey.next()) ++frames_;
     const bool is_cut = survey.take_fault().has_value();
     if (frames_ == 0 && !is_cut) {
-      throw FrameError(
-          "the capture holds no data packets of a Velodyne VLP-16 (1206 bytes), nor of an Ouster as its metadata says: "
-          "that is the JSON file of the same name, or the one that --metadata names");
+      const std::filesystem::path beside = std::filesystem::path(file).replace_extension(".json");
+      const bool has_metadata = !metadata.empty() || std::filesystem::exists(beside);
+      throw FrameError(fmt::format(
+          "the capture holds no data packets of a Velodyne VLP-16 (1206 bytes), nor of an Ouster{}",
+          has_metadata
+              ? " as its metadata says"
+              : ": its metadata would be " + beside.string() + ", which is not there, or what --metadata names"));
     }
     if (is_cut) ++frames_;
   }

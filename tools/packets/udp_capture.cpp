@@ -56,7 +56,11 @@ class PcapFile : public UdpCapture {
       if (status != 1)
         throw FrameError(fmt::format("offset {}: the capture is cut: {}", offset, pcap_geterr(pcap_.get())));
       // Opened with nanoseconds: tv_usec counts them.
-      const std::int64_t captured_ns = std::int64_t{header->ts.tv_sec} * 1'000'000'000 + header->ts.tv_usec;
+      std::int64_t captured_ns = 0;
+      if (__builtin_mul_overflow(std::int64_t{header->ts.tv_sec}, std::int64_t{1'000'000'000}, &captured_ns) ||
+          __builtin_add_overflow(captured_ns, std::int64_t{header->ts.tv_usec}, &captured_ns)) {
+        throw FrameError(fmt::format("offset {}: a time of {} s", offset, std::int64_t{header->ts.tv_sec}));
+      }
       const ByteView bytes{reinterpret_cast<const std::byte*>(packet), header->caplen};
       if (std::optional<Datagram> datagram = packets_.add(bytes, captured_ns)) return datagram;
     }

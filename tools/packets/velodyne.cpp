@@ -87,9 +87,10 @@ bool VelodyneAssembler::add(const Datagram& datagram) {
 void VelodyneAssembler::add_blocks(ByteView payload, std::int64_t captured_ns) {
   const bool is_dual = std::to_integer<std::uint8_t>(payload.data[kPayloadBytes - 2]) == kDualReturn;
   product_ = std::to_integer<std::uint8_t>(payload.data[kPayloadBytes - 1]);
-  // Of a pair of blocks the first holds the last return, the second the strongest.
+  // Of a pair of blocks the first holds the last return. The second holds the strongest, or the second strongest where
+  // the last is the strongest: dust before a wall would be taken for the wall.
   const std::size_t step = is_dual ? 2 : 1;
-  for (std::size_t block = is_dual ? 1 : 0; block < kBlocks; block += step) {
+  for (std::size_t block = 0; block < kBlocks; block += step) {
     const double azimuth_deg = azimuth_of(payload, block);
     if (block + step < kBlocks) last_turn_deg_ = turned_deg(azimuth_deg, azimuth_of(payload, block + step));
     const ByteView lasers{payload.data + block * kBlockBytes + 4, kBlockBytes - 4};

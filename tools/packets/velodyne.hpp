@@ -15,7 +15,7 @@
 namespace pose_wall::tools {
 
 // Frames are cut where the azimuth passes 0. Axes as in ROS: x at azimuth 0, y to the left, z up. Of two returns the
-// strongest is taken. Stamps are those of the capture: the sensor itself counts within the hour.
+// last is taken. Stamps are those of the capture: the sensor itself counts within the hour.
 class VelodyneAssembler : public ScanAssembler {
  public:
   bool add(const Datagram& datagram) override;

@@ -63,6 +63,7 @@ FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
       look(frame.cloud, points, result);
     }
   } catch (const std::exception& error) {
+    outcome.result.reset();  // also where it was the look that failed
     outcome.error = error.what();
   }
   return outcome;

@@ -24,7 +24,7 @@ packages_of() { # preset: what it takes to build it and to run its tests
   case $1 in
     release | debug | asan) echo $packages_to_build $packages_to_read $packages_to_test ;;
     tsan) echo $packages_to_build $packages_to_test ;;
-    msan | fuzz | coverage) echo $packages_to_build $packages_to_read $packages_to_test clang llvm ;;
+    msan | fuzz | coverage) echo $packages_to_build $packages_to_read $packages_to_test clang llvm libclang-rt-dev ;;
     arm64 | arm64-asan) echo $packages_to_cross $packages_to_test ;;
     arm64-clang | bare) echo $packages_to_cross clang $packages_to_test ;;
     *) return 1 ;;

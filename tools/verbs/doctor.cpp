@@ -83,6 +83,17 @@ int examine(const DoctorOptions& options) {
   return recording.errors.empty() ? kExitDone : kExitUnreadable;
 }
 
+int examine_or_complaint(const DoctorOptions& options) {
+  try {
+    return examine(options);
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    fmt::print(stderr, "pose_wall doctor: {}\n", error.what());
+    return kExitUnreadable;
+  }
+}
+
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
@@ -109,7 +120,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "Gates are only narrowed, or set as config/ has them for the class of the sensor.\n"
       "Exit status: 0 usable, 3 not usable (then nothing is written), 1 an input could not be read or the output not\n"
       "written, 2 bad usage or config, or --output is there already, 130 interrupted.");
-  verb->callback([options, &exit_code] { exit_code = examine(*options); });
+  verb->callback([options, &exit_code] { exit_code = examine_or_complaint(*options); });
 }
 
 }  // namespace pose_wall::tools

@@ -113,7 +113,7 @@ int explain_frame(const ExplainOptions& options) {
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall explain: {}\n", error);
   expect_frame(options.frame, inputs.frames());
   std::optional<OutputFile> picture;
-  if (!options.picture.empty()) picture.emplace(options.picture, inputs.files(), "--picture");
+  if (!options.picture.empty()) picture.emplace(options.picture, options.frames.files_read(inputs), "--picture");
   const std::optional<Explained> explained = run_to_frame(options, loaded, inputs);
   if (!explained) return kExitInterrupted;
   if (!explained->outcome.result) {
@@ -151,7 +151,14 @@ void add_explain(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ExplainOptions>();
   CLI::App* verb = app.add_subcommand("explain", "Say why one frame came out as it did: gates, planes, sentences");
   add_frame_options(verb, &options->frames);
-  verb->add_option("-n,--frame", options->frame, "Which frame, counted from 0 as in the CSV of run")->required();
+  verb->add_option("-n,--frame", options->frame, "Which frame, counted from 0 as in the CSV of run")
+      ->required()
+      ->check(
+          [](const std::string& word) {
+            const bool is_number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+            return is_number ? "" : fmt::format("'{}' is refused; a whole number from 0 is allowed", word);
+          },
+          "0 and more");
   verb->add_option("-p,--picture", options->picture, "SVG file for a picture of the frame");
   verb->add_flag("-j,--json", options->json, "Everything as one JSON object instead");
   verb->footer(
@@ -162,7 +169,8 @@ void add_explain(CLI::App& app, int& exit_code) {
       "The frames before it are measured as well: what is held and smoothed hangs on them. Then it is computed twice, "
       "by\n"
       "the engine that is delivered and by one that takes notes; both give the same bits, or there is no explanation.\n"
-      "Exit status: 0 done, 1 the frame could not be read or the picture not written, 2 bad usage or config.");
+      "Exit status: 0 done, 1 the frame could not be read or the picture not written, 2 bad usage or config,\n"
+      "130 interrupted by Ctrl-C.");
   verb->callback([options, &exit_code] { exit_code = explain_or_complaint(*options); });
 }
 

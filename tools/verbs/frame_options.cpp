@@ -29,6 +29,13 @@ FrameSequence FrameOptions::open() const {
   return FrameSequence(inputs, input);
 }
 
+std::vector<std::filesystem::path> FrameOptions::files_read(const FrameSequence& sequence) const {
+  std::vector<std::filesystem::path> files = sequence.files();
+  if (!config_file.empty()) files.emplace_back(config_file);
+  if (!input.metadata.empty()) files.emplace_back(input.metadata);
+  return files;
+}
+
 void add_input_options(CLI::App* verb, InputOptions* options) {
   verb->add_option("-t,--topic", options->topic, "Topic of a bag, where it has several with clouds");
   verb->add_option("--metadata", options->metadata,

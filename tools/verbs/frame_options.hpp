@@ -6,6 +6,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct FrameOptions {
   bool quiet = false;
   InputOptions input;
 
+  // All that is read: what an output must not overwrite.
+  std::vector<std::filesystem::path> files_read(const FrameSequence& sequence) const;
   // Throws ConfigError.
   LoadedConfig load() const;
 

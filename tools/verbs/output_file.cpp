@@ -12,8 +12,13 @@
 namespace pose_wall::tools {
 
 OutputFile::OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs, const char* option)
-    : path_(path), part_(path + ".part") {
+    : path_(path) {
   std::error_code ignored;
+  // Taking the place of a link would leave what it points to as it was; taking that of a device would end the device.
+  if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(path_, ignored)) {
+    path_ = std::filesystem::canonical(path_, ignored);
+  }
+  part_ = path_.string() + ".pose_wall.part";
   for (const std::filesystem::path& input : inputs) {
     if (std::filesystem::equivalent(path_, input, ignored)) {
       throw std::invalid_argument(fmt::format("{} {}: this is an input; it would be overwritten", option, path));
@@ -21,6 +26,9 @@ OutputFile::OutputFile(const std::string& path, const std::vector<std::filesyste
   }
   if (std::filesystem::is_directory(path_, ignored)) {
     throw std::invalid_argument(fmt::format("{} {}: this is a folder; a file is allowed", option, path));
+  }
+  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored)) {
+    throw std::invalid_argument(fmt::format("{} {}: this is a device; a file is allowed", option, path));
   }
   errno = 0;
   stream_.open(part_, std::ios::binary | std::ios::trunc);

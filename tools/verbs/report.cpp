@@ -90,7 +90,9 @@ int report_frames(const ReportOptions& options) {
   FrameSequence inputs = options.frames.open();
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall report: {}\n", error);
   if (inputs.frames() == 0) throw std::invalid_argument("no frame to report on");
-  OutputFile output(options.output, inputs.files());
+  std::vector<std::filesystem::path> read = options.frames.files_read(inputs);
+  if (!options.truth.empty()) read.emplace_back(options.truth);
+  OutputFile output(options.output, read);
   FrameRunner runner(loaded.config, options.frames.rate_hz);
   report::PageData data(loaded.config, inputs.frames(), options.points_max);
 

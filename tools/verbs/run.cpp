@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -90,6 +91,13 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
   return "";
 }
 
+// A mistyped input must not cost the results of the last run.
+bool nothing_to_read(const FrameSequence& inputs) {
+  std::error_code ignored;
+  return std::none_of(inputs.files().begin(), inputs.files().end(),
+                      [&](const std::filesystem::path& file) { return std::filesystem::exists(file, ignored); });
+}
+
 int tell_interrupted(std::size_t frames) {
   fmt::print(stderr, "interrupted after {}, each with its whole row\n", counted(frames, "frame"));
   return kExitInterrupted;
@@ -100,7 +108,12 @@ int run(const RunOptions& options) {
   FrameSequence inputs = options.frames.open();
   FrameRunner runner(loaded.config, options.frames.rate_hz);
   std::optional<AnnotatedFolder> annotated = annotated_folder(options);
-  ResultOutput output(options.output, inputs.files(),
+  if (nothing_to_read(inputs) && std::filesystem::exists(options.output)) {
+    for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
+    fmt::print(stderr, "pose_wall run: there is no input; {} is left as it was\n", options.output);
+    return kExitUnreadable;
+  }
+  ResultOutput output(options.output, options.frames.files_read(inputs),
                       options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv);
   if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);

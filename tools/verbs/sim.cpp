@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -98,6 +99,21 @@ std::uint32_t write_frames(const SimOptions& options, const sim::Simulator& simu
   return i;
 }
 
+// Frames and settings that others made are not for overwriting. Those of an earlier run are.
+void refuse_folder_of_others(const SimOptions& options) {
+  const std::filesystem::path folder(options.output), settings = folder / "pose_wall.yaml", frames = folder / "frames";
+  std::error_code ignored;
+  const bool has_frames = std::filesystem::is_directory(frames, ignored) && !std::filesystem::is_empty(frames, ignored);
+  if (!std::filesystem::exists(settings, ignored) && !has_frames) return;
+  std::string first_line;
+  std::getline(std::ifstream(settings), first_line);
+  if (first_line.rfind("# scene ", 0) == 0) return;
+  throw std::invalid_argument(
+      fmt::format("--output {}: there are frames or settings in it that pose_wall sim did not write; choose another "
+                  "folder, it is made if need be",
+                  options.output));
+}
+
 int simulate(const SimOptions& options) {
   if (options.list) {
     print_list();
@@ -105,6 +121,7 @@ int simulate(const SimOptions& options) {
   }
   if (options.output.empty()) throw std::invalid_argument("--output DIR is needed");
   const sim::Simulator simulator(resolve_setup(options), options.seed);
+  refuse_folder_of_others(options);
   std::uint32_t written = 0;
   try {
     make_output_folder(options.output);

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: what a verb writes never costs what somebody else made: settings, truth, a recording, the results of the last
+// run, what a link points to, a device.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::command;
+using test::contains;
+using test::Ran;
+using test::TempFolder;
+using test::text_of;
+
+class Outputs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(command({"sim", "--sensor", "vlp16", "-n", "1", "-q", "-o", folder.file("road")}).exit_status, 0);
+  }
+  const TempFolder folder;
+  const std::string frames = folder.file("road/frames"), settings = folder.file("road/pose_wall.yaml"),
+                    truth = folder.file("road/truth.csv");
+};
+
+TEST_F(Outputs, SettingsAndTruthAreNotOverwritten) {
+  const std::vector<std::vector<std::string>> calls = {
+      {"run", "-q", "-c", settings, "-o", settings, frames},
+      {"report", "-q", "-c", settings, "-o", settings, frames},
+      {"report", "-q", "-c", settings, "--truth", truth, "-o", truth, frames},
+      {"explain", "-q", "-c", settings, "-n", "0", "-p", settings, frames}};
+  const std::string settings_before = text_of(settings), truth_before = text_of(truth);
+  for (const std::vector<std::string>& call : calls) {
+    const Ran ran = command(call);
+    EXPECT_EQ(ran.exit_status, 2) << call[0];
+    EXPECT_TRUE(contains(ran.errors, "this is an input; it would be overwritten")) << ran.errors;
+  }
+  EXPECT_EQ(text_of(settings), settings_before);
+  EXPECT_EQ(text_of(truth), truth_before);
+}
+
+TEST_F(Outputs, SimLeavesAFolderOfOthersAlone) {
+  std::filesystem::create_directory(folder.file("mine"));
+  const std::string mine = folder.write("mine/pose_wall.yaml", "# measured by hand\nforward_axis: +Y\n");
+  const Ran ran = command({"sim", "-n", "1", "-q", "-o", folder.file("mine")});
+  EXPECT_EQ(ran.exit_status, 2);
+  EXPECT_TRUE(contains(ran.errors, "that pose_wall sim did not write")) << ran.errors;
+  EXPECT_EQ(text_of(mine), "# measured by hand\nforward_axis: +Y\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("mine/truth.csv")));
+  // Its own it writes anew.
+  EXPECT_EQ(command({"sim", "--sensor", "vlp16", "-n", "1", "-q", "-o", folder.file("road")}).exit_status, 0);
+}
+
+TEST_F(Outputs, AMistypedInputLeavesTheResultsOfTheLastRun) {
+  const std::string results = folder.write("keep.csv", "the last run\n");
+  const Ran ran = command({"run", "-q", "-o", results, folder.file("road/framez")});
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.errors, "is left as it was")) << ran.errors;
+  EXPECT_EQ(text_of(results), "the last run\n");
+}
+
+TEST_F(Outputs, ALinkStaysALinkAndADeviceADevice) {
+  const std::string page = folder.write("page.html", "old"), link = folder.file("link.html");
+  std::filesystem::create_symlink(page, link);
+  EXPECT_EQ(command({"report", "-q", "-c", settings, "-o", link, frames}).exit_status, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_TRUE(contains(text_of(page), "<html"));
+  const Ran ran = command({"report", "-q", "-c", settings, "-o", "/dev/null", frames});
+  EXPECT_EQ(ran.exit_status, 2);
+  EXPECT_TRUE(contains(ran.errors, "this is a device; a file is allowed")) << ran.errors;
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+}  // namespace
+}  // namespace pose_wall::tools
