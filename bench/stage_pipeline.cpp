@@ -93,11 +93,7 @@ void StagePipeline::lay_out(std::vector<Line>* into) {
   Arena arena(into != nullptr ? into->data() : nullptr);
   scratch_.lay_out(arena, settings_.points_max);
   all_voxels_.lay_out(arena, settings_.points_max);
-  if (into == nullptr) {
-    block_.resize(arena.bytes() / sizeof(Line) + 1);
-  } else {
-    scratch_.reset();
-  }
+  if (into == nullptr) block_.resize(arena.bytes() / sizeof(Line) + 1);
 }
 
 }  // namespace pose_wall::bench
