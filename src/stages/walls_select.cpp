@@ -235,6 +235,20 @@ bool stands_across(const WallChoice& sides, double sides_score, const WallCandid
   return false;
 }
 
+// A side without a wall gets its reason, one with a wall the best that could stand in for it.
+void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& settings, WallChoice* out) {
+  for (int side = 0; side < 2; ++side) {
+    if (out->side[side] == nullptr) {
+      POSE_WALL_NOTE(note_none(*lists[side], side, out->refused[side], settings.wall_alone_length_min));
+      if (!out->refused[side]) out->reasons[side] |= faults_of(*lists[side], settings.wall_alone_length_min);
+      out->refused[side] = true;
+    } else {
+      out->rival[side] = rival_of(*lists[side], out->side[side]);
+      POSE_WALL_NOTE(note_rival(*out, side));
+    }
+  }
+}
+
 }  // namespace
 
 const WallCandidate* strongest(const WallCandidates& list) {
@@ -276,16 +290,7 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
     POSE_WALL_NOTE(note_not_parallel(out, lists, settings));
     for (const WallCandidate* c : out.side) score += c != nullptr ? c->evidence.score_m2 : 0.0;
   }
-  for (int side = 0; side < 2; ++side) {
-    if (out.side[side] == nullptr) {
-      POSE_WALL_NOTE(note_none(*lists[side], side, out.refused[side], settings.wall_alone_length_min));
-      if (!out.refused[side]) out.reasons[side] |= faults_of(*lists[side], settings.wall_alone_length_min);
-      out.refused[side] = true;
-    } else {
-      out.rival[side] = rival_of(*lists[side], out.side[side]);
-      POSE_WALL_NOTE(note_rival(out, side));
-    }
-  }
+  say_why_or_rival(lists, settings, &out);
   const bool any = out.side[0] != nullptr || out.side[1] != nullptr;
   if (any && stands_across(out, score, ahead, behind, settings)) refuse_both(POSE_WALL_R_CROSS_ROAD, &out);
   return out;

@@ -60,7 +60,8 @@ const Case kCases[] = {
     {"data_at_3", kOk, "V", [](auto* d) { d->begin_at(3); }},
     {"data_bytes_0", kSize, "", [](auto* d) { d->cloud.data_bytes = 0; }},
     {"data_bytes_one_less", kSize, "", [](auto* d) { --d->cloud.data_bytes; }},
-    {"data_bytes_one_more", kOk, "V", [](auto* d) { d->begin_at(0), d->bytes.push_back(1), ++d->cloud.data_bytes; }},
+    {"data_bytes_one_more", kOk, "V",
+     [](auto* d) { d->begin_at(0), d->bytes.push_back(1), d->cloud.data = d->bytes.data(), ++d->cloud.data_bytes; }},
 
     {"width_0", kOk, "H", [](auto* d) { d->cloud.width = 0; }},
     {"width_1", kOk, "H", [](auto* d) { d->cloud.width = 1; }},

@@ -34,7 +34,8 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
     }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);
   } catch (const FrameError& fault) {
-    errors_.push_back(fmt::format("{}: {}", argument, fault.what()));
+    const std::string what = fault.what();  // of a bag it names the file
+    errors_.push_back(what.rfind(argument, 0) == 0 ? what : fmt::format("{}: {}", argument, what));
     return;
   }
   FrameInputs inputs = collect_inputs({argument});
