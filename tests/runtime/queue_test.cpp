@@ -110,7 +110,7 @@ TEST(RuntimeQueue, WithIntensityOfAnyTypeOrNone) {
     std::vector<unsigned char> bytes(points.size() * kStep, 0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       std::memcpy(&bytes[i * kStep], points[i].data(), 12);
-      store_brightness(type, i % 100, &bytes[i * kStep + 12]);
+      store_brightness(type, static_cast<std::uint32_t>(i % 100), &bytes[i * kStep + 12]);
     }
     pose_wall_cloud cloud;
     pose_wall_cloud_xyz32(&cloud, bytes.data(), static_cast<std::uint32_t>(points.size()), kStep, 5 + type);
