@@ -70,6 +70,47 @@ TEST(AbiRefusals, NullPointersEverywhere) {
   EXPECT_STREQ(text, "seven");
 }
 
+TEST(AbiRefusals, NullPointersForEveryParameterOfAnEngine) {
+  const pose_wall_config config = config_with();
+  EngineUnderTest engine(config);
+  pose_wall_engine* const e = engine.get();
+  pose_wall_engine* other = nullptr;
+  pose_wall_cloud cloud;
+  pose_wall_points points;
+  double box[6];
+  char text[8] = "", block[8];
+  pose_wall_result result{};
+  result.struct_size = sizeof result;
+  ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, 0), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_process(nullptr, &cloud, &result), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_process(e, nullptr, &result), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_process(e, &cloud, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_last_points(e, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_last_points(nullptr, &points), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_open(nullptr, block, sizeof block, &other), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_open(&config, nullptr, sizeof block, &other), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_open(&config, block, sizeof block, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_box(nullptr, "body_box_1", box), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_box(&config, nullptr, box), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_config_get_text(&config, nullptr, text, sizeof text), POSE_WALL_E_NULL);
+  EXPECT_EQ(other, nullptr);
+}
+
+TEST(AbiRefusals, ReadingWhatIsNoConfigAndKeysThatAreNone) {
+  const pose_wall_config config = config_with();
+  pose_wall_config none = config;
+  none.layout += 1;
+  double number = 7.0, box[6] = {7.0};
+  char text[8] = "seven";
+  EXPECT_EQ(pose_wall_config_get_number(&config, "no_such_key", &number), POSE_WALL_E_KEY_UNKNOWN);
+  EXPECT_EQ(pose_wall_config_get_box(&config, "no_such_key", box), POSE_WALL_E_KEY_UNKNOWN);
+  EXPECT_EQ(pose_wall_config_get_text(&config, "no_such_key", text, sizeof text), POSE_WALL_E_KEY_UNKNOWN);
+  EXPECT_EQ(pose_wall_config_get_box(&none, "body_box_1", box), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(number, 7.0);
+  EXPECT_EQ(box[0], 7.0);
+  EXPECT_STREQ(text, "seven");
+}
+
 TEST(AbiRefusals, CloudsOfNoDataAreLeftAlone) {
   pose_wall_cloud cloud;
   std::memset(&cloud, 0x5A, sizeof cloud);

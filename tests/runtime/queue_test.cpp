@@ -85,6 +85,42 @@ TEST(RuntimeQueue, WithIntensity) {
   expect_same(runtime.latest().result, engine.process(cloud));
 }
 
+// A brightness from 0 to 99 in the bytes of any type.
+void store_brightness(std::uint32_t type, std::uint32_t brightness, unsigned char* to) {
+  const auto single = static_cast<float>(brightness);
+  const auto number = static_cast<double>(brightness);
+  if (type == POSE_WALL_FIELD_FLOAT32) {
+    std::memcpy(to, &single, sizeof single);
+  } else if (type == POSE_WALL_FIELD_FLOAT64) {
+    std::memcpy(to, &number, sizeof number);
+  } else {
+    to[0] = static_cast<unsigned char>(brightness);  // whole numbers, low byte first
+  }
+}
+
+TEST(RuntimeQueue, WithIntensityOfAnyTypeOrNone) {
+  constexpr std::uint32_t kStep = 20;
+  const Points points = with_no_returns(room_points(1));
+  pose_wall_config config = small_config();
+  set(&config, "intensity_weight", 0.7);
+  EngineUnderTest engine(config);
+  RuntimeUnderTest runtime([](pose_wall_runtime_options* o) { o->point_bytes_max = kStep; }, config);
+  runtime.start();
+  for (std::uint32_t type = POSE_WALL_FIELD_NONE; type <= POSE_WALL_FIELD_FLOAT64; ++type) {
+    std::vector<unsigned char> bytes(points.size() * kStep, 0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      std::memcpy(&bytes[i * kStep], points[i].data(), 12);
+      store_brightness(type, static_cast<std::uint32_t>(i % 100), &bytes[i * kStep + 12]);
+    }
+    pose_wall_cloud cloud;
+    pose_wall_cloud_xyz32(&cloud, bytes.data(), static_cast<std::uint32_t>(points.size()), kStep, 5 + type);
+    cloud.intensity = {12, type};
+    ASSERT_EQ(pose_wall_runtime_push(runtime.get(), &cloud), POSE_WALL_OK) << type;
+    runtime.wait_idle();
+    expect_same(runtime.latest().result, engine.process(cloud));
+  }
+}
+
 TEST(RuntimeQueue, TheNewestWin) {
   RuntimeUnderTest runtime([](pose_wall_runtime_options* o) { o->queue_frames = 3; });
   runtime.gate.shut();
