@@ -47,8 +47,7 @@ def run_test(program, words):
     done = subprocess.run([program, *words], cwd=ROOT, env=environment, capture_output=True, check=False)
     (PROFILES / f"{program.name}.log").write_bytes(done.stdout + done.stderr)
     print(f"{program.name}: {'passed' if done.returncode == 0 else 'FAILED'}", flush=True)
-        all_passed = all_passed and done.returncode == 0
-    return all_passed
+    return done.returncode == 0
 
 
 def run_tests():
@@ -56,7 +55,7 @@ def run_tests():
     for old in PROFILES.glob("*"):
         old.unlink()
     with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count() or 1))) as pool:
-        list(pool.map(lambda test: run_test(*test), programs()))
+        return all(list(pool.map(lambda test: run_test(*test), programs())))
 
 
 def export():
