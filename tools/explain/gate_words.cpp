@@ -57,7 +57,7 @@ constexpr GateWords kFloorWords[] = {
      "{key}).",
      "a smaller ground_roi_radius keeps the floor local"},
     {"floor_rival",
-     "Another plane shows {value} of the open ground that the chosen one shows; from {limit} on either "
+     "By open ground and height another plane scores {value} of the chosen one; from {limit} on either "
      "may be the floor, and the protection levels reach to it.",
      "a bench, a heap or a reflection; see the planes below"},
     {"floor_alone",
@@ -131,8 +131,8 @@ constexpr GateWords kChoiceWords[] = {
      "least are needed. That is a hall, a cavern or a heap of things, but no road.",
      "wall_z_min and wall_z_max set the height of walls"},
     {"wall_rival",
-     "Another plane on this side shows {value} of what the chosen one shows; from {limit} on either may "
-     "be the wall, and the protection levels reach to it.",
+     "By what it shows and what is seen through it another plane on this side scores {value} of the chosen one; "
+     "from {limit} on either may be the wall, and the protection levels reach to it.",
      "a vehicle, a curtain or a niche; see the planes below"},
 };
 

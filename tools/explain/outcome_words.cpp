@@ -66,6 +66,14 @@ bool is_said_by_another(const Note& note, const std::vector<Note>& failed) {
          });
 }
 
+// A value that is still on its way from where earlier frames had it.
+std::string lag_sentence(const pose_wall_value& v, std::uint32_t quantity) {
+  if (!(std::fabs(v.value - v.raw) > 0.5 * v.protection_level)) return "";
+  return fmt::format(
+      " This frame alone measured {}: the value follows what earlier frames said (temporal_smoothing_tau{}).",
+      quantity_amount(quantity, v.raw), quantity == POSE_WALL_YAW ? ", yaw_rate_limit_deg" : "");
+}
+
 }  // namespace
 
 std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity) {
@@ -73,6 +81,7 @@ std::string outcome_sentence(const pose_wall_result& result, const Notes& notes,
   std::string text = head(v, quantity);
   const bool measured = std::isfinite(v.raw);
   if (!measured) text += " " + why_unmeasured(notes, quantity);
+  if (measured) text += lag_sentence(v, quantity);
   if (measured && v.state != POSE_WALL_VALID) {
     const std::vector<std::string> planes = doubted(notes, quantity);
     if (!planes.empty()) text += fmt::format(" Degraded: {}.", fmt::join(planes, ", "));
