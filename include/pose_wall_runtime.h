@@ -35,14 +35,18 @@
  * works, calls back or writes. The worker never waits for a disk.
  *
  * SILENCE. When the newest frame that was worked is older than watchdog_ns (none came, or the worker is that late), the
- * worker publishes what pose_wall_age says: values age, are held, then invalid. A worker that hangs (in the callback)
- * cannot publish: who acts on `latest` must compare published_ns with a clock of its own.
+ * worker publishes what pose_wall_age says: values age, are held, then invalid. A frame that has waited that long is
+ * dropped, for it would look fresh; while one waits, silence is not told twice in a row. A clock that goes back by more
+ * than two watchdog_ns counts as silence of which nobody knows how long it is: invalid. A worker that hangs (in the
+ * callback) cannot publish, and one frame may take the engine longer than watchdog_ns: who acts on `latest` must
+ * compare received_ns with a clock of its own.
  *
  * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
  * when the frames that are worked lie further apart than frame_period_max_ns, points are left out: every second return,
  * then three of four, and so on. No threshold is ever loosened. Because gaps in a wall may go unnoticed in a thinned
  * cloud (pose_wall.h, pose_wall_cloud), nothing from one is ever published as better than degraded, and `thinning` says
- * so. The region is never narrowed: a cropped cloud looks full of holes.
+ * so; where a held value comes from one, `held_thinning` says so. The region is never narrowed: a cropped cloud looks
+ * full of holes. What was dropped shows in `frame`, which counts pushes.
  *
  * ERRORS. POSE_WALL_OK or a negative status, of pose_wall.h or of this header. A refused call changes nothing but the
  * counters.
@@ -61,7 +65,7 @@ extern "C" {
 #endif
 
 /* Raised when a struct or function of this header changes incompatibly. */
-#define POSE_WALL_RUNTIME_ABI_VERSION 1
+#define POSE_WALL_RUNTIME_ABI_VERSION 2
 uint32_t pose_wall_runtime_abi_version(void);
 
 /* ---------------------------------------------------------------------------------------------- status */
@@ -88,14 +92,14 @@ enum pose_wall_runtime_cause {
 };
 
 typedef struct pose_wall_publication {
-  uint32_t struct_size; /* set by the caller of pose_wall_runtime_latest to sizeof */
-  uint32_t cause;       /* pose_wall_runtime_cause */
-  uint32_t thinning;    /* of every so many returns one was used; 1: all. Above 1 no state is better than degraded */
-  uint32_t reserved;
-  uint64_t index;       /* counts publications from 0, over all starts */
-  uint64_t frame;       /* counts pushes from 0, over all starts; of a silence: the last frame that was worked */
-  int64_t received_ns;  /* runtime's clock, at the start of that frame's push */
-  int64_t published_ns; /* runtime's clock */
+  uint32_t struct_size;   /* set by the caller of pose_wall_runtime_latest to sizeof */
+  uint32_t cause;         /* pose_wall_runtime_cause */
+  uint32_t thinning;      /* of every so many returns one was used; 1: all. Above 1 no state is better than degraded */
+  uint32_t held_thinning; /* the largest thinning of the frames that held values of this result come from; 1: none */
+  uint64_t index;         /* counts publications from 0, over all starts */
+  uint64_t frame;         /* counts pushes from 0, over all starts; of a silence: the last frame that was worked */
+  int64_t received_ns;    /* runtime's clock, at the start of that frame's push; before the first frame, of start */
+  int64_t published_ns;   /* runtime's clock */
   pose_wall_result
       result; /* points that push leaves out for they hold no return are counted in it as the engine does */
 } pose_wall_publication;
@@ -108,7 +112,9 @@ typedef void (*pose_wall_runtime_callback)(void* user, const pose_wall_publicati
 
 /* Where the black box is written: `count` bytes at `offset` of a file of at most box_bytes. 0: written. Anything else:
  * not written, the record counts as failed and the next one is tried. It may be as slow as a disk is: only the
- * recorder's thread waits for it. Format and reader: pose_wall_box.h. */
+ * recorder's thread waits for it; but stop waits for that thread, so a sink that may hang needs a time limit of its
+ * own. Of a silence that goes on, the first is recorded, then whenever a state or a reason changes, and one a minute.
+ * Format and reader: pose_wall_box.h. */
 typedef int32_t (*pose_wall_runtime_sink)(void* user, uint64_t offset, const void* bytes, uint64_t count);
 
 /* ---------------------------------------------------------------------------------------------- options */
@@ -128,14 +134,14 @@ typedef struct pose_wall_runtime_options {
   uint32_t thinning_max;     /* 1: never leave out a return. 2, 4, 8 or 16: see OVERLOAD */
   uint32_t box_clouds;       /* 1: the black box holds whole clouds. 0: their digests; nothing can be computed again */
   uint32_t box_backlog;      /* 2; 1 to 64 records that may wait for the sink; what comes then is not recorded */
-  int32_t worker_priority;   /* 0: as the caller's thread. 1 to 99: SCHED_FIFO */
+  int32_t worker_priority;   /* 0: as the caller's thread. 1 to 99: SCHED_FIFO. The recorder is never more than usual */
   int32_t worker_cpu;        /* -1: any. Else the worker runs on this processor only, 0 to 1023 */
   uint32_t lock_memory;      /* 0 or 1: mlock the block (not the stacks) */
   uint32_t required;         /* of pose_wall_runtime_wish: what start must be granted; the rest is only reported */
   uint32_t reserved;         /* 0 */
   int64_t
       frame_period_max_ns;   /* 100 ms: frames are dropped, not thinned, as long as worked ones are no further apart */
-  int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published */
+  int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published, frames that old are dropped */
   int64_t watchdog_every_ns; /* 100 ms: and again so often, until a frame comes */
   pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once, also
                                 under the lock: it must not call the runtime. With a clock of the caller's nothing but
@@ -167,8 +173,8 @@ int32_t pose_wall_runtime_open(const pose_wall_config* config, const pose_wall_r
 
 /* Starts the threads, with an engine that remembers nothing and a black box from its beginning (what the sink wrote
  * before is overwritten: give each start a file of its own). Counters go on. Returns when the worker runs. Fails iff:
- * not open, not stopped, called back, POSE_WALL_RUNTIME_E_SYSTEM; then it is stopped.
- */
+ * not open, not stopped, called back, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_E_ENGINE (the block was changed by others,
+ * the config in it too: open it anew); then it is stopped. */
 int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
 
 /* Waits until every frame is worked, every tick looked at and every record written, or the runtime stops
@@ -183,7 +189,8 @@ int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime);
  * Frames that wait are dropped and counted. Stopped already: nothing happens. Fails iff: not open, called back. */
 int32_t pose_wall_runtime_stop(pose_wall_runtime* runtime);
 
-/* After this the block is the caller's again. Fails iff: not open, not stopped, a push or another call still inside. */
+/* After this the block is the caller's again. Fails iff: not open, not stopped, a push, wait_idle or stop still inside.
+ * Of the other calls none may be made meanwhile. */
 int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
 
 /* ---------------------------------------------------------------------------------------------- frames and results */
@@ -195,7 +202,8 @@ int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
 int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
 
 /* The newest publication. No lock, no wait: one copy, repeated only if three newer ones were published meanwhile. Set
- * publication->struct_size first. Fails iff: NULL, not open, struct_size, not running, POSE_WALL_RUNTIME_E_NOTHING. */
+ * publication->struct_size first. Fails iff: NULL, not open, struct_size, not running, POSE_WALL_RUNTIME_E_NOTHING,
+ * POSE_WALL_E_ENGINE (it was changed by others since; the next publication will be sound). */
 int32_t pose_wall_runtime_latest(const pose_wall_runtime* runtime, pose_wall_publication* publication);
 
 /* Has the worker look at its clock. Fails iff: NULL, not open, not running. */
@@ -218,7 +226,8 @@ enum pose_wall_runtime_drop {
   POSE_WALL_RUNTIME_DROP_OVERTAKEN = 3,   /* the oldest that waited, when a newer one needed its place */
   POSE_WALL_RUNTIME_DROP_STOPPED = 4,     /* still waiting, or being copied, at stop */
   POSE_WALL_RUNTIME_DROP_ENGINE = 5,      /* the engine refused it: it found its block damaged, and was opened anew */
-  POSE_WALL_RUNTIME_DROPS = 6
+  POSE_WALL_RUNTIME_DROP_LATE = 6,        /* it had waited for watchdog_ns */
+  POSE_WALL_RUNTIME_DROPS = 7
 };
 const char* pose_wall_runtime_drop_name(uint32_t drop);
 
@@ -250,7 +259,7 @@ typedef struct pose_wall_runtime_statistics {
   int64_t newest_age_ns; /* now minus received_ns of the newest worked frame; -1 before the first */
   uint64_t box_written;  /* records */
   uint64_t box_lost;     /* not recorded: box_backlog records were waiting for the sink */
-  uint64_t box_failed;   /* the sink said so */
+  uint64_t box_failed;   /* the sink said so: records, and the header at the start */
   uint64_t box_bytes_written;
   int32_t priority_error; /* of the last start: 0 granted or not asked for, else errno */
   int32_t affinity_error;
@@ -261,7 +270,7 @@ typedef struct pose_wall_runtime_statistics {
   pose_wall_runtime_times work;     /* inside the engine */
   pose_wall_runtime_times latency;  /* from the start of push until published */
   pose_wall_runtime_times callback; /* inside the callback */
-  pose_wall_runtime_times sink;     /* to write one record */
+  pose_wall_runtime_times sink;     /* to write one record, or to fail to */
   pose_wall_runtime_times stage[POSE_WALL_STAGES];
 } pose_wall_runtime_statistics;
 

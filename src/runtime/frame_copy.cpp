@@ -119,10 +119,11 @@ void copy_frame(const pose_wall_cloud& cloud, bool with_intensity, std::uint32_t
   const bool filter = copier.fields == 3;
   const std::uint64_t row_step =
       cloud.row_step != 0 ? cloud.row_step : static_cast<std::uint64_t>(cloud.width) * cloud.point_step;
+  const std::uint32_t rows = cloud.width > 0 ? cloud.height : 0;  // empty rows may be any number
   EvenChoice choice(thinning);
   std::uint32_t not_finite = 0, zero = 0;
   unsigned char* to = slot->points;
-  for (std::uint32_t row = 0; row < cloud.height; ++row) {
+  for (std::uint32_t row = 0; row < rows; ++row) {
     const unsigned char* point = static_cast<const unsigned char*>(cloud.data) + row * row_step;
     for (std::uint32_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
       const Point kind = filter ? judge(cloud, point) : Point::kReturn;

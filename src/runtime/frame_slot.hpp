@@ -31,6 +31,8 @@ class SlotList {
   bool empty() const { return count_ == 0; }
   std::uint32_t count() const { return count_; }
 
+  const FrameSlot* front() const { return slot_[first_]; }
+
   void push(FrameSlot* slot) {
     slot_[(first_ + count_) % kSlotsMax] = slot;
     ++count_;

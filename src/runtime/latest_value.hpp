@@ -4,6 +4,7 @@
 // The newest of a series of values, for readers that must never wait. Four cells, each with a sequence lock (Boehm
 // 2012: every word is atomic, so a torn read is a wrong read and not undefined): a reader is disturbed only by a writer
 // that comes round to its cell while it copies, and a writer that is put to sleep in the middle disturbs nobody.
+// Each cell carries a sum: a bit that falls over in it would be told as a value.
 
 #pragma once
 
@@ -15,6 +16,8 @@ namespace pose_wall::runtime {
 
 constexpr int kLatestAttempts = 1000;
 
+enum class LatestStatus { kNothing, kDamaged, kThere };
+
 template <typename T, std::uint32_t kCells = 4>
 class LatestValue {
  public:
@@ -24,30 +27,40 @@ class LatestValue {
     Cell& cell = cell_[turn % kCells];
     const std::uint64_t version = cell.version.load(std::memory_order_relaxed);
     cell.version.store(version + 1, std::memory_order_relaxed);  // odd: being written
+    std::uint64_t sum = kSumOfNothing;
     for (std::uint32_t i = 0; i < words(); ++i) {
       // Release: who reads this word sees the odd version, too.
-      cell.word[i].store(word_of(value, i), std::memory_order_release);
+      const std::uint64_t word = word_of(value, i);
+      cell.word[i].store(word, std::memory_order_release);
+      sum = sum_with(sum, word);
     }
+    cell.sum.store(sum, std::memory_order_release);
     cell.version.store(version + 2, std::memory_order_release);
     turn_.store(turn, std::memory_order_release);
   }
 
-  // False: nothing was stored yet. A reader whose cell was overwritten takes the newer one; the cap is for the case
-  // that cannot be, a writer faster than any copy.
-  bool load(T* value) const {
+  // A reader whose cell was overwritten takes the newer one; the cap is for the case that cannot be, a writer faster
+  // than any copy.
+  LatestStatus load(T* value) const {
     for (int attempt = 0; attempt < kLatestAttempts; ++attempt) {
       const std::uint64_t turn = turn_.load(std::memory_order_acquire);
-      if (turn == 0) return false;
+      if (turn == 0) return LatestStatus::kNothing;
       const Cell& cell = cell_[turn % kCells];
       const std::uint64_t before = cell.version.load(std::memory_order_acquire);
       T copy;
-      for (std::uint32_t i = 0; i < words(); ++i) set_word(&copy, i, cell.word[i].load(std::memory_order_acquire));
-      if (before % 2 == 0 && cell.version.load(std::memory_order_relaxed) == before) {
-        *value = copy;
-        return true;
+      std::uint64_t sum = kSumOfNothing;
+      for (std::uint32_t i = 0; i < words(); ++i) {
+        const std::uint64_t word = cell.word[i].load(std::memory_order_acquire);
+        set_word(&copy, i, word);
+        sum = sum_with(sum, word);
       }
+      const std::uint64_t noted = cell.sum.load(std::memory_order_acquire);
+      if (before % 2 != 0 || cell.version.load(std::memory_order_relaxed) != before) continue;
+      if (sum != noted) return LatestStatus::kDamaged;
+      *value = copy;
+      return LatestStatus::kThere;
     }
-    return false;
+    return LatestStatus::kDamaged;
   }
 
   // While no thread stores or loads.
@@ -56,12 +69,19 @@ class LatestValue {
  private:
   static constexpr std::uint32_t words() { return sizeof(T) / 8; }
   static_assert(sizeof(T) % 8 == 0, "made of whole words");
+  static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "a reader would wait for a lock of the library's");
 
   struct Cell {
     std::atomic<std::uint64_t> version{0};
     std::atomic<std::uint64_t> word[words()] = {};
+    std::atomic<std::uint64_t> sum{0};
   };
 
+  // FNV-1a by words: no change of a single word goes unnoticed.
+  static constexpr std::uint64_t kSumOfNothing = 0xCBF29CE484222325ULL;
+  static constexpr std::uint64_t sum_with(std::uint64_t sum, std::uint64_t word) {
+    return (sum ^ word) * 0x100000001B3ULL;
+  }
   static std::uint64_t word_of(const T& value, std::uint32_t i) {
     std::uint64_t word;
     std::memcpy(&word, reinterpret_cast<const unsigned char*>(&value) + 8 * i, 8);

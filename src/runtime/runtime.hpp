@@ -11,11 +11,13 @@
 #include "block_walk.hpp"
 #include "box_writer.hpp"
 #include "frame_slot.hpp"
+#include "held_thinning.hpp"
 #include "histogram.hpp"
 #include "latest_value.hpp"
 #include "overload.hpp"
 #include "pose_wall_runtime.h"
 #include "threads.hpp"
+#include "watchdog.hpp"
 
 namespace pose_wall::runtime {
 
@@ -69,6 +71,8 @@ class Runtime {
   // runtime_life.cpp
   std::int32_t open_engine();
   void replace_damaged_engine();
+  int start_recorder();
+  int lock_memory();
   std::int32_t start_threads();
   void end_threads();
   void drop_waiting();
@@ -82,19 +86,20 @@ class Runtime {
   void take_wishes();
   void work();
   void wait_for_work();
-  bool silence_is_due(std::int64_t now_ns) const;
+  bool drop_if_late();
   void work_frame(FrameSlot* slot);
-  void work_silence(FrameSlot* slot);
+  void tell_silence(FrameSlot* slot);
+  void save_memento(FrameSlot* slot);
   std::int32_t measure(FrameSlot* slot, std::int64_t* work_ns);
   void publish(pose_wall_publication* publication);
-  void conclude(FrameSlot* slot);
+  void conclude(FrameSlot* slot, bool is_recorded);
   void hand_on(FrameSlot* slot);
 
   // runtime_recorder.cpp
   static void* run_recorder(void* runtime);
   void record();
 
-  std::uint64_t magic_ = 0;
+  std::atomic<std::uint64_t> magic_{0};
   const Runtime* self_ = nullptr;
   std::uint64_t block_bytes_ = 0;
   pose_wall_config config_;
@@ -129,8 +134,10 @@ class Runtime {
 
   // Of the worker alone.
   Overload overload_;
+  Watchdog watchdog_;
+  HeldThinning held_thinning_;
   std::uint64_t events_ = 0, publications_ = 0, last_frame_ = 0;
-  std::int64_t last_stamp_ns_ = 0, silent_since_ns_ = 0, next_silence_ns_ = 0;
+  std::int64_t last_stamp_ns_ = 0, silence_recorded_ns_ = 0;
   pose_wall_publication publication_{};
 
   // Without a lock.

@@ -13,7 +13,10 @@
 namespace pose_wall::runtime {
 
 Runtime::Runtime(const pose_wall_config& config, const pose_wall_runtime_options& options)
-    : config_(config), options_(options), overload_(options.thinning_max, options.frame_period_max_ns) {}
+    : config_(config),
+      options_(options),
+      overload_(options.thinning_max, options.frame_period_max_ns),
+      watchdog_(options.watchdog_ns, options.watchdog_every_ns) {}
 
 std::uint64_t Runtime::lay_out(void* block, std::uint64_t engine_bytes, const pose_wall_runtime_options& options,
                                Runtime* runtime) {
@@ -80,11 +83,14 @@ std::int32_t Runtime::start() {
   Locked locked(&lock_);
   if (own_thread_calls()) return POSE_WALL_RUNTIME_E_THREAD;
   if (state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
+  replace_damaged_engine();
+  const std::int32_t reset = pose_wall_reset(engine_);
+  if (reset != POSE_WALL_OK) return reset;
   state_ = POSE_WALL_RUNTIME_STARTING;
   ++epoch_;
-  replace_damaged_engine();
-  pose_wall_reset(engine_);
   latest_.clear();
+  held_thinning_.forget();
+  publication_ = pose_wall_publication{};
   overload_ = Overload(options_.thinning_max, options_.frame_period_max_ns);
   thinning_ = 1;
   has_newest_ = worker_ready_ = recorder_may_end_ = dropped_since_ = false;
@@ -102,13 +108,32 @@ std::int32_t Runtime::start() {
   return POSE_WALL_OK;
 }
 
+// The recorder as any other thread: at the priority of a caller that must not wait it would be in the worker's way.
+int Runtime::start_recorder() {
+  pthread_attr_t attributes;
+  int error = pthread_attr_init(&attributes);
+  if (error != 0) return error;
+  const sched_param usual{};
+  pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
+  pthread_attr_setschedpolicy(&attributes, SCHED_OTHER);
+  pthread_attr_setschedparam(&attributes, &usual);
+  error = pthread_create(&recorder_, &attributes, run_recorder, this);
+  pthread_attr_destroy(&attributes);
+  return error;
+}
+
+int Runtime::lock_memory() {
+  Unlocked unlocked(&lock_);  // it may take long, and a push that is refused must not wait for it
+  return mlock(this, block_bytes_) == 0 ? 0 : errno;
+}
+
 // Under the lock, which the new threads wait for.
 std::int32_t Runtime::start_threads() {
   Counters& c = counters_;
   c.priority_error = c.affinity_error = c.lock_error = c.thread_error = 0;
-  if (options_.lock_memory != 0 && mlock(this, block_bytes_) != 0) c.lock_error = errno;
+  if (options_.lock_memory != 0) c.lock_error = lock_memory();
   if (options_.sink != nullptr) {
-    c.thread_error = pthread_create(&recorder_, nullptr, run_recorder, this);
+    c.thread_error = start_recorder();
     has_recorder_ = c.thread_error == 0;
   }
   if (c.thread_error == 0) {

@@ -54,6 +54,8 @@ POSE_WALL_EXPORT const char* pose_wall_runtime_drop_name(uint32_t drop) {
       return "stopped";
     case POSE_WALL_RUNTIME_DROP_ENGINE:
       return "engine";
+    case POSE_WALL_RUNTIME_DROP_LATE:
+      return "late";
     default:
       return "unknown";
   }

@@ -6,6 +6,7 @@
 #include "frame_copy.hpp"
 #include "options.hpp"
 #include "runtime.hpp"
+#include "saturated.hpp"
 #include "status.hpp"
 
 namespace pose_wall::runtime {
@@ -65,7 +66,7 @@ std::int32_t Runtime::queue(FrameSlot* slot, std::uint64_t epoch) {
   }
   waiting_.push(slot);
   if (waiting_.count() > counters_.waiting_worst) counters_.waiting_worst = waiting_.count();
-  times_.push.add(now() - received_ns);
+  times_.push.add(difference(now(), received_ns));
   changed_.wake_all();
   return POSE_WALL_OK;
 }

@@ -4,6 +4,7 @@
 // What the recorder's thread does: it alone waits for the sink.
 
 #include "runtime.hpp"
+#include "saturated.hpp"
 
 namespace pose_wall::runtime {
 
@@ -31,7 +32,7 @@ void Runtime::record() {
       // A disk that was not there at the start may be by now.
       begun = begun || box_.begin(config_);
       written = begun && box_.write(*slot);
-      if (written) times_.sink.add(now() - begin_ns);
+      times_.sink.add(difference(now(), begin_ns));  // a disk that fails may take its time, too
     }
     ++(written ? counters_.box_written : counters_.box_failed);
     counters_.box_bytes_written = box_.bytes_written();

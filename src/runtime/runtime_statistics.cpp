@@ -4,22 +4,31 @@
 // What can be read while it runs.
 
 #include "runtime.hpp"
+#include "saturated.hpp"
 #include "status.hpp"
 
 namespace pose_wall::runtime {
 
 std::int32_t Runtime::latest(pose_wall_publication* publication) const {
   if (running_.load(std::memory_order_acquire) == 0) return POSE_WALL_RUNTIME_E_STATE;
-  return ok_if(latest_.load(publication), POSE_WALL_RUNTIME_E_NOTHING);
+  switch (latest_.load(publication)) {
+    case LatestStatus::kNothing:
+      return POSE_WALL_RUNTIME_E_NOTHING;
+    case LatestStatus::kDamaged:
+      return POSE_WALL_E_ENGINE;
+    case LatestStatus::kThere:
+      break;
+  }
+  return POSE_WALL_OK;
 }
 
 void Runtime::statistics(pose_wall_runtime_statistics* out) {
   pose_wall_runtime_statistics s{};
   s.struct_size = sizeof(s);
-  const std::int64_t now_ns = now();
   {
     Locked locked(&lock_);
     const Counters& c = counters_;
+    const std::int64_t age_ns = difference(now(), newest_received_ns_);
     s.state = state_;
     s.pushed = c.pushed;
     s.processed = c.processed;
@@ -33,7 +42,7 @@ void Runtime::statistics(pose_wall_runtime_statistics* out) {
     s.thinned = c.thinned;
     s.thinning = thinning_;
     s.thinning_worst = c.thinning_worst;
-    s.newest_age_ns = has_newest_ ? now_ns - newest_received_ns_ : -1;
+    s.newest_age_ns = !has_newest_ ? -1 : age_ns > 0 ? age_ns : 0;
     s.box_written = c.box_written;
     s.box_lost = c.box_lost;
     s.box_failed = c.box_failed;

@@ -3,28 +3,34 @@
 //
 // What the worker's thread does: frames, and the watchdog when there are none.
 
+#include <cstring>
+
 #include "finish_result.hpp"
 #include "pose_wall_box.h"
 #include "runtime.hpp"
+#include "saturated.hpp"
 
 namespace pose_wall::runtime {
 namespace {
 
-// Stamps are anybody's numbers.
-std::int64_t saturated_sum(std::int64_t a, std::int64_t b) {
-  std::int64_t sum;
-  if (!__builtin_add_overflow(a, b, &sum)) return sum;
-  return b > 0 ? INT64_MAX : INT64_MIN;
-}
+constexpr std::int64_t kMinute_ns = 60000000000;
 
 // Without an engine: nothing is known, and that is what is told.
 void tell_nothing(std::int64_t stamp_ns, pose_wall_result* result) {
   result->stamp_ns = stamp_ns;
   result->frame_reasons = POSE_WALL_R_NO_FRAME;
   for (pose_wall_value& v : result->quantity) {
-    v.value = v.raw = v.sigma = v.protection_level = v.age_s = __builtin_nan("");
-    v.reasons = POSE_WALL_R_NO_FRAME | POSE_WALL_R_HOLD_EXPIRED;
+    v.value = v.raw = v.sigma = v.protection_level = __builtin_nan("");
+    v.reasons = POSE_WALL_R_NO_FRAME | POSE_WALL_R_NEVER_MEASURED;
   }
+  for (int k = 0; k < 9; k += 4) result->R_level_base[k] = 1.0;
+}
+
+bool same_states(const pose_wall_result& a, const pose_wall_result& b) {
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    if (a.quantity[q].state != b.quantity[q].state || a.quantity[q].reasons != b.quantity[q].reasons) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -39,8 +45,7 @@ void* Runtime::run_worker(void* runtime) {
 void Runtime::take_wishes() {
   const int priority_error = options_.worker_priority > 0 ? set_priority(options_.worker_priority) : 0;
   const int affinity_error = options_.worker_cpu >= 0 ? set_processor(options_.worker_cpu) : 0;
-  silent_since_ns_ = now();
-  next_silence_ns_ = silent_since_ns_ + options_.watchdog_ns;
+  watchdog_.feed(now());
   Locked locked(&lock_);
   counters_.priority_error = priority_error;
   counters_.affinity_error = affinity_error;
@@ -53,8 +58,9 @@ void Runtime::work() {
   while (state_ != POSE_WALL_RUNTIME_STOPPING) {
     look_ = false;
     // Silence goes first: where frames are worked late, the newest that is known is old all the same.
-    const bool silent = silence_is_due(now());
+    const bool silent = watchdog_.is_due(now(), !waiting_.empty());
     const bool has_frame = !silent && !waiting_.empty();
+    if (has_frame && drop_if_late()) continue;
     if (!silent && !has_frame) {
       changed_.wake_all();  // who waits for idleness must see that a tick was looked at
       wait_for_work();
@@ -63,19 +69,25 @@ void Runtime::work() {
     busy_ = true;
     in_work_ = has_frame;
     FrameSlot* const slot = has_frame ? waiting_.pop() : free_.pop();
-    has_frame ? work_frame(slot) : work_silence(slot);
+    has_frame ? work_frame(slot) : tell_silence(slot);
     in_work_ = busy_ = false;
     changed_.wake_all();
   }
 }
 
-bool Runtime::silence_is_due(std::int64_t now_ns) const {
-  return options_.watchdog_ns > 0 && now_ns >= next_silence_ns_;
+// Under the lock: the oldest that waits. Published, a frame that is older than the watchdog's time would pass for
+// fresh.
+bool Runtime::drop_if_late() {
+  if (!watchdog_.is_late(now(), waiting_.front()->publication.received_ns)) return false;
+  free_.push(waiting_.pop());
+  ++counters_.dropped[POSE_WALL_RUNTIME_DROP_LATE];
+  dropped_since_ = true;
+  return true;
 }
 
 void Runtime::wait_for_work() {
-  if (options_.watchdog_ns > 0 && options_.clock == nullptr) {
-    changed_.wait_until(&lock_, next_silence_ns_);
+  if (watchdog_.is_on() && options_.clock == nullptr) {
+    changed_.wait_until(&lock_, watchdog_.wake_ns(now()));
   } else {
     changed_.wait(&lock_);
   }
@@ -92,8 +104,10 @@ void Runtime::work_frame(FrameSlot* slot) {
     status = measure(slot, &work_ns);
   }
   if (status != POSE_WALL_OK) {
-    free_.push(slot);
+    // What was told before may have been wrong already: nothing is known any more, and that cannot wait for silence.
+    in_work_ = false;
     ++counters_.dropped[POSE_WALL_RUNTIME_DROP_ENGINE];
+    tell_silence(slot);
     return;
   }
   overload_.note(slot->publication.thinning, work_ns, dropped);
@@ -102,37 +116,45 @@ void Runtime::work_frame(FrameSlot* slot) {
   if (slot->publication.thinning > 1) ++counters_.thinned;
   newest_received_ns_ = slot->publication.received_ns;
   has_newest_ = true;
-  conclude(slot);
+  conclude(slot, true);
   ++counters_.processed;
 }
 
 std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   pose_wall_publication& p = slot->publication;
   const std::int64_t begin_ns = now();
-  if (slot->memento != nullptr) pose_wall_save(engine_, slot->memento, pose_wall_memento_bytes());
+  save_memento(slot);
   p.result.struct_size = sizeof(p.result);
   const std::int32_t status = pose_wall_process(engine_, &slot->cloud, &p.result);
   if (status != POSE_WALL_OK) {
     replace_damaged_engine();
     return status;
   }
+  p.held_thinning = held_thinning_.note(p.result, p.thinning);
   finish_result(slot->left_out_not_finite, slot->left_out_zero, p.thinning, &p.result);
   slot->kind = POSE_WALL_BOX_FRAME;
   p.cause = POSE_WALL_RUNTIME_FRAME;
   last_frame_ = p.frame;
   last_stamp_ns_ = p.result.stamp_ns;
-  silent_since_ns_ = p.received_ns;
-  next_silence_ns_ = saturated_sum(p.received_ns, options_.watchdog_ns);
+  watchdog_.feed(p.received_ns);
   publish(&p);
-  *work_ns = p.published_ns - begin_ns;
-  times_.wait.add(begin_ns - p.received_ns);
+  *work_ns = difference(p.published_ns, begin_ns);
+  times_.wait.add(difference(begin_ns, p.received_ns));
   times_.work.add(*work_ns);
-  times_.latency.add(p.published_ns - p.received_ns);
+  times_.latency.add(difference(p.published_ns, p.received_ns));
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) times_.stage[stage].add(p.result.stage_ns[stage]);
   return POSE_WALL_OK;
 }
 
-void Runtime::work_silence(FrameSlot* slot) {
+// What the record cannot be computed from must not look as if it could.
+void Runtime::save_memento(FrameSlot* slot) {
+  const std::uint64_t bytes = pose_wall_memento_bytes();
+  if (slot->memento == nullptr || pose_wall_save(engine_, slot->memento, bytes) == POSE_WALL_OK) return;
+  std::memset(slot->memento, 0, static_cast<std::size_t>(bytes));
+}
+
+void Runtime::tell_silence(FrameSlot* slot) {
+  bool says_more = false;
   {
     Unlocked unlocked(&lock_);
     const std::int64_t now_ns = now();
@@ -144,17 +166,21 @@ void Runtime::work_silence(FrameSlot* slot) {
     p.cause = POSE_WALL_RUNTIME_SILENCE;
     p.thinning = 1;
     p.frame = last_frame_;
-    p.received_ns = silent_since_ns_;
+    p.received_ns = watchdog_.since_ns();
     replace_damaged_engine();
-    if (slot->memento != nullptr) pose_wall_save(engine_, slot->memento, pose_wall_memento_bytes());
+    save_memento(slot);
     p.result.struct_size = sizeof(p.result);
-    const std::int64_t stamp_ns = saturated_sum(last_stamp_ns_, now_ns - silent_since_ns_);
+    const std::int64_t stamp_ns = sum(last_stamp_ns_, watchdog_.speak(now_ns));
     if (pose_wall_age(engine_, stamp_ns, &p.result) != POSE_WALL_OK) tell_nothing(stamp_ns, &p.result);
-    next_silence_ns_ = saturated_sum(now_ns, options_.watchdog_every_ns);
+    p.held_thinning = held_thinning_.note(p.result, 1);
+    // A sensor that is dead for hours must not push the hour before out of the black box.
+    says_more = publication_.cause != POSE_WALL_RUNTIME_SILENCE || !same_states(p.result, publication_.result) ||
+                difference(now_ns, silence_recorded_ns_) >= kMinute_ns;
+    if (says_more) silence_recorded_ns_ = now_ns;
     publish(&p);
   }
   ++counters_.silences;
-  conclude(slot);
+  conclude(slot, says_more);
 }
 
 // Readers first, then the black box, then the callback, which may take its time or never come back.
@@ -166,15 +192,19 @@ void Runtime::publish(pose_wall_publication* p) {
   publication_ = *p;
 }
 
-void Runtime::conclude(FrameSlot* slot) {
+void Runtime::conclude(FrameSlot* slot, bool is_recorded) {
   ++counters_.published;
-  slot->sequence = events_++;
-  hand_on(slot);
+  if (is_recorded) {
+    slot->sequence = events_++;
+    hand_on(slot);
+  } else {
+    free_.push(slot);
+  }
   if (options_.callback == nullptr) return;
   Unlocked unlocked(&lock_);
   const std::int64_t begin_ns = now();
   options_.callback(options_.callback_user, &publication_);
-  times_.callback.add(now() - begin_ns);
+  times_.callback.add(difference(now(), begin_ns));
 }
 
 // To the recorder, if it keeps up: the worker waits for no disk.

@@ -152,14 +152,16 @@ Measurement measure_yaw(const FloorResult& floor, const LevelResult& level, cons
 }  // namespace
 
 void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
-  constexpr double kShareOfCloud = 0.02;
+  constexpr double kShareOfReturns = 0.02;
+  // Of what came back: whether the others are left out, zero or not finite must not matter.
+  const double returns = static_cast<double>(counts.points_in - counts.dropped_not_finite - counts.dropped_zero);
   const Quadrant sides[2] = {kLeft, kRight};
   for (int side = 0; side < 2; ++side) {
     const std::uint32_t near = counts.near_by_quadrant[sides[side]], kept = counts.kept_by_quadrant[sides[side]];
     POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALL_NEAR, near,
-                                  larger(kept, kShareOfCloud * counts.points_in),
-                                  near <= kept || near < kShareOfCloud * counts.points_in));
-    if (near <= kept || static_cast<double>(near) < kShareOfCloud * static_cast<double>(counts.points_in)) continue;
+                                  larger(kept, kShareOfReturns * returns),
+                                  near <= kept || near < kShareOfReturns * returns));
+    if (near <= kept || static_cast<double>(near) < kShareOfReturns * returns) continue;
     (*walls)[side].fit.refused = true;
     (*walls)[side].fit.reasons |= POSE_WALL_R_WALL_TOO_NEAR;
   }

@@ -147,7 +147,7 @@ static int publication_layout(void) {
   MEMBER(pose_wall_publication, struct_size);
   MEMBER(pose_wall_publication, cause);
   MEMBER(pose_wall_publication, thinning);
-  MEMBER(pose_wall_publication, reserved);
+  MEMBER(pose_wall_publication, held_thinning);
   MEMBER(pose_wall_publication, index);
   MEMBER(pose_wall_publication, frame);
   MEMBER(pose_wall_publication, received_ns);

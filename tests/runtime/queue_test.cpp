@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -48,6 +49,38 @@ TEST(RuntimeQueue, GivesWhatTheEngineSays) {
   EXPECT_GE(runtime.latest().result.quantity[POSE_WALL_YAW].state, POSE_WALL_DEGRADED);
   ASSERT_EQ(runtime.published().size(), 5U);
   expect_same(runtime.published()[4].result, runtime.latest().result);
+}
+
+// A side that is blocked right before the sensor is told by its share of what came back, with the no-returns or
+// without.
+TEST(RuntimeQueue, ABlockedSideIsToldAsTheEngineTellsIt) {
+  Points points;
+  for (const std::array<float, 3>& p : room_points(1)) {
+    if (p[1] < std::fabs(p[0])) points.push_back(p);  // nothing comes from the left
+  }
+  const std::size_t near = points.size() / 25, none = 5 * points.size();
+  points.insert(points.end(), near, {0.0F, 0.1F, 0.0F});
+  points.insert(points.end(), none, {0.0F, 0.0F, 0.0F});
+  ASSERT_LT(near, (points.size()) / 50) << "less than the share of all points";
+  EngineUnderTest engine(small_config());
+  RuntimeUnderTest runtime(
+      [&](pose_wall_runtime_options* o) { o->cloud_points_max = static_cast<std::uint32_t>(points.size()); });
+  runtime.start();
+  ASSERT_EQ(runtime.push(points, 0), POSE_WALL_OK);
+  runtime.wait_idle();
+  const pose_wall_result told = runtime.latest().result;
+  expect_same(told, engine.process(cloud_of(points, 0)));
+  EXPECT_NE(told.quantity[POSE_WALL_D_LF].reasons & POSE_WALL_R_WALL_TOO_NEAR, 0U);
+}
+
+TEST(RuntimeQueue, EmptyRowsMayBeAnyNumber) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  pose_wall_cloud cloud = cloud_of({}, 0);
+  cloud.height = 0xFFFFFFFFU;
+  ASSERT_EQ(pose_wall_runtime_push(runtime.get(), &cloud), POSE_WALL_OK);
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.latest().result.points_in, 0U);
 }
 
 TEST(RuntimeQueue, WhateverTheLayout) {

@@ -22,21 +22,18 @@ std::int32_t sink(void* /*user*/, std::uint64_t /*offset*/, const void* /*bytes*
 }
 
 TEST(RuntimeAbi, Numbers) {
-  EXPECT_EQ(pose_wall_runtime_abi_version(), 1U);
+  EXPECT_EQ(pose_wall_runtime_abi_version(), 2U);
   const int statuses[] = {POSE_WALL_RUNTIME_E_OPTION,  POSE_WALL_RUNTIME_E_HANDLE, POSE_WALL_RUNTIME_E_STATE,
                           POSE_WALL_RUNTIME_E_THREAD,  POSE_WALL_RUNTIME_E_BUSY,   POSE_WALL_RUNTIME_E_LARGE,
                           POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM};
   for (int i = 0; i < 8; ++i) EXPECT_EQ(statuses[i], -100 - i);
   const int of_box[] = {POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION, POSE_WALL_BOX_E_END, POSE_WALL_BOX_E_EMPTY};
   for (int i = 0; i < 4; ++i) EXPECT_EQ(of_box[i], -80 - i);
-  const int drops[] = {POSE_WALL_RUNTIME_DROP_DESCRIPTION,
-                       POSE_WALL_RUNTIME_DROP_LARGE,
-                       POSE_WALL_RUNTIME_DROP_BUSY,
-                       POSE_WALL_RUNTIME_DROP_OVERTAKEN,
-                       POSE_WALL_RUNTIME_DROP_STOPPED,
-                       POSE_WALL_RUNTIME_DROP_ENGINE,
-                       POSE_WALL_RUNTIME_DROPS};
-  for (int i = 0; i < 7; ++i) EXPECT_EQ(drops[i], i);
+  const int drops[] = {POSE_WALL_RUNTIME_DROP_DESCRIPTION, POSE_WALL_RUNTIME_DROP_LARGE,
+                       POSE_WALL_RUNTIME_DROP_BUSY,        POSE_WALL_RUNTIME_DROP_OVERTAKEN,
+                       POSE_WALL_RUNTIME_DROP_STOPPED,     POSE_WALL_RUNTIME_DROP_ENGINE,
+                       POSE_WALL_RUNTIME_DROP_LATE,        POSE_WALL_RUNTIME_DROPS};
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(drops[i], i);
   EXPECT_EQ(POSE_WALL_RUNTIME_FRAME, 1);
   EXPECT_EQ(POSE_WALL_RUNTIME_SILENCE, 2);
 }

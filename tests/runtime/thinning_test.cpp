@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: with a worker too slow for the sensor, frames are dropped first; points only where the options allow it, and
-// then every publication says so and is no better than degraded; and it comes back by itself. The clock moves one step
-// by each look, so that a frame "takes" what the test says (and the watchdog is off, which would look without end).
+// then every publication says so and is no better than degraded, also where it only holds what came of it; and it comes
+// back by itself. The clock moves one step by each look, so that a frame "takes" what the test says (and the watchdog
+// is off, which would look without end).
 
 #include <gtest/gtest.h>
 
@@ -68,11 +69,21 @@ TEST(RuntimeThinning, FramesGoFirstThenPointsAndItIsSaid) {
   EXPECT_NEAR(share, 0.5, 0.02);
   EXPECT_EQ(best_state(p), static_cast<std::uint32_t>(POSE_WALL_DEGRADED)) << "measured, but never better than that";
   EXPECT_GT(runtime.statistics().thinned, 0U);
+  EXPECT_EQ(p.held_thinning, 1U) << "nothing is held";
   runtime.clock.set_step(0);
+  // A frame that measures nothing holds what the thinned ones gave.
+  runtime.push({}, p.result.stamp_ns + 10 * kMs);
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.latest().result.quantity[POSE_WALL_YAW].state, static_cast<std::uint32_t>(POSE_WALL_HELD));
+  EXPECT_EQ(runtime.latest().held_thinning, 2U);
   overload(&runtime, 14, false);
   EXPECT_EQ(runtime.latest().thinning, 1U);
   EXPECT_EQ(best_state(runtime.latest()), static_cast<std::uint32_t>(POSE_WALL_VALID));
   EXPECT_EQ(runtime.statistics().thinning_worst, 2U);
+  runtime.push({}, runtime.latest().result.stamp_ns + 10 * kMs);
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.latest().result.quantity[POSE_WALL_YAW].state, static_cast<std::uint32_t>(POSE_WALL_HELD));
+  EXPECT_EQ(runtime.latest().held_thinning, 1U) << "of a whole cloud again";
 }
 
 }  // namespace

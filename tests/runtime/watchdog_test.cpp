@@ -2,10 +2,12 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: silence is published in time by the runtime's clock, with the values that the engine's own rules of holding
-// give; it goes on until a frame comes; a refused frame breaks no silence. Time stands unless the test moves it.
+// give; it goes on until a frame comes; a refused frame breaks no silence; a frame that waited too long is no news; a
+// slow callback does not keep frames out; a clock that goes back is told. Time stands unless the test moves it.
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
 #include <limits>
 
@@ -48,7 +50,13 @@ TEST(RuntimeWatchdog, ValuesAgeAreHeldAndEnd) {
   EXPECT_GE(runtime.latest().result.quantity[POSE_WALL_D_LF].state, POSE_WALL_DEGRADED);
 }
 
-// A worker that is late tells the age of what it knows, though frames wait.
+std::vector<std::uint32_t> causes_of(const RuntimeUnderTest::Publications& published) {
+  std::vector<std::uint32_t> causes;
+  for (const pose_wall_publication& p : published) causes.push_back(p.cause);
+  return causes;
+}
+
+// A worker that is late tells the age of what it knows, and what waited as long is not told as news.
 TEST(RuntimeWatchdog, LateFramesAreOldFrames) {
   RuntimeUnderTest runtime;
   runtime.gate.shut();
@@ -59,14 +67,85 @@ TEST(RuntimeWatchdog, LateFramesAreOldFrames) {
   runtime.clock.advance(400 * kMs);
   runtime.gate.open();
   runtime.wait_idle();
-  std::vector<std::uint32_t> causes;
-  for (const pose_wall_publication& p : runtime.published()) causes.push_back(p.cause);
-  EXPECT_EQ(causes, (std::vector<std::uint32_t>{POSE_WALL_RUNTIME_FRAME, POSE_WALL_RUNTIME_SILENCE,
-                                                POSE_WALL_RUNTIME_FRAME, POSE_WALL_RUNTIME_SILENCE}));
+  EXPECT_EQ(causes_of(runtime.published()),
+            (std::vector<std::uint32_t>{POSE_WALL_RUNTIME_FRAME, POSE_WALL_RUNTIME_SILENCE}));
   const pose_wall_publication p = runtime.latest();
-  EXPECT_EQ(p.frame, 1U);
+  EXPECT_EQ(p.frame, 0U);
   EXPECT_NEAR(p.result.quantity[POSE_WALL_D_LF].age_s, 0.4, 1e-9);
-  EXPECT_NE(p.result.quantity[POSE_WALL_D_LF].state, static_cast<std::uint32_t>(POSE_WALL_VALID));
+  EXPECT_EQ(p.result.quantity[POSE_WALL_D_LF].state, static_cast<std::uint32_t>(POSE_WALL_HELD));
+  const pose_wall_runtime_statistics s = runtime.statistics();
+  EXPECT_EQ(s.dropped[POSE_WALL_RUNTIME_DROP_LATE], 1U);
+  EXPECT_TRUE(accounts_balance(s));
+}
+
+TEST(RuntimeWatchdog, AFrameThatIsAlmostLateIsWorked) {
+  RuntimeUnderTest runtime;
+  runtime.gate.shut();
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.gate.wait_until_somebody_is_inside();
+  runtime.clock.advance(100 * kMs);
+  runtime.push(room_points(2), 100 * kMs);
+  runtime.clock.advance(299 * kMs);
+  runtime.gate.open();
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.statistics().processed, 2U);
+  EXPECT_EQ(runtime.latest().result.stamp_ns, 100 * kMs);
+}
+
+// A callback that takes longer than watchdog_every_ns: silence would be due after each silence, for ever.
+TEST(RuntimeWatchdog, ASlowCallbackLetsFramesThrough) {
+  RuntimeUnderTest runtime;
+  std::int64_t stamp_ns = 0;
+  std::atomic<int> pushes{0};
+  runtime.in_callback = [&] {
+    runtime.clock.advance(150 * kMs);
+    if (pushes < 20) runtime.push(room_points(static_cast<std::uint32_t>(++pushes) % 3), stamp_ns += 150 * kMs);
+  };
+  runtime.start();
+  runtime.pass(300 * kMs);
+  EXPECT_EQ(pushes, 20);
+  EXPECT_GE(runtime.statistics().processed, 9U) << "every second publication at least";
+  EXPECT_TRUE(accounts_balance(runtime.statistics()));
+}
+
+TEST(RuntimeWatchdog, AClockThatGoesBackIsSilenceOfUnknownLength) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.wait_idle();
+  runtime.pass(-100 * kMs);
+  EXPECT_EQ(runtime.latest().cause, POSE_WALL_RUNTIME_FRAME) << "a clock that is set right by a little";
+  runtime.pass(-3600000 * kMs);
+  pose_wall_publication p = runtime.latest();
+  EXPECT_EQ(p.cause, POSE_WALL_RUNTIME_SILENCE);
+  for (const pose_wall_value& v : p.result.quantity) {
+    EXPECT_EQ(v.state, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+  }
+  EXPECT_EQ(runtime.statistics().newest_age_ns, 0) << "never negative";
+  runtime.push(room_points(2), 100 * kMs);
+  runtime.wait_idle();
+  p = runtime.latest();
+  EXPECT_EQ(p.cause, POSE_WALL_RUNTIME_FRAME);
+  EXPECT_EQ(p.result.quantity[POSE_WALL_YAW].state, static_cast<std::uint32_t>(POSE_WALL_VALID));
+  runtime.pass(300 * kMs);
+  EXPECT_EQ(runtime.latest().result.quantity[POSE_WALL_YAW].state, static_cast<std::uint32_t>(POSE_WALL_HELD))
+      << "by its new time";
+}
+
+// While silent the clock goes back: what was told to be this old gets no younger.
+TEST(RuntimeWatchdog, NothingGetsYoungerWhileSilent) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.wait_idle();
+  runtime.pass(400 * kMs);
+  const double age_s = runtime.latest().result.quantity[POSE_WALL_YAW].age_s;
+  EXPECT_NEAR(age_s, 0.4, 1e-9);
+  runtime.clock.advance(-350 * kMs);
+  runtime.pass(0);
+  runtime.pass(100 * kMs);
+  EXPECT_GE(runtime.latest().result.quantity[POSE_WALL_YAW].age_s, age_s);
 }
 
 TEST(RuntimeWatchdog, SpeaksBeforeTheFirstFrameToo) {
