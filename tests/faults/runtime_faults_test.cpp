@@ -180,6 +180,8 @@ void flip_a_bit(RuntimeUnderTest* runtime) {
 
 TEST(RuntimeFaults, ABitFallsOverInItsEngine) {
   RuntimeUnderTest runtime;
+  std::atomic<bool> balanced{true};
+  runtime.in_callback = [&] { balanced = balanced && accounts_balance(runtime.statistics()); };
   runtime.start();
   frame(&runtime, 0);
   flip_a_bit(&runtime);
@@ -188,6 +190,7 @@ TEST(RuntimeFaults, ABitFallsOverInItsEngine) {
   runtime.wait_idle();
   EXPECT_EQ(runtime.statistics().dropped[POSE_WALL_RUNTIME_DROP_ENGINE], 1U);
   EXPECT_TRUE(accounts_balance(runtime.statistics()));
+  EXPECT_TRUE(balanced) << "in the callback, too";
   EXPECT_EQ(runtime.latest().cause, POSE_WALL_RUNTIME_SILENCE);
   EXPECT_EQ(states_of(runtime.latest().result), "IIIIIII");
   EXPECT_EQ(frame(&runtime, 2), "VVVVVVV");

@@ -4,6 +4,7 @@
 // Fuzz target: a cloud that is described anyhow, over bytes of the input or over a road whose bytes the input changes.
 // What is refused changes nothing; what is taken keeps the contract, and so do the same points again and silence.
 
+#include "fuzz/cloud_from_input.hpp"
 #include "fuzz/config_from_input.hpp"
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/road_from_input.hpp"
@@ -18,34 +19,6 @@ pose_wall_config config() {
   set_key(&c, "points_max", 8000);
   set_key(&c, "intensity_weight", 0.5);
   return c;
-}
-
-pose_wall_field field(Input* input) {
-  return {input->byte() % 40U, input->byte() % 10U};
-}
-
-// Any description: most are refused.
-pose_wall_cloud any_description(Input* input) {
-  auto cloud = input->take<pose_wall_cloud>();
-  cloud.struct_size = sizeof cloud;
-  return cloud;
-}
-
-// One that is often taken.
-pose_wall_cloud likely_description(Input* input) {
-  pose_wall_cloud cloud{};
-  cloud.struct_size = sizeof cloud;
-  cloud.big_endian = input->below(2);
-  cloud.width = input->take<std::uint16_t>() % 8192U;
-  cloud.height = 1 + input->below(4);
-  cloud.point_step = 1 + input->byte() % 48U;
-  cloud.row_step = input->take<std::uint16_t>();
-  cloud.stamp_ns = input->take<std::int64_t>();
-  cloud.x = field(input);
-  cloud.y = field(input);
-  cloud.z = field(input);
-  cloud.intensity = field(input);
-  return cloud;
 }
 
 // A road, its bytes changed here and there.
@@ -83,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const pose_wall_config settings = config();
   Input input(data, size);
   const std::uint8_t how = input.byte();
-  pose_wall_cloud cloud = (how & 1U) != 0 ? any_description(&input) : likely_description(&input);
+  pose_wall_cloud cloud = description_by(&input, (how & 1U) != 0);
   cloud.data = input.rest();
   cloud.data_bytes = input.left();
   if ((how & 2U) != 0) {

@@ -7,6 +7,7 @@
 
 #include <atomic>
 
+#include "fuzz/cloud_from_input.hpp"
 #include "fuzz/config_from_input.hpp"
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/garbage_from_input.hpp"
@@ -51,7 +52,8 @@ void on_result(void* self, const pose_wall_publication* publication) {
     require(publication->thinning == 1 || v.state != POSE_WALL_VALID, "nothing thinned is valid");
     const char* const broken = broken_promise(v, q, world.limits);
     // What was thinned is degraded without a reason of its own: its publication says why.
-    require(broken[0] == '\0' || publication->thinning > 1, broken);
+    const bool by_thinning = publication->thinning > 1 && std::strcmp(broken, "not valid, without a reason") == 0;
+    require(broken[0] == '\0' || by_thinning, broken);
   }
 }
 
@@ -77,8 +79,19 @@ pose_wall_runtime_options options_by(Input* input, World* world) {
   return o;
 }
 
+// Anything that a caller may describe, over points that are there.
+void push_described(Input* input, pose_wall_runtime* runtime, bool any) {
+  pose_wall_cloud cloud = description_by(input, any);
+  cloud.data = road_points();
+  cloud.data_bytes = kRoadPointsMax * sizeof road_points()[0];
+  const std::int32_t checked = pose_wall_cloud_check(&cloud), pushed = pose_wall_runtime_push(runtime, &cloud);
+  const bool too_large = checked == POSE_WALL_OK && pushed == POSE_WALL_RUNTIME_E_LARGE;
+  require(pushed == checked || too_large || pushed == POSE_WALL_RUNTIME_E_STATE, "push says what the check says");
+}
+
 void push(Input* input, pose_wall_runtime* runtime, std::int64_t stamp_ns) {
   const std::uint8_t what = input->byte();
+  if (what % 8U == 1) return push_described(input, runtime, what >= 128);
   const std::uint32_t points =
       what % 4U == 0 ? garbage_points(input, road_points(), 4000) : scan_road(plain_road(), what);
   pose_wall_cloud cloud;
@@ -111,6 +124,7 @@ void event(Input* input, pose_wall_runtime* runtime, World* world) {
       world->disk_broken = !world->disk_broken;
       break;
     case 7:
+      if ((what & 128U) != 0) world->now_ns -= input->byte() * 50 * kMs;
       pose_wall_runtime_tick(runtime);
       break;
     default:
