@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "angles.hpp"
 #include "doctor/diagnosis.hpp"
 #include "doctor/trial.hpp"
 #include "sim/parameters.hpp"
@@ -21,8 +22,6 @@
 
 namespace pose_wall::tools {
 namespace {
-
-constexpr double kDegPerRad = 57.29577951308232;
 
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "angles.hpp"
 #include "campaign/fingerprint.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
@@ -17,8 +18,6 @@
 
 namespace pose_wall::tools::campaign {
 namespace {
-
-constexpr double kRadPerDeg = 0.017453292519943295;
 
 // Every key that is not at its default, whichever file or option it came from.
 std::string settings_text(const LoadedConfig& loaded) {

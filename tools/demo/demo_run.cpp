@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "angles.hpp"
 #include "config_file/load_config.hpp"
 #include "picture/frame_picture.hpp"
 #include "results/run_summary.hpp"
@@ -17,7 +18,6 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr std::uint32_t kPointStep = 4 * sizeof(float);
 
 using Clock = std::chrono::steady_clock;

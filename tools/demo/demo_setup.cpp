@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 
+#include "angles.hpp"
 #include "config_file/load_config.hpp"
 #include "sim/machine_body.hpp"
 #include "sim/parameters.hpp"
@@ -36,7 +37,7 @@ std::string body_box(const sim::Setup& setup) {
 }
 
 std::string radians(double degrees) {
-  return fmt::format("{:.17g}", degrees * sim::kRadPerDeg);
+  return fmt::format("{:.17g}", degrees * kRadPerDeg);
 }
 
 std::vector<std::string> settings_as_simulated(const sim::Setup& setup) {

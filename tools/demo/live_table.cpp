@@ -7,10 +7,11 @@
 
 #include <cmath>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr int kWidth = 9;
 constexpr std::array<const char*, POSE_WALL_QUANTITIES> kHeads = {"roll °", "pitch °", "yaw °", "d_LF m",
                                                                   "d_LB m", "d_RF m",  "d_RB m"};

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "angles.hpp"
 #include "doctor/diagnosis_output.hpp"
-#include "doctor/statistics.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "angles.hpp"
 #include "doctor/diagnosis_output.hpp"
-#include "doctor/statistics.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 

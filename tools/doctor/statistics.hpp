@@ -13,8 +13,6 @@
 
 namespace pose_wall::tools::doctor {
 
-constexpr double kDegPerRad = 57.29577951308232;
-
 inline double median(const std::vector<double>& values) {
   return quantile(values, 0.5);
 }

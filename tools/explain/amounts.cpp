@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools::explain {
 namespace {
 

@@ -10,10 +10,11 @@
 #include <limits>
 #include <utility>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kRadPerDeg = 0.017453292519943295;
 constexpr double kTurn_rad = 6.283185307179586;
 constexpr double kUnit_m = 1e-3;
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -20,7 +22,6 @@ constexpr std::uint8_t kHiRes = 0x24;
 constexpr double kFiring_ns = 55'296.0;
 constexpr double kLaser_ns = 2'304.0;
 constexpr double kUnit_m = 0.002;
-constexpr double kRadPerDeg = 0.017453292519943295;
 // A turn has 1,800 firings of 16 at 600 turns a minute, 3,600 at 300; more means that no wrap was seen.
 constexpr std::size_t kFiringsMax = 20'000;
 

@@ -5,13 +5,13 @@
 
 #include <cmath>
 
+#include "angles.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 
 namespace pose_wall::tools::picture {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
 constexpr double kRow = 31.0;
 constexpr std::size_t kReasonsShown = 2;
 
@@ -28,7 +28,7 @@ std::string figure(uint32_t quantity, double value, bool with_sign) {
   if (!std::isfinite(value)) return "–";
   const bool angle = quantity <= POSE_WALL_YAW;
   if (!angle) return fmt::format("{:.3f} m", value);
-  return with_sign ? fmt::format("{:+.2f}°", value * kDegrees) : fmt::format("{:.2f}°", value * kDegrees);
+  return with_sign ? fmt::format("{:+.2f}°", value * kDegPerRad) : fmt::format("{:.2f}°", value * kDegPerRad);
 }
 
 std::string reasons_text(uint32_t reasons) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "angles.hpp"
 #include "config_file/load_config.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
@@ -26,8 +27,6 @@
 
 namespace pose_wall::tools {
 namespace {
-
-constexpr double kDegPerRad = 57.29577951308232;
 
 struct EvalOptions {
   std::string results;
