@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "angles.hpp"
+#include "quantities.hpp"
 #include "sim/sensors.hpp"
 
 namespace pose_wall::tools::campaign {

@@ -8,6 +8,7 @@
 #include "campaign/gate.hpp"
 #include "campaign/rate_bound.hpp"
 #include "campaign/recipe.hpp"
+#include "quantities.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -36,7 +37,7 @@ Json seven(const SevenStatistics& quantities) {
   Json all;
   for (std::uint32_t q = 0; q < quantities.size(); ++q) {
     const ErrorStatistics& s = quantities[q];
-    all[pose_wall_quantity_name(q)] = {{"unit", q <= POSE_WALL_YAW ? "rad" : "m"},
+    all[pose_wall_quantity_name(q)] = {{"unit", is_angle(q) ? "rad" : "m"},
                                        {"values_with_truth", s.frames()},
                                        {"shares", shares(state_shares(s))},
                                        {"raw", figures(s.raw())},

@@ -10,7 +10,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "angles.hpp"
 #include "campaign/fingerprint.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
@@ -107,8 +106,7 @@ Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs,
                        {"program", program_fingerprint()},
                        {"settings", settings_text(loaded)},
                        {"plan", runs_text(runs)}};
-  manifest.limits = {loaded.config.number("alert_limit_angle_deg") * kRadPerDeg,
-                     loaded.config.number("alert_limit_distance")};
+  manifest.limits = alert_limits_of(loaded.config);
   manifest.runs = runs.size();
   manifest.frames = frames_of(runs);
   manifest.plan = request;

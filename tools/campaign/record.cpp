@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "csv/csv_table.hpp"
+#include "quantities.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -88,10 +89,6 @@ RunRecord record_of(const CsvTable& table) {
 }
 
 }  // namespace
-
-double limit_of(std::size_t quantity, const AlertLimits& limits) {
-  return is_angle(quantity) ? limits.angle_rad : limits.distance_m;
-}
 
 Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits) {
   const QuantityRecord& v = frame.quantity[quantity];

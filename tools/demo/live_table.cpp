@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "angles.hpp"
+#include "quantities.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -23,7 +24,7 @@ constexpr const char* kPlain = "\033[0m";
 
 std::string figure(std::uint32_t quantity, double value) {
   if (!std::isfinite(value)) return "-";
-  return quantity <= POSE_WALL_YAW ? fmt::format("{:+.2f}", value * kDegPerRad) : fmt::format("{:.3f}", value);
+  return is_angle(quantity) ? fmt::format("{:+.2f}", value * kDegPerRad) : fmt::format("{:.3f}", value);
 }
 
 }  // namespace

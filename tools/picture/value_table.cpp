@@ -8,6 +8,7 @@
 #include "angles.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
+#include "quantities.hpp"
 
 namespace pose_wall::tools::picture {
 namespace {
@@ -26,8 +27,7 @@ Columns columns_of(const Box& box) {
 
 std::string figure(uint32_t quantity, double value, bool with_sign) {
   if (!std::isfinite(value)) return "–";
-  const bool angle = quantity <= POSE_WALL_YAW;
-  if (!angle) return fmt::format("{:.3f} m", value);
+  if (!is_angle(quantity)) return fmt::format("{:.3f} m", value);
   return with_sign ? fmt::format("{:+.2f}°", value * kDegPerRad) : fmt::format("{:.2f}°", value * kDegPerRad);
 }
 

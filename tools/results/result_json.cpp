@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "quantities.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -24,7 +26,7 @@ Json reason_list(std::uint32_t reasons) {
 }
 
 Json value_json(std::uint32_t quantity, const pose_wall_value& v) {
-  const std::string unit = quantity <= POSE_WALL_YAW ? "_rad" : "_m";
+  const std::string unit = is_angle(quantity) ? "_rad" : "_m";
   return {{"value" + unit, number(v.value)},        {"raw" + unit, number(v.raw)},
           {"sigma" + unit, number(v.sigma)},        {"protection_level" + unit, number(v.protection_level)},
           {"state", pose_wall_state_name(v.state)}, {"reasons", reason_list(v.reasons)},

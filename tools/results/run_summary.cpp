@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "angles.hpp"
+#include "quantities.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 
@@ -18,10 +19,6 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr std::size_t kReasonsShown = 5;
-
-bool is_angle(std::size_t quantity) {
-  return quantity <= POSE_WALL_YAW;
-}
 
 std::string amount(std::size_t quantity, double value) {
   if (!std::isfinite(value)) return "-";

@@ -185,8 +185,7 @@ int eval(const EvalOptions& options) {
   const std::optional<std::string> config_file =
       options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
   const LoadedConfig loaded = load_config(config_file, options.settings);
-  const AlertLimits limits{loaded.config.number("alert_limit_angle_deg") / kDegPerRad,
-                           loaded.config.number("alert_limit_distance")};
+  const AlertLimits limits = alert_limits_of(loaded.config);
   try {
     const CsvTable results = read_table(options.results);
     const CsvTable truth = read_table(options.truth);
