@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -267,6 +268,18 @@ TEST(ExplainVerb, TextAndPictureAreWhole) {
   const std::string picture = test::text_of(folder.file("why.svg"));
   EXPECT_TRUE(contains(picture, "frame 1, itself accepted, floor accepted, left wall accepted")) << picture.size();
   EXPECT_TRUE(contains(picture, "</svg>"));
+}
+
+TEST(ExplainVerb, AFileNameThatIsNoUtf8IsStillJson) {
+  const TempFolder folder;
+  ASSERT_EQ(command({"sim", "-q", "--sensor", "vlp16", "-n", "1", "-o", folder.path()}).exit_status, 0);
+  const std::string frame = folder.file("frames/\xff.pcd");
+  std::filesystem::rename(folder.file("frames/000000.pcd"), frame);
+  ::testing::internal::CaptureStdout();
+  const Ran ran = command({"explain", "-q", "--json", "-c", folder.file("pose_wall.yaml"), "-n", "0", frame});
+  const std::string page = ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_EQ(nlohmann::json::parse(page).at("source"), folder.file("frames/\uFFFD.pcd"));
 }
 
 }  // namespace

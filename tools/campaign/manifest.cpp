@@ -13,6 +13,7 @@
 #include "campaign/fingerprint.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
+#include "results/json_words.hpp"
 #include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -40,15 +41,15 @@ std::string runs_text(const std::vector<Run>& runs) {
 }
 
 // Null stands for what was not asked for.
-nlohmann::ordered_json number_page(const std::optional<std::uint32_t>& number) {
-  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+Json number_page(const std::optional<std::uint32_t>& number) {
+  return number ? Json(*number) : Json();
 }
 
-std::optional<std::uint32_t> number_from(const nlohmann::ordered_json& page) {
+std::optional<std::uint32_t> number_from(const Json& page) {
   return page.is_null() ? std::nullopt : std::optional(page.get<std::uint32_t>());
 }
 
-nlohmann::ordered_json plan_page(const PlanRequest& plan) {
+Json plan_page(const PlanRequest& plan) {
   return {{"size", plan.size},
           {"scenes", plan.scenes},
           {"kind", plan.kind},
@@ -59,7 +60,7 @@ nlohmann::ordered_json plan_page(const PlanRequest& plan) {
           {"seed", plan.seed}};
 }
 
-PlanRequest plan_from(const nlohmann::ordered_json& page) {
+PlanRequest plan_from(const Json& page) {
   PlanRequest plan;
   plan.size = page.at("size");
   page.at("scenes").get_to(plan.scenes);
@@ -133,7 +134,7 @@ std::string difference(const Manifest& records, const Manifest& now) {
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
-  nlohmann::ordered_json page;
+  Json page;
   for (const auto& [name, value] : manifest.identity) page["identity"][name] = value;
   page["alert_limit_angle_rad"] = manifest.limits.angle_rad;
   page["alert_limit_distance_m"] = manifest.limits.distance_m;
@@ -161,7 +162,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
                     "without its records",
                     file_in(folder).string()));
   try {
-    const auto page = nlohmann::ordered_json::parse(in);
+    const auto page = Json::parse(in);
     Manifest manifest;
     for (const auto& [name, value] : page.at("identity").items()) manifest.identity.emplace_back(name, value);
     manifest.limits = {page.at("alert_limit_angle_rad"), page.at("alert_limit_distance_m")};

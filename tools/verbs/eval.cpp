@@ -19,6 +19,7 @@
 #include "config_file/load_config.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
+#include "results/json_words.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/comparison.hpp"
@@ -119,20 +120,11 @@ void print_tables(const Comparison& comparison, const std::optional<Efficiency>&
   if (efficiency) print_points(*efficiency);
 }
 
-// NaN, which JSON does not know, becomes null.
-nlohmann::ordered_json json_figures(const ErrorFigures& figures) {
-  return {{"count", figures.count},
-          {"rmse", figures.rmse},
-          {"bias", figures.bias},
-          {"absolute_95", figures.absolute_95},
-          {"absolute_max", figures.absolute_max}};
-}
-
-nlohmann::ordered_json json_bound(const EfficiencySums& sums) {
+Json json_bound(const EfficiencySums& sums) {
   return {{"frames", sums.frames()}, {"crb", sums.bound()}, {"rmse", sums.rmse()}, {"rmse_over_crb", sums.ratio()}};
 }
 
-nlohmann::ordered_json json_points(const Efficiency& efficiency) {
+Json json_points(const Efficiency& efficiency) {
   return {{"frames", efficiency.frames},
           {"floor_points", efficiency.floor_points},
           {"left_points", efficiency.wall_points[0]},
@@ -142,18 +134,18 @@ nlohmann::ordered_json json_points(const Efficiency& efficiency) {
 }
 
 void print_json(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
-  nlohmann::ordered_json page = {{"matched_by", comparison.matched_by},
-                                 {"matched", comparison.matched},
-                                 {"result_rows_alone", comparison.result_rows_alone},
-                                 {"truth_rows_alone", comparison.truth_rows_alone}};
+  Json page = {{"matched_by", comparison.matched_by},
+               {"matched", comparison.matched},
+               {"result_rows_alone", comparison.result_rows_alone},
+               {"truth_rows_alone", comparison.truth_rows_alone}};
   for (const QuantityComparison& quantity : comparison.quantities) {
     const ErrorStatistics& s = quantity.statistics;
     page["quantities"][quantity.name] = {{"unit", quantity.is_angle ? "rad" : "m"},
                                          {"frames", s.frames()},
                                          {"measured", s.measured()},
                                          {"valid", s.valid()},
-                                         {"raw", json_figures(s.raw())},
-                                         {"value", json_figures(s.value())},
+                                         {"raw", error_figures_json(s.raw())},
+                                         {"value", error_figures_json(s.value())},
                                          {"raw_beyond_protection", s.raw_beyond_protection()},
                                          {"value_beyond_protection", s.value_beyond_protection()},
                                          {"valid_beyond_alert", s.valid_beyond_alert()},
@@ -161,7 +153,7 @@ void print_json(const Comparison& comparison, const std::optional<Efficiency>& e
     if (efficiency) page["quantities"][quantity.name]["bound"] = json_bound(efficiency->quantity[quantity.index]);
   }
   if (efficiency) page["bound"] = json_points(*efficiency);
-  fmt::print("{}\n", page.dump(2));
+  fmt::print("{}\n", json_text(page, 2));
 }
 
 std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedConfig& loaded, const CsvTable& results,
