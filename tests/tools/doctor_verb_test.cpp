@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 
@@ -62,7 +63,7 @@ TEST(DoctorVerb, WritesAFileThatLoadsAndNeverOverTheOneThatIsThere) {
   road.folder.write("out.yaml", "old");
   EXPECT_EQ(road.doctor({"--force", "-o", file}).exit_status, 0);
   EXPECT_EQ(text_of(file), text);
-  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+  EXPECT_FALSE(std::filesystem::exists(part_of(file)));
 
   // A second look with what was written finds nothing more to level.
   EXPECT_EQ(road.doctor({"-c", file, "--json"}).exit_status, 0);
@@ -102,7 +103,7 @@ TEST(DoctorVerb, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
     EXPECT_TRUE(contains(road.page, "not usable because")) << reason;
     EXPECT_TRUE(contains(road.page, reason)) << road.page;
     EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.yaml"))) << reason;
-    EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.yaml.part"))) << reason;
+    EXPECT_FALSE(std::filesystem::exists(part_of(road.folder.file("out.yaml")))) << reason;
   }
 }
 

@@ -21,6 +21,7 @@
 #include "command.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/load_frame.hpp"
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 #include "truth/truth_csv.hpp"
@@ -126,7 +127,7 @@ TEST(Interrupt, ReportShowsWhatWasRead) {
   auto reading_at = std::chrono::steady_clock::time_point::max();
   const auto is_reading = [&] {
     const auto now = std::chrono::steady_clock::now();
-    if (std::filesystem::exists(page + ".pose_wall.part")) {
+    if (std::filesystem::exists(part_of(page))) {
       reading_at = std::min(reading_at, now + std::chrono::milliseconds(500));
     }
     return now > reading_at;
@@ -134,7 +135,7 @@ TEST(Interrupt, ReportShowsWhatWasRead) {
   EXPECT_EQ(interrupted_status(words, folder.file("said"), is_reading), 130);
   const std::string text = text_of(page);
   EXPECT_TRUE(contains(text.substr(text.size() - std::min<std::size_t>(text.size(), 20)), "</html>"));
-  EXPECT_FALSE(std::filesystem::exists(page + ".pose_wall.part"));
+  EXPECT_FALSE(std::filesystem::exists(part_of(page)));
 }
 
 TEST(Interrupt, CampaignCanGoOn) {

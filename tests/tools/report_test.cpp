@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "csv/csv_table.hpp"
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "report/cloud_choice.hpp"
 #include "report/columns.hpp"
@@ -125,7 +126,7 @@ TEST(ReportVerb, IsOneFileThatAsksForNothing) {
   for (const char* outside : {"http://", "https://", "src=", "<link", "@import", "url("}) {
     EXPECT_FALSE(contains(page, outside)) << outside;
   }
-  EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.html.part")));
+  EXPECT_FALSE(std::filesystem::exists(part_of(road.folder.file("out.html"))));
   ASSERT_EQ(road.report().exit_status, 0);
 }
 

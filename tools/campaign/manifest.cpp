@@ -13,6 +13,7 @@
 #include "campaign/fingerprint.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
+#include "frames/whole_file.hpp"
 #include "results/json_words.hpp"
 #include "terminal/counted.hpp"
 
@@ -143,9 +144,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
   page["request"] = plan_page(manifest.plan);
   page["engine"] = {{"config", manifest.engine.config_file}, {"set", manifest.engine.settings}};
   page["command"] = manifest.command();
-  std::ofstream out(file_in(folder));
-  out << page.dump(2) << "\n";
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file_in(folder).string()));
+  write_whole_file(file_in(folder), page.dump(2) + "\n");
 }
 
 bool holds_campaign(const std::filesystem::path& folder) {

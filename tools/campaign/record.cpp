@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "csv/csv_table.hpp"
+#include "frames/whole_file.hpp"
 #include "quantities.hpp"
 #include "results/result_csv.hpp"
 
@@ -128,12 +129,7 @@ std::string record_lines(const RunRecord& record) {
 }
 
 void write_record(const std::filesystem::path& file, const RunRecord& record, const std::string& campaign) {
-  const std::filesystem::path unfinished = file.string() + ".unfinished";
-  std::ofstream out(unfinished, std::ios::binary);
-  out << kFirstWords << campaign << "\n" << csv_line(record_head()) << record_lines(record);
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot write", unfinished.string()));
-  std::filesystem::rename(unfinished, file);
+  write_whole_file(file, kFirstWords + campaign + "\n" + csv_line(record_head()) + record_lines(record));
 }
 
 RunRecord read_record(const std::filesystem::path& file, const std::string& campaign) {
