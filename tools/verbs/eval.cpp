@@ -24,6 +24,7 @@
 #include "terminal/text_table.hpp"
 #include "truth/comparison.hpp"
 #include "truth/efficiency.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -178,20 +179,12 @@ int eval(const EvalOptions& options) {
       options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
   const LoadedConfig loaded = load_config(config_file, options.settings);
   const AlertLimits limits = alert_limits_of(loaded.config);
-  try {
-    const CsvTable results = read_table(options.results);
-    const CsvTable truth = read_table(options.truth);
-    const Comparison comparison = in_file(fmt::format("{} against {}", options.results, options.truth),
-                                          [&] { return compare_with_truth(results, truth, limits); });
-    const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
-    options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
-  } catch (const CsvError& error) {
-    fmt::print(stderr, "pose_wall eval: {}\n", error.what());
-    return kExitUnreadable;
-  } catch (const FrameError& error) {
-    fmt::print(stderr, "pose_wall eval: {}\n", error.what());
-    return kExitUnreadable;
-  }
+  const CsvTable results = read_table(options.results);
+  const CsvTable truth = read_table(options.truth);
+  const Comparison comparison = in_file(fmt::format("{} against {}", options.results, options.truth),
+                                        [&] { return compare_with_truth(results, truth, limits); });
+  const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
+  options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
   return kExitDone;
 }
 
@@ -234,7 +227,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       "over "
       "frames.\n"
       "Exit status: 0 done, 1 a table or frame cannot be read or does not fit, 2 bad usage or config.");
-  verb->callback([options, &exit_code] { exit_code = eval(*options); });
+  verb->callback([options, &exit_code] { exit_code = done_or_complaint("eval", [&] { return eval(*options); }); });
 }
 
 }  // namespace pose_wall::tools
