@@ -73,7 +73,7 @@ Simulated simulate(const sim::SceneSetup& setup, std::uint32_t count) {
 }
 
 LoadedConfig told(const std::vector<std::string>& settings = {}) {
-  return load_config(std::nullopt, settings);
+  return load_config("", settings);
 }
 
 class Mounts : public ::testing::TestWithParam<Mount> {};

@@ -101,8 +101,7 @@ std::string Manifest::fingerprint() const {
 }
 
 Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs, const EngineChoice& choice) {
-  const LoadedConfig loaded = load_config(
-      choice.config_file.empty() ? std::nullopt : std::optional<std::string>(choice.config_file), choice.settings);
+  const LoadedConfig loaded = load_config(choice.config_file, choice.settings);
   Manifest manifest;
   manifest.identity = {{"version", pose_wall_version()},
                        {"program", program_fingerprint()},

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -48,8 +47,7 @@ struct CampaignOptions {
 
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
 void check_settings(const campaign::EngineChoice& engine) {
-  load_config(engine.config_file.empty() ? std::nullopt : std::optional<std::string>(engine.config_file),
-              engine.settings);
+  load_config(engine.config_file, engine.settings);
 }
 
 campaign::Manifest run_campaign(const CampaignOptions& options) {

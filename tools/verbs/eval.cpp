@@ -175,9 +175,7 @@ void demand_settings_for_bound(const EvalOptions& options) {
 
 int eval(const EvalOptions& options) {
   demand_settings_for_bound(options);
-  const std::optional<std::string> config_file =
-      options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
-  const LoadedConfig loaded = load_config(config_file, options.settings);
+  const LoadedConfig loaded = load_config(options.config_file, options.settings);
   const AlertLimits limits = alert_limits_of(loaded.config);
   const CsvTable results = read_table(options.results);
   const CsvTable truth = read_table(options.truth);
