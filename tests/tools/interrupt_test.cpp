@@ -10,7 +10,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -31,6 +30,7 @@ namespace {
 
 using test::command;
 using test::contains;
+using test::table_of;
 using test::TempFolder;
 using test::text_of;
 
@@ -79,8 +79,7 @@ TEST(Interrupt, RunLeavesWholeRowsAndWholeClouds) {
   EXPECT_EQ(interrupted_status(words, folder.file("said"), [&] { return lines_of(csv) > 4; }), 130);
   EXPECT_TRUE(contains(text_of(folder.file("said")), "interrupted after ")) << text_of(folder.file("said"));
   EXPECT_EQ(text_of(csv).back(), '\n');
-  std::ifstream stream(csv);
-  const CsvTable table = CsvTable::parse(stream);  // throws where a row has too few cells
+  const CsvTable table = table_of(csv);  // throws where a row has too few cells
   EXPECT_LT(table.rows(), 2000U);
   std::size_t clouds = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.file("labelled"))) {

@@ -16,12 +16,9 @@
 namespace pose_wall::tools {
 namespace {
 
+using test::contains;
 using test::TempFolder;
 using Settings = std::vector<std::string>;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::string refusal_of(const std::string& file, const Settings& settings) {
   try {

@@ -9,7 +9,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -27,6 +26,7 @@ namespace {
 using test::command;
 using test::contains;
 using test::Ran;
+using test::table_of;
 using test::TempFolder;
 using test::text_of;
 
@@ -101,8 +101,7 @@ TEST(ReportVerb, HoldsTheNumbersThatRunWrites) {
                      road.folder.file("o.csv"), road.folder.file("road/frames")})
                 .exit_status,
             0);
-  std::ifstream stream(road.folder.file("o.csv"));
-  const CsvTable table = CsvTable::parse(stream);
+  const CsvTable table = table_of(road.folder.file("o.csv"));
   const nlohmann::json data = road.data();
   const auto values = column<float>(data, "value"), levels = column<float>(data, "level");
   const auto truth = column<float>(data, "truth");
