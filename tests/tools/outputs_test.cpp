@@ -82,6 +82,22 @@ TEST_F(Outputs, ALinkStaysALinkAndADeviceADevice) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST(DemoOutputs, WhatIsInTheWayIsNamed) {
+  const TempFolder folder;
+  const auto demo_in = [](const std::string& output) {
+    return command({"demo", "-q", "-n", "1", "--sensor", "vlp16", "-o", output});
+  };
+  const std::string mine = folder.write("mine.txt", "precious"), truth = folder.file("out/truth.csv");
+  const Ran no_folder = demo_in(mine);
+  EXPECT_EQ(no_folder.exit_status, 2);
+  EXPECT_TRUE(contains(no_folder.errors, mine + " is a file; allowed is a folder")) << no_folder.errors;
+  EXPECT_EQ(text_of(mine), "precious");
+  std::filesystem::create_directories(truth);
+  const Ran no_truth = demo_in(folder.file("out"));
+  EXPECT_EQ(no_truth.exit_status, 1);
+  EXPECT_TRUE(contains(no_truth.errors, truth + ": cannot be written")) << no_truth.errors;
+}
+
 TEST(WholeFile, IsThereWholeOrNotAtAll) {
   const TempFolder folder;
   const std::string file = folder.write("page.html", "old"), taken = folder.file("taken");
