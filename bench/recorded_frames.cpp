@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <deque>
-#include <optional>
 #include <stdexcept>
 
 #include "config_file/load_config.hpp"
@@ -61,8 +60,7 @@ FrameInput recorded_input(const std::filesystem::path& data, const Recording& re
   const std::filesystem::path config_folder = POSE_WALL_CONFIG_FOLDER;
   const std::string config_file = recording.config_file.empty() ? "" : (config_folder / recording.config_file).string();
   FrameInput input;
-  input.config =
-      tools::load_config(config_file.empty() ? std::nullopt : std::optional(config_file), recording.settings).config;
+  input.config = tools::load_config(config_file, recording.settings).config;
   input.in_sequence = recording.in_sequence;
   const tools::FrameInputs found = tools::collect_inputs({(data / recording.path).string()});
   if (!found.errors.empty()) throw std::runtime_error(found.errors.front());

@@ -13,6 +13,7 @@
 #include "soak/heap_count.hpp"
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
+#include "support/room.hpp"
 
 namespace pose_wall::test {
 namespace {
@@ -26,19 +27,6 @@ class NoHeap : public ::testing::Test {
     return tools::stop_counting_heap_calls();
   }
 };
-
-Points road() {
-  Points points;
-  for (int i = -80; i <= 80; ++i) {
-    for (int j = 0; j < 25; ++j) {
-      const float along = 0.1F * static_cast<float>(i), up = 0.1F * static_cast<float>(j) - 1.4F;
-      points.push_back({along, 2.5F, up});
-      points.push_back({along, -2.5F, up});
-      points.push_back({along, 0.2F * static_cast<float>(j - 12), -1.4F});
-    }
-  }
-  return points;
-}
 
 TEST_F(NoHeap, TheCounterCounts) {
   EXPECT_GE(heap_calls([] {
@@ -55,7 +43,7 @@ TEST_F(NoHeap, TheCounterCounts) {
 }
 
 TEST_F(NoHeap, NoCallAllocates) {
-  const Points points = road();
+  const Points points = road_grid();
   const pose_wall_config config = config_with({{"points_max", "20000"}});
   std::uint64_t bytes = 0;
   ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);

@@ -11,23 +11,10 @@
 
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
+#include "support/room.hpp"
 
 namespace pose_wall::test {
 namespace {
-
-// A room of points: enough for a result that is not all zeros.
-Points room() {
-  Points points;
-  for (int i = -80; i <= 80; ++i) {
-    for (int j = 0; j < 25; ++j) {
-      const float along = 0.1F * static_cast<float>(i), up = 0.1F * static_cast<float>(j) - 1.4F;
-      points.push_back({along, 2.5F, up});
-      points.push_back({along, -2.5F, up});
-      points.push_back({along, 0.2F * static_cast<float>(j - 12), -1.4F});
-    }
-  }
-  return points;
-}
 
 template <typename T, typename Call>
 std::int32_t unchanged_by(T* object, const Call& call) {
@@ -157,7 +144,7 @@ TEST(AbiRefusals, BrokenConfigsOpenNothing) {
 TEST(AbiRefusals, WhatIsNoEngine) {
   AlignedBlock block(1 << 20, Dirt::kRandom);
   auto* const engine = static_cast<pose_wall_engine*>(block.data());
-  const Points points = room();
+  const Points points = road_grid();
   const pose_wall_cloud cloud = cloud_of(points, 0);
   pose_wall_result result{};
   result.struct_size = sizeof result;
@@ -182,7 +169,7 @@ TEST(AbiRefusals, ACopiedBlockIsNoEngine) {
 
 TEST(AbiRefusals, AResultThatWasNotInitialisedIsLeftAlone) {
   EngineUnderTest engine(config_with());
-  const Points points = room();
+  const Points points = road_grid();
   const pose_wall_cloud cloud = cloud_of(points, 0);
   pose_wall_result result;
   for (const std::uint32_t size : {std::uint32_t{0}, static_cast<std::uint32_t>(sizeof result) - 1,
@@ -196,7 +183,7 @@ TEST(AbiRefusals, AResultThatWasNotInitialisedIsLeftAlone) {
 
 // Whatever the result held before, every byte of it is written.
 TEST(AbiCalls, AResultIsBuiltAfresh) {
-  const Points points = room();
+  const Points points = road_grid();
   EngineUnderTest a(config_with()), b(config_with());
   const pose_wall_cloud cloud = cloud_of(points, 0);
   pose_wall_result clean{}, dirty;

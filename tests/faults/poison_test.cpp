@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fault_room.hpp"
+#include "support/garbage.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::test {
@@ -63,17 +64,6 @@ struct Poison {
 
 void PrintTo(const Poison& p, std::ostream* out) {
   *out << p.name;
-}
-
-float any_bits(std::mt19937* random) {
-  const auto bits = static_cast<std::uint32_t>((*random)());
-  float value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-float within(std::mt19937* random, float reach) {
-  return std::uniform_real_distribution<float>(-reach, reach)(*random);
 }
 
 const Poison kPoisons[] = {

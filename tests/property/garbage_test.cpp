@@ -9,6 +9,7 @@
 
 #include <limits>
 
+#include "support/garbage.hpp"
 #include "support/promises.hpp"
 #include "support/sim_run.hpp"
 
@@ -17,17 +18,6 @@ namespace {
 
 constexpr int kRounds = 40;
 
-float any_bits(std::mt19937* random) {
-  const auto bits = static_cast<std::uint32_t>((*random)());
-  float value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-float coordinate(std::mt19937* random, float reach) {
-  return std::uniform_real_distribution<float>(-reach, reach)(*random);
-}
-
 struct Kind {
   const char* name;
   void (*fill)(std::mt19937* random, Points* points);
@@ -35,7 +25,7 @@ struct Kind {
 
 void scatter(std::mt19937* random, Points* points, float reach) {
   for (auto& p : *points) {
-    for (float& c : p) c = coordinate(random, reach);
+    for (float& c : p) c = within(random, reach);
   }
 }
 
@@ -56,7 +46,7 @@ const Kind kKinds[] = {
      }},
     {"all equal",
      [](std::mt19937* random, Points* points) {
-       points->assign(points->size(), {coordinate(random, 5), coordinate(random, 5), coordinate(random, 5)});
+       points->assign(points->size(), {within(random, 5), within(random, 5), within(random, 5)});
      }},
     {"no number among them",
      [](std::mt19937*, Points* points) {
@@ -65,31 +55,31 @@ const Kind kKinds[] = {
      }},
     {"on a line",
      [](std::mt19937* random, Points* points) {
-       const float dx = coordinate(random, 1), dy = coordinate(random, 1), dz = coordinate(random, 1);
+       const float dx = within(random, 1), dy = within(random, 1), dz = within(random, 1);
        for (auto& p : *points) {
-         const float s = coordinate(random, 9);
+         const float s = within(random, 9);
          p = {s * dx, s * dy + 2.0F, s * dz - 1.0F};
        }
      }},
     {"on a vertical line",
      [](std::mt19937* random, Points* points) {
-       for (auto& p : *points) p = {1.0F, 2.0F, coordinate(random, 3)};
+       for (auto& p : *points) p = {1.0F, 2.0F, within(random, 3)};
      }},
     {"on one plane",
      [](std::mt19937* random, Points* points) {
-       for (auto& p : *points) p = {coordinate(random, 9), coordinate(random, 9), -1.4F};
+       for (auto& p : *points) p = {within(random, 9), within(random, 9), -1.4F};
      }},
     {"a floor and points on one line beside it",
      [](std::mt19937* random, Points* points) {
        for (std::size_t i = 0; i < points->size(); ++i) {
-         (*points)[i] = i % 2 == 0 ? std::array<float, 3>{coordinate(random, 9), coordinate(random, 3), -1.4F}
-                                   : std::array<float, 3>{coordinate(random, 9), 2.5F, 0.0F};
+         (*points)[i] = i % 2 == 0 ? std::array<float, 3>{within(random, 9), within(random, 3), -1.4F}
+                                   : std::array<float, 3>{within(random, 9), 2.5F, 0.0F};
        }
      }},
     {"pairs",
      [](std::mt19937* random, Points* points) {
        for (std::size_t i = 0; i < points->size(); ++i)
-         (*points)[i] = {static_cast<float>(i % 2), 3.0F, coordinate(random, 0.01F)};
+         (*points)[i] = {static_cast<float>(i % 2), 3.0F, within(random, 0.01F)};
      }},
 };
 
@@ -125,7 +115,7 @@ TEST(Garbage, OfPointsThatFillTheAirNothingIsValid) {
   for (const char* points_max : {"5000", "16000", "60000"}) {
     for (const std::size_t count : {5000U, 20000U, 65000U, 131000U, 260000U}) {
       Points points(count);
-      for (auto& p : points) p = {coordinate(&random, 20), coordinate(&random, 20), coordinate(&random, 2.5F)};
+      for (auto& p : points) p = {within(&random, 20), within(&random, 20), within(&random, 2.5F)};
       const pose_wall_config config = config_with({{"points_max", points_max}, {"ground_inlier_min", "150"}});
       EngineUnderTest engine(config);
       const pose_wall_result r = engine.process(cloud_of(points, 0));

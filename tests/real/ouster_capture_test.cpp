@@ -22,7 +22,6 @@ namespace {
 
 constexpr std::size_t kRings = 32;
 constexpr std::size_t kColumns = 1024;
-constexpr double kRadPerDeg = 1.0 / kDegPerRad;
 
 // Of metadata: the two lists are short enough to stand here.
 constexpr std::array<double, kRings> kAltitude_deg = {43.88,  40.9,   37.94,  34.98,  32.06,  29.16,  26.25,  23.37,

@@ -14,13 +14,15 @@
 #include <map>
 #include <string>
 
+#include "angles.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/load_frame.hpp"
 #include "support/engine_under_test.hpp"
 
 namespace pose_wall::test {
 
-constexpr double kDegPerRad = 57.29577951308232;
+using tools::kDegPerRad;
+using tools::kRadPerDeg;
 
 inline std::filesystem::path data_folder() {
   const char* folder = std::getenv("POSE_WALL_DATA");

@@ -16,6 +16,20 @@
 
 namespace pose_wall::test {
 
+// Floor and both walls as a grid of points: enough for a result that is not all zeros.
+inline Points road_grid() {
+  Points points;
+  for (int i = -80; i <= 80; ++i) {
+    for (int j = 0; j < 25; ++j) {
+      const float along = 0.1F * static_cast<float>(i), up = 0.1F * static_cast<float>(j) - 1.4F;
+      points.push_back({along, 2.5F, up});
+      points.push_back({along, -2.5F, up});
+      points.push_back({along, 0.2F * static_cast<float>(j - 12), -1.4F});
+    }
+  }
+  return points;
+}
+
 // Walls 2.5 m to both sides, floor 1.4 m below and roof 1.8 m above a sensor of 32 lines with 720 columns, its ranges
 // off by up to 1 cm; another seed is another frame of the same road. The sensor may stand left of the middle.
 inline Points room_points(std::uint32_t seed, double left_of_middle_m = 0.0) {

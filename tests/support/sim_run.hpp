@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "angles.hpp"
 #include "sim/machine_body.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
@@ -20,7 +21,7 @@ namespace pose_wall::test {
 
 namespace sim = pose_wall::tools::sim;
 
-constexpr double kRadPerDeg = 0.017453292519943295;
+using tools::kRadPerDeg;
 
 inline void set_box(pose_wall_config* config, const char* key, const std::array<double, 6>& box) {
   std::string text;

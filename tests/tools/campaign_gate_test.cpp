@@ -4,6 +4,7 @@
 // Proves: the gate lets a flawless campaign pass and names each demand that a doctored one breaks.
 
 #include "campaign/gate.hpp"
+#include "test_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,16 +14,13 @@ namespace pose_wall::tools::campaign {
 namespace {
 
 using test::card_of;
+using test::contains;
 using test::good_run;
 using test::joined;
 using test::value_with_error;
 
 std::string faults_of(const std::vector<RunRecord>& records) {
   return joined(gate_faults(card_of(records)));
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(CampaignGate, PassesWhenAllHolds) {

@@ -167,7 +167,7 @@ TEST(CampaignPlan, SensorsAreRunWithTheShippedSettings) {
     std::vector<std::string> settings;
     for (const sim::EngineSetting& s : sim::find_sensor(name)->engine) settings.push_back(s.key + "=" + s.value);
     const LoadedConfig shipped = load_config("config/" + name + ".yaml", {});
-    const LoadedConfig ours = load_config(std::nullopt, settings);
+    const LoadedConfig ours = load_config("", settings);
     for (const pose_wall_key_info& key : config_keys()) {
       EXPECT_EQ(config_value_text(*ours.config.get(), key), config_value_text(*shipped.config.get(), key))
           << name << " " << key.name;

@@ -22,12 +22,8 @@ namespace {
 
 using test::command;
 using test::contains;
+using test::table_of;
 using test::TempFolder;
-
-CsvTable read(const std::string& file) {
-  std::ifstream stream(file);
-  return CsvTable::parse(stream);
-}
 
 // Of a campaign of one run whose last frame was made to mislead; its folder is in the place of DIR.
 std::string command_of_event(const std::string& folder, const std::string& again,
@@ -63,8 +59,8 @@ void run_all_of(const std::string& line) {
 }
 
 void expect_same_last_row(const std::string& frames_file, const std::string& again_file) {
-  const CsvTable frames = read(frames_file);
-  const CsvTable again = read(again_file);
+  const CsvTable frames = table_of(frames_file);
+  const CsvTable again = table_of(again_file);
   ASSERT_EQ(frames.rows(), again.rows());
   const std::size_t last = frames.rows() - 1;
   for (const std::string q : {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"}) {

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "campaign/folder.hpp"
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 
@@ -58,7 +59,7 @@ TEST(Campaign, GoesOnWhereItWasInterrupted) {
   ASSERT_EQ(campaign_in(interrupted.path()).exit_status, 0);
   std::filesystem::remove(interrupted.file("records/clean/vlp16/000001.csv"));
   std::filesystem::remove(interrupted.file("card.json"));
-  interrupted.write("records/partial/vlp16/000000.csv.unfinished", "half a rec");
+  interrupted.write(part_of("records/partial/vlp16/000000.csv"), "half a rec");
   const std::string kept = interrupted.file("records/clean/vlp16/000000.csv");
   const auto kept_since = std::filesystem::last_write_time(kept);
   EXPECT_EQ(campaign_in(interrupted.path()).exit_status, 0);

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <initializer_list>
 #include <vector>
 
@@ -22,15 +21,11 @@ using test::command;
 using test::contains;
 using test::Ran;
 using test::raw;
+using test::table_of;
 using test::TempFolder;
 
 std::string kitti_point(float x) {
   return raw(x) + raw(2.0F) + raw(3.0F) + raw(0.5F);
-}
-
-CsvTable read(const std::string& file) {
-  std::ifstream stream(file);
-  return CsvTable::parse(stream);
 }
 
 TEST(ResultCsv, StartsWithTheColumnsOfTheContract) {
@@ -51,7 +46,7 @@ TEST(RunVerb, OneRowPerFrameAndStampsByRate) {
   EXPECT_TRUE(contains(ran.errors, "forward_axis +X")) << ran.errors;
   EXPECT_TRUE(contains(ran.errors, "3 frames in ")) << ran.errors;
   EXPECT_TRUE(contains(ran.errors, "\nelapsed ") && contains(ran.errors, "\nprocessor ")) << ran.errors;
-  const CsvTable table = read(folder.file("o.csv"));
+  const CsvTable table = table_of(folder.file("o.csv"));
   ASSERT_EQ(table.rows(), 3U);
   EXPECT_GT(table.number(0, *table.find_column("processor_ms")), 0.0);
   EXPECT_EQ(table.number(2, *table.find_column("stamp_ns")), 100000000.0);
@@ -69,7 +64,7 @@ TEST(RunVerb, UnreadableFramesKeepTheirRowAndTheOthersAreProcessed) {
   EXPECT_TRUE(contains(ran.errors, torn + ": KITTI .bin: 3 bytes")) << ran.errors;
   EXPECT_TRUE(contains(ran.errors, "missing.pcd: not there")) << ran.errors;
   EXPECT_TRUE(contains(ran.errors, "unknown ending '.txt'")) << ran.errors;
-  const CsvTable table = read(folder.file("o.csv"));
+  const CsvTable table = table_of(folder.file("o.csv"));
   ASSERT_EQ(table.rows(), 4U);
   const std::size_t status = *table.find_column("status");
   EXPECT_EQ(table.cell(0, status), "unreadable");
@@ -99,9 +94,9 @@ TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
     EXPECT_EQ(ran.exit_status, 2) << words.front();
     EXPECT_TRUE(contains(ran.errors, part)) << part << " | " << ran.errors;
   }
-  EXPECT_EQ(read(folder.write("kept.csv", "a\n1\n")).rows(), 1U);
+  EXPECT_EQ(table_of(folder.write("kept.csv", "a\n1\n")).rows(), 1U);
   EXPECT_EQ(command({"run", "-q", "-o", folder.file("kept.csv"), "--set", "range_min=x", good}).exit_status, 2);
-  EXPECT_EQ(read(folder.file("kept.csv")).rows(), 1U) << "a refused config must not empty an older result";
+  EXPECT_EQ(table_of(folder.file("kept.csv")).rows(), 1U) << "a refused config must not empty an older result";
 }
 
 TEST(EvalVerb, ResultsOfRunCanBeCompared) {
@@ -110,11 +105,9 @@ TEST(EvalVerb, ResultsOfRunCanBeCompared) {
   ASSERT_EQ(command({"run", "-q", "-o", folder.file("o.csv"), folder.file("f")}).exit_status, 0);
   const std::string truth =
       folder.write("truth.csv", "frame,stamp_ns,roll,pitch,yaw,d_lf,d_lb,d_rf,d_rb\n0,0,0,0,0,2,2,2,\n");
-  ::testing::internal::CaptureStdout();
   const Ran ran = command({"eval", folder.file("o.csv"), truth, "--json"});
-  const std::string page = ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
-  EXPECT_TRUE(contains(page, "\"valid_beyond_alert\"")) << page;
+  EXPECT_TRUE(contains(ran.printed, "\"valid_beyond_alert\"")) << ran.printed;
   const Ran bound =
       command({"eval", folder.file("o.csv"), truth, "--frames", folder.file("f"), "--range-noise", "0.01"});
   EXPECT_EQ(bound.exit_status, 2);

@@ -12,21 +12,19 @@
 #include <string>
 #include <vector>
 
+#include "angles.hpp"
 #include "doctor/diagnosis.hpp"
 #include "doctor/trial.hpp"
 #include "sim/parameters.hpp"
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
+#include "test_files.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
-
-bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 struct Mount {
   const char* name;
@@ -74,7 +72,7 @@ Simulated simulate(const sim::SceneSetup& setup, std::uint32_t count) {
 }
 
 LoadedConfig told(const std::vector<std::string>& settings = {}) {
-  return load_config(std::nullopt, settings);
+  return load_config("", settings);
 }
 
 class Mounts : public ::testing::TestWithParam<Mount> {};
@@ -199,12 +197,12 @@ TEST(Doctor, SaysWhatCannotBeKnown) {
   EXPECT_TRUE(d.verdict.is_usable()) << d.verdict.line();
   EXPECT_EQ(d.mount->story.road.line, 'Y');
   EXPECT_FALSE(d.ahead.is_known);
-  EXPECT_TRUE(says(d.verdict.line(), "is a guess")) << d.verdict.line();
+  EXPECT_TRUE(contains(d.verdict.line(), "is a guess")) << d.verdict.line();
   const doctor::Diagnosis with_axis = doctor::diagnose(simulated.recording, told({"forward_axis=-Y"}), 1.4);
   EXPECT_EQ(with_axis.ahead.axis, "-Y");
   EXPECT_TRUE(with_axis.ahead.is_known);
   EXPECT_TRUE(with_axis.mount->is_sure) << with_axis.mount->reason;
-  EXPECT_FALSE(says(with_axis.verdict.line(), "is a guess")) << with_axis.verdict.line();
+  EXPECT_FALSE(contains(with_axis.verdict.line(), "is a guess")) << with_axis.verdict.line();
 }
 
 TEST(Doctor, ProposesUpsideDownOnlyWhereSomethingTellsIt) {

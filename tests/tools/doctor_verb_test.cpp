@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 
@@ -33,20 +34,17 @@ struct Road {
   Ran doctor(std::vector<std::string> more = {}) const {
     std::vector<std::string> words = {"doctor", "--quiet", folder.file("road/frames")};
     words.insert(words.end(), more.begin(), more.end());
-    ::testing::internal::CaptureStdout();
-    const Ran ran = command(words);
-    page = ::testing::internal::GetCapturedStdout();
-    return ran;
+    return command(words);
   }
 
   TempFolder folder;
-  mutable std::string page;
 };
 
 TEST(DoctorVerb, WritesAFileThatLoadsAndNeverOverTheOneThatIsThere) {
   const Road road({"--set", "face_distance_m=8", "--set", "mount_pitch_deg=4"});
   const std::string file = road.folder.file("out.yaml");
-  EXPECT_EQ(road.doctor({"-o", file}).exit_status, 0) << road.page;
+  const Ran first = road.doctor({"-o", file});
+  EXPECT_EQ(first.exit_status, 0) << first.printed;
   const std::string text = text_of(file);
   EXPECT_TRUE(contains(text, "\nextrinsic_pitch: 0.0")) << text;
   EXPECT_TRUE(contains(text, "# VLP-16 class: as config/vlp16.yaml has it")) << text;
@@ -62,11 +60,13 @@ TEST(DoctorVerb, WritesAFileThatLoadsAndNeverOverTheOneThatIsThere) {
   road.folder.write("out.yaml", "old");
   EXPECT_EQ(road.doctor({"--force", "-o", file}).exit_status, 0);
   EXPECT_EQ(text_of(file), text);
-  EXPECT_FALSE(std::filesystem::exists(file + ".part"));
+  EXPECT_FALSE(std::filesystem::exists(part_of(file)));
 
   // A second look with what was written finds nothing more to level.
-  EXPECT_EQ(road.doctor({"-c", file, "--json"}).exit_status, 0);
-  for (const auto& change : nlohmann::json::parse(road.page).at("changes")) {
+  const Ran second = road.doctor({"-c", file, "--json"});
+  EXPECT_EQ(second.exit_status, 0);
+  const nlohmann::json found = nlohmann::json::parse(second.printed);
+  for (const auto& change : found.at("changes")) {
     EXPECT_NE(change.at("key"), "extrinsic_pitch");
     EXPECT_NE(change.at("key"), "forward_axis");
   }
@@ -74,14 +74,16 @@ TEST(DoctorVerb, WritesAFileThatLoadsAndNeverOverTheOneThatIsThere) {
 
 TEST(DoctorVerb, TellsTheSameInTablesAndJson) {
   const Road road({"--set", "face_distance_m=8"});
-  EXPECT_EQ(road.doctor({"--json"}).exit_status, 0);
-  const nlohmann::json json = nlohmann::json::parse(road.page);
+  const Ran as_json = road.doctor({"--json"}), as_tables = road.doctor();
+  EXPECT_EQ(as_json.exit_status, 0);
+  EXPECT_EQ(as_tables.exit_status, 0);
+  const nlohmann::json json = nlohmann::json::parse(as_json.printed);
   EXPECT_EQ(json.at("usable"), true);
   EXPECT_EQ(json.at("sensor").at("class"), "vlp16");
   EXPECT_EQ(json.at("road").at("forward_axis"), "+X");
   const std::string verdict = json.at("verdict");
-  EXPECT_EQ(road.doctor().exit_status, 0);
-  EXPECT_EQ(road.page.substr(road.page.size() - verdict.size() - 1), verdict + "\n");
+  const std::string& tables = as_tables.printed;
+  EXPECT_EQ(tables.substr(tables.size() - verdict.size() - 1), verdict + "\n");
 }
 
 TEST(DoctorVerb, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
@@ -98,11 +100,12 @@ TEST(DoctorVerb, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
   };
   for (const auto& [words, frames, reason] : cases) {
     const Road road(words, frames);
-    EXPECT_EQ(road.doctor({"-o", road.folder.file("out.yaml")}).exit_status, 3) << reason;
-    EXPECT_TRUE(contains(road.page, "not usable because")) << reason;
-    EXPECT_TRUE(contains(road.page, reason)) << road.page;
+    const Ran ran = road.doctor({"-o", road.folder.file("out.yaml")});
+    EXPECT_EQ(ran.exit_status, 3) << reason;
+    EXPECT_TRUE(contains(ran.printed, "not usable because")) << reason;
+    EXPECT_TRUE(contains(ran.printed, reason)) << ran.printed;
     EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.yaml"))) << reason;
-    EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.yaml.part"))) << reason;
+    EXPECT_FALSE(std::filesystem::exists(part_of(road.folder.file("out.yaml")))) << reason;
   }
 }
 
@@ -111,13 +114,11 @@ TEST(DoctorVerb, EmptyAndBrokenFramesAreNamed) {
   folder.write("f/a.bin", "");
   folder.write("f/b.bin", "");
   folder.write("f/c.bin", "");
-  ::testing::internal::CaptureStdout();
-  EXPECT_EQ(command({"doctor", "-q", folder.file("f")}).exit_status, 3);
-  EXPECT_TRUE(contains(::testing::internal::GetCapturedStdout(), "3 of 3 frames hold no return"));
+  const Ran empty = command({"doctor", "-q", folder.file("f")});
+  EXPECT_EQ(empty.exit_status, 3);
+  EXPECT_TRUE(contains(empty.printed, "3 of 3 frames hold no return")) << empty.printed;
   folder.write("g/a.pcd", "no cloud");
-  ::testing::internal::CaptureStdout();
   const Ran ran = command({"doctor", "-q", folder.file("g")});
-  ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(ran.exit_status, 1);
   EXPECT_TRUE(contains(ran.errors, "a.pcd")) << ran.errors;
   EXPECT_EQ(command({"doctor", folder.file("f"), "--height", "99"}).exit_status, 2);

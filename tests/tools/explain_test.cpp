@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -146,10 +147,9 @@ TEST_P(ExplainedFrame, NamesTheCauseThatTheSceneHas) {
                                     std::to_string(r.frame),
                                     folder.file("frames")};
   words.insert(words.end(), r.settings.begin(), r.settings.end());
-  ::testing::internal::CaptureStdout();
   const Ran ran = command(words);
-  const auto page = nlohmann::json::parse(::testing::internal::GetCapturedStdout());
   ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  const auto page = nlohmann::json::parse(ran.printed);
   std::string verdicts, told;
   for (const auto& paragraph : page["explanation"]) {
     verdicts += paragraph["verdict"].get<std::string>()[0];
@@ -254,19 +254,27 @@ TEST(ExplainVerb, UsageFaultsNameWhatThereIs) {
 TEST(ExplainVerb, TextAndPictureAreWhole) {
   const TempFolder folder;
   ASSERT_EQ(command({"sim", "-q", "-n", "2", "-o", folder.path()}).exit_status, 0);
-  ::testing::internal::CaptureStdout();
   const Ran ran = command({"explain", "-q", "-c", folder.file("pose_wall.yaml"), "--frame", "1", "--picture",
                            folder.file("why.svg"), folder.file("frames")});
-  const std::string page = ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
   for (const char* part : {"frame 1, after the 1 frame before it", "Floor: accepted", "Outcome", "  yaw: valid",
                            "Planes that were considered", "Gates", "wall_length_min"}) {
-    EXPECT_TRUE(contains(page, part)) << part;
+    EXPECT_TRUE(contains(ran.printed, part)) << part;
   }
-  EXPECT_FALSE(contains(page, "\033")) << "no colours but on a terminal";
+  EXPECT_FALSE(contains(ran.printed, "\033")) << "no colours but on a terminal";
   const std::string picture = test::text_of(folder.file("why.svg"));
   EXPECT_TRUE(contains(picture, "frame 1, itself accepted, floor accepted, left wall accepted")) << picture.size();
   EXPECT_TRUE(contains(picture, "</svg>"));
+}
+
+TEST(ExplainVerb, AFileNameThatIsNoUtf8IsStillJson) {
+  const TempFolder folder;
+  ASSERT_EQ(command({"sim", "-q", "--sensor", "vlp16", "-n", "1", "-o", folder.path()}).exit_status, 0);
+  const std::string frame = folder.file("frames/\xff.pcd");
+  std::filesystem::rename(folder.file("frames/000000.pcd"), frame);
+  const Ran ran = command({"explain", "-q", "--json", "-c", folder.file("pose_wall.yaml"), "-n", "0", frame});
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_EQ(nlohmann::json::parse(ran.printed).at("source"), folder.file("frames/\uFFFD.pcd"));
 }
 
 }  // namespace

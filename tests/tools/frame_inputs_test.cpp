@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "frames/frame_stamps.hpp"
 #include "frames/input_list.hpp"
 #include "frames/kitti_reader.hpp"
@@ -87,6 +90,14 @@ TEST(FrameStamps, OtherFramesFollowAtTheRateWithoutDrift) {
   EXPECT_EQ(stamps.next("d.pcd"), 1000000000);
   EXPECT_EQ(stamps.next("1700000000000000000.pcd"), 1700000000000000000);
   EXPECT_EQ(stamps.next("f.pcd"), 1700000000333333333);
+}
+
+TEST(FrameStamps, StepsOfTheEpochKeepTheirNanosecondsAndDamagedOnesTheirSign) {
+  EXPECT_DOUBLE_EQ(seconds_between(1700000000000000000, 1700000000000000001), 1e-9);
+  EXPECT_DOUBLE_EQ(seconds_between(1700000000000000003, 1700000000000000000), -3e-9);
+  constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min(), kLast = -(kFirst + 1);
+  EXPECT_NEAR(seconds_between(kFirst, kLast), 18446744073.7, 0.1);
+  EXPECT_NEAR(seconds_between(kLast, kFirst), -18446744073.7, 0.1);
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 #include <sqlite3.h>
 #endif
 
-#include <fstream>
-
 #include "bag_files.hpp"
 #include "csv/csv_table.hpp"
 #include "inputs/frame_sequence.hpp"
@@ -26,6 +24,7 @@ using test::contains;
 using test::mcap;
 using test::mcap_record;
 using test::Ran;
+using test::table_of;
 using test::TempFolder;
 
 const char* const kClouds = "sensor_msgs/msg/PointCloud2";
@@ -42,17 +41,10 @@ std::string two_topics() {
               {{0, cdr_message(cloud(1))}, {1, cdr_message(cloud(2))}, {0, cdr_message(cloud(3))}}, nullptr);
 }
 
-CsvTable table_of(const std::string& file) {
-  std::ifstream stream(file);
-  return CsvTable::parse(stream);
-}
-
 std::string printed(const std::vector<std::string>& words, int exit_status) {
-  ::testing::internal::CaptureStdout();
   const Ran ran = command(words);
-  std::string text = ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(ran.exit_status, exit_status) << ran.errors;
-  return text;
+  return ran.printed;
 }
 
 TEST(RunVerb, ATopicOfSeveralIsNamed) {

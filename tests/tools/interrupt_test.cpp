@@ -10,7 +10,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -21,6 +20,7 @@
 #include "command.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/load_frame.hpp"
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 #include "truth/truth_csv.hpp"
@@ -30,6 +30,7 @@ namespace {
 
 using test::command;
 using test::contains;
+using test::table_of;
 using test::TempFolder;
 using test::text_of;
 
@@ -78,8 +79,7 @@ TEST(Interrupt, RunLeavesWholeRowsAndWholeClouds) {
   EXPECT_EQ(interrupted_status(words, folder.file("said"), [&] { return lines_of(csv) > 4; }), 130);
   EXPECT_TRUE(contains(text_of(folder.file("said")), "interrupted after ")) << text_of(folder.file("said"));
   EXPECT_EQ(text_of(csv).back(), '\n');
-  std::ifstream stream(csv);
-  const CsvTable table = CsvTable::parse(stream);  // throws where a row has too few cells
+  const CsvTable table = table_of(csv);  // throws where a row has too few cells
   EXPECT_LT(table.rows(), 2000U);
   std::size_t clouds = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.file("labelled"))) {
@@ -126,7 +126,7 @@ TEST(Interrupt, ReportShowsWhatWasRead) {
   auto reading_at = std::chrono::steady_clock::time_point::max();
   const auto is_reading = [&] {
     const auto now = std::chrono::steady_clock::now();
-    if (std::filesystem::exists(page + ".pose_wall.part")) {
+    if (std::filesystem::exists(part_of(page))) {
       reading_at = std::min(reading_at, now + std::chrono::milliseconds(500));
     }
     return now > reading_at;
@@ -134,7 +134,7 @@ TEST(Interrupt, ReportShowsWhatWasRead) {
   EXPECT_EQ(interrupted_status(words, folder.file("said"), is_reading), 130);
   const std::string text = text_of(page);
   EXPECT_TRUE(contains(text.substr(text.size() - std::min<std::size_t>(text.size(), 20)), "</html>"));
-  EXPECT_FALSE(std::filesystem::exists(page + ".pose_wall.part"));
+  EXPECT_FALSE(std::filesystem::exists(part_of(page)));
 }
 
 TEST(Interrupt, CampaignCanGoOn) {

@@ -16,14 +16,11 @@
 namespace pose_wall::tools {
 namespace {
 
+using test::contains;
 using test::TempFolder;
 using Settings = std::vector<std::string>;
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::string refusal_of(const std::optional<std::string>& file, const Settings& settings) {
+std::string refusal_of(const std::string& file, const Settings& settings) {
   try {
     load_config(file, settings);
     return "";
@@ -60,7 +57,7 @@ TEST(LoadConfig, PlusSignsAndListsReachTheEngineAsText) {
 TEST(LoadConfig, EmptyFilesAndNoFileGiveTheDefaults) {
   EXPECT_EQ(refusal_of_text(""), "");
   EXPECT_EQ(refusal_of_text("# nothing but a comment\n"), "");
-  EXPECT_EQ(refusal_of(std::nullopt, {}), "");
+  EXPECT_EQ(refusal_of("", {}), "");
 }
 
 TEST(LoadConfig, EveryFaultIsNamedAtOnce) {

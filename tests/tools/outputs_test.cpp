@@ -2,14 +2,16 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: what a verb writes never costs what somebody else made: settings, truth, a recording, the results of the last
-// run, what a link points to, a device.
+// run, what a link points to, a device; and that a file is written whole or not at all.
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 
@@ -78,6 +80,38 @@ TEST_F(Outputs, ALinkStaysALinkAndADeviceADevice) {
   EXPECT_EQ(ran.exit_status, 2);
   EXPECT_TRUE(contains(ran.errors, "this is a device; a file is allowed")) << ran.errors;
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(DemoOutputs, WhatIsInTheWayIsNamed) {
+  const TempFolder folder;
+  const auto demo_in = [](const std::string& output) {
+    return command({"demo", "-q", "-n", "1", "--sensor", "vlp16", "-o", output});
+  };
+  const std::string mine = folder.write("mine.txt", "precious"), truth = folder.file("out/truth.csv");
+  const Ran no_folder = demo_in(mine);
+  EXPECT_EQ(no_folder.exit_status, 2);
+  EXPECT_TRUE(contains(no_folder.errors, mine + " is a file; allowed is a folder")) << no_folder.errors;
+  EXPECT_EQ(text_of(mine), "precious");
+  std::filesystem::create_directories(truth);
+  const Ran no_truth = demo_in(folder.file("out"));
+  EXPECT_EQ(no_truth.exit_status, 1);
+  EXPECT_TRUE(contains(no_truth.errors, truth + ": cannot be written")) << no_truth.errors;
+}
+
+TEST(WholeFile, IsThereWholeOrNotAtAll) {
+  const TempFolder folder;
+  const std::string file = folder.write("page.html", "old"), taken = folder.file("taken");
+  write_whole_file(file, "new");
+  EXPECT_EQ(text_of(file), "new");
+  EXPECT_FALSE(std::filesystem::exists(part_of(file)));
+  std::filesystem::create_directory(taken);
+  try {
+    write_whole_file(taken, "new");
+    ADD_FAILURE() << "a file in a folder's place";
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(contains(error.what(), taken + ": cannot be written: ")) << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(part_of(taken)));
 }
 
 }  // namespace

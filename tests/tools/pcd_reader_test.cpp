@@ -15,6 +15,7 @@ namespace pose_wall::tools {
 namespace {
 
 using test::bytes_of;
+using test::contains;
 using test::number_at;
 using test::raw;
 using test::refusal;
@@ -48,10 +49,6 @@ std::string lzf_literals(const std::string& plain) {
 std::string packed_body(const std::string& plain) {
   const std::string packed = lzf_literals(plain);
   return raw(static_cast<std::uint32_t>(packed.size())) + raw(static_cast<std::uint32_t>(plain.size())) + packed;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(PcdReader, BinaryIsDescribedInPlace) {

@@ -14,6 +14,7 @@ namespace pose_wall::tools {
 namespace {
 
 using test::bytes_of;
+using test::contains;
 using test::number_at;
 using test::raw;
 using test::refusal;
@@ -26,10 +27,6 @@ std::string vertex_header(const std::string& format) {
 
 std::string vertex(float x, double y, float z, bool big) {
   return "r" + raw(x, big) + raw(y, big) + raw(z, big) + raw(std::uint16_t{500}, big);
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(PlyReader, BothByteOrdersAreDescribedInPlace) {

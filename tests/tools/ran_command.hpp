@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The command as a test runs it: in its own process, with what was said on stderr.
+// The command as a test runs it: in its own process, with what it printed and what it said on stderr.
 
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
+#include "csv/csv_table.hpp"
+#include "test_files.hpp"
 
 namespace pose_wall::tools::test {
 
 struct Ran {
-  int exit_status;
+  int exit_status = 0;
   std::string errors;
+  std::string printed;
 };
 
 // The words behind `pose_wall`.
@@ -24,13 +28,19 @@ inline Ran command(std::vector<std::string> words) {
   words.insert(words.begin(), "pose_wall");
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
+  ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
-  const int exit_status = run_command(static_cast<int>(argv.size()), argv.data());
-  return {exit_status, ::testing::internal::GetCapturedStderr()};
+  Ran ran;
+  ran.exit_status = run_command(static_cast<int>(argv.size()), argv.data());
+  ran.errors = ::testing::internal::GetCapturedStderr();
+  ran.printed = ::testing::internal::GetCapturedStdout();
+  return ran;
 }
 
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+// A table that it wrote.
+inline CsvTable table_of(const std::string& file) {
+  std::ifstream stream(file);
+  return CsvTable::parse(stream);
 }
 
 }  // namespace pose_wall::tools::test

@@ -9,12 +9,12 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "csv/csv_table.hpp"
+#include "frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "report/cloud_choice.hpp"
 #include "report/columns.hpp"
@@ -26,6 +26,7 @@ namespace {
 using test::command;
 using test::contains;
 using test::Ran;
+using test::table_of;
 using test::TempFolder;
 using test::text_of;
 
@@ -100,8 +101,7 @@ TEST(ReportVerb, HoldsTheNumbersThatRunWrites) {
                      road.folder.file("o.csv"), road.folder.file("road/frames")})
                 .exit_status,
             0);
-  std::ifstream stream(road.folder.file("o.csv"));
-  const CsvTable table = CsvTable::parse(stream);
+  const CsvTable table = table_of(road.folder.file("o.csv"));
   const nlohmann::json data = road.data();
   const auto values = column<float>(data, "value"), levels = column<float>(data, "level");
   const auto truth = column<float>(data, "truth");
@@ -125,7 +125,7 @@ TEST(ReportVerb, IsOneFileThatAsksForNothing) {
   for (const char* outside : {"http://", "https://", "src=", "<link", "@import", "url("}) {
     EXPECT_FALSE(contains(page, outside)) << outside;
   }
-  EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.html.part")));
+  EXPECT_FALSE(std::filesystem::exists(part_of(road.folder.file("out.html"))));
   ASSERT_EQ(road.report().exit_status, 0);
 }
 

@@ -83,13 +83,17 @@ bool survives_damage(Reader read, const std::string& file) {
   return true;
 }
 
-// A folder of its own for each test, gone afterwards.
 // All of a file; empty where there is none.
 inline std::string text_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A folder of its own for each test, gone afterwards.
 class TempFolder {
  public:
   TempFolder() {

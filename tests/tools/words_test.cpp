@@ -30,17 +30,6 @@ using test::contains;
 using test::Ran;
 using test::TempFolder;
 
-struct Said {
-  int exit_status;
-  std::string out;
-};
-
-Said said(const std::vector<std::string>& words) {
-  ::testing::internal::CaptureStdout();
-  const Ran ran = command(words);
-  return {ran.exit_status, ::testing::internal::GetCapturedStdout()};
-}
-
 // Two neighbours change places, the usual slip; the first letter is seldom wrong.
 std::string mistyped(std::string word) {
   for (std::size_t i = word.find_first_not_of('-') + 1; i + 1 < word.size(); ++i) {
@@ -72,13 +61,14 @@ TEST(Words, EveryVerbHasAnExampleThatItWouldTake) {
   const CommandGrammar grammar = command_grammar();
   ASSERT_GE(grammar.verbs.size(), 9U);
   for (const VerbGrammar& verb : grammar.verbs) {
-    const Said help = said({verb.name, "--help"});
+    const Ran help = command({verb.name, "--help"});
     EXPECT_EQ(help.exit_status, 0) << verb.name;
-    EXPECT_TRUE(contains(help.out, "Example")) << verb.name;
-    EXPECT_TRUE(contains(help.out, "\n  pose_wall " + verb.name) || contains(help.out, "pose_wall " + verb.name + " "))
+    EXPECT_TRUE(contains(help.printed, "Example")) << verb.name;
+    EXPECT_TRUE(contains(help.printed, "\n  pose_wall " + verb.name) ||
+                contains(help.printed, "pose_wall " + verb.name + " "))
         << verb.name;
     // Options in examples are options that are there.
-    std::istringstream lines(help.out.substr(std::min(help.out.find("Example"), help.out.size())));
+    std::istringstream lines(help.printed.substr(std::min(help.printed.find("Example"), help.printed.size())));
     for (std::string line; std::getline(lines, line);) {
       if (line.rfind("  pose_wall ", 0) != 0) continue;
       std::istringstream words(line);
@@ -157,9 +147,9 @@ TEST(Words, QuietVerbsSayWhatTheyDoOfIt) {
 
 TEST(Words, AQuietDemoSaysNothing) {
   const TempFolder folder;
-  const Said quiet = said({"demo", "-q", "-n", "1", "--sensor", "vlp16", "-o", folder.file("out")});
+  const Ran quiet = command({"demo", "-q", "-n", "1", "--sensor", "vlp16", "-o", folder.file("out")});
   EXPECT_EQ(quiet.exit_status, 0);
-  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(quiet.printed, "");
   EXPECT_TRUE(std::filesystem::exists(folder.file("out/demo.svg")));
 }
 

@@ -30,6 +30,13 @@ inline std::string_view text_of(const ByteView& bytes) {
   return {reinterpret_cast<const char*>(bytes.data), bytes.size};
 }
 
+// Up to four bytes that are known to be there, the lowest first.
+inline std::uint32_t little_endian_at(ByteView bytes, std::size_t offset, std::size_t size) {
+  std::uint32_t number = 0;
+  for (std::size_t i = size; i-- > 0;) number = number << 8U | std::to_integer<std::uint32_t>(bytes.data[offset + i]);
+  return number;
+}
+
 // Where bytes lie, for messages: at an offset of the file, or within something that has no offset of its own there
 // (a chunk that was decompressed, a row of a database).
 struct Place {

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "angles.hpp"
+#include "quantities.hpp"
 #include "sim/sensors.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
-
-constexpr double kDegPerRad = 57.29577951308232;
 
 SevenStatistics empty_statistics(const AlertLimits& limits) {
   SevenStatistics seven;

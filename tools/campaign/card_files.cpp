@@ -5,21 +5,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
-
 #include "campaign/card_words.hpp"
+#include "frames/whole_file.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file.string()));
-}
 
 std::string title(const Card& card, const char* quantities) {
   return fmt::format("{}: error against protection level, {}", quantities, counted(card.judged.frames.frames, "frame"));
@@ -74,10 +66,12 @@ std::string card_summary(const Card& card) {
 }
 
 void write_card(const std::filesystem::path& folder, const Card& card) {
-  write(folder / "card.md", card_page(card));
-  write(folder / "card.json", card_json(card));
-  write(folder / "stanford_angles.svg", picture::stanford_diagram(card.angles, title(card, "Roll, pitch, yaw")));
-  write(folder / "stanford_distances.svg", picture::stanford_diagram(card.distances, title(card, "Distances")));
+  write_whole_file(folder / "card.md", card_page(card));
+  write_whole_file(folder / "card.json", card_json(card));
+  write_whole_file(folder / "stanford_angles.svg",
+                   picture::stanford_diagram(card.angles, title(card, "Roll, pitch, yaw")));
+  write_whole_file(folder / "stanford_distances.svg",
+                   picture::stanford_diagram(card.distances, title(card, "Distances")));
 }
 
 }  // namespace pose_wall::tools::campaign

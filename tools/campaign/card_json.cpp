@@ -8,21 +8,12 @@
 #include "campaign/gate.hpp"
 #include "campaign/rate_bound.hpp"
 #include "campaign/recipe.hpp"
+#include "quantities.hpp"
+#include "results/json_words.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// NaN, which JSON does not know, becomes null.
-Json figures(const ErrorFigures& f) {
-  return {{"count", f.count},
-          {"rmse", f.rmse},
-          {"bias", f.bias},
-          {"absolute_95", f.absolute_95},
-          {"absolute_max", f.absolute_max}};
-}
 
 Json shares(const StateShares& s) {
   return {{"available", s.available()},
@@ -36,11 +27,11 @@ Json seven(const SevenStatistics& quantities) {
   Json all;
   for (std::uint32_t q = 0; q < quantities.size(); ++q) {
     const ErrorStatistics& s = quantities[q];
-    all[pose_wall_quantity_name(q)] = {{"unit", q <= POSE_WALL_YAW ? "rad" : "m"},
+    all[pose_wall_quantity_name(q)] = {{"unit", is_angle(q) ? "rad" : "m"},
                                        {"values_with_truth", s.frames()},
                                        {"shares", shares(state_shares(s))},
-                                       {"raw", figures(s.raw())},
-                                       {"value", figures(s.value())},
+                                       {"raw", error_figures_json(s.raw())},
+                                       {"value", error_figures_json(s.value())},
                                        {"raw_beyond_protection", s.raw_beyond_protection()},
                                        {"value_beyond_protection", s.value_beyond_protection()},
                                        {"valid_beyond_alert", s.valid_beyond_alert()},
@@ -126,7 +117,7 @@ std::string card_json(const Card& card) {
   for (const ClassCard& one : card.classes) page["classes"].push_back(class_page(one));
   page["worst_events"] = Json::array();
   for (const WorstEvent& event : card.events) page["worst_events"].push_back(event_page(event, card.manifest));
-  return page.dump(1) + "\n";
+  return json_text(page, 1) + "\n";
 }
 
 }  // namespace pose_wall::tools::campaign

@@ -8,6 +8,7 @@
 #include "campaign/gate.hpp"
 #include "campaign/markdown_table.hpp"
 #include "campaign/recipe.hpp"
+#include "quantities.hpp"
 #include "results/result_csv.hpp"
 #include "terminal/counted.hpp"
 
@@ -124,12 +125,12 @@ std::string events_of(const Card& card) {
                        "state", "reasons", "the same once more"},
                       3);
   for (const WorstEvent& e : card.events) {
-    const bool is_angle = e.quantity <= POSE_WALL_YAW;
+    const bool angle = is_angle(e.quantity);
     std::string reasons = reason_names(e.reasons);
     for (std::size_t at = reasons.find('|'); at != std::string::npos; at = reasons.find('|')) reasons[at] = ' ';
     table.add_row({breach_name(e.breach), e.run.scene, e.run.sensor, std::to_string(e.run.draw),
-                   std::to_string(e.frame), pose_wall_quantity_name(e.quantity), amount(is_angle, e.error),
-                   amount(is_angle, e.measured.protection_level), amount(is_angle, e.measured.sigma),
+                   std::to_string(e.frame), pose_wall_quantity_name(e.quantity), amount(angle, e.error),
+                   amount(angle, e.measured.protection_level), amount(angle, e.measured.sigma),
                    pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", recipe(e, card.manifest))});
   }
   return "## Worst events\n\nOf one run and quantity only the worst frame of its gravest breach. The command at the "

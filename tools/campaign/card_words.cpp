@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "angles.hpp"
 #include "campaign/rate_bound.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr std::size_t kReasonsShown = 3;
 constexpr double kRoundingOfSums = 1e-9;
 

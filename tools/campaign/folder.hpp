@@ -15,9 +15,9 @@
 namespace pose_wall::tools::campaign {
 
 // The folder holds records of another campaign.
-class StaleError : public std::runtime_error {
+class StaleError : public std::invalid_argument {
  public:
-  using std::runtime_error::runtime_error;
+  using std::invalid_argument::invalid_argument;
 };
 
 std::filesystem::path record_file(const std::filesystem::path& folder, const Run& run);

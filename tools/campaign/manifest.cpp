@@ -13,12 +13,12 @@
 #include "campaign/fingerprint.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
+#include "frames/whole_file.hpp"
+#include "results/json_words.hpp"
 #include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
-
-constexpr double kRadPerDeg = 0.017453292519943295;
 
 // Every key that is not at its default, whichever file or option it came from.
 std::string settings_text(const LoadedConfig& loaded) {
@@ -42,15 +42,15 @@ std::string runs_text(const std::vector<Run>& runs) {
 }
 
 // Null stands for what was not asked for.
-nlohmann::ordered_json number_page(const std::optional<std::uint32_t>& number) {
-  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+Json number_page(const std::optional<std::uint32_t>& number) {
+  return number ? Json(*number) : Json();
 }
 
-std::optional<std::uint32_t> number_from(const nlohmann::ordered_json& page) {
+std::optional<std::uint32_t> number_from(const Json& page) {
   return page.is_null() ? std::nullopt : std::optional(page.get<std::uint32_t>());
 }
 
-nlohmann::ordered_json plan_page(const PlanRequest& plan) {
+Json plan_page(const PlanRequest& plan) {
   return {{"size", plan.size},
           {"scenes", plan.scenes},
           {"kind", plan.kind},
@@ -61,7 +61,7 @@ nlohmann::ordered_json plan_page(const PlanRequest& plan) {
           {"seed", plan.seed}};
 }
 
-PlanRequest plan_from(const nlohmann::ordered_json& page) {
+PlanRequest plan_from(const Json& page) {
   PlanRequest plan;
   plan.size = page.at("size");
   page.at("scenes").get_to(plan.scenes);
@@ -101,15 +101,13 @@ std::string Manifest::fingerprint() const {
 }
 
 Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs, const EngineChoice& choice) {
-  const LoadedConfig loaded = load_config(
-      choice.config_file.empty() ? std::nullopt : std::optional<std::string>(choice.config_file), choice.settings);
+  const LoadedConfig loaded = load_config(choice.config_file, choice.settings);
   Manifest manifest;
   manifest.identity = {{"version", pose_wall_version()},
                        {"program", program_fingerprint()},
                        {"settings", settings_text(loaded)},
                        {"plan", runs_text(runs)}};
-  manifest.limits = {loaded.config.number("alert_limit_angle_deg") * kRadPerDeg,
-                     loaded.config.number("alert_limit_distance")};
+  manifest.limits = alert_limits_of(loaded.config);
   manifest.runs = runs.size();
   manifest.frames = frames_of(runs);
   manifest.plan = request;
@@ -136,7 +134,7 @@ std::string difference(const Manifest& records, const Manifest& now) {
 }
 
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest) {
-  nlohmann::ordered_json page;
+  Json page;
   for (const auto& [name, value] : manifest.identity) page["identity"][name] = value;
   page["alert_limit_angle_rad"] = manifest.limits.angle_rad;
   page["alert_limit_distance_m"] = manifest.limits.distance_m;
@@ -145,9 +143,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
   page["request"] = plan_page(manifest.plan);
   page["engine"] = {{"config", manifest.engine.config_file}, {"set", manifest.engine.settings}};
   page["command"] = manifest.command();
-  std::ofstream out(file_in(folder));
-  out << page.dump(2) << "\n";
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot write", file_in(folder).string()));
+  write_whole_file(file_in(folder), page.dump(2) + "\n");
 }
 
 bool holds_campaign(const std::filesystem::path& folder) {
@@ -164,7 +160,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
                     "without its records",
                     file_in(folder).string()));
   try {
-    const auto page = nlohmann::ordered_json::parse(in);
+    const auto page = Json::parse(in);
     Manifest manifest;
     for (const auto& [name, value] : page.at("identity").items()) manifest.identity.emplace_back(name, value);
     manifest.limits = {page.at("alert_limit_angle_rad"), page.at("alert_limit_distance_m")};

@@ -12,7 +12,7 @@
 
 #include "campaign/command_words.hpp"
 #include "campaign/plan.hpp"
-#include "truth/comparison.hpp"
+#include "truth/alert_limits.hpp"
 
 namespace pose_wall::tools::campaign {
 

@@ -11,6 +11,8 @@
 #include <stdexcept>
 
 #include "csv/csv_table.hpp"
+#include "frames/whole_file.hpp"
+#include "quantities.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -89,10 +91,6 @@ RunRecord record_of(const CsvTable& table) {
 
 }  // namespace
 
-double limit_of(std::size_t quantity, const AlertLimits& limits) {
-  return is_angle(quantity) ? limits.angle_rad : limits.distance_m;
-}
-
 Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits) {
   const QuantityRecord& v = frame.quantity[quantity];
   return tools::judge(v.measured, v.truth, is_angle(quantity), limit_of(quantity, limits));
@@ -131,12 +129,7 @@ std::string record_lines(const RunRecord& record) {
 }
 
 void write_record(const std::filesystem::path& file, const RunRecord& record, const std::string& campaign) {
-  const std::filesystem::path unfinished = file.string() + ".unfinished";
-  std::ofstream out(unfinished, std::ios::binary);
-  out << kFirstWords << campaign << "\n" << csv_line(record_head()) << record_lines(record);
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot write", unfinished.string()));
-  std::filesystem::rename(unfinished, file);
+  write_whole_file(file, kFirstWords + campaign + "\n" + csv_line(record_head()) + record_lines(record));
 }
 
 RunRecord read_record(const std::filesystem::path& file, const std::string& campaign) {

@@ -13,7 +13,7 @@
 
 #include "campaign/plan.hpp"
 #include "pose_wall.h"
-#include "truth/comparison.hpp"
+#include "truth/alert_limits.hpp"
 #include "truth/error_statistics.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -34,10 +34,6 @@ struct FrameRecord {
   std::array<QuantityRecord, POSE_WALL_QUANTITIES> quantity{};
 };
 
-inline bool is_angle(std::size_t quantity) {
-  return quantity <= POSE_WALL_YAW;
-}
-double limit_of(std::size_t quantity, const AlertLimits& limits);
 Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits);
 
 struct RunRecord {

@@ -30,8 +30,7 @@ api::Config config_for(const sim::Setup& setup, const EngineChoice& choice) {
   std::vector<std::string> settings;
   for (const sim::EngineSetting& s : sim::engine_setting_list(setup)) settings.push_back(s.key + "=" + s.value);
   settings.insert(settings.end(), choice.settings.begin(), choice.settings.end());
-  const auto file = choice.config_file.empty() ? std::nullopt : std::optional<std::string>(choice.config_file);
-  return load_config(file, settings).config;
+  return load_config(choice.config_file, settings).config;
 }
 
 Phase phase_of(std::uint32_t frame, const std::optional<Event>& event) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "campaign/record.hpp"
-#include "truth/comparison.hpp"
+#include "truth/alert_limits.hpp"
 
 namespace pose_wall::tools::campaign {
 

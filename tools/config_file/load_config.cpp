@@ -121,9 +121,9 @@ std::string LoadedConfig::origin(const std::string& key) const {
   return set != origins.end() ? set->second : "default";
 }
 
-LoadedConfig load_config(const std::optional<std::string>& file, const std::vector<std::string>& settings) {
+LoadedConfig load_config(const std::string& file, const std::vector<std::string>& settings) {
   ConfigLoader loader;
-  if (file) loader.apply_file(*file);
+  if (!file.empty()) loader.apply_file(file);
   for (const std::string& setting : settings) loader.apply_setting(setting);
   loader.check_rules();
   return loader.take();

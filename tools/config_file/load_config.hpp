@@ -6,7 +6,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,8 +28,8 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Defaults, then the file, then each KEY=VALUE in turn; then the rules over several keys. All faults are collected
-// before anything is thrown. Throws ConfigError.
-LoadedConfig load_config(const std::optional<std::string>& file, const std::vector<std::string>& settings);
+// Defaults, then the file ("": none), then each KEY=VALUE in turn; then the rules over several keys. All faults are
+// collected before anything is thrown. Throws ConfigError.
+LoadedConfig load_config(const std::string& file, const std::vector<std::string>& settings);
 
 }  // namespace pose_wall::tools

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools {
 namespace {
-
-constexpr double kDegPerRad = 57.29577951308232;
 
 Vector3 axis_vector(const std::string& axis) {
   const double sign = axis.front() == '-' ? -1.0 : 1.0;

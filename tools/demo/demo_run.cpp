@@ -9,15 +9,17 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "angles.hpp"
 #include "config_file/load_config.hpp"
 #include "picture/frame_picture.hpp"
+#include "quantities.hpp"
 #include "results/run_summary.hpp"
 #include "terminal/text_table.hpp"
+#include "truth/alert_limits.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr std::uint32_t kPointStep = 4 * sizeof(float);
 
 using Clock = std::chrono::steady_clock;
@@ -26,9 +28,9 @@ double millis_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::string amount(bool is_angle, double value) {
+std::string amount(std::uint32_t quantity, double value) {
   if (!std::isfinite(value)) return "-";
-  return is_angle ? fmt::format("{:.3f}°", value * kDegPerRad) : fmt::format("{:.1f} mm", value * 1e3);
+  return is_angle(quantity) ? fmt::format("{:.3f}°", value * kDegPerRad) : fmt::format("{:.1f} mm", value * 1e3);
 }
 
 }  // namespace
@@ -37,10 +39,9 @@ DemoRun::DemoRun(const sim::Setup& setup, const api::Config& config, std::uint64
     : simulator_(setup, seed), config_(config) {
   const std::int32_t status = engine_.open(config_);
   if (status != POSE_WALL_OK) throw ConfigError(std::string("the engine: ") + pose_wall_status_text(status));
+  const AlertLimits limits = alert_limits_of(config_);
   for (std::uint32_t quantity = 0; quantity < POSE_WALL_QUANTITIES; ++quantity) {
-    const bool is_angle = quantity <= POSE_WALL_YAW;
-    errors_.emplace_back(is_angle, is_angle ? config_.number("alert_limit_angle_deg") / kDegPerRad
-                                            : config_.number("alert_limit_distance"));
+    errors_.emplace_back(is_angle(quantity), limit_of(quantity, limits));
   }
 }
 
@@ -79,10 +80,9 @@ std::string DemoRun::error_table() const {
   for (std::uint32_t quantity = 0; quantity < POSE_WALL_QUANTITIES; ++quantity) {
     const ErrorStatistics& errors = errors_[quantity];
     const ErrorFigures figures = errors.raw();
-    const bool is_angle = quantity <= POSE_WALL_YAW;
     table.add_row({pose_wall_quantity_name(quantity), std::to_string(errors.frames()), std::to_string(errors.valid()),
-                   amount(is_angle, figures.rmse), amount(is_angle, figures.absolute_95),
-                   amount(is_angle, figures.absolute_max),
+                   amount(quantity, figures.rmse), amount(quantity, figures.absolute_95),
+                   amount(quantity, figures.absolute_max),
                    fmt::format("{} of {}", errors.raw_beyond_protection(), errors.measured())});
   }
   return table.text();

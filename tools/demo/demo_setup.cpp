@@ -7,8 +7,8 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <optional>
 
+#include "angles.hpp"
 #include "config_file/load_config.hpp"
 #include "sim/machine_body.hpp"
 #include "sim/parameters.hpp"
@@ -36,7 +36,7 @@ std::string body_box(const sim::Setup& setup) {
 }
 
 std::string radians(double degrees) {
-  return fmt::format("{:.17g}", degrees * sim::kRadPerDeg);
+  return fmt::format("{:.17g}", degrees * kRadPerDeg);
 }
 
 std::vector<std::string> settings_as_simulated(const sim::Setup& setup) {
@@ -69,8 +69,7 @@ sim::Setup demo_setup(const DemoOptions& options) {
 api::Config demo_config(const DemoOptions& options, const sim::Setup& setup) {
   std::vector<std::string> settings = settings_as_simulated(setup);
   settings.insert(settings.end(), options.settings.begin(), options.settings.end());
-  const auto file = options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
-  return load_config(file, settings).config;
+  return load_config(options.config_file, settings).config;
 }
 
 }  // namespace pose_wall::tools

@@ -7,10 +7,12 @@
 
 #include <cmath>
 
+#include "angles.hpp"
+#include "quantities.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr int kWidth = 9;
 constexpr std::array<const char*, POSE_WALL_QUANTITIES> kHeads = {"roll °", "pitch °", "yaw °", "d_LF m",
                                                                   "d_LB m", "d_RF m",  "d_RB m"};
@@ -22,7 +24,7 @@ constexpr const char* kPlain = "\033[0m";
 
 std::string figure(std::uint32_t quantity, double value) {
   if (!std::isfinite(value)) return "-";
-  return quantity <= POSE_WALL_YAW ? fmt::format("{:+.2f}", value * kDegPerRad) : fmt::format("{:.3f}", value);
+  return is_angle(quantity) ? fmt::format("{:+.2f}", value * kDegPerRad) : fmt::format("{:.3f}", value);
 }
 
 }  // namespace

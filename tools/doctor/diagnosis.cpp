@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "angles.hpp"
 #include "doctor/statistics.hpp"
 #include "doctor/trial.hpp"
 

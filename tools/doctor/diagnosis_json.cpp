@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "angles.hpp"
 #include "doctor/diagnosis_output.hpp"
-#include "doctor/statistics.hpp"
+#include "results/json_words.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
+Json seen(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
 Json boxes(const std::vector<Box>& list) {
@@ -30,12 +24,12 @@ Json boxes(const std::vector<Box>& list) {
 
 Json sensor(const SensorSeen& s) {
   return {{"class", s.model},
-          {"returns_per_frame", number(s.returns)},
+          {"returns_per_frame", s.returns},
           {"rings", s.rings},
           {"elevation_min_deg", s.elevation_min_deg},
           {"elevation_max_deg", s.elevation_max_deg},
           {"azimuth_share", s.azimuth_share},
-          {"range_median_m", number(s.range_median_m)}};
+          {"range_median_m", s.range_median_m}};
 }
 
 Json stamps(const StampHealth& h) {
@@ -86,11 +80,11 @@ Json road(const Diagnosis& d) {
                {"forward_axis", d.ahead.axis},
                {"ahead_known", d.ahead.is_known},
                {"ahead_reason", d.ahead.reason},
-               {"left_m", number(minus ? story.road.right_m : story.road.left_m)},
-               {"right_m", number(minus ? story.road.left_m : story.road.right_m)},
-               {"roof_m", number(story.ends.roof_m)},
-               {"face_plus_m", number(story.ends.face_plus_m)},
-               {"face_minus_m", number(story.ends.face_minus_m)}});
+               {"left_m", minus ? story.road.right_m : story.road.left_m},
+               {"right_m", minus ? story.road.left_m : story.road.right_m},
+               {"roof_m", story.ends.roof_m},
+               {"face_plus_m", seen(story.ends.face_plus_m)},
+               {"face_minus_m", seen(story.ends.face_minus_m)}});
   return json;
 }
 
@@ -105,7 +99,7 @@ Json check(const Check& c) {
   Json json = Json::object();
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     json[pose_wall_quantity_name(q)] = {
-        {"measured", c.measured[q]}, {"valid", c.valid[q]}, {"protection_level", number(c.level[q])}};
+        {"measured", c.measured[q]}, {"valid", c.valid[q]}, {"protection_level", c.level[q]}};
   }
   return json;
 }
@@ -129,15 +123,14 @@ std::string diagnosis_json(const Diagnosis& d) {
     if (d.mount->story.floor.is_found()) {
       json["road"] = road(d);
       json["body"] = near(d.mount->story);
-      json["range_noise"] = {{"m", number(d.mount->story.noise.best_m())},
-                             {"repeated_m", number(d.mount->story.noise.repeated_m)},
-                             {"plane_m", number(d.mount->story.noise.plane_m)}};
+      json["range_noise"] = {{"m", d.mount->story.noise.best_m()},
+                             {"repeated_m", d.mount->story.noise.repeated_m},
+                             {"plane_m", d.mount->story.noise.plane_m}};
     }
   }
   if (d.check) json["check"] = check(*d.check);
   json["changes"] = changes(d.proposal);
-  // Names of files may be no UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace pose_wall::tools::doctor

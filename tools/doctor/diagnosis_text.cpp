@@ -5,8 +5,9 @@
 
 #include <cmath>
 
+#include "angles.hpp"
 #include "doctor/diagnosis_output.hpp"
-#include "doctor/statistics.hpp"
+#include "quantities.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 
@@ -110,9 +111,8 @@ void add_near(TextTable& table, const MountStory& story) {
 std::string check_text(const Check& check) {
   TextTable table({"by the proposed settings", "measured", "valid", "protection level"});
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const bool is_angle = q < POSE_WALL_D_LF;
     const std::string level = !std::isfinite(check.level[q]) ? "-"
-                              : is_angle                     ? fmt::format("{:.2f} deg", check.level[q] * kDegPerRad)
+                              : is_angle(q)                  ? fmt::format("{:.2f} deg", check.level[q] * kDegPerRad)
                                                              : fmt::format("{:.3f} m", check.level[q]);
     table.add_row({pose_wall_quantity_name(q), percent(check.measured[q]), percent(check.valid[q]), level});
   }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-#include "doctor/statistics.hpp"
+#include "angles.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {

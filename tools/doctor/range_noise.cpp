@@ -11,6 +11,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "angles.hpp"
 #include "doctor/statistics.hpp"
 
 namespace pose_wall::tools::doctor {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "angles.hpp"
 #include "doctor/statistics.hpp"
 #include "doctor/trial.hpp"
 

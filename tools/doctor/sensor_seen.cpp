@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "angles.hpp"
 #include "doctor/statistics.hpp"
 
 namespace pose_wall::tools::doctor {

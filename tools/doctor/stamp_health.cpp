@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "doctor/statistics.hpp"
+#include "frames/frame_stamps.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {
@@ -40,13 +41,7 @@ std::vector<double> steps_of(const Recording& recording) {
   const FrameNote* before = nullptr;
   for (const FrameNote& note : recording.notes) {
     if (!note.error.empty()) continue;
-    // By differences of whole nanoseconds: stamps of the epoch do not fit a double.
-    std::int64_t step_ns = 0;
-    if (before != nullptr && !__builtin_sub_overflow(note.stamp_ns, before->stamp_ns, &step_ns)) {
-      steps_s.push_back(static_cast<double>(step_ns) * 1e-9);
-    } else if (before != nullptr) {
-      steps_s.push_back(static_cast<double>(note.stamp_ns) * 1e-9 - static_cast<double>(before->stamp_ns) * 1e-9);
-    }
+    if (before != nullptr) steps_s.push_back(seconds_between(before->stamp_ns, note.stamp_ns));
     before = &note;
   }
   return steps_s;

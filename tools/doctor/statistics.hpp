@@ -13,28 +13,27 @@
 
 namespace pose_wall::tools::doctor {
 
-constexpr double kDegPerRad = 57.29577951308232;
-
 inline double median(const std::vector<double>& values) {
   return quantile(values, 0.5);
 }
 
-// Nine in ten values lie within this of their median.
-inline double spread90(const std::vector<double>& values) {
+// How far each lies from the median of all.
+inline std::vector<double> off_median(const std::vector<double>& values) {
   const double middle = median(values);
   std::vector<double> off;
   off.reserve(values.size());
   for (const double value : values) off.push_back(std::fabs(value - middle));
-  return quantile(off, 0.9);
+  return off;
+}
+
+// Nine in ten values lie within this of their median.
+inline double spread90(const std::vector<double>& values) {
+  return quantile(off_median(values), 0.9);
 }
 
 // Standard deviation of a Gaussian, from the median of what the values are off by.
 inline double robust_sigma(const std::vector<double>& values) {
-  const double middle = median(values);
-  std::vector<double> off;
-  off.reserve(values.size());
-  for (const double value : values) off.push_back(std::fabs(value - middle));
-  return 1.4826 * median(off);
+  return 1.4826 * median(off_median(values));
 }
 
 inline double share(std::size_t part, std::size_t whole) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "angles.hpp"
 #include "doctor/diagnosis.hpp"
 #include "doctor/statistics.hpp"
 #include "terminal/counted.hpp"

@@ -7,6 +7,9 @@
 
 #include <cmath>
 
+#include "angles.hpp"
+#include "quantities.hpp"
+
 namespace pose_wall::tools::explain {
 namespace {
 
@@ -43,7 +46,7 @@ std::string per_cent(double share) {
 }
 
 std::string quantity_amount(std::uint32_t quantity, double value) {
-  return quantity <= POSE_WALL_YAW ? degrees(value) : metres(value);
+  return is_angle(quantity) ? degrees(value) : metres(value);
 }
 
 std::string value_text(const Note& note) {

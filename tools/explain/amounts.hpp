@@ -12,8 +12,6 @@
 
 namespace pose_wall::tools::explain {
 
-constexpr double kDegPerRad = 57.29577951308232;
-
 std::string metres(double value_m);
 std::string degrees(double value_rad);
 std::string per_cent(double share);

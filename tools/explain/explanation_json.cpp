@@ -8,19 +8,10 @@
 
 #include "explain/amounts.hpp"
 #include "explain/candidate_words.hpp"
+#include "results/json_words.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json reason_names(std::uint32_t reasons) {
-  Json names = Json::array();
-  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
-    if ((reasons >> bit & 1U) != 0) names.push_back(pose_wall_reason_name(bit));
-  }
-  return names;
-}
 
 Json paragraphs_json(const Explanation& explanation) {
   Json out = Json::array();
@@ -42,7 +33,7 @@ Json outcome_json(const pose_wall_result& result, const Explanation& explanation
                    {"value", v.value},
                    {"protection_level", v.protection_level},
                    {"age_s", v.age_s},
-                   {"reasons", reason_names(v.reasons)},
+                   {"reasons", reason_list(v.reasons)},
                    {"sentence", explanation.outcome.at(q)}});
   }
   return out;
@@ -61,7 +52,7 @@ Json gates_json(const Notes& notes) {
                    {"limit", note.gate.limit},
                    {"ratio", has_ratio ? Json(note.gate.value / note.gate.limit) : Json()},
                    {"passed", note.passed()},
-                   {"reasons", note.passed() ? Json::array() : reason_names(note.info.reasons)}});
+                   {"reasons", note.passed() ? Json::array() : reason_list(note.info.reasons)}});
   }
   return out;
 }
@@ -96,12 +87,12 @@ std::string explanation_json(const pose_wall_config& config, const FrameOutcome&
   const Json out = {{"frame", outcome.frame},
                     {"source", outcome.source},
                     {"stamp_ns", outcome.stamp_ns},
-                    {"frame_reasons", reason_names(traced.result.frame_reasons)},
+                    {"frame_reasons", reason_list(traced.result.frame_reasons)},
                     {"explanation", paragraphs_json(explanation)},
                     {"outcome", outcome_json(traced.result, explanation)},
                     {"gates", gates_json(notes)},
                     {"planes", planes_json(config, traced.result, notes)}};
-  return out.dump(2) + "\n";
+  return json_text(out, 2) + "\n";
 }
 
 }  // namespace pose_wall::tools::explain

@@ -20,6 +20,12 @@ std::optional<std::int64_t> stamp_from_name(const std::filesystem::path& path) {
   return stamp_ns;
 }
 
+double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
+  std::int64_t step_ns = 0;
+  if (!__builtin_sub_overflow(to_ns, from_ns, &step_ns)) return static_cast<double>(step_ns) * 1e-9;
+  return static_cast<double>(to_ns) * 1e-9 - static_cast<double>(from_ns) * 1e-9;
+}
+
 std::int64_t FrameStamps::next(const std::optional<std::int64_t>& stamp_ns) {
   if (stamp_ns) {
     base_ns_ = *stamp_ns;

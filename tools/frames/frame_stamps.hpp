@@ -15,6 +15,10 @@ namespace pose_wall::tools {
 // in nanoseconds; any other name gives none.
 std::optional<std::int64_t> stamp_from_name(const std::filesystem::path& path);
 
+// By whole nanoseconds, of which a double holds too few for stamps of the epoch; where a damaged stamp lies further off
+// than they reach, by doubles.
+double seconds_between(std::int64_t from_ns, std::int64_t to_ns);
+
 // Stamps for a row of frames: a frame with a stamp keeps it, the others follow the last stamp (0 at the start) at the
 // frame rate, counted from it so that no rounding adds up.
 class FrameStamps {

@@ -21,8 +21,12 @@ bool write_part(const std::filesystem::path& part, std::string_view bytes) {
 
 }  // namespace
 
+std::filesystem::path part_of(const std::filesystem::path& file) {
+  return file.string() + ".pose_wall.part";
+}
+
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes) {
-  const std::filesystem::path part = file.string() + ".part";
+  const std::filesystem::path part = part_of(file);
   std::error_code error, ignored;
   const bool written = write_part(part, bytes);
   if (written) std::filesystem::rename(part, file, error);

@@ -10,7 +10,10 @@
 
 namespace pose_wall::tools {
 
-// Writes FILE.part, which then takes the file's place. Throws std::runtime_error that names the file.
+// Where a file is written until it is whole: beside it, under a name that is nobody else's.
+std::filesystem::path part_of(const std::filesystem::path& file);
+
+// Writes its part, which then takes the file's place. Throws std::runtime_error that names the file.
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace pose_wall::tools

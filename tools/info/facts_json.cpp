@@ -6,11 +6,10 @@
 
 #include "frames/field_value.hpp"
 #include "info/input_facts.hpp"
+#include "results/json_words.hpp"
 
 namespace pose_wall::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json points_json(std::vector<std::uint32_t> points) {
   if (points.empty()) return nullptr;
@@ -67,8 +66,7 @@ std::string facts_json(const std::string& input, const SourceAbout& about, const
   page["zero_share"] = facts.zero_share();
   page["not_finite_share"] = facts.not_finite_share();
   page["sensor"] = sensor_json(facts.sensor());
-  // A name in another encoding than UTF-8 must not end the page.
-  return page.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json_text(page, 2);
 }
 
 }  // namespace pose_wall::tools

@@ -11,6 +11,7 @@
 
 #include "frames/field_aliases.hpp"
 #include "frames/field_value.hpp"
+#include "frames/frame_stamps.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -133,10 +134,8 @@ StampFacts InputFacts::stamps() const {
   facts.last_ns = stamps_.back();
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < stamps_.size(); ++i) {
-    // In floating point: stamps of a damaged file may lie further apart than 63 bits reach.
-    const double step_s = (static_cast<double>(stamps_[i]) - static_cast<double>(stamps_[i - 1])) * 1e-9;
     if (stamps_[i] > stamps_[i - 1]) {
-      steps_s.push_back(step_s);
+      steps_s.push_back(seconds_between(stamps_[i - 1], stamps_[i]));
     } else {
       ++facts.backwards;
     }

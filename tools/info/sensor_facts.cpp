@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "angles.hpp"
 #include "frames/field_aliases.hpp"
 #include "frames/field_value.hpp"
 #include "info/input_facts.hpp"
@@ -17,7 +18,6 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr double kElevationBinsPerDeg = 20.0;
 constexpr double kRangeMin_m = 1.0;  // nearer, offsets between lasers and origin bend the rings
 constexpr std::size_t kRingsMax = 256;

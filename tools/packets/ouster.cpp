@@ -10,18 +10,13 @@
 #include <limits>
 #include <utility>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kRadPerDeg = 0.017453292519943295;
 constexpr double kTurn_rad = 6.283185307179586;
 constexpr double kUnit_m = 1e-3;
-
-std::uint32_t number_at(ByteView bytes, std::size_t offset, std::size_t size) {
-  std::uint32_t number = 0;
-  for (std::size_t i = size; i-- > 0;) number = number << 8U | std::to_integer<std::uint32_t>(bytes.data[offset + i]);
-  return number;
-}
 
 struct Pixel {
   double range_m;
@@ -31,15 +26,15 @@ struct Pixel {
 Pixel pixel_of(OusterProfile profile, ByteView bytes) {
   switch (profile) {
     case OusterProfile::kLegacy:
-      return {kUnit_m * (number_at(bytes, 0, 4) & 0xFFFFFU), static_cast<float>(number_at(bytes, 4, 1))};
+      return {kUnit_m * (little_endian_at(bytes, 0, 4) & 0xFFFFFU), static_cast<float>(little_endian_at(bytes, 4, 1))};
     case OusterProfile::kSingle:
-      return {kUnit_m * (number_at(bytes, 0, 4) & 0x7FFFFU), static_cast<float>(number_at(bytes, 4, 1))};
+      return {kUnit_m * (little_endian_at(bytes, 0, 4) & 0x7FFFFU), static_cast<float>(little_endian_at(bytes, 4, 1))};
     case OusterProfile::kDual:
-      return {kUnit_m * (number_at(bytes, 0, 4) & 0x7FFFFU), static_cast<float>(number_at(bytes, 3, 1))};
+      return {kUnit_m * (little_endian_at(bytes, 0, 4) & 0x7FFFFU), static_cast<float>(little_endian_at(bytes, 3, 1))};
     case OusterProfile::kLowRate:
       break;
   }
-  return {kUnit_m * 8.0 * (number_at(bytes, 0, 2) & 0x7FFFU), static_cast<float>(number_at(bytes, 2, 1))};
+  return {kUnit_m * 8.0 * (little_endian_at(bytes, 0, 2) & 0x7FFFU), static_cast<float>(little_endian_at(bytes, 2, 1))};
 }
 
 }  // namespace

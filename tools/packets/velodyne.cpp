@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -20,7 +22,6 @@ constexpr std::uint8_t kHiRes = 0x24;
 constexpr double kFiring_ns = 55'296.0;
 constexpr double kLaser_ns = 2'304.0;
 constexpr double kUnit_m = 0.002;
-constexpr double kRadPerDeg = 0.017453292519943295;
 // A turn has 1,800 firings of 16 at 600 turns a minute, 3,600 at 300; more means that no wrap was seen.
 constexpr std::size_t kFiringsMax = 20'000;
 
@@ -51,20 +52,15 @@ std::uint32_t ring_of(std::size_t laser) {
   return static_cast<std::uint32_t>(laser % 2 == 0 ? laser / 2 : 8 + laser / 2);
 }
 
-std::uint16_t number_at(ByteView bytes, std::size_t offset) {
-  return static_cast<std::uint16_t>(std::to_integer<unsigned>(bytes.data[offset]) |
-                                    std::to_integer<unsigned>(bytes.data[offset + 1]) << 8U);
-}
-
 double azimuth_of(ByteView payload, std::size_t block) {
-  return 0.01 * number_at(payload, block * kBlockBytes + 2);
+  return 0.01 * little_endian_at(payload, block * kBlockBytes + 2, 2);
 }
 
 bool is_data(ByteView payload) {
   if (payload.size != kPayloadBytes) return false;
   for (std::size_t block = 0; block < kBlocks; ++block) {
-    if (number_at(payload, block * kBlockBytes) != kBlockFlag) return false;
-    if (number_at(payload, block * kBlockBytes + 2) >= 36000) return false;
+    if (little_endian_at(payload, block * kBlockBytes, 2) != kBlockFlag) return false;
+    if (little_endian_at(payload, block * kBlockBytes + 2, 2) >= 36000) return false;
   }
   return true;
 }
@@ -114,7 +110,7 @@ VelodyneAssembler::Firing VelodyneAssembler::firing_of(ByteView lasers, double a
     ScanPoint& point = firing.points[ring_of(laser)];
     point.ring = static_cast<std::uint16_t>(ring_of(laser));
     point.t_ns = static_cast<std::uint32_t>(after_ns);
-    const double range_m = kUnit_m * number_at(lasers, 3 * laser);
+    const double range_m = kUnit_m * little_endian_at(lasers, 3 * laser, 2);
     if (range_m == 0.0) continue;
     const bool hi_res = product_ == kHiRes;
     const double elevation_rad = kPuck[laser].elevation_deg * (hi_res ? kHiResStep : 1.0) * kRadPerDeg;

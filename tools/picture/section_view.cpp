@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "angles.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 #include "picture/point_layers.hpp"
@@ -15,7 +16,6 @@ namespace pose_wall::tools::picture {
 namespace {
 
 constexpr Range kSlab_m{-2.0, 2.0};
-constexpr double kDegrees = 57.29577951308232;
 
 Viewport view_of(const Box& box, const FrameScene& scene, const DrawnFrame& frame) {
   Range right{-1.6, 1.6};
@@ -50,7 +50,7 @@ void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const po
   svg.line(at(band_up_m.low), at(band_up_m.high), {colour, 3.6});
   const Pixel top = at(band_up_m.high);
   const bool left = wall.left_at(0.0, 0.0) > 0.0;
-  const double lean_deg = std::round(plane.lean_rad * kDegrees * 10.0) / 10.0 + 0.0;  // + 0.0: never "-0.0"
+  const double lean_deg = std::round(plane.lean_rad * kDegPerRad * 10.0) / 10.0 + 0.0;  // + 0.0: never "-0.0"
   svg.text({top.x + (left ? 12.0 : -12.0), top.y - 8.0}, fmt::format("lean {:+.1f}°", lean_deg),
            {colour, 12.5, left ? Anchor::kStart : Anchor::kEnd, true, kPanel});
 }

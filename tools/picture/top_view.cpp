@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "angles.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 #include "picture/point_layers.hpp"
@@ -108,7 +109,7 @@ void draw_yaw(Svg& svg, const Viewport& view, const DrawnFrame& frame, const pos
   const std::string_view colour = state_colour(yaw.state);
   svg.polyline(arc, {colour, 3.0});
   const Pixel tip = view(kArm_m + 0.65, 0.0);
-  svg.text({tip.x, tip.y + 4.5}, fmt::format("yaw {:+.2f}°", yaw.value * 57.29577951308232),
+  svg.text({tip.x, tip.y + 4.5}, fmt::format("yaw {:+.2f}°", yaw.value * kDegPerRad),
            {colour, 13.5, Anchor::kStart, true, kPanel});
 }
 

@@ -5,13 +5,14 @@
 
 #include <cmath>
 
+#include "angles.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
+#include "quantities.hpp"
 
 namespace pose_wall::tools::picture {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
 constexpr double kRow = 31.0;
 constexpr std::size_t kReasonsShown = 2;
 
@@ -26,9 +27,8 @@ Columns columns_of(const Box& box) {
 
 std::string figure(uint32_t quantity, double value, bool with_sign) {
   if (!std::isfinite(value)) return "–";
-  const bool angle = quantity <= POSE_WALL_YAW;
-  if (!angle) return fmt::format("{:.3f} m", value);
-  return with_sign ? fmt::format("{:+.2f}°", value * kDegrees) : fmt::format("{:.2f}°", value * kDegrees);
+  if (!is_angle(quantity)) return fmt::format("{:.3f} m", value);
+  return with_sign ? fmt::format("{:+.2f}°", value * kDegPerRad) : fmt::format("{:.2f}°", value * kDegPerRad);
 }
 
 std::string reasons_text(uint32_t reasons) {

@@ -3,11 +3,13 @@
 
 #include "report/page.hpp"
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "config_file/key_table.hpp"
 #include "picture/svg.hpp"
 #include "report/assets.hpp"
+#include "results/json_words.hpp"
 
 namespace pose_wall::tools::report {
 namespace {
@@ -27,8 +29,8 @@ std::string script_safe(std::string text) {
   return text;
 }
 
-nlohmann::ordered_json words_of_engine() {
-  nlohmann::ordered_json words;
+Json words_of_engine() {
+  Json words;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
     words["reason_names"].push_back(pose_wall_reason_name(bit));
     words["reason_texts"].push_back(pose_wall_reason_text(bit));
@@ -38,9 +40,9 @@ nlohmann::ordered_json words_of_engine() {
   return words;
 }
 
-nlohmann::ordered_json settings_of(const LoadedConfig& loaded) {
+Json settings_of(const LoadedConfig& loaded) {
   const api::Config defaults;
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  Json rows = Json::array();
   for (const pose_wall_key_info& key : config_keys()) {
     const std::string value = config_value_text(*loaded.config.get(), key);
     const std::string usual = config_value_text(*defaults.get(), key);
@@ -49,7 +51,7 @@ nlohmann::ordered_json settings_of(const LoadedConfig& loaded) {
   return rows;
 }
 
-nlohmann::ordered_json head_of(const PageHead& head, const LoadedConfig& loaded) {
+Json head_of(const PageHead& head, const LoadedConfig& loaded) {
   return {{"title", head.title},
           {"language", head.language},
           {"truth", head.truth},
@@ -66,7 +68,7 @@ nlohmann::ordered_json head_of(const PageHead& head, const LoadedConfig& loaded)
 }  // namespace
 
 std::string page(const PageHead& head, const LoadedConfig& loaded, const PageData& data) {
-  nlohmann::ordered_json all = data.json();
+  Json all = data.json();
   all["head"] = head_of(head, loaded);
   all["words"] = words_of_engine();
   const Assets parts = assets();
@@ -74,7 +76,7 @@ std::string page(const PageHead& head, const LoadedConfig& loaded, const PageDat
   put_in(&text, "/*@style@*/", parts.style);
   put_in(&text, "/*@script@*/", parts.script);
   // From the end on: what a name was replaced by is not looked at for names again.
-  put_in(&text, "@data@", script_safe(all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  put_in(&text, "@data@", script_safe(json_text(all)));
   put_in(&text, "@title@", picture::escaped(head.title));
   return text;
 }

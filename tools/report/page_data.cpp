@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "config_file/resolved_frames.hpp"
 #include "frames/point_position.hpp"
@@ -134,7 +135,7 @@ void PageData::add_machine(const picture::DrawnFrame& frame) {
   }
 }
 
-nlohmann::ordered_json PageData::json() const {
+Json PageData::json() const {
   return {{"frames", frames()},
           {"source", sources_},
           {"error", errors_},

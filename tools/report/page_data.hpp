@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "picture/drawn_frame.hpp"
 #include "report/cloud_choice.hpp"
 #include "report/columns.hpp"
+#include "results/json_words.hpp"
 #include "results/result_csv.hpp"
 #include "truth/truth_csv.hpp"
 
@@ -35,7 +35,7 @@ class PageData {
   std::size_t clouds() const { return cloud_frame_.size(); }
   std::size_t points() const { return point_label_.size(); }
 
-  nlohmann::ordered_json json() const;
+  Json json() const;
 
  private:
   void add_values(const pose_wall_result& result);

@@ -3,32 +3,24 @@
 
 #include "results/result_json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "quantities.hpp"
+#include "results/json_words.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
-Json reason_list(std::uint32_t reasons) {
-  Json names = Json::array();
-  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
-    if ((reasons >> bit & 1U) != 0) names.push_back(pose_wall_reason_name(bit));
-  }
-  return names;
-}
-
 Json value_json(std::uint32_t quantity, const pose_wall_value& v) {
-  const std::string unit = quantity <= POSE_WALL_YAW ? "_rad" : "_m";
-  return {{"value" + unit, number(v.value)},        {"raw" + unit, number(v.raw)},
-          {"sigma" + unit, number(v.sigma)},        {"protection_level" + unit, number(v.protection_level)},
-          {"state", pose_wall_state_name(v.state)}, {"reasons", reason_list(v.reasons)},
-          {"confidence", number(v.confidence)},     {"age_s", number(v.age_s)}};
+  const std::string unit = is_angle(quantity) ? "_rad" : "_m";
+  return {{"value" + unit, v.value},
+          {"raw" + unit, v.raw},
+          {"sigma" + unit, v.sigma},
+          {"protection_level" + unit, v.protection_level},
+          {"state", pose_wall_state_name(v.state)},
+          {"reasons", reason_list(v.reasons)},
+          {"confidence", v.confidence},
+          {"age_s", v.age_s}};
 }
 
 Json values_json(const pose_wall_result& r) {
@@ -42,13 +34,13 @@ Json values_json(const pose_wall_result& r) {
 Json plane_json(const pose_wall_plane& p) {
   const auto if_found = [&p](Json value) { return p.found != 0 ? value : Json(); };
   return {{"found", p.found != 0},
-          {"distance_m", if_found(number(p.d_m))},
-          {"rms_m", if_found(number(p.rms_m))},
+          {"distance_m", if_found(p.d_m)},
+          {"rms_m", if_found(p.rms_m)},
           {"inliers", if_found(p.inliers)},
           {"iterations", if_found(p.iterations)},
-          {"along_min_m", if_found(number(p.along_min_m))},
-          {"along_max_m", if_found(number(p.along_max_m))},
-          {"lean_rad", if_found(number(p.lean_rad))},
+          {"along_min_m", if_found(p.along_min_m)},
+          {"along_max_m", if_found(p.along_max_m)},
+          {"lean_rad", if_found(p.lean_rad)},
           {"reasons", reason_list(p.reasons)}};
 }
 
@@ -72,8 +64,8 @@ Json times_json(const FrameOutcome& outcome) {
       stages[pose_wall_stage_name(stage)] = 1e-6 * static_cast<double>(outcome.result->stage_ns[stage]);
     }
   }
-  const auto if_read = [&outcome](double ms) { return outcome.result ? number(ms) : Json(); };
-  return {{"load", number(outcome.load_ms)},
+  const auto if_read = [&outcome](double ms) { return outcome.result ? Json(ms) : Json(); };
+  return {{"load", outcome.load_ms},
           {"engine", if_read(outcome.total_ms)},
           {"engine_processor", if_read(outcome.processor_ms)},
           {"stages", stages}};
@@ -84,16 +76,14 @@ void add_result(Json& line, const pose_wall_result& r) {
   line["status"] = pose_wall_state_name(worst_state(r));
   line["reasons"] = reason_list(all_reasons(r));
   line["frame_reasons"] = reason_list(r.frame_reasons);
-  line["confidence"] = number(r.confidence);
+  line["confidence"] = r.confidence;
   line["values"] = values_json(r);
-  line["left_right_yaw_difference_rad"] = number(r.left_right_yaw_difference_rad);
+  line["left_right_yaw_difference_rad"] = r.left_right_yaw_difference_rad;
   line["planes"] = {
       {"floor", plane_json(r.floor)}, {"left_wall", plane_json(r.left)}, {"right_wall", plane_json(r.right)}};
   line["points"] = points_json(r);
-  line["voxel_leaf_m"] = number(r.voxel_leaf_m);
+  line["voxel_leaf_m"] = r.voxel_leaf_m;
 }
-
-}  // namespace
 
 Json result_json(const FrameOutcome& outcome) {
   Json line = {{"schema", kResultJsonSchema},
@@ -112,8 +102,10 @@ Json result_json(const FrameOutcome& outcome) {
   return line;
 }
 
+}  // namespace
+
 std::string result_json_line(const FrameOutcome& outcome) {
-  return result_json(outcome).dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_text(result_json(outcome)) + '\n';
 }
 
 }  // namespace pose_wall::tools

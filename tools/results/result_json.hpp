@@ -5,7 +5,6 @@
 
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "results/result_csv.hpp"
@@ -15,10 +14,8 @@ namespace pose_wall::tools {
 // Raised when a member moves or changes its meaning; new members do not raise it.
 constexpr int kResultJsonSchema = 1;
 
-// Every frame has the same members. What is not a number, and all of a frame that could not be read, is null.
-nlohmann::ordered_json result_json(const FrameOutcome& outcome);
-
-// On one line, ending with a line break. Bytes of names that are no UTF-8 are replaced.
+// On one line, ending with a line break. Every frame has the same members: what is not a number, and all of a frame
+// that could not be read, is null.
 std::string result_json_line(const FrameOutcome& outcome);
 
 }  // namespace pose_wall::tools

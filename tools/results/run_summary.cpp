@@ -10,18 +10,15 @@
 #include <limits>
 #include <numeric>
 
+#include "angles.hpp"
+#include "quantities.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr std::size_t kReasonsShown = 5;
-
-bool is_angle(std::size_t quantity) {
-  return quantity <= POSE_WALL_YAW;
-}
 
 std::string amount(std::size_t quantity, double value) {
   if (!std::isfinite(value)) return "-";

@@ -11,6 +11,8 @@
 
 #include <string>
 
+#include "angles.hpp"
+
 namespace pose_wall::tools::sim {
 
 // Words "none|left|right|both"; the two lowest bits are the sides.
@@ -241,7 +243,5 @@ using SceneSetup = Setup;
 inline bool has_side(double choice, int side_sign) {
   return (static_cast<int>(choice) & (side_sign > 0 ? kSideLeft : kSideRight)) != 0;
 }
-
-inline constexpr double kRadPerDeg = 0.017453292519943295;
 
 }  // namespace pose_wall::tools::sim

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,9 +87,7 @@ void print_counts(const SoakOutcome& o) {
 }
 
 int run(SoakOptions* options) {
-  const std::optional<std::string> file =
-      options->config_file.empty() ? std::nullopt : std::optional<std::string>(options->config_file);
-  options->plan.config = *load_config(file, options->settings).config.get();
+  options->plan.config = *load_config(options->config_file, options->settings).config.get();
   for (const std::filesystem::path& path : collect_inputs(options->inputs).files) {
     options->plan.frames.push_back(points_of(load_frame(path).cloud, options->points));
   }

@@ -9,6 +9,8 @@
 #include <map>
 #include <optional>
 
+#include "quantities.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -88,13 +90,12 @@ Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, co
     const std::string name = pose_wall_quantity_name(q);
     const std::optional<std::size_t> truth_column = truth.find_column(name);
     if (!truth_column) continue;
-    const bool is_angle = q <= POSE_WALL_YAW;
     const ResultColumns columns = result_columns(results, name);
-    ErrorStatistics statistics(is_angle, is_angle ? limits.angle_rad : limits.distance_m);
+    ErrorStatistics statistics(is_angle(q), limit_of(q, limits));
     for (const auto& [result_row, truth_row] : comparison.rows) {
       statistics.add(measured_at(results, result_row, columns), truth.number(truth_row, *truth_column));
     }
-    comparison.quantities.push_back({q, name, is_angle, statistics});
+    comparison.quantities.push_back({q, name, is_angle(q), statistics});
   }
   if (comparison.quantities.empty()) {
     throw CsvError(

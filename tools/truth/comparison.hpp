@@ -13,14 +13,10 @@
 
 #include "csv/csv_table.hpp"
 #include "pose_wall.h"
+#include "truth/alert_limits.hpp"
 #include "truth/error_statistics.hpp"
 
 namespace pose_wall::tools {
-
-struct AlertLimits {
-  double angle_rad = 0.0;
-  double distance_m = 0.0;
-};
 
 struct QuantityComparison {
   std::uint32_t index;  // pose_wall_quantity

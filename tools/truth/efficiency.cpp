@@ -10,6 +10,7 @@
 #include <string>
 
 #include "frames/load_frame.hpp"
+#include "quantities.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -123,7 +124,7 @@ Efficiency efficiency_of(const CsvTable& results, const CsvTable& truth, const C
     out.add(bound);
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       const double error = results.number(result_row, raw[q]) - values[q];
-      out.quantity[q].add(q <= POSE_WALL_YAW ? wrap_angle(error) : error, bound.sigma[q]);
+      out.quantity[q].add(is_angle(q) ? wrap_angle(error) : error, bound.sigma[q]);
     }
   }
   return out;

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -24,6 +23,7 @@
 #include "campaign/runner.hpp"
 #include "config_file/load_config.hpp"
 #include "terminal/counted.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
@@ -47,8 +47,7 @@ struct CampaignOptions {
 
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
 void check_settings(const campaign::EngineChoice& engine) {
-  load_config(engine.config_file.empty() ? std::nullopt : std::optional<std::string>(engine.config_file),
-              engine.settings);
+  load_config(engine.config_file, engine.settings);
 }
 
 campaign::Manifest run_campaign(const CampaignOptions& options) {
@@ -97,16 +96,11 @@ void sort_names(std::vector<std::string>* names) {
 
 int run_verb(const CampaignOptions& options) {
   try {
-    return make_card(options, options.card_only ? campaign::read_manifest(options.output) : run_campaign(options));
+    return done_or_complaint("campaign", [&] {
+      return make_card(options, options.card_only ? campaign::read_manifest(options.output) : run_campaign(options));
+    });
   } catch (const campaign::Interrupted&) {
     return tell_interrupted(options);
-  } catch (const campaign::StaleError&) {
-    throw;
-  } catch (const ConfigError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "pose_wall campaign: {}\n", error.what());
-    return kExitUnreadable;
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,9 +81,7 @@ int check_config(const CheckConfigOptions& options) {
     print_keys();
     return kExitDone;
   }
-  const std::optional<std::string> file =
-      options.file.empty() ? std::nullopt : std::optional<std::string>(options.file);
-  const LoadedConfig loaded = load_config(file, options.settings);
+  const LoadedConfig loaded = load_config(options.file, options.settings);
   fmt::print("{}", resolved_frames_text(resolve_frames(loaded.config), ""));
   print_memory(loaded);
   print_crc(loaded);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,10 +15,13 @@
 #include "demo/demo_run.hpp"
 #include "demo/demo_setup.hpp"
 #include "demo/live_table.hpp"
+#include "frames/whole_file.hpp"
 #include "results/result_output.hpp"
 #include "terminal/colours.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
+#include "verbs/complaint.hpp"
+#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -33,20 +35,6 @@ struct DemoVerb {
 };
 
 constexpr std::uint32_t kRowsShown = 12;
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw OutputError(path.string() + " cannot be written");
-}
-
-std::filesystem::path output_folder(const std::string& name) {
-  std::error_code error;
-  std::filesystem::create_directories(name, error);
-  if (error) throw OutputError(fmt::format("{} cannot be made a folder: {}", name, error.message()));
-  return name;
-}
 
 std::string scene_name(const DemoVerb& verb) {
   return verb.demo.scene.empty() ? "heading" : verb.demo.scene;
@@ -82,7 +70,8 @@ void print_end(const DemoRun& run, const std::filesystem::path& folder) {
 int demo(const DemoVerb& verb) {
   const sim::Setup setup = demo_setup(verb.demo);
   DemoRun run(setup, demo_config(verb.demo, setup), verb.demo.seed);
-  const std::filesystem::path folder = output_folder(verb.output);
+  make_output_folder(verb.output);
+  const std::filesystem::path folder = verb.output;
   ResultOutput output((folder / "demo.csv").string(), {});
 
   if (!verb.quiet)
@@ -91,22 +80,12 @@ int demo(const DemoVerb& verb) {
   std::vector<TruthRow> truth;
   const DemoFrame last = process_frames(verb, run, output, truth);
   write_truth_csv(folder / "truth.csv", truth);
-  const std::filesystem::path picture = folder / "demo.svg";
-  write_text(picture,
-             run.picture(last, fmt::format("simulated roadway '{}', sensor {}, frame {}, {:.1f} s", scene_name(verb),
-                                           verb.demo.sensor, last.outcome.frame, last.time_s)));
+  write_whole_file(folder / "demo.svg",
+                   run.picture(last, fmt::format("simulated roadway '{}', sensor {}, frame {}, {:.1f} s",
+                                                 scene_name(verb), verb.demo.sensor, last.outcome.frame, last.time_s)));
 
   if (!verb.quiet) print_end(run, folder);
   return kExitDone;
-}
-
-int demo_or_complaint(const DemoVerb& verb) {
-  try {
-    return demo(verb);
-  } catch (const OutputError& error) {
-    fmt::print(stderr, "pose_wall demo: {}\n", error.what());
-    return kExitUnreadable;
-  }
 }
 
 }  // namespace
@@ -131,7 +110,7 @@ void add_demo(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors, nothing on stdout");
   verb->footer("Example:\n  pose_wall demo --sensor os0-128 --frames 200 --output out");
-  verb->callback([options, &exit_code] { exit_code = demo_or_complaint(*options); });
+  verb->callback([options, &exit_code] { exit_code = done_or_complaint("demo", [&] { return demo(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -19,6 +19,7 @@
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
@@ -83,17 +84,6 @@ int examine(const DoctorOptions& options) {
   return recording.errors.empty() ? kExitDone : kExitUnreadable;
 }
 
-int examine_or_complaint(const DoctorOptions& options) {
-  try {
-    return examine(options);
-  } catch (const ConfigError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "pose_wall doctor: {}\n", error.what());
-    return kExitUnreadable;
-  }
-}
-
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
@@ -120,7 +110,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
       "Gates are only narrowed, or set as config/ has them for the class of the sensor.\n"
       "Exit status: 0 usable, 3 not usable (then nothing is written), 1 an input could not be read or the output not\n"
       "written, 2 bad usage or config, or --output is there already, 130 interrupted.");
-  verb->callback([options, &exit_code] { exit_code = examine_or_complaint(*options); });
+  verb->callback([options, &exit_code] { exit_code = done_or_complaint("doctor", [&] { return examine(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -15,19 +15,20 @@
 #include <string>
 #include <vector>
 
+#include "angles.hpp"
 #include "config_file/load_config.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
+#include "results/json_words.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/comparison.hpp"
 #include "truth/efficiency.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
 namespace {
-
-constexpr double kDegPerRad = 57.29577951308232;
 
 struct EvalOptions {
   std::string results;
@@ -120,20 +121,11 @@ void print_tables(const Comparison& comparison, const std::optional<Efficiency>&
   if (efficiency) print_points(*efficiency);
 }
 
-// NaN, which JSON does not know, becomes null.
-nlohmann::ordered_json json_figures(const ErrorFigures& figures) {
-  return {{"count", figures.count},
-          {"rmse", figures.rmse},
-          {"bias", figures.bias},
-          {"absolute_95", figures.absolute_95},
-          {"absolute_max", figures.absolute_max}};
-}
-
-nlohmann::ordered_json json_bound(const EfficiencySums& sums) {
+Json json_bound(const EfficiencySums& sums) {
   return {{"frames", sums.frames()}, {"crb", sums.bound()}, {"rmse", sums.rmse()}, {"rmse_over_crb", sums.ratio()}};
 }
 
-nlohmann::ordered_json json_points(const Efficiency& efficiency) {
+Json json_points(const Efficiency& efficiency) {
   return {{"frames", efficiency.frames},
           {"floor_points", efficiency.floor_points},
           {"left_points", efficiency.wall_points[0]},
@@ -143,18 +135,18 @@ nlohmann::ordered_json json_points(const Efficiency& efficiency) {
 }
 
 void print_json(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
-  nlohmann::ordered_json page = {{"matched_by", comparison.matched_by},
-                                 {"matched", comparison.matched},
-                                 {"result_rows_alone", comparison.result_rows_alone},
-                                 {"truth_rows_alone", comparison.truth_rows_alone}};
+  Json page = {{"matched_by", comparison.matched_by},
+               {"matched", comparison.matched},
+               {"result_rows_alone", comparison.result_rows_alone},
+               {"truth_rows_alone", comparison.truth_rows_alone}};
   for (const QuantityComparison& quantity : comparison.quantities) {
     const ErrorStatistics& s = quantity.statistics;
     page["quantities"][quantity.name] = {{"unit", quantity.is_angle ? "rad" : "m"},
                                          {"frames", s.frames()},
                                          {"measured", s.measured()},
                                          {"valid", s.valid()},
-                                         {"raw", json_figures(s.raw())},
-                                         {"value", json_figures(s.value())},
+                                         {"raw", error_figures_json(s.raw())},
+                                         {"value", error_figures_json(s.value())},
                                          {"raw_beyond_protection", s.raw_beyond_protection()},
                                          {"value_beyond_protection", s.value_beyond_protection()},
                                          {"valid_beyond_alert", s.valid_beyond_alert()},
@@ -162,7 +154,7 @@ void print_json(const Comparison& comparison, const std::optional<Efficiency>& e
     if (efficiency) page["quantities"][quantity.name]["bound"] = json_bound(efficiency->quantity[quantity.index]);
   }
   if (efficiency) page["bound"] = json_points(*efficiency);
-  fmt::print("{}\n", page.dump(2));
+  fmt::print("{}\n", json_text(page, 2));
 }
 
 std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedConfig& loaded, const CsvTable& results,
@@ -183,25 +175,14 @@ void demand_settings_for_bound(const EvalOptions& options) {
 
 int eval(const EvalOptions& options) {
   demand_settings_for_bound(options);
-  const std::optional<std::string> config_file =
-      options.config_file.empty() ? std::nullopt : std::optional<std::string>(options.config_file);
-  const LoadedConfig loaded = load_config(config_file, options.settings);
-  const AlertLimits limits{loaded.config.number("alert_limit_angle_deg") / kDegPerRad,
-                           loaded.config.number("alert_limit_distance")};
-  try {
-    const CsvTable results = read_table(options.results);
-    const CsvTable truth = read_table(options.truth);
-    const Comparison comparison = in_file(fmt::format("{} against {}", options.results, options.truth),
-                                          [&] { return compare_with_truth(results, truth, limits); });
-    const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
-    options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
-  } catch (const CsvError& error) {
-    fmt::print(stderr, "pose_wall eval: {}\n", error.what());
-    return kExitUnreadable;
-  } catch (const FrameError& error) {
-    fmt::print(stderr, "pose_wall eval: {}\n", error.what());
-    return kExitUnreadable;
-  }
+  const LoadedConfig loaded = load_config(options.config_file, options.settings);
+  const AlertLimits limits = alert_limits_of(loaded.config);
+  const CsvTable results = read_table(options.results);
+  const CsvTable truth = read_table(options.truth);
+  const Comparison comparison = in_file(fmt::format("{} against {}", options.results, options.truth),
+                                        [&] { return compare_with_truth(results, truth, limits); });
+  const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
+  options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
   return kExitDone;
 }
 
@@ -244,7 +225,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       "over "
       "frames.\n"
       "Exit status: 0 done, 1 a table or frame cannot be read or does not fit, 2 bad usage or config.");
-  verb->callback([options, &exit_code] { exit_code = eval(*options); });
+  verb->callback([options, &exit_code] { exit_code = done_or_complaint("eval", [&] { return eval(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -26,6 +26,7 @@
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
@@ -134,17 +135,6 @@ int explain_frame(const ExplainOptions& options) {
   return kExitDone;
 }
 
-int explain_or_complaint(const ExplainOptions& options) {
-  try {
-    return explain_frame(options);
-  } catch (const ConfigError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "pose_wall explain: {}\n", error.what());
-    return kExitUnreadable;
-  }
-}
-
 }  // namespace
 
 void add_explain(CLI::App& app, int& exit_code) {
@@ -171,7 +161,8 @@ void add_explain(CLI::App& app, int& exit_code) {
       "the engine that is delivered and by one that takes notes; both give the same bits, or there is no explanation.\n"
       "Exit status: 0 done, 1 the frame could not be read or the picture not written, 2 bad usage or config,\n"
       "130 interrupted by Ctrl-C.");
-  verb->callback([options, &exit_code] { exit_code = explain_or_complaint(*options); });
+  verb->callback(
+      [options, &exit_code] { exit_code = done_or_complaint("explain", [&] { return explain_frame(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -22,7 +22,7 @@ std::string rate_fault(const std::string& word) {
 }  // namespace
 
 LoadedConfig FrameOptions::load() const {
-  return load_config(config_file.empty() ? std::nullopt : std::optional<std::string>(config_file), settings);
+  return load_config(config_file, settings);
 }
 
 FrameSequence FrameOptions::open() const {

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "frames/whole_file.hpp"
+
 namespace pose_wall::tools {
 
 OutputFile::OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs, const char* option)
@@ -18,7 +20,6 @@ OutputFile::OutputFile(const std::string& path, const std::vector<std::filesyste
   if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(path_, ignored)) {
     path_ = std::filesystem::canonical(path_, ignored);
   }
-  part_ = path_.string() + ".pose_wall.part";
   for (const std::filesystem::path& input : inputs) {
     if (std::filesystem::equivalent(path_, input, ignored)) {
       throw std::invalid_argument(fmt::format("{} {}: this is an input; it would be overwritten", option, path));
@@ -31,7 +32,7 @@ OutputFile::OutputFile(const std::string& path, const std::vector<std::filesyste
     throw std::invalid_argument(fmt::format("{} {}: this is a device; a file is allowed", option, path));
   }
   errno = 0;
-  stream_.open(part_, std::ios::binary | std::ios::trunc);
+  stream_.open(part_of(path_), std::ios::binary | std::ios::trunc);
   if (!stream_) {
     throw std::invalid_argument(
         fmt::format("{} {}: cannot be written: {}", option, path, std::generic_category().message(errno)));
@@ -42,19 +43,12 @@ OutputFile::~OutputFile() {
   if (!stream_.is_open()) return;
   stream_.close();
   std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
+  std::filesystem::remove(part_of(path_), ignored);
 }
 
 void OutputFile::write(std::string_view text) {
-  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream_.flush()) throw std::runtime_error(fmt::format("{}: could not be written to the end", path_.string()));
   stream_.close();
-  std::error_code error;
-  std::filesystem::rename(part_, path_, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
-  throw std::runtime_error(fmt::format("{}: {}", path_.string(), error.message()));
+  write_whole_file(path_, text);
 }
 
 }  // namespace pose_wall::tools

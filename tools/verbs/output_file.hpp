@@ -15,7 +15,7 @@ namespace pose_wall::tools {
 
 class OutputFile {
  public:
-  // Opens PATH.part beside it, so that what cannot be written is known before the work is done. Throws
+  // Opens its part, so that what cannot be written is known before the work is done. Throws
   // std::invalid_argument when that fails or when the path is one of the inputs. option: what the path was given by.
   OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs,
              const char* option = "--output");
@@ -27,7 +27,7 @@ class OutputFile {
   void write(std::string_view text);
 
  private:
-  std::filesystem::path path_, part_;
+  std::filesystem::path path_;
   std::ofstream stream_;
 };
 

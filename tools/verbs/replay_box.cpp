@@ -7,12 +7,12 @@
 
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "box/box_replay.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -43,17 +43,12 @@ void print(const ReplayOptions& options, const BoxReplay& r) {
 }
 
 int replay(const ReplayOptions& options) {
-  BoxReplay result;
-  try {
-    std::unique_ptr<ProgressBar> bar;
-    result = replay_box(options.file, [&](std::uint64_t done, std::uint64_t of) {
-      if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2), "events");
-      bar->advance(fmt::format("event {}", done));
-    });
-  } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "pose_wall replay-box: {}\n", error.what());
-    return kExitUnreadable;
-  }
+  std::unique_ptr<ProgressBar> bar;
+  const BoxReplay result = replay_box(options.file, [&](std::uint64_t done, std::uint64_t of) {
+    if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2), "events");
+    bar->advance(fmt::format("event {}", done));
+  });
+  bar.reset();  // takes its line away
   print(options, result);
   if (result.different > 0) return kExitDiffers;
   return result.is_whole() && result.reproduced() ? kExitDone : kExitUnreadable;
@@ -70,7 +65,8 @@ void add_replay_box(CLI::App& app, int& exit_code) {
       "Example:\n  pose_wall replay-box box.pwbox\n"
       "Exit status: 0 every event computes to the recorded bits and nothing is damaged, 1 damaged, no black box, or "
       "digests only,\n3 a result differs (the first difference is named).");
-  verb->callback([options, &exit_code] { exit_code = replay(*options); });
+  verb->callback(
+      [options, &exit_code] { exit_code = done_or_complaint("replay-box", [&] { return replay(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -26,6 +26,7 @@
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
@@ -122,19 +123,13 @@ int simulate(const SimOptions& options) {
   if (options.output.empty()) throw std::invalid_argument("--output DIR is needed");
   const sim::Simulator simulator(resolve_setup(options), options.seed);
   refuse_folder_of_others(options);
-  std::uint32_t written = 0;
-  try {
-    make_output_folder(options.output);
-    std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
-    write_whole_file(std::filesystem::path(options.output) / "pose_wall.yaml",
-                     sim::engine_settings(simulator.setup(),
-                                          fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
-                                                      options.seed, options.random ? ", random sizes" : "")));
-    written = write_frames(options, simulator);
-  } catch (const std::runtime_error& error) {
-    fmt::print(stderr, "pose_wall sim: {}\n", error.what());
-    return kExitUnreadable;
-  }
+  make_output_folder(options.output);
+  std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
+  write_whole_file(std::filesystem::path(options.output) / "pose_wall.yaml",
+                   sim::engine_settings(simulator.setup(),
+                                        fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
+                                                    options.seed, options.random ? ", random sizes" : "")));
+  const std::uint32_t written = write_frames(options, simulator);
   if (!options.quiet)
     fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
   if (written == options.frames) return kExitDone;
@@ -168,7 +163,7 @@ void add_sim(CLI::App& app, int& exit_code) {
       "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: the frames that are "
       "there "
       "are whole and have their truth.");
-  verb->callback([options, &exit_code] { exit_code = simulate(*options); });
+  verb->callback([options, &exit_code] { exit_code = done_or_complaint("sim", [&] { return simulate(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "results/json_words.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "pose_wall.h"
+
+namespace pose_wall::tools {
+
+std::string json_text(const Json& json) {
+  return json_text(json, -1);
+}
+
+std::string json_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json reason_list(std::uint32_t reasons) {
+  Json names = Json::array();
+  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
+    if ((reasons >> bit & 1U) != 0) names.push_back(pose_wall_reason_name(bit));
+  }
+  return names;
+}
+
+Json error_figures_json(const ErrorFigures& figures) {
+  return {{"count", figures.count},
+          {"rmse", figures.rmse},
+          {"bias", figures.bias},
+          {"absolute_95", figures.absolute_95},
+          {"absolute_max", figures.absolute_max}};
+}
+
+}  // namespace pose_wall::tools
