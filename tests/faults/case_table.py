@@ -29,7 +29,7 @@ GROUPS = {
     "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),
     "BitFlips": ("bits fall over in the block between calls", "state: refused until opened again; scratch: same bits"),
     "PoisonedSequence": ("each frame garbage, alone and with the next", "nothing wrong, back within 4 frames"),
-    "PoisonedPairs": ("two garbage frames of two kinds, 1 to 4 good ones between", "the same, and so is the contract"),
+    "PoisonedSequencePairs": ("two garbage frames of two kinds, 1 to 4 good ones between", "the same, and so is the contract"),
     "PoisonedSequenceItself": ("the same without", "all valid"),
     "RefusedThreads": ("a thread is not made", "start says so, works the next time"),
     "FaultyDisks": ("the header or the n-th write of the record fails", "counted, the rest can be read, frames go on"),

@@ -33,9 +33,9 @@ INSTANTIATE_TEST_SUITE_P(Faults, PoisonedSequence,
 // Wrong twice with good frames between, of two kinds: the second comes while the first one's jump is being confirmed,
 // or just after. Every kind is followed by every other and by itself, after 1 and 3 good frames or after 2 and 4, by
 // turns: 200 pairs in all. Where the first one stands goes round with the pair.
-class PoisonedPairs : public ::testing::TestWithParam<std::size_t> {};
+class PoisonedSequencePairs : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(PoisonedPairs, AreNeverMisleadingAndComeBack) {
+TEST_P(PoisonedSequencePairs, AreNeverMisleadingAndComeBack) {
   const std::size_t kind = GetParam();
   std::size_t pair = kind;
   for (std::size_t other = 0; other < std::size(kPoisons); ++other) {
@@ -53,7 +53,7 @@ TEST_P(PoisonedPairs, AreNeverMisleadingAndComeBack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, PoisonedPairs, ::testing::Range<std::size_t>(0, std::size(kPoisons)),
+INSTANTIATE_TEST_SUITE_P(Faults, PoisonedSequencePairs, ::testing::Range<std::size_t>(0, std::size(kPoisons)),
                          [](const auto& test) { return name_of(kPoisons[test.param].name) + "_and_another"; });
 
 TEST(PoisonedSequenceItself, IsGoodWithoutPoison) {
