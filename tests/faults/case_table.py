@@ -29,9 +29,11 @@ GROUPS = {
     "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),
     "BitFlips": ("bits fall over in the block between calls", "state: refused until opened again; scratch: same bits"),
     "PoisonedSequence": ("each frame garbage, alone and with the next", "nothing wrong, back within 4 frames"),
+    "PoisonedSequencePairs": ("two garbage frames of two kinds, 1 to 4 good ones between", "the same, and so is the contract"),
     "PoisonedSequenceItself": ("the same without", "all valid"),
     "RefusedThreads": ("a thread is not made", "start says so, works the next time"),
-    "FaultyDisks": ("the n-th write of the record fails", "counted, frames go on"),
+    "FaultyDisks": ("the header or the n-th write of the record fails", "counted, the rest can be read, frames go on"),
+    "RefusedWishes": ("memory not locked, priority not granted", "told; start fails only if it was required"),
     "RuntimeFaults": ("clock, callback, a step or the memory of its engine", "says so, nothing wrong, goes on"),
 }
 

@@ -30,6 +30,14 @@ inline const Points& room_frame(std::uint32_t seed) {
   return frames[seed % 3];
 }
 
+// The same with steel sets along both walls.
+inline const Points& ribbed_room_frame(std::uint32_t seed) {
+  static const Points frames[3] = {ribbed_room_points(1), ribbed_room_points(2), ribbed_room_points(3)};
+  return frames[seed % 3];
+}
+
+using FramesOf = const Points& (*)(std::uint32_t seed);
+
 // One letter for each of the seven: V valid, D degraded, H held, I invalid.
 inline std::string states_of(const pose_wall_result& r) {
   std::string states;
@@ -64,7 +72,8 @@ inline std::string misleading(const pose_wall_result& r, const double (&truth)[P
 
 class FaultRoom {
  public:
-  explicit FaultRoom(const pose_wall_config& config = small_config()) : engine_(config), watch_(config) {}
+  explicit FaultRoom(const pose_wall_config& config = small_config(), FramesOf frames_of = room_frame)
+      : engine_(config), watch_(config), frames_of_(frames_of) {}
 
   // Whatever the cloud is: processed, and the contract kept.
   pose_wall_result process(const pose_wall_cloud& cloud) {
@@ -74,7 +83,7 @@ class FaultRoom {
   }
   // A good frame; nothing it tells is wrong.
   pose_wall_result good(std::int64_t stamp_ns) {
-    const pose_wall_result r = process(cloud_of(room_frame(frames_), stamp_ns));
+    const pose_wall_result r = process(cloud_of(frames_of_(frames_), stamp_ns));
     frames_ += 2;  // never the last one again, nor what a case made of frame 1
     EXPECT_EQ(misleading(r, kRoomTruth), "") << states_of(r) << " at " << stamp_ns;
     return r;
@@ -92,6 +101,7 @@ class FaultRoom {
  private:
   EngineUnderTest engine_;
   ContractWatch watch_;
+  FramesOf frames_of_;
   std::uint32_t frames_ = 0;
 };
 

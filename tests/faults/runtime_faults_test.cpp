@@ -6,14 +6,17 @@
 // the disk and the queue is in tests/runtime.
 
 #include <pthread.h>
+#include <sys/mman.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include "fault_room.hpp"
 #include "faults/fault.hpp"
+#include "pose_wall_box.h"
 #include "support/runtime_under_test.hpp"
 #include "wrapped_symbols.h"
 
@@ -21,6 +24,10 @@ namespace {
 
 // The how-manieth thread from now on is not made; 0: all are.
 std::atomic<int> refused_thread{0};
+
+// What the system answers instead of doing it: 0 or an errno; kForReal: it is asked.
+constexpr int kForReal = -1;
+std::atomic<int> lock_error{kForReal}, priority_error{kForReal};
 
 }  // namespace
 
@@ -35,20 +42,55 @@ extern "C" int pthread_create_wrapped(pthread_t* thread, const pthread_attr_t* a
   return pthread_create_for_real(thread, attributes, run, user);
 }
 
+extern "C" int mlock_for_real(const void*, std::size_t) __asm__("__real_" POSE_WALL_WRAPPED_MLOCK);
+extern "C" int mlock_wrapped(const void*, std::size_t) __asm__("__wrap_" POSE_WALL_WRAPPED_MLOCK);
+
+extern "C" int mlock_wrapped(const void* block, std::size_t bytes) {
+  if (lock_error == kForReal) return mlock_for_real(block, bytes);
+  errno = lock_error;
+  return lock_error == 0 ? 0 : -1;
+}
+
+extern "C" int set_scheduling_for_real(pthread_t, int,
+                                       const sched_param*) __asm__("__real_" POSE_WALL_WRAPPED_PTHREAD_SETSCHEDPARAM);
+extern "C" int set_scheduling_wrapped(pthread_t, int,
+                                      const sched_param*) __asm__("__wrap_" POSE_WALL_WRAPPED_PTHREAD_SETSCHEDPARAM);
+
+extern "C" int set_scheduling_wrapped(pthread_t thread, int policy, const sched_param* parameters) {
+  if (priority_error == kForReal) return set_scheduling_for_real(thread, policy, parameters);
+  return priority_error;
+}
+
 namespace pose_wall::test {
 namespace {
 
-// A disk that fails at its n-th write, or at every one from there on.
+// A disk in memory that fails at its n-th write (0: the header's), or at every one from there on.
 struct FaultyDisk {
   std::uint64_t writes = 0, fails_at = 0;
   bool for_good = false;
+  std::vector<unsigned char> bytes;
 
-  static std::int32_t write(void* self, std::uint64_t, const void*, std::uint64_t) {
+  static std::int32_t write(void* self, std::uint64_t offset, const void* from, std::uint64_t count) {
     FaultyDisk& disk = *static_cast<FaultyDisk*>(self);
     const std::uint64_t now = disk.writes++;
-    return now == disk.fails_at || (disk.for_good && now > disk.fails_at) ? 28 : 0;
+    if (now == disk.fails_at || (disk.for_good && now > disk.fails_at)) return 28;
+    if (disk.bytes.size() < offset + count) disk.bytes.resize(offset + count);
+    std::memcpy(disk.bytes.data() + offset, from, count);
+    return 0;
   }
 };
+
+// Whole records in it; none without a header.
+std::uint64_t records_in(const FaultyDisk& disk) {
+  pose_wall_box_info info;
+  if (pose_wall_box_open(disk.bytes.data(), disk.bytes.size(), &info) != POSE_WALL_OK) return 0;
+  std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES, whole = 0;
+  pose_wall_box_record record;
+  while (pose_wall_box_next(disk.bytes.data(), disk.bytes.size(), &offset, &record) == POSE_WALL_OK) {
+    whole += record.damaged == 0 ? 1 : 0;
+  }
+  return whole;
+}
 
 RuntimeUnderTest::Change onto(FaultyDisk* disk) {
   return [=](pose_wall_runtime_options* o) {
@@ -89,26 +131,82 @@ TEST_P(RefusedThreads, StartSaysSoAndMayBeTriedAgain) {
 INSTANTIATE_TEST_SUITE_P(Faults, RefusedThreads, ::testing::Values(1, 2),
                          [](const auto& test) { return test.param == 1 ? "recorder" : "worker"; });
 
-// A disk that fails in its header, a record's body, its head, once or for good: frames do not notice.
+// A disk that fails in its header, a record's body, its head, once or for good: frames do not notice, and what is on
+// the disk can be read, as many records as were counted. Without clouds a record is two writes.
 class FaultyDisks : public ::testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
 
 TEST_P(FaultyDisks, FailTheRecordAlone) {
+  constexpr std::uint64_t kRecords = 4, kWritesOfARecord = 2;
   FaultyDisk disk;
   std::tie(disk.fails_at, disk.for_good) = GetParam();
   RuntimeUnderTest runtime(onto(&disk));
   runtime.start();
-  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(frame(&runtime, i), "VVVVVVV") << i;
+  for (std::uint32_t i = 0; i < kRecords; ++i) EXPECT_EQ(frame(&runtime, i), "VVVVVVV") << i;
   const pose_wall_runtime_statistics s = runtime.statistics();
-  EXPECT_EQ(s.processed, 4U);
-  EXPECT_GT(s.box_failed, 0U);
-  EXPECT_EQ(s.box_failed + s.box_written, 4U);
+  EXPECT_EQ(s.processed, kRecords);
+  // A header that fails counts by itself; it is tried again before each record until it is written.
+  const bool in_header = disk.fails_at == 0;
+  const std::uint64_t before = in_header ? 0 : (disk.fails_at - 1) / kWritesOfARecord;
+  const std::uint64_t written = disk.for_good ? before : kRecords - (in_header ? 0 : 1);
+  EXPECT_EQ(s.box_written, written);
+  EXPECT_EQ(s.box_failed, kRecords - written + (in_header ? 1 : 0));
+  ASSERT_EQ(pose_wall_runtime_stop(runtime.get()), POSE_WALL_OK);
+  EXPECT_EQ(records_in(disk), written);
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, FaultyDisks, ::testing::Combine(::testing::Values(1U, 2U, 3U, 4U), ::testing::Bool()),
+INSTANTIATE_TEST_SUITE_P(Faults, FaultyDisks,
+                         ::testing::Combine(::testing::Values(0U, 1U, 2U, 3U, 4U), ::testing::Bool()),
                          [](const auto& test) {
-                           return "write_" + std::to_string(std::get<0>(test.param)) +
+                           const std::uint64_t write = std::get<0>(test.param);
+                           return (write == 0 ? "header" : "write_" + std::to_string(write)) +
                                   (std::get<1>(test.param) ? "_for_good" : "_once");
                          });
+
+// Memory that may not be locked, a priority that is not granted: told, and fatal only where it is required.
+struct Wish {
+  const char* name;
+  std::uint32_t bit;
+  std::atomic<int>* error;  // that the system gives; 0: granted
+  void (*ask)(pose_wall_runtime_options*);
+  std::int32_t (*told)(const pose_wall_runtime_statistics&);
+};
+
+void PrintTo(const Wish& w, std::ostream* out) {
+  *out << w.name;
+}
+
+class RefusedWishes : public ::testing::TestWithParam<Wish> {
+ protected:
+  void TearDown() override { *GetParam().error = kForReal; }
+};
+
+TEST_P(RefusedWishes, AreToldAndFatalOnlyIfRequired) {
+  const Wish& wish = GetParam();
+  RuntimeUnderTest lenient(wish.ask);
+  RuntimeUnderTest strict([&](pose_wall_runtime_options* o) {
+    wish.ask(o);
+    o->required = wish.bit;
+  });
+  *wish.error = EPERM;
+  lenient.start();
+  EXPECT_EQ(wish.told(lenient.statistics()), EPERM);
+  EXPECT_EQ(frame(&lenient, 0), "VVVVVVV");
+  EXPECT_EQ(pose_wall_runtime_start(strict.get()), POSE_WALL_RUNTIME_E_SYSTEM);
+  EXPECT_EQ(wish.told(strict.statistics()), EPERM);
+  EXPECT_EQ(strict.statistics().state, std::uint32_t{POSE_WALL_RUNTIME_STOPPED});
+  *wish.error = 0;
+  strict.start();
+  EXPECT_EQ(wish.told(strict.statistics()), 0) << "of the last start";
+  EXPECT_EQ(frame(&strict, 0), "VVVVVVV");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, RefusedWishes,
+    ::testing::Values(Wish{"lock", POSE_WALL_RUNTIME_LOCK, &lock_error, [](auto* o) { o->lock_memory = 1; },
+                           [](const auto& s) { return s.lock_error; }},
+                      Wish{"priority", POSE_WALL_RUNTIME_PRIORITY, &priority_error,
+                           [](auto* o) { o->worker_priority = 1; }, [](const auto& s) { return s.priority_error; }}),
+    [](const auto& test) { return test.param.name; });
 
 TEST(RuntimeFaults, AClockThatStandsStill) {
   RuntimeUnderTest runtime([](auto* o) { o->watchdog_ns = 300 * kMs; });

@@ -8,6 +8,11 @@
 
 #include <limits>
 
+#include "estimation/groove_profile.hpp"
+#include "estimation/plane_halves.hpp"
+#include "estimation/step_profile.hpp"
+#include "estimation/strip_profile.hpp"
+#include "estimation/two_layers.hpp"
 #include "faults/fault.hpp"
 #include "report.hpp"
 #include "stages/ground.hpp"
@@ -113,6 +118,11 @@ POSE_WALL_WRAP(UnevenFit, FLOOR_WAVES, floor_waves, (UnevenPlane * self, Span<co
   return floor_waves_for_real(self, patches);
 }
 
+POSE_WALL_WRAP(double, HALVES, halves,
+               (Span<const SurfacePatch> patches, const Eigen::Vector3d& correction, const Eigen::Vector3d& of)) {
+  return fails(Fault::kHalvesNan) ? kNan : halves_for_real(patches, correction, of);
+}
+
 POSE_WALL_WRAP(LevelResult, LEVEL_BY, level_by, (const Plane& floor, const Axes& axes)) {
   LevelResult r = level_by_for_real(floor, axes);
   if (fails(Fault::kLevelNan)) r.roll_rad = r.pitch_rad = r.forward_up = r.floor_z_level_m = kNan;
@@ -154,6 +164,27 @@ POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
     r.reasons[side] = POSE_WALL_R_WALL_NOT_FOUND;
   }
   return r;
+}
+
+// "Found" without a look: no column is judged then.
+POSE_WALL_WRAP(bool, FIND_STRIPS, strips, (StripProfile * self, double u_m, double reach_m, double gate_m)) {
+  if (fails(Fault::kStripsUnjudgedFound)) return true;
+  return !fails(Fault::kStripsNotFound) && strips_for_real(self, u_m, reach_m, gate_m);
+}
+
+POSE_WALL_WRAP(bool, JUDGE_STRIPS, judge_strips, (StripProfile * self, double u_m, double reach_m)) {
+  return !fails(Fault::kStripsNotJudged) && judge_strips_for_real(self, u_m, reach_m);
+}
+
+POSE_WALL_WRAP(TwoLayers, TWO_LAYERS, two_layers, (const LayerHistogram& histogram, const LayerDemands& demands)) {
+  if (fails(Fault::kLayersNotFound)) return {};
+  TwoLayers r = two_layers_for_real(histogram, demands);
+  if (fails(Fault::kLayersNan)) r = {true, kNan, kNan, kNan, kNan};
+  return r;
+}
+
+POSE_WALL_WRAP(bool, GROOVES, grooves, (const GrooveProfile* self)) {
+  return fails(Fault::kGroovedAll) || grooves_for_real(self);
 }
 
 POSE_WALL_WRAP(WallSurface, FIT_SURFACE, fit_surface,
@@ -213,6 +244,11 @@ POSE_WALL_WRAP(AtSample, LOOK_AT_SAMPLE, look_at_sample,
   return r;
 }
 
+// The way a step goes is an enumeration of the profile's own, of 32 bits.
+POSE_WALL_WRAP(double, SHORT_STEP, short_step, (const StepProfile* self, std::uint32_t way)) {
+  return fails(Fault::kShortStepNan) ? kNan : short_step_for_real(self, way);
+}
+
 POSE_WALL_WRAP(WallEdges, LOOK_PAST, look_past,
                (const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along, double margin_m,
                 EdgeScratch* scratch)) {
@@ -243,6 +279,14 @@ POSE_WALL_WRAP(Measurements, MEASURE_QUANTITIES, quantities,
   if (!fails(Fault::kNothingMeasured)) return r;
   r = Measurements{};
   for (Measurement& m : r.quantity) m.reasons = POSE_WALL_R_ALERT_LIMIT;
+  return r;
+}
+
+POSE_WALL_WRAP(FrameTiming, TIME_FRAME, timing,
+               (const TemporalState& state, std::int64_t stamp_ns, const Settings& settings)) {
+  FrameTiming r = timing_for_real(state, stamp_ns, settings);
+  if (fails(Fault::kTimeNan)) r.dt_s = kNan;
+  if (fails(Fault::kTimeUnknown)) r = {};
   return r;
 }
 

@@ -2,13 +2,16 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: start and stop from any state and thread come back, what would wait for itself is refused, every frame is
-// accounted for across stops, and the block is free after close. Storms show no data race under ThreadSanitizer.
+// accounted for across stops, and the block is free after close. In a storm of calls what is read is whole, was
+// published and is the newest; there is no data race under ThreadSanitizer.
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/runtime_under_test.hpp"
@@ -182,56 +185,166 @@ TEST(RuntimeLife, OnePushAtATime) {
   EXPECT_TRUE(accounts_balance(s));
 }
 
-// Pushers, readers, tickers and two that start and stop, all at once; with and without a slow callback.
-#ifdef __SANITIZE_THREAD__
-constexpr int kStormStarts = 50;  // six threads at once are slow under ThreadSanitizer
+#if defined(__SANITIZE_THREAD__)
+constexpr int kStormStarts = 50;  // each takes many times as long
 #else
 constexpr int kStormStarts = 150;
 #endif
 
+// A number of all bytes of a publication: two that differ in one word have different ones.
+std::uint64_t digest_of(const pose_wall_publication& p) {
+  std::uint64_t words[sizeof p / sizeof(std::uint64_t)], sum = 0;
+  static_assert(sizeof words == sizeof p, "made of whole words");
+  std::memcpy(words, &p, sizeof p);
+  for (const std::uint64_t word : words) sum = (sum ^ word) * 0x9E3779B97F4A7C15U + (sum >> 29U);
+  return sum;
+}
+
+// Who pushes what: each pusher's stamps go up by kPushers, so that a stamp tells whose it is and which; and a cloud has
+// as many points as tell whose it is.
+constexpr std::uint32_t kPushers = 4;
+
+const Points& points_of_pusher(std::uint32_t pusher) {
+  static const Points points[kPushers] = {Points(3, {1, 1, 1}), Points(4, {1, 1, 1}), Points(5, {1, 1, 1}),
+                                          Points(6, {1, 1, 1})};
+  return points[pusher];
+}
+
+std::int32_t push_next(RuntimeUnderTest* runtime, std::uint32_t pusher, std::int64_t* round) {
+  return runtime->push(points_of_pusher(pusher), (*round)++ * kPushers + pusher);
+}
+
+// What the worker called back with, publication by publication: what readers saw is held against it.
+struct Told {
+  std::vector<std::uint64_t> digests;  // by index
+  std::atomic<std::uint64_t> count{0};
+  std::atomic<std::uint64_t> broken{0};
+  bool slow = false;
+
+  static void on_result(void* self, const pose_wall_publication* p) {
+    Told& told = *static_cast<Told*>(self);
+    told.broken += p->index == told.digests.size() ? 0U : 1U;
+    told.broken += p->cause == POSE_WALL_RUNTIME_SILENCE || told.is_next_frame(*p) ? 0U : 1U;
+    told.broken += p->published_ns >= p->received_ns ? 0U : 1U;
+    told.digests.push_back(digest_of(*p));
+    told.count = told.digests.size();
+    if (told.slow) std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+
+ private:
+  // Frames come in the order of their numbers, and each is what its pusher gave, in his order.
+  bool is_next_frame(const pose_wall_publication& p) {
+    const std::int64_t stamp = p.result.stamp_ns;
+    const auto pusher = static_cast<std::uint32_t>(stamp % kPushers);
+    const bool next = p.frame + 1 > frames_ && stamp > last_stamp_[pusher];
+    frames_ = p.frame + 1;
+    last_stamp_[pusher] = stamp;
+    return next && p.result.points_in == points_of_pusher(pusher).size();
+  }
+
+  std::uint64_t frames_ = 0;
+  std::int64_t last_stamp_[kPushers] = {-1, -1, -1, -1};
+};
+
+// One thread that reads the newest publication, again and again.
+class Reader {
+ public:
+  Reader(RuntimeUnderTest* runtime, const Told* told) : runtime_(runtime), told_(told) {}
+
+  void look() {
+    const std::uint64_t told_before = told_->count;
+    pose_wall_publication p{};
+    p.struct_size = sizeof p;
+    if (pose_wall_runtime_latest(runtime_->get(), &p) != POSE_WALL_OK) return;
+    const pose_wall_runtime_statistics s = runtime_->statistics();
+    // Readers have it before the callback has: what was called back with already is never newer than what is read.
+    broken_ += p.index + 1 >= told_before ? 0U : 1U;
+    broken_ += seen_.empty() || p.index >= seen_.back().first ? 0U : 1U;
+    broken_ += p.cause == POSE_WALL_RUNTIME_SILENCE || p.frame < s.pushed ? 0U : 1U;
+    broken_ += p.published_ns >= p.received_ns ? 0U : 1U;
+    const std::pair<std::uint64_t, std::uint64_t> now(p.index, digest_of(p));
+    if (seen_.empty() || seen_.back() != now) seen_.push_back(now);
+  }
+
+  std::uint64_t broken() const { return broken_; }
+  // When all threads have ended. Of what was read, how many are not what the callback got, bit by bit.
+  std::uint64_t other_than_told() const {
+    std::uint64_t others = 0;
+    for (const auto& [index, digest] : seen_) {
+      others += index < told_->digests.size() && told_->digests[index] == digest ? 0U : 1U;
+    }
+    return others;
+  }
+  std::size_t seen() const { return seen_.size(); }
+
+ private:
+  RuntimeUnderTest* runtime_;
+  const Told* told_;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> seen_;
+  std::uint64_t broken_ = 0;
+};
+
+// Pushers, readers, tickers and two that start and stop, all at once; with and without a slow callback. Whatever is
+// read is whole and not older than what was read or called back with before.
 TEST(RuntimeLife, Storm) {
   for (const bool slow : {false, true}) {
-    RuntimeUnderTest runtime;
-    if (slow) runtime.in_callback = [] { std::this_thread::sleep_for(std::chrono::microseconds(200)); };
+    Told told;
+    told.slow = slow;
+    RuntimeUnderTest runtime([&](pose_wall_runtime_options* o) {
+      o->callback = Told::on_result;
+      o->callback_user = &told;
+    });
     std::atomic<bool> over{false};
     std::atomic<std::uint64_t> broken{0};
     std::vector<std::thread> threads;
-    for (int t = 0; t < 2; ++t) {
-      threads.emplace_back([&] {
-        for (std::int64_t stamp = 0; !over; ++stamp) runtime.push(few(), stamp);
+    for (std::uint32_t pusher = 0; pusher < 2; ++pusher) {
+      threads.emplace_back([&, pusher] {
+        for (std::int64_t round = 0; !over;) push_next(&runtime, pusher, &round);
       });
     }
+    Reader reader(&runtime, &told), beside(&runtime, &told);
     threads.emplace_back([&] {
-      pose_wall_publication p{};
       while (!over) {
-        p.struct_size = sizeof p;
-        if (pose_wall_runtime_latest(runtime.get(), &p) == POSE_WALL_OK) broken += p.struct_size != sizeof p ? 1 : 0;
+        reader.look();
         broken += accounts_balance(runtime.statistics()) ? 0 : 1;
         runtime.clock.advance(kMs);
         pose_wall_runtime_tick(runtime.get());
       }
     });
-    const auto start_and_stop = [&] {
+    threads.emplace_back([&] {
+      while (!over) beside.look();
+    });
+    const auto start_and_stop = [&](std::uint32_t pusher) {
+      std::int64_t round = 0;
       for (int i = 0; i < kStormStarts; ++i) {
         pose_wall_runtime_start(runtime.get());
-        runtime.push(few(), i);
+        push_next(&runtime, pusher, &round);
         if (i % 3 == 0) pose_wall_runtime_wait_idle(runtime.get());
         if (i % 5 == 0) pose_wall_runtime_request_stop(runtime.get());
         EXPECT_EQ(pose_wall_runtime_stop(runtime.get()), POSE_WALL_OK);
       }
     };
-    std::thread other(start_and_stop);
-    start_and_stop();
+    std::thread other(start_and_stop, 2U);
+    start_and_stop(3);
     other.join();
     over = true;
     for (std::thread& t : threads) t.join();
     runtime.start();
-    EXPECT_EQ(runtime.push(few(), 0), POSE_WALL_OK) << "as good as new";
+    std::int64_t round = kStormStarts;
+    EXPECT_EQ(push_next(&runtime, 3, &round), POSE_WALL_OK) << "as good as new";
     runtime.wait_idle();
+    reader.look();
     pose_wall_runtime_stop(runtime.get());
     EXPECT_EQ(broken, 0U);
+    EXPECT_EQ(told.broken, 0U) << "called back out of order, or with what nobody pushed";
+    for (const Reader* const r : {&reader, &beside}) {
+      EXPECT_EQ(r->broken(), 0U) << "read what is older, or of no push";
+      EXPECT_EQ(r->other_than_told(), 0U) << "read what was never published";
+    }
+    EXPECT_GT(reader.seen(), 0U);
     const pose_wall_runtime_statistics s = runtime.statistics();
     EXPECT_EQ(s.pushed, s.processed + dropped(s));
+    EXPECT_EQ(s.published, told.digests.size());
     EXPECT_GT(s.processed, 0U);
   }
 }

@@ -3,6 +3,7 @@
 
 #include "soak/heap_count.hpp"
 
+#include <errno.h>  // NOLINT(modernize-deprecated-headers): POSIX names
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -24,12 +25,15 @@ std::atomic<std::uint64_t> calls{0};
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
                                                          void (*on_free)(const volatile void*));
 #elif !defined(__SANITIZE_THREAD__)
-// The C library's own entry points beneath malloc and friends; operator new comes by malloc.
+// The C library's own entry points beneath malloc and friends; operator new comes by malloc, its aligned form by
+// aligned_alloc or posix_memalign.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* __libc_valloc(std::size_t size);
+void* __libc_pvalloc(std::size_t size);
 void __libc_free(void* block);
 
 void* malloc(std::size_t size) {
@@ -47,6 +51,26 @@ void* realloc(void* block, std::size_t size) {
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   count_call();
   return __libc_memalign(alignment, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  count_call();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+  count_call();
+  if (alignment < sizeof(void*) || (alignment & (alignment - 1)) != 0) return EINVAL;
+  void* const taken = __libc_memalign(alignment, size);
+  if (taken == nullptr) return ENOMEM;
+  *block = taken;
+  return 0;
+}
+void* valloc(std::size_t size) {
+  count_call();
+  return __libc_valloc(size);
+}
+void* pvalloc(std::size_t size) {
+  count_call();
+  return __libc_pvalloc(size);
 }
 void free(void* block) {
   count_call();
@@ -82,14 +106,15 @@ std::uint64_t stop_counting_heap_calls() {
 
 std::int64_t resident_kb() {
   const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-  if (file < 0) return 0;
+  if (file < 0) return kResidentUnknown_kb;
   char text[128] = {};
   const ssize_t count = read(file, text, sizeof text - 1);
   close(file);
-  if (count <= 0) return 0;
+  if (count <= 0) return kResidentUnknown_kb;
   char* at = text;
   std::strtoll(at, &at, 10);  // the whole size; the resident part is next, both in pages
-  return std::strtoll(at, nullptr, 10) * (sysconf(_SC_PAGESIZE) / 1024);
+  const long long pages = std::strtoll(at, nullptr, 10);
+  return pages > 0 ? pages * (sysconf(_SC_PAGESIZE) / 1024) : kResidentUnknown_kb;
 }
 
 }  // namespace pose_wall::tools

@@ -17,7 +17,8 @@ void start_counting_heap_calls();
 // How many there were since.
 std::uint64_t stop_counting_heap_calls();
 
-// Resident memory in kB, by /proc; 0 where that is not there. Does not allocate.
+// Resident memory in kB, by /proc; kResidentUnknown_kb where that is not there. Does not allocate.
+constexpr std::int64_t kResidentUnknown_kb = -1;
 std::int64_t resident_kb();
 
 }  // namespace pose_wall::tools

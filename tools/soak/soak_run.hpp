@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Frames through the runtime, by the clock or as fast as they go, and what is left to say of it afterwards.
+// Frames through the runtime, by the clock or as fast as they go.
 
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pose_wall_runtime.h"
+#include "soak/soak_outcome.hpp"
 
 namespace pose_wall::tools {
 
@@ -27,19 +28,6 @@ struct SoakPlan {
   std::uint32_t thinning_max = 1;
   std::string box;  // a file, or empty
   std::uint64_t box_mb = 256;
-};
-
-struct SoakOutcome {
-  pose_wall_runtime_statistics statistics{};  // after stop
-  std::uint64_t heap_calls = 0;               // after start, before stop
-  std::int64_t resident_begin_kb = 0;         // when a tenth was done: everything was touched once by then
-  std::int64_t resident_end_kb = 0;
-  std::uint64_t unbalanced = 0;  // looks at the counters that did not add up
-  std::uint64_t looks = 0;
-  std::uint64_t states[4] = {};  // of the newest yaw, by look
-  std::uint64_t bytes = 0;       // the block
-
-  bool accounts_balance() const;
 };
 
 // Throws std::runtime_error.
