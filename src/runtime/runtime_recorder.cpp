@@ -6,6 +6,14 @@
 #include "runtime.hpp"
 
 namespace pose_wall::runtime {
+namespace {
+
+// Starts of one runtime follow each other, so none has the number of the one before. Never 0: that means unknown.
+std::uint16_t number_of_run(std::uint32_t seed, std::uint64_t start) {
+  return static_cast<std::uint16_t>(1 + (seed + start) % 0xFFFFU);
+}
+
+}  // namespace
 
 void* Runtime::run_recorder(void* runtime) {
   static_cast<Runtime*>(runtime)->record();
@@ -14,7 +22,8 @@ void* Runtime::run_recorder(void* runtime) {
 
 // At a stop it goes on until nothing waits: what was worked last is what an incident is about.
 void Runtime::record() {
-  bool begun = box_.begin(config_);
+  const std::uint16_t run = number_of_run(run_seed_, epoch_);
+  bool begun = box_.begin(config_, run);
   Locked locked(&lock_);
   if (!begun) ++counters_.box_failed;
   while (!to_record_.empty() || !recorder_may_end_) {
@@ -29,7 +38,7 @@ void Runtime::record() {
       Unlocked unlocked(&lock_);
       const std::int64_t begin_ns = now();
       // A disk that was not there at the start may be by now.
-      begun = begun || box_.begin(config_);
+      begun = begun || box_.begin(config_, run);
       written = begun && box_.write(*slot);
       if (written) times_.sink.add(now() - begin_ns);
     }
