@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -173,8 +174,9 @@ TEST_F(ReplayBox, CutOffInTheMiddleTheRestStands) {
 }
 
 TEST_F(ReplayBox, DigestsAndOtherFilesAreNoReplay) {
-  record(path_, false);
-  const Ran digests = replay(path_);
+  const std::string other = folder_.file("digests.pwbox");
+  record(other, false);
+  const Ran digests = replay(other);
   EXPECT_EQ(digests.exit_status, 1) << digests.printed;
   EXPECT_TRUE(contains(digests.printed, "only as digests")) << digests.printed;
   write_all(path_, std::vector<char>(5000, 'x'));
@@ -182,6 +184,15 @@ TEST_F(ReplayBox, DigestsAndOtherFilesAreNoReplay) {
   write_all(path_, {});
   EXPECT_EQ(replay(path_).exit_status, 1);
   EXPECT_EQ(replay(path_ + ".none").exit_status, 1);
+}
+
+TEST_F(ReplayBox, AFileThatHoldsABoxIsNotWrittenOver) {
+  const std::vector<char> before = read_all(path_);
+  EXPECT_THROW(FileSink sink(path_), std::runtime_error);
+  EXPECT_EQ(read_all(path_), before);
+  const std::string empty = folder_.file("empty.pwbox");
+  write_all(empty, {});
+  EXPECT_NO_THROW(FileSink sink(empty));
 }
 
 }  // namespace
