@@ -16,6 +16,8 @@
  *      32  u32      pose_wall_memento_bytes()       36  u32  POSE_WALL_ABI_VERSION
  *      40  24 bytes pose_wall_version(), zeros behind
  *      64           the config, as in memory; zeros behind
+ *    4084  u32      number of the run: the start that wrote this header. 0: written before there was one
+ *    4088  u32      pose_wall_config_crc() of the config; 0 likewise
  *    4092  u32      CRC-32 of bytes 0 to 4091
  *
  * From byte 4096 on records follow each other. One that does not fit before the end of the ring begins at 4096 again
@@ -26,16 +28,27 @@
  *      24  i64  received_ns, see                             recorded or was lost
  *               pose_wall_publication               32  i64  stamp of the frame, or that was asked for
  *      40  u64  bytes of the cloud in the record    48  u32  thinning
- *      52  u32  CRC-32 of everything behind byte 64 56  u32  0
- *      60  u32  CRC-32 of bytes 0 to 59
+ *      52  u32  CRC-32 of everything behind byte 64 56  u16  number of the run, as in its header
+ *      58  u16  lap of the ring: 0 in the run's      60  u32  CRC-32 of bytes 0 to 59
+ *               first, then 1 to 65535, 1 ...
  *      64       cloud's description, 64 bytes:       0  u64  digest of the cloud's bytes (FNV-1a, 64 bits)
  *               8 u32 points    12 u32 bytes of a point    16 u32 big_endian    20 u32 left out: not finite
- *              24 u32 left out: zero                28  u32 0   32  x, y, z, intensity: u32 offset, u32 type each
+ *              24 u32 left out: zero                28  u32 CRC-32 of the config, as in its header
+ *              32  x, y, z, intensity: u32 offset, u32 type each
  *     128       memento before the event, zeros up to the next multiple of 64
  *               result as published, zeros up to the next multiple of 64
  *               the cloud's points, zeros up to the end of the record
  *
- * The head is written last, so a record that was cut off by a crash has none, or an old one whose CRC no longer holds.
+ * The head is written last, so a record that was cut off by a crash has none, or an old one whose body's CRC (at 52) no
+ * longer holds. A loss of power is another matter: what the sink did not bring onto the disk by then is lost, in parts
+ * of any place and order.
+ *
+ * The header is there once, and the config with it: whoever loses a byte of it cannot compute the box. The results as
+ * published can then still be read, record by record. Every start writes its header over the last one's; records of
+ * earlier runs remain behind the new ones until they are overwritten, and tell themselves apart by run and config. A
+ * lap's number tells the newest records and the lap before, which follow on each other without a gap, from older
+ * ones that a longer lap left behind the point where the later ones ended.
+ *
  * CRC-32 is that of zlib and Ethernet (reflected 0xEDB88320). It finds accidents; it is no signature.
  */
 
@@ -58,12 +71,24 @@ enum pose_wall_box_status {
   POSE_WALL_BOX_E_FORMAT = -80,  /* no black box, or its header is damaged */
   POSE_WALL_BOX_E_VERSION = -81, /* of a build whose structs differ from this one's */
   POSE_WALL_BOX_E_END = -82,     /* no further record */
-  POSE_WALL_BOX_E_EMPTY = -83    /* the record holds a digest only: nothing to compute */
+  POSE_WALL_BOX_E_EMPTY = -83,   /* the record holds a digest only: nothing to compute */
+  POSE_WALL_BOX_E_RUN = -84,     /* the record is POSE_WALL_BOX_OTHER_RUN */
+  POSE_WALL_BOX_E_KIND = -85     /* the record is of no pose_wall_box_kind */
 };
 
 enum pose_wall_box_kind {
   POSE_WALL_BOX_FRAME = 1,  /* pose_wall_process */
   POSE_WALL_BOX_SILENCE = 2 /* pose_wall_age */
+};
+
+/* Of pose_wall_box_record.damaged: anything but 0 is nothing to compute. */
+enum pose_wall_box_damage {
+  POSE_WALL_BOX_WHOLE = 0,
+  POSE_WALL_BOX_DAMAGED = 1,    /* head whole, but the rest is not what was written or is cut off: of the members only
+                                   those from the head hold: sequence, received_ns, stamp_ns, kind, thinning */
+  POSE_WALL_BOX_OVERLAPPED = 2, /* as DAMAGED, and heads of further records lie within its bytes: see box_next */
+  POSE_WALL_BOX_OTHER_RUN = 3   /* whole, every member holds, but it is of another run or config than the header: its
+                                   sequence counts that run's events, and the box's config is not its own */
 };
 
 typedef struct pose_wall_box_info {
@@ -88,7 +113,7 @@ typedef struct pose_wall_box_record {
   const void* points; /* NULL: the digest only */
   pose_wall_field x, y, z, intensity;
   uint32_t kind;    /* pose_wall_box_kind */
-  uint32_t damaged; /* 1: head whole, but the rest is not what was written or is cut off: only the sequence holds */
+  uint32_t damaged; /* pose_wall_box_damage */
   uint32_t thinning;
   uint32_t point_count;
   uint32_t point_bytes;
@@ -98,14 +123,17 @@ typedef struct pose_wall_box_record {
 } pose_wall_box_record;
 
 /* The next record at or behind *offset (begin with POSE_WALL_BOX_HEADER_BYTES), in the order of the file, which is not
- * that of the sequence once the ring has come round. Moves *offset behind it. Whatever the bytes are, it reads none
- * outside of them and ends after one pass. At the end POSE_WALL_BOX_E_END, with passed_over set. Fails else iff: NULL.
- */
+ * that of the sequence once the ring has come round. Moves *offset behind it, also behind a damaged one where its head
+ * says that it ends (a cut off one: behind its head). Whatever the bytes are, it reads none outside of them, and all
+ * calls together take time in proportion to their count. Further records may lie within the bytes of one that is
+ * OVERLAPPED, when the disk lost parts of what was written, or somebody forged it: they are found from
+ * record->offset + 64 on, at the price of reading these bytes again, which forged ones can make the caller do for every
+ * 64 bytes. At the end POSE_WALL_BOX_E_END, with passed_over set. Fails else iff: NULL. */
 int32_t pose_wall_box_next(const void* bytes, uint64_t count, uint64_t* offset, pose_wall_box_record* record);
 
 /* Computes a record again, on an engine that was opened with the box's config: loads the memento, does what was done,
  * and gives the result as the runtime published it (stage_ns apart: there is no clock). Set result->struct_size first.
- * Fails as pose_wall_load and pose_wall_process, iff NULL, or with POSE_WALL_BOX_E_EMPTY. */
+ * Fails as pose_wall_load and pose_wall_process, iff NULL, or with POSE_WALL_BOX_E_EMPTY, _RUN or _KIND. */
 int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine, pose_wall_result* result);
 
 #ifdef __cplusplus

@@ -113,8 +113,8 @@ typedef void (*pose_wall_runtime_callback)(void* user, const pose_wall_publicati
 /* Where the black box is written: `count` bytes at `offset` of a file of at most box_bytes. 0: written. Anything else:
  * not written, the record counts as failed and the next one is tried. It may be as slow as a disk is: only the
  * recorder's thread waits for it; but stop waits for that thread, so a sink that may hang needs a time limit of its
- * own. Of a silence that goes on, the first is recorded, then whenever a state or a reason changes, and one a minute.
- * Format and reader: pose_wall_box.h. */
+ * own. What it does not sync, a loss of power takes. Of a silence that goes on, the first is recorded, then whenever a
+ * state or a reason changes, and one a minute. Format and reader: pose_wall_box.h. */
 typedef int32_t (*pose_wall_runtime_sink)(void* user, uint64_t offset, const void* bytes, uint64_t count);
 
 /* ---------------------------------------------------------------------------------------------- options */
@@ -172,9 +172,10 @@ int32_t pose_wall_runtime_open(const pose_wall_config* config, const pose_wall_r
                                uint64_t block_bytes, pose_wall_runtime** runtime);
 
 /* Starts the threads, with an engine that remembers nothing and a black box from its beginning (what the sink wrote
- * before is overwritten: give each start a file of its own). Counters go on. Returns when the worker runs. Fails iff:
- * not open, not stopped, called back, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_E_ENGINE (the block was changed by others,
- * the config in it too: open it anew); then it is stopped. */
+ * before is overwritten, its header at once: give each start a file of its own, or a restart after an incident takes
+ * the incident's). Counters go on. Returns when the worker runs. Fails iff: not open, not stopped, called back,
+ * POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_E_ENGINE (the block was changed by others, the config in it too: open it anew);
+ * then it is stopped. */
 int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
 
 /* Waits until every frame is worked, every tick looked at and every record written, or the runtime stops

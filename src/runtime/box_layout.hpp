@@ -19,18 +19,19 @@ constexpr char kBoxMagic[8] = {'P', 'W', 'A', 'L', 'L', 'B', 'O', 'X'};
 
 // The header.
 constexpr std::uint32_t kAtVersion = 8, kAtHeaderBytes = 12, kAtBoxBytes = 16, kAtConfigBytes = 24, kAtResultBytes = 28,
-                        kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtHeaderCrc = 4092,
-                        kLibraryBytes = 24;
-static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtHeaderCrc, "the config fits the header");
+                        kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtHeaderRun = 4084,
+                        kAtHeaderConfigCrc = 4088, kAtHeaderCrc = 4092, kLibraryBytes = 24;
+static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtHeaderRun, "the config fits the header");
 
 // The head of a record.
 constexpr std::uint32_t kAtSync = 0, kAtKind = 4, kAtRecordBytes = 8, kAtSequence = 16, kAtReceived = 24, kAtStamp = 32,
-                        kAtCloudBytes = 40, kAtThinning = 48, kAtBodyCrc = 52, kAtHeadZero = 56, kAtHeadCrc = 60;
+                        kAtCloudBytes = 40, kAtThinning = 48, kAtBodyCrc = 52, kAtRun = 56, kAtLap = 58,
+                        kAtHeadCrc = 60;
 constexpr std::uint64_t kHeadBytes = 64;
 
 // The cloud's description, from the end of the head.
 constexpr std::uint32_t kAtDigest = 0, kAtPoints = 8, kAtPointBytes = 12, kAtBigEndian = 16, kAtNotFinite = 20,
-                        kAtZero = 24, kAtFields = 32;
+                        kAtZero = 24, kAtConfigCrc = 28, kAtFields = 32;
 constexpr std::uint64_t kDescriptionBytes = 64;
 
 constexpr std::uint64_t aligned(std::uint64_t bytes) {

@@ -18,12 +18,17 @@ bool head_is_whole(const unsigned char* head) {
          get<std::uint32_t>(head + kAtHeadCrc) == crc32(head, kAtHeadCrc);
 }
 
-bool body_is_whole(const unsigned char* head, std::uint64_t room) {
+bool sizes_are_plausible(const unsigned char* head, std::uint64_t room) {
   const std::uint64_t bytes = get<std::uint64_t>(head + kAtRecordBytes);
   const std::uint64_t cloud_bytes = get<std::uint64_t>(head + kAtCloudBytes);
   const std::uint64_t fixed = kHeadBytes + body_without_cloud();
   if (bytes > room || bytes < fixed || cloud_bytes > bytes - fixed) return false;
-  if (bytes != fixed + aligned(cloud_bytes)) return false;
+  return bytes == fixed + aligned(cloud_bytes);
+}
+
+bool body_is_whole(const unsigned char* head) {
+  const std::uint64_t bytes = get<std::uint64_t>(head + kAtRecordBytes);
+  const std::uint64_t cloud_bytes = get<std::uint64_t>(head + kAtCloudBytes);
   if (get<std::uint32_t>(head + kAtBodyCrc) != crc32(head + kHeadBytes, bytes - kHeadBytes)) return false;
   const unsigned char* const description = head + kHeadBytes;
   const std::uint64_t points = get<std::uint32_t>(description + kAtPoints);
@@ -53,7 +58,30 @@ void read_body(const unsigned char* head, pose_wall_box_record* record) {
   record->points = with_points ? description + body_without_cloud() : nullptr;
 }
 
-// At `offset` is a whole head. Returns where to go on.
+// The first whole head at or behind `at`; `count` and what is less than a head before it where there is none.
+std::uint64_t find_head(const unsigned char* bytes, std::uint64_t count, std::uint64_t at) {
+  while (at < count && count - at >= kHeadBytes && !head_is_whole(bytes + at)) at += kBoxAlignment;
+  return at;
+}
+
+bool holds_head(const unsigned char* bytes, std::uint64_t count, std::uint64_t from) {
+  const std::uint64_t at = find_head(bytes, count, from);
+  return at < count && count - at >= kHeadBytes;
+}
+
+// A box from before there were runs holds zeros in all of these places. What stands there in a header that is damaged
+// makes its records another run's at worst, and those are not computed.
+bool is_of_another_run(const unsigned char* header, std::uint64_t count, const unsigned char* head) {
+  if (count < kHeaderBytes) return false;
+  const unsigned char* const description = head + kHeadBytes;
+  return get<std::uint32_t>(header + kAtHeaderRun) != get<std::uint16_t>(head + kAtRun) ||
+         get<std::uint32_t>(header + kAtHeaderConfigCrc) != get<std::uint32_t>(description + kAtConfigCrc);
+}
+
+// At `offset` is a whole head. Returns where to go on. Each byte is summed once only, or forged heads that all claim
+// the rest of the file would keep a reader busy for ever: behind a broken body it goes on where the head says that it
+// ends. A head that is whole told the truth when it was written, so there is nothing before that end, unless the disk
+// lost a part of what was written later. That is told, and the caller may look there.
 std::uint64_t read_record(const unsigned char* bytes, std::uint64_t count, std::uint64_t offset,
                           pose_wall_box_record* record) {
   const unsigned char* const head = bytes + offset;
@@ -63,12 +91,17 @@ std::uint64_t read_record(const unsigned char* bytes, std::uint64_t count, std::
   record->received_ns = get<std::int64_t>(head + kAtReceived);
   record->stamp_ns = get<std::int64_t>(head + kAtStamp);
   record->thinning = get<std::uint32_t>(head + kAtThinning);
-  if (!body_is_whole(head, count - offset)) {
-    record->damaged = 1;
-    return offset + kHeadBytes;  // what lies behind may be another record's
+  record->damaged = POSE_WALL_BOX_DAMAGED;
+  if (!sizes_are_plausible(head, count - offset)) return offset + kHeadBytes;  // cut off: nothing was summed
+  const std::uint64_t end = offset + get<std::uint64_t>(head + kAtRecordBytes);
+  if (!body_is_whole(head)) {
+    if (holds_head(bytes, end, offset + kHeadBytes)) record->damaged = POSE_WALL_BOX_OVERLAPPED;
+    return end;
   }
   read_body(head, record);
-  return offset + get<std::uint64_t>(head + kAtRecordBytes);
+  record->damaged = is_of_another_run(bytes, count, head) ? std::uint32_t{POSE_WALL_BOX_OTHER_RUN}
+                                                          : std::uint32_t{POSE_WALL_BOX_WHOLE};
+  return end;
 }
 
 pose_wall_cloud cloud_of(const pose_wall_box_record& record) {
@@ -126,8 +159,7 @@ POSE_WALL_EXPORT int32_t pose_wall_box_next(const void* bytes, uint64_t count, u
   *record = pose_wall_box_record{};
   const uint64_t from = *offset;
   // An offset near 2^64 must not come round.
-  uint64_t at = from < count ? aligned(from) : count;
-  while (at < count && count - at >= kHeadBytes && !head_is_whole(start + at)) at += kBoxAlignment;
+  const uint64_t at = find_head(start, count, from < count ? aligned(from) : count);
   const bool found = at < count && count - at >= kHeadBytes;
   const uint64_t end = found ? at : count;
   record->passed_over = end > from ? end - from : 0;
@@ -138,7 +170,9 @@ POSE_WALL_EXPORT int32_t pose_wall_box_next(const void* bytes, uint64_t count, u
 POSE_WALL_EXPORT int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine,
                                                pose_wall_result* result) {
   if (record == nullptr || engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  if (record->damaged == POSE_WALL_BOX_OTHER_RUN) return POSE_WALL_BOX_E_RUN;
   const bool silence = record->kind == POSE_WALL_BOX_SILENCE;
+  if (!silence && record->kind != POSE_WALL_BOX_FRAME) return POSE_WALL_BOX_E_KIND;
   if (record->memento == nullptr || (record->points == nullptr && !silence)) return POSE_WALL_BOX_E_EMPTY;
   int32_t status = pose_wall_load(engine, record->memento, pose_wall_memento_bytes());
   if (status != POSE_WALL_OK) return status;

@@ -44,7 +44,7 @@ bool BoxWriter::sink(std::uint64_t offset, const void* bytes, std::uint64_t coun
   return true;
 }
 
-bool BoxWriter::begin(const pose_wall_config& config) {
+bool BoxWriter::begin(const pose_wall_config& config, std::uint16_t run) {
   unsigned char* const header = scratch_;
   std::memset(header, 0, kHeaderBytes);
   std::memcpy(header, kBoxMagic, 8);
@@ -60,6 +60,11 @@ bool BoxWriter::begin(const pose_wall_config& config) {
     header[kAtLibrary + i] = static_cast<unsigned char>(version[i]);
   }
   std::memcpy(header + kAtConfig, &config, sizeof(config));
+  pose_wall_config_crc(&config, &config_crc32_);
+  run_ = run;
+  lap_ = 0;
+  put<std::uint32_t>(run_, header + kAtHeaderRun);
+  put<std::uint32_t>(config_crc32_, header + kAtHeaderConfigCrc);
   put<std::uint32_t>(crc32(header, kAtHeaderCrc), header + kAtHeaderCrc);
   at_ = kHeaderBytes;
   begun_ = sink(0, header, kHeaderBytes);
@@ -75,6 +80,7 @@ void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
   put<std::uint32_t>(c.big_endian, body + kAtBigEndian);
   put<std::uint32_t>(slot.left_out_not_finite, body + kAtNotFinite);
   put<std::uint32_t>(slot.left_out_zero, body + kAtZero);
+  put<std::uint32_t>(config_crc32_, body + kAtConfigCrc);
   unsigned char* to = body + kAtFields;
   for (const pose_wall_field& field : {c.x, c.y, c.z, c.intensity}) {
     put<std::uint32_t>(field.offset, to);
@@ -96,7 +102,8 @@ void BoxWriter::fill_head(const FrameSlot& slot, std::uint64_t record_bytes, std
   put<std::uint64_t>(cloud_bytes, head + kAtCloudBytes);
   put<std::uint32_t>(slot.publication.thinning, head + kAtThinning);
   put<std::uint32_t>(body_crc, head + kAtBodyCrc);
-  put<std::uint32_t>(0, head + kAtHeadZero);
+  put<std::uint16_t>(run_, head + kAtRun);
+  put<std::uint16_t>(lap_, head + kAtLap);
   put<std::uint32_t>(crc32(head, kAtHeadCrc), head + kAtHeadCrc);
 }
 
@@ -108,7 +115,10 @@ bool BoxWriter::write(const FrameSlot& slot) {
   const std::uint64_t cloud_bytes = with_clouds_ ? slot.cloud.data_bytes : 0;
   const std::uint64_t padding = aligned(cloud_bytes) - cloud_bytes;
   const std::uint64_t record_bytes = kHeadBytes + body_bytes + cloud_bytes + padding;
-  if (at_ + record_bytes > box_bytes_) at_ = kHeaderBytes;
+  if (at_ + record_bytes > box_bytes_) {
+    at_ = kHeaderBytes;
+    lap_ = static_cast<std::uint16_t>(lap_ == 0xFFFFU ? 1U : lap_ + 1U);  // 0 says that the ring never came round
+  }
   fill_body(slot, body);
   Crc32 crc;
   crc.add(body, body_bytes);

@@ -21,8 +21,9 @@ class BoxWriter {
 
   void open(const pose_wall_runtime_options& options, unsigned char* scratch);
 
-  // The header; the ring begins anew. False: the sink failed.
-  bool begin(const pose_wall_config& config);
+  // The header; the ring begins anew. `run` tells this start's records from those of others; not 0, which is what boxes
+  // from before there was one hold. False: the sink failed.
+  bool begin(const pose_wall_config& config, std::uint16_t run);
 
   // False: the sink failed; the next record takes the same place. Before the first header none is written.
   bool write(const FrameSlot& slot);
@@ -42,6 +43,9 @@ class BoxWriter {
   bool begun_ = false;
   unsigned char* scratch_ = nullptr;
   std::uint64_t at_ = 0;
+  std::uint32_t config_crc32_ = 0;
+  std::uint16_t run_ = 0;
+  std::uint16_t lap_ = 0;
   std::uint64_t bytes_written_ = 0;
 };
 

@@ -110,6 +110,7 @@ class Runtime {
   void* engine_block_ = nullptr;
   std::uint64_t engine_bytes_ = 0;
   BoxWriter box_;
+  std::uint32_t run_seed_ = 0;  // another one in every process that writes into the same file, but for chance
 
   // Under the lock from here.
   mutable Mutex lock_;

@@ -6,6 +6,7 @@
 #include <errno.h>  // NOLINT(modernize-deprecated-headers): POSIX names
 #include <sys/mman.h>
 
+#include "checksums.hpp"
 #include "options.hpp"
 #include "runtime.hpp"
 #include "status.hpp"
@@ -62,6 +63,10 @@ std::int32_t Runtime::open(std::uint64_t block_bytes) {
   const std::int32_t status = open_engine();
   if (status != POSE_WALL_OK) return status;
   pose_wall_config_crc(&config_, &config_crc32_);
+  // Not the caller's clock: it may stand at the same time after every start. The monotonic one begins anew with the
+  // machine, the other may not be set: in nanoseconds the two together hardly come twice.
+  const std::int64_t seed[2] = {monotonic_ns(), wall_clock_ns()};
+  run_seed_ = crc32(seed, sizeof(seed));
   double weight = 0.0;
   pose_wall_config_get_number(&config_, "intensity_weight", &weight);
   with_intensity_ = weight > 0.0;

@@ -35,6 +35,10 @@ POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
       return "no further record";
     case POSE_WALL_BOX_E_EMPTY:
       return "the record holds a digest only: there is nothing to compute";
+    case POSE_WALL_BOX_E_RUN:
+      return "the record is of another run than the box's header, whose config may not be its own";
+    case POSE_WALL_BOX_E_KIND:
+      return "the record is of a kind that this build does not know";
     default:
       return pose_wall_status_text(status);
   }

@@ -7,6 +7,14 @@
 #include "saturated.hpp"
 
 namespace pose_wall::runtime {
+namespace {
+
+// Starts of one runtime follow each other, so none has the number of the one before. Never 0: that means unknown.
+std::uint16_t number_of_run(std::uint32_t seed, std::uint64_t start) {
+  return static_cast<std::uint16_t>(1 + (seed + start) % 0xFFFFU);
+}
+
+}  // namespace
 
 void* Runtime::run_recorder(void* runtime) {
   static_cast<Runtime*>(runtime)->record();
@@ -15,7 +23,8 @@ void* Runtime::run_recorder(void* runtime) {
 
 // At a stop it goes on until nothing waits: what was worked last is what an incident is about.
 void Runtime::record() {
-  bool begun = box_.begin(config_);
+  const std::uint16_t run = number_of_run(run_seed_, epoch_);
+  bool begun = box_.begin(config_, run);
   Locked locked(&lock_);
   if (!begun) ++counters_.box_failed;
   while (!to_record_.empty() || !recorder_may_end_) {
@@ -30,7 +39,7 @@ void Runtime::record() {
       Unlocked unlocked(&lock_);
       const std::int64_t begin_ns = now();
       // A disk that was not there at the start may be by now.
-      begun = begun || box_.begin(config_);
+      begun = begun || box_.begin(config_, run);
       written = begun && box_.write(*slot);
       times_.sink.add(difference(now(), begin_ns));  // a disk that fails may take its time, too
     }

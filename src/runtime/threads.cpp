@@ -10,12 +10,20 @@
 namespace pose_wall::runtime {
 namespace {
 constexpr std::int64_t kSecond_ns = 1000000000;
+
+std::int64_t read_ns(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return static_cast<std::int64_t>(t.tv_sec) * kSecond_ns + t.tv_nsec;
 }
+}  // namespace
 
 std::int64_t monotonic_ns() {
-  timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<std::int64_t>(t.tv_sec) * kSecond_ns + t.tv_nsec;
+  return read_ns(CLOCK_MONOTONIC);
+}
+
+std::int64_t wall_clock_ns() {
+  return read_ns(CLOCK_REALTIME);
 }
 
 void Mutex::open() {

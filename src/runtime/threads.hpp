@@ -13,6 +13,8 @@ namespace pose_wall::runtime {
 
 // Nanoseconds of CLOCK_MONOTONIC.
 std::int64_t monotonic_ns();
+// Nanoseconds of CLOCK_REALTIME.
+std::int64_t wall_clock_ns();
 
 // Whoever holds it inherits the priority of who waits, where the system can do that. Holders only move pointers.
 class Mutex {

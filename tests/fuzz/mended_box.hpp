@@ -43,12 +43,15 @@ inline void mend_memento(unsigned char* memento) {
 }
 
 // From the head on, as far as the record says it reaches, or the file does. Returns whether the record fits.
-inline void mend_record(unsigned char* head, std::uint64_t room, std::uint8_t parts) {
+inline void mend_record(const unsigned char* header, unsigned char* head, std::uint64_t room, std::uint8_t parts) {
   using namespace runtime;
   const std::uint64_t fixed = kHeadBytes + body_without_cloud();
   if ((parts & kMendMementos) != 0 && room >= fixed) mend_memento(head + kHeadBytes + kDescriptionBytes);
   if ((parts & kMendSizes) != 0 && room >= fixed) {
     unsigned char* const description = head + kHeadBytes;
+    // Of the header's run: others are not computed.
+    put<std::uint16_t>(get<std::uint16_t>(header + kAtHeaderRun), head + kAtRun);
+    put<std::uint32_t>(get<std::uint32_t>(header + kAtHeaderConfigCrc), description + kAtConfigCrc);
     const std::uint64_t cloud = get<std::uint64_t>(head + kAtCloudBytes) % (room - fixed + 1) / 64 * 64;
     const std::uint32_t step = get<std::uint32_t>(description + kAtPointBytes) % 48U + 1U;
     const std::uint64_t points = cloud / step;
@@ -73,7 +76,7 @@ inline void mend_box(unsigned char* box, std::uint64_t count, std::uint8_t parts
   if ((parts & kMendSyncs) != 0 && count >= kHeaderBytes + kHeadBytes) put(kRecordSync, box + kHeaderBytes);
   for (std::uint64_t at = kHeaderBytes; count - at >= kHeadBytes;) {
     const bool is_head = get<std::uint32_t>(box + at + kAtSync) == kRecordSync;
-    if (is_head) mend_record(box + at, count - at, parts);
+    if (is_head) mend_record(box, box + at, count - at, parts);
     const std::uint64_t bytes = is_head ? get<std::uint64_t>(box + at + kAtRecordBytes) : 0;
     at += bytes >= kHeadBytes && bytes <= count - at ? aligned(bytes) : kHeadBytes;
     if (at > count) return;

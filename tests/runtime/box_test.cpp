@@ -3,7 +3,8 @@
 
 // Proves: what the black box holds computes to the same bits again, frame by frame, in any order, also after the ring
 // came round; cut off at any byte it still gives all whole records; any flipped bit is found; a slow or broken disk
-// stops nothing but the record, and is counted.
+// stops nothing but the record, and is counted. Records of another run are told apart and not computed; boxes from
+// before there were runs are read as ever; forged heads cost no more than a pass.
 
 #include <gtest/gtest.h>
 
@@ -11,10 +12,12 @@
 #include <atomic>
 #include <cstring>
 #include <map>
+#include <set>
 #include <thread>
 #include <vector>
 
 #include "pose_wall_box.h"
+#include "runtime/box_layout.hpp"
 #include "runtime/checksums.hpp"
 #include "support/engine_under_test.hpp"
 #include "support/runtime_under_test.hpp"
@@ -232,6 +235,168 @@ TEST(Box, DigestsAloneAreSmallAndSaySo) {
   pose_wall_result result{};
   result.struct_size = sizeof result;
   EXPECT_EQ(pose_wall_box_compute(&r, engine.get(), &result), POSE_WALL_BOX_E_EMPTY);
+}
+
+void mend_record(unsigned char* head) {
+  using namespace runtime;
+  const auto bytes = get<std::uint64_t>(head + kAtRecordBytes);
+  put(crc32(head + kHeadBytes, bytes - kHeadBytes), head + kAtBodyCrc);
+  put(crc32(head, kAtHeadCrc), head + kAtHeadCrc);
+}
+
+std::vector<pose_wall_box_record> all_records(const Bytes& bytes) {
+  std::vector<pose_wall_box_record> records;
+  std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+  pose_wall_box_record record;
+  while (pose_wall_box_next(bytes.data(), bytes.size(), &offset, &record) == POSE_WALL_OK) records.push_back(record);
+  return records;
+}
+
+void expect_the_old_ones_apart(const Bytes& bytes, std::size_t of_the_new_run, std::size_t in_all) {
+  const auto records = all_records(bytes);
+  ASSERT_EQ(records.size(), in_all);
+  EngineUnderTest engine(small_config());
+  pose_wall_result result{};
+  result.struct_size = sizeof result;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const bool is_new = i < of_the_new_run;
+    const std::int32_t computed = is_new ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_BOX_E_RUN};
+    EXPECT_EQ(records[i].damaged, is_new ? POSE_WALL_BOX_WHOLE : POSE_WALL_BOX_OTHER_RUN) << i;
+    EXPECT_EQ(pose_wall_box_compute(&records[i], engine.get(), &result), computed) << i;
+    EXPECT_NE(records[i].result, nullptr) << "as it was published";
+  }
+}
+
+TEST(Box, RecordsOfAnEarlierStartAreToldApart) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20));
+  runtime.start();
+  for (int i = 0; i < 5; ++i) {
+    runtime.push(Points(3, {1, 2, 3}), i * 100 * kMs);
+    runtime.wait_idle();
+  }
+  pose_wall_runtime_stop(runtime.get());
+  expect_the_old_ones_apart(disk.bytes, 5, 5);
+  runtime.start();
+  for (int i = 0; i < 2; ++i) {
+    runtime.push(Points(3, {1, 2, 3}), i * 100 * kMs);
+    runtime.wait_idle();
+  }
+  pose_wall_runtime_stop(runtime.get());
+  expect_the_old_ones_apart(disk.bytes, 2, 5);
+}
+
+// The number of the run may come out the same by chance: the config's sum tells them apart as well.
+TEST(Box, RecordsOfAnotherConfigAreToldApart) {
+  using namespace runtime;
+  Disk disk;
+  RuntimeUnderTest first(onto(&disk, 4 << 20));
+  record(&first, 2, true);
+  Bytes bytes = disk.bytes;
+  pose_wall_config other = small_config();
+  ASSERT_EQ(pose_wall_config_set_number(&other, "range_max", 17.0), POSE_WALL_OK);
+  std::uint32_t crc = 0;
+  ASSERT_EQ(pose_wall_config_crc(&other, &crc), POSE_WALL_OK);
+  std::memcpy(bytes.data() + kAtConfig, &other, sizeof other);
+  put(crc, bytes.data() + kAtHeaderConfigCrc);
+  put(crc32(bytes.data(), kAtHeaderCrc), bytes.data() + kAtHeaderCrc);
+  pose_wall_box_info info;
+  ASSERT_EQ(pose_wall_box_open(bytes.data(), bytes.size(), &info), POSE_WALL_OK);
+  expect_the_old_ones_apart(bytes, 0, 2);
+}
+
+TEST(Box, ABoxFromBeforeThereWereRunsIsReadAsEver) {
+  using namespace runtime;
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 64 << 20));
+  const auto published = record(&runtime, 6, false);
+  Bytes bytes = disk.bytes;
+  put<std::uint64_t>(0, bytes.data() + kAtHeaderRun);
+  put(crc32(bytes.data(), kAtHeaderCrc), bytes.data() + kAtHeaderCrc);
+  for (const pose_wall_box_record& record : all_records(disk.bytes)) {
+    unsigned char* const head = bytes.data() + record.offset;
+    put<std::uint32_t>(0, head + kAtRun);
+    put<std::uint32_t>(0, head + kHeadBytes + kAtConfigCrc);
+    mend_record(head);
+  }
+  const Found found = read(bytes);
+  ASSERT_EQ(found.whole.size(), published.size());
+  EngineUnderTest engine(small_config());
+  for (const auto& [sequence, record] : found.whole) expect_computes_to(record, published[sequence], &engine);
+}
+
+TEST(Box, AKindThatNobodyKnowsIsNoFrame) {
+  using namespace runtime;
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20));
+  record(&runtime, 1, true);
+  EngineUnderTest engine(small_config());
+  pose_wall_result result{};
+  result.struct_size = sizeof result;
+  for (const std::uint32_t kind : {0U, 3U, 0x80000001U}) {
+    put(kind, disk.bytes.data() + POSE_WALL_BOX_HEADER_BYTES + kAtKind);
+    mend_record(disk.bytes.data() + POSE_WALL_BOX_HEADER_BYTES);
+    const Found found = read(disk.bytes);
+    ASSERT_EQ(found.whole.size(), 1U);
+    EXPECT_EQ(pose_wall_box_compute(&found.whole.at(0), engine.get(), &result), POSE_WALL_BOX_E_KIND) << kind;
+  }
+}
+
+// A head that claims all bytes from itself to the file's end, with sizes that fit each other.
+void forge_head(Bytes* bytes, std::uint64_t at) {
+  using namespace runtime;
+  unsigned char* const head = bytes->data() + at;
+  put(kRecordSync, head + kAtSync);
+  put<std::uint32_t>(POSE_WALL_BOX_FRAME, head + kAtKind);
+  put<std::uint64_t>(bytes->size() - at, head + kAtRecordBytes);
+  put<std::uint64_t>(bytes->size() - at - kHeadBytes - body_without_cloud(), head + kAtCloudBytes);
+  put(crc32(head, kAtHeadCrc), head + kAtHeadCrc);
+}
+
+// Each forged head makes the reader sum what it claims. That they are passed over at once, not one by one, is what
+// bounds the sums; and it is told.
+TEST(Box, ForgedHeadsAreNotSummedEachToTheEnd) {
+  Bytes bytes(4 << 20);
+  const std::uint64_t last = bytes.size() - runtime::kHeadBytes - runtime::body_without_cloud();
+  for (std::uint64_t at = POSE_WALL_BOX_HEADER_BYTES; at <= last; at += 64) forge_head(&bytes, at);
+  const auto records = all_records(bytes);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].damaged, POSE_WALL_BOX_OVERLAPPED);
+}
+
+// The disk kept an old head and lost the record that was written over it, but not the next ones.
+TEST(Box, WhatADamagedRecordOverlapsIsToldAndCanBeFound) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 4 << 20));
+  record(&runtime, 3, true);
+  const auto good = all_records(disk.bytes);
+  ASSERT_GE(good.size(), 3U);
+  forge_head(&disk.bytes, good[0].offset);
+  std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+  pose_wall_box_record record;
+  ASSERT_EQ(pose_wall_box_next(disk.bytes.data(), disk.bytes.size(), &offset, &record), POSE_WALL_OK);
+  EXPECT_EQ(record.damaged, POSE_WALL_BOX_OVERLAPPED);
+  EXPECT_EQ(offset, disk.bytes.size());
+  offset = record.offset + 64;
+  ASSERT_EQ(pose_wall_box_next(disk.bytes.data(), disk.bytes.size(), &offset, &record), POSE_WALL_OK);
+  EXPECT_EQ(record.offset, good[1].offset);
+  EXPECT_EQ(record.damaged, POSE_WALL_BOX_WHOLE);
+}
+
+TEST(Box, HeadsSayTheLap) {
+  Disk disk;
+  RuntimeUnderTest runtime(onto(&disk, 500000));
+  runtime.start();
+  std::vector<std::uint16_t> laps;
+  for (int i = 0; i < 40; ++i) {
+    runtime.push(Points(8000, {1, 2, 3}), i * 100 * kMs);
+    runtime.wait_idle();
+    laps.push_back(runtime::get<std::uint16_t>(disk.bytes.data() + POSE_WALL_BOX_HEADER_BYTES + runtime::kAtLap));
+  }
+  EXPECT_EQ(laps.front(), 0U);
+  EXPECT_TRUE(std::is_sorted(laps.begin(), laps.end()));
+  EXPECT_EQ(std::set<std::uint16_t>(laps.begin(), laps.end()).size(), laps.back() + 1U) << "none is left out";
+  EXPECT_GT(laps.back(), 5U);
 }
 
 // The reader's own word for it: known answers of both sums.

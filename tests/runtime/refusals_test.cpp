@@ -27,8 +27,9 @@ TEST(RuntimeAbi, Numbers) {
                           POSE_WALL_RUNTIME_E_THREAD,  POSE_WALL_RUNTIME_E_BUSY,   POSE_WALL_RUNTIME_E_LARGE,
                           POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM};
   for (int i = 0; i < 8; ++i) EXPECT_EQ(statuses[i], -100 - i);
-  const int of_box[] = {POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION, POSE_WALL_BOX_E_END, POSE_WALL_BOX_E_EMPTY};
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(of_box[i], -80 - i);
+  const int of_box[] = {POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION, POSE_WALL_BOX_E_END,
+                        POSE_WALL_BOX_E_EMPTY,  POSE_WALL_BOX_E_RUN,     POSE_WALL_BOX_E_KIND};
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(of_box[i], -80 - i);
   const int drops[] = {POSE_WALL_RUNTIME_DROP_DESCRIPTION, POSE_WALL_RUNTIME_DROP_LARGE,
                        POSE_WALL_RUNTIME_DROP_BUSY,        POSE_WALL_RUNTIME_DROP_OVERTAKEN,
                        POSE_WALL_RUNTIME_DROP_STOPPED,     POSE_WALL_RUNTIME_DROP_ENGINE,
@@ -41,8 +42,8 @@ TEST(RuntimeAbi, Numbers) {
 TEST(RuntimeAbi, EveryStatusAndDropHasAText) {
   std::set<std::string> texts;
   for (int status = -100; status >= -107; --status) texts.insert(pose_wall_runtime_status_text(status));
-  for (int status = -80; status >= -83; --status) texts.insert(pose_wall_runtime_status_text(status));
-  EXPECT_EQ(texts.size(), 12U);
+  for (int status = -80; status >= -85; --status) texts.insert(pose_wall_runtime_status_text(status));
+  EXPECT_EQ(texts.size(), 14U);
   EXPECT_STREQ(pose_wall_runtime_status_text(POSE_WALL_E_NULL), pose_wall_status_text(POSE_WALL_E_NULL));
   EXPECT_EQ(texts.count(pose_wall_runtime_status_text(-99)), 0U);
   std::set<std::string> names;

@@ -2,16 +2,19 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: replay-box says of a good box that every bit came out again, names event, field and both values of the first
-// that did not, finds damage and missing events, and its exit status tells these apart. That a box is read whatever its
-// bytes, tests/runtime/box_test.cpp proves.
+// that did not, finds damage and missing events, and its exit status tells these apart, also when the ring came round:
+// what it overwrote is no gap, what is damaged is no remnant. A file that holds a box is not written over. That a box
+// is read whatever its bytes, tests/runtime/box_test.cpp proves.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -29,17 +32,18 @@ namespace {
 using pose_wall::test::AlignedBlock;
 using pose_wall::test::Dirt;
 
-// Five frames and an empty one, as the runtime records them.
-void record(const std::string& path, bool clouds = true) {
+using Clouds = std::vector<pose_wall::test::Points>;
+
+// Each a frame, as the runtime records them.
+void record(const Clouds& frames, pose_wall_runtime_sink to, void* sink, std::uint64_t box_bytes, bool clouds) {
   const pose_wall_config config = pose_wall::test::small_config();
-  FileSink sink(path);
   pose_wall_runtime_options options;
   pose_wall_runtime_options_init(&options);
-  options.cloud_points_max = 30000;
+  options.cloud_points_max = box_bytes > 1 << 20 ? 30000 : 4000;
   options.watchdog_ns = 0;
-  options.sink = FileSink::write;
-  options.sink_user = &sink;
-  options.box_bytes = 64 << 20;
+  options.sink = to;
+  options.sink_user = sink;
+  options.box_bytes = box_bytes;
   options.box_clouds = clouds ? 1 : 0;
   std::uint64_t bytes = 0;
   ASSERT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_OK);
@@ -47,14 +51,25 @@ void record(const std::string& path, bool clouds = true) {
   pose_wall_runtime* runtime = nullptr;
   ASSERT_EQ(pose_wall_runtime_open(&config, &options, block.data(), bytes, &runtime), POSE_WALL_OK);
   ASSERT_EQ(pose_wall_runtime_start(runtime), POSE_WALL_OK);
-  for (std::uint32_t i = 0; i < 6; ++i) {
-    const pose_wall::test::Points points = i == 3 ? pose_wall::test::Points() : pose_wall::test::room_points(i);
-    const pose_wall_cloud cloud = pose_wall::test::cloud_of(points, 100000000 * i);
+  std::int64_t stamp_ns = 0;
+  for (const pose_wall::test::Points& points : frames) {
+    const pose_wall_cloud cloud = pose_wall::test::cloud_of(points, stamp_ns);
+    stamp_ns += 100000000;
     ASSERT_EQ(pose_wall_runtime_push(runtime, &cloud), POSE_WALL_OK);
     ASSERT_EQ(pose_wall_runtime_wait_idle(runtime), POSE_WALL_OK);
   }
   ASSERT_EQ(pose_wall_runtime_stop(runtime), POSE_WALL_OK);
   ASSERT_EQ(pose_wall_runtime_close(runtime), POSE_WALL_OK);
+}
+
+// Five frames and an empty one.
+void record(const std::string& path, bool clouds = true) {
+  Clouds frames;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    frames.push_back(i == 3 ? pose_wall::test::Points() : pose_wall::test::room_points(i));
+  }
+  FileSink sink(path);
+  record(frames, FileSink::write, &sink, 64 << 20, clouds);
 }
 
 std::vector<char> read_all(const std::string& path) {
@@ -173,8 +188,9 @@ TEST_F(ReplayBox, CutOffInTheMiddleTheRestStands) {
 }
 
 TEST_F(ReplayBox, DigestsAndOtherFilesAreNoReplay) {
-  record(path_, false);
-  const Ran digests = replay(path_);
+  const std::string other = folder_.file("digests.pwbox");
+  record(other, false);
+  const Ran digests = replay(other);
   EXPECT_EQ(digests.exit_status, 1) << digests.printed;
   EXPECT_TRUE(contains(digests.printed, "only as digests")) << digests.printed;
   write_all(path_, std::vector<char>(5000, 'x'));
@@ -182,6 +198,211 @@ TEST_F(ReplayBox, DigestsAndOtherFilesAreNoReplay) {
   write_all(path_, {});
   EXPECT_EQ(replay(path_).exit_status, 1);
   EXPECT_EQ(replay(path_ + ".none").exit_status, 1);
+}
+
+TEST_F(ReplayBox, AFileThatHoldsABoxIsNotWrittenOver) {
+  const std::vector<char> before = read_all(path_);
+  EXPECT_THROW(FileSink sink(path_), std::runtime_error);
+  EXPECT_EQ(read_all(path_), before);
+  const std::string empty = folder_.file("empty.pwbox");
+  write_all(empty, {});
+  EXPECT_NO_THROW(FileSink sink(empty));
+}
+
+TEST_F(ReplayBox, AKindThatNobodyKnowsIsRefused) {
+  std::vector<char> bytes = read_all(path_);
+  char* const head = bytes.data() + place_of(2);
+  head[4] = 9;
+  const std::uint32_t crc = crc32(head, 60);
+  std::memcpy(head + 60, &crc, 4);
+  write_all(path_, bytes);
+  const BoxReplay result = replay_box(path_, nullptr);
+  EXPECT_EQ(result.refused, 1U);
+  EXPECT_EQ(result.frames, 5U);
+  EXPECT_EQ(replay(path_).exit_status, 1);
+}
+
+TEST_F(ReplayBox, LostAtTheBeginningIsAGap) {
+  std::vector<char> bytes = read_all(path_);
+  bytes[place_of(0)] ^= 1;
+  write_all(path_, bytes);
+  const BoxReplay result = replay_box(path_, nullptr);
+  EXPECT_EQ(result.missing, 1U);
+  EXPECT_GT(result.torn, 0U);
+  EXPECT_EQ(replay(path_).exit_status, 1);
+}
+
+// A file in memory that does not forget what was there before.
+struct Ring {
+  std::vector<char> bytes;
+  static std::int32_t write(void* self, std::uint64_t offset, const void* from, std::uint64_t count) {
+    std::vector<char>& bytes = static_cast<Ring*>(self)->bytes;
+    if (bytes.size() < offset + count) bytes.resize(offset + count);
+    std::memcpy(bytes.data() + offset, from, count);
+    return 0;
+  }
+};
+
+constexpr std::uint64_t kRing = 100000;
+
+// Some large, most small: laps end far apart from each other.
+Clouds uneven(std::uint32_t seed, std::uint32_t frames) {
+  Clouds clouds;
+  for (std::uint32_t i = 0; i < frames; ++i) {
+    seed = seed * 1664525U + 1013904223U;
+    const std::uint32_t points = (seed >> 24U) % 4U == 0 ? (seed >> 8U) % 4000U : (seed >> 8U) % 40U;
+    clouds.emplace_back(points, pose_wall::test::Points::value_type{1, 2, 3});
+  }
+  return clouds;
+}
+
+class ReplayRing : public ::testing::Test {
+ protected:
+  BoxReplay replayed(const std::vector<char>& bytes) {
+    write_all(path_, bytes);
+    return replay_box(path_, nullptr);
+  }
+  TempFolder folder_;
+  const std::string path_ = folder_.file("ring.pwbox");
+};
+
+TEST_F(ReplayRing, ASoundOneHasNoGapWhateverTheSizes) {
+  std::uint64_t rounds = 0, left_over = 0;
+  for (std::uint32_t seed = 0; seed < 24; ++seed) {
+    Ring ring;
+    const std::uint32_t frames = 10 + 5 * seed;
+    record(uneven(seed, frames), Ring::write, &ring, kRing, true);
+    const BoxReplay result = replayed(ring.bytes);
+    EXPECT_TRUE(result.is_whole() && result.reproduced()) << seed;
+    EXPECT_EQ(result.missing, 0U) << seed;
+    EXPECT_EQ(result.torn, 0U) << seed;
+    EXPECT_EQ(result.damaged, 0U) << seed;
+    EXPECT_EQ(result.last_sequence, frames - 1) << seed;
+    EXPECT_EQ(result.last_sequence - result.first_sequence + 1 + result.left_over, result.records) << seed;
+    EXPECT_EQ(command({"replay-box", "--quiet", path_}).exit_status, 0) << seed;
+    rounds += result.first_sequence > 0 ? 1 : 0;
+    left_over += result.left_over;
+  }
+  EXPECT_GT(rounds, 10U);
+  EXPECT_GT(left_over, 0U) << "else nothing was proved about remnants";
+}
+
+// In every record that follows on another one: a bit of the head, of the body, and both sectors gone.
+TEST_F(ReplayRing, DamageInTheMiddleIsNoRemnant) {
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    Ring ring;
+    record(uneven(seed, 60), Ring::write, &ring, kRing, true);
+    const BoxReplay sound = replayed(ring.bytes);
+    ASSERT_GT(sound.first_sequence, 0U) << "it came round";
+    std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+    pose_wall_box_record r;
+    while (pose_wall_box_next(ring.bytes.data(), ring.bytes.size(), &offset, &r) == POSE_WALL_OK) {
+      if (r.sequence <= sound.first_sequence) continue;
+      for (const std::uint64_t at : {r.offset + 20, r.offset + 1000}) {
+        std::vector<char> bad = ring.bytes;
+        bad[at] ^= 16;
+        const bool is_last = r.sequence == sound.last_sequence;
+        const bool is_head = at < r.offset + 64;
+        // Of a last one without a head nothing is left that tells it from what the ring had still to overwrite.
+        EXPECT_EQ(replayed(bad).is_whole(), is_last && is_head) << "seed " << seed << ", event " << r.sequence;
+      }
+    }
+  }
+}
+
+// Without laps in the heads, nor a run: what is missing where the laps meet cannot be told from a lap that was
+// overwritten; within a lap it can.
+std::vector<char> without_runs(const std::vector<char>& box) {
+  std::vector<char> bytes = box;
+  std::memset(bytes.data() + 4084, 0, 8);
+  std::uint32_t crc = crc32(bytes.data(), 4092);
+  std::memcpy(bytes.data() + 4092, &crc, 4);
+  std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+  pose_wall_box_record r;
+  while (pose_wall_box_next(box.data(), box.size(), &offset, &r) == POSE_WALL_OK) {
+    char* const head = bytes.data() + r.offset;
+    std::memset(head + 64 + 28, 0, 4);
+    crc = crc32(head + 64, offset - r.offset - 64);
+    std::memcpy(head + 52, &crc, 4);
+    std::memset(head + 56, 0, 4);
+    crc = crc32(head, 60);
+    std::memcpy(head + 60, &crc, 4);
+  }
+  return bytes;
+}
+
+TEST_F(ReplayRing, ABoxFromBeforeThereWereRuns) {
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    Ring ring;
+    record(uneven(seed, 60), Ring::write, &ring, kRing, true);
+    std::vector<char> old = without_runs(ring.bytes);
+    const BoxReplay result = replayed(old);
+    EXPECT_TRUE(result.is_whole() && result.reproduced()) << seed;
+    EXPECT_EQ(result.last_sequence, 59U);
+    std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+    pose_wall_box_record r;
+    ASSERT_EQ(pose_wall_box_next(old.data(), old.size(), &offset, &r), POSE_WALL_OK);
+    ASSERT_EQ(pose_wall_box_next(old.data(), old.size(), &offset, &r), POSE_WALL_OK);
+    old[r.offset + 1000] ^= 16;
+    EXPECT_FALSE(replayed(old).is_whole()) << seed;
+  }
+}
+
+// A start into the file of another one: the old records count the events of their own run.
+TEST_F(ReplayRing, RecordsOfAnEarlierRunAreNotComputed) {
+  Ring ring;
+  record(uneven(1, 20), Ring::write, &ring, kRing, true);
+  const std::uint64_t before = replayed(ring.bytes).records;
+  record(uneven(2, 4), Ring::write, &ring, kRing, true);
+  const BoxReplay result = replayed(ring.bytes);
+  EXPECT_EQ(result.records, 4U);
+  EXPECT_EQ(result.last_sequence, 3U);
+  EXPECT_EQ(result.missing, 0U);
+  EXPECT_GT(result.of_other_runs, 0U);
+  EXPECT_LT(result.of_other_runs, before);
+  const Ran ran = command({"replay-box", "--quiet", path_});
+  EXPECT_EQ(ran.exit_status, 0) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "4 events (0 to 3)")) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "of another run: not computed")) << ran.printed;
+}
+
+// Two runs of a box without runs: the same events twice, which no count may come round of.
+TEST_F(ReplayRing, TheSameEventsTwiceAreNotLessThanNone) {
+  const pose_wall::test::Points large(1000, {1, 2, 3}), small(1, {1, 2, 3});
+  Ring first, second;
+  record(Clouds(5, large), Ring::write, &first, kRing, true);
+  record(Clouds(5, small), Ring::write, &second, kRing, true);
+  std::vector<char> both = without_runs(first.bytes);
+  const std::vector<char> newer = without_runs(second.bytes);
+  std::copy(newer.begin(), newer.end(), both.begin());
+  const BoxReplay result = replayed(both);
+  EXPECT_GT(result.records, 5U) << "some of them twice";
+  EXPECT_EQ(result.missing, 0U);
+  EXPECT_EQ(result.left_over, result.records - 5);
+  EXPECT_EQ(result.last_sequence, 4U);
+}
+
+// Heads that all claim the rest of the file: the search within them is given up, and that is told.
+TEST_F(ReplayRing, ForgedHeadsDoNotHoldItUp) {
+  Ring ring;
+  record(uneven(1, 2), Ring::write, &ring, kRing, true);
+  std::vector<char> bytes = ring.bytes;
+  const std::uint64_t from = bytes.size(), fixed = 64 + 64 + (pose_wall_memento_bytes() + 63) / 64 * 64 +
+                                                   (sizeof(pose_wall_result) + 63) / 64 * 64;
+  bytes.resize(from + (4 << 20));
+  for (std::uint64_t at = from; at + fixed <= bytes.size(); at += 64) {
+    std::memcpy(bytes.data() + at, ring.bytes.data() + POSE_WALL_BOX_HEADER_BYTES, 64);
+    const std::uint64_t all = bytes.size() - at, cloud = all - fixed;
+    std::memcpy(bytes.data() + at + 8, &all, 8);
+    std::memcpy(bytes.data() + at + 40, &cloud, 8);
+    const std::uint32_t crc = crc32(bytes.data() + at, 60);
+    std::memcpy(bytes.data() + at + 60, &crc, 4);
+  }
+  const BoxReplay result = replayed(bytes);
+  EXPECT_EQ(result.equal, 2U);
+  EXPECT_LE(result.damaged, 2U) << "not one by one";
+  EXPECT_GT(result.not_searched, 0U);
+  EXPECT_FALSE(result.is_whole());
 }
 
 }  // namespace

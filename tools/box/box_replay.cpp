@@ -16,22 +16,129 @@
 namespace pose_wall::tools {
 namespace {
 
-std::vector<pose_wall_box_record> read_records(const MappedFile& file, BoxReplay* replay) {
-  std::vector<pose_wall_box_record> records;
+// Where these stand: pose_wall_box.h.
+constexpr std::uint64_t kAtHeaderRun = 4084, kAtRun = 56, kAtLap = 58, kHeadBytes = 64;
+
+struct Event {
+  pose_wall_box_record record;
+  std::uint64_t end;
+  std::uint16_t lap;
+};
+using Events = std::vector<Event>;
+
+struct DamagedRecord {
+  std::uint16_t run, lap;
+};
+
+struct Found {
+  std::uint32_t run = 0;  // the header's; 0: written before there were runs, nor laps
+  Events events;          // the whole ones of that run, in the order of the file
+  std::vector<DamagedRecord> damaged;
+};
+
+template <typename T>
+T number_at(const MappedFile& file, std::uint64_t offset) {
+  T number;
+  std::memcpy(&number, static_cast<const unsigned char*>(file.data()) + offset, sizeof number);
+  return number;
+}
+
+Found read_records(const MappedFile& file, BoxReplay* replay) {
+  Found found;
+  found.run = number_at<std::uint32_t>(file, kAtHeaderRun);
   std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+  // Once more as much as the file holds: enough for what a crash leaves behind, and forged heads do not hold it up.
+  std::uint64_t to_read_again = file.size();
   pose_wall_box_record record;
   while (pose_wall_box_next(file.data(), file.size(), &offset, &record) == POSE_WALL_OK) {
-    replay->passed_over += record.passed_over;
-    if (record.damaged != 0) {
-      ++replay->damaged;
+    const auto run = number_at<std::uint16_t>(file, record.offset + kAtRun);
+    const auto lap = number_at<std::uint16_t>(file, record.offset + kAtLap);
+    const std::uint64_t bytes = offset - record.offset;
+    if (record.damaged == POSE_WALL_BOX_WHOLE) {
+      found.events.push_back({record, offset, lap});
+    } else if (record.damaged == POSE_WALL_BOX_OTHER_RUN) {
+      ++replay->of_other_runs;
     } else {
-      records.push_back(record);
+      found.damaged.push_back({run, lap});
+    }
+    if (record.damaged != POSE_WALL_BOX_OVERLAPPED) continue;
+    if (bytes > to_read_again) {
+      replay->not_searched += bytes;
+    } else {
+      to_read_again -= bytes;
+      offset = record.offset + kHeadBytes;
     }
   }
-  replay->passed_over += record.passed_over;
-  std::stable_sort(records.begin(), records.end(),
-                   [](const auto& a, const auto& b) { return a.sequence < b.sequence; });
-  return records;
+  return found;
+}
+
+bool follows(std::uint16_t lap, std::uint16_t next) {
+  return next == lap + 1 || (lap == 0xFFFFU && next == 1);
+}
+
+// From `begin` on, those that were written one behind the other.
+std::size_t end_of_stretch(const Events& events, std::size_t begin) {
+  std::size_t end = begin + 1;
+  while (end < events.size() && events[end].lap == events[begin].lap &&
+         events[end].record.sequence > events[end - 1].record.sequence) {
+    ++end;
+  }
+  return end;
+}
+
+// What the ring holds without an overwritten lap in between: the newest lap, which stands at the beginning of the file,
+// and behind it what remains of the lap before. Whatever follows them is left over from older laps that were longer.
+struct Stretches {
+  std::size_t newest_end = 0;  // in Found::events
+  std::size_t before_end = 0;  // newest_end: nothing of the lap before
+};
+
+Stretches stretches_of(const Found& found) {
+  Stretches s;
+  if (found.events.empty()) return s;
+  s.newest_end = s.before_end = end_of_stretch(found.events, 0);
+  if (s.newest_end == found.events.size()) return s;
+  const Event& first = found.events.front();
+  const std::size_t end = end_of_stretch(found.events, s.newest_end);
+  const Event& last = found.events[end - 1];
+  // A box without laps does not tell events that are missing there from a lap that was overwritten.
+  const bool is_lap_before = found.run != 0
+                                 ? follows(last.lap, first.lap) && last.record.sequence < first.record.sequence
+                                 : last.record.sequence + 1 == first.record.sequence;
+  if (is_lap_before) s.before_end = end;
+  return s;
+}
+
+std::uint64_t torn_bytes(const Events& events, std::size_t begin, std::size_t end) {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = begin + 1; i < end; ++i) bytes += events[i].record.offset - events[i - 1].end;
+  return bytes;
+}
+
+void look_for_gaps(const Found& found, std::uint64_t file_bytes, BoxReplay* replay) {
+  const Events& events = found.events;
+  const Stretches s = stretches_of(found);
+  const std::uint16_t newest_lap = events.empty() ? 0 : events.front().lap;
+  for (const DamagedRecord& record : found.damaged) {
+    const bool counts = found.run == 0 || events.empty() ||
+                        (record.run == found.run && (record.lap == newest_lap || follows(record.lap, newest_lap)));
+    ++(counts ? replay->damaged : replay->damaged_of_old);
+  }
+  replay->left_over = events.size() - s.before_end;
+  if (events.empty()) return;
+  const std::size_t first = s.before_end > s.newest_end ? s.newest_end : 0;
+  replay->first_sequence = events[first].record.sequence;
+  replay->last_sequence = events[s.newest_end - 1].record.sequence;
+  // In this order: they rise, so nothing comes round.
+  replay->missing = replay->last_sequence - replay->first_sequence - (s.before_end - 1);
+  replay->torn = events.front().record.offset - POSE_WALL_BOX_HEADER_BYTES + torn_bytes(events, 0, s.newest_end) +
+                 torn_bytes(events, s.newest_end, s.before_end);
+  const bool came_round = found.run != 0 ? newest_lap != 0 : replay->first_sequence > 0;
+  if (came_round) return;
+  replay->missing += replay->first_sequence;
+  // Behind the last record there is nothing, unless it is what was there before.
+  const bool is_alone = replay->left_over + replay->of_other_runs + replay->damaged_of_old == 0;
+  if (is_alone) replay->torn += file_bytes - events[s.before_end - 1].end;
 }
 
 void compute(const pose_wall_box_record& record, pose_wall_engine* engine, BoxReplay* replay) {
@@ -50,15 +157,12 @@ void compute(const pose_wall_box_record& record, pose_wall_engine* engine, BoxRe
   }
 }
 
-void count(const std::vector<pose_wall_box_record>& records, BoxReplay* replay) {
-  replay->records = records.size();
-  if (records.empty()) return;
-  replay->first_sequence = records.front().sequence;
-  replay->last_sequence = records.back().sequence;
-  replay->missing = replay->last_sequence - replay->first_sequence + 1 - records.size();
-  for (const pose_wall_box_record& record : records) {
-    ++(record.kind == POSE_WALL_BOX_SILENCE ? replay->silences : replay->frames);
-    replay->thinned += record.thinning > 1 ? 1 : 0;
+void count(const Events& events, BoxReplay* replay) {
+  replay->records = events.size();
+  for (const Event& event : events) {
+    replay->frames += event.record.kind == POSE_WALL_BOX_FRAME ? 1 : 0;
+    replay->silences += event.record.kind == POSE_WALL_BOX_SILENCE ? 1 : 0;
+    replay->thinned += event.record.thinning > 1 ? 1 : 0;
   }
 }
 
@@ -83,11 +187,14 @@ BoxReplay replay_box(const std::string& path, const ReplayProgress& progress) {
 
   BoxReplay replay;
   replay.version = info.version;
-  const std::vector<pose_wall_box_record> records = read_records(file, &replay);
-  count(records, &replay);
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    compute(records[i], engine, &replay);
-    if (progress) progress(i + 1, records.size());
+  Found found = read_records(file, &replay);
+  look_for_gaps(found, file.size(), &replay);
+  count(found.events, &replay);
+  std::stable_sort(found.events.begin(), found.events.end(),
+                   [](const Event& a, const Event& b) { return a.record.sequence < b.record.sequence; });
+  for (std::size_t i = 0; i < found.events.size(); ++i) {
+    compute(found.events[i].record, engine, &replay);
+    if (progress) progress(i + 1, found.events.size());
   }
   return replay;
 }

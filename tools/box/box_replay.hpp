@@ -22,20 +22,24 @@ struct BoxDifference {
 };
 
 struct BoxReplay {
-  std::string version;  // of the library that recorded
-  std::uint64_t records = 0;
-  std::uint64_t first_sequence = 0, last_sequence = 0;
+  std::string version;          // of the library that recorded
+  std::uint64_t records = 0;    // whole ones of the run of the header; all of them are computed
+  std::uint64_t left_over = 0;  // of them: from laps of the ring that newer ones have overwritten but for these
+  std::uint64_t first_sequence = 0, last_sequence = 0;  // of the others
   std::uint64_t frames = 0, silences = 0, thinned = 0;
   std::uint64_t equal = 0, different = 0;
   std::uint64_t digests_only = 0;
-  std::uint64_t refused = 0;  // the memento or the cloud: a record that no engine of this build wrote
+  std::uint64_t refused = 0;  // the kind, the memento or the cloud: a record that no engine of this build wrote
   std::uint64_t damaged = 0;
-  std::uint64_t missing = 0;      // between the first and the last
-  std::uint64_t passed_over = 0;  // bytes that are no record
+  std::uint64_t missing = 0;  // between the first and the last; of a ring that never came round, also before the first
+  std::uint64_t torn = 0;     // bytes that are no record between two that were written one behind the other
+  std::uint64_t not_searched = 0;    // bytes of damaged records with heads of others within them: too many to follow
+  std::uint64_t of_other_runs = 0;   // of earlier starts: not computed, their config may have been another
+  std::uint64_t damaged_of_old = 0;  // of other runs, or left over
   std::optional<BoxDifference> first;
 
-  // A box from its beginning has no bytes that are no record; in a ring that came round there are some.
-  bool is_whole() const { return damaged == 0 && (passed_over == 0 || first_sequence > 0) && refused == 0; }
+  // What is older than the newest events without a gap does not count: a ring overwrites it in parts.
+  bool is_whole() const { return damaged == 0 && missing == 0 && torn == 0 && not_searched == 0 && refused == 0; }
   bool reproduced() const { return different == 0 && digests_only == 0 && equal > 0; }
 };
 

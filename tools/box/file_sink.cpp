@@ -4,6 +4,7 @@
 #include "box/file_sink.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,8 +14,12 @@
 namespace pose_wall::tools {
 
 FileSink::FileSink(const std::string& path)
-    : file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH)) {
+    : file_(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH)) {
   if (file_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
+  struct stat about {};
+  if (fstat(file_, &about) == 0 && about.st_size == 0) return;
+  close(file_);
+  throw std::runtime_error(path + ": is there already and may be an incident's: move it away, or name another file");
 }
 
 FileSink::~FileSink() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The black box's sink as a file.
+// The black box's sink as a file. Nothing is synced: a process that dies loses the record it was writing, a loss of
+// power what the system had not written by then, on Linux as it is set by default the last half minute, in parts.
 
 #pragma once
 
@@ -12,7 +13,8 @@ namespace pose_wall::tools {
 
 class FileSink {
  public:
-  // Made anew. Throws std::runtime_error that names the file.
+  // Throws std::runtime_error that names the file; also when it holds something: who starts again after an incident
+  // would erase what the box is for.
   explicit FileSink(const std::string& path);
   ~FileSink();
   FileSink(const FileSink&) = delete;

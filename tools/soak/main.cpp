@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
   app.add_option("-p,--points", options.points, "At most so many points of a frame, evenly taken; 0: all");
   app.add_option("--thinning", plan.thinning_max, "The runtime may thin up to this")->capture_default_str();
   app.add_option("--load", plan.load, "Threads that only burn time beside it")->capture_default_str();
-  app.add_option("--box", plan.box, "Write a black box into this file");
+  app.add_option("--box", plan.box, "Write a black box into this file, which must be new or empty");
   app.add_option("--box-mb", plan.box_mb, "Its size at most")->capture_default_str();
   try {
     app.parse(argc, argv);

@@ -35,7 +35,16 @@ void print(const ReplayOptions& options, const BoxReplay& r) {
   if (r.missing > 0) fmt::print("  {} missing: lost to a slow disk, or damaged\n", counted(r.missing, "event"));
   if (r.damaged > 0) fmt::print("  {} damaged or cut off\n", counted(r.damaged, "record"));
   if (r.refused > 0) fmt::print("  {} refused by this build's engine\n", counted(r.refused, "record"));
-  if (r.passed_over > 0) fmt::print("  {} between the records are none\n", counted(r.passed_over, "byte"));
+  if (r.torn > 0) fmt::print("  {} between the records are none\n", counted(r.torn, "byte"));
+  if (r.not_searched > 0) {
+    fmt::print("  {} of damaged records not searched for others: too many of them overlap\n",
+               counted(r.not_searched, "byte"));
+  }
+  if (r.left_over > 0) fmt::print("  {} left over from older laps of the ring\n", counted(r.left_over, "event"));
+  if (r.of_other_runs > 0) {
+    fmt::print("  {} of another run: not computed, the header's config may not be theirs\n",
+               counted(r.of_other_runs, "record"));
+  }
   if (!r.first) return;
   const BoxDifference& d = *r.first;
   fmt::print("first difference: event {}, frame {}, stamp {}: {}\n  recorded {}\n  computed {}\n", d.sequence,
@@ -63,8 +72,10 @@ void add_replay_box(CLI::App& app, int& exit_code) {
   verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->footer(
       "Example:\n  pose_wall replay-box box.pwbox\n"
-      "Exit status: 0 every event computes to the recorded bits and nothing is damaged, 1 damaged, no black box, or "
-      "digests only,\n3 a result differs (the first difference is named).");
+      "Exit status: 0 every event computes to the recorded bits and nothing is damaged or missing, 1 damaged, events "
+      "missing,\nno black box, or digests only, 3 a result differs (the first difference is named). What a ring that "
+      "came "
+      "round keeps of\nolder laps, or of earlier runs, has no gaps to count.");
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("replay-box", [&] { return replay(*options); }); });
 }

@@ -34,7 +34,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const pose_wall::tools::BoxReplay replay = pose_wall::tools::replay_box(file.path(), nullptr);
     require(replay.equal + replay.different + replay.digests_only + replay.refused == replay.records,
             "every record is one of these");
-    require(replay.frames + replay.silences == replay.records, "every record is of one kind");
+    const std::uint64_t of_a_kind = replay.frames + replay.silences;
+    require(of_a_kind <= replay.records && replay.records - of_a_kind <= replay.refused, "an unknown kind is refused");
+    require(replay.left_over <= replay.records, "what is left over is part of them");
+    require(replay.missing <= replay.last_sequence, "no more are missing than there were");
     require(replay.first.has_value() == (replay.different > 0), "the first difference is named");
   } catch (const std::runtime_error& error) {
     require(error.what()[0] != '\0', "a refusal has a reason");
