@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -232,6 +233,18 @@ TEST_F(ReplayBox, LostAtTheBeginningIsAGap) {
   EXPECT_EQ(replay(path_).exit_status, 1);
 }
 
+// The process died before it wrote the head.
+TEST_F(ReplayBox, ALastRecordWithoutAHeadIsTold) {
+  std::vector<char> bytes = read_all(path_);
+  bytes[place_of(5)] ^= 1;
+  write_all(path_, bytes);
+  const BoxReplay result = replay_box(path_, nullptr);
+  EXPECT_EQ(result.equal, 5U);
+  EXPECT_EQ(result.missing, 0U);
+  EXPECT_GT(result.torn, 0U);
+  EXPECT_EQ(replay(path_).exit_status, 1);
+}
+
 // A file in memory that does not forget what was there before.
 struct Ring {
   std::vector<char> bytes;
@@ -254,6 +267,15 @@ Clouds uneven(std::uint32_t seed, std::uint32_t frames) {
     clouds.emplace_back(points, pose_wall::test::Points::value_type{1, 2, 3});
   }
   return clouds;
+}
+
+std::uint64_t first_without_a_gap(const std::vector<char>& bytes, std::uint64_t last) {
+  std::set<std::uint64_t> there;
+  std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
+  pose_wall_box_record r;
+  while (pose_wall_box_next(bytes.data(), bytes.size(), &offset, &r) == POSE_WALL_OK) there.insert(r.sequence);
+  while (last > 0 && there.count(last - 1) > 0) --last;
+  return last;
 }
 
 class ReplayRing : public ::testing::Test {
@@ -280,6 +302,7 @@ TEST_F(ReplayRing, ASoundOneHasNoGapWhateverTheSizes) {
     EXPECT_EQ(result.last_sequence, frames - 1) << seed;
     EXPECT_EQ(result.last_sequence - result.first_sequence + 1 + result.left_over, result.records) << seed;
     EXPECT_EQ(command({"replay-box", "--quiet", path_}).exit_status, 0) << seed;
+    EXPECT_EQ(result.first_sequence, first_without_a_gap(ring.bytes, frames - 1)) << seed;
     rounds += result.first_sequence > 0 ? 1 : 0;
     left_over += result.left_over;
   }
