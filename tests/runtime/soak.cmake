@@ -8,6 +8,6 @@ add_test(NAME runtime.soak_road
   COMMAND pose_wall_cli sim --scene clean --sensor vlp16 --frames 4 --output ${soak_folder})
 set_tests_properties(runtime.soak_road PROPERTIES LABELS runtime TIMEOUT 60 FIXTURES_SETUP soak_road)
 add_test(NAME runtime.soak
-  COMMAND pose_wall_soak --config ${soak_folder}/pose_wall.yaml --accelerated 3000 --burst 3 --points 1500
+  COMMAND pose_wall_soak --config ${soak_folder}/pose_wall.yaml --accelerated 2000 --burst 3 --points 3000
   --box ${CMAKE_CURRENT_BINARY_DIR}/soak.box --box-mb 4 ${soak_folder}/frames)
 set_tests_properties(runtime.soak PROPERTIES LABELS runtime TIMEOUT 120 FIXTURES_REQUIRED soak_road)
