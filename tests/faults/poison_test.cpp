@@ -30,31 +30,40 @@ INSTANTIATE_TEST_SUITE_P(Faults, PoisonedSequence,
                                   (std::get<1>(test.param) == 1 ? "_once" : "_twice");
                          });
 
-// Wrong twice with good frames between, of two kinds: the second comes while the first one's jump is being confirmed,
-// or just after. Every kind is followed by every other and by itself, after 1 and 3 good frames or after 2 and 4, by
-// turns: 200 pairs in all. Where the first one stands goes round with the pair.
+// Wrong twice with good frames between, of two kinds: the second comes while the engine is on its way back from the
+// first one, or just after. Every kind is followed by every other and by itself, after 1 to kBackWithin good frames by
+// turns: 144 pairs in all. Where the first one stands goes round with the pair.
 class PoisonedSequencePairs : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(PoisonedSequencePairs, AreNeverMisleadingAndComeBack) {
   const std::size_t kind = GetParam();
-  std::size_t pair = kind;
   for (std::size_t other = 0; other < std::size(kPoisons); ++other) {
-    for (int between = 1 + static_cast<int>((kind + other) % 2); between <= kBackWithin; between += 2, ++pair) {
-      const std::uint32_t last_begin = kFrames - 2 - static_cast<std::uint32_t>(between);
-      const auto k = 1 + static_cast<std::uint32_t>(pair) % last_begin;
-      SCOPED_TRACE(std::string(kPoisons[other].name) + " after " + std::to_string(between) +
-                   " good frames, first at frame " + std::to_string(k));
-      PoisonedRun run(k);
-      run.poisoned(kPoisons[kind]);
-      for (int after = 1; after <= between; ++after) run.good(after);
-      run.poisoned(kPoisons[other]);
-      run.good_until_back();
-    }
+    const int between = 1 + static_cast<int>((kind + other) % kBackWithin);
+    const std::uint32_t last_begin = kFrames - 2 - static_cast<std::uint32_t>(between);
+    const auto k = 1 + static_cast<std::uint32_t>(2 * kind + other) % last_begin;
+    SCOPED_TRACE(std::string(kPoisons[other].name) + " after " + std::to_string(between) +
+                 " good frames, first at frame " + std::to_string(k));
+    PoisonedRun run(k);
+    run.poisoned(kPoisons[kind]);
+    for (int after = 1; after <= between; ++after) run.good(after);
+    run.poisoned(kPoisons[other]);
+    run.good_until_back();
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, PoisonedSequencePairs, ::testing::Range<std::size_t>(0, std::size(kPoisons)),
                          [](const auto& test) { return name_of(kPoisons[test.param].name) + "_and_another"; });
+
+// Wrong again and again, each time another road than the time before: no jump confirms another.
+TEST(PoisonedSequenceItself, IsNeverConfirmedByRoadsInTurns) {
+  const Poison& larger = kPoisons[std::size(kPoisons) - 2];
+  const Poison& smaller = kPoisons[std::size(kPoisons) - 1];
+  for (std::uint32_t k = 1; k <= kFrames / 2; ++k) {
+    PoisonedRun run(k);
+    for (int turn = 0; turn <= kBackWithin; ++turn) run.poisoned(turn % 2 == 0 ? larger : smaller);
+    run.good_until_back();
+  }
+}
 
 TEST(PoisonedSequenceItself, IsGoodWithoutPoison) {
   for (const std::string& states : sequence().states) EXPECT_EQ(states, "VVVVVVV");

@@ -63,6 +63,7 @@ struct Poison {
   const char* name;
   bool shows_a_road;  // a part of it, so that something may be valid
   Garbler garble;
+  bool jumps = false;  // another road: the distances must be doubted
 };
 
 inline void PrintTo(const Poison& p, std::ostream* out) {
@@ -101,6 +102,17 @@ inline const Poison kPoisons[] = {
      [](Points* p, auto* random) {
        for (auto& q : *p) q[0] += within(random, 0.3F), q[1] += within(random, 0.3F), q[2] += within(random, 0.3F);
      }},
+    // Another road each: what is doubted as a jump.
+    {"a_fifth_larger", true,
+     [](Points* p, auto*) {
+       for (auto& q : *p) q = {q[0] * 1.2F, q[1] * 1.2F, q[2] * 1.2F};
+     },
+     true},
+    {"a_fifth_smaller", true,
+     [](Points* p, auto*) {
+       for (auto& q : *p) q = {q[0] * 0.8F, q[1] * 0.8F, q[2] * 0.8F};
+     },
+     true},
 };
 
 // The sequence from frame `first` on. The run before is the same for all: the engine is loaded, and the watch is told
@@ -120,6 +132,11 @@ class PoisonedRun {
     Points points = s_.frames[frame_];
     poison.garble(&points, &random_);
     const pose_wall_result r = process(points);
+    for (std::uint32_t q = POSE_WALL_D_LF; poison.jumps && q < POSE_WALL_QUANTITIES; ++q) {
+      const pose_wall_value& v = r.quantity[q];
+      EXPECT_TRUE(v.state == POSE_WALL_DEGRADED && (v.reasons & POSE_WALL_R_INNOVATION) != 0)
+          << pose_wall_quantity_name(q) << " of frame " << r.frame_index << ": " << states_of(r);
+    }
     if (poison.shows_a_road) return;
     EXPECT_EQ(valid_from_garbage(r), "") << "frame " << r.frame_index;
   }
