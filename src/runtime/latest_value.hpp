@@ -16,6 +16,8 @@ namespace pose_wall::runtime {
 
 constexpr int kLatestAttempts = 1000;
 
+constexpr std::uint64_t kSumOfNothing = 0xCBF29CE484222325ULL;  // FNV-1a's
+
 enum class LatestStatus { kNothing, kDamaged, kThere };
 
 template <typename T, std::uint32_t kCells = 4>
@@ -78,7 +80,6 @@ class LatestValue {
   };
 
   // FNV-1a by words: no change of a single word goes unnoticed.
-  static constexpr std::uint64_t kSumOfNothing = 0xCBF29CE484222325ULL;
   static constexpr std::uint64_t sum_with(std::uint64_t sum, std::uint64_t word) {
     return (sum ^ word) * 0x100000001B3ULL;
   }
