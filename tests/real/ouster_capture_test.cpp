@@ -13,13 +13,16 @@
 #include <iterator>
 #include <vector>
 
+#include "doctor/sensor_seen.hpp"
 #include "frames/point_position.hpp"
+#include "info/input_facts.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {
 namespace {
 
+const std::filesystem::path kCapture = data_folder() / "packets" / "OS-0-32-U1_v2.2.0_1024x10.pcap";
 constexpr std::size_t kRings = 32;
 constexpr std::size_t kColumns = 1024;
 
@@ -49,16 +52,15 @@ std::vector<std::uint32_t> ranges_mm(const std::string& file) {
 }
 
 TEST(OusterCapture, RangesAndAnglesAreThoseOfItsPackets) {
-  const std::filesystem::path file = data_folder() / "packets" / "OS-0-32-U1_v2.2.0_1024x10.pcap";
-  if (data_folder().empty() || !std::filesystem::exists(file)) GTEST_SKIP() << "POSE_WALL_DATA names no folder with it";
-  tools::FrameSequence frames({file.string()});
+  if (!std::filesystem::exists(kCapture)) GTEST_SKIP() << "POSE_WALL_DATA names no folder with it";
+  tools::FrameSequence frames({kCapture.string()});
   const std::optional<tools::SourcedFrame> sourced = frames.next();
   ASSERT_TRUE(sourced && sourced->frame);
   EXPECT_FALSE(frames.next());
   const pose_wall_cloud& cloud = sourced->frame->cloud;
   ASSERT_EQ(cloud.height, kRings);
   ASSERT_EQ(cloud.width, kColumns);
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream(kCapture, std::ios::binary);
   const std::vector<std::uint32_t> ranges =
       ranges_mm({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
   std::size_t returns = 0;
@@ -81,6 +83,15 @@ TEST(OusterCapture, RangesAndAnglesAreThoseOfItsPackets) {
     }
   }
   EXPECT_GT(returns, 20'000U);
+}
+
+// The beams of this sensor leave away from its origin: where the points lie, 43 rings could be counted.
+TEST(OusterCapture, InfoAndDoctorSeeTheSameRings) {
+  if (!std::filesystem::exists(kCapture)) GTEST_SKIP() << "POSE_WALL_DATA names no folder with it";
+  tools::FrameSequence frames({kCapture.string()}), again({kCapture.string()});
+  EXPECT_EQ(tools::sensor_facts(*frames.next()->frame).rings, kRings);
+  const tools::doctor::Recording recording = tools::doctor::read_recording(again, 10.0, [](const std::string&) {});
+  EXPECT_EQ(tools::doctor::look_at_sensor(recording).rings, kRings);
 }
 
 }  // namespace

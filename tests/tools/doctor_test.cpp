@@ -14,6 +14,7 @@
 
 #include "angles.hpp"
 #include "doctor/diagnosis.hpp"
+#include "doctor/sensor_seen.hpp"
 #include "doctor/trial.hpp"
 #include "sim/parameters.hpp"
 #include "sim/scenes.hpp"
@@ -270,6 +271,27 @@ TEST(Doctor, StampsAreLookedAt) {
   EXPECT_EQ(health.gaps, 1U);
   EXPECT_NEAR(health.gap_max_s, 0.6, 1e-9);
   EXPECT_EQ(health.repeated, 1U);
+}
+
+// A frame of a VLP-16 whose field of this name counts up to `rings`.
+std::size_t rings_seen(const std::string& field, std::uint32_t rings) {
+  const sim::Frame frame = sim::Simulator(setup_of("vlp16", {"face_distance_m=9"}), 7).render(0);
+  const std::string count = std::to_string(frame.count());
+  std::string file = "VERSION 0.7\nFIELDS x y z " + field + "\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH " +
+                     count + "\nHEIGHT 1\nPOINTS " + count + "\nDATA binary\n";
+  for (std::size_t i = 0; i < frame.count(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) file += test::raw(frame.xyz_intensity[4 * i + axis]);
+    file += test::raw(static_cast<std::uint16_t>(i % rings));
+  }
+  const test::TempFolder folder;
+  FrameSequence inputs({folder.write("a.pcd", file)});
+  return doctor::look_at_sensor(doctor::read_recording(inputs, 10.0, [](const std::string&) {})).rings;
+}
+
+TEST(Doctor, RingsAreThoseThatTheFramesTell) {
+  EXPECT_EQ(rings_seen("ring", 32), 32U);
+  EXPECT_EQ(rings_seen("line", 4), 16U) << "the few lines of a pattern are no rings";
+  EXPECT_EQ(rings_seen("other", 32), 16U) << "by where the points lie";
 }
 
 TEST(Doctor, KeepsAnEvenPartOfALongRecording) {

@@ -35,8 +35,8 @@ void add_sensor(TextTable& table, const Diagnosis& d) {
   const SensorSeen& s = d.sensor;
   table.add_row({"sensor", s.title,
                  fmt::format("{:.0f} returns a frame, {}, {:.1f} to {:.1f} deg, {} of the circle", s.returns,
-                             s.rings > 0 ? counted(static_cast<std::size_t>(s.rings), "ring") : "no rings",
-                             s.elevation_min_deg, s.elevation_max_deg, percent(s.azimuth_share))});
+                             s.rings > 0 ? counted(s.rings, "ring") : "no rings", s.elevation_min_deg,
+                             s.elevation_max_deg, percent(s.azimuth_share))});
   table.add_row({"ranges", metres(s.range_median_m),
                  fmt::format("the median; 1 % below {:.2f}, 1 % beyond {:.1f} m", s.range_near_m, s.range_far_m)});
 }

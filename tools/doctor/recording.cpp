@@ -3,6 +3,7 @@
 
 #include "doctor/recording.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "frames/frame_stamps.hpp"
 #include "frames/point_position.hpp"
+#include "frames/told_rings.hpp"
 #include "terminal/interrupt.hpp"
 
 namespace pose_wall::tools::doctor {
@@ -34,6 +36,7 @@ void add_frame(Recording& recording, SourcedFrame& sourced, FrameStamps& stamps)
     const std::int32_t status = pose_wall_cloud_check(&sourced.frame->cloud);
     if (status == POSE_WALL_OK) {
       note = note_of(sourced.frame->cloud, kept);
+      recording.rings_told = std::max(recording.rings_told, told_rings(*sourced.frame).count);
     } else {
       error = pose_wall_status_text(status);
     }

@@ -43,6 +43,7 @@ struct KeptFrame {
 struct Recording {
   std::vector<FrameNote> notes;
   std::vector<KeptFrame> kept;
+  std::size_t rings_told = 0;       // by the frames themselves, the most of any; 0: they do not
   std::vector<std::string> errors;  // inputs that gave nothing, and frames that could not be read
   bool interrupted = false;
 

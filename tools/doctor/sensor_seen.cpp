@@ -19,7 +19,7 @@ constexpr std::size_t kBins = 3600;
 // Nearer, the offsets of the lasers in their housing blur a ring.
 constexpr double kFar_m = 3.0;
 // Fewer are no rings: an even cover has a hollow by chance.
-constexpr int kRingsMin = 8;
+constexpr std::size_t kRingsMin = 8;
 constexpr double kRingShareMax = 0.4;
 
 using Histogram = std::array<std::size_t, kBins>;
@@ -65,9 +65,9 @@ double elevation_deg_at(const Directions& seen, double fraction) {
 
 // Rings are peaks with a hollow between them that falls below half of either: each is measured by its own height, since
 // far walls answer the middle rings less often than floor and roof the outer ones.
-int rings_in(const Histogram& histogram, std::size_t count) {
+std::size_t rings_in(const Histogram& histogram, std::size_t count) {
   const std::size_t least = std::max<std::size_t>(count / 4000, 8);
-  int rings = 0;
+  std::size_t rings = 0;
   std::size_t top = 0, hollow = 0, sum = 0, most = 0;
   for (std::size_t bin = 1; bin + 1 < kBins; ++bin) {
     const std::size_t here = histogram[bin - 1] + histogram[bin] + histogram[bin + 1];
@@ -89,8 +89,10 @@ int rings_in(const Histogram& histogram, std::size_t count) {
   return rings >= kRingsMin && share(most, count) < kRingShareMax ? rings : 0;
 }
 
-// Far returns show rings best, and a deck right under the sensor hides the lower ones from them.
-int rings_of(const Directions& seen) {
+// What the frames tell is right, where it is of rings: some sensors number the few lines of a pattern. Else far returns
+// show rings best, and a deck right under the sensor hides the lower ones from them.
+std::size_t rings_of(const Directions& seen, std::size_t told) {
+  if (told >= kRingsMin) return told;
   return std::max(rings_in(seen.far_by_elevation, seen.far), rings_in(seen.by_elevation, seen.count));
 }
 
@@ -132,7 +134,7 @@ SensorSeen look_at_sensor(const Recording& recording) {
   seen.range_median_m = median(directions.ranges_m);
   seen.range_far_m = quantile(directions.ranges_m, 0.99);
   if (directions.count == 0) return seen;
-  seen.rings = rings_of(directions);
+  seen.rings = rings_of(directions, recording.rings_told);
   seen.elevation_min_deg = elevation_deg_at(directions, 0.001);
   seen.elevation_max_deg = elevation_deg_at(directions, 0.999);
   const auto empty = std::count(directions.by_azimuth.begin(), directions.by_azimuth.end(), std::size_t{0});

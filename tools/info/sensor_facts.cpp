@@ -3,16 +3,13 @@
 
 // What kind of sensor a frame looks like: how many rings, how high and how far round it sees.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <vector>
 
 #include "angles.hpp"
-#include "frames/field_aliases.hpp"
 #include "frames/field_value.hpp"
+#include "frames/told_rings.hpp"
 #include "info/input_facts.hpp"
 
 namespace pose_wall::tools {
@@ -20,7 +17,6 @@ namespace {
 
 constexpr double kElevationBinsPerDeg = 20.0;
 constexpr double kRangeMin_m = 1.0;  // nearer, offsets between lasers and origin bend the rings
-constexpr std::size_t kRingsMax = 256;
 constexpr std::size_t kRingsByElevationMax = 128;
 
 struct Directions {
@@ -72,33 +68,10 @@ std::size_t rings_by_elevation(const Directions& directions) {
   return groups >= 4 && groups <= kRingsByElevationMax && filled <= 4 * groups ? groups : 0;
 }
 
-std::size_t distinct_values(const pose_wall_cloud& cloud, const pose_wall_field& field) {
-  std::set<double> values;
-  for (std::uint32_t row = 0; row < cloud.height; ++row) {
-    for (std::uint32_t column = 0; column < cloud.width && values.size() <= kRingsMax; ++column) {
-      const double value = field_value(cloud, row, column, field);
-      if (std::isfinite(value)) values.insert(value);
-    }
-  }
-  return values.size() <= kRingsMax ? values.size() : 0;
-}
-
-bool is_ring_count(std::uint32_t count) {
-  return count == 8 || count == 16 || count == 32 || count == 40 || count == 64 || count == 80 || count == 128;
-}
-
 void find_rings(const Frame& frame, const Directions& directions, SensorFacts& facts) {
-  for (const std::string_view name : field_names(FieldRole::kRing)) {
-    for (const FrameField& field : frame.fields) {
-      if (field.name != name) continue;
-      facts.rings = distinct_values(frame.cloud, field.where);
-      facts.rings_by = fmt::format("field {}", name);
-      if (facts.rings > 0) return;
-    }
-  }
-  const std::uint32_t rows = std::min(frame.cloud.height, frame.cloud.width);
-  facts.rings = is_ring_count(rows) ? rows : rings_by_elevation(directions);
-  facts.rings_by = facts.rings == 0 ? "" : is_ring_count(rows) ? "rows of the cloud" : "elevations";
+  const ToldRings told = told_rings(frame);
+  facts.rings = told.count > 0 ? told.count : rings_by_elevation(directions);
+  facts.rings_by = told.count == 0 && facts.rings > 0 ? "elevations" : told.by;
 }
 
 std::string guess_of(const SensorFacts& facts) {
