@@ -36,10 +36,14 @@
  *
  * SILENCE. When the newest frame that was worked is older than watchdog_ns (none came, or the worker is that late), the
  * worker publishes what pose_wall_age says: values age, are held, then invalid. A frame that has waited that long is
- * dropped, for it would look fresh; while one waits, silence is not told twice in a row. A clock that goes back by more
- * than two watchdog_ns counts as silence of which nobody knows how long it is: invalid. A worker that hangs (in the
- * callback) cannot publish, and one frame may take the engine longer than watchdog_ns: who acts on `latest` must
- * compare received_ns with a clock of its own.
+ * dropped, for it would look fresh, and one that was worked that late is not told as a frame: silence tells what it
+ * measured, with its age (both: drop `late`). While a frame waits, silence is not told twice in a row. A clock that
+ * goes back by more than watchdog_ns counts as silence of which nobody knows how long it is: an hour is taken, and all
+ * is invalid. A worker that hangs (in the callback) cannot publish: who acts on `latest` must compare received_ns with
+ * a clock of its own. How old a frame is when it is pushed, the runtime cannot know: drain what a socket has gathered,
+ * and push the newest. Values are held for as long as their levels stay within the alert limits: by default 1 degree at
+ * 0.05 rad/s and 0.10 m at 0.2 m/s, a third to half a second after a good frame, which is hardly longer than
+ * watchdog_ns.
  *
  * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
  * when the frames that are worked lie further apart than frame_period_max_ns, points are left out: every second return,
@@ -113,7 +117,8 @@ typedef void (*pose_wall_runtime_callback)(void* user, const pose_wall_publicati
 /* Where the black box is written: `count` bytes at `offset` of a file of at most box_bytes. 0: written. Anything else:
  * not written, the record counts as failed and the next one is tried. It may be as slow as a disk is: only the
  * recorder's thread waits for it; but stop waits for that thread, so a sink that may hang needs a time limit of its
- * own. What it does not sync, a loss of power takes. Of a silence that goes on, the first is recorded, then whenever a
+ * own: up to four calls a record, the one that makes it whole last, and the header until it was written. What it does
+ * not sync, a loss of power takes. Of a silence that goes on, the first is recorded, then whenever a
  * state or a reason changes, and one a minute. Format and reader: pose_wall_box.h. */
 typedef int32_t (*pose_wall_runtime_sink)(void* user, uint64_t offset, const void* bytes, uint64_t count);
 
@@ -141,7 +146,7 @@ typedef struct pose_wall_runtime_options {
   uint32_t reserved;         /* 0 */
   int64_t
       frame_period_max_ns;   /* 100 ms: frames are dropped, not thinned, as long as worked ones are no further apart */
-  int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published, frames that old are dropped */
+  int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published, frames that old are not */
   int64_t watchdog_every_ns; /* 100 ms: and again so often, until a frame comes */
   pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once, also
                                 under the lock: it must not call the runtime. With a clock of the caller's nothing but
@@ -198,8 +203,9 @@ int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
 
 /* Checks the cloud, copies what the engine reads of it, and queues it. Points that are not finite or exactly zero are
  * left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused is counted as
- * pushed and dropped, but not when the runtime is not running. Fails iff: NULL, not open, not running, another thread
- * inside push, struct_size or a description that pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
+ * pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running,
+ * another thread inside push, struct_size or a description that pose_wall_cloud_check refuses,
+ * POSE_WALL_RUNTIME_E_LARGE. */
 int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
 
 /* The newest publication. No lock, no wait: one copy, repeated only if three newer ones were published meanwhile. Set
@@ -227,7 +233,7 @@ enum pose_wall_runtime_drop {
   POSE_WALL_RUNTIME_DROP_OVERTAKEN = 3,   /* the oldest that waited, when a newer one needed its place */
   POSE_WALL_RUNTIME_DROP_STOPPED = 4,     /* still waiting, or being copied, at stop */
   POSE_WALL_RUNTIME_DROP_ENGINE = 5,      /* the engine refused it: it found its block damaged, and was opened anew */
-  POSE_WALL_RUNTIME_DROP_LATE = 6,        /* it had waited for watchdog_ns */
+  POSE_WALL_RUNTIME_DROP_LATE = 6,        /* it waited, or was worked, until it was watchdog_ns old */
   POSE_WALL_RUNTIME_DROPS = 7
 };
 const char* pose_wall_runtime_drop_name(uint32_t drop);
@@ -257,7 +263,8 @@ typedef struct pose_wall_runtime_statistics {
   uint64_t thinned;  /* of those processed: thinned */
   uint32_t thinning; /* of the next push */
   uint32_t thinning_worst;
-  int64_t newest_age_ns; /* now minus received_ns of the newest worked frame; -1 before the first */
+  int64_t newest_age_ns; /* now minus received_ns of the newest worked frame; -1: not known (none yet, or the clock went
+                            back) */
   uint64_t box_written;  /* records */
   uint64_t box_lost;     /* not recorded: box_backlog records were waiting for the sink */
   uint64_t box_failed;   /* the sink said so: records, and the header at the start */

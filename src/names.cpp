@@ -24,7 +24,7 @@ const char* status_text(std::int32_t status) {  // NOLINT(readability-function-s
     case POSE_WALL_E_STRUCT_SIZE:
       return "struct_size unknown: set it to sizeof, or call the init function";
     case POSE_WALL_E_BLOCK_SMALL:
-      return "block smaller than pose_wall_memory_needed() says";
+      return "block smaller than pose_wall_memory_needed() (of a runtime, pose_wall_runtime_memory_needed()) says";
     case POSE_WALL_E_BLOCK_ALIGN:
       return "block not aligned to POSE_WALL_BLOCK_ALIGNMENT";
     case POSE_WALL_E_ENGINE:

@@ -42,7 +42,7 @@ void Runtime::statistics(pose_wall_runtime_statistics* out) {
     s.thinned = c.thinned;
     s.thinning = thinning_;
     s.thinning_worst = c.thinning_worst;
-    s.newest_age_ns = !has_newest_ ? -1 : age_ns > 0 ? age_ns : 0;
+    s.newest_age_ns = has_newest_ && age_ns >= 0 ? age_ns : -1;
     s.box_written = c.box_written;
     s.box_lost = c.box_lost;
     s.box_failed = c.box_failed;

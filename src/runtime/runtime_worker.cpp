@@ -99,9 +99,13 @@ void Runtime::work_frame(FrameSlot* slot) {
   dropped_since_ = false;
   std::int32_t status = POSE_WALL_OK;
   std::int64_t work_ns = 0;
+  bool is_news = true;
   {
     Unlocked unlocked(&lock_);
     status = measure(slot, &work_ns);
+    // Silence is due at once, and tells what was measured with its age.
+    is_news = !watchdog_.is_late(now(), slot->publication.received_ns);
+    if (status == POSE_WALL_OK && is_news) publish(&slot->publication);
   }
   if (status != POSE_WALL_OK) {
     // What was told before may have been wrong already: nothing is known any more, and that cannot wait for silence.
@@ -113,9 +117,15 @@ void Runtime::work_frame(FrameSlot* slot) {
   overload_.note(slot->publication.thinning, work_ns, dropped);
   thinning_ = overload_.thinning();
   if (thinning_ > counters_.thinning_worst) counters_.thinning_worst = thinning_;
-  if (slot->publication.thinning > 1) ++counters_.thinned;
   newest_received_ns_ = slot->publication.received_ns;
   has_newest_ = true;
+  if (!is_news) {
+    free_.push(slot);
+    ++counters_.dropped[POSE_WALL_RUNTIME_DROP_LATE];
+    return;
+  }
+  times_.latency.add(difference(publication_.published_ns, publication_.received_ns));
+  if (slot->publication.thinning > 1) ++counters_.thinned;
   conclude(slot, true);
   ++counters_.processed;
 }
@@ -137,11 +147,9 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   last_frame_ = p.frame;
   last_stamp_ns_ = p.result.stamp_ns;
   watchdog_.feed(p.received_ns);
-  publish(&p);
-  *work_ns = difference(p.published_ns, begin_ns);
+  *work_ns = difference(now(), begin_ns);
   times_.wait.add(difference(begin_ns, p.received_ns));
   times_.work.add(*work_ns);
-  times_.latency.add(difference(p.published_ns, p.received_ns));
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) times_.stage[stage].add(p.result.stage_ns[stage]);
   return POSE_WALL_OK;
 }

@@ -18,17 +18,21 @@ class Watchdog {
 
   // A start, or a frame that was worked: what is known is as old as when it came.
   void feed(std::int64_t received_ns) {
-    since_ns_ = received_ns;
+    since_ns_ = seen_ns_ = received_ns;
     next_ns_ = sum(received_ns, watchdog_ns_);
     elapsed_ns_ = 0;
     spoke_last_ = false;
   }
 
   // It does not speak twice while a frame waits: a callback that takes longer than every_ns would never let one
-  // through. A clock that went back by more than the watchdog's time says nothing any more: due at once.
-  bool is_due(std::int64_t now_ns, bool frame_waits) const {
-    if (watchdog_ns_ == 0 || (spoke_last_ && frame_waits)) return false;
-    return now_ns >= next_ns_ || difference(next_ns_, now_ns) > 2 * longest_ns();
+  // through. A clock that went back by more than the watchdog's time says nothing any more: due at once. So it is where
+  // it would be due later than it ever is: a bit fell over in here.
+  bool is_due(std::int64_t now_ns, bool frame_waits) {
+    if (watchdog_ns_ == 0) return false;
+    const bool went_back = difference(seen_ns_, now_ns) > watchdog_ns_;
+    if (now_ns > seen_ns_) seen_ns_ = now_ns;
+    if (spoke_last_ && frame_waits) return false;
+    return now_ns >= next_ns_ || went_back || difference(next_ns_, now_ns) > 2 * longest_ns();
   }
 
   // A frame that came so long ago is no news: published, it would look fresh.
@@ -42,6 +46,7 @@ class Watchdog {
     const std::int64_t by_clock_ns = difference(now_ns, since_ns_);
     const std::int64_t silent_ns = by_clock_ns >= elapsed_ns_ ? by_clock_ns : kNobodyKnows_ns;
     if (silent_ns > elapsed_ns_) elapsed_ns_ = silent_ns;
+    seen_ns_ = now_ns;
     next_ns_ = sum(now_ns, every_ns_);
     spoke_last_ = true;
     return elapsed_ns_;
@@ -61,6 +66,7 @@ class Watchdog {
 
   std::int64_t watchdog_ns_, every_ns_;
   std::int64_t since_ns_ = 0, next_ns_ = 0, elapsed_ns_ = 0;
+  std::int64_t seen_ns_ = 0;  // the latest look at the clock
   bool spoke_last_ = false;
 };
 

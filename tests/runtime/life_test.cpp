@@ -186,7 +186,7 @@ TEST(RuntimeLife, OnePushAtATime) {
 }
 
 #if defined(__SANITIZE_THREAD__)
-constexpr int kStormStarts = 50;  // each takes many times as long
+constexpr int kStormStarts = 25;  // each takes many times as long
 #else
 constexpr int kStormStarts = 150;
 #endif

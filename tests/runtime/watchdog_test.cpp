@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <limits>
@@ -122,7 +123,7 @@ TEST(RuntimeWatchdog, AClockThatGoesBackIsSilenceOfUnknownLength) {
   for (const pose_wall_value& v : p.result.quantity) {
     EXPECT_EQ(v.state, static_cast<std::uint32_t>(POSE_WALL_INVALID));
   }
-  EXPECT_EQ(runtime.statistics().newest_age_ns, 0) << "never negative";
+  EXPECT_EQ(runtime.statistics().newest_age_ns, -1) << "nobody knows";
   runtime.push(room_points(2), 100 * kMs);
   runtime.wait_idle();
   p = runtime.latest();
@@ -131,6 +132,41 @@ TEST(RuntimeWatchdog, AClockThatGoesBackIsSilenceOfUnknownLength) {
   runtime.pass(300 * kMs);
   EXPECT_EQ(runtime.latest().result.quantity[POSE_WALL_YAW].state, static_cast<std::uint32_t>(POSE_WALL_HELD))
       << "by its new time";
+}
+
+// By more than the watchdog's time, whatever the time between two silences.
+TEST(RuntimeWatchdog, AClockThatGoesBackIsToldThoughSilenceIsToldSeldom) {
+  RuntimeUnderTest runtime([](pose_wall_runtime_options* o) { o->watchdog_every_ns = 10000 * kMs; });
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.wait_idle();
+  runtime.pass(100 * kMs);
+  runtime.pass(-15000 * kMs);
+  EXPECT_EQ(runtime.latest().cause, POSE_WALL_RUNTIME_SILENCE);
+  EXPECT_EQ(runtime.latest().result.quantity[POSE_WALL_YAW].state, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+}
+
+// An engine that takes longer than the watchdog's time: what it measures is told with its age, not as news.
+TEST(RuntimeWatchdog, AFrameThatIsWorkedTooLateIsNoNews) {
+  RuntimeUnderTest runtime;
+  runtime.in_callback = [&] { runtime.clock.set_step(0); };  // or it would look without end
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.wait_idle();
+  EXPECT_EQ(runtime.latest().cause, POSE_WALL_RUNTIME_FRAME);
+  runtime.clock.set_step(60 * kMs);  // by each look at the clock, of which a frame takes more than five
+  runtime.push(room_points(2), 100 * kMs);
+  runtime.wait_idle();
+  const pose_wall_runtime_statistics s = runtime.statistics();
+  EXPECT_EQ(s.dropped[POSE_WALL_RUNTIME_DROP_LATE], 1U);
+  EXPECT_EQ(s.processed, 1U);
+  EXPECT_TRUE(accounts_balance(s));
+  const std::vector<std::uint32_t> causes = causes_of(runtime.published());
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), static_cast<std::uint32_t>(POSE_WALL_RUNTIME_FRAME)), 1);
+  const pose_wall_publication p = runtime.latest();
+  EXPECT_EQ(p.frame, 1U) << "of what was measured";
+  EXPECT_LE(p.result.quantity[POSE_WALL_YAW].state, static_cast<std::uint32_t>(POSE_WALL_HELD));
+  EXPECT_GE(p.result.quantity[POSE_WALL_YAW].age_s, 0.3);
 }
 
 // While silent the clock goes back: what was told to be this old gets no younger.

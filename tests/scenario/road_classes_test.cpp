@@ -94,7 +94,7 @@ constexpr std::uint64_t kDrawsMax = 1000;
 class RoadClass : public ::testing::TestWithParam<Class> {};
 
 TEST_P(RoadClass, ValidIsRightAndWhatCanBeMeasuredIs) {
-  constexpr std::uint32_t kFrames = 5;
+  constexpr std::uint32_t kFrames = 3;
   const Class& c = GetParam();
   Counts counts;
   for (std::uint64_t seed = 1; seed <= std::min<std::uint64_t>(c.seeds, kDrawsMax); ++seed) {
