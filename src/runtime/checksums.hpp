@@ -40,10 +40,17 @@ inline std::uint32_t crc32(const void* bytes, std::uint64_t count) {
   return crc.value();
 }
 
+// Each step maps different sums to different ones, whether it takes a byte or a word: no change of a single one goes
+// unnoticed.
+constexpr std::uint64_t kFnv1aOfNothing = 0xCBF29CE484222325ULL;
+constexpr std::uint64_t fnv1a_with(std::uint64_t sum, std::uint64_t next) {
+  return (sum ^ next) * 0x100000001B3ULL;
+}
+
 inline std::uint64_t fnv1a(const void* bytes, std::uint64_t count) {
   const unsigned char* const b = static_cast<const unsigned char*>(bytes);
-  std::uint64_t sum = 0xCBF29CE484222325ULL;
-  for (std::uint64_t i = 0; i < count; ++i) sum = (sum ^ b[i]) * 0x100000001B3ULL;
+  std::uint64_t sum = kFnv1aOfNothing;
+  for (std::uint64_t i = 0; i < count; ++i) sum = fnv1a_with(sum, b[i]);
   return sum;
 }
 

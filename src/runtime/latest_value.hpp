@@ -12,11 +12,11 @@
 #include <cstdint>
 #include <cstring>
 
+#include "checksums.hpp"
+
 namespace pose_wall::runtime {
 
 constexpr int kLatestAttempts = 1000;
-
-constexpr std::uint64_t kSumOfNothing = 0xCBF29CE484222325ULL;  // FNV-1a's
 
 enum class LatestStatus { kNothing, kDamaged, kThere };
 
@@ -29,12 +29,12 @@ class LatestValue {
     Cell& cell = cell_[turn % kCells];
     const std::uint64_t version = cell.version.load(std::memory_order_relaxed);
     cell.version.store(version + 1, std::memory_order_relaxed);  // odd: being written
-    std::uint64_t sum = kSumOfNothing;
+    std::uint64_t sum = kFnv1aOfNothing;
     for (std::uint32_t i = 0; i < words(); ++i) {
       // Release: who reads this word sees the odd version, too.
       const std::uint64_t word = word_of(value, i);
       cell.word[i].store(word, std::memory_order_release);
-      sum = sum_with(sum, word);
+      sum = fnv1a_with(sum, word);
     }
     cell.sum.store(sum, std::memory_order_release);
     cell.version.store(version + 2, std::memory_order_release);
@@ -50,11 +50,11 @@ class LatestValue {
       const Cell& cell = cell_[turn % kCells];
       const std::uint64_t before = cell.version.load(std::memory_order_acquire);
       T copy;
-      std::uint64_t sum = kSumOfNothing;
+      std::uint64_t sum = kFnv1aOfNothing;
       for (std::uint32_t i = 0; i < words(); ++i) {
         const std::uint64_t word = cell.word[i].load(std::memory_order_acquire);
         set_word(&copy, i, word);
-        sum = sum_with(sum, word);
+        sum = fnv1a_with(sum, word);
       }
       const std::uint64_t noted = cell.sum.load(std::memory_order_acquire);
       if (before % 2 != 0 || cell.version.load(std::memory_order_relaxed) != before) continue;
@@ -79,10 +79,6 @@ class LatestValue {
     std::atomic<std::uint64_t> sum{0};
   };
 
-  // FNV-1a by words: no change of a single word goes unnoticed.
-  static constexpr std::uint64_t sum_with(std::uint64_t sum, std::uint64_t word) {
-    return (sum ^ word) * 0x100000001B3ULL;
-  }
   static std::uint64_t word_of(const T& value, std::uint32_t i) {
     std::uint64_t word;
     std::memcpy(&word, reinterpret_cast<const unsigned char*>(&value) + 8 * i, 8);

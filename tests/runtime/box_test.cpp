@@ -267,22 +267,21 @@ void expect_the_old_ones_apart(const Bytes& bytes, std::size_t of_the_new_run, s
   }
 }
 
+void start_work_stop(RuntimeUnderTest* runtime, int frames) {
+  runtime->start();
+  for (int i = 0; i < frames; ++i) {
+    runtime->push(Points(3, {1, 2, 3}), i * 100 * kMs);
+    runtime->wait_idle();
+  }
+  pose_wall_runtime_stop(runtime->get());
+}
+
 TEST(Box, RecordsOfAnEarlierStartAreToldApart) {
   Disk disk;
   RuntimeUnderTest runtime(onto(&disk, 4 << 20));
-  runtime.start();
-  for (int i = 0; i < 5; ++i) {
-    runtime.push(Points(3, {1, 2, 3}), i * 100 * kMs);
-    runtime.wait_idle();
-  }
-  pose_wall_runtime_stop(runtime.get());
+  start_work_stop(&runtime, 5);
   expect_the_old_ones_apart(disk.bytes, 5, 5);
-  runtime.start();
-  for (int i = 0; i < 2; ++i) {
-    runtime.push(Points(3, {1, 2, 3}), i * 100 * kMs);
-    runtime.wait_idle();
-  }
-  pose_wall_runtime_stop(runtime.get());
+  start_work_stop(&runtime, 2);
   expect_the_old_ones_apart(disk.bytes, 2, 5);
 }
 

@@ -100,6 +100,13 @@ class ReplayBox : public ::testing::Test {
     }
     return 0;
   }
+  // The record's bytes are no record any more.
+  BoxReplay replay_without_head(std::uint64_t sequence) {
+    std::vector<char> bytes = read_all(path_);
+    bytes[place_of(sequence)] ^= 1;
+    write_all(path_, bytes);
+    return replay_box(path_, nullptr);
+  }
 
   TempFolder folder_;
   const std::string path_ = folder_.file("box.pwbox");
@@ -224,10 +231,7 @@ TEST_F(ReplayBox, AKindThatNobodyKnowsIsRefused) {
 }
 
 TEST_F(ReplayBox, LostAtTheBeginningIsAGap) {
-  std::vector<char> bytes = read_all(path_);
-  bytes[place_of(0)] ^= 1;
-  write_all(path_, bytes);
-  const BoxReplay result = replay_box(path_, nullptr);
+  const BoxReplay result = replay_without_head(0);
   EXPECT_EQ(result.missing, 1U);
   EXPECT_GT(result.torn, 0U);
   EXPECT_EQ(replay(path_).exit_status, 1);
@@ -235,10 +239,7 @@ TEST_F(ReplayBox, LostAtTheBeginningIsAGap) {
 
 // The process died before it wrote the head.
 TEST_F(ReplayBox, ALastRecordWithoutAHeadIsTold) {
-  std::vector<char> bytes = read_all(path_);
-  bytes[place_of(5)] ^= 1;
-  write_all(path_, bytes);
-  const BoxReplay result = replay_box(path_, nullptr);
+  const BoxReplay result = replay_without_head(5);
   EXPECT_EQ(result.equal, 5U);
   EXPECT_EQ(result.missing, 0U);
   EXPECT_GT(result.torn, 0U);
