@@ -286,16 +286,14 @@ void Engine::label_points(const FrameFindings& found) {
     const PlaneFit& wall = found.walls.side[side].fit;
     if (wall.refused) continue;
     const Plane wall_base{found.level.R_level_base.transpose() * wall.plane.n, wall.plane.d};
-    for_each_up_to(cloud, wall_base, wall_reach_m, [&](std::uint32_t i, float distance_m) {
-      if (static_cast<double>(distance_m) < -wall_reach_m) return;
+    for_each_between(cloud, wall_base, -wall_reach_m, wall_reach_m, [&](std::uint32_t i, float) {
       const double height_m = floor.signed_distance(cloud.at(i));
       if (!(height_m >= settings_.wall_z_min && height_m <= settings_.wall_z_max)) return;
       scratch_.marks[i] = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
     });
   }
-  for_each_up_to(cloud, floor, floor_reach_m, [&](std::uint32_t i, float distance_m) {
-    if (static_cast<double>(distance_m) >= -floor_reach_m) scratch_.marks[i] = POSE_WALL_LABEL_FLOOR;
-  });
+  for_each_between(cloud, floor, -floor_reach_m, floor_reach_m,
+                   [&](std::uint32_t i, float) { scratch_.marks[i] = POSE_WALL_LABEL_FLOOR; });
 }
 
 void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {

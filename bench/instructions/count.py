@@ -7,11 +7,13 @@
     bench/instructions/count.py build/arm64            # count, show, compare with figures.csv
     bench/instructions/count.py build/arm64 --note     # and write figures.csv anew, on purpose
     bench/instructions/count.py build/arm64 --growth   # how they grow with the points of a frame, and the worst frame
+    bench/instructions/count.py build/arm64 --functions --sensors os1-64   # which functions a frame's are spent in
 
 Fails where a stage costs more than 5 % above the noted figure. Needs qemu-aarch64 (package qemu-user) and a C compiler.
 """
 
 import argparse
+import collections
 import csv
 import pathlib
 import subprocess
@@ -36,14 +38,19 @@ def build_plugin(folder):
     return plugin
 
 
+def run(plugin, program, sensor, folder, points=0, arguments=""):
+    """What the program prints of each frame, and the lines the plugin writes."""
+    log = pathlib.Path(folder) / "marks"
+    command = ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", "-plugin", f"{plugin}{arguments}", "-d", "plugin"]
+    command += ["-D", log, program, sensor, str(FRAMES), str(points)]
+    out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return [[int(x) for x in line.split()] for line in out.splitlines()], log.read_text().splitlines()
+
+
 def count(plugin, program, sensor, folder, points=0):
     """Of one sensor: points, voxels, values measured, and instructions by stage, means over the frames."""
-    log = pathlib.Path(folder) / "marks"
-    command = ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", "-plugin", plugin, "-d", "plugin", "-D", log]
-    command += [program, sensor, str(FRAMES), str(points)]
-    out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    frames = [[int(x) for x in line.split()] for line in out.splitlines()]
-    marks = [int(line) for line in log.read_text().split()]
+    frames, lines = run(plugin, program, sensor, folder, points)
+    marks = [int(line) for line in lines]
     per_frame = len(STAGES) + 1
     if len(frames) != FRAMES or len(marks) != FRAMES * per_frame:
         sys.exit(f"{sensor}: {len(frames)} frames, {len(marks)} marks; expected {FRAMES} and {FRAMES * per_frame}")
@@ -92,6 +99,35 @@ def show_growth(plugin, program, folder):
             print_row([name] + numbers + ratios(r))
 
 
+def show_functions(plugin, program, sensor, folder):
+    """Functions by what they take of a frame, down to a hundredth."""
+    _, lines = run(plugin, program, sensor, folder, arguments=",functions=on")
+    stages = collections.defaultdict(collections.Counter)
+    of_mark = {}
+    mark = 0
+    for line in lines:
+        if line.isdigit():
+            stage = STAGES[(mark - 1) % (len(STAGES) + 1)] if mark % (len(STAGES) + 1) else None
+            for name, spent in of_mark.items():
+                if stage and stage != "floor":
+                    stages[name][stage] += spent / FRAMES
+            of_mark = {}
+            mark += 1
+        else:
+            name, spent = line.rsplit(" ", 1)
+            of_mark[name] = of_mark.get(name, 0) + int(spent)
+    frame = sum(counter.total() for counter in stages.values())
+    ordered = sorted(stages.items(), key=lambda item: -item[1].total())
+    names = subprocess.run(["c++filt"], input="\n".join(name for name, _ in ordered), check=True, capture_output=True,
+                           text=True).stdout.splitlines()
+    print_head([f"of {sensor}'s {millions(frame)}", "share", "function", "stages"])
+    for name, (_, counter) in zip(names, ordered):
+        if counter.total() < 0.01 * frame:
+            break
+        where = ", ".join(stage for stage, _ in counter.most_common())
+        print_row([millions(counter.total()), f"{counter.total() / frame:.1%}", f"`{name}`", where])
+
+
 def compare(rows):
     with FIGURES.open(newline="") as file:
         noted = {r["sensor"]: r for r in csv.DictReader(file)}
@@ -110,6 +146,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path, help="folder of the arm64 build")
     parser.add_argument("--note", action="store_true", help="write figures.csv anew")
     parser.add_argument("--growth", action="store_true", help="count frames of 5,000 to 260,000 points instead")
+    parser.add_argument("--functions", action="store_true", help="count by function instead, down to a hundredth")
     parser.add_argument("--sensors", default=",".join(SENSORS), help="names, separated by commas")
     options = parser.parse_args()
     program = options.build / "pose_wall_marked_frames"
@@ -119,6 +156,10 @@ def main():
         plugin = build_plugin(folder)
         if options.growth:
             show_growth(plugin, program, folder)
+            return
+        if options.functions:
+            for sensor in options.sensors.split(","):
+                show_functions(plugin, program, sensor, folder)
             return
         rows = [count(plugin, program, sensor, folder) for sensor in options.sensors.split(",")]
     show(rows)

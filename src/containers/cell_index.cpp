@@ -32,8 +32,7 @@ void CellIndex::build(const PointSet& points, double edge_m) {
 
 Span<const std::uint32_t> CellIndex::points_in(std::int32_t x, std::int32_t y, std::int32_t z) const {
   const std::uint32_t c = hash_.find(cell_key(x, y, z));
-  if (c == VoxelHash::kFull) return {};
-  return Span<const std::uint32_t>(members_.data() + start_[c], start_[c + 1] - start_[c]);
+  return c == VoxelHash::kFull ? Span<const std::uint32_t>() : members_of(c);
 }
 
 }  // namespace pose_wall

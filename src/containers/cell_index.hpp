@@ -25,10 +25,16 @@ class CellIndex {
     const auto cut = static_cast<std::int32_t>(place);
     return place < static_cast<float>(cut) ? cut - 1 : cut;
   }
+  // Of the points in the cell of one of them, itself among them.
+  Span<const std::uint32_t> points_beside(std::uint32_t point) const { return members_of(cell_of_[point]); }
   // Indices of the points in a cell; empty where there are none.
   Span<const std::uint32_t> points_in(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
  private:
+  Span<const std::uint32_t> members_of(std::uint32_t cell) const {
+    return Span<const std::uint32_t>(members_.data() + start_[cell], start_[cell + 1] - start_[cell]);
+  }
+
   VoxelHash hash_;
   Span<std::uint32_t> start_;    // of each cell in members_, and the end of the last
   Span<std::uint32_t> cell_of_;  // per point

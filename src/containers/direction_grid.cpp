@@ -3,8 +3,6 @@
 
 #include "containers/direction_grid.hpp"
 
-#include "math/four_floats.hpp"
-
 namespace pose_wall {
 namespace {
 
@@ -23,22 +21,18 @@ Corner middle_of(std::uint32_t column) {
 
 }  // namespace
 
-void DirectionGrid::cells_of(const float* x, const float* y, const float* z, const float* norm2, std::uint32_t count,
-                             std::int32_t* cells) {
+FourInts DirectionGrid::cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2) {
   constexpr float kColumnsPerWay = kColumns / 4.0F, kRowsPerSine = kRows / 2.0F;
   const FourFloats none{}, last_row = all_four(kRows - 1.0F), past_columns = all_four(static_cast<float>(kColumns));
-  for (std::uint32_t k = 0; k < count; k += kFour) {
-    const FourFloats at_x = load_four(x + k), at_y = load_four(y + k), norm2_of = load_four(norm2 + k);
-    const FourFloats around = magnitude_of(at_x) + magnitude_of(at_y);
-    const FourFloats share = around > none ? at_y / around : none;
-    const FourFloats way = at_x < none ? 2.0F - share : (share >= none ? share : 4.0F + share);
-    const FourFloats up = norm2_of > none ? load_four(z + k) / root_of(norm2_of) : none;
-    const FourFloats row = (up + 1.0F) * kRowsPerSine, column = way * kColumnsPerWay;
-    // Written so that what is not a number falls into some cell too.
-    const FourFloats in_rows = row < last_row ? (row > none ? row : none) : last_row;
-    const FourFloats in_columns = column < past_columns ? (column > none ? column : none) : none;
-    store_four(cut_off(in_rows) * static_cast<std::int32_t>(kColumns) + cut_off(in_columns), cells + k);
-  }
+  const FourFloats around = magnitude_of(x) + magnitude_of(y);
+  const FourFloats share = around > none ? y / around : none;
+  const FourFloats way = x < none ? 2.0F - share : (share >= none ? share : 4.0F + share);
+  const FourFloats up = norm2 > none ? z / root_of(norm2) : none;
+  const FourFloats row = (up + 1.0F) * kRowsPerSine, column = way * kColumnsPerWay;
+  // Written so that what is not a number falls into some cell too.
+  const FourFloats in_rows = row < last_row ? (row > none ? row : none) : last_row;
+  const FourFloats in_columns = column < past_columns ? (column > none ? column : none) : none;
+  return cut_off(in_rows) * static_cast<std::int32_t>(kColumns) + cut_off(in_columns);
 }
 
 DirectionGrid::Column DirectionGrid::column(std::uint32_t column) {

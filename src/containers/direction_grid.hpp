@@ -9,6 +9,7 @@
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -27,9 +28,8 @@ class DirectionGrid {
 
   // ray: finite and not zero.
   static std::uint32_t cell_of(const Eigen::Vector3d& ray);
-  // Of many rays at once, a multiple of four; norm2: their squared lengths. What is no ray gets some cell.
-  static void cells_of(const float* x, const float* y, const float* z, const float* norm2, std::uint32_t count,
-                       std::int32_t* cells);
+  // Of four rays at once; norm2: their squared lengths. What is no ray gets some cell.
+  static FourInts cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2);
   void add(std::uint32_t cell, std::uint32_t returns) {
     constexpr std::uint32_t kCountMax = 0xFFFF;
     const std::uint32_t sum = counts_[cell] + returns;

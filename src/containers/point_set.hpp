@@ -8,6 +8,7 @@
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -38,6 +39,14 @@ struct PointSet {
     weight[i] = w;
   }
 
+  void add(float x_m, float y_m, float z_m, float w) {
+    x[count] = x_m;
+    y[count] = y_m;
+    z[count] = z_m;
+    weight[count] = w;
+    ++count;
+  }
+
   void copy(std::uint32_t to, std::uint32_t from) {
     x[to] = x[from];
     y[to] = y[from];
@@ -45,5 +54,22 @@ struct PointSet {
     weight[to] = weight[from];
   }
 };
+
+// visit(first index, x, y, z, which of the four count) over all points.
+template <typename Visit>
+void for_each_four_points(const PointSet& points, const Visit& visit) {
+  float last[3][kFour] = {};  // what is left over in the end, padded
+  const std::uint32_t whole = points.count - points.count % kFour;
+  for (std::uint32_t i = whole; i < points.count; ++i) {
+    last[0][i - whole] = points.x[i];
+    last[1][i - whole] = points.y[i];
+    last[2][i - whole] = points.z[i];
+  }
+  for (std::uint32_t i = 0; i < points.count; i += kFour) {
+    const bool is_whole = i < whole;
+    visit(i, load_four(is_whole ? &points.x[i] : last[0]), load_four(is_whole ? &points.y[i] : last[1]),
+          load_four(is_whole ? &points.z[i] : last[2]), first_of_four(points.count - i));
+  }
+}
 
 }  // namespace pose_wall

@@ -16,8 +16,6 @@ namespace {
 // A voxel right in front of the sensor stands for hundreds of points, but the rock under it is one piece.
 constexpr float kWeightCap = 8.0F;
 constexpr double kSpreadMin_m = 0.05;
-// A thousand residuals know their scale to four per cent, and the weights hardly notice.
-constexpr std::uint32_t kScalePoints = 1024;
 
 // What a round needs to know of the plane and its weights, as floats.
 struct Round {
@@ -47,8 +45,7 @@ struct LaneSums {
     const FourFloats r = (over - round.offset - round.slope_u * u - round.slope_v * v) * round.foreshortening;
     const FourFloats x = r * round.per_cutoff, none{};
     const FourFloats left = 1.0F - x * x;
-    const FourFloats size = r < none ? -r : r;
-    const FourFloats tukey = size <= round.gate ? (left > none ? left : none) : none;
+    const FourFloats tukey = magnitude_of(r) <= round.gate ? (left > none ? left : none) : none;
     const FourFloats weight = tukey * tukey * smaller_of(stands_for, all_four(kWeightCap));
     const FourFloats weight_u = weight * u, weight_v = weight * v;
     w += weight;
@@ -88,7 +85,7 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
                     const IrlsSettings& settings) {
   IrlsOver result;
   result.over = start;
-  const std::uint32_t stride = points_with_weight(points, count) / kScalePoints + 1;
+  const std::uint32_t stride = points_with_weight(points, count) / settings.scale_points + 1;
   for (int i = 0; i < settings.rounds; ++i) {
     Round round{static_cast<float>(result.over.offset_m), static_cast<float>(result.over.slope_u),
                 static_cast<float>(result.over.slope_v),  static_cast<float>(result.over.foreshortening()),

@@ -16,6 +16,7 @@ constexpr std::uint32_t kBins = 32;
 constexpr double kSpanInSigmas = 4.0;  // residuals beyond are outliers without further ado
 constexpr int kEmRounds = 8;
 constexpr std::uint32_t kLook = 64;  // points between two looks whether a hypothesis has lost already
+constexpr double kSureInSigmas = 3.0;
 
 struct Histogram {
   std::uint32_t bins[kBins] = {};
@@ -40,6 +41,13 @@ Histogram histogram_of_residuals(const PointSet& points, Span<const std::uint32_
   return h;
 }
 
+// Whether a mean of this many costs between 0 and 1 leaves hope for less than too_much. Costs of the same mean scatter
+// most where they are all 0 or 1.
+bool has_lost(double mean, std::uint32_t count, double too_much) {
+  const double above = mean - too_much;
+  return above >= 0.0 && above * above * count >= kSureInSigmas * kSureInSigmas * mean * (1.0 - mean);
+}
+
 }  // namespace
 
 double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m, double too_much) {
@@ -47,20 +55,21 @@ double truncated_cost(const PointSet& points, const Plane& plane, double thresho
   const float limit = static_cast<float>(threshold_m * threshold_m);
   FourFloats sums{};
   const std::uint32_t n = points.count, whole = n - n % kFour;
-  const double all_m2 = static_cast<double>(limit) * static_cast<double>(n);
+  const double each_m2 = static_cast<double>(limit);
   for (std::uint32_t i = 0; i < whole;) {
     const std::uint32_t until = i + kLook < whole ? i + kLook : whole;
     for (; i < until; i += kFour) {
       const FourFloats r = distances.of(points, i);
       sums += smaller_of(r * r, all_four(limit));
     }
-    if (sum_of_lanes(sums) >= too_much * all_m2) return too_much;
+    if (has_lost(sum_of_lanes(sums) / (each_m2 * i), i, too_much)) return too_much;
   }
   for (std::uint32_t i = whole; i < n; ++i) {
     const FourFloats r = distances.of_some(points, i, 1);
     sums[0] += r[0] * r[0] < limit ? r[0] * r[0] : limit;
   }
-  return n > 0 ? sum_of_lanes(sums) / all_m2 : 1.0;
+  const double cost = n > 0 ? sum_of_lanes(sums) / (each_m2 * n) : 1.0;
+  return cost < too_much ? cost : too_much;
 }
 
 MlesacScore mlesac_score(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane, double sigma_m,

@@ -22,12 +22,12 @@ class FourDistances {
         nz_(all_four(static_cast<float>(plane.n.z()))),
         d_(all_four(static_cast<float>(plane.d))) {}
 
+  FourFloats of(FourFloats x, FourFloats y, FourFloats z) const { return nx_ * x + ny_ * y + nz_ * z + d_; }
   FourFloats of(const PointSet& points, std::uint32_t from) const {
-    return nx_ * load_four(&points.x[from]) + ny_ * load_four(&points.y[from]) + nz_ * load_four(&points.z[from]) + d_;
+    return of(load_four(&points.x[from]), load_four(&points.y[from]), load_four(&points.z[from]));
   }
   FourFloats of_some(const PointSet& points, std::uint32_t from, std::uint32_t count) const {
-    return nx_ * load_some(&points.x[from], count) + ny_ * load_some(&points.y[from], count) +
-           nz_ * load_some(&points.z[from], count) + d_;
+    return of(load_some(&points.x[from], count), load_some(&points.y[from], count), load_some(&points.z[from], count));
   }
 
  private:
@@ -35,7 +35,7 @@ class FourDistances {
 };
 
 // Calls visit(i, distance) for the points whose signed distance from the plane is among those that keep asks for, in
-// their order.
+// their order, until it returns false.
 template <typename Keep, typename Visit>
 void for_each_where(const PointSet& points, const Plane& plane, const Keep& keep, const Visit& visit) {
   const FourDistances distances(plane);
@@ -45,17 +45,24 @@ void for_each_where(const PointSet& points, const Plane& plane, const Keep& keep
     const FourTruths kept = keep(r);
     if (!any_of(kept)) continue;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-      if (kept[lane] != 0) visit(i + lane, r[lane]);
+      if (kept[lane] != 0 && !visit(i + lane, r[lane])) return;
     }
   }
 }
 
 // At most limit_m.
 template <typename Visit>
-void for_each_up_to(const PointSet& points, const Plane& plane, double limit_m, const Visit& visit) {
+void for_each_up_to_while(const PointSet& points, const Plane& plane, double limit_m, const Visit& visit) {
   const FourFloats limit = all_four(static_cast<float>(limit_m));
   for_each_where(
       points, plane, [&limit](FourFloats r) -> FourTruths { return r <= limit; }, visit);
+}
+template <typename Visit>
+void for_each_up_to(const PointSet& points, const Plane& plane, double limit_m, const Visit& visit) {
+  for_each_up_to_while(points, plane, limit_m, [&visit](std::uint32_t i, float distance_m) {
+    visit(i, distance_m);
+    return true;
+  });
 }
 
 // From low_m to high_m.
@@ -63,7 +70,11 @@ template <typename Visit>
 void for_each_between(const PointSet& points, const Plane& plane, double low_m, double high_m, const Visit& visit) {
   const FourFloats low = all_four(static_cast<float>(low_m)), high = all_four(static_cast<float>(high_m));
   for_each_where(
-      points, plane, [&](FourFloats r) -> FourTruths { return (r >= low) & (r <= high); }, visit);
+      points, plane, [&](FourFloats r) -> FourTruths { return (r >= low) & (r <= high); },
+      [&visit](std::uint32_t i, float distance_m) {
+        visit(i, distance_m);
+        return true;
+      });
 }
 
 }  // namespace pose_wall

@@ -3,10 +3,11 @@
 //
 // What a patch fit knows of its own errors: correlation of the rock, covariance, and whether the surface is a plane.
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "estimation/patch_fit.hpp"
+#include "estimation/small_cholesky.hpp"
 
 namespace pose_wall {
 namespace {
@@ -24,8 +25,8 @@ constexpr double kNoiseLooksRough = 0.05;
 // Steps to the patches after this one, in rows from left to right, up to so many lags away: distances to the nearest
 // patch.
 struct Offset {
-  std::int32_t du, dv;
-  int lag;
+  std::int8_t du, dv;
+  std::uint8_t lag;
 };
 struct Offsets {
   static constexpr std::uint32_t kMost = 64;
@@ -34,15 +35,19 @@ struct Offsets {
 };
 constexpr Offsets offsets_within(int lags) {
   Offsets out;
-  for (std::int32_t dv = 0; dv <= lags; ++dv) {
-    for (std::int32_t du = dv == 0 ? 1 : -lags; du <= lags; ++du) {
+  for (int dv = 0; dv <= lags; ++dv) {
+    for (int du = dv == 0 ? 1 : -lags; du <= lags; ++du) {
       int lag = 0;
       while ((2 * lag + 1) * (2 * lag + 1) <= 4 * (du * du + dv * dv)) ++lag;
-      if (lag <= lags) out.item[out.count++] = {du, dv, lag};
+      if (lag <= lags) {
+        out.item[out.count++] = {static_cast<std::int8_t>(du), static_cast<std::int8_t>(dv),
+                                 static_cast<std::uint8_t>(lag)};
+      }
     }
   }
   return out;
 }
+constexpr Offsets kOffsets = offsets_within(PatchGrid::kLags);
 
 }  // namespace
 
@@ -67,7 +72,6 @@ double PatchFit::bend_slope_v_at(double u, double v) const {
 // after it, by their distance.
 template <typename Visit>
 void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
-  static constexpr Offsets kOffsets = offsets_within(kLags);
   const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
   Neighbour neighbours[Offsets::kMost] = {};
   for (const Mean& p : means_.first(n)) {
@@ -305,11 +309,11 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
   Quadratic pull = Quadratic::Zero();
   for (int k = 3; k < 6; ++k) pull[k] = kPull * m(k, k);
   m.diagonal() += pull;
-  const Eigen::LDLT<Matrix6> solver(m);
+  const SmallCholesky<kQuadraticTerms> solver(m);
   const Quadratic bend = solver.solve(rhs);
   const double gain = bend.dot(rhs);  // chi-square explained by the quadratic terms
-  if (solver.info() != Eigen::Success || !(gain >= 0.0) || !(gain <= 1.01 * plane_chi2)) return;
-  Matrix6 inverse;  // column by column: Eigen solves for a matrix by blocks, whose sizes it keeps in static storage
+  if (!solver.solved() || !(gain >= 0.0) || !(gain <= 1.01 * plane_chi2)) return;
+  Matrix6 inverse;
   for (int k = 0; k < 6; ++k) inverse.col(k) = solver.solve(Quadratic(Quadratic::Unit(k)));
   for (Mean& p : means_.first(n)) {
     if (p.layer != 0) continue;
@@ -321,7 +325,8 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
   const Eigen::Matrix3d covariance =
       covariance_of_bend(n, inverse) + Eigen::Matrix3d(held_back.bottomRightCorner<3, 3>());
   const Eigen::Vector3d quadratic = bend.tail<3>();
-  out->bends = quadratic.dot(covariance.ldlt().solve(quadratic)) > kBendChi2;  // Wald's test
+  const SmallCholesky<3> whitened(covariance);
+  out->bends = whitened.solved() && quadratic.dot(whitened.solve(quadratic)) > kBendChi2;  // Wald's test
   if (out->bends) out->bend = bend;
   out->curvature_v = bend[5];
   out->curvature_v_sigma = std::sqrt(covariance(2, 2));

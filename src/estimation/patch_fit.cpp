@@ -12,6 +12,7 @@ namespace {
 // A patch's own scatter counts beside this many more points of the expected scatter.
 constexpr double kPriorPoints = 10.0;
 constexpr int kScatterRounds = 4;
+constexpr int kScatterRoundsOfAStep = 2;
 constexpr double kSensorNoise_m = 0.03;
 constexpr double kScatterLeast = 0.01;
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
@@ -79,9 +80,9 @@ void PatchGrid::set(std::uint32_t patch, std::uint32_t layer, const Sums& sums) 
 
 // Rock scatters points alike wherever they are hit; the noise of the range only by its share across the surface. Least
 // squares of the patches' own variances on (1, share^2), weighted by how well each is known, neither part negative.
-PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uint32_t cells) const {
+PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uint32_t cells, int rounds) const {
   Scatter out;
-  for (int round = 0; round < kScatterRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     double g = 0.0, gc = 0.0, gcc = 0.0, gs = 0.0, gcs = 0.0;
     for (std::uint32_t k = first; k < first + cells; ++k) {
       const Patch& p = cells_[k];
@@ -116,11 +117,12 @@ double PatchGrid::Scatter::at(double share2) const {
   return variance > least ? variance : least;
 }
 
-std::uint32_t PatchGrid::collect_means() {
+std::uint32_t PatchGrid::collect_means(Errors errors) {
+  const int rounds = errors == Errors::kMeasured ? kScatterRounds : kScatterRoundsOfAStep;
   std::uint32_t n = 0;
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     const std::uint32_t cells = columns_ * rows_, first = layer * cells;
-    const Scatter expected = scatter_by_incidence(first, cells);
+    const Scatter expected = scatter_by_incidence(first, cells, rounds);
     for (std::uint32_t c = first; c < first + cells; ++c) {
       const Patch& p = cells_[c];
       mean_of_cell_[c] = -1;
@@ -201,7 +203,7 @@ double PatchGrid::between_patch_variance(std::uint32_t n, std::uint32_t layer, c
 
 PatchFit PatchGrid::fit(Errors errors) {
   PatchFit out;
-  const std::uint32_t n = collect_means();
+  const std::uint32_t n = collect_means(errors);
   out.patches = n;
   std::uint32_t of_surface = 0;
   for (const Mean& p : means_.first(n)) of_surface += p.layer == 0 ? 1U : 0U;

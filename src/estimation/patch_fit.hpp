@@ -61,6 +61,7 @@ class PatchGrid {
   static constexpr std::uint32_t kCapacity = 1536;  // patches of all layers
   static constexpr std::uint32_t kLayersMax = 2;
   static constexpr std::uint32_t kPatchesMin = 8;  // of the surface
+  static constexpr int kLags = 5;                  // patches further apart count as independent
 
   void lay_out(Arena& arena);
 
@@ -121,7 +122,6 @@ class PatchGrid {
     std::uint32_t layer;
   };
   static constexpr int kGiveBackRounds = 2;
-  static constexpr int kLags = 5;  // patches further apart count as independent
   // Of one layer: variance of the rock between patches and its correlation by distance.
   struct Roughness {
     double tau2 = 0.0;
@@ -134,8 +134,8 @@ class PatchGrid {
     double at(double share2) const;
   };
 
-  Scatter scatter_by_incidence(std::uint32_t first, std::uint32_t cells) const;
-  std::uint32_t collect_means();
+  Scatter scatter_by_incidence(std::uint32_t first, std::uint32_t cells, int rounds) const;
+  std::uint32_t collect_means(Errors errors);
   void centre(std::uint32_t n);
   bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
   double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;

@@ -21,6 +21,8 @@ constexpr double kOwnShares[] = {0.05, 0.4};
 // An exactly flat surface has nothing left to scale by.
 constexpr double kScaleLeast = 1e-6;
 constexpr int kModelsMax = 1 + 4 * 2;
+// Factors of a determinant whose logarithm is taken at once: each lies between 1e-6 and 1e6.
+constexpr std::uint32_t kLogEvery = 16;
 
 // Variance of the patches about their plane beyond their noise: a first guess, for the ratio of the two. Patches count
 // by what is known of them (DerSimonian and Laird 1986), or one that is hardly seen would drown the rest.
@@ -130,6 +132,7 @@ void UnevenPlane::lay_out(Arena& arena) {
   factor_ = arena.take<float>(kRow * kRow);
   whitened_ = arena.take<float>(kRow * kColumns);
   matern_ = arena.take<double>(kMaternSteps + 1);
+  matern_filled_ = false;
 }
 
 void UnevenPlane::fill_matern() {
@@ -137,6 +140,7 @@ void UnevenPlane::fill_matern() {
     const double r = k * (1.0 / kMaternPerUnit);
     matern_[k] = (1.0 + r) * exponential(-r);
   }
+  matern_filled_ = true;
 }
 
 // (1 + r) exp(-r), to 3e-5.
@@ -147,12 +151,21 @@ double UnevenPlane::matern(double r) const {
   return matern_[step] + (place - step) * (matern_[step + 1] - matern_[step]);
 }
 
-void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double length_m) {
-  const double per_length = std::sqrt(3.0) / length_m;
+void UnevenPlane::fill_distances(Span<const SurfacePatch> patches) {
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     for (std::uint32_t j = 0; j < i; ++j) {
       const double du = patches[i].u - patches[j].u, dv = patches[i].v - patches[j].v;
-      correlation_[i * kRow + j] = static_cast<float>(matern(std::sqrt(du * du + dv * dv) * per_length));
+      correlation_[j * kRow + i] = static_cast<float>(std::sqrt(du * du + dv * dv));
+    }
+  }
+}
+
+void UnevenPlane::fill_correlation(std::uint32_t patches, double length_m) {
+  const double per_length = std::sqrt(3.0) / length_m;
+  for (std::uint32_t i = 0; i < patches; ++i) {
+    for (std::uint32_t j = 0; j < i; ++j) {
+      const auto distance_m = static_cast<double>(correlation_[j * kRow + i]);
+      correlation_[i * kRow + j] = static_cast<float>(matern(distance_m * per_length));
     }
   }
 }
@@ -163,14 +176,13 @@ void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double leng
 bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, double tau2) {
   const auto shared = static_cast<float>((1.0 - own_share) * tau2);
   const std::uint32_t n = patches.size();
-  const auto covariance = [&](std::uint32_t i, std::uint32_t j) {
-    return shared > 0.0F ? shared * correlation_[i * kRow + j] : 0.0F;
-  };
+  const auto covariance = [&](std::uint32_t i, std::uint32_t j) { return shared * correlation_[i * kRow + j]; };
   for (std::uint32_t first = 0; first < n; first += kFour) {
     float* const rows = &factor_[first * kRow];
     for (std::uint32_t k = 0; k < kFour * kRow; ++k) rows[k] = 0.0F;
     const std::uint32_t end = first + kFour < n ? first + kFour : n;
-    for (std::uint32_t j = 0; j < first; ++j) {
+    // Where nothing is shared the rows hold their diagonal alone.
+    for (std::uint32_t j = shared > 0.0F ? 0 : first; j < first; ++j) {
       const float* const above = &factor_[j * kRow];
       const FourSums sums = four_dots(rows, above, j);
       for (std::uint32_t i = first; i < end; ++i) {
@@ -179,7 +191,7 @@ bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, dou
     }
     for (std::uint32_t i = first; i < end; ++i) {
       float* const row = &factor_[i * kRow];
-      for (std::uint32_t j = first; j < i; ++j) {
+      for (std::uint32_t j = shared > 0.0F ? first : i; j < i; ++j) {
         const float* const above = &factor_[j * kRow];
         row[j] = (covariance(i, j) - dot(row, above, j)) * above[j];
       }
@@ -194,7 +206,7 @@ bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, dou
 bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
   Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
   Eigen::Vector3d of_residual = Eigen::Vector3d::Zero(), of_bias = Eigen::Vector3d::Zero();
-  double squares = 0.0, log_determinant = 0.0;
+  double squares = 0.0, log_determinant = 0.0, product = 1.0;
   whitened_.fill(0.0F);
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     const SurfacePatch& p = patches[i];
@@ -210,7 +222,10 @@ bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
     of_residual += a * y[3];
     of_bias += a * y[4];
     squares += y[3] * y[3];
-    log_determinant -= 2.0 * natural_log(static_cast<double>(row[i]));
+    product *= static_cast<double>(row[i]);
+    if (i % kLogEvery != kLogEvery - 1 && i + 1 != patches.size()) continue;
+    log_determinant -= 2.0 * natural_log(product);
+    product = 1.0;
   }
   const double determinant = g.determinant();
   if (!(determinant > 1e-9 * g(0, 0) * g(1, 1) * g(2, 2))) return false;
@@ -237,9 +252,10 @@ UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
   Models models;
   consider(patches, 1.0, tau2, &models);
   if (tau2 > 0.0) {
-    fill_matern();
+    if (!matern_filled_) fill_matern();
+    fill_distances(patches);
     for (const double length_m : kLengths_m) {
-      fill_correlation(patches, length_m);
+      fill_correlation(patches.size(), length_m);
       for (const double share : kOwnShares) consider(patches, share, tau2, &models);
     }
   }

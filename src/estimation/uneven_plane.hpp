@@ -42,14 +42,16 @@ class UnevenPlane {
   static constexpr double kMaternPerUnit = 64.0;
   void fill_matern();
   double matern(double r) const;
-  void fill_correlation(Span<const SurfacePatch> patches, double length_m);
+  void fill_distances(Span<const SurfacePatch> patches);
+  void fill_correlation(std::uint32_t patches, double length_m);
   void consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models);
   bool factor(Span<const SurfacePatch> patches, double own_share, double tau2);
   bool solve(Span<const SurfacePatch> patches, Model* model);
 
-  Span<float> correlation_;  // rows of the lower triangle
+  Span<float> correlation_;  // in the lower triangle; in the upper one the distances, metres
   Span<float> factor_;       // Cholesky's, its diagonal inverted
   Span<double> matern_;
+  bool matern_filled_ = false;
   Span<float> whitened_;  // a row each: 1, u, v, residual, bias
 };
 

@@ -4,6 +4,7 @@
 #include "math/elementary.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -12,6 +13,23 @@ namespace {
 
 constexpr double kLn2High = 6.93147180369123816490e-01;  // upper bits of ln 2: k * kLn2High is exact
 constexpr double kLn2Low = 1.90821492927058770002e-10;
+
+// c[0] + c[1] x + ... by Horner's rule: a product and a sum a term, and no division. Told term by term, for a loop
+// takes as much again.
+template <std::size_t kFirst = 0, std::size_t kTerms>
+inline double polynomial(const double (&c)[kTerms], double x) {
+  if constexpr (kFirst + 1 == kTerms) {
+    return c[kFirst];
+  } else {
+    return polynomial<kFirst + 1>(c, x) * x + c[kFirst];
+  }
+}
+
+constexpr double factorial(int n) {
+  double product = 1.0;
+  for (int k = 2; k <= n; ++k) product *= k;
+  return product;
+}
 
 // Taylor series on [-pi/4, pi/4]; the first dropped term is below 1e-17.
 double sine_series(double x) {
@@ -104,29 +122,37 @@ double natural_log(double x) {
   }
   // log(m) = 2 atanh(s), s = (m - 1) / (m + 1), |s| <= 0.1716.
   const double s = (mantissa - 1.0) / (mantissa + 1.0);
-  const double s2 = s * s;
-  double power = s;
-  double sum = s;
-  for (int k = 3; k <= 21; k += 2) {
-    power *= s2;
-    sum += power / static_cast<double>(k);
-  }
+  static constexpr double kC[] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0,  1.0 / 9.0, 1.0 / 11.0,
+                                  1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0};
+  const double sum = s * polynomial(kC, s * s);
   return static_cast<double>(exponent) * kLn2High + (static_cast<double>(exponent) * kLn2Low + 2.0 * sum);
 }
 
 double exponential(double x) {
-  const double k = std::floor(x / (kLn2High + kLn2Low) + 0.5);
+  // Taylor series on half of ln 2 to each side; the first dropped term is below 1e-17.
+  static constexpr double kC[] = {1.0,
+                                  1.0,
+                                  1.0 / factorial(2),
+                                  1.0 / factorial(3),
+                                  1.0 / factorial(4),
+                                  1.0 / factorial(5),
+                                  1.0 / factorial(6),
+                                  1.0 / factorial(7),
+                                  1.0 / factorial(8),
+                                  1.0 / factorial(9),
+                                  1.0 / factorial(10),
+                                  1.0 / factorial(11),
+                                  1.0 / factorial(12),
+                                  1.0 / factorial(13)};
+  // Counted from below every exponent, so that cutting off the fraction rounds down; it is also the exponent's bias.
+  constexpr double kBias = 1023.0;
+  const auto biased = static_cast<std::int64_t>(x * (1.0 / (kLn2High + kLn2Low)) + (kBias + 0.5));
+  const double k = static_cast<double>(biased) - kBias;
   const double r = (x - k * kLn2High) - k * kLn2Low;
-  double term = 1.0;
-  double sum = 1.0;
-  for (int i = 1; i <= 14; ++i) {
-    term *= r / static_cast<double>(i);
-    sum += term;
-  }
-  const std::uint64_t bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52;
+  const std::uint64_t bits = static_cast<std::uint64_t>(biased) << 52;
   double scale;
   std::memcpy(&scale, &bits, sizeof(scale));
-  return sum * scale;
+  return polynomial(kC, r) * scale;
 }
 
 }  // namespace pose_wall

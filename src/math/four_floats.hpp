@@ -65,7 +65,12 @@ inline FourFloats root_of(FourFloats four) {
 }
 
 inline FourFloats magnitude_of(FourFloats four) {
-  return four < FourFloats{} ? -four : four;
+  constexpr std::int32_t kAllButSign = 0x7FFFFFFF;
+  FourInts bits;
+  std::memcpy(&bits, &four, sizeof(bits));
+  bits &= FourInts{kAllButSign, kAllButSign, kAllButSign, kAllButSign};
+  std::memcpy(&four, &bits, sizeof(four));
+  return four;
 }
 
 inline bool any_of(FourTruths truths) {
@@ -78,14 +83,15 @@ inline FourTruths first_of_four(std::uint32_t count) {
   return FourInts{0, 1, 2, 3} < static_cast<std::int32_t>(count);
 }
 
-// visit(first index, which of the four count): over rows whose length is a whole number of fours, of which `count` are
-// in use.
+// visit(first index, which of the four count): from begin to end, in rows that go on for a four behind the last end.
+template <typename Visit>
+void for_each_four(std::uint32_t begin, std::uint32_t end, const Visit& visit) {
+  // One loop for whole fours and what is left: two would hold the visit twice.
+  for (std::uint32_t k = begin; k < end; k += kFour) visit(k, first_of_four(end - k));
+}
 template <typename Visit>
 void for_each_four(std::uint32_t count, const Visit& visit) {
-  const FourTruths all = FourFloats{} == FourFloats{};
-  std::uint32_t k = 0;
-  for (; k + kFour <= count; k += kFour) visit(k, all);
-  if (k < count) visit(k, first_of_four(count - k));
+  for_each_four(0, count, visit);
 }
 
 // In a fixed order.

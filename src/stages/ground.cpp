@@ -80,7 +80,8 @@ std::uint32_t lowest_part(const PointSet& cloud, Span<const std::uint32_t> candi
 std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const Settings& s, const Axes& axes,
                     const Eigen::Vector3d& sensor, FloorShortlist* list, GroundScratch* scratch,
                     Candidate (&out)[kFloorShortlist]) {
-  const IrlsSettings quick{2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2};
+  const FloorLimits limits(s);
+  const IrlsSettings quick = quick_irls(2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2);
   // The low points have done their work; their room holds a part of all, enough to refine a hypothesis.
   for (std::uint32_t i = 0; i < all.size(); ++i) scratch->low[i] = all[i];
   const Span<const std::uint32_t> part = thinned(scratch->low.first(all.size()), kQuickPointsMax);
@@ -89,7 +90,7 @@ std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const 
     const IrlsResult refined =
         irls_tukey(cloud, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
     POSE_WALL_NOTE(note_refined_floor(refined, 1.0 - (*list)[k].cost, s, sensor));
-    if (!refined.solved || !may_be_floor(refined.plane, s, sensor)) continue;
+    if (!refined.solved || !may_be_floor(refined.plane, limits, sensor)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);
     POSE_WALL_NOTE(if (repeats) trace::fate(refined.plane, POSE_WALL_TRACE_REPEATS));
@@ -156,7 +157,7 @@ void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& bes
     out->fit.reasons |= reason;
   };
   // The fit may have wandered off on a few points of something else.
-  const bool stayed = may_be_floor(out->fit.plane, s, sensor) && same_floor(out->fit.plane, best.plane);
+  const bool stayed = may_be_floor(out->fit.plane, FloorLimits(s), sensor) && same_floor(out->fit.plane, best.plane);
   POSE_WALL_NOTE(note_floor_gates(s, sensor, best.plane, out->fit));
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_AREA, best.evidence.area_m2, kAreaMin_m2,
                              best.evidence.area_m2 >= kAreaMin_m2));

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide
 constexpr double kHeightBin_m = 0.125;
-constexpr double kHeightBins = 64.0;
+constexpr float kHeightBins = 64.0F;
 constexpr double kBelowSensor_m = 5.5;  // the lowest bin; the highest ends 2.5 m above the sensor
 // What stands on a point or hangs under it: in two of six bins, from the second on. One bin alone may be dust.
 constexpr std::uint64_t kSixBins = 0x3F;
@@ -23,21 +23,6 @@ constexpr int kSixthBin = 7;
 
 bool two_or_more(std::uint64_t bits) {
   return (bits & (bits - 1)) != 0;
-}
-
-std::uint32_t count_within(const PointSet& points, double radius_m) {
-  const float limit = static_cast<float>(radius_m * radius_m);
-  FourTruths counts{};  // true is -1
-  const std::uint32_t whole = points.count - points.count % kFour;
-  for (std::uint32_t i = 0; i < whole; i += kFour) {
-    const FourFloats x = load_four(&points.x[i]), y = load_four(&points.y[i]);
-    counts -= x * x + y * y <= limit;
-  }
-  auto count = static_cast<std::uint32_t>(counts[0] + counts[1] + counts[2] + counts[3]);
-  for (std::uint32_t i = whole; i < points.count; ++i) {
-    count += points.x[i] * points.x[i] + points.y[i] * points.y[i] <= limit ? 1U : 0U;
-  }
-  return count;
 }
 
 std::uint64_t bins_above(std::uint64_t heights, int bin) {
@@ -59,53 +44,78 @@ void FloorGrid::lay_out(Arena& arena) {
   near_marked_ = arena.take<std::uint8_t>(kSide * kSide);
 }
 
-std::int32_t FloorGrid::cell_of(double coordinate_m) {
-  // Counted from far below every coordinate, so that cutting off the fraction rounds down: no call to floor().
-  constexpr std::int32_t kFar = 1 << 20;
-  return static_cast<std::int32_t>(coordinate_m * (1.0 / kCell_m) + (kFar + kSide / 2)) - kFar;
+std::int32_t FloorGrid::cell_of(float coordinate_m) {
+  // Counted from far below every coordinate, so that cutting off the fraction rounds down: no call to floor(). What is
+  // further out is outside in either case.
+  constexpr std::int32_t kFar = 1 << 10;
+  return static_cast<std::int32_t>(coordinate_m * static_cast<float>(1.0 / kCell_m) + (kFar + kSide / 2)) - kFar;
 }
+
+// Where four points lie: cell and height bin as one number, or kNowhere outside the radius or the grid's height.
+class FloorGrid::FourPlaces {
+ public:
+  FourPlaces(double radius_m, double lowest_m)
+      : radius2_(static_cast<float>(radius_m * radius_m)), lowest_m_(static_cast<float>(lowest_m)) {}
+
+  void look_at(FourFloats x, FourFloats y, FourFloats z) {
+    const FourFloats bin = (z - lowest_m_) * static_cast<float>(1.0 / kHeightBin_m), none{};
+    const FourFloats ix = x * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide;
+    const FourFloats iy = y * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide;
+    within = x * x + y * y <= radius2_;
+    const FourTruths inside = within & (bin >= none) & (bin < all_four(kHeightBins)) & (ix >= none) &
+                              (ix < all_four(kSide)) & (iy >= none) & (iy < all_four(kSide));
+    const FourInts cell = cut_off(inside ? iy : none) * kSide + cut_off(inside ? ix : none);
+    place = inside ? cell * kBins + cut_off(inside ? bin : none) : FourInts{kNowhere, kNowhere, kNowhere, kNowhere};
+  }
+
+  FourTruths within{};
+  FourInts place{};
+
+  static constexpr std::int32_t kNowhere = -1;
+  static constexpr std::int32_t kBins = static_cast<std::int32_t>(kHeightBins);
+
+ private:
+  float radius2_, lowest_m_;
+};
 
 std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
                                    Span<std::uint32_t> out) {
   heights_.fill(0);
-  const float limit = static_cast<float>(radius_m * radius_m);
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
-  points_within_ = count_within(points_base, radius_m);
-  struct Place {
-    std::uint32_t cell;
-    int bin;
-  };
-  // False for points outside the radius or the grid's height.
-  const auto locate = [&](std::uint32_t i, Place* place) {
-    const float x = points_base.x[i], y = points_base.y[i];
-    const double bin = (static_cast<double>(points_base.z[i]) - lowest_m_) / kHeightBin_m;
-    const std::int32_t ix = cell_of(static_cast<double>(x)), iy = cell_of(static_cast<double>(y));
-    if (!(x * x + y * y <= limit) || !(bin >= 0.0 && bin < kHeightBins) || !inside(ix, iy)) return false;
-    *place = {index(ix, iy), static_cast<int>(bin)};
-    return true;
-  };
-  Place place{};
-  for (std::uint32_t i = 0; i < points_base.count; ++i) {
-    if (locate(i, &place)) heights_[place.cell] |= 1ULL << place.bin;
-  }
+  FourPlaces four(radius_m, lowest_m_);
+  FourInts within{};  // true is -1
+  for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    four.look_at(x, y, z);
+    within -= four.within & counts;
+    for (std::uint32_t lane = 0; lane < kFour && i + lane < points_base.count; ++lane) {
+      // Until it is known which are open, the list holds where each lies.
+      const auto place = static_cast<std::uint32_t>(four.place[lane]);
+      out[i + lane] = place;
+      if (four.place[lane] != FourPlaces::kNowhere)
+        heights_[place / FourPlaces::kBins] |= 1ULL << place % FourPlaces::kBins;
+    }
+  });
+  points_within_ = static_cast<std::uint32_t>(within[0] + within[1] + within[2] + within[3]);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
-    if (!locate(i, &place)) continue;
-    const std::uint64_t heights = heights_[place.cell];
-    const bool stood_on = two_or_more(bins_above(heights, place.bin));
-    if (!stood_on && !two_or_more(bins_below(heights, place.bin))) out[count++] = i;
+    const std::uint32_t place = out[i];
+    if (place == static_cast<std::uint32_t>(FourPlaces::kNowhere)) continue;
+    const std::uint64_t heights = heights_[place / FourPlaces::kBins];
+    const int bin = static_cast<int>(place % FourPlaces::kBins);
+    if (!two_or_more(bins_above(heights, bin)) && !two_or_more(bins_below(heights, bin))) out[count++] = i;
   }
   return count;
 }
 
-bool FloorGrid::clear_around(const Eigen::Vector3d& p_base) const {
-  constexpr double kAround_m = 0.1;
-  const double place = (p_base.z() - lowest_m_) / kHeightBin_m;
-  if (!(place >= 0.0 && place < kHeightBins)) return true;
+bool FloorGrid::clear_around(float x_base_m, float y_base_m, float z_base_m) const {
+  constexpr float kAround_m = 0.1F;
+  const float place = (z_base_m - static_cast<float>(lowest_m_)) * static_cast<float>(1.0 / kHeightBin_m);
+  if (!(place >= 0.0F && place < kHeightBins)) return true;
   const int bin = static_cast<int>(place);
-  const std::int32_t x_end = cell_of(p_base.x() + kAround_m), y_end = cell_of(p_base.y() + kAround_m);
-  for (std::int32_t iy = cell_of(p_base.y() - kAround_m); iy <= y_end; ++iy) {
-    for (std::int32_t ix = cell_of(p_base.x() - kAround_m); ix <= x_end; ++ix) {
+  const std::int32_t x_begin = cell_of(x_base_m - kAround_m), x_end = cell_of(x_base_m + kAround_m);
+  const std::int32_t y_begin = cell_of(y_base_m - kAround_m), y_end = cell_of(y_base_m + kAround_m);
+  for (std::int32_t iy = y_begin; iy <= y_end; ++iy) {
+    for (std::int32_t ix = x_begin; ix <= x_end; ++ix) {
       if (inside(ix, iy) && two_or_more(bins_above(heights_[index(ix, iy)], bin))) return false;
     }
   }
@@ -137,7 +147,7 @@ void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> open
     const Eigen::Vector3d p = points_base.at(i);
     const double height = plane.signed_distance(p);
     if (!(height >= -thresh_m && height <= thresh_m)) continue;
-    const std::int32_t ix = cell_of(p.x()), iy = cell_of(p.y());
+    const std::int32_t ix = cell_of(static_cast<float>(p.x())), iy = cell_of(static_cast<float>(p.y()));
     if (inside(ix, iy) && marked_[index(ix, iy)] == 0) mark_cell(ix, iy);
   }
 }
@@ -162,7 +172,7 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
 }
 
 bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
-  const std::int32_t ix = cell_of(x_base_m), iy = cell_of(y_base_m);
+  const std::int32_t ix = cell_of(static_cast<float>(x_base_m)), iy = cell_of(static_cast<float>(y_base_m));
   return inside(ix, iy) && near_marked_[index(ix, iy)] != 0;
 }
 
@@ -187,14 +197,14 @@ bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const Po
   const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   const auto most = static_cast<std::uint32_t>(share_max * marked.points_within());
   std::uint32_t below = 0;
-  for_each_up_to(points_base, marked_plane, -kBelow_m, [&](std::uint32_t i, float height_m) {
-    if (below > most) return;
+  for_each_up_to_while(points_base, marked_plane, -kBelow_m, [&](std::uint32_t i, float height_m) {
     const Eigen::Vector3d p = points_base.at(i);
     const double away2 = p.head<2>().squaredNorm(), height = static_cast<double>(height_m);
-    if (!(away2 <= limit2) || !(height < -(kBelow_m + kFall * std::sqrt(away2)))) return;
+    if (!(away2 <= limit2) || !(height < -(kBelow_m + kFall * std::sqrt(away2)))) return true;
     const Eigen::Vector3d crossing =
         sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
     if (!marked.marked_behind(sensor_base_m, crossing)) ++below;
+    return below <= most;
   });
   return below > most;
 }

@@ -40,7 +40,7 @@ class FloorGrid {
 
   // Whether nothing stands on the cells next to an open point's either: at the foot of a rough wall or heap its lowest
   // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
-  bool clear_around(const Eigen::Vector3d& p_base) const;
+  bool clear_around(float x_base_m, float y_base_m, float z_base_m) const;
 
   // Marks the cells in which a plane has points.
   void mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m);
@@ -52,7 +52,8 @@ class FloorGrid {
   bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
 
  private:
-  static std::int32_t cell_of(double coordinate_m);
+  class FourPlaces;
+  static std::int32_t cell_of(float coordinate_m);
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "estimation/irls.hpp"
+#include "estimation/near_plane.hpp"
 #include "estimation/plane_halves.hpp"
 #include "estimation/protection.hpp"
 #include "estimation/tangent_frame.hpp"
 #include "estimation/tukey.hpp"
 #include "math/elementary.hpp"
+#include "math/four_turns.hpp"
 #include "trace/trace.hpp"
 
 namespace pose_wall {
@@ -55,21 +57,44 @@ Eigen::Vector3d foot_of(const Eigen::Vector3d& p, const Plane& plane, const Eige
   return sensor_base_m + (p - sensor_base_m) * (sensor / (sensor - height));
 }
 
+// Of the points k to k + 3 of a list; those behind its last one are the last one again.
+FourPlaces four_at(const PointSet& cloud, Span<const std::uint32_t> list, std::uint32_t k) {
+  FourPlaces out{};
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    const std::uint32_t i = list[k + lane < list.size() ? k + lane : list.size() - 1];
+    out.x[lane] = cloud.x[i];
+    out.y[lane] = cloud.y[i];
+    out.z[lane] = cloud.z[i];
+  }
+  return out;
+}
+
 // Selections after the first go by height over the plane, clear of what stands on the floor, and within the radius
 // where the ray meets the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges
 // only, and these look like a higher floor.
 Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const FloorGrid& grid,
                                  const Plane& plane, double gate_m, double radius_m,
                                  const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
-  const bool below = plane.signed_distance(sensor_base_m) > gate_m;
+  const double sensor_m = plane.signed_distance(sensor_base_m);
+  if (!(sensor_m > gate_m)) return {};
+  const auto gate = static_cast<float>(gate_m), inside = static_cast<float>(sensor_m);
+  const auto radius2 = static_cast<float>(radius_m * radius_m);
+  const Eigen::Vector3f sensor = sensor_base_m.cast<float>();
+  const FourDistances distances(plane);
   std::uint32_t count = 0;
-  for (const std::uint32_t i : open) {
-    const Eigen::Vector3d p = cloud.at(i);
-    const double height = plane.signed_distance(p);
-    if (!(height >= -gate_m && height <= gate_m) || !below) continue;
-    const Eigen::Vector3d foot = foot_of(p, plane, sensor_base_m);
-    if (foot.x() * foot.x() + foot.y() * foot.y() <= radius_m * radius_m && grid.clear_around(foot)) out[count++] = i;
-  }
+  for_each_four(open.size(), [&](std::uint32_t k, FourTruths counts) {
+    const FourPlaces p = four_at(cloud, open, k);
+    const FourFloats height = distances.of(p.x, p.y, p.z);
+    counts &= (height >= -gate) & (height <= gate);
+    if (!any_of(counts)) return;
+    const FourFloats way = inside / (inside - height);  // to where the ray meets the plane
+    const FourFloats x = sensor.x() + (p.x - sensor.x()) * way, y = sensor.y() + (p.y - sensor.y()) * way;
+    const FourFloats z = sensor.z() + (p.z - sensor.z()) * way;
+    counts &= x * x + y * y <= radius2;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] != 0 && grid.clear_around(x[lane], y[lane], z[lane])) out[count++] = open[k + lane];
+    }
+  });
   return Span<const std::uint32_t>(out.data(), count);
 }
 

@@ -37,7 +37,7 @@ inline void note_floor_plane(const Plane& plane, pose_wall_trace_fate fate, doub
 inline void note_refined_floor(const IrlsResult& refined, double support, const Settings& s,
                                const Eigen::Vector3d& sensor_base_m) {
   pose_wall_trace_fate fate = POSE_WALL_TRACE_WEAKER;
-  if (!may_be_floor(refined.plane, s, sensor_base_m)) fate = POSE_WALL_TRACE_OUT_OF_RANGE;
+  if (!may_be_floor(refined.plane, FloorLimits(s), sensor_base_m)) fate = POSE_WALL_TRACE_OUT_OF_RANGE;
   if (!refined.solved) fate = POSE_WALL_TRACE_UNSUPPORTED;
   note_floor_plane(refined.plane, fate, support, sensor_base_m);
 }
@@ -78,7 +78,7 @@ class BestOutside {
 
   void offer(const Plane& plane) {
     constexpr double kSteepest_rad = 1.05;  // what is steeper is a wall
-    if (may_be_floor(plane, settings_, sensor_base_m_) || tilt_of(plane) > kSteepest_rad) return;
+    if (may_be_floor(plane, FloorLimits(settings_), sensor_base_m_) || tilt_of(plane) > kSteepest_rad) return;
     const bool steep = tilt_of(plane) > radians(settings_.ground_tilt_max_deg);
     Hypothesis& best = steep ? steep_ : displaced_;
     const double cost = truncated_cost(subset_, plane, settings_.ground_ransac_thresh, best.cost);

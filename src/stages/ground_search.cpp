@@ -44,10 +44,14 @@ bool draw_plane(const PointSet& points, Span<const std::uint32_t> from, Random* 
 
 }  // namespace
 
-bool may_be_floor(const Plane& plane, const Settings& settings, const Eigen::Vector3d& sensor_base_m) {
+FloorLimits::FloorLimits(const Settings& settings)
+    : up_min(cosine(radians(settings.ground_tilt_max_deg))),
+      height_min_m(settings.ground_height_min),
+      height_max_m(settings.ground_height_max) {}
+
+bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Vector3d& sensor_base_m) {
   const double height_m = plane.signed_distance(sensor_base_m);
-  return plane.n.z() >= cosine(radians(settings.ground_tilt_max_deg)) && height_m >= settings.ground_height_min &&
-         height_m <= settings.ground_height_max;
+  return plane.n.z() >= limits.up_min && height_m >= limits.height_min_m && height_m <= limits.height_max_m;
 }
 
 bool same_floor(const Plane& a, const Plane& b) {
@@ -68,6 +72,7 @@ std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings
   if (in.low.size() < 3) return 0;
   fill_subset(in, random, subset);
   const double thresh_m = settings.ground_ransac_thresh;
+  const FloorLimits limits(settings);
   std::uint32_t scored = 0;
   const auto score = [&](const Plane& plane) {
     list->offer({plane, truncated_cost(*subset, plane, thresh_m, list->too_much())}, same_floor);
@@ -82,7 +87,7 @@ std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings
     const Span<const std::uint32_t> from = draw % 2 == 1 ? in.open : in.low;
     if (!draw_plane(in.points_base, from, random, &plane)) continue;
     POSE_WALL_NOTE(outside.offer(plane));
-    if (may_be_floor(plane, settings, in.sensor_base_m)) score(plane);
+    if (may_be_floor(plane, limits, in.sensor_base_m)) score(plane);
   }
   POSE_WALL_NOTE(outside.note());
   return scored;

@@ -29,8 +29,16 @@ struct GroundSearchInput {
 std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings, Random* random, PointSet* subset,
                            FloorShortlist* list);
 
+// What the config allows of a floor, worked out once for all hypotheses.
+struct FloorLimits {
+  double up_min;  // of the normal's z, in base
+  double height_min_m, height_max_m;
+
+  explicit FloorLimits(const Settings& settings);
+};
+
 // A plane within the allowed tilt of base, below the sensor by an allowed height.
-bool may_be_floor(const Plane& plane, const Settings& settings, const Eigen::Vector3d& sensor_base_m);
+bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Vector3d& sensor_base_m);
 
 // Whether two planes are the same surface around the machine.
 bool same_floor(const Plane& a, const Plane& b);

@@ -3,6 +3,7 @@
 
 #include "stages/level.hpp"
 
+#include "math/four_turns.hpp"
 #include "math/rotation.hpp"
 
 namespace pose_wall {
@@ -20,24 +21,31 @@ LevelResult level_by(const Plane& floor_base, const Axes& axes) {
 
 void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
                    PointSet* band_level, PointSet* beyond_level) {
-  const double z_min = level.floor_z_level_m + settings.wall_z_min;
-  const double z_max = level.floor_z_level_m + settings.wall_z_max;
+  const auto z_min = static_cast<float>(level.floor_z_level_m + settings.wall_z_min);
+  const auto z_max = static_cast<float>(level.floor_z_level_m + settings.wall_z_max);
   // The band is averaged over cells of twice the size, some three times the area: one of three keeps the balance.
   constexpr std::uint32_t kBalance = 3;
   const std::uint32_t share = cloud_base.count / (kBalance * kBeyondMax) + 1, every = kBalance * share;
-  std::uint32_t outside = 0;
   beyond_level->count = 0;
   grid->begin(settings.wall_voxel_leaf, reach_of(settings));
-  for (std::uint32_t i = 0; i < cloud_base.count; ++i) {
-    const Eigen::Vector3d p = level.R_level_base * cloud_base.at(i);
-    if (!(p.z() >= z_min && p.z() <= z_max)) {
-      if (outside++ % every == 0) beyond_level->set(beyond_level->count++, p, static_cast<float>(share));
-      continue;
+  std::uint32_t until_next = 0;
+  const FourTurns to_level(level.R_level_base);
+  for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths) {
+    const FourPlaces p = to_level(x, y, z);
+    const FourTruths in_band = (p.z >= z_min) & (p.z <= z_max);
+    for (std::uint32_t lane = 0; lane < kFour && i + lane < cloud_base.count; ++lane) {
+      if (in_band[lane] != 0) {
+        // There is room: never more cells than points, and both grids have the same capacity.
+        grid->add(p.x[lane], p.y[lane], p.z[lane],
+                  static_cast<std::uint32_t>(cloud_base.weight[i + lane] * kWeightOne + 0.5F));
+      } else if (until_next == 0) {
+        beyond_level->add(p.x[lane], p.y[lane], p.z[lane], static_cast<float>(share));
+        until_next = every - 1;
+      } else {
+        --until_next;
+      }
     }
-    // There is room: never more cells than points, and both grids have the same capacity.
-    grid->add(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
-              static_cast<std::uint32_t>(cloud_base.weight[i] * kWeightOne + 0.5F));
-  }
+  });
   grid->extract(band_level);
 }
 

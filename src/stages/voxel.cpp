@@ -87,15 +87,19 @@ class Pass {
     }
   }
 
-  // False where the grid overflows; counts are complete only on true.
-  bool run(VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
+  // False where the grid overflows; counts are complete only on true. Not inlined: it is called from two places.
+  [[gnu::noinline]] bool run(VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
     *counts = IngestCounts{};
     returns_lidar->clear();
     PointBlock block;
     for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
       const unsigned char* point = row_of(cloud_, row);
-      for (std::uint32_t column = 0; column < cloud_.width; ++column, point += cloud_.point_step) {
-        read(point, &block);
+      for (std::uint32_t column = 0; column < cloud_.width;) {
+        const std::uint32_t room = PointBlock::kSize - block.count, left = cloud_.width - column;
+        const std::uint32_t count = left < room ? left : room;
+        read(point, count, &block);
+        column += count;
+        point += static_cast<std::size_t>(count) * cloud_.point_step;
         if (block.count == PointBlock::kSize && !take(&block, grid, returns_lidar, counts)) return false;
       }
     }
@@ -103,22 +107,35 @@ class Pass {
   }
 
  private:
-  void read(const unsigned char* point, PointBlock* block) const {
-    const std::uint32_t k = block->count++;
+  // Points of one row, side by side.
+  void read(const unsigned char* point, std::uint32_t count, PointBlock* block) const {
+    const std::uint32_t begin = block->count, end = begin + count;
+    block->count = end;
     if (plain_) {
-      std::memcpy(&block->x_lidar[k], point + cloud_.x.offset, sizeof(float));
-      std::memcpy(&block->y_lidar[k], point + cloud_.y.offset, sizeof(float));
-      std::memcpy(&block->z_lidar[k], point + cloud_.z.offset, sizeof(float));
+      read_floats(point + cloud_.x.offset, begin, end, block->x_lidar);
+      read_floats(point + cloud_.y.offset, begin, end, block->y_lidar);
+      read_floats(point + cloud_.z.offset, begin, end, block->z_lidar);
     } else {
-      block->x_lidar[k] = to_float(read_field(point, cloud_.x, swap_));
-      block->y_lidar[k] = to_float(read_field(point, cloud_.y, swap_));
-      block->z_lidar[k] = to_float(read_field(point, cloud_.z, swap_));
+      const unsigned char* at = point;
+      for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) {
+        block->x_lidar[k] = to_float(read_field(at, cloud_.x, swap_));
+        block->y_lidar[k] = to_float(read_field(at, cloud_.y, swap_));
+        block->z_lidar[k] = to_float(read_field(at, cloud_.z, swap_));
+      }
     }
-    block->weight[k] = weight_of(point);
+    if (!(intensity_weight_ > 0.0)) {
+      for (std::uint32_t k = begin; k < end; ++k) block->weight[k] = kWeightOne;
+      return;
+    }
+    for (std::uint32_t k = begin; k < end; ++k, point += cloud_.point_step) block->weight[k] = weight_of(point);
+  }
+
+  [[gnu::noinline]] void read_floats(const unsigned char* from, std::uint32_t begin, std::uint32_t end,
+                                     float* row) const {
+    for (std::uint32_t k = begin; k < end; ++k, from += cloud_.point_step) std::memcpy(&row[k], from, sizeof(float));
   }
 
   std::uint32_t weight_of(const unsigned char* point) const {
-    if (!(intensity_weight_ > 0.0)) return kWeightOne;
     const double value = read_field(point, cloud_.intensity, swap_);
     const double brightness = value > 0.0 && value < 1e6 ? value / (value + mean_intensity_) : 0.0;
     const double weight = kWeightOne * (1.0 - intensity_weight_ + intensity_weight_ * brightness);
@@ -196,8 +213,11 @@ class Pass {
     judge_ranges(block);
     turn_to_base(grid->steps(), block);
     judge_bodies(block);
-    DirectionGrid::cells_of(block->x_lidar, block->y_lidar, block->z_lidar, block->range2, PointBlock::kSize,
-                            block->direction);
+    for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
+      store_four(DirectionGrid::cells_of(load_four(&block->x_lidar[k]), load_four(&block->y_lidar[k]),
+                                         load_four(&block->z_lidar[k]), load_four(&block->range2[k])),
+                 &block->direction[k]);
+    }
     counts->points_in += count;
     for (std::uint32_t k = 0; k < count; ++k) {
       if (block->fate[k] == kBeyond) {

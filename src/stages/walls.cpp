@@ -99,6 +99,7 @@ void thin_out(const PointSet& band_level, PointSet* thin_level) {
 void weigh(const WallScene& scene, const SideView& view, WallSearch* search, WallsScratch* scratch,
            WallCandidates* out) {
   const SameWall same{view};
+  const WallLimits limits(radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi);
   const double thresh_m = scene.settings.wall_ransac_thresh;
   out->count = 0;
   for (std::uint32_t k = 0; k < search->list().count(); ++k) {
@@ -106,7 +107,7 @@ void weigh(const WallScene& scene, const SideView& view, WallSearch* search, Wal
     POSE_WALL_NOTE(note_drawn_wall(plane));
     if (!refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, &scratch->fit, &plane)) continue;
     POSE_WALL_NOTE(note_refined_wall(plane));
-    if (!may_be_wall(plane, view, radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi)) continue;
+    if (!may_be_wall(plane, view, limits)) continue;
     bool repeats = false;
     for (std::uint32_t j = 0; j < out->count; ++j) repeats = repeats || same(out->item[j].plane, plane);
     POSE_WALL_NOTE(trace::fate(plane, POSE_WALL_TRACE_REPEATS));

@@ -113,6 +113,39 @@ void add_what_is_too_far(const WallScene& scene, const SightLines& lines, double
 
 }  // namespace
 
+namespace {
+
+// Where the rays to four points meet the plane, or would, and where along it the points lie; in floats.
+class FourRays {
+ public:
+  FourRays(const WallScene& scene, const Eigen::Vector3d& along_level, double inside_m)
+      : inside_m_(static_cast<float>(inside_m)), sensor_z_level_m_(static_cast<float>(scene.sensor_level_m.z())) {
+    const Eigen::Vector3d along_base = scene.R_level_base.transpose() * along_level;
+    const Eigen::Vector3d up_base = scene.R_level_base.row(2);
+    for (int k = 0; k < 3; ++k) {
+      along_base_[k] = static_cast<float>(along_base[k]);
+      up_base_[k] = static_cast<float>(up_base[k]);
+    }
+    sensor_along_m_ = static_cast<float>(along_level.dot(scene.sensor_level_m));
+  }
+
+  void look_at(FourFloats x, FourFloats y, FourFloats z, FourFloats r) {
+    const FourFloats to_plane = inside_m_ / (inside_m_ - r);
+    point_along_m = along_base_[0] * x + along_base_[1] * y + along_base_[2] * z - sensor_along_m_;
+    point_z_level_m = up_base_[0] * x + up_base_[1] * y + up_base_[2] * z;
+    along_m = to_plane * point_along_m;
+    z_level_m = sensor_z_level_m_ + to_plane * (point_z_level_m - sensor_z_level_m_);
+  }
+
+  FourFloats point_along_m{}, point_z_level_m{}, along_m{}, z_level_m{};
+
+ private:
+  float inside_m_, sensor_z_level_m_, sensor_along_m_;
+  float along_base_[3], up_base_[3];
+};
+
+}  // namespace
+
 WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double margin_m,
                     EdgeScratch* scratch) {
   const Eigen::Vector3d& sensor = scene.sensor_level_m;
@@ -123,29 +156,42 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
   double seen_high = 0.0;
   scratch->ends.clear();
   scratch->tops.clear();
-  const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
-  for_each_up_to(scene.cloud_base, wall_base, inside_m, [&](std::uint32_t i, float distance_m) {
-    const double r = static_cast<double>(distance_m), weight = static_cast<double>(scene.cloud_base.weight[i]);
-    if (!(r < inside_m)) return;                          // looks away from the plane
-    if (r > margin_m && !(seen_high < kHighMin)) return;  // what ends before the plane has told all that it can
-    const Eigen::Vector3d ray = scene.R_level_base * scene.cloud_base.at(i) - sensor;
-    // Where the ray meets the plane, or would. Rays to the floor right behind the plane pass it too.
-    const double to_plane = way_to_plane(inside_m, r), point_along_m = along_level.dot(ray);
-    const double along_m = to_plane * point_along_m, z_level_m = sensor.z() + to_plane * ray.z();
-    const bool is_past = r < -margin_m;
-    if (!is_past && z_level_m >= high_level_m && std::fabs(along_m) <= kHighReach_m) seen_high += weight;
-    if (r > margin_m) return;
-    if (!is_past || r < -kWellBehind_m) {
-      scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, is_past, weight);
-    }
-    const bool point_in_band = scene.in_band(sensor.z() + ray.z());
-    if (!is_past && point_in_band) {
-      *scratch->ends.on(point_along_m) += weight;
-      return;
-    }
-    if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;
-    if (r < 0.0 && scene.in_band(z_level_m)) *scratch->ends.past(along_m) += weight;
-  });
+  const FourDistances distances(Plane{scene.R_level_base.transpose() * wall.n, wall.d});
+  FourRays rays(scene, along_level, inside_m);
+  for_each_four_points(scene.cloud_base,
+                       [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+                         const FourFloats four_r = distances.of(x, y, z);
+                         // What looks away from the plane tells nothing, and what ends before it only how high the
+                         // sensor looks.
+                         const double limit_m = seen_high < kHighMin ? inside_m : margin_m;
+                         const FourTruths tells = counts & (four_r < static_cast<float>(limit_m));
+                         if (!any_of(tells)) return;
+                         rays.look_at(x, y, z, four_r);
+                         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+                           if (tells[lane] == 0) continue;
+                           const double r = static_cast<double>(four_r[lane]),
+                                        weight = static_cast<double>(scene.cloud_base.weight[i + lane]);
+                           // Where the ray meets the plane, or would. Rays to the floor right behind the plane pass it
+                           // too.
+                           const double point_along_m = static_cast<double>(rays.point_along_m[lane]);
+                           const double along_m = static_cast<double>(rays.along_m[lane]),
+                                        z_level_m = static_cast<double>(rays.z_level_m[lane]);
+                           const bool is_past = r < -margin_m;
+                           if (!is_past && z_level_m >= high_level_m && std::fabs(along_m) <= kHighReach_m)
+                             seen_high += weight;
+                           if (r > margin_m) continue;
+                           if (!is_past || r < -kWellBehind_m) {
+                             scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, is_past, weight);
+                           }
+                           const bool point_in_band = scene.in_band(static_cast<double>(rays.point_z_level_m[lane]));
+                           if (!is_past && point_in_band) {
+                             *scratch->ends.on(point_along_m) += weight;
+                             continue;
+                           }
+                           if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;
+                           if (r < 0.0 && scene.in_band(z_level_m)) *scratch->ends.past(along_m) += weight;
+                         }
+                       });
   add_what_is_too_far(scene, SightLines(scene, wall, along_level), height_m, &scratch->tops);
   return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), seen_high < kHighMin};
 }

@@ -31,6 +31,69 @@ bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) co
   return true;
 }
 
+// Four points, or the rays to them, against a plane, in floats: no cell is known to the millimetre.
+class WallGrid::FourMarks {
+ public:
+  FourMarks(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach)
+      : distances_(wall),
+        hit_m_(static_cast<float>(reach.hit_m)),
+        behind_m_(static_cast<float>(-reach.behind_m)),
+        inside_m_(static_cast<float>(wall.signed_distance(scene.sensor_level_m))),
+        along_x_(static_cast<float>(along_level.x())),
+        along_y_(static_cast<float>(along_level.y())),
+        sensor_along_m_(static_cast<float>(along_level.dot(scene.sensor_level_m))),
+        sensor_z_m_(static_cast<float>(scene.sensor_level_m.z())) {}
+
+  // False where none of them tells anything.
+  bool look_at(FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourFloats r = distances_.of(x, y, z);
+    hits = counts & (r <= hit_m_) & (r >= -hit_m_);
+    passes = counts & (r < behind_m_) & (r < -hit_m_);
+    if (!(inside_m_ > 0.0F)) passes = FourTruths{};
+    if (!any_of(hits | passes)) return false;
+    // A ray passes where it meets the plane; what lies on the plane marks its own place.
+    const FourFloats way = hits ? all_four(1.0F) : inside_m_ / (inside_m_ - r);
+    along_m = sensor_along_m_ + (along_x_ * x + along_y_ * y - sensor_along_m_) * way;
+    z_level_m = sensor_z_m_ + (z - sensor_z_m_) * way;
+    return true;
+  }
+
+  FourTruths hits{}, passes{};
+  FourFloats along_m{}, z_level_m{};
+
+ private:
+  FourDistances distances_;
+  float hit_m_, behind_m_, inside_m_, along_x_, along_y_, sensor_along_m_, sensor_z_m_;
+};
+
+// Negative outside the grid.
+FourInts WallGrid::cells_of(FourFloats along_m, FourFloats z_level_m) const {
+  const FourFloats column = along_m * static_cast<float>(1.0 / kColumn_m) + 0.5F * kColumns, none{};
+  const FourFloats row = (z_level_m - static_cast<float>(z_min_)) * static_cast<float>(rows_per_m_);
+  const FourTruths inside =
+      (column >= none) & (column < all_four(kColumns)) & (row >= none) & (row < all_four(static_cast<float>(rows_)));
+  const FourInts cell =
+      cut_off(inside ? row : none) * static_cast<std::int32_t>(kColumns) + cut_off(inside ? column : none);
+  return inside ? cell : FourInts{-1, -1, -1, -1};
+}
+
+void WallGrid::mark_points(const PointSet& points, Rays rays, FourMarks* marks) {
+  for_each_four_points(points, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    if (!marks->look_at(x, y, z, counts)) return;
+    const FourInts cell = cells_of(marks->along_m, marks->z_level_m);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (marks->hits[lane] != 0) {
+        inliers_ += static_cast<double>(points.weight[i + lane]);
+        if (cell[lane] >= 0) count_up(&hits_[static_cast<std::uint32_t>(cell[lane])], 1);
+      } else if (marks->passes[lane] != 0 && cell[lane] >= 0) {
+        const bool one = rays == Rays::kOneAPoint;
+        count_up(&through_[static_cast<std::uint32_t>(cell[lane])],
+                 one ? 1 : static_cast<std::uint32_t>(points.weight[i + lane]));
+      }
+    }
+  });
+}
+
 void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach) {
   hits_.fill(0);
   through_.fill(0);
@@ -40,29 +103,11 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
   row_m_ = height_m / kRowsMax > kRow_m ? height_m / kRowsMax : kRow_m;
   rows_per_m_ = 1.0 / row_m_;
   rows_ = static_cast<std::uint32_t>(std::ceil(height_m / row_m_ - 1e-9));
-  const Eigen::Vector3d& sensor = scene.sensor_level_m;
-  const double sensor_inside_m = wall.signed_distance(sensor);
-  const auto pass_through = [&](const Eigen::Vector3d& p, double r, std::uint32_t rays) {
-    if (!(r < -reach.behind_m && sensor_inside_m > 0.0)) return;
-    const Eigen::Vector3d crossing = sensor + (p - sensor) * way_to_plane(sensor_inside_m, r);
-    std::uint32_t cell = 0;
-    if (cell_of(along_level.dot(crossing), crossing.z(), &cell)) count_up(&through_[cell], rays);
-  };
-  for_each_up_to(scene.band_level, wall, reach.hit_m, [&](std::uint32_t i, float distance_m) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    const double r = static_cast<double>(distance_m);
-    std::uint32_t cell = 0;
-    if (r >= -reach.hit_m) {
-      inliers_ += static_cast<double>(scene.band_level.weight[i]);
-      if (cell_of(along_level.dot(p), p.z(), &cell)) count_up(&hits_[cell], 1);
-    } else {
-      pass_through(p, r, 1);
-    }
-  });
-  for_each_up_to(scene.beyond_level, wall, -reach.behind_m, [&](std::uint32_t i, float distance_m) {
-    pass_through(scene.beyond_level.at(i), static_cast<double>(distance_m),
-                 static_cast<std::uint32_t>(scene.beyond_level.weight[i]));
-  });
+  FourMarks in_band(scene, wall, along_level, reach);
+  mark_points(scene.band_level, Rays::kOneAPoint, &in_band);
+  constexpr double kNothing_m = -1.0;  // what lies outside the band is not on the wall
+  FourMarks beyond(scene, wall, along_level, {kNothing_m, reach.behind_m});
+  mark_points(scene.beyond_level, Rays::kByWeight, &beyond);
   for (std::uint32_t column = 0; column < kColumns; ++column) count_rows(column);
 }
 

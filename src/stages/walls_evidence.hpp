@@ -11,6 +11,7 @@
 #include "containers/arena.hpp"
 #include "containers/point_set.hpp"
 #include "estimation/plane.hpp"
+#include "math/four_floats.hpp"
 #include "stages/walls_scene.hpp"
 
 namespace pose_wall {
@@ -53,7 +54,11 @@ class WallGrid {
   bool solid_at(double along_m, double z_level_m) const;
 
  private:
+  class FourMarks;
+  enum class Rays { kOneAPoint, kByWeight };
+  void mark_points(const PointSet& points, Rays rays, FourMarks* marks);
   bool cell_of(double along_m, double z_level_m, std::uint32_t* cell) const;
+  FourInts cells_of(FourFloats along_m, FourFloats z_level_m) const;
   bool solid(std::uint32_t cell) const { return hits_[cell] >= 2 && hits_[cell] >= through_[cell]; }
   bool open(std::uint32_t cell) const { return through_[cell] >= 2 && through_[cell] > hits_[cell]; }
   void count_rows(std::uint32_t column);

@@ -28,7 +28,7 @@ void pad(Span<float> row, std::uint32_t count) {
 
 // visit(point, patch)
 template <typename Visit>
-void for_each_patch(const TangentPoints& at, const PatchGrid& patches, const Visit& visit) {
+void for_each_place(const TangentPoints& at, const PatchGrid& patches, const Visit& visit) {
   for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {
     const FourFloats none{};
     const FourInts patch = patches.patch_of(counts ? load_four(&at.u[k]) : none, counts ? load_four(&at.v[k]) : none);
@@ -38,6 +38,28 @@ void for_each_patch(const TangentPoints& at, const PatchGrid& patches, const Vis
   });
 }
 
+void move_within(Span<float> row, std::uint32_t begin, std::uint32_t end, Span<const std::uint32_t> places,
+                 Span<float> spare) {
+  for (std::uint32_t k = begin; k < end; ++k) spare[places[k]] = row[k];
+  for (std::uint32_t k = begin; k < end; ++k) row[k] = spare[k];
+}
+
+// In the order they have within a patch.
+enum Part : std::int32_t { kSurfaceOnly, kBoth, kStripOnly, kNeither, kParts };
+
+FourInts parts_of(const StripProfile::FourColumns& columns) {
+  const FourInts both = {kBoth, kBoth, kBoth, kBoth}, surface = {};
+  const FourInts strip = {kStripOnly, kStripOnly, kStripOnly, kStripOnly};
+  const FourInts neither = {kNeither, kNeither, kNeither, kNeither};
+  const FourInts if_surface = columns.is_strip ? both : surface, if_not = columns.is_strip ? strip : neither;
+  return columns.surface_probability > FourFloats{} ? if_surface : if_not;
+}
+
+// A patch of which nothing is known yet but where it ends.
+WallPoints::Patch all_surface(std::uint32_t end) {
+  return {end, end, end, end};
+}
+
 }  // namespace
 
 void WallPoints::lay_out(Arena& arena) {
@@ -45,9 +67,11 @@ void WallPoints::lay_out(Arena& arena) {
   constexpr std::uint32_t kRow = kMost + kFour;
   at.lay_out(arena, kRow);
   bias = arena.take<float>(kRow);
-  column_mark = arena.take<float>(kRow);
+  probability = arena.take<float>(kRow);
   spare = arena.take<float>(kRow);
-  patch_room = arena.take<std::uint32_t>(PatchGrid::kCapacity);
+  part = arena.take<std::uint8_t>(kRow);
+  patch_room = arena.take<Patch>(PatchGrid::kCapacity);
+  surface.lay_out(arena, kSurfaceMost);
 }
 
 void WallPoints::begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level) {
@@ -67,25 +91,26 @@ void WallPoints::add(const Eigen::Vector3d& p_level, float weight) {
   bias[k] = static_cast<float>(ray.z() / std::sqrt(ray.squaredNorm()));
 }
 
-void WallPoints::sort_by_patch(PatchGrid* patches, Span<std::uint32_t> places) {
+void WallPoints::sort_by_patch(PatchGrid* grid, Span<std::uint32_t> places) {
   Extent of_u, of_v;
   for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {
     of_u.add(counts ? load_four(&at.u[k]) : FourFloats{});
     of_v.add(counts ? load_four(&at.v[k]) : FourFloats{});
   });
   // Room for the strips' fronts, too.
-  patches->begin(of_u.from(), of_u.to(), of_v.from(), of_v.to(), kPatch_m, PatchGrid::kLayersMax);
-  patch_end = patch_room.first(patches->patches());
-  patch_end.fill(0);
-  for_each_patch(at, *patches, [&](std::uint32_t, std::uint32_t patch) { ++patch_end[patch]; });
+  grid->begin(of_u.from(), of_u.to(), of_v.from(), of_v.to(), kPatch_m, PatchGrid::kLayersMax);
+  patches = patch_room.first(grid->patches());
+  patches.fill(Patch{});
+  for_each_place(at, *grid, [&](std::uint32_t, std::uint32_t patch) { ++patches[patch].end; });
   std::uint32_t begin = 0;
-  for (std::uint32_t& end : patch_end) {
-    const std::uint32_t of_patch = end;
-    end = begin;
+  for (Patch& patch : patches) {
+    const std::uint32_t of_patch = patch.end;
+    patch.end = begin;
     begin += of_patch;
   }
   // Each goes to where its patch has got to.
-  for_each_patch(at, *patches, [&](std::uint32_t k, std::uint32_t patch) { places[k] = patch_end[patch]++; });
+  for_each_place(at, *grid, [&](std::uint32_t k, std::uint32_t patch) { places[k] = patches[patch].end++; });
+  for (Patch& patch : patches) patch = all_surface(patch.end);
   for_each_row([&](Span<float>* row) {
     for (std::uint32_t k = 0; k < at.count; ++k) spare[places[k]] = (*row)[k];
     const Span<float> sorted = spare;
@@ -97,25 +122,75 @@ void WallPoints::sort_by_patch(PatchGrid* patches, Span<std::uint32_t> places) {
 
 void WallPoints::keep(Span<const float> weights) {
   std::uint32_t kept = 0, k = 0;
-  for (std::uint32_t& end : patch_end) {
-    for (; k < end; ++k) {
+  for (Patch& patch : patches) {
+    for (; k < patch.end; ++k) {
       if (!(weights[k] > 0.0F)) continue;
       for_each_row([&](const Span<float>* row) { (*row)[kept] = (*row)[k]; });
       ++kept;
     }
-    end = kept;
+    patch = all_surface(kept);
   }
   at.count = kept;
   for_each_row([&](const Span<float>* row) { pad(*row, kept); });
 }
 
-void WallPoints::mark_columns(const StripProfile& strips) {
+void WallPoints::mark_columns(const StripProfile& strips, Span<std::uint32_t> places) {
   for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {
     const StripProfile::FourColumns columns = strips.columns_of(counts ? load_four(&at.u[k]) : FourFloats{});
-    const FourFloats p = columns.surface_probability;
-    store_four(columns.is_strip ? p - kStripMark : p, &column_mark[k]);
+    store_four(columns.surface_probability, &probability[k]);
+    const FourInts parts = parts_of(columns);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) part[k + lane] = static_cast<std::uint8_t>(parts[lane]);
   });
-  pad(column_mark, at.count);
+  pad(probability, at.count);
+  std::uint32_t begin = 0;
+  for (Patch& patch : patches) {
+    const std::uint32_t end = patch.end;
+    std::uint32_t next[kParts] = {};
+    for (std::uint32_t k = begin; k < end; ++k) ++next[part[k]];
+    std::uint32_t sum = begin;
+    for (std::uint32_t& place : next) {
+      const std::uint32_t of_part = place;
+      place = sum;
+      sum += of_part;
+    }
+    bool in_order = true;  // as most patches are since the last ring
+    for (std::uint32_t k = begin; k < end; ++k) {
+      places[k] = next[part[k]]++;
+      in_order = in_order && places[k] == k;
+    }
+    if (!in_order) {
+      const auto put_into_order = [&](const Span<float>* row) { move_within(*row, begin, end, places, spare); };
+      for_each_row(put_into_order);
+      put_into_order(&probability);
+    }
+    patch = {next[kSurfaceOnly], next[kBoth], next[kStripOnly], next[kNeither]};
+    begin = end;
+  }
+}
+
+void WallPoints::copy_surface() {
+  surface.plane = at.plane;
+  surface.frame = at.frame;
+  std::uint32_t most = 0, count = 0, until_next = 0;
+  for_each_patch([&](const Patch& patch, std::uint32_t begin) { most += patch.surface_end - begin; });
+  static_assert(kMost <= 2 * kSurfaceMost, "every second one has room");
+  const std::uint32_t every = most > kSurfaceMost ? 2 : 1;
+  for_each_patch([&](const Patch& patch, std::uint32_t begin) {
+    for (std::uint32_t k = begin; k < patch.surface_end; ++k) {
+      if (!(probability[k] >= 0.5F)) continue;
+      if (until_next > 0) {
+        --until_next;
+        continue;
+      }
+      until_next = every - 1;
+      surface.u[count] = at.u[k];
+      surface.v[count] = at.v[k];
+      surface.r[count] = at.r[k];
+      surface.weight[count] = at.weight[k];
+      ++count;
+    }
+  });
+  surface.count = count;
 }
 
 }  // namespace pose_wall

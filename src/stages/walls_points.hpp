@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The points a wall is fitted on. A fit goes through all of them some twenty times, so they lie in rows in the tangent
-// frame of the plane it began with, in the order of the patches that it averages them over.
+// The points a wall is fitted on. A fit goes through them some twenty times, so they lie in rows in the tangent frame
+// of the plane it began with, in the order of the patches that it averages them over; within a patch the surface's come
+// before the strips', and what is neither last: who asks for one of them passes over no other.
 
 #pragma once
 
@@ -17,6 +18,7 @@ namespace pose_wall {
 // u along the road, v up, r towards the machine.
 struct WallPoints {
   static constexpr std::uint32_t kMost = 16384;
+  static constexpr std::uint32_t kSurfaceMost = 8192;  // for a fit that is only a step this is plenty
 
   TangentPoints at;
   std::uint32_t stride = 1;    // of the points that belong here, every n-th is
@@ -24,8 +26,14 @@ struct WallPoints {
   Eigen::Vector3d sensor;      // u, v, r
   double z_at_origin_m = 0.0;  // z_level = z_at_origin + v z_per_v + r z_per_r
   double z_per_v = 1.0, z_per_r = 0.0;
-  Span<std::uint32_t> patch_end;  // of each patch of PatchGrid: the place behind its last point
-  Span<float> spare;              // a row for who needs one for a while
+  // Of each patch of PatchGrid the places behind its last points: a point of a strip may be the surface's as well, by
+  // a small probability.
+  struct Patch {
+    std::uint32_t surface_only_end, surface_end, strip_end, end;
+  };
+  Span<Patch> patches;
+  Span<float> spare;      // a row for who needs one for a while
+  TangentPoints surface;  // a copy, evenly thinned, of those that are more likely the surface's than not
 
   void lay_out(Arena& arena);
   // along_level: horizontal and in the plane, so that u tells nothing of the height.
@@ -36,12 +44,20 @@ struct WallPoints {
   // Drops the points without weight.
   void keep(Span<const float> weights);
 
-  // What the strips' columns say of each point.
-  void mark_columns(const StripProfile& strips);
-  StripProfile::FourColumns columns_of(std::uint32_t k) const {
-    const FourFloats mark = load_four(&column_mark[k]), none{};
-    const FourTruths is_strip = mark < none;
-    return {is_strip ? mark + kStripMark : mark, is_strip};
+  // Notes what the strips' columns say of each point, and puts each patch's into the order of its ends.
+  void mark_columns(const StripProfile& strips, Span<std::uint32_t> places);
+  // As the columns say: of points up to a patch's surface_end.
+  FourFloats surface_probability(std::uint32_t k) const { return load_four(&probability[k]); }
+  void copy_surface();
+
+  // visit(patch, first place): from one patch to the next.
+  template <typename Visit>
+  void for_each_patch(const Visit& visit) const {
+    std::uint32_t begin = 0;
+    for (const Patch& patch : patches) {
+      visit(patch, begin);
+      begin = patch.end;
+    }
   }
 
   double z_level_m(std::uint32_t k) const {
@@ -58,9 +74,9 @@ struct WallPoints {
     for (Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) visit(row);
   }
 
-  static constexpr float kStripMark = 2.0F;
-  Span<float> column_mark;  // probability of the surface, less kStripMark where the column is a strip's
-  Span<std::uint32_t> patch_room;
+  Span<float> probability;  // of the surface; once columns are marked
+  Span<std::uint8_t> part;  // scratch of mark_columns()
+  Span<Patch> patch_room;
 };
 
 }  // namespace pose_wall

@@ -31,12 +31,15 @@ bool SameWall::operator()(const Plane& a, const Plane& b) const {
   return true;
 }
 
-bool may_be_wall(const Plane& plane, const SideView& view, double angle_max_rad, double lean_max_rad) {
+WallLimits::WallLimits(double angle_max_rad, double lean_max_rad)
+    : cos_angle_max(cosine(angle_max_rad)), cos_lean_max(cosine(lean_max_rad)) {}
+
+bool may_be_wall(const Plane& plane, const SideView& view, const WallLimits& limits) {
   const double horizontal = std::sqrt(plane.n.x() * plane.n.x() + plane.n.y() * plane.n.y());
-  if (!(horizontal >= cosine(lean_max_rad))) return false;
+  if (!(horizontal >= limits.cos_lean_max)) return false;
   // The normal points to the machine: against the side, and the origin lies on its positive side.
   const double against_side = -plane.n.dot(view.side_level) / horizontal;
-  return plane.d > 0.0 && against_side >= cosine(angle_max_rad);
+  return plane.d > 0.0 && against_side >= limits.cos_angle_max;
 }
 
 void WallSearch::lay_out(Arena& arena, std::uint32_t points_max) {
@@ -52,9 +55,13 @@ void WallSearch::begin(const PointSet& band_level, const SideView& view, const S
   scored_ = 0;
   list_.clear();
   count_ = 0;
-  for (std::uint32_t i = 0; i < band_level.count; ++i) {
-    if (band_level.at(i).dot(view.side_level) > 0.0) side_[count_++] = i;
-  }
+  const auto side_x = static_cast<float>(view.side_level.x()), side_y = static_cast<float>(view.side_level.y());
+  for_each_four_points(band_level, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats, FourTruths counts) {
+    const FourTruths here = counts & (side_x * x + side_y * y > FourFloats{});
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (here[lane] != 0) side_[count_++] = i + lane;
+    }
+  });
   subset_.count = count_ < kPointsMin ? 0 : kWallSubset;
   for (std::uint32_t k = 0; k < subset_.count; ++k) {
     const std::uint32_t i = side_[random->below(count_)];
@@ -71,7 +78,7 @@ void WallSearch::offer(const Plane& plane) {
   ++scored_;
 }
 
-bool WallSearch::draw_plane(Plane* plane) {
+bool WallSearch::draw_plane(const WallLimits& limits, Plane* plane) {
   const Eigen::Vector3d a = band_->at(side_[random_->below(count_)]);
   const Eigen::Vector3d b = band_->at(side_[random_->below(count_)]);
   const Eigen::Vector3d along(b.x() - a.x(), b.y() - a.y(), 0.0);
@@ -80,16 +87,16 @@ bool WallSearch::draw_plane(Plane* plane) {
   plane->n = Eigen::Vector3d(along.y() / baseline, -along.x() / baseline, 0.0);
   plane->d = -plane->n.dot(a);
   if (plane->d < 0.0) *plane = plane->flipped();
-  return may_be_wall(*plane, view_, radians(settings_->yaw_max_deg + kDrawSlack_deg),
-                     radians(settings_->wall_lean_max_deg));
+  return may_be_wall(*plane, view_, limits);
 }
 
 void WallSearch::draw() {
   if (subset_.count == 0) return;
+  const WallLimits limits(radians(settings_->yaw_max_deg + kDrawSlack_deg), radians(settings_->wall_lean_max_deg));
   const std::uint32_t draws = settings_->wall_iterations * kDrawsPerIteration;
   for (std::uint32_t draw = 0; draw < draws && scored_ < settings_->wall_iterations; ++draw) {
     Plane plane;
-    if (draw_plane(&plane)) offer(plane);
+    if (draw_plane(limits, &plane)) offer(plane);
   }
 }
 

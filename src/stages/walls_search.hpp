@@ -32,8 +32,15 @@ struct SameWall {
 
 using WallShortlist = Shortlist<kWallShortlist>;
 
-// A plane that could be this side's wall: near vertical, within angle_max_rad of the direction, its foot on the side.
-bool may_be_wall(const Plane& plane, const SideView& view, double angle_max_rad, double lean_max_rad);
+// How far a wall may turn from the direction and lean, worked out once for all hypotheses.
+struct WallLimits {
+  double cos_angle_max, cos_lean_max;
+
+  WallLimits(double angle_max_rad, double lean_max_rad);
+};
+
+// A plane that could be this side's wall: near vertical, not turned too far, its foot on the side.
+bool may_be_wall(const Plane& plane, const SideView& view, const WallLimits& limits);
 
 class WallSearch {
  public:
@@ -50,7 +57,7 @@ class WallSearch {
   std::uint32_t scored() const { return scored_; }
 
  private:
-  bool draw_plane(Plane* plane);
+  bool draw_plane(const WallLimits& limits, Plane* plane);
 
   const PointSet* band_ = nullptr;
   const Settings* settings_ = nullptr;

@@ -7,6 +7,7 @@
 
 #include "estimation/distances.hpp"
 #include "estimation/near_plane.hpp"
+#include "math/four_turns.hpp"
 #include "stages/walls_sight_columns.hpp"
 
 namespace pose_wall {
@@ -118,14 +119,18 @@ WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
 }  // namespace
 
 void note_directions(const WallScene& scene, SightScratch* scratch) {
-  const Eigen::Matrix3d R_lidar_base = scene.extrinsic.R_base_lidar.transpose();
+  const FourTurns to_lidar(scene.extrinsic.R_base_lidar.transpose(),
+                           -(scene.extrinsic.R_base_lidar.transpose() * scene.extrinsic.sensor_base_m));
   scratch->kept_lidar.clear();
-  for (std::uint32_t i = 0; i < scene.cloud_base.count; ++i) {
-    const Eigen::Vector3d ray_lidar = R_lidar_base * (scene.cloud_base.at(i) - scene.extrinsic.sensor_base_m);
-    const std::uint32_t cell = DirectionGrid::cell_of(ray_lidar);
-    scratch->direction_of[i] = static_cast<std::uint16_t>(cell);
-    scratch->kept_lidar.add(cell, points_of(scene.cloud_base.weight[i]));
-  }
+  for_each_four_points(scene.cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths) {
+    const FourPlaces ray = to_lidar(x, y, z);
+    const FourInts cells = DirectionGrid::cells_of(ray.x, ray.y, ray.z, ray.x * ray.x + ray.y * ray.y + ray.z * ray.z);
+    for (std::uint32_t lane = 0; lane < kFour && i + lane < scene.cloud_base.count; ++lane) {
+      const auto cell = static_cast<std::uint32_t>(cells[lane]);
+      scratch->direction_of[i + lane] = static_cast<std::uint16_t>(cell);
+      scratch->kept_lidar.add(cell, points_of(scene.cloud_base.weight[i + lane]));
+    }
+  });
 }
 
 WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double behind_m,

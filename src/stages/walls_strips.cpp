@@ -38,17 +38,6 @@ void fill_strips(const WallSurface& fit, StripProfile* strips) {
   });
 }
 
-// The points with the weights they have where the wall's own surface is seen.
-TangentPoints surface_points(const WallPoints& points) {
-  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths) {
-    const FourTruths is_surface = points.columns_of(k).surface_probability >= 0.5F;
-    store_four(is_surface ? load_four(&points.at.weight[k]) : FourFloats{}, &points.spare[k]);
-  });
-  TangentPoints out = points.at;
-  out.weight = points.spare;
-  return out;
-}
-
 // Whether two fits differ by no more than their covariances allow; b uses what a uses, and more (Hausman 1978).
 bool agree(const WallSurface& a, const WallSurface& b) {
   const Eigen::Vector3d difference = a.over().as_correction() - b.over().as_correction();
@@ -66,32 +55,40 @@ Span<float> fronts_between(const WallSurface& fit, double from_m, double to_m) {
   const double foreshortening = fit.irls.over.foreshortening();
   const FourFloats from = all_four(static_cast<float>(from_m)), to = all_four(static_cast<float>(to_m));
   std::uint32_t count = 0;
-  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths counts) {
-    const FourFloats r = points.at.four_distances(k, fit.irls.over, foreshortening);
-    FourTruths stands_out = counts & (r >= from) & (r <= to);
-    if (!any_of(stands_out)) return;
-    stands_out &= points.columns_of(k).is_strip;
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (stands_out[lane] != 0) points.spare[count++] = r[lane];
-    }
+  points.for_each_patch([&](const WallPoints::Patch& patch, std::uint32_t) {
+    for_each_four(patch.surface_only_end, patch.strip_end, [&](std::uint32_t k, FourTruths counts) {
+      const FourFloats r = points.at.four_distances(k, fit.irls.over, foreshortening);
+      const FourTruths stands_out = counts & (r >= from) & (r <= to);
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+        if (stands_out[lane] != 0) points.spare[count++] = r[lane];
+      }
+    });
   });
   return points.spare.first(count);
 }
 
+// Of those no further from the centre than the window; the centre where there are none.
+double mean_within(Span<const float> residuals, double centre, double window_m) {
+  const FourFloats middle = all_four(static_cast<float>(centre)), reach = all_four(static_cast<float>(window_m)),
+                   none{};
+  FourFloats sum{};
+  FourInts count{};  // true is -1
+  for_each_four(residuals.size(), [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats off = load_four(&residuals[k]) - middle;
+    const FourTruths inside = counts & (magnitude_of(off) <= reach);
+    sum += inside ? off : none;
+    count -= inside;
+  });
+  const std::int32_t inside = count[0] + count[1] + count[2] + count[3];
+  return inside > 0 ? centre + sum_of_lanes(sum) / inside : centre;
+}
+
 // Flanks pull the mean down; a few rounds of a narrowing window find where most of the fronts are.
-double where_most_are(Span<float> residuals, double* window_m) {
-  double sum = 0.0;
-  for (const float r : residuals) sum += static_cast<double>(r);
-  double centre = sum / residuals.size();
+double where_most_are(Span<const float> residuals, double* window_m) {
+  double centre = mean_within(residuals, 0.0, 1e3);
   for (int round = 0; round < kFrontRounds; ++round) {
     *window_m *= 0.6;
-    double inside = 0.0, inside_sum = 0.0;
-    for (const float r : residuals) {
-      if (!(std::fabs(static_cast<double>(r) - centre) <= *window_m)) continue;
-      inside += 1.0;
-      inside_sum += static_cast<double>(r);
-    }
-    if (inside > 0.0) centre = inside_sum / inside;
+    centre = mean_within(residuals, centre, *window_m);
   }
   return centre;
 }
@@ -146,7 +143,7 @@ void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
 
 namespace {
 
-// What four points weigh: as WallSurface::weight(), and as a part of the strips' fronts.
+// What four points weigh as the surface, as WallSurface::weight(), and as a strip's front.
 class FourWeights {
  public:
   explicit FourWeights(const WallSurface& surface)
@@ -155,23 +152,19 @@ class FourWeights {
         front_per_cutoff_(surface.fronts.found ? static_cast<float>(1.0 / (kTukeyCutoff * surface.fronts.scale_m))
                                                : 0.0F) {}
 
-  void look_at(std::uint32_t k, FourFloats r) {
-    of_surface = flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff_);
-    if (surface_.strips != nullptr) {
-      const StripProfile::FourColumns columns = surface_.points->columns_of(k);
-      of_surface *= columns.surface_probability;
-      if (surface_.fronts.found) {
-        const FourFloats front = tukey_weights(r - static_cast<float>(surface_.fronts.step_m), front_per_cutoff_);
-        of_fronts = columns.is_strip ? front : FourFloats{};
-      }
-    } else if (surface_.layers.found) {
-      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-        of_surface[lane] *= static_cast<float>(surface_.layers.surface_probability(static_cast<double>(r[lane])));
-      }
+  FourFloats of_surface(std::uint32_t k, FourFloats r) const {
+    FourFloats weights = flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff_);
+    if (surface_.strips != nullptr) return weights * surface_.points->surface_probability(k);
+    if (!surface_.layers.found) return weights;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      weights[lane] *= static_cast<float>(surface_.layers.surface_probability(static_cast<double>(r[lane])));
     }
+    return weights;
   }
 
-  FourFloats of_surface{}, of_fronts{};
+  FourFloats of_fronts(FourFloats r) const {
+    return tukey_weights(r - static_cast<float>(surface_.fronts.step_m), front_per_cutoff_);
+  }
 
  private:
   const WallSurface& surface_;
@@ -184,25 +177,31 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
   const WallSurface& surface = *fit;
   const WallPoints& points = *surface.points;
   const double foreshortening = surface.irls.over.foreshortening();
-  FourWeights weights(surface);
+  const FourWeights weights(surface);
   patches->begin_anew(surface.fronts.found ? 2 : 1);
-  std::uint32_t k = 0;
-  for (std::uint32_t patch = 0; patch < patches->patches(); ++patch) {
-    PatchGrid::Sums of_surface, of_fronts;
-    const std::uint32_t end = points.patch_end[patch];
-    for (; k < end; k += kFour) {
-      const FourTruths counts = first_of_four(end - k);
+  // of_four(k, distances): what four points weigh.
+  const auto sums = [&](std::uint32_t begin, std::uint32_t end, const auto& of_four) {
+    PatchGrid::Sums out;
+    for_each_four(begin, end, [&](std::uint32_t k, FourTruths counts) {
       const FourFloats r = points.at.four_distances(k, surface.irls.over, foreshortening);
       const FourFloats stands_for = counts ? load_four(&points.at.weight[k]) : FourFloats{};
-      const FourPoints four{load_four(&points.at.u[k]), load_four(&points.at.v[k]), r, load_four(&points.bias[k])};
-      weights.look_at(k, r);
-      of_surface.add(four, weights.of_surface * stands_for);
-      if (surface.fronts.found) of_fronts.add(four, weights.of_fronts * stands_for);
+      out.add({load_four(&points.at.u[k]), load_four(&points.at.v[k]), r, load_four(&points.bias[k])},
+              of_four(k, r) * stands_for);
+    });
+    return out;
+  };
+  std::uint32_t index = 0;
+  points.for_each_patch([&](const WallPoints::Patch& patch, std::uint32_t begin) {
+    patches->set(index, 0, sums(begin, patch.surface_end, [&](std::uint32_t k, FourFloats r) {
+                   return weights.of_surface(k, r);
+                 }));
+    if (surface.fronts.found) {
+      patches->set(index, 1, sums(patch.surface_only_end, patch.strip_end, [&](std::uint32_t, FourFloats r) {
+                     return weights.of_fronts(r);
+                   }));
     }
-    k = end;
-    patches->set(patch, 0, of_surface);
-    if (surface.fronts.found) patches->set(patch, 1, of_fronts);
-  }
+    ++index;
+  });
   fit->patch = patches->fit(errors);
 }
 
@@ -257,8 +256,9 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
       fill_strips(*fit, &strips);
       if (!strips.judge(sensor_m, reach_m)) continue;  // an opening: the wall may go on behind it
     }
-    points.mark_columns(strips);
-    fit->irls = irls_tukey(surface_points(points), points.at.count, fit->irls.over, step);
+    points.mark_columns(strips, scratch->near);
+    points.copy_surface();
+    fit->irls = irls_tukey(points.surface, points.surface.count, fit->irls.over, step);
     if (!fit->irls.solved) return;
     fit->strips = &strips;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.

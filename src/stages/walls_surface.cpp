@@ -130,19 +130,16 @@ bool cut_bent_rows(const WallSurface& fit, Heights* heights) {
 }  // namespace
 
 Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m, Span<std::uint32_t> out) {
-  const float behind = static_cast<float>(-gate_m);
   std::uint32_t count = 0;
-  for_each_up_to(points, plane, gate_m, [&](std::uint32_t i, float distance_m) {
-    if (distance_m >= behind) out[count++] = i;
-  });
+  for_each_between(points, plane, -gate_m, gate_m, [&](std::uint32_t i, float) { out[count++] = i; });
   return out.first(count);
 }
 
 bool refine_hypothesis(const PointSet& band_level, double thresh_m, const Eigen::Vector3d& along_level,
                        WallFitScratch* scratch, Plane* plane) {
+  const IrlsSettings quick = quick_irls(3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds);
   for (const double gate : {kFirstGateInThresholds * thresh_m, 3.0 * thresh_m}) {
     const Span<std::uint32_t> near = thinned(points_near(band_level, *plane, gate, scratch->near), kQuickPointsMax);
-    const IrlsSettings quick{3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds};
     const IrlsResult refined = irls_tukey(band_level, near, *plane, along_level, quick, &scratch->points.at);
     if (!refined.solved) return false;
     *plane = refined.plane;

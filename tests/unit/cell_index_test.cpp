@@ -45,6 +45,22 @@ TEST(CellIndex, FindsAllNeighboursWithinAnEdge) {
   EXPECT_EQ(cells->points_in(1000, 0, 0).size(), 0U);
 }
 
+TEST(CellIndex, BesideAPointAreThoseOfItsCell) {
+  test::OwnedPoints points(300);
+  test::Noise noise(2);
+  for (int i = 0; i < 300; ++i) points.add(noise.uniform(-1, 1), noise.uniform(-1, 1), noise.uniform(-1, 1));
+  test::Placed<CellIndex> cells(300U);
+  cells->build(points.set(), 0.4);
+  const PointSet& set = points.set();
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const Span<const std::uint32_t> beside = cells->points_beside(i);
+    const auto in_cell = cells->points_in(cells->cell(set.x[i]), cells->cell(set.y[i]), cells->cell(set.z[i]));
+    EXPECT_EQ(beside.data(), in_cell.data());
+    EXPECT_EQ(beside.size(), in_cell.size());
+    EXPECT_GE(beside.size(), 1U);
+  }
+}
+
 TEST(CellIndex, EmptyCloud) {
   test::OwnedPoints points(4);
   test::Placed<CellIndex> cells(4U);

@@ -150,7 +150,10 @@ TEST(DirectionGrid, ManyAtOnceAreSortedAsOneByOne) {
     z[k] = static_cast<float>(far * noise.normal(1.0));
     norm2[k] = x[k] * x[k] + y[k] * y[k] + z[k] * z[k];
   }
-  DirectionGrid::cells_of(x.data(), y.data(), z.data(), norm2.data(), kCount, cells.data());
+  for (std::uint32_t k = 0; k < kCount; k += kFour) {
+    store_four(DirectionGrid::cells_of(load_four(&x[k]), load_four(&y[k]), load_four(&z[k]), load_four(&norm2[k])),
+               &cells[k]);
+  }
   std::uint32_t others = 0;
   for (std::uint32_t k = 0; k < kCount; ++k) {
     const std::uint32_t one = DirectionGrid::cell_of(
@@ -169,11 +172,10 @@ TEST(DirectionGrid, WhatIsNoRayGetsSomeCell) {
         const float xs[4] = {x, y, z, 1.0F}, ys[4] = {y, z, x, 0.0F}, zs[4] = {z, x, y, 0.0F};
         float norm2[4];
         for (int k = 0; k < 4; ++k) norm2[k] = xs[k] * xs[k] + ys[k] * ys[k] + zs[k] * zs[k];
-        std::int32_t cells[4];
-        DirectionGrid::cells_of(xs, ys, zs, norm2, 4, cells);
-        for (const std::int32_t cell : cells) {
-          ASSERT_GE(cell, 0);
-          ASSERT_LT(cell, static_cast<std::int32_t>(DirectionGrid::kColumns * DirectionGrid::kRows));
+        const FourInts cells = DirectionGrid::cells_of(load_four(xs), load_four(ys), load_four(zs), load_four(norm2));
+        for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+          ASSERT_GE(cells[lane], 0);
+          ASSERT_LT(cells[lane], static_cast<std::int32_t>(DirectionGrid::kColumns * DirectionGrid::kRows));
         }
       }
     }

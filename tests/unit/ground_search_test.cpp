@@ -22,17 +22,18 @@ Plane at(double height, double tilt = 0.0) {
 TEST(GroundSearch, WhatMayBeAFloor) {
   const Settings s =
       test::settings_with({{"ground_height_min", "0.5"}, {"ground_height_max", "3.0"}, {"ground_tilt_max_deg", "30"}});
+  const FloorLimits limits(s);
   const Eigen::Vector3d sensor(0, 0, 0.2);
-  EXPECT_TRUE(may_be_floor(at(1.4), s, sensor));
-  EXPECT_TRUE(may_be_floor(at(0.31), s, sensor)) << "the sensor's height counts, not the origin's";
-  EXPECT_FALSE(may_be_floor(at(0.29), s, sensor));
-  EXPECT_FALSE(may_be_floor(at(2.9), s, sensor));
-  EXPECT_FALSE(may_be_floor(at(-1.4), s, sensor));
-  EXPECT_TRUE(may_be_floor(at(1.4, 0.5), s, sensor));
-  EXPECT_FALSE(may_be_floor(at(1.4, 0.55), s, sensor));
-  EXPECT_FALSE(may_be_floor(at(1.4).flipped(), s, sensor));
-  EXPECT_FALSE(may_be_floor(at(std::nan("")), s, sensor));
-  EXPECT_FALSE(may_be_floor(at(1.4, std::nan("")), s, sensor));
+  EXPECT_TRUE(may_be_floor(at(1.4), limits, sensor));
+  EXPECT_TRUE(may_be_floor(at(0.31), limits, sensor)) << "the sensor's height counts, not the origin's";
+  EXPECT_FALSE(may_be_floor(at(0.29), limits, sensor));
+  EXPECT_FALSE(may_be_floor(at(2.9), limits, sensor));
+  EXPECT_FALSE(may_be_floor(at(-1.4), limits, sensor));
+  EXPECT_TRUE(may_be_floor(at(1.4, 0.5), limits, sensor));
+  EXPECT_FALSE(may_be_floor(at(1.4, 0.55), limits, sensor));
+  EXPECT_FALSE(may_be_floor(at(1.4).flipped(), limits, sensor));
+  EXPECT_FALSE(may_be_floor(at(std::nan("")), limits, sensor));
+  EXPECT_FALSE(may_be_floor(at(1.4, std::nan("")), limits, sensor));
 }
 
 TEST(GroundSearch, SameFloorIsLocal) {

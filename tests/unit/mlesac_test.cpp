@@ -64,6 +64,22 @@ TEST(TruncatedCost, EndsEarlyOnlyForWhatCostsTooMuch) {
   }
 }
 
+// A mean of costs is told by the first of them to what chance leaves open: three standard errors.
+TEST(TruncatedCost, WhatIsSurelyLostIsNotLookedAtToTheEnd) {
+  std::vector<double> heights(512, 0.0);
+  for (std::size_t i = 0; i < 64; ++i)
+    heights[i] = 9.0;  // of which the order is no chance: all that is off comes first
+  EXPECT_EQ(cost_at(heights, 0.1), 0.125);
+  EXPECT_EQ(cost_at(heights, 0.1, 0.9), 0.9) << "64 of 64 are off";
+  test::Noise noise(11);
+  int wrong = 0;
+  for (int time = 0; time < 300; ++time) {
+    for (double& h : heights) h = noise.uniform(0, 1) < 0.8 ? 9.0 : 0.0;
+    wrong += cost_at(heights, 0.1, 0.85) == 0.85 && cost_at(heights, 0.1) < 0.84 ? 1 : 0;
+  }
+  EXPECT_LE(wrong, 3) << "of 300";
+}
+
 // The mixture of a half-Gaussian of |r| and a uniform density, by EM on the points, without bins.
 MlesacScore reference(const std::vector<double>& residuals) {
   const auto ratio = [](double r) {

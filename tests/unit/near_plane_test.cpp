@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: points up to a distance are visited once, in their order, whatever their number, with their distances.
+// Proves: points up to a distance or within a slab are visited once, in their order, whatever their number, with their
+// distances, and no further than the visitor wants.
 
 #include "estimation/near_plane.hpp"
 
@@ -45,6 +46,29 @@ TEST(NearPlane, TheLimitItselfIsWithin) {
     ++visits;
   });
   EXPECT_EQ(visits, 1);
+}
+
+TEST(NearPlane, VisitsASlabWithItsLimits) {
+  test::OwnedPoints points(8);
+  for (const double z : {-0.3, -0.25, 0.0, 0.5, 0.51, 0.1}) points.add(1, 2, z);
+  std::vector<std::uint32_t> visited;
+  for_each_between(points.set(), Plane{Eigen::Vector3d::UnitZ(), 0.0}, -0.25, 0.5,
+                   [&](std::uint32_t i, float) { visited.push_back(i); });
+  EXPECT_EQ(visited, (std::vector<std::uint32_t>{1, 2, 3, 5}));
+}
+
+TEST(NearPlane, WhoHasSeenEnoughIsShownNoMore) {
+  test::OwnedPoints points(40);
+  for (int i = 0; i < 37; ++i) points.add(i, 0, i % 3 == 0 ? 9.0 : 0.0);
+  for (std::size_t enough = 1; enough <= 24; ++enough) {
+    std::vector<std::uint32_t> visited;
+    for_each_up_to_while(points.set(), Plane{Eigen::Vector3d::UnitZ(), 0.0}, 0.5, [&](std::uint32_t i, float) {
+      visited.push_back(i);
+      return visited.size() < enough;
+    });
+    ASSERT_EQ(visited.size(), enough);
+    EXPECT_EQ(visited.back(), (enough - 1) / 2 * 3 + (enough - 1) % 2 + 1);
+  }
 }
 
 }  // namespace

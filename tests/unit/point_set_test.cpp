@@ -37,5 +37,25 @@ TEST(PointSet, SetCopyAndReadBack) {
   EXPECT_EQ(set.count, 2U);
 }
 
+TEST(PointSet, FourAtATimeAreAllOfThemOnce) {
+  for (std::uint32_t count = 0; count < 14; ++count) {
+    test::OwnedPoints points(count + 1);
+    for (std::uint32_t i = 0; i < count; ++i) points.add(i + 0.25, -2.0 * i, 100.0 + i);
+    std::uint32_t next = 0;
+    for_each_four_points(points.set(),
+                         [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+                           ASSERT_EQ(i, next);
+                           for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+                             ASSERT_EQ(counts[lane] != 0, i + lane < count);
+                             if (counts[lane] == 0) continue;
+                             EXPECT_EQ(x[lane], points.set().x[next]);
+                             EXPECT_EQ(y[lane], points.set().y[next]);
+                             EXPECT_EQ(z[lane], points.set().z[next++]);
+                           }
+                         });
+    EXPECT_EQ(next, count);
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: points that are put into the order of their patches stay what they are, each with its weight and its answer
-// to a range bias; what is dropped is gone from its patch and no other; what a column says comes back for each point;
-// what lies behind the last point is a number.
+// to a range bias; what is dropped is gone from its patch and no other; within a patch each lies where its column
+// belongs, and knows what that says; what lies behind the last point is a number.
 
 #include "stages/walls_points.hpp"
 
@@ -62,7 +62,7 @@ std::vector<Row> in_any_order(std::vector<Row> rows) {
 void expect_in_patches(Sorted* s) {
   std::uint32_t k = 0;
   for (std::uint32_t patch = 0; patch < s->patches->patches(); ++patch) {
-    for (; k < s->points->patch_end[patch]; ++k) {
+    for (; k < s->points->patches[patch].end; ++k) {
       const FourInts of = s->patches->patch_of(all_four(s->points->at.u[k]), all_four(s->points->at.v[k]));
       ASSERT_EQ(of[0], static_cast<std::int32_t>(patch)) << k;
     }
@@ -104,28 +104,62 @@ TEST(WallPoints, WhatIsDroppedIsGoneAndNothingElse) {
   EXPECT_EQ(s.points->at.u[s.points->at.count], 0.0F);
 }
 
-TEST(WallPoints, EachKnowsItsColumn) {
-  Sorted s(2001);
+// Strips of 15 cm, a decimetre deep, every metre.
+test::Placed<StripProfile> strips_every_metre() {
   test::Placed<StripProfile> strips;
   strips->begin(-20.0, -1.0, 1.0);
-  // Strips of 15 cm, a decimetre deep, every metre.
   for (double u = -12.0; u < 15.0; u += 0.02) {
     const bool strip = std::fabs(u - std::round(u)) < 0.075;
     for (double v = -0.95; v < 1.0; v += 0.1) strips->add(u, v, (strip ? 0.1 : 0.0) + 0.004 * std::sin(40.0 * u + v));
   }
-  ASSERT_TRUE(strips->find(0.0, 10.0, 0.2));
-  s.points->mark_columns(*strips);
-  int marked = 0;
-  for (std::uint32_t k = 0; k < 2001; ++k) {
-    const StripProfile::FourColumns here = s.points->columns_of(k);
-    const StripProfile::FourColumns expected = strips->columns_of(all_four(s.points->at.u[k]));
-    EXPECT_EQ(here.is_strip[0] != 0, expected.is_strip[0] != 0) << k;
-    EXPECT_NEAR(here.surface_probability[0], expected.surface_probability[0], 1e-6F) << k;
-    marked += here.is_strip[0] != 0 ? 1 : 0;
+  EXPECT_TRUE(strips->find(0.0, 10.0, 0.2));
+  return strips;
+}
+
+// Each part of a patch holds what belongs there by its column; returns how many lie in strips.
+std::uint32_t expect_in_parts(Sorted* s, const StripProfile& strips) {
+  std::uint32_t in_strips = 0;
+  s->points->for_each_patch([&](const WallPoints::Patch& patch, std::uint32_t begin) {
+    for (std::uint32_t k = begin; k < patch.end; ++k) {
+      const StripProfile::FourColumns column = strips.columns_of(all_four(s->points->at.u[k]));
+      const bool is_surface = column.surface_probability[0] > 0.0F, is_strip = column.is_strip[0] != 0;
+      EXPECT_EQ(is_surface, k < patch.surface_end) << k;
+      EXPECT_EQ(is_strip, k >= patch.surface_only_end && k < patch.strip_end) << k;
+      EXPECT_EQ(s->points->surface_probability(k)[0], column.surface_probability[0]) << k;
+      in_strips += is_strip ? 1U : 0U;
+    }
+  });
+  return in_strips;
+}
+
+TEST(WallPoints, EachIsWhereItsColumnBelongs) {
+  Sorted s(2001);
+  test::Placed<StripProfile> strips = strips_every_metre();
+  for (int time = 0; time < 2; ++time) {
+    std::vector<std::uint32_t> places(2001);
+    s.points->mark_columns(*strips, Span<std::uint32_t>(places.data(), 2001));
+    EXPECT_EQ(in_any_order(s.rows()), in_any_order(s.before));
+    expect_in_patches(&s);
+    EXPECT_GT(expect_in_parts(&s, *strips), 50U);
+    const FourFloats behind = s.points->surface_probability(2001);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) EXPECT_EQ(behind[lane], 0.0F);
   }
-  EXPECT_GT(marked, 50);
-  const StripProfile::FourColumns behind = s.points->columns_of(2001);
-  for (std::uint32_t lane = 0; lane < kFour; ++lane) EXPECT_EQ(behind.surface_probability[lane], 0.0F);
+}
+
+TEST(WallPoints, TheCopyIsOfThoseThatAreMoreLikelyTheSurfaces) {
+  Sorted s(2001);
+  test::Placed<StripProfile> strips = strips_every_metre();
+  std::vector<std::uint32_t> places(2001);
+  s.points->mark_columns(*strips, Span<std::uint32_t>(places.data(), 2001));
+  s.points->copy_surface();
+  std::vector<float> expected, copied;
+  for (std::uint32_t k = 0; k < 2001; ++k) {
+    if (s.points->probability[k] >= 0.5F) expected.push_back(s.points->at.weight[k]);
+  }
+  for (std::uint32_t k = 0; k < s.points->surface.count; ++k) copied.push_back(s.points->surface.weight[k]);
+  EXPECT_EQ(copied, expected);
+  EXPECT_GT(copied.size(), 500U);
+  EXPECT_LT(copied.size(), 1900U);
 }
 
 TEST(WallPoints, HeightsAreThoseOfThePoints) {

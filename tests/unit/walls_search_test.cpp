@@ -85,7 +85,7 @@ TEST(WallSearch, WhatMayBeAWall) {
     Plane p;
     p.n = Eigen::Vector3d(std::sin(turned) * std::cos(lean), -std::cos(turned) * std::cos(lean), std::sin(lean));
     p.d = d;
-    return may_be_wall(p, kLeft_view, 0.8, 0.3);
+    return may_be_wall(p, kLeft_view, WallLimits(0.8, 0.3));
   };
   EXPECT_TRUE(may(0.0, 0.0, 2.5));
   EXPECT_TRUE(may(0.79, 0.0, 2.5));
