@@ -208,12 +208,31 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   return wall;
 }
 
-// What is left of a pair of which the other one was no wall after all: it stands alone, and must be as long as that
-// asks; and where the two run apart, the other may have known the road's direction better.
-void doubt_what_is_left(const WallCandidate& left, const WallCandidate& other, const Settings& s, WallResult* out) {
+// How far what is seen on the other side of the road runs apart from a wall that stands alone: what was chosen there
+// and was no wall after all, what its fit came to, and whatever else could be a wall by itself, be it much weaker.
+// Radians.
+double apart_from_other_side(const WallCandidate& wall, const WallCandidate* chosen, const WallResult& fitted,
+                             const WallCandidates& seen, const Settings& s) {
+  constexpr double kWeakestShare = 0.1;
+  double apart = chosen != nullptr ? angle_in_plan(wall.plane, chosen->plane) : 0.0;
+  if (fitted.fit.found) apart = larger(apart, angle_in_plan(wall.plane, fitted.fit.plane));
+  for (std::uint32_t i = 0; i < seen.count; ++i) {
+    const WallCandidate& c = seen.item[i];
+    if (c.faults != 0 || !(c.evidence.length_m >= s.wall_alone_length_min)) continue;
+    if (!(c.evidence.score_m2 >= kWeakestShare * wall.evidence.score_m2)) continue;
+    apart = larger(apart, angle_in_plan(wall.plane, c.plane));
+  }
+  return apart;
+}
+
+// A wall that stands alone tells the road's direction only as well as the other side does not speak against it.
+void doubt_direction(double apart_rad, WallResult* out) {
   constexpr double kApart_rad = 0.035;  // 2 degrees
-  const double apart = angle_in_plan(left.plane, other.plane);
-  if (apart > kApart_rad) out->yaw_bound_rad += apart;
+  if (apart_rad > kApart_rad) out->yaw_bound_rad += apart_rad;
+}
+
+// What is left of a pair of which the other one was no wall after all must be as long as a wall that stands alone.
+void doubt_what_is_left(const WallCandidate& left, const Settings& s, WallResult* out) {
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEFT_ALONE, left.evidence.length_m, s.wall_alone_length_min,
                              left.evidence.length_m >= s.wall_alone_length_min));
   if (left.evidence.length_m >= s.wall_alone_length_min) return;
@@ -300,10 +319,14 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     }
   }
   for (int side = 0; side < 2; ++side) {
-    if (out.side[1 - side].fit.refused && choice.side[0] != nullptr && choice.side[1] != nullptr) {
-      POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
-      doubt_what_is_left(*choice.side[side], *choice.side[1 - side], scene.settings, &out.side[side]);
-    }
+    const int other = 1 - side;
+    if (choice.side[side] == nullptr || !out.side[other].fit.refused) continue;
+    const WallCandidate& wall = *choice.side[side];
+    doubt_direction(apart_from_other_side(wall, choice.side[other], out.side[other], beside[other], scene.settings),
+                    &out.side[side]);
+    if (choice.side[other] == nullptr) continue;
+    POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
+    doubt_what_is_left(wall, scene.settings, &out.side[side]);
   }
   return out;
 }
