@@ -156,7 +156,7 @@ void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, W
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
   const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
   const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
-  const bool little_seen = sight.dim || edges.top_unseen, open = sight.open > kOpenDoubt;
+  const bool little_seen = sight.dim || edges.top_unseen, open = sight.open > kOpenDoubt || edges.layer_behind;
   POSE_WALL_NOTE(note_sight(sight, edges, grooved));
   if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
   if (open) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;

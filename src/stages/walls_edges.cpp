@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/near_plane.hpp"
+#include "math/bits.hpp"
 #include "stages/walls_sight_lines.hpp"
 
 namespace pose_wall {
@@ -33,6 +34,14 @@ constexpr double kHighShare = 0.65;
 constexpr double kHighMin = 8.0;
 constexpr double kHighReach_m = 15.0;
 
+// What lies behind, by decimetres.
+constexpr double kDepth_m = 0.1;
+constexpr double kLayerPointsMin = 20.0;
+constexpr double kLayerShare = 0.6;
+constexpr double kLayerOfPlane = 0.01;  // hollows of rough rock are fewer
+constexpr int kLayerPlacesMin = 5;
+constexpr double kLayerSpan_m = 6.0;
+
 }  // namespace
 
 bool EndPlaces::End::is_looked_past() const {
@@ -44,6 +53,32 @@ bool EndPlaces::End::is_looked_past() const {
     bending += k < beyond + kBendPlaces ? just_behind[k] : 0.0;
   }
   return beyond > 0 && beyond <= kNearPlaces && passing >= kPastMin && bending < kBendMin;
+}
+
+void DepthsBehind::add(double behind_m, double along_m, double points) {
+  const double step = behind_m / kDepth_m, place = along_m / kPlace_m + EndPlaces::kPlaces;
+  if (!(step >= 0.0 && step < kSteps && place >= 0.0 && place < 2.0 * EndPlaces::kPlaces)) return;
+  Step& s = step_[static_cast<std::uint32_t>(step)];
+  s.points += points;
+  s.places |= 1ULL << static_cast<std::uint32_t>(place);
+}
+
+// Most of what lies behind lies equally far behind, here and there over a wall's length: a niche is shorter, and a road
+// that branches off is deep.
+bool DepthsBehind::hold_a_layer(double on_plane) const {
+  double all = 0.0, most = 0.0;
+  std::uint64_t places = 0;
+  for (std::uint32_t k = 0; k < kSteps; ++k) {
+    all += step_[k].points;
+    if (k + 1 == kSteps || !(step_[k].points + step_[k + 1].points > most)) continue;
+    most = step_[k].points + step_[k + 1].points;
+    places = step_[k].places | step_[k + 1].places;
+  }
+  if (!(most >= kLayerPointsMin && most >= kLayerOfPlane * on_plane && most >= kLayerShare * all)) return false;
+  std::uint32_t first = 0, last = 63;
+  while (((places >> first) & 1U) == 0) ++first;
+  while (((places >> last) & 1U) == 0) --last;
+  return bits_in(places) >= kLayerPlacesMin && (last - first) * kPlace_m >= kLayerSpan_m;
 }
 
 double* EndPlaces::place(double along_m, double (End::*places)[kPlaces]) {
@@ -153,9 +188,10 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
   if (!(inside_m > 0.0)) return {};
   const double height_m = scene.z_max_level_m + kAboveBand_m - scene.z_min_level_m;
   const double high_level_m = scene.z_min_level_m + kHighShare * (scene.z_max_level_m - scene.z_min_level_m);
-  double seen_high = 0.0;
+  double seen_high = 0.0, on_plane = 0.0;
   scratch->ends.clear();
   scratch->tops.clear();
+  scratch->depths.clear();
   const FourDistances distances(Plane{scene.R_level_base.transpose() * wall.n, wall.d});
   FourRays rays(scene, along_level, inside_m);
   for_each_four_points(scene.cloud_base,
@@ -183,9 +219,15 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
                            if (!is_past || r < -kWellBehind_m) {
                              scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, is_past, weight);
                            }
-                           const bool point_in_band = scene.in_band(static_cast<double>(rays.point_z_level_m[lane]));
+                           const double point_z_level_m = static_cast<double>(rays.point_z_level_m[lane]);
+                           if (r < -kWellBehind_m && point_z_level_m >= scene.z_min_level_m &&
+                               point_z_level_m <= scene.z_max_level_m + kAboveBand_m) {
+                             scratch->depths.add(-r, point_along_m, weight);
+                           }
+                           const bool point_in_band = scene.in_band(point_z_level_m);
                            if (!is_past && point_in_band) {
                              *scratch->ends.on(point_along_m) += weight;
+                             on_plane += weight;
                              continue;
                            }
                            if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;
@@ -193,7 +235,8 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
                          }
                        });
   add_what_is_too_far(scene, SightLines(scene, wall, along_level), height_m, &scratch->tops);
-  return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), seen_high < kHighMin};
+  return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), seen_high < kHighMin,
+          scratch->depths.hold_a_layer(on_plane)};
 }
 
 }  // namespace pose_wall

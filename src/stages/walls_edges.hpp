@@ -22,6 +22,9 @@ struct WallEdges {
   // Next to nothing is seen where the plane should be above most things that stand along walls, neither the plane nor
   // anything before it: the sensor hardly looks up, and cannot tell a wall from a conveyor.
   bool top_unseen = false;
+  // Behind it, through gaps and past its foot and top, another surface shows itself, parallel to it and as long: a wall
+  // behind pipes and props that hide nearly all of it.
+  bool layer_behind = false;
 };
 
 // Measured points by place, which is half a metre along the plane.
@@ -65,9 +68,27 @@ class TopPlaces {
   Span<Place> place_;
 };
 
+// Measured points behind a plane by how far behind it they lie, and over which places along it.
+class DepthsBehind {
+ public:
+  void clear() { *this = DepthsBehind(); }
+  void add(double behind_m, double along_m, double points);
+  // on_plane: how many lie on the plane itself.
+  bool hold_a_layer(double on_plane) const;
+
+ private:
+  static constexpr std::uint32_t kSteps = 20;
+  struct Step {
+    double points = 0.0;
+    std::uint64_t places = 0;  // a bit for each half metre
+  };
+  Step step_[kSteps];
+};
+
 struct EdgeScratch {
   EndPlaces ends;
   TopPlaces tops;
+  DepthsBehind depths;
 
   void lay_out(Arena& arena) { tops.lay_out(arena); }
 };

@@ -230,5 +230,44 @@ TEST(WallEnds, WildPointsDoNotHideAnIsland) {
   }
 }
 
+// Pipes one above the other half-way up a wall, and props from floor to roof before it: next to nothing is seen of the
+// wall behind, and all of that lies equally far behind.
+RayScene pipes_and_props(double y_m, double behind_m) {
+  RayScene scene = road();
+  for (const Interval& pipe : {Interval{-0.35, -0.05}, Interval{-0.02, 0.35}, Interval{0.38, 0.7}}) {
+    scene.add(side_panel(y_m, kEverywhere, pipe));
+  }
+  for (double x = -30.0; x < 30.0; x += 0.8) scene.add(side_panel(y_m, {x, x + 0.25}, kFull));
+  return scene.add(side_panel(y_m + behind_m, kEverywhere, kFull));
+}
+
+TEST(WallLayers, TheWallBehindPipesAndPropsIsTold) {
+  for (const Lidar& lidar : kLidars) {
+    for (const double y_m : {1.0, 1.5}) {
+      for (const double behind_m : {0.4, 0.55, 1.0}) {
+        EXPECT_TRUE(edges(pipes_and_props(y_m, behind_m), y_m, lidar).layer_behind) << y_m << ", " << behind_m;
+        EXPECT_FALSE(edges(pipes_and_props(y_m, behind_m), y_m + behind_m, lidar).layer_behind) << "the wall itself";
+      }
+    }
+  }
+}
+
+TEST(WallLayers, NothingIsBehindAWallNorBehindOneWithNichesOrRoads) {
+  for (const Lidar& lidar : kLidars) {
+    EXPECT_FALSE(edges(road().add(side_panel(2.0, kEverywhere, kFull)), 2.0, lidar).layer_behind);
+    for (const double deep_m : {0.5, 1.0, 8.0}) {
+      for (const double from_x_m : {-2.0, 0.5, 3.0}) {
+        const double to_x_m = from_x_m + 4.0;
+        RayScene scene = road();
+        scene.add(side_panel(2.0, {-40.0, from_x_m}, kFull)).add(side_panel(2.0, {to_x_m, 40.0}, kFull));
+        scene.add(cross_panel(from_x_m, {2.0, 2.0 + deep_m}, kFull))
+            .add(cross_panel(to_x_m, {2.0, 2.0 + deep_m}, kFull));
+        scene.add(side_panel(2.0 + deep_m, {from_x_m, to_x_m}, kFull));
+        EXPECT_FALSE(edges(scene, 2.0, lidar).layer_behind) << deep_m << " deep from " << from_x_m;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall

@@ -210,6 +210,28 @@ TEST(Walls, WhatIsLeftOfAPairMustBeAsLongAsAWallAlone) {
   }
 }
 
+// Walls that run apart, of which one shows so much less that the other is taken alone: it need not be the one that runs
+// along the road.
+TEST(Walls, AWallAloneTellsTheRoadNoBetterThanTheOtherSideAllows) {
+  constexpr BandFixture::Extent kHalfAsHigh{-8.0, 8.0, 0.3, 1.1};
+  for (const double apart_rad : {0.0, 0.5}) {
+    BandFixture band;
+    band.add_wall(2.5, kLongWall);
+    band.add_wall(-4.5, kHalfAsHigh, apart_rad);
+    const WallsResult r = band.walls();
+    ASSERT_TRUE(is_good(r.side[0])) << apart_rad;
+    ASSERT_EQ(is_good(r.side[1]), apart_rad == 0.0);
+    if (apart_rad == 0.0) {
+      EXPECT_LT(r.side[0].yaw_bound_rad, 0.02);
+    } else {
+      EXPECT_GE(r.side[0].yaw_bound_rad, apart_rad - 0.02);
+    }
+  }
+  BandFixture alone;
+  alone.add_wall(2.5, kLongWall);
+  EXPECT_LT(alone.walls().side[0].yaw_bound_rad, 0.02) << "nothing on the other side speaks against it";
+}
+
 TEST(Walls, BeyondTheLastWallIsExtrapolation) {
   BandFixture band;
   band.add_wall(2.5, {-8.0, 0.5, 0.3, 2.4});
