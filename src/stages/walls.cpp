@@ -84,6 +84,7 @@ void note_sight(const WallSight& sight, const WallEdges& edges, bool grooved) {
   trace::gate(POSE_WALL_TRACE_WALL_TOPLESS, sight.topless, kToplessMax, sight.topless <= kToplessMax);
   trace::gate(POSE_WALL_TRACE_WALL_ISLAND, !edges.island);
   trace::gate(POSE_WALL_TRACE_WALL_LOW, !edges.low);
+  trace::gate(POSE_WALL_TRACE_WALL_LAYER, !edges.layer_behind);
 }
 #endif
 
@@ -228,6 +229,7 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
 // A wall that stands alone tells the road's direction only as well as the other side does not speak against it.
 void doubt_direction(double apart_rad, WallResult* out) {
   constexpr double kApart_rad = 0.035;  // 2 degrees
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_ALONE_APART, apart_rad, kApart_rad, !(apart_rad > kApart_rad)));
   if (apart_rad > kApart_rad) out->yaw_bound_rad += apart_rad;
 }
 
@@ -238,6 +240,19 @@ void doubt_what_is_left(const WallCandidate& left, const Settings& s, WallResult
   if (left.evidence.length_m >= s.wall_alone_length_min) return;
   out->fit.refused = true;
   out->fit.reasons |= POSE_WALL_R_WALL_SHORT;
+}
+
+void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCandidates (&beside)[2],
+                       WallsResult* out) {
+  for (int side = 0; side < 2; ++side) {
+    const int other = 1 - side;
+    if (choice.side[side] == nullptr || !out->side[other].fit.refused) continue;
+    const WallCandidate& wall = *choice.side[side];
+    POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
+    doubt_direction(apart_from_other_side(wall, choice.side[other], out->side[other], beside[other], s),
+                    &out->side[side]);
+    if (choice.side[other] != nullptr) doubt_what_is_left(wall, s, &out->side[side]);
+  }
 }
 
 // Both sides lean the same way about the road: one out, the other in. Each wall may lean by itself, but where both do
@@ -318,16 +333,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
       out.side[side].fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND;
     }
   }
-  for (int side = 0; side < 2; ++side) {
-    const int other = 1 - side;
-    if (choice.side[side] == nullptr || !out.side[other].fit.refused) continue;
-    const WallCandidate& wall = *choice.side[side];
-    doubt_direction(apart_from_other_side(wall, choice.side[other], out.side[other], beside[other], scene.settings),
-                    &out.side[side]);
-    if (choice.side[other] == nullptr) continue;
-    POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
-    doubt_what_is_left(wall, scene.settings, &out.side[side]);
-  }
+  doubt_those_alone(scene.settings, choice, beside, &out);
   return out;
 }
 

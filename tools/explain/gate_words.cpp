@@ -181,10 +181,16 @@ constexpr GateWords kSightWords[] = {
      "what stands there hides the wall"},
     {"wall_low", "The sensor looks over its top: it is a conveyor, pipes or a vehicle.",
      "what stands there hides the wall"},
+    {"wall_layer", "Behind it another surface shows itself, equally far behind over a wall's length.",
+     "pipes and props hide the wall"},
     {"left_alone",
      "The other side was refused, and alone it must be supported over {limit} ({key}); it is over "
      "{value}.",
      "see the other side; {key}"},
+    {"alone_apart",
+     "It stands alone, and what is seen on the other side is turned by {value} against it: which of them runs "
+     "along the road is not known.",
+     "see the other side; a junction, or a road that widens"},
     {"wall_near",
      "{value} returns of this side are nearer than {key}; at most {limit} are let pass: something blocks the view.",
      "clean the window, or move what stands there; a smaller {key} where the wall is that near"},
