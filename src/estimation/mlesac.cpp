@@ -8,6 +8,7 @@
 #include "estimation/near_plane.hpp"
 #include "math/elementary.hpp"
 #include "math/four_floats.hpp"
+#include "math/larger.hpp"
 
 namespace pose_wall {
 namespace {
@@ -42,10 +43,13 @@ Histogram histogram_of_residuals(const PointSet& points, Span<const std::uint32_
 }
 
 // Whether a mean of this many costs between 0 and 1 leaves hope for less than too_much. Costs of the same mean scatter
-// most where they are all 0 or 1.
+// most where they are all 0 or 1; of what would just do, so much: where all so far are 1, that they scatter is yet to
+// be seen.
 bool has_lost(double mean, std::uint32_t count, double too_much) {
   const double above = mean - too_much;
-  return above >= 0.0 && above * above * count >= kSureInSigmas * kSureInSigmas * mean * (1.0 - mean);
+  if (!(above >= 0.0)) return false;
+  const double variance = larger(mean * (1.0 - mean), too_much * (1.0 - too_much));
+  return above * above * count >= kSureInSigmas * kSureInSigmas * variance;
 }
 
 }  // namespace

@@ -325,8 +325,9 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
   const Eigen::Matrix3d covariance =
       covariance_of_bend(n, inverse) + Eigen::Matrix3d(held_back.bottomRightCorner<3, 3>());
   const Eigen::Vector3d quadratic = bend.tail<3>();
-  const SmallCholesky<3> whitened(covariance);
-  out->bends = whitened.solved() && quadratic.dot(whitened.solve(quadratic)) > kBendChi2;  // Wald's test
+  // Wald's test. What is estimated of correlations need not be a covariance; then the variances alone have to do.
+  const SmallCholesky<3> whole(covariance), variances(covariance.diagonal().asDiagonal());
+  out->bends = quadratic.dot((whole.solved() ? whole : variances).solve(quadratic)) > kBendChi2;
   if (out->bends) out->bend = bend;
   out->curvature_v = bend[5];
   out->curvature_v_sigma = std::sqrt(covariance(2, 2));

@@ -157,12 +157,12 @@ void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, W
   const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
   const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
   const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
-  const bool little_seen = sight.dim || edges.top_unseen, open = sight.open > kOpenDoubt || edges.layer_behind;
+  const bool little_seen = sight.dim || edges.top_unseen, shows_behind = sight.open > kOpenDoubt || edges.layer_behind;
   POSE_WALL_NOTE(note_sight(sight, edges, grooved));
   if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
-  if (open) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  if (shows_behind) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
   if (grooved) wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
-  if (little_seen || open || grooved) {
+  if (little_seen || shows_behind || grooved) {
     const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
     for (double& bound : wall->distance_bound_m) bound += behind_m;
   }
@@ -219,7 +219,9 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
   if (fitted.fit.found) apart = larger(apart, angle_in_plan(wall.plane, fitted.fit.plane));
   for (std::uint32_t i = 0; i < seen.count; ++i) {
     const WallCandidate& c = seen.item[i];
-    if (c.faults != 0 || !(c.evidence.length_m >= s.wall_alone_length_min)) continue;
+    // Few points are no excuse: they are enough to doubt which way the road runs.
+    const std::uint32_t faults = c.faults & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
+    if (faults != 0 || !(c.evidence.length_m >= s.wall_alone_length_min)) continue;
     if (!(c.evidence.score_m2 >= kWeakestShare * wall.evidence.score_m2)) continue;
     apart = larger(apart, angle_in_plan(wall.plane, c.plane));
   }
@@ -229,8 +231,8 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
 // A wall that stands alone tells the road's direction only as well as the other side does not speak against it.
 void doubt_direction(double apart_rad, WallResult* out) {
   constexpr double kApart_rad = 0.035;  // 2 degrees
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_ALONE_APART, apart_rad, kApart_rad, !(apart_rad > kApart_rad)));
-  if (apart_rad > kApart_rad) out->yaw_bound_rad += apart_rad;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_ALONE_APART, apart_rad, kApart_rad, apart_rad <= kApart_rad));
+  if (!(apart_rad <= kApart_rad)) out->yaw_bound_rad += apart_rad;
 }
 
 // What is left of a pair of which the other one was no wall after all must be as long as a wall that stands alone.

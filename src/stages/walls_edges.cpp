@@ -7,6 +7,7 @@
 
 #include "estimation/near_plane.hpp"
 #include "math/bits.hpp"
+#include "math/larger.hpp"
 #include "stages/walls_sight_lines.hpp"
 
 namespace pose_wall {
@@ -63,8 +64,8 @@ void DepthsBehind::add(double behind_m, double along_m, double points) {
   s.places |= 1ULL << static_cast<std::uint32_t>(place);
 }
 
-// Most of what lies behind lies equally far behind, here and there over a wall's length: a niche is shorter, and a road
-// that branches off is deep.
+// Most of what lies up to two metres behind lies equally far behind, here and there over a wall's length: a niche is
+// shorter, and a road that branches off is deep.
 bool DepthsBehind::hold_a_layer(double on_plane) const {
   double all = 0.0, most = 0.0;
   std::uint64_t places = 0;
@@ -199,7 +200,7 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
                          const FourFloats four_r = distances.of(x, y, z);
                          // What looks away from the plane tells nothing, and what ends before it only how high the
                          // sensor looks.
-                         const double limit_m = seen_high < kHighMin ? inside_m : margin_m;
+                         const double limit_m = seen_high < kHighMin || inside_m < margin_m ? inside_m : margin_m;
                          const FourTruths tells = counts & (four_r < static_cast<float>(limit_m));
                          if (!any_of(tells)) return;
                          rays.look_at(x, y, z, four_r);
@@ -222,12 +223,12 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
                            const double point_z_level_m = static_cast<double>(rays.point_z_level_m[lane]);
                            if (r < -kWellBehind_m && point_z_level_m >= scene.z_min_level_m &&
                                point_z_level_m <= scene.z_max_level_m + kAboveBand_m) {
-                             scratch->depths.add(-r, point_along_m, weight);
+                             scratch->depths.add(-r, point_along_m, larger(weight, 1.0));
                            }
                            const bool point_in_band = scene.in_band(point_z_level_m);
                            if (!is_past && point_in_band) {
                              *scratch->ends.on(point_along_m) += weight;
-                             on_plane += weight;
+                             on_plane += larger(weight, 1.0);
                              continue;
                            }
                            if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;

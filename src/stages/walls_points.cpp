@@ -173,8 +173,9 @@ void WallPoints::copy_surface() {
   surface.frame = at.frame;
   std::uint32_t most = 0, count = 0, until_next = 0;
   for_each_patch([&](const Patch& patch, std::uint32_t begin) { most += patch.surface_end - begin; });
-  static_assert(kMost <= 2 * kSurfaceMost, "every second one has room");
-  const std::uint32_t every = most > kSurfaceMost ? 2 : 1;
+  static_assert(kMost <= 3 * kSurfaceMost, "every third one has room");
+  // Neighbours may lie in two layers by turns: every second one would take but one of them.
+  const std::uint32_t every = most > kSurfaceMost ? 3 : 1;
   for_each_patch([&](const Patch& patch, std::uint32_t begin) {
     for (std::uint32_t k = begin; k < patch.surface_end; ++k) {
       if (!(probability[k] >= 0.5F)) continue;
