@@ -180,64 +180,89 @@ class FourRays {
   float along_base_[3], up_base_[3];
 };
 
+// One return of the sensor against the plane.
+struct Return {
+  double r_m, weight;
+  double point_along_m, point_z_level_m;
+  double along_m, z_level_m;  // where its ray meets the plane, or would
+};
+
+// What the returns tell of the plane's edges. Rays to the floor right behind the plane pass it too.
+class EdgeTally {
+ public:
+  EdgeTally(const WallScene& scene, double margin_m, EdgeScratch* scratch)
+      : scene_(scene),
+        margin_m_(margin_m),
+        height_m_(scene.z_max_level_m + kAboveBand_m - scene.z_min_level_m),
+        high_level_m_(scene.z_min_level_m + kHighShare * (scene.z_max_level_m - scene.z_min_level_m)),
+        scratch_(*scratch) {
+    scratch_.ends.clear();
+    scratch_.tops.clear();
+    scratch_.depths.clear();
+  }
+
+  bool has_seen_high() const { return seen_high_ >= kHighMin; }
+  double on_plane() const { return on_plane_; }
+  double height_m() const { return height_m_; }
+
+  void add(const Return& p) {
+    const bool is_past = p.r_m < -margin_m_;
+    if (!is_past && p.z_level_m >= high_level_m_ && std::fabs(p.along_m) <= kHighReach_m) seen_high_ += p.weight;
+    if (p.r_m > margin_m_) return;
+    if (!is_past || p.r_m < -kWellBehind_m) {
+      scratch_.tops.add(p.along_m, (p.z_level_m - scene_.z_min_level_m) / height_m_, is_past, p.weight);
+    }
+    add_depth(p);
+    const bool point_in_band = scene_.in_band(p.point_z_level_m);
+    if (!is_past && point_in_band) {
+      *scratch_.ends.on(p.point_along_m) += p.weight;
+      on_plane_ += larger(p.weight, 1.0);
+      return;
+    }
+    if (p.r_m > -kBend_m && point_in_band) *scratch_.ends.just_behind(p.point_along_m) += p.weight;
+    if (p.r_m < 0.0 && scene_.in_band(p.z_level_m)) *scratch_.ends.past(p.along_m) += p.weight;
+  }
+
+ private:
+  void add_depth(const Return& p) {
+    const bool in_height =
+        p.point_z_level_m >= scene_.z_min_level_m && p.point_z_level_m <= scene_.z_max_level_m + kAboveBand_m;
+    if (p.r_m < -kWellBehind_m && in_height) scratch_.depths.add(-p.r_m, p.point_along_m, larger(p.weight, 1.0));
+  }
+
+  const WallScene& scene_;
+  double margin_m_, height_m_, high_level_m_;
+  EdgeScratch& scratch_;
+  double seen_high_ = 0.0, on_plane_ = 0.0;
+};
+
 }  // namespace
 
 WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double margin_m,
                     EdgeScratch* scratch) {
-  const Eigen::Vector3d& sensor = scene.sensor_level_m;
-  const double inside_m = wall.signed_distance(sensor);
+  const double inside_m = wall.signed_distance(scene.sensor_level_m);
   if (!(inside_m > 0.0)) return {};
-  const double height_m = scene.z_max_level_m + kAboveBand_m - scene.z_min_level_m;
-  const double high_level_m = scene.z_min_level_m + kHighShare * (scene.z_max_level_m - scene.z_min_level_m);
-  double seen_high = 0.0, on_plane = 0.0;
-  scratch->ends.clear();
-  scratch->tops.clear();
-  scratch->depths.clear();
+  EdgeTally tally(scene, margin_m, scratch);
   const FourDistances distances(Plane{scene.R_level_base.transpose() * wall.n, wall.d});
   FourRays rays(scene, along_level, inside_m);
-  for_each_four_points(scene.cloud_base,
-                       [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-                         const FourFloats four_r = distances.of(x, y, z);
-                         // What looks away from the plane tells nothing, and what ends before it only how high the
-                         // sensor looks.
-                         const double limit_m = seen_high < kHighMin || inside_m < margin_m ? inside_m : margin_m;
-                         const FourTruths tells = counts & (four_r < static_cast<float>(limit_m));
-                         if (!any_of(tells)) return;
-                         rays.look_at(x, y, z, four_r);
-                         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-                           if (tells[lane] == 0) continue;
-                           const double r = static_cast<double>(four_r[lane]),
-                                        weight = static_cast<double>(scene.cloud_base.weight[i + lane]);
-                           // Where the ray meets the plane, or would. Rays to the floor right behind the plane pass it
-                           // too.
-                           const double point_along_m = static_cast<double>(rays.point_along_m[lane]);
-                           const double along_m = static_cast<double>(rays.along_m[lane]),
-                                        z_level_m = static_cast<double>(rays.z_level_m[lane]);
-                           const bool is_past = r < -margin_m;
-                           if (!is_past && z_level_m >= high_level_m && std::fabs(along_m) <= kHighReach_m)
-                             seen_high += weight;
-                           if (r > margin_m) continue;
-                           if (!is_past || r < -kWellBehind_m) {
-                             scratch->tops.add(along_m, (z_level_m - scene.z_min_level_m) / height_m, is_past, weight);
-                           }
-                           const double point_z_level_m = static_cast<double>(rays.point_z_level_m[lane]);
-                           if (r < -kWellBehind_m && point_z_level_m >= scene.z_min_level_m &&
-                               point_z_level_m <= scene.z_max_level_m + kAboveBand_m) {
-                             scratch->depths.add(-r, point_along_m, larger(weight, 1.0));
-                           }
-                           const bool point_in_band = scene.in_band(point_z_level_m);
-                           if (!is_past && point_in_band) {
-                             *scratch->ends.on(point_along_m) += weight;
-                             on_plane += larger(weight, 1.0);
-                             continue;
-                           }
-                           if (r > -kBend_m && point_in_band) *scratch->ends.just_behind(point_along_m) += weight;
-                           if (r < 0.0 && scene.in_band(z_level_m)) *scratch->ends.past(along_m) += weight;
-                         }
-                       });
-  add_what_is_too_far(scene, SightLines(scene, wall, along_level), height_m, &scratch->tops);
-  return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), seen_high < kHighMin,
-          scratch->depths.hold_a_layer(on_plane)};
+  const auto at = [](FourFloats four, std::uint32_t lane) { return static_cast<double>(four[lane]); };
+  const auto look = [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourFloats r = distances.of(x, y, z);
+    // What looks away from the plane tells nothing, and what ends before it only how high the sensor looks.
+    const double limit_m = tally.has_seen_high() && margin_m <= inside_m ? margin_m : inside_m;
+    const FourTruths tells = counts & (r < static_cast<float>(limit_m));
+    if (!any_of(tells)) return;
+    rays.look_at(x, y, z, r);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (tells[lane] == 0) continue;
+      tally.add({at(r, lane), static_cast<double>(scene.cloud_base.weight[i + lane]), at(rays.point_along_m, lane),
+                 at(rays.point_z_level_m, lane), at(rays.along_m, lane), at(rays.z_level_m, lane)});
+    }
+  };
+  for_each_four_points(scene.cloud_base, look);
+  add_what_is_too_far(scene, SightLines(scene, wall, along_level), tally.height_m(), &scratch->tops);
+  return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), !tally.has_seen_high(),
+          scratch->depths.hold_a_layer(tally.on_plane())};
 }
 
 }  // namespace pose_wall
