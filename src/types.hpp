@@ -102,6 +102,12 @@ struct WallResult {
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double area_m2 = 0.0;
+
+  // What was seen of the other side runs apart from this wall by so much: up to two degrees are the walls' own.
+  static constexpr double kApart_rad = 0.035;
+  void reach_to_other_side(double apart_rad) {
+    if (!(apart_rad <= kApart_rad)) yaw_bound_rad += apart_rad;
+  }
 };
 
 // One of the seven quantities, as this frame measured it.

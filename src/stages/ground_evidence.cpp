@@ -52,9 +52,9 @@ std::int32_t FloorGrid::cell_of(float coordinate_m) {
 }
 
 // Where four points lie: cell and height bin as one number, or kNowhere outside the radius or the grid's height.
-class FloorGrid::FourPlaces {
+class FloorGrid::FourBins {
  public:
-  FourPlaces(double radius_m, double lowest_m)
+  FourBins(double radius_m, double lowest_m)
       : radius2_(static_cast<float>(radius_m * radius_m)), lowest_m_(static_cast<float>(lowest_m)) {}
 
   void look_at(FourFloats x, FourFloats y, FourFloats z) {
@@ -82,7 +82,7 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
                                    Span<std::uint32_t> out) {
   heights_.fill(0);
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
-  FourPlaces four(radius_m, lowest_m_);
+  FourBins four(radius_m, lowest_m_);
   FourInts within{};  // true is -1
   for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     four.look_at(x, y, z);
@@ -91,17 +91,16 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
       // Until it is known which are open, the list holds where each lies.
       const auto place = static_cast<std::uint32_t>(four.place[lane]);
       out[i + lane] = place;
-      if (four.place[lane] != FourPlaces::kNowhere)
-        heights_[place / FourPlaces::kBins] |= 1ULL << place % FourPlaces::kBins;
+      if (four.place[lane] != FourBins::kNowhere) heights_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
     }
   });
   points_within_ = static_cast<std::uint32_t>(within[0] + within[1] + within[2] + within[3]);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     const std::uint32_t place = out[i];
-    if (place == static_cast<std::uint32_t>(FourPlaces::kNowhere)) continue;
-    const std::uint64_t heights = heights_[place / FourPlaces::kBins];
-    const int bin = static_cast<int>(place % FourPlaces::kBins);
+    if (place == static_cast<std::uint32_t>(FourBins::kNowhere)) continue;
+    const std::uint64_t heights = heights_[place / FourBins::kBins];
+    const int bin = static_cast<int>(place % FourBins::kBins);
     if (!two_or_more(bins_above(heights, bin)) && !two_or_more(bins_below(heights, bin))) out[count++] = i;
   }
   return count;

@@ -53,7 +53,7 @@ class FloorGrid {
   bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
 
  private:
-  class FourPlaces;
+  class FourBins;
   static std::int32_t cell_of(float coordinate_m);
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }

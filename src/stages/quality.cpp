@@ -153,7 +153,6 @@ Measurement measure_yaw(const FloorResult& floor, const LevelResult& level, cons
 
 void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
   constexpr double kShareOfReturns = 0.02;
-  constexpr double kApart_rad = 0.035;  // 2 degrees
   // Of what came back: whether the others are left out, zero or not finite must not matter.
   const double returns = static_cast<double>(counts.points_in - counts.dropped_not_finite - counts.dropped_zero);
   const Quadrant sides[2] = {kLeft, kRight};
@@ -166,8 +165,9 @@ void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
     WallResult& blocked = (*walls)[side];
     WallResult& other = (*walls)[1 - side];
     // Blocked or not, it may have known the road's direction better than the one that is left.
-    const double apart = std::fabs(blocked.yaw_rad - other.yaw_rad);
-    if (blocked.fit.found && !blocked.fit.refused && !(apart <= kApart_rad)) other.yaw_bound_rad += apart;
+    if (blocked.fit.found && !blocked.fit.refused) {
+      other.reach_to_other_side(std::fabs(blocked.yaw_rad - other.yaw_rad));
+    }
     blocked.fit.refused = true;
     blocked.fit.reasons |= POSE_WALL_R_WALL_TOO_NEAR;
   }

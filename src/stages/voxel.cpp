@@ -8,6 +8,7 @@
 
 #include "math/finite.hpp"
 #include "math/four_floats.hpp"
+#include "math/four_turns.hpp"
 #include "stages/voxel_cloud_reader.hpp"
 
 namespace pose_wall {
@@ -66,6 +67,7 @@ class Pass {
  public:
   Pass(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic, const Axes& axes)
       : cloud_(cloud),
+        to_base_(extrinsic.R_base_lidar, extrinsic.sensor_base_m),
         range_min2_(static_cast<float>(settings.range_min * settings.range_min)),
         range_max2_(static_cast<float>(settings.range_max * settings.range_max)),
         swap_(needs_swap(cloud)),
@@ -78,10 +80,6 @@ class Pass {
     const Eigen::Vector3d forward_lidar = extrinsic.R_base_lidar.transpose() * axes.forward_base;
     const Eigen::Vector3d left_lidar = extrinsic.R_base_lidar.transpose() * axes.left_base;
     for (int k = 0; k < 3; ++k) {
-      for (int column = 0; column < 3; ++column) {
-        R_base_lidar_[k][column] = static_cast<float>(extrinsic.R_base_lidar(k, column));
-      }
-      sensor_base_m_[k] = static_cast<float>(extrinsic.sensor_base_m[k]);
       forward_lidar_[k] = static_cast<float>(forward_lidar[k]);
       left_lidar_[k] = static_cast<float>(left_lidar[k]);
     }
@@ -168,15 +166,13 @@ class Pass {
       const FourFloats none{}, x = there ? load_four(&b->x_lidar[k]) : none,
                                y = there ? load_four(&b->y_lidar[k]) : none;
       const FourFloats z = there ? load_four(&b->z_lidar[k]) : none;
-      const FourFloats x_base = turned(R_base_lidar_[0], x, y, z) + sensor_base_m_[0];
-      const FourFloats y_base = turned(R_base_lidar_[1], x, y, z) + sensor_base_m_[1];
-      const FourFloats z_base = turned(R_base_lidar_[2], x, y, z) + sensor_base_m_[2];
-      store_four(x_base, &b->x_base[k]);
-      store_four(y_base, &b->y_base[k]);
-      store_four(z_base, &b->z_base[k]);
-      store_four(cut_off(x_base * steps.per_m + steps.origin), &b->x_step[k]);
-      store_four(cut_off(y_base * steps.per_m + steps.origin), &b->y_step[k]);
-      store_four(cut_off(z_base * steps.per_m + steps.origin), &b->z_step[k]);
+      const FourPlaces base = to_base_(x, y, z);
+      store_four(base.x, &b->x_base[k]);
+      store_four(base.y, &b->y_base[k]);
+      store_four(base.z, &b->z_base[k]);
+      store_four(cut_off(base.x * steps.per_m + steps.origin), &b->x_step[k]);
+      store_four(cut_off(base.y * steps.per_m + steps.origin), &b->y_step[k]);
+      store_four(cut_off(base.z * steps.per_m + steps.origin), &b->z_step[k]);
       const FourInts ahead = {kAhead, kAhead, kAhead, kAhead}, behind = {kBehind, kBehind, kBehind, kBehind};
       const FourInts left = {kLeft, kLeft, kLeft, kLeft}, right = {kRight, kRight, kRight, kRight};
       const FourFloats to_front = turned(forward_lidar_, x, y, z), to_left = turned(left_lidar_, x, y, z);
@@ -263,10 +259,11 @@ class Pass {
   }
 
   const pose_wall_cloud& cloud_;
+  FourTurns to_base_;
   float range_min2_, range_max2_;
   Box boxes_[4] = {};
   std::uint32_t box_count_ = 0;
-  float R_base_lidar_[3][3], sensor_base_m_[3], forward_lidar_[3], left_lidar_[3];
+  float forward_lidar_[3], left_lidar_[3];
   bool swap_;
   bool plain_;
   double intensity_weight_;

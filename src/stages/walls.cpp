@@ -228,13 +228,6 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
   return apart;
 }
 
-// A wall that stands alone tells the road's direction only as well as the other side does not speak against it.
-void doubt_direction(double apart_rad, WallResult* out) {
-  constexpr double kApart_rad = 0.035;  // 2 degrees
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_ALONE_APART, apart_rad, kApart_rad, apart_rad <= kApart_rad));
-  if (!(apart_rad <= kApart_rad)) out->yaw_bound_rad += apart_rad;
-}
-
 // What is left of a pair of which the other one was no wall after all must be as long as a wall that stands alone.
 void doubt_what_is_left(const WallCandidate& left, const Settings& s, WallResult* out) {
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEFT_ALONE, left.evidence.length_m, s.wall_alone_length_min,
@@ -244,6 +237,7 @@ void doubt_what_is_left(const WallCandidate& left, const Settings& s, WallResult
   out->fit.reasons |= POSE_WALL_R_WALL_SHORT;
 }
 
+// A wall that stands alone tells the road's direction only as well as the other side does not speak against it.
 void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCandidates (&beside)[2],
                        WallsResult* out) {
   for (int side = 0; side < 2; ++side) {
@@ -251,8 +245,10 @@ void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCa
     if (choice.side[side] == nullptr || !out->side[other].fit.refused) continue;
     const WallCandidate& wall = *choice.side[side];
     POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
-    doubt_direction(apart_from_other_side(wall, choice.side[other], out->side[other], beside[other], s),
-                    &out->side[side]);
+    const double apart = apart_from_other_side(wall, choice.side[other], out->side[other], beside[other], s);
+    POSE_WALL_NOTE(
+        trace::gate(POSE_WALL_TRACE_ALONE_APART, apart, WallResult::kApart_rad, apart <= WallResult::kApart_rad));
+    out->side[side].reach_to_other_side(apart);
     if (choice.side[other] != nullptr) doubt_what_is_left(wall, s, &out->side[side]);
   }
 }

@@ -147,10 +147,6 @@ void add_what_is_too_far(const WallScene& scene, const SightLines& lines, double
   }
 }
 
-}  // namespace
-
-namespace {
-
 // Where the rays to four points meet the plane, or would, and where along it the points lie; in floats.
 class FourRays {
  public:
