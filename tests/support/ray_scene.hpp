@@ -46,6 +46,10 @@ struct Lidar {
   Eigen::Matrix3d R_level_lidar = Eigen::Matrix3d::Identity();
 };
 
+inline const Lidar kVlp16{-15.0, 15.0, 2.0, 0.2};
+inline const Lidar kOs0{-45.0, 45.0, 0.7, 0.5};
+inline const Lidar kOs1{-22.5, 22.5, 0.7, 0.35};
+
 class RayScene {
  public:
   // Distance a ray goes further, by where it ends: rough rock.

@@ -17,9 +17,9 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::cloud_of;
-using test::config_for;
-using test::EngineUnderTest;
+using pose_wall::test::cloud_of;
+using pose_wall::test::config_for;
+using pose_wall::test::EngineUnderTest;
 
 struct Case {
   const char* scene;

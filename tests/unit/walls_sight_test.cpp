@@ -23,6 +23,9 @@ using test::BandFixture;
 using test::cross_panel;
 using test::Interval;
 using test::kEverywhere;
+using test::kOs0;
+using test::kOs1;
+using test::kVlp16;
 using test::level_panel;
 using test::Lidar;
 using test::Noise;
@@ -36,10 +39,6 @@ constexpr Interval kFull{test::kFloorZ_m, kRoof_m};
 constexpr double kOtherSide_m = -2.2;
 // Well below what the engine doubts or refuses a wall for (walls.cpp).
 constexpr double kNoSilence = 0.012, kNothingOpen = 0.01, kHasTop = 0.04;
-
-const Lidar kVlp16{-15.0, 15.0, 2.0, 0.2};
-const Lidar kOs0{-45.0, 45.0, 0.7, 0.5};
-const Lidar kOs1{-22.5, 22.5, 0.7, 0.35};
 
 Lidar tilted(Lidar lidar, double degrees, const Eigen::Vector3d& axis) {
   lidar.R_level_lidar = Eigen::AngleAxisd(degrees * M_PI / 180.0, axis).toRotationMatrix();

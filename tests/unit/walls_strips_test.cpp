@@ -19,14 +19,12 @@ namespace {
 
 using test::BandFixture;
 using test::Interval;
-using test::Lidar;
 using test::Noise;
 using test::RayScene;
 using test::Rock;
 
 constexpr double kWall_m = 2.5;
-constexpr Interval kFull{test::kFloorZ_m, 1.8};
-const Lidar kOs1{-22.5, 22.5, 0.7, 0.35};
+constexpr Interval kWallHeights{test::kFloorZ_m, 1.8};
 
 struct Strips {
   double depth_m, width_m, pitch_m;
@@ -44,10 +42,10 @@ RayScene wall_with(const Strips& strips, const Rock& rock, bool with_gaps) {
   scene.set_noise(0.01);
   if (with_gaps) {
     for (const Interval& part : {Interval{-16.0, -9.0}, Interval{-3.5, 3.5}, Interval{9.0, 16.0}}) {
-      scene.add(test::side_panel(kWall_m, part, kFull));
+      scene.add(test::side_panel(kWall_m, part, kWallHeights));
     }
   } else {
-    scene.add(test::side_panel(kWall_m, {-16.0, 16.0}, kFull));
+    scene.add(test::side_panel(kWall_m, {-16.0, 16.0}, kWallHeights));
   }
   scene.set_relief(kWall_m, [&rock](const Eigen::Vector3d& p) { return -rock.at(p.x(), p.z()); });
   if (!(strips.pitch_m > 0.0)) return scene;
@@ -56,9 +54,9 @@ RayScene wall_with(const Strips& strips, const Rock& rock, bool with_gaps) {
   for (double x = -15.7; x < 15.7; x += strips.pitch_m) {
     const Interval across{x, x + strips.width_m};
     if (with_gaps && std::fabs(x) > 3.2 && std::fabs(x) < 9.3) continue;
-    scene.add(test::side_panel(front_m, across, kFull));
-    scene.add(test::cross_panel(across.low, {front_m, kWall_m}, kFull));
-    scene.add(test::cross_panel(across.high, {front_m, kWall_m}, kFull));
+    scene.add(test::side_panel(front_m, across, kWallHeights));
+    scene.add(test::cross_panel(across.low, {front_m, kWall_m}, kWallHeights));
+    scene.add(test::cross_panel(across.high, {front_m, kWall_m}, kWallHeights));
   }
   return scene;
 }
@@ -67,7 +65,7 @@ Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed, boo
   Noise noise(seed);
   const Rock rock(rock_sigma_m, 0.3, &noise);
   BandFixture band;
-  wall_with(strips, rock, with_gaps).scan(kOs1, &band);
+  wall_with(strips, rock, with_gaps).scan(test::kOs1, &band);
   const WallScene scene = band.scene();
   test::Placed<WallGrid> grid;
   test::Placed<WallFitScratch> scratch(band.points().set().capacity());

@@ -48,6 +48,9 @@ function(pose_wall_engine_objects target)
     PUBLIC ${PROJECT_SOURCE_DIR}/include
     INTERFACE ${PROJECT_SOURCE_DIR}/src
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  if(POSE_WALL_QUICK_BUILD)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
+  endif()
   # SYSTEM: Eigen's own headers are not held to our warnings.
   target_link_libraries(${target} PUBLIC Eigen3::Eigen)
 endfunction()
