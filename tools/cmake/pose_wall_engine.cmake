@@ -22,6 +22,9 @@ function(pose_wall_engine_library)
   set(delivered $<AND:${pose_wall_quick},$<NOT:$<BOOL:$<TARGET_PROPERTY:POSE_WALL_AT_A_DESK>>>>)
   set_source_files_properties(${engine_COMPACT} PROPERTIES COMPILE_OPTIONS "$<${delivered}:-O2>")
   set_source_files_properties(${engine_SMALL} PROPERTIES COMPILE_OPTIONS "$<${delivered}:-Os>")
+  if(POSE_WALL_QUICK_BUILD AND NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+    pose_wall_precompile_eigen(pose_wall_objects)
+  endif()
   if(POSE_WALL_CALL_GRAPH)
     target_compile_options(pose_wall_objects PRIVATE -fcallgraph-info=su)  # beside the objects, for check_stack.py
   endif()
@@ -48,11 +51,13 @@ function(pose_wall_engine_objects target)
     PUBLIC ${PROJECT_SOURCE_DIR}/include
     INTERFACE ${PROJECT_SOURCE_DIR}/src
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  if(POSE_WALL_QUICK_BUILD)
-    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
-  endif()
   # SYSTEM: Eigen's own headers are not held to our warnings.
   target_link_libraries(${target} PUBLIC Eigen3::Eigen)
+endfunction()
+
+# Of objects that are all optimised alike: gcc optimises all of them as the precompiled header was.
+function(pose_wall_precompile_eigen target)
+  target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
 endfunction()
 
 # pose_wall_traced_library(SOURCES more.cpp ...)
@@ -67,6 +72,9 @@ function(pose_wall_traced_library)
   # A frame at a time: rather compiled quickly than quick. The bits are the same, as digest.traced_as_noted shows.
   target_compile_options(pose_wall_traced_objects PRIVATE $<$<CONFIG:Release>:-O1>)
   set_target_properties(pose_wall_traced_objects PROPERTIES POSE_WALL_AT_A_DESK ON)
+  if(POSE_WALL_QUICK_BUILD)
+    pose_wall_precompile_eigen(pose_wall_traced_objects)
+  endif()
   pose_wall_one_object(pose_wall_traced_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_traced.o pose_wall_trace_*)
   add_library(pose_wall_traced STATIC ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_traced.o)
   set_target_properties(pose_wall_traced PROPERTIES LINKER_LANGUAGE C)
@@ -125,10 +133,12 @@ function(pose_wall_one_object objects output global)
     message(FATAL_ERROR "pose_wall needs GNU ld and objcopy (package binutils) to build its archive; "
                         "here are '${POSE_WALL_LD}' and '${POSE_WALL_OBJCOPY}'")
   endif()
+  # CMake counts a precompiled header among the objects.
+  set(all_objects "$<FILTER:$<TARGET_OBJECTS:${objects}>,EXCLUDE,cmake_pch>")
   add_custom_command(OUTPUT ${output}
-    COMMAND ${POSE_WALL_LD} -r --force-group-allocation -o ${output} $<TARGET_OBJECTS:${objects}>
+    COMMAND ${POSE_WALL_LD} -r --force-group-allocation -o ${output} "${all_objects}"
     COMMAND ${POSE_WALL_OBJCOPY} --wildcard --keep-global-symbol=${global} ${output}
-    DEPENDS ${objects} $<TARGET_OBJECTS:${objects}>
+    DEPENDS ${objects} "${all_objects}"
     COMMENT "Merging ${objects} into one object, ${global} global"
     COMMAND_EXPAND_LISTS VERBATIM)
   set_source_files_properties(${output} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
