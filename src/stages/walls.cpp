@@ -8,6 +8,7 @@
 
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
+#include "stages/walls_across.hpp"
 #include "stages/walls_edges.hpp"
 #include "stages/walls_measure.hpp"
 #include "stages/walls_notes.hpp"
@@ -19,7 +20,6 @@ namespace {
 
 constexpr double kSeenThroughMax = 0.5;
 constexpr double kSeenThroughDoubt = 0.25;
-constexpr double kRefineSlack_deg = 5.0;
 constexpr double kOnWallInThresholds = 3.0;
 constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
@@ -309,11 +309,16 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const SideView ends[2] = {{l, f}, {l, -f}};
   const Plane* const nothing[2] = {nullptr, nullptr};
   thin_out(scene.band_level, &scratch->thin_level);
-  WallCandidates beside[2], across[2];
-  std::uint32_t scored[2] = {}, scored_across[2] = {};
+  WallCandidates beside[2];
+  std::uint32_t scored[2] = {};
   search_both(scene, sides, last, random, scratch, beside, scored);
-  search_both(scene, ends, nothing, random, scratch, across, scored_across);
-  const WallChoice choice = choose_walls(beside[0], beside[1], across[0], across[1], scene.settings);
+  WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
+  if (may_stand_across(scene, choice)) {
+    WallCandidates across[2];
+    std::uint32_t scored_across[2] = {};
+    search_both(scene, ends, nothing, random, scratch, across, scored_across);
+    refuse_if_across(across[0], across[1], scene.settings, &choice);
+  }
 
   note_directions(scene, &scratch->sight);
   const bool explained = explained_share(scene, choice) >= kExplainedMin;

@@ -94,15 +94,21 @@ void WallGrid::mark_points(const PointSet& points, Rays rays, FourMarks* marks) 
   });
 }
 
+WallGrid::Rows WallGrid::rows_of(const WallScene& scene) {
+  const double height_m = scene.z_max_level_m - scene.z_min_level_m;
+  const double row_m = height_m / kRowsMax > kRow_m ? height_m / kRowsMax : kRow_m;
+  return {static_cast<std::uint32_t>(std::ceil(height_m / row_m - 1e-9)), row_m};
+}
+
 void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach) {
   hits_.fill(0);
   through_.fill(0);
   inliers_ = 0.0;
-  const double height_m = scene.z_max_level_m - scene.z_min_level_m;
+  const Rows rows = rows_of(scene);
   z_min_ = scene.z_min_level_m;
-  row_m_ = height_m / kRowsMax > kRow_m ? height_m / kRowsMax : kRow_m;
+  row_m_ = rows.height_m;
   rows_per_m_ = 1.0 / row_m_;
-  rows_ = static_cast<std::uint32_t>(std::ceil(height_m / row_m_ - 1e-9));
+  rows_ = rows.count;
   FourMarks in_band(scene, wall, along_level, reach);
   mark_points(scene.band_level, Rays::kOneAPoint, &in_band);
   constexpr double kNothing_m = -1.0;  // what lies outside the band is not on the wall

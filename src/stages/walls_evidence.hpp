@@ -38,6 +38,13 @@ class WallGrid {
 
   void lay_out(Arena& arena);
 
+  // The rows that the wall band is cut into.
+  struct Rows {
+    std::uint32_t count;
+    double height_m;
+  };
+  static Rows rows_of(const WallScene& scene);
+
   // along: horizontal, in the plane's direction. Points within hit_m of the plane make it solid; rays that end more
   // than behind_m behind it pass through it, wherever they end: behind pipes before a dark wall, only the floor and the
   // roof are seen.

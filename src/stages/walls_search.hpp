@@ -16,6 +16,8 @@ namespace pose_wall {
 
 constexpr std::uint32_t kWallShortlist = 10;
 constexpr std::uint32_t kWallSubset = 512;
+// Refined, a wall may be turned further than yaw_max_deg by this.
+constexpr double kRefineSlack_deg = 5.0;
 
 // A direction to look along and the horizontal direction to the side that is searched (both unit, levelled frame).
 // Searching ahead and behind is searching beside a direction that is turned by 90 degrees.

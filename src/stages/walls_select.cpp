@@ -208,8 +208,8 @@ void choose_single(const WallCandidates* const lists[2], double length_min_m, Wa
 
 // Whether the planes ahead and behind make a better roadway than the chosen sides. Against one wall alone, planes of
 // few points count too: they are enough to doubt which way the road runs.
-bool stands_across(const WallChoice& sides, double sides_score, const WallCandidates& ahead,
-                   const WallCandidates& behind, const Settings& s) {
+bool stands_across(const WallChoice& sides, const WallCandidates& ahead, const WallCandidates& behind,
+                   const Settings& s) {
   const bool alone = sides.side[0] == nullptr || sides.side[1] == nullptr;
   const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
   const auto across = [&](const WallCandidates& list) {
@@ -224,13 +224,13 @@ bool stands_across(const WallChoice& sides, double sides_score, const WallCandid
   };
   const WallCandidates a = across(ahead), b = across(behind);
   POSE_WALL_NOTE(const double pair = best_pair(a, b, s.wall_parallel_cos).score);
-  POSE_WALL_NOTE(
-      trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair / sides_score, 1.0, !(pair > sides_score)));
-  if (best_pair(a, b, s.wall_parallel_cos).score > sides_score) return true;
+  POSE_WALL_NOTE(trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair / sides.score_m2, 1.0,
+                                !(pair > sides.score_m2)));
+  if (best_pair(a, b, s.wall_parallel_cos).score > sides.score_m2) return true;
   if (!alone) return false;
   for (const WallCandidate* lone : {best_single(a, s.wall_length_min), best_single(b, s.wall_length_min)}) {
-    POSE_WALL_NOTE(if (lone != nullptr) note_lone_across(lone->evidence.score_m2, sides_score));
-    if (lone != nullptr && lone->evidence.score_m2 > kLoneCrossShare * sides_score) return true;
+    POSE_WALL_NOTE(if (lone != nullptr) note_lone_across(lone->evidence.score_m2, sides.score_m2));
+    if (lone != nullptr && lone->evidence.score_m2 > kLoneCrossShare * sides.score_m2) return true;
   }
   return false;
 }
@@ -264,14 +264,12 @@ double angle_in_plan(const Plane& a, const Plane& b) {
   return arc_tangent2(std::fabs(cross), std::fabs(dot));
 }
 
-WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,
-                        const WallCandidates& behind, const Settings& settings) {
+WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const Settings& settings) {
   WallChoice out;
   const WallCandidates* const lists[2] = {&left, &right};
   Pair pair = best_pair(left, right, settings.wall_parallel_cos);
   POSE_WALL_NOTE(note_pair(pair, lists, settings));
   if (pair.a != nullptr && contested(pair, lists, settings.wall_parallel_cos)) pair = Pair{};
-  double score = pair.score;
   double alone = 0.0;
   for (const WallCandidates* list : lists) {
     const WallCandidate* lone = best_single(*list, settings.wall_alone_length_min);
@@ -285,15 +283,17 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
     out.side[0] = pair.a;
     out.side[1] = pair.b;
   } else {
-    score = 0.0;
     choose_single(lists, settings.wall_alone_length_min, &out);
     POSE_WALL_NOTE(note_not_parallel(out, lists, settings));
-    for (const WallCandidate* c : out.side) score += c != nullptr ? c->evidence.score_m2 : 0.0;
   }
+  for (const WallCandidate* c : out.side) out.score_m2 += c != nullptr ? c->evidence.score_m2 : 0.0;
   say_why_or_rival(lists, settings, &out);
-  const bool any = out.side[0] != nullptr || out.side[1] != nullptr;
-  if (any && stands_across(out, score, ahead, behind, settings)) refuse_both(POSE_WALL_R_CROSS_ROAD, &out);
   return out;
+}
+
+void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind, const Settings& settings,
+                      WallChoice* choice) {
+  if (choice->any() && stands_across(*choice, ahead, behind, settings)) refuse_both(POSE_WALL_R_CROSS_ROAD, choice);
 }
 
 }  // namespace pose_wall

@@ -31,14 +31,19 @@ struct WallChoice {
   const WallCandidate* rival[2] = {nullptr, nullptr};  // another wall on that side that is nearly as good
   std::uint32_t reasons[2] = {0, 0};                   // why a side has none, or is to be doubted
   bool refused[2] = {false, false};
+  double score_m2 = 0.0;  // of the chosen, together
+
+  bool any() const { return side[0] != nullptr || side[1] != nullptr; }
 };
 
 // Seen from above: walls lean as they like.
 double angle_in_plan(const Plane& a, const Plane& b);
 
+WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const Settings& settings);
+
 // ahead and behind: the planes across the road. A pair of them that makes a better roadway than the sides do means
-// that the machine stands across, and that what looks like side walls are faces.
-WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,
-                        const WallCandidates& behind, const Settings& settings);
+// that the machine stands across, and that what looks like side walls are faces. Where a side is chosen.
+void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind, const Settings& settings,
+                      WallChoice* choice);
 
 }  // namespace pose_wall

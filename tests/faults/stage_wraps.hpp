@@ -154,9 +154,8 @@ POSE_WALL_WRAP(bool, REFINE_HYPOTHESIS, refine_hypothesis,
 }
 
 POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
-               (const WallCandidates& left, const WallCandidates& right, const WallCandidates& ahead,
-                const WallCandidates& behind, const Settings& s)) {
-  WallChoice r = choose_walls_for_real(left, right, ahead, behind, s);
+               (const WallCandidates& left, const WallCandidates& right, const Settings& s)) {
+  WallChoice r = choose_walls_for_real(left, right, s);
   if (!fails(Fault::kChooseNone)) return r;
   r = WallChoice{};
   for (int side = 0; side < 2; ++side) {

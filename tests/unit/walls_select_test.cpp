@@ -42,7 +42,11 @@ WallCandidates list(std::initializer_list<WallCandidate> items) {
 struct Choice {
   WallCandidates left, right, ahead, behind;
   Settings settings = test::settings_with();
-  WallChoice choose() const { return choose_walls(left, right, ahead, behind, settings); }
+  WallChoice choose() const {
+    WallChoice chosen = choose_walls(left, right, settings);
+    refuse_if_across(ahead, behind, settings, &chosen);
+    return chosen;
+  }
 };
 
 TEST(WallSelect, TheParallelPairWins) {

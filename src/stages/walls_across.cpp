@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/walls_across.hpp"
+
+#include <cmath>
+
+#include "math/elementary.hpp"
+#include "math/four_floats.hpp"
+#include "trace/trace.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kBins = WallGrid::kColumns;  // of a column's width, beside the machine
+
+// How many points of the band there are beside the machine, row by row, wherever along it they lie.
+struct Bins {
+  std::uint16_t points[WallGrid::kRowsMax][kBins] = {};
+  std::uint32_t beyond = 0;
+};
+
+void fill(const WallScene& scene, const WallGrid::Rows& rows, Bins* bins) {
+  const auto left_x = static_cast<float>(scene.left_level.x()), left_y = static_cast<float>(scene.left_level.y());
+  const auto z_min = static_cast<float>(scene.z_min_level_m), rows_per_m = static_cast<float>(1.0 / rows.height_m);
+  const FourInts last_row = FourInts{} + static_cast<std::int32_t>(rows.count - 1);
+  constexpr float kPerMetre = static_cast<float>(1.0 / WallGrid::kColumn_m);
+  for_each_four_points(scene.band_level,
+                       [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+                         const FourFloats bin = (left_x * x + left_y * y) * kPerMetre + 0.5F * kBins, none{};
+                         const FourTruths inside = (bin >= none) & (bin < all_four(kBins));
+                         const FourInts at = cut_off(inside ? bin : none), row = cut_off((z - z_min) * rows_per_m);
+                         const FourInts in_row = row > last_row ? last_row : row;
+                         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+                           if (counts[lane] == 0) continue;
+                           if (inside[lane] == 0 || in_row[lane] < 0) {
+                             ++bins->beyond;
+                             continue;
+                           }
+                           std::uint16_t* const count = &bins->points[in_row[lane]][at[lane]];
+                           if (*count < 0xFFFF) ++*count;
+                         }
+                       });
+}
+
+// Bins side by side that hold points, and a plane that crosses them: so many of its columns for each, and some at the
+// ends.
+struct Crossing {
+  double columns_each, columns_at_ends;
+};
+
+Crossing crossing_of(const Settings& s, double row_m) {
+  const double cosine_least = cosine(radians(s.yaw_max_deg + kRefineSlack_deg));
+  const double lean_cosine = cosine(radians(s.wall_lean_max_deg));
+  const double sine = std::sqrt(1.0 - cosine_least * cosine_least);
+  const double lean_sine = std::sqrt(1.0 - lean_cosine * lean_cosine);
+  // Points of one row lie this far before and behind each other, by the plane's lean and by what counts as on it.
+  const double depth_m = (row_m * lean_sine + 2.0 * s.wall_ransac_thresh) / lean_cosine;
+  // Ends that lie within columns touch one more each.
+  return {1.0 / cosine_least, 2.0 + depth_m * sine / (cosine_least * WallGrid::kColumn_m)};
+}
+
+constexpr double kCellsPerPoint = 0.5;  // a cell is solid by two points at least
+
+// That can be solid in one row of a plane.
+double most_cells(const std::uint16_t (&points)[kBins], const Crossing& crossing) {
+  double cells = 0.0;
+  std::uint32_t run = 0, in_run = 0;
+  for (std::uint32_t b = 0; b <= kBins; ++b) {
+    const std::uint32_t here = b < kBins ? points[b] : 0;
+    if (here > 0) {
+      ++run;
+      in_run += here;
+    } else if (run > 0) {
+      const double by_place = run * crossing.columns_each + crossing.columns_at_ends;
+      const double by_points = kCellsPerPoint * in_run;
+      cells += by_place < by_points ? by_place : by_points;
+      run = in_run = 0;
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+double most_area_across_m2(const WallScene& scene) {
+  const WallGrid::Rows rows = WallGrid::rows_of(scene);
+  const Crossing crossing = crossing_of(scene.settings, rows.height_m);
+  Bins bins;
+  fill(scene, rows, &bins);
+  double cells = kCellsPerPoint * bins.beyond;
+  for (std::uint32_t row = 0; row < rows.count; ++row) cells += most_cells(bins.points[row], crossing);
+  return cells * WallGrid::kColumn_m * rows.height_m;
+}
+
+bool may_stand_across(const WallScene& scene, const WallChoice& choice) {
+  if (!choice.any()) {
+    // Nothing to refuse; but `explain` says what stands across where nothing stands beside.
+    POSE_WALL_NOTE(return true);
+    return false;
+  }
+  const double pair_m2 = 2.0 * most_area_across_m2(scene);
+  const bool may = pair_m2 > choice.score_m2;
+  POSE_WALL_NOTE(
+      if (!may) trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair_m2 / choice.score_m2, 1.0, true));
+  return may;
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Whether the planes ahead and behind could make a better roadway than the sides do, told without looking for them.
+
+#pragma once
+
+#include "stages/walls_scene.hpp"
+#include "stages/walls_select.hpp"
+
+namespace pose_wall {
+
+// What a plane across the machine can be solid over at most, wherever it stands and however it is turned within
+// yaw_max_deg: no column of it is solid where nothing is seen at that place beside the machine. In a road that is its
+// width, and a little more.
+double most_area_across_m2(const WallScene& scene);
+
+// False where two planes of that area show no more than what is chosen: then none need be looked for.
+bool may_stand_across(const WallScene& scene, const WallChoice& choice);
+
+}  // namespace pose_wall

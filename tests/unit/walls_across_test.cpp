@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: no plane across the machine is ever solid over more than the bound says, whatever is seen; the bound is low
+// enough that in a road nothing need be looked for, and high enough that in a junction it is.
+
+#include "stages/walls_across.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/band_fixture.hpp"
+
+namespace pose_wall {
+namespace {
+
+using test::BandFixture;
+using test::Noise;
+
+constexpr double kHit_m = 0.1;
+
+double area_of(const WallScene& scene, const Plane& plane, WallGrid* grid) {
+  const Eigen::Vector3d along(-plane.n.y(), plane.n.x(), 0.0);
+  grid->mark(scene, plane, along.normalized(), {kHit_m, 3.0 * kHit_m});
+  return grid->evidence().area_m2;
+}
+
+// Ahead or behind, turned and leaning as far as may be.
+Plane plane_across(Noise* noise) {
+  const double ahead = noise->uniform(-1.0, 1.0) > 0.0 ? -1.0 : 1.0;  // normals point to the machine
+  const double turned = noise->uniform(-0.87, 0.87), lean = noise->uniform(-0.34, 0.34);
+  Plane plane;
+  plane.n =
+      Eigen::Vector3d(ahead * std::cos(turned) * std::cos(lean), std::sin(turned) * std::cos(lean), std::sin(lean));
+  plane.d = noise->uniform(0.5, 20.0);
+  return plane;
+}
+
+double most_found(BandFixture* band, int draws, Noise* noise) {
+  test::Placed<WallGrid> grid;
+  const WallScene scene = band->scene();
+  double most_m2 = 0.0;
+  for (int draw = 0; draw < draws; ++draw) {
+    most_m2 = std::max(most_m2, area_of(scene, plane_across(noise), grid.get()));
+  }
+  return most_m2;
+}
+
+TEST(WallsAcross, NoPlaneShowsMoreThanTheBound) {
+  for (int seed = 1; seed <= 12; ++seed) {
+    Noise noise(static_cast<std::uint32_t>(seed));
+    BandFixture band({{"wall_ransac_thresh", "0.1"}});
+    // Points in the air, as thick as can be, over a road of any width, a face across it and a crosscut.
+    const double half_m = noise.uniform(0.5, 12.0);
+    const int points = static_cast<int>(noise.uniform(0.0, 60000.0));
+    for (int k = 0; k < points; ++k) {
+      band.points().add(noise.uniform(-20.0, 20.0), noise.uniform(-half_m, half_m),
+                        test::kFloorZ_m + noise.uniform(0.3, 2.4));
+    }
+    band.add_face(noise.uniform(2.0, 15.0), -half_m, half_m);
+    if (seed % 3 == 0) band.add_face(-5.0, 3.0, 40.0);
+    const double found_m2 = most_found(&band, 300, &noise), bound_m2 = most_area_across_m2(band.scene());
+    EXPECT_LE(found_m2, bound_m2) << "seed " << seed;
+    EXPECT_GT(found_m2, 0.0) << "seed " << seed;
+  }
+}
+
+TEST(WallsAcross, TheBoundIsReachedByHalf) {
+  Noise noise(1);
+  BandFixture band({{"wall_ransac_thresh", "0.1"}});
+  for (int k = 0; k < 90000; ++k) {
+    band.points().add(noise.uniform(-20.0, 20.0), noise.uniform(-3.0, 3.0), test::kFloorZ_m + noise.uniform(0.3, 2.4));
+  }
+  EXPECT_GT(most_found(&band, 2000, &noise), 0.5 * most_area_across_m2(band.scene()));
+}
+
+TEST(WallsAcross, FewPointsFillFewCells) {
+  BandFixture band;
+  for (int k = 0; k < 10; ++k) band.points().add(5.0, 0.4 * k - 2.0, 0.0);
+  EXPECT_LE(most_area_across_m2(band.scene()), 5 * 0.5 * 0.31) << "two points at least to a cell";
+  EXPECT_EQ(most_area_across_m2(BandFixture().scene()), 0.0);
+}
+
+WallChoice chosen_of(double score_m2, const WallCandidate* left) {
+  WallChoice choice;
+  choice.side[0] = left;
+  choice.score_m2 = score_m2;
+  return choice;
+}
+
+TEST(WallsAcross, InARoadNothingNeedBeLookedFor) {
+  BandFixture band;
+  band.add_wall(2.5, {-20.0, 20.0, 0.3, 2.4});
+  band.add_wall(-2.5, {-20.0, 20.0, 0.3, 2.4});
+  band.add_face(20.0, -2.5, 2.5);
+  const WallCandidate wall;
+  EXPECT_FALSE(may_stand_across(band.scene(), chosen_of(2.0 * 40.0 * 2.1, &wall)));
+  EXPECT_TRUE(may_stand_across(band.scene(), chosen_of(10.0, &wall))) << "short walls may be faces";
+}
+
+TEST(WallsAcross, AcrossARoadItIs) {
+  BandFixture band;
+  band.add_wall(4.0, {-2.0, 2.0, 0.3, 2.4});
+  band.add_wall(-4.0, {-2.0, 2.0, 0.3, 2.4});
+  band.add_face(2.5, -12.0, 12.0);
+  band.add_face(-2.5, -12.0, 12.0);
+  const WallCandidate wall;
+  EXPECT_TRUE(may_stand_across(band.scene(), chosen_of(2.0 * 4.0 * 2.1, &wall)));
+}
+
+TEST(WallsAcross, WhereNothingIsChosenNothingIsRefused) {
+  BandFixture band;
+  band.add_face(2.5, -12.0, 12.0);
+  EXPECT_FALSE(may_stand_across(band.scene(), WallChoice{}));
+}
+
+TEST(WallsAcross, WhatMayTurnFurtherCrossesTheRoadOnMoreOfItsLength) {
+  BandFixture narrow({{"yaw_max_deg", "5"}}), wide({{"yaw_max_deg", "50"}});
+  for (BandFixture* band : {&narrow, &wide}) band->add_face(5.0, -2.5, 2.5);
+  EXPECT_GT(most_area_across_m2(wide.scene()), 1.3 * most_area_across_m2(narrow.scene()));
+}
+
+}  // namespace
+}  // namespace pose_wall
