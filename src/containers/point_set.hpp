@@ -55,6 +55,18 @@ struct PointSet {
   }
 };
 
+// Of the points k to k + 3 of a list of indices; those behind its last one are the last one again.
+inline FourPlaces four_of(const PointSet& points, Span<const std::uint32_t> list, std::uint32_t k) {
+  FourPlaces out{};
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    const std::uint32_t i = list[k + lane < list.size() ? k + lane : list.size() - 1];
+    out.x[lane] = points.x[i];
+    out.y[lane] = points.y[i];
+    out.z[lane] = points.z[i];
+  }
+  return out;
+}
+
 // visit(first index, x, y, z, which of the four count) over all points.
 template <typename Visit>
 void for_each_four_points(const PointSet& points, const Visit& visit) {

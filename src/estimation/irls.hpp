@@ -11,6 +11,9 @@
 
 namespace pose_wall {
 
+// Metres and slopes: where a fit stands still that is followed by one over patches, which takes a step of its own.
+constexpr double kBeforePatches = 5e-5;
+
 struct IrlsSettings {
   double gate_m;       // residuals beyond play no part, nor in the scale
   double scale_min_m;  // the scale is kept within these

@@ -58,10 +58,33 @@ SurfacePatches::Cell SurfacePatches::block(std::uint32_t iu, std::uint32_t iv, s
   return sum;
 }
 
+// A bit for each cell of a row that holds something.
+void SurfacePatches::note_occupied() {
+  static_assert(kSide == 64, "a row's bits are one word");
+  for (std::uint32_t v = 0; v < kSide; ++v) {
+    std::uint64_t bits = 0;
+    for (std::uint32_t u = 0; u < kSide; ++u) {
+      bits |= static_cast<std::uint64_t>(cells_[v * kSide + u].w > kWeightMin) << u;
+    }
+    occupied_[v] = bits;
+  }
+}
+
+// visit(first column): the blocks of a row of them that hold something.
+template <typename Visit>
+void SurfacePatches::for_each_block(std::uint32_t iv, std::uint32_t side, const Visit& visit) const {
+  std::uint64_t bits = 0;
+  for (std::uint32_t v = iv; v < iv + side && v < kSide; ++v) bits |= occupied_[v];
+  const std::uint64_t block = (1ULL << side) - 1;
+  for (std::uint32_t iu = 0; bits != 0; iu += side, bits >>= side) {
+    if ((bits & block) != 0) visit(iu);
+  }
+}
+
 std::uint32_t SurfacePatches::count_blocks(std::uint32_t side) const {
   std::uint32_t count = 0;
   for (std::uint32_t iv = 0; iv < kSide; iv += side) {
-    for (std::uint32_t iu = 0; iu < kSide; iu += side) count += block(iu, iv, side).w > kWeightMin ? 1U : 0U;
+    for_each_block(iv, side, [&count](std::uint32_t) { ++count; });
   }
   return count;
 }
@@ -78,18 +101,18 @@ double SurfacePatches::pooled_variance() const {
 }
 
 Span<const SurfacePatch> SurfacePatches::collect() {
+  note_occupied();
   std::uint32_t side = 1;
   while (count_blocks(side) > kMost) ++side;
   const double pooled = pooled_variance();
   std::uint32_t count = 0;
   for (std::uint32_t iv = 0; iv < kSide; iv += side) {
-    for (std::uint32_t iu = 0; iu < kSide; iu += side) {
+    for_each_block(iv, side, [&](std::uint32_t iu) {
       const Cell c = block(iu, iv, side);
-      if (!(c.w > kWeightMin)) continue;
       const double variance = (kPriorPoints * pooled + c.scatter()) / (kPriorPoints + c.count - 1.0);
       const double least = kNoiseMin_m * kNoiseMin_m;
       patches_[count++] = {c.wu / c.w, c.wv / c.w, c.wr / c.w, c.wb / c.w, (variance > least ? variance : least) / c.w};
-    }
+    });
   }
   return Span<const SurfacePatch>(patches_.data(), count);
 }

@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "math/elementary.hpp"
-#include "math/four_floats.hpp"
 
 namespace pose_wall {
 namespace {
 
 constexpr std::uint32_t kRow = SurfacePatches::kMost;
-constexpr std::uint32_t kColumns = 5;
+static_assert(kRow <= PanelCholesky::kRowsMost && kRow % kFour == 0, "whole panels, with a row for each patch");
+constexpr std::uint32_t kRightSides = 2;  // panels of them: 1, u, v, residual; bias
 constexpr std::uint32_t kPatchesMin = 8;
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
 // Share of the unevenness that neighbouring patches do not have in common.
@@ -34,43 +34,6 @@ double unevenness(Span<const SurfacePatch> patches) {
   }
   const double excess = squares - static_cast<double>(patches.size());
   return excess > 0.0 ? excess / information : 0.0;
-}
-
-// Sum of the first products, in eight lanes of a fixed order. Rows are zero behind what is known of them, up to a whole
-// number of steps.
-constexpr std::uint32_t kStep = 2 * kFour;
-static_assert(kRow % kStep == 0, "rows are whole steps, and there are whole fours of them");
-
-float dot(const float* a, const float* b, std::uint32_t count) {
-  FourFloats s0{}, s1{};
-  for (const float* const end = a + (count + kStep - 1) / kStep * kStep; a != end; a += kStep, b += kStep) {
-    s0 += load_four(a) * load_four(b);
-    s1 += load_four(a + kFour) * load_four(b + kFour);
-  }
-  const FourFloats sums = s0 + s1;
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-// Of four rows of a matrix with one vector: as dot(), and what the vector brings is loaded once.
-struct FourSums {
-  float of[kFour];
-};
-
-FourSums four_dots(const float* rows, const float* b, std::uint32_t count) {
-  FourFloats s0[kFour] = {}, s1[kFour] = {};
-  for (std::uint32_t k = 0; k < count; k += kStep) {
-    const FourFloats b0 = load_four(b + k), b1 = load_four(b + k + kFour);
-    for (std::uint32_t row = 0; row < kFour; ++row) {
-      s0[row] += load_four(rows + row * kRow + k) * b0;
-      s1[row] += load_four(rows + row * kRow + k + kFour) * b1;
-    }
-  }
-  FourSums out;
-  for (std::uint32_t row = 0; row < kFour; ++row) {
-    const FourFloats sums = s0[row] + s1[row];
-    out.of[row] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  }
-  return out;
 }
 
 double slopes_variance(const Eigen::Matrix3d& covariance) {
@@ -129,103 +92,118 @@ UnevenFit UnevenPlane::Models::average(double freedom) const {
 
 void UnevenPlane::lay_out(Arena& arena) {
   correlation_ = arena.take<float>(kRow * kRow);
-  factor_ = arena.take<float>(kRow * kRow);
-  whitened_ = arena.take<float>(kRow * kColumns);
-  matern_ = arena.take<double>(kMaternSteps + 1);
+  factor_.lay_out(arena);
+  right_sides_ = arena.take<float>(kRightSides * PanelCholesky::kPanel);
+  matern_ = arena.take<float>(kMaternSteps + 1);
   matern_filled_ = false;
 }
 
 void UnevenPlane::fill_matern() {
   for (std::uint32_t k = 0; k <= kMaternSteps; ++k) {
     const double r = k * (1.0 / kMaternPerUnit);
-    matern_[k] = (1.0 + r) * exponential(-r);
+    matern_[k] = static_cast<float>((1.0 + r) * exponential(-r));
   }
   matern_filled_ = true;
 }
 
 // (1 + r) exp(-r), to 3e-5.
-double UnevenPlane::matern(double r) const {
-  const double place = r * kMaternPerUnit;
-  if (!(place < kMaternSteps)) return 0.0;
-  const auto step = static_cast<std::uint32_t>(place);
-  return matern_[step] + (place - step) * (matern_[step + 1] - matern_[step]);
+FourFloats UnevenPlane::matern(FourFloats r) const {
+  const FourFloats place = r * static_cast<float>(kMaternPerUnit), none{};
+  const FourTruths near = place < all_four(kMaternSteps);
+  const FourInts step = cut_off(near ? place : none);
+  FourFloats below, above;
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    const float* const at = &matern_[static_cast<std::uint32_t>(step[lane])];
+    below[lane] = at[0];
+    above[lane] = at[1];
+  }
+  const FourFloats part = place - __builtin_convertvector(step, FourFloats);
+  return near ? below + part * (above - below) : none;
 }
 
-void UnevenPlane::fill_distances(Span<const SurfacePatch> patches) {
-  for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    for (std::uint32_t j = 0; j < i; ++j) {
-      const double du = patches[i].u - patches[j].u, dv = patches[i].v - patches[j].v;
-      correlation_[j * kRow + i] = static_cast<float>(std::sqrt(du * du + dv * dv));
+// In panels, as the factor's: the lower triangle, and what else is in a panel's last columns.
+void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double length_m) {
+  const auto per_length = static_cast<float>(std::sqrt(3.0) / length_m);
+  for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
+    FourFloats u{}, v{};
+    for (std::uint32_t lane = 0; lane < kFour && first + lane < patches.size(); ++lane) {
+      u[lane] = static_cast<float>(patches[first + lane].u);
+      v[lane] = static_cast<float>(patches[first + lane].v);
+    }
+    float* const row = &correlation_[first * kRow];
+    for (std::uint32_t j = 0; j < first + kFour && j < patches.size(); ++j) {
+      const FourFloats du = u - static_cast<float>(patches[j].u), dv = v - static_cast<float>(patches[j].v);
+      store_four(matern(root_of(du * du + dv * dv) * per_length), row + kFour * j);
     }
   }
 }
 
-void UnevenPlane::fill_correlation(std::uint32_t patches, double length_m) {
-  const double per_length = std::sqrt(3.0) / length_m;
-  for (std::uint32_t i = 0; i < patches; ++i) {
-    for (std::uint32_t j = 0; j < i; ++j) {
-      const auto distance_m = static_cast<double>(correlation_[j * kRow + i]);
-      correlation_[i * kRow + j] = static_cast<float>(matern(distance_m * per_length));
-    }
-  }
-}
-
-// Cholesky's factor of the patches' covariance. Floats do: each patch has a part of its own in it, a twentieth at
-// least. Row by row, so that sums have one order on every machine: a library that cuts matrices into blocks by the size
-// of the cache does not give the same bits.
+// Of the patches' covariance. Floats do: each patch has a part of its own in it, a twentieth at least.
 bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, double tau2) {
   const auto shared = static_cast<float>((1.0 - own_share) * tau2);
-  const std::uint32_t n = patches.size();
-  const auto covariance = [&](std::uint32_t i, std::uint32_t j) { return shared * correlation_[i * kRow + j]; };
-  for (std::uint32_t first = 0; first < n; first += kFour) {
-    float* const rows = &factor_[first * kRow];
-    for (std::uint32_t k = 0; k < kFour * kRow; ++k) rows[k] = 0.0F;
-    const std::uint32_t end = first + kFour < n ? first + kFour : n;
-    // Where nothing is shared the rows hold their diagonal alone.
-    for (std::uint32_t j = shared > 0.0F ? 0 : first; j < first; ++j) {
-      const float* const above = &factor_[j * kRow];
-      const FourSums sums = four_dots(rows, above, j);
-      for (std::uint32_t i = first; i < end; ++i) {
-        factor_[i * kRow + j] = (covariance(i, j) - sums.of[i - first]) * above[j];
-      }
+  for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
+    float* const panel = factor_.panel(first / kFour);
+    const float* const correlation = &correlation_[first * kRow];
+    const FourTruths is_patch = first_of_four(patches.size() - first);
+    for (std::uint32_t j = 0; j < first + kFour; ++j) {
+      const FourFloats none{}, covariance = j < patches.size() ? shared * load_four(correlation + kFour * j) : none;
+      store_four(is_patch ? covariance : none, panel + kFour * j);
     }
-    for (std::uint32_t i = first; i < end; ++i) {
-      float* const row = &factor_[i * kRow];
-      for (std::uint32_t j = shared > 0.0F ? first : i; j < i; ++j) {
-        const float* const above = &factor_[j * kRow];
-        row[j] = (covariance(i, j) - dot(row, above, j)) * above[j];
-      }
-      const float sum = static_cast<float>(tau2 + patches[i].noise_variance) - dot(row, row, i);
-      if (!(sum > 0.0F)) return false;
-      row[i] = 1.0F / std::sqrt(sum);
+    for (std::uint32_t k = 0; k < kFour; ++k) {
+      const std::uint32_t i = first + k;
+      panel[kFour * i + k] = i < patches.size() ? static_cast<float>(tau2 + patches[i].noise_variance) : 1.0F;
     }
   }
-  return true;
+  return factor_.factor(patches.size());
 }
 
-bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
-  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d of_residual = Eigen::Vector3d::Zero(), of_bias = Eigen::Vector3d::Zero();
-  double squares = 0.0, log_determinant = 0.0, product = 1.0;
-  whitened_.fill(0.0F);
+// What a model knows of the errors taken out of both sides: independent, and of variance 1. Returns the logarithm of
+// the covariance's determinant.
+double UnevenPlane::whiten(Span<const SurfacePatch> patches, bool correlated, double tau2) {
+  float* const first = right_sides_.data();
+  float* const second = first + PanelCholesky::kPanel;
+  const std::uint32_t rows = kFour * PanelCholesky::panels_of(patches.size());
+  for (std::uint32_t i = 0; i < rows; ++i) {
+    const bool is_patch = i < patches.size();
+    const SurfacePatch p = is_patch ? patches[i] : SurfacePatch{};
+    store_four(FourFloats{is_patch ? 1.0F : 0.0F, static_cast<float>(p.u), static_cast<float>(p.v),
+                          static_cast<float>(p.residual)},
+               first + kFour * i);
+    store_four(FourFloats{static_cast<float>(p.bias)}, second + kFour * i);
+  }
+  if (correlated) {
+    factor_.solve(patches.size(), first);
+    factor_.solve(patches.size(), second);
+  }
+  double log_determinant = 0.0, product = 1.0;
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    const SurfacePatch& p = patches[i];
-    const float* const row = &factor_[i * kRow];
-    double y[kColumns] = {1.0, p.u, p.v, p.residual, p.bias};
-    for (std::uint32_t c = 0; c < kColumns; ++c) {
-      // The row's diagonal meets a zero: nothing is whitened there yet.
-      y[c] = (y[c] - static_cast<double>(dot(row, &whitened_[c * kRow], i))) * static_cast<double>(row[i]);
-      whitened_[c * kRow + i] = static_cast<float>(y[c]);
+    const float pivot =
+        correlated ? factor_.inverse_pivot(i) : 1.0F / std::sqrt(static_cast<float>(tau2 + patches[i].noise_variance));
+    if (!correlated) {
+      store_four(load_four(first + kFour * i) * pivot, first + kFour * i);
+      second[kFour * i] *= pivot;
     }
-    const Eigen::Vector3d a(y[0], y[1], y[2]);
-    g += a * a.transpose();
-    of_residual += a * y[3];
-    of_bias += a * y[4];
-    squares += y[3] * y[3];
-    product *= static_cast<double>(row[i]);
+    product *= static_cast<double>(pivot);
     if (i % kLogEvery != kLogEvery - 1 && i + 1 != patches.size()) continue;
     log_determinant -= 2.0 * natural_log(product);
     product = 1.0;
+  }
+  return log_determinant;
+}
+
+bool UnevenPlane::solve(std::uint32_t patches, double log_determinant, Model* model) const {
+  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d of_residual = Eigen::Vector3d::Zero(), of_bias = Eigen::Vector3d::Zero();
+  double squares = 0.0;
+  for (std::uint32_t i = 0; i < patches; ++i) {
+    const FourFloats y = load_four(&right_sides_[kFour * i]);
+    const auto residual = static_cast<double>(y[3]);
+    const auto bias = static_cast<double>(right_sides_[PanelCholesky::kPanel + kFour * i]);
+    const Eigen::Vector3d a(static_cast<double>(y[0]), static_cast<double>(y[1]), static_cast<double>(y[2]));
+    g += a * a.transpose();
+    of_residual += a * residual;
+    of_bias += a * bias;
+    squares += residual * residual;
   }
   const double determinant = g.determinant();
   if (!(determinant > 1e-9 * g(0, 0) * g(1, 1) * g(2, 2))) return false;
@@ -233,7 +211,7 @@ bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
   model->correction = inverse * of_residual;
   model->bias_response = inverse * of_bias;
   const double left = squares - model->correction.dot(of_residual);
-  const double freedom = static_cast<double>(patches.size()) - 3.0;
+  const double freedom = static_cast<double>(patches) - 3.0;
   const double least = kScaleLeast * freedom;
   if (!(left > -least)) return false;
   const double scaled = left > least ? left : least;
@@ -243,7 +221,10 @@ bool UnevenPlane::solve(Span<const SurfacePatch> patches, Model* model) {
 }
 
 void UnevenPlane::consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models) {
-  if (factor(patches, own_share, tau2) && solve(patches, &models->of[models->count])) ++models->count;
+  const bool correlated = own_share < 1.0;
+  if (correlated && !factor(patches, own_share, tau2)) return;
+  const double log_determinant = whiten(patches, correlated, tau2);
+  if (solve(patches.size(), log_determinant, &models->of[models->count])) ++models->count;
 }
 
 UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
@@ -253,9 +234,8 @@ UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
   consider(patches, 1.0, tau2, &models);
   if (tau2 > 0.0) {
     if (!matern_filled_) fill_matern();
-    fill_distances(patches);
     for (const double length_m : kLengths_m) {
-      fill_correlation(patches.size(), length_m);
+      fill_correlation(patches, length_m);
       for (const double share : kOwnShares) consider(patches, share, tau2, &models);
     }
   }

@@ -16,7 +16,9 @@
 #include <cstdint>
 
 #include "containers/arena.hpp"
+#include "estimation/panel_cholesky.hpp"
 #include "estimation/surface_patches.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -41,18 +43,18 @@ class UnevenPlane {
   static constexpr std::uint32_t kMaternSteps = 1024;
   static constexpr double kMaternPerUnit = 64.0;
   void fill_matern();
-  double matern(double r) const;
-  void fill_distances(Span<const SurfacePatch> patches);
-  void fill_correlation(std::uint32_t patches, double length_m);
-  void consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models);
+  FourFloats matern(FourFloats r) const;
+  void fill_correlation(Span<const SurfacePatch> patches, double length_m);
+  [[gnu::noinline]] void consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models);
   bool factor(Span<const SurfacePatch> patches, double own_share, double tau2);
-  bool solve(Span<const SurfacePatch> patches, Model* model);
+  double whiten(Span<const SurfacePatch> patches, bool correlated, double tau2);
+  bool solve(std::uint32_t patches, double log_determinant, Model* model) const;
 
-  Span<float> correlation_;  // in the lower triangle; in the upper one the distances, metres
-  Span<float> factor_;       // Cholesky's, its diagonal inverted
-  Span<double> matern_;
+  Span<float> correlation_;  // in panels of four rows, as the factor's
+  PanelCholesky factor_;
+  Span<float> right_sides_;
+  Span<float> matern_;
   bool matern_filled_ = false;
-  Span<float> whitened_;  // a row each: 1, u, v, residual, bias
 };
 
 }  // namespace pose_wall

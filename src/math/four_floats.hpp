@@ -15,6 +15,10 @@ namespace pose_wall {
 using FourFloats = float __attribute__((vector_size(16)));
 constexpr std::uint32_t kFour = 4;
 
+struct FourPlaces {
+  FourFloats x, y, z;
+};
+
 inline FourFloats all_four(float x) {
   return FourFloats{x, x, x, x};
 }

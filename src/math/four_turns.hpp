@@ -9,10 +9,6 @@
 
 namespace pose_wall {
 
-struct FourPlaces {
-  FourFloats x, y, z;
-};
-
 // A turn and a shift of four points at once, in floats: to some micrometres over the reach of a sensor.
 class FourTurns {
  public:

@@ -36,10 +36,21 @@ std::uint64_t bins_below(std::uint64_t heights, int bin) {
   return heights & (from > -6 ? kSixBins >> -from : 0);
 }
 
+// The bins on which something stands, all at once.
+std::uint64_t stood_on(std::uint64_t heights) {
+  std::uint64_t one = 0, two = 0;
+  for (int bin = kFirstBin; bin <= kSixthBin; ++bin) {
+    const std::uint64_t there = heights >> bin;
+    two |= one & there;
+    one |= there;
+  }
+  return two;
+}
+
 }  // namespace
 
 void FloorGrid::lay_out(Arena& arena) {
-  heights_ = arena.take<std::uint64_t>(kSide * kSide);
+  eighths_ = arena.take<std::uint64_t>(kSide * kSide);
   marked_ = arena.take<std::uint8_t>(kSide * kSide);
   near_marked_ = arena.take<std::uint8_t>(kSide * kSide);
 }
@@ -49,6 +60,11 @@ std::int32_t FloorGrid::cell_of(float coordinate_m) {
   // further out is outside in either case.
   constexpr std::int32_t kFar = 1 << 10;
   return static_cast<std::int32_t>(coordinate_m * static_cast<float>(1.0 / kCell_m) + (kFar + kSide / 2)) - kFar;
+}
+
+FourInts FloorGrid::cells_of(FourFloats coordinates_m) {
+  const FourFloats cell = coordinates_m * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide, none{};
+  return cut_off(smaller_of(larger_of(cell, none), all_four(kSide - 1)));
 }
 
 // Where four points lie: cell and height bin as one number, or kNowhere outside the radius or the grid's height.
@@ -80,7 +96,7 @@ class FloorGrid::FourBins {
 
 std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
                                    Span<std::uint32_t> out) {
-  heights_.fill(0);
+  eighths_.fill(0);
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
   FourBins four(radius_m, lowest_m_);
   FourInts within{};  // true is -1
@@ -91,7 +107,7 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
       // Until it is known which are open, the list holds where each lies.
       const auto place = static_cast<std::uint32_t>(four.place[lane]);
       out[i + lane] = place;
-      if (four.place[lane] != FourBins::kNowhere) heights_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
+      if (four.place[lane] != FourBins::kNowhere) eighths_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
     }
   });
   points_within_ = static_cast<std::uint32_t>(within[0] + within[1] + within[2] + within[3]);
@@ -99,26 +115,32 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     const std::uint32_t place = out[i];
     if (place == static_cast<std::uint32_t>(FourBins::kNowhere)) continue;
-    const std::uint64_t heights = heights_[place / FourBins::kBins];
+    const std::uint64_t heights = eighths_[place / FourBins::kBins];
     const int bin = static_cast<int>(place % FourBins::kBins);
     if (!two_or_more(bins_above(heights, bin)) && !two_or_more(bins_below(heights, bin))) out[count++] = i;
   }
+  for (std::uint64_t& heights : eighths_) heights = heights != 0 ? stood_on(heights) : 0;
   return count;
 }
 
-bool FloorGrid::clear_around(float x_base_m, float y_base_m, float z_base_m) const {
+FourTruths FloorGrid::clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m,
+                                   FourTruths counts) const {
   constexpr float kAround_m = 0.1F;
-  const float place = (z_base_m - static_cast<float>(lowest_m_)) * static_cast<float>(1.0 / kHeightBin_m);
-  if (!(place >= 0.0F && place < kHeightBins)) return true;
-  const int bin = static_cast<int>(place);
-  const std::int32_t x_begin = cell_of(x_base_m - kAround_m), x_end = cell_of(x_base_m + kAround_m);
-  const std::int32_t y_begin = cell_of(y_base_m - kAround_m), y_end = cell_of(y_base_m + kAround_m);
-  for (std::int32_t iy = y_begin; iy <= y_end; ++iy) {
-    for (std::int32_t ix = x_begin; ix <= x_end; ++ix) {
-      if (inside(ix, iy) && two_or_more(bins_above(heights_[index(ix, iy)], bin))) return false;
-    }
+  const FourFloats place = (z_base_m - static_cast<float>(lowest_m_)) * static_cast<float>(1.0 / kHeightBin_m);
+  const FourTruths looked_at = counts & (place >= FourFloats{}) & (place < all_four(kHeightBins));
+  const FourInts bin = cut_off(looked_at ? place : FourFloats{});
+  const FourFloats none{}, x = looked_at ? x_base_m : none, y = looked_at ? y_base_m : none;
+  const FourInts x_low = cells_of(x - kAround_m), x_high = cells_of(x + kAround_m);
+  const FourInts y_low = cells_of(y - kAround_m) * kSide, y_high = cells_of(y + kAround_m) * kSide;
+  static_assert(2.0 * kAround_m <= kCell_m, "two cells at most");
+  const FourInts corners[] = {y_low + x_low, y_low + x_high, y_high + x_low, y_high + x_high};
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (looked_at[lane] == 0) continue;
+    std::uint64_t occupied = 0;
+    for (const FourInts& corner : corners) occupied |= eighths_[static_cast<std::uint32_t>(corner[lane])];
+    if ((occupied >> bin[lane] & 1) != 0) counts[lane] = 0;
   }
-  return true;
+  return counts;
 }
 
 void FloorGrid::clear_marks() {
@@ -142,13 +164,17 @@ void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
 
 void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m) {
   clear_marks();
-  for (const std::uint32_t i : open) {
-    const Eigen::Vector3d p = points_base.at(i);
-    const double height = plane.signed_distance(p);
-    if (!(height >= -thresh_m && height <= thresh_m)) continue;
-    const std::int32_t ix = cell_of(static_cast<float>(p.x())), iy = cell_of(static_cast<float>(p.y()));
-    if (inside(ix, iy) && marked_[index(ix, iy)] == 0) mark_cell(ix, iy);
-  }
+  const FourDistances distances(plane);
+  const FourFloats most = all_four(static_cast<float>(thresh_m));
+  for_each_four(open.size(), [&](std::uint32_t k, FourTruths counts) {
+    const FourPlaces p = four_of(points_base, open, k);
+    const FourTruths on_plane = counts & (magnitude_of(distances.of(p.x, p.y, p.z)) <= most);
+    if (!any_of(on_plane)) return;
+    const FourInts ix = cells_of(p.x), iy = cells_of(p.y);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (on_plane[lane] != 0 && marked_[index(ix[lane], iy[lane])] == 0) mark_cell(ix[lane], iy[lane]);
+    }
+  });
 }
 
 FloorEvidence FloorGrid::evidence(const Axes& axes) const {

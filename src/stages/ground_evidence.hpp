@@ -41,20 +41,22 @@ class FloorGrid {
 
   // Whether nothing stands on the cells next to an open point's either: at the foot of a rough wall or heap its lowest
   // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
-  bool clear_around(float x_base_m, float y_base_m, float z_base_m) const;
+  // Which of four points are.
+  FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m, FourTruths counts) const;
 
-  // Marks the cells in which a plane has points.
+  // Marks the cells in which a plane has points. open: by find_open(), all of them within the grid.
   void mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m);
   // Of the marked plane.
   FloorEvidence evidence(const Axes& axes) const;
   // Whether the marked plane has floor at or next to this place.
-  bool marked_near(double x_base_m, double y_base_m) const;
+  [[gnu::noinline]] bool marked_near(double x_base_m, double y_base_m) const;
   // The same, or farther out in the same direction from the sensor: a place inside the floor, be it a puddle.
   bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
 
  private:
   class FourBins;
   static std::int32_t cell_of(float coordinate_m);
+  static FourInts cells_of(FourFloats coordinates_m);  // the outermost of what is outside
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
@@ -68,8 +70,10 @@ class FloorGrid {
   Bounds bounds_;
 
   std::uint32_t points_within_ = 0;
-  double lowest_m_ = 0.0;        // of the heights
-  Span<std::uint64_t> heights_;  // per cell, a bit for each eighth of a metre that holds points
+  double lowest_m_ = 0.0;  // of the heights
+  // Per cell a bit for each eighth of a metre: where points are, and once find_open() is done with it, on which of them
+  // something stands.
+  Span<std::uint64_t> eighths_;
   Span<std::uint8_t> marked_;
   Span<std::uint8_t> near_marked_;  // marked, or next to a marked cell
 };

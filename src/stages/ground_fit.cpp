@@ -33,7 +33,7 @@ constexpr int kSelections = 3;
 constexpr double kSensorNoise_m = 0.02;
 
 IrlsSettings irls_settings(const Settings& s) {
-  return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds};
+  return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds, kBeforePatches};
 }
 
 // A floor that waves by more than the threshold would be cut to the parts that happen to lie in one plane.
@@ -57,18 +57,6 @@ Eigen::Vector3d foot_of(const Eigen::Vector3d& p, const Plane& plane, const Eige
   return sensor_base_m + (p - sensor_base_m) * (sensor / (sensor - height));
 }
 
-// Of the points k to k + 3 of a list; those behind its last one are the last one again.
-FourPlaces four_at(const PointSet& cloud, Span<const std::uint32_t> list, std::uint32_t k) {
-  FourPlaces out{};
-  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    const std::uint32_t i = list[k + lane < list.size() ? k + lane : list.size() - 1];
-    out.x[lane] = cloud.x[i];
-    out.y[lane] = cloud.y[i];
-    out.z[lane] = cloud.z[i];
-  }
-  return out;
-}
-
 // Selections after the first go by height over the plane, clear of what stands on the floor, and within the radius
 // where the ray meets the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges
 // only, and these look like a higher floor.
@@ -83,7 +71,7 @@ Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t
   const FourDistances distances(plane);
   std::uint32_t count = 0;
   for_each_four(open.size(), [&](std::uint32_t k, FourTruths counts) {
-    const FourPlaces p = four_at(cloud, open, k);
+    const FourPlaces p = four_of(cloud, open, k);
     const FourFloats height = distances.of(p.x, p.y, p.z);
     counts &= (height >= -gate) & (height <= gate);
     if (!any_of(counts)) return;
@@ -91,8 +79,10 @@ Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t
     const FourFloats x = sensor.x() + (p.x - sensor.x()) * way, y = sensor.y() + (p.y - sensor.y()) * way;
     const FourFloats z = sensor.z() + (p.z - sensor.z()) * way;
     counts &= x * x + y * y <= radius2;
+    if (!any_of(counts)) return;
+    counts = grid.clear_around(x, y, z, counts);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (counts[lane] != 0 && grid.clear_around(x[lane], y[lane], z[lane])) out[count++] = open[k + lane];
+      if (counts[lane] != 0) out[count++] = open[k + lane];
     }
   });
   return Span<const std::uint32_t>(out.data(), count);

@@ -21,7 +21,6 @@ constexpr double kLayersApartInSigmas = 2.5;
 constexpr int kStepRounds = 4;  // of the surface alone: it tells its roughness, the plane comes of both
 constexpr int kJointRounds = 3;
 constexpr int kLastRounds = 8;
-constexpr double kStandsStill = 5e-5;  // metres, and slopes
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
 constexpr double kFrontStepMin_m = 0.06;
@@ -218,7 +217,7 @@ bool step_with_fronts(int rounds_max, const WallSurface& surface, WallFitScratch
     fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
     if (!joint.patch.solved) return false;
     joint.irls.over = joint.over();
-    if (joint.patch.correction.cwiseAbs().maxCoeff() < kStandsStill) break;
+    if (joint.patch.correction.cwiseAbs().maxCoeff() < kBeforePatches) break;
   }
   *over = joint.irls.over;
   return true;
@@ -248,7 +247,6 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   if (!strips.find(sensor_m, kSeenWithin * away_m, settings.gate_m)) return;
   double reach_m = kSeenWithin * away_m;
   IrlsSettings step = settings;
-  step.stands_still = kStandsStill;
   step.rounds = kStepRounds;
   for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
     if (ring > 0) {

@@ -32,7 +32,7 @@ constexpr int kRounds = 8;
 
 IrlsSettings fit_settings(const Settings& s) {
   const double thresh_m = s.wall_ransac_thresh;
-  return {kGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds};
+  return {kGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds, kBeforePatches};
 }
 
 // Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.

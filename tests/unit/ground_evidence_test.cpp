@@ -8,6 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "support/ground_fixture.hpp"
@@ -23,7 +27,8 @@ struct Open {
                             Span<std::uint32_t>(indices.data(), static_cast<std::uint32_t>(indices.size())));
   }
   Span<const std::uint32_t> span() const { return Span<const std::uint32_t>(indices.data(), count); }
-  test::Placed<FloorGrid> grid;
+  const FloorGrid& grid_of() const { return *grid; }
+  mutable test::Placed<FloorGrid> grid;
   std::vector<std::uint32_t> indices;
   std::uint32_t count = 0;
 };
@@ -101,6 +106,80 @@ TEST(FloorGrid, AReflectionIsSeenThroughTheFloor) {
   open.grid->mark(g.points().set(), open.span(), level_at(-1.0), 0.03);
   EXPECT_LT(share_seen_through(*open.grid, level_at(-1.0), level_at(0.0), g.points().set(), open.span(), sensor, 0.03),
             0.1);
+}
+
+// As FloorGrid::clear_around(), one cell and one height at a time.
+class SlowClear {
+ public:
+  explicit SlowClear(const PointSet& points) {
+    for (std::uint32_t i = 0; i < points.count; ++i) {
+      const int bin = bin_of(points.z[i]);
+      if (points.x[i] * points.x[i] + points.y[i] * points.y[i] > 15.0F * 15.0F || bin < 0 || bin > 63) continue;
+      bins_[{cell_of(points.x[i]), cell_of(points.y[i])}].insert(bin);
+    }
+  }
+
+  bool around(float x, float y, float z) const {
+    const int bin = bin_of(z);
+    if (bin < 0 || bin > 63) return true;
+    for (const int ix : {cell_of(x - 0.1F), cell_of(x + 0.1F)}) {
+      for (const int iy : {cell_of(y - 0.1F), cell_of(y + 0.1F)}) {
+        const auto cell = bins_.find({ix, iy});
+        if (cell == bins_.end()) continue;
+        int standing = 0;
+        for (int above = bin + 2; above <= bin + 7; ++above) standing += cell->second.count(above) > 0 ? 1 : 0;
+        if (standing >= 2) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static int bin_of(float z) { return static_cast<int>(std::floor((z + 5.5F) * 8.0F)); }
+  static int cell_of(float coordinate) { return static_cast<int>(std::floor(coordinate * 4.0F + 80.0F)); }
+  std::map<std::pair<int, int>, std::set<int>> bins_;
+};
+
+TEST(FloorGrid, ClearAroundIsWhatALookAtEachCellSays) {
+  test::GroundFixture g;
+  test::Noise noise(5);
+  for (int k = 0; k < 60000; ++k) {
+    g.points().add(noise.uniform(-10.0, 10.0), noise.uniform(-15.5, 15.5), noise.uniform(-6.0, 3.0));
+  }
+  const Open open(&g);
+  const SlowClear slow(g.points().set());
+  std::uint32_t clear = 0, looked_at = 0;
+  for (int k = 0; k < 5000; ++k) {
+    FourFloats x{}, y{}, z{};
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      x[lane] = static_cast<float>(noise.uniform(-10.5, 10.5));
+      y[lane] = static_cast<float>(noise.uniform(-19.95, 19.95));
+      z[lane] = static_cast<float>(noise.uniform(-6.5, 4.0));
+    }
+    const FourTruths counts = FourInts{k & 1, k & 2, k & 4, k & 8} != 0;
+    const FourTruths fast = open.grid_of().clear_around(x, y, z, counts);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] == 0) {
+        EXPECT_EQ(fast[lane], 0) << "not asked for";
+        continue;
+      }
+      ++looked_at;
+      clear += fast[lane] != 0 ? 1U : 0U;
+      EXPECT_EQ(fast[lane] != 0, slow.around(x[lane], y[lane], z[lane])) << x[lane] << " " << y[lane] << " " << z[lane];
+    }
+  }
+  EXPECT_GT(clear, looked_at / 10);
+  EXPECT_LT(clear, looked_at * 9 / 10) << "or nothing was tested";
+}
+
+TEST(FloorGrid, AnyCountOfPointsIsMarked) {
+  for (std::uint32_t points = 1; points <= 9; ++points) {
+    test::GroundFixture g;
+    for (std::uint32_t k = 0; k < points; ++k) g.points().add(0.5 * k - 2.1, 0.1, -test::kFloorBelow_m);
+    Open open(&g);
+    open.grid->mark(g.points().set(), open.span(), level_at(0.0), 0.03);
+    EXPECT_EQ(open.grid->evidence(kAhead_x).area_m2, points * 0.0625) << "a cell each";
+  }
 }
 
 TEST(FloorGrid, PointsFarOutsideAndOddHeightsDoNoHarm) {
