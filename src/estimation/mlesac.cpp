@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kBins = 32;
 constexpr double kSpanInSigmas = 4.0;  // residuals beyond are outliers without further ado
 constexpr int kEmRounds = 8;
-constexpr std::uint32_t kLook = 64;  // points between two looks whether a hypothesis has lost already
+constexpr std::uint32_t kLook = 128;  // points between two looks whether a hypothesis has lost already
 constexpr double kSureInSigmas = 3.0;
 
 struct Histogram {

@@ -22,32 +22,39 @@ constexpr double kCorrelationMax = 0.95;
 constexpr double kVisibilityPerPatch = 0.8;
 constexpr double kNoiseLooksRough = 0.05;
 
-// Steps to the patches after this one, in rows from left to right, up to so many lags away: distances to the nearest
-// patch.
-struct Offset {
-  std::int8_t du, dv;
-  std::uint8_t lag;
+// How many lags away a patch is that lies so many columns and rows off: distances to the nearest patch.
+struct Lags {
+  static constexpr int kMost = PatchGrid::kLags;
+  std::uint8_t lag[kMost + 1][kMost + 1] = {};  // by row and column
+  int reach[kMost + 1] = {};                    // columns that are within kMost, in a row
 };
-struct Offsets {
-  static constexpr std::uint32_t kMost = 64;
-  Offset item[kMost] = {};
-  std::uint32_t count = 0;
-};
-constexpr Offsets offsets_within(int lags) {
-  Offsets out;
-  for (int dv = 0; dv <= lags; ++dv) {
-    for (int du = dv == 0 ? 1 : -lags; du <= lags; ++du) {
+constexpr Lags lags_by_offset() {
+  Lags out;
+  for (int dv = 0; dv <= Lags::kMost; ++dv) {
+    for (int du = 0; du <= Lags::kMost; ++du) {
       int lag = 0;
       while ((2 * lag + 1) * (2 * lag + 1) <= 4 * (du * du + dv * dv)) ++lag;
-      if (lag <= lags) {
-        out.item[out.count++] = {static_cast<std::int8_t>(du), static_cast<std::int8_t>(dv),
-                                 static_cast<std::uint8_t>(lag)};
-      }
+      out.lag[dv][du] = static_cast<std::uint8_t>(lag);
+      if (lag <= Lags::kMost) out.reach[dv] = du;
     }
   }
   return out;
 }
-constexpr Offsets kOffsets = offsets_within(PatchGrid::kLags);
+constexpr Lags kLagOf = lags_by_offset();
+
+FourFloats four_of(const Eigen::Vector3d& three, double fourth) {
+  return FourFloats{static_cast<float>(three.x()), static_cast<float>(three.y()), static_cast<float>(three.z()),
+                    static_cast<float>(fourth)};
+}
+
+Eigen::Vector3d first_three(FourFloats four) {
+  return {static_cast<double>(four[0]), static_cast<double>(four[1]), static_cast<double>(four[2])};
+}
+
+// Of six terms, with what stands for the first three and for the others.
+double sum_of_products(const Eigen::Matrix<double, 6, 1>& terms, FourFloats first, FourFloats others) {
+  return terms.head<3>().dot(first_three(first)) + terms.tail<3>().dot(first_three(others));
+}
 
 }  // namespace
 
@@ -73,16 +80,17 @@ double PatchFit::bend_slope_v_at(double u, double v) const {
 template <typename Visit>
 void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
   const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
-  Neighbour neighbours[Offsets::kMost] = {};
+  Neighbour neighbours[(kLags + 1) * (2 * kLags + 1)] = {};
   for (const Mean& p : means_.first(n)) {
     std::uint32_t count = 0;
-    for (std::uint32_t k = 0; k < kOffsets.count; ++k) {
-      const Offset& offset = kOffsets.item[k];
-      const std::int32_t iu = p.iu + offset.du, iv = p.iv + offset.dv;
-      if (iu < 0 || iu >= columns || iv >= rows) continue;
-      const auto row = p.layer * rows_ + static_cast<std::uint32_t>(iv);
-      const std::int32_t j = mean_of_cell_[row * columns_ + static_cast<std::uint32_t>(iu)];
-      if (j >= 0) neighbours[count++] = {&means_[static_cast<std::uint32_t>(j)], offset.lag};
+    for (std::int32_t dv = 0; dv <= kLags && p.iv + dv < rows; ++dv) {
+      const std::int32_t reach = kLagOf.reach[dv], left = p.iu < reach ? p.iu : reach;
+      const std::int32_t first = dv == 0 ? 1 : -left, last = p.iu + reach < columns ? reach : columns - 1 - p.iu;
+      const std::int32_t row = static_cast<std::int32_t>(p.layer) * rows + p.iv + dv;
+      for (std::int32_t du = first; du <= last; ++du) {
+        const std::int32_t j = mean_of_cell_[static_cast<std::uint32_t>(row * columns + p.iu + du)];
+        if (j >= 0) neighbours[count++] = {&means_[static_cast<std::uint32_t>(j)], kLagOf.lag[dv][du < 0 ? -du : du]};
+      }
     }
     visit(p, Span<const Neighbour>(neighbours, count));
   }
@@ -90,27 +98,27 @@ void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) cons
 
 // All that the covariance needs to know of pairs, in one pass: nothing in it depends on the correlation, which changes
 // from round to round.
-void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) const {
+void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
+  for (Mean& p : means_.first(n)) {
+    p.of_pairs[0] = four_of(p.a, p.error);
+    p.of_pairs[1] = four_of(p.information * p.a, p.information * std::sqrt(p.information));
+  }
   for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     PairSums& of_layer = (*sums)[p.layer];
-    double errors[kLags + 1] = {}, weights[kLags + 1] = {};
-    Eigen::Vector3d designs[kLags + 1], weighted[kLags + 1];
-    for (int lag = 1; lag <= kLags; ++lag) designs[lag] = weighted[lag] = Eigen::Vector3d::Zero();
+    FourFloats rows[kLags + 1] = {}, weighted[kLags + 1] = {};
+    std::uint32_t pairs[kLags + 1] = {};
     for (const Neighbour& o : neighbours) {
-      const Mean& m = *o.mean;
-      of_layer.lag[o.lag].pairs += 1.0;
-      errors[o.lag] += m.error;
-      designs[o.lag] += m.a;
-      weighted[o.lag] += m.information * m.a;
-      weights[o.lag] += m.information * std::sqrt(m.information);
+      ++pairs[o.lag];
+      rows[o.lag] += o.mean->of_pairs[0];
+      weighted[o.lag] += o.mean->of_pairs[1];
     }
-    const double own = p.information * std::sqrt(p.information);
     for (int lag = 1; lag <= kLags; ++lag) {
       PairSums::Lag& sum = of_layer.lag[lag];
-      sum.errors += p.error * errors[lag];
-      sum.designs += p.a * designs[lag].transpose();
-      sum.weighted += p.information * p.a * weighted[lag].transpose();
-      sum.weights += own * weights[lag];
+      sum.pairs += pairs[lag];
+      sum.errors += p.error * static_cast<double>(rows[lag][3]);
+      sum.designs += p.a * first_three(rows[lag]).transpose();
+      sum.weighted += p.information * p.a * first_three(weighted[lag]).transpose();
+      sum.weights += static_cast<double>(p.of_pairs[1][3]) * static_cast<double>(weighted[lag][3]);
     }
   });
 }
@@ -222,31 +230,29 @@ PatchGrid::BendSums PatchGrid::sum_bend_pairs(std::uint32_t n) const {
   BendSums sums;
   for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     if (p.layer != 0) return;
-    double errors[kLags + 1] = {};
-    Quadratic answers[kLags + 1];
-    Eigen::Vector3d weighted[kLags + 1];
-    for (int lag = 1; lag <= kLags; ++lag) {
-      answers[lag] = Quadratic::Zero();
-      weighted[lag] = Eigen::Vector3d::Zero();
-    }
+    FourFloats linear[kLags + 1] = {}, quadratic[kLags + 1] = {}, weighted[kLags + 1] = {};
+    std::uint32_t pairs[kLags + 1] = {};
     for (const Neighbour& o : neighbours) {
-      sums.pairs.lag[o.lag].pairs += 1.0;
-      errors[o.lag] += o.mean->error;
-      answers[o.lag] += o.mean->answer;
-      weighted[o.lag] += o.mean->information * o.mean->answer.tail<3>();
+      ++pairs[o.lag];
+      linear[o.lag] += o.mean->of_pairs[0];
+      quadratic[o.lag] += o.mean->of_pairs[1];
+      weighted[o.lag] += o.mean->of_pairs[2];
     }
     const Quadratic terms = quadratic_terms(p);
-    const Eigen::Vector3d own = p.information * p.answer.tail<3>();
+    const Eigen::Vector3d own = first_three(p.of_pairs[2]);
     for (int lag = 1; lag <= kLags; ++lag) {
-      sums.pairs.lag[lag].errors += p.error * errors[lag];
-      sums.pairs.lag[lag].weighted += own * weighted[lag].transpose();
-      sums.taken_by_fit[lag] += terms.dot(answers[lag]);
+      PairSums::Lag& sum = sums.pairs.lag[lag];
+      sum.pairs += pairs[lag];
+      sum.errors += p.error * static_cast<double>(linear[lag][3]);
+      sum.weighted += own * first_three(weighted[lag]).transpose();
+      sums.taken_by_fit[lag] += sum_of_products(terms, linear[lag], quadratic[lag]);
     }
   });
   for (const Mean& p : means_.first(n)) {
     if (p.layer != 0) continue;
-    const Eigen::Vector3d own = p.information * p.answer.tail<3>();
-    sums.leverage += quadratic_terms(p).dot(p.answer);
+    const Eigen::Vector3d own = first_three(p.of_pairs[2]);
+    const Quadratic terms = quadratic_terms(p);
+    sums.leverage += sum_of_products(terms, p.of_pairs[0], p.of_pairs[1]);
     sums.patches += 1.0;
     sums.rock += own * own.transpose();
     sums.noise += p.noise_variance * own * own.transpose();
@@ -272,7 +278,7 @@ Eigen::Matrix3d PatchGrid::bend_sandwich(const BendSums& sums, const Roughness& 
 
 // Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic: about
 // the plane a bend makes neighbouring patches err alike, which looks like rough rock with few independent patches and
-// would hide the bend. Needs Mean::error about the quadratic and Mean::answer.
+// would hide the bend. Needs Mean::error about the quadratic, and its answers in Mean::of_pairs.
 Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const {
   const double own_tau2 = rock_about_quadratic(n);
   const BendSums sums = sum_bend_pairs(n);
@@ -317,8 +323,11 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
   for (int k = 0; k < 6; ++k) inverse.col(k) = solver.solve(Quadratic(Quadratic::Unit(k)));
   for (Mean& p : means_.first(n)) {
     if (p.layer != 0) continue;
-    p.answer = inverse * quadratic_terms(p);
-    p.error -= bend.dot(quadratic_terms(p));
+    const Quadratic terms = quadratic_terms(p), answer = inverse * terms;
+    p.error -= bend.dot(terms);
+    p.of_pairs[0] = four_of(answer.head<3>(), p.error);
+    p.of_pairs[1] = four_of(answer.tail<3>(), 0.0);
+    p.of_pairs[2] = four_of(p.information * answer.tail<3>(), 0.0);
   }
   // What the pull holds back is not known.
   const Matrix6 held_back = inverse * pull.asDiagonal() * inverse;

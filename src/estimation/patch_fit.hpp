@@ -117,7 +117,11 @@ class PatchGrid {
     // (Frisch and Waugh 1933).
     Eigen::Vector3d a;
     double r_centred, b_centred;
-    Quadratic answer;  // of the quadratic's coefficients to an error here, over its information
+    // What sums over pairs take of it, as floats: four sums at a time, and what they leave is far below what a
+    // correlation is known to. Until test_bend: row of the design and error; the row times the information, and that to
+    // the power of 3/2. From there on the quadratic's answer to an error here, over its information: error and answers
+    // of 1, u, v; of uu, uv, vv; these times the information.
+    FourFloats of_pairs[3];
     std::int32_t iu, iv;
     std::uint32_t layer;
   };
@@ -163,7 +167,7 @@ class PatchGrid {
   };
   template <typename Visit>
   void for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
-  void sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) const;
+  void sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]);
   static void correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough);
   void measure_correlation(const PairSums (&sums)[kLayersMax], const Eigen::Matrix3d& fitted,
                            Roughness (*roughness)[kLayersMax]) const;

@@ -67,7 +67,7 @@ class NeighbourCounter {
   }
 
  private:
-  static constexpr std::uint32_t kLook = 4;
+  static constexpr std::uint32_t kLook = 3;
 
   bool is_near(std::uint32_t i, std::uint32_t j) const {
     const float dx = points_.x[j] - points_.x[i], dy = points_.y[j] - points_.y[i], dz = points_.z[j] - points_.z[i];

@@ -90,6 +90,35 @@ TEST(PatchFit, OnRoughRockTheErrorsAreWhatTheCovarianceSays) {
   }
 }
 
+// Sums over pairs are in floats: far from the origin they leave as much as near it. With a hole, and with a second
+// layer.
+TEST(PatchFit, FarFromTheOriginTheErrorsAreTheSame) {
+  for (const std::uint32_t layers : {1U, 2U}) {
+    test::Placed<PatchGrid> grid;
+    PatchFit fits[2];
+    for (int far = 0; far < 2; ++far) {
+      test::Noise noise(7);
+      const Rock rock(0.03, 0.5, &noise);
+      const double from_m = far != 0 ? 24.0 : 0.0;
+      grid->begin(from_m, from_m + 8.0, 0.0, 2.0, 0.5, layers);
+      for (int i = 0; i < kPoints; ++i) {
+        const double u = noise.uniform(0.0, 8.0), v = noise.uniform(0.0, 2.0);
+        if (u > 2.0 && u < 3.0 && v < 1.0) continue;  // a hole
+        const std::uint32_t layer = layers == 2 && u > 5.0 && u < 6.0 ? 1U : 0U;
+        grid->add(from_m + u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0, layer);
+      }
+      fits[far] = grid->fit();
+      ASSERT_TRUE(fits[far].solved);
+    }
+    for (const double u : {0.0, 4.0, 8.0}) {
+      const double near = fits[0].variance_at(u, 1.0), far = fits[1].variance_at(24.0 + u, 1.0);
+      EXPECT_NEAR(far / near, 1.0, 1e-3) << layers << " layers, u " << u;
+    }
+    EXPECT_NEAR(fits[1].curvature_v_sigma / fits[0].curvature_v_sigma, 1.0, 2e-2) << layers << " layers";
+    EXPECT_EQ(fits[0].bends, fits[1].bends);
+  }
+}
+
 TEST(PatchFit, GivesBackAnOffsetAndSlopes) {
   test::Placed<PatchGrid> grid;
   test::Noise noise(3);
