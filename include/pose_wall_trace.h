@@ -33,7 +33,7 @@ enum pose_wall_trace_subject {
   POSE_WALL_TRACE_LEFT = 2,
   POSE_WALL_TRACE_RIGHT = 3,
   POSE_WALL_TRACE_WALLS = 4, /* both sides at once */
-  POSE_WALL_TRACE_AHEAD = 5, /* planes across the road: candidates only */
+  POSE_WALL_TRACE_AHEAD = 5, /* planes across the road: candidates only, where any were looked for */
   POSE_WALL_TRACE_BEHIND = 6,
   POSE_WALL_TRACE_QUANTITY = 8
 };

@@ -10,9 +10,9 @@
 
 namespace pose_wall {
 
-// What a plane across the machine can be solid over at most, wherever it stands and however it is turned within
-// yaw_max_deg: no column of it is solid where nothing is seen at that place beside the machine. In a road that is its
-// width, and a little more.
+// What a plane across the machine can be solid over at most, wherever it stands, turned by up to yaw_max_deg and
+// kRefineSlack_deg and leaning by up to wall_lean_max_deg: no column of it is solid where nothing is seen at that place
+// beside the machine. In a road that is its width, and a little more. To what floats know of a cell's edge.
 double most_area_across_m2(const WallScene& scene);
 
 // False where two planes of that area show no more than what is chosen: then none need be looked for.
