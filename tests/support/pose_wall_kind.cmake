@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# pose_wall_test_kind(<kind> [WHITE_BOX] [NATIVE] [WORDS] [APART] TIMEOUT <seconds> [NEEDS <target>] [ONLY <target>...])
+# pose_wall_test_kind(<kind> [WHITE_BOX] [NATIVE] [WORDS] TIMEOUT <seconds> [NEEDS <target>] [ONLY <target>...])
 # The executable pose_wall_<kind>_tests from <kind>/*_test.cpp, one ctest entry per case, labelled with the kind.
-# ONLY: links these beside the archive, and none of the tools. WORDS: they compute nothing themselves. APART: files have
-# names of their own inside that others have, too, so that a quick build does not compile them together.
+# ONLY: links these beside the archive, and none of the tools. WORDS: they compute nothing themselves,
+# and most of what they take to compile is the same templates, so that a quick build compiles some files together: these
+# cannot use one name for two things.
 # Nothing is made when the folder is empty, a needed target is not part of this build, or a NATIVE kind is cross built.
 function(pose_wall_test_kind kind)
-  cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX;NATIVE;WORDS;APART" "TIMEOUT;NEEDS" "ONLY")
+  cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX;NATIVE;WORDS" "TIMEOUT;NEEDS" "ONLY")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/*_test.cpp)
   if(CMAKE_CROSSCOMPILING)
     if(kind_NATIVE)
@@ -31,7 +32,7 @@ function(pose_wall_test_kind kind)
   # What is tested is optimised as ever. The tests hardly are: they would take longer to compile than they save.
   target_compile_options(${target} PRIVATE $<IF:$<BOOL:${kind_WORDS}>,-O0,-O1>)
   if(POSE_WALL_QUICK_BUILD)
-    if(NOT kind_APART)
+    if(kind_WORDS)
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
     endif()
     target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <string> <vector>)
