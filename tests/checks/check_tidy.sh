@@ -34,7 +34,7 @@ files() {
           if [ -f "${file%.hpp}.cpp" ]; then
             echo "${file%.hpp}.cpp"
           else
-            grep -rl --include='*.cpp' "\"${file#src/}\"" src | sort | head -n 1
+            { grep -rl --include='*.cpp' "\"${file#src/}\"" src || true; } | sort | sed -n 1p
           fi
           ;;
       esac
