@@ -15,8 +15,7 @@ namespace pose_wall {
 
 // Mean of min(r^2, threshold^2) / threshold^2 over the points: 0 perfect, 1 nothing near the plane. The points are in
 // random order: once those looked at say by three standard errors that the mean will be too_much or more, the rest is
-// not looked at and the answer is too_much. Most hypotheses have lost after an eighth of the points (a sequential test
-// after Wald 1945, as in Matas and Chum 2005).
+// not looked at and the answer is too_much (a sequential test after Wald 1945, as in Matas and Chum 2005).
 double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m, double too_much);
 
 struct MlesacScore {

@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "math/four_floats.hpp"
-
 namespace pose_wall {
 namespace {
 

@@ -12,6 +12,7 @@
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -19,11 +20,11 @@ class PanelCholesky {
  public:
   static constexpr std::uint32_t kRowsMost = 128;
   // Floats of four rows, and of four right sides.
-  static constexpr std::uint32_t kPanel = 4 * kRowsMost;
+  static constexpr std::uint32_t kPanel = kFour * kRowsMost;
 
-  static constexpr std::uint32_t panels_of(std::uint32_t rows) { return (rows + 3) / 4; }
+  static constexpr std::uint32_t panels_of(std::uint32_t rows) { return (rows + kFour - 1) / kFour; }
 
-  void lay_out(Arena& arena) { panels_ = arena.take<float>(kRowsMost / 4 * kPanel); }
+  void lay_out(Arena& arena) { panels_ = arena.take<float>(panels_of(kRowsMost) * kPanel); }
 
   // The rows 4 p to 4 p + 3: value k of column c is at 4 c + k. To be filled with the lower triangle and its diagonal,
   // and with the identity's rows up to a whole panel, before factor() makes the factor of it.
@@ -34,7 +35,7 @@ class PanelCholesky {
   // Four right sides, value k of row c at 4 c + k: each becomes what times the factor gives it.
   void solve(std::uint32_t rows, float* right_sides) const { eliminate(panels_of(rows), right_sides); }
   // One over the factor's diagonal.
-  float inverse_pivot(std::uint32_t row) const { return panels_[row / 4 * kPanel + 4 * row + row % 4]; }
+  float inverse_pivot(std::uint32_t row) const { return panels_[row / kFour * kPanel + kFour * row + row % kFour]; }
 
  private:
   void eliminate(std::uint32_t panels, float* rows) const;

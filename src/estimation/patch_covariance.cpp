@@ -42,7 +42,7 @@ constexpr Lags lags_by_offset() {
 }
 constexpr Lags kLagOf = lags_by_offset();
 
-FourFloats four_of(const Eigen::Vector3d& three, double fourth) {
+FourFloats packed(const Eigen::Vector3d& three, double fourth) {
   return FourFloats{static_cast<float>(three.x()), static_cast<float>(three.y()), static_cast<float>(three.z()),
                     static_cast<float>(fourth)};
 }
@@ -100,8 +100,8 @@ void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) cons
 // from round to round.
 void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
   for (Mean& p : means_.first(n)) {
-    p.of_pairs[0] = four_of(p.a, p.error);
-    p.of_pairs[1] = four_of(p.information * p.a, p.information * std::sqrt(p.information));
+    p.of_pairs[0] = packed(p.a, p.error);
+    p.of_pairs[1] = packed(p.information * p.a, p.information * std::sqrt(p.information));
   }
   for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     PairSums& of_layer = (*sums)[p.layer];
@@ -325,9 +325,9 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
     if (p.layer != 0) continue;
     const Quadratic terms = quadratic_terms(p), answer = inverse * terms;
     p.error -= bend.dot(terms);
-    p.of_pairs[0] = four_of(answer.head<3>(), p.error);
-    p.of_pairs[1] = four_of(answer.tail<3>(), 0.0);
-    p.of_pairs[2] = four_of(p.information * answer.tail<3>(), 0.0);
+    p.of_pairs[0] = packed(answer.head<3>(), p.error);
+    p.of_pairs[1] = packed(answer.tail<3>(), 0.0);
+    p.of_pairs[2] = packed(p.information * answer.tail<3>(), 0.0);
   }
   // What the pull holds back is not known.
   const Matrix6 held_back = inverse * pull.asDiagonal() * inverse;

@@ -58,30 +58,30 @@ SurfacePatches::Cell SurfacePatches::block(std::uint32_t iu, std::uint32_t iv, s
   return sum;
 }
 
-// A bit for each cell of a row that holds something.
-void SurfacePatches::note_occupied() {
+SurfacePatches::Occupied SurfacePatches::occupied() const {
   static_assert(kSide == 64, "a row's bits are one word");
+  Occupied out;
   for (std::uint32_t v = 0; v < kSide; ++v) {
     std::uint64_t bits = 0;
     for (std::uint32_t u = 0; u < kSide; ++u) {
       bits |= static_cast<std::uint64_t>(cells_[v * kSide + u].w > kWeightMin) << u;
     }
-    occupied_[v] = bits;
+    out.row[v] = bits;
   }
+  return out;
 }
 
-// visit(first column): the blocks of a row of them that hold something.
 template <typename Visit>
-void SurfacePatches::for_each_block(std::uint32_t iv, std::uint32_t side, const Visit& visit) const {
+void SurfacePatches::Occupied::for_each_block(std::uint32_t iv, std::uint32_t side, const Visit& visit) const {
   std::uint64_t bits = 0;
-  for (std::uint32_t v = iv; v < iv + side && v < kSide; ++v) bits |= occupied_[v];
+  for (std::uint32_t v = iv; v < iv + side && v < kSide; ++v) bits |= row[v];
   const std::uint64_t block = (1ULL << side) - 1;
   for (std::uint32_t iu = 0; bits != 0; iu += side, bits >>= side) {
     if ((bits & block) != 0) visit(iu);
   }
 }
 
-std::uint32_t SurfacePatches::count_blocks(std::uint32_t side) const {
+std::uint32_t SurfacePatches::Occupied::count_blocks(std::uint32_t side) const {
   std::uint32_t count = 0;
   for (std::uint32_t iv = 0; iv < kSide; iv += side) {
     for_each_block(iv, side, [&count](std::uint32_t) { ++count; });
@@ -101,13 +101,13 @@ double SurfacePatches::pooled_variance() const {
 }
 
 Span<const SurfacePatch> SurfacePatches::collect() {
-  note_occupied();
+  const Occupied cells = occupied();
   std::uint32_t side = 1;
-  while (count_blocks(side) > kMost) ++side;
+  while (cells.count_blocks(side) > kMost) ++side;
   const double pooled = pooled_variance();
   std::uint32_t count = 0;
   for (std::uint32_t iv = 0; iv < kSide; iv += side) {
-    for_each_block(iv, side, [&](std::uint32_t iu) {
+    cells.for_each_block(iv, side, [&](std::uint32_t iu) {
       const Cell c = block(iu, iv, side);
       const double variance = (kPriorPoints * pooled + c.scatter()) / (kPriorPoints + c.count - 1.0);
       const double least = kNoiseMin_m * kNoiseMin_m;

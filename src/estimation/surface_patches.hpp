@@ -41,15 +41,21 @@ class SurfacePatches {
     double scatter() const;
   };
 
-  void note_occupied();
-  template <typename Visit>
-  void for_each_block(std::uint32_t iv, std::uint32_t side, const Visit& visit) const;
+  // A bit for each cell of a row that holds something.
+  struct Occupied {
+    std::uint64_t row[kSide];
+
+    // visit(first column): the blocks of side rows from iv on that hold something.
+    template <typename Visit>
+    void for_each_block(std::uint32_t iv, std::uint32_t side, const Visit& visit) const;
+    std::uint32_t count_blocks(std::uint32_t side) const;
+  };
+
+  Occupied occupied() const;
   Cell block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const;
-  std::uint32_t count_blocks(std::uint32_t side) const;
   double pooled_variance() const;
 
   Span<Cell> cells_;
-  std::uint64_t occupied_[kSide] = {};
   Span<SurfacePatch> patches_;
   double from_m_ = 0.0, cells_per_m_ = 1.0;
 };

@@ -11,8 +11,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kRow = SurfacePatches::kMost;
-static_assert(kRow <= PanelCholesky::kRowsMost && kRow % kFour == 0, "whole panels, with a row for each patch");
+static_assert(SurfacePatches::kMost <= PanelCholesky::kRowsMost, "a row for each patch");
 constexpr std::uint32_t kRightSides = 2;  // panels of them: 1, u, v, residual; bias
 constexpr std::uint32_t kPatchesMin = 8;
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
@@ -91,7 +90,7 @@ UnevenFit UnevenPlane::Models::average(double freedom) const {
 }
 
 void UnevenPlane::lay_out(Arena& arena) {
-  correlation_ = arena.take<float>(kRow * kRow);
+  correlation_ = arena.take<float>(PanelCholesky::panels_of(SurfacePatches::kMost) * PanelCholesky::kPanel);
   factor_.lay_out(arena);
   right_sides_ = arena.take<float>(kRightSides * PanelCholesky::kPanel);
   matern_ = arena.take<float>(kMaternSteps + 1);
@@ -130,7 +129,7 @@ void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double leng
       u[lane] = static_cast<float>(patches[first + lane].u);
       v[lane] = static_cast<float>(patches[first + lane].v);
     }
-    float* const row = &correlation_[first * kRow];
+    float* const row = &correlation_[first / kFour * PanelCholesky::kPanel];
     for (std::uint32_t j = 0; j < first + kFour && j < patches.size(); ++j) {
       const FourFloats du = u - static_cast<float>(patches[j].u), dv = v - static_cast<float>(patches[j].v);
       store_four(matern(root_of(du * du + dv * dv) * per_length), row + kFour * j);
@@ -143,7 +142,7 @@ bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, dou
   const auto shared = static_cast<float>((1.0 - own_share) * tau2);
   for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
     float* const panel = factor_.panel(first / kFour);
-    const float* const correlation = &correlation_[first * kRow];
+    const float* const correlation = &correlation_[first / kFour * PanelCholesky::kPanel];
     const FourTruths is_patch = first_of_four(patches.size() - first);
     for (std::uint32_t j = 0; j < first + kFour; ++j) {
       const FourFloats none{}, covariance = j < patches.size() ? shared * load_four(correlation + kFour * j) : none;

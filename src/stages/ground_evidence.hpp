@@ -39,9 +39,8 @@ class FloorGrid {
   // How many points lie within the radius at all.
   std::uint32_t points_within() const { return points_within_; }
 
-  // Whether nothing stands on the cells next to an open point's either: at the foot of a rough wall or heap its lowest
+  // Of four open points those that nothing stands next to, either: at the foot of a rough wall or heap its lowest
   // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
-  // Which of four points are.
   FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m, FourTruths counts) const;
 
   // Marks the cells in which a plane has points. open: by find_open(), all of them within the grid.

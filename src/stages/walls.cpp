@@ -306,14 +306,14 @@ void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView sides[2] = {{f, l}, {f, -l}};
-  const SideView ends[2] = {{l, f}, {l, -f}};
-  const Plane* const nothing[2] = {nullptr, nullptr};
   thin_out(scene.band_level, &scratch->thin_level);
   WallCandidates beside[2];
   std::uint32_t scored[2] = {};
   search_both(scene, sides, last, random, scratch, beside, scored);
   WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
   if (may_stand_across(scene, choice)) {
+    const SideView ends[2] = {{l, f}, {l, -f}};
+    const Plane* const nothing[2] = {nullptr, nullptr};
     WallCandidates across[2];
     std::uint32_t scored_across[2] = {};
     search_both(scene, ends, nothing, random, scratch, across, scored_across);

@@ -12,38 +12,32 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kBins = WallGrid::kColumns;  // of a column's width, beside the machine
-
-// How many points of the band there are beside the machine, row by row, wherever along it they lie.
-struct Bins {
-  std::uint16_t points[WallGrid::kRowsMax][kBins] = {};
+// How many points of the band there are beside the machine, in cells as a plane across it has, wherever along the
+// machine they lie.
+struct PointsBeside {
+  std::uint16_t in_cell[WallGrid::kRowsMax][WallGrid::kColumns] = {};
   std::uint32_t beyond = 0;
 };
 
-void fill(const WallScene& scene, const WallGrid::Rows& rows, Bins* bins) {
+void count_points(const WallScene& scene, const WallGrid::Rows& rows, PointsBeside* points) {
   const auto left_x = static_cast<float>(scene.left_level.x()), left_y = static_cast<float>(scene.left_level.y());
-  const auto z_min = static_cast<float>(scene.z_min_level_m), rows_per_m = static_cast<float>(1.0 / rows.height_m);
-  const FourInts last_row = FourInts{} + static_cast<std::int32_t>(rows.count - 1);
-  constexpr float kPerMetre = static_cast<float>(1.0 / WallGrid::kColumn_m);
-  for_each_four_points(scene.band_level,
-                       [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-                         const FourFloats bin = (left_x * x + left_y * y) * kPerMetre + 0.5F * kBins, none{};
-                         const FourTruths inside = (bin >= none) & (bin < all_four(kBins));
-                         const FourInts at = cut_off(inside ? bin : none), row = cut_off((z - z_min) * rows_per_m);
-                         const FourInts in_row = row > last_row ? last_row : row;
-                         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-                           if (counts[lane] == 0) continue;
-                           if (inside[lane] == 0 || in_row[lane] < 0) {
-                             ++bins->beyond;
-                             continue;
-                           }
-                           std::uint16_t* const count = &bins->points[in_row[lane]][at[lane]];
-                           if (*count < 0xFFFF) ++*count;
-                         }
-                       });
+  const auto count = [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourInts cell = rows.cells_of(left_x * x + left_y * y, z);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] == 0) continue;
+      if (cell[lane] < 0) {
+        ++points->beyond;
+        continue;
+      }
+      const auto c = static_cast<std::uint32_t>(cell[lane]);
+      std::uint16_t* const there = &points->in_cell[c / WallGrid::kColumns][c % WallGrid::kColumns];
+      if (*there < 0xFFFF) ++*there;
+    }
+  };
+  for_each_four_points(scene.band_level, count);
 }
 
-// Bins side by side that hold points, and a plane that crosses them: so many of its columns for each, and some at the
+// Cells side by side that hold points, and a plane that crosses them: so many of its columns for each, and some at the
 // ends.
 struct Crossing {
   double columns_each, columns_at_ends;
@@ -63,11 +57,11 @@ Crossing crossing_of(const Settings& s, double row_m) {
 constexpr double kCellsPerPoint = 0.5;  // a cell is solid by two points at least
 
 // That can be solid in one row of a plane.
-double most_cells(const std::uint16_t (&points)[kBins], const Crossing& crossing) {
+double most_cells(const std::uint16_t (&points)[WallGrid::kColumns], const Crossing& crossing) {
   double cells = 0.0;
   std::uint32_t run = 0, in_run = 0;
-  for (std::uint32_t b = 0; b <= kBins; ++b) {
-    const std::uint32_t here = b < kBins ? points[b] : 0;
+  for (std::uint32_t c = 0; c <= WallGrid::kColumns; ++c) {
+    const std::uint32_t here = c < WallGrid::kColumns ? points[c] : 0;
     if (here > 0) {
       ++run;
       in_run += here;
@@ -86,10 +80,10 @@ double most_cells(const std::uint16_t (&points)[kBins], const Crossing& crossing
 double most_area_across_m2(const WallScene& scene) {
   const WallGrid::Rows rows = WallGrid::rows_of(scene);
   const Crossing crossing = crossing_of(scene.settings, rows.height_m);
-  Bins bins;
-  fill(scene, rows, &bins);
-  double cells = kCellsPerPoint * bins.beyond;
-  for (std::uint32_t row = 0; row < rows.count; ++row) cells += most_cells(bins.points[row], crossing);
+  PointsBeside points;
+  count_points(scene, rows, &points);
+  double cells = kCellsPerPoint * points.beyond;
+  for (std::uint32_t row = 0; row < rows.count; ++row) cells += most_cells(points.in_cell[row], crossing);
   return cells * WallGrid::kColumn_m * rows.height_m;
 }
 

@@ -25,8 +25,9 @@ void WallGrid::lay_out(Arena& arena) {
 }
 
 bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) const {
-  const double column = along_m * (1.0 / kColumn_m) + kColumns / 2.0, row = (z_level_m - z_min_) * rows_per_m_;
-  if (!(column >= 0.0 && column < kColumns && row >= 0.0 && row < rows_)) return false;
+  const double column = along_m * (1.0 / kColumn_m) + kColumns / 2.0,
+               row = (z_level_m - rows_.z_min_level_m) * rows_.per_m();
+  if (!(column >= 0.0 && column < kColumns && row >= 0.0 && row < rows_.count)) return false;
   *cell = static_cast<std::uint32_t>(row) * kColumns + static_cast<std::uint32_t>(column);
   return true;
 }
@@ -66,12 +67,11 @@ class WallGrid::FourMarks {
   float hit_m_, behind_m_, inside_m_, along_x_, along_y_, sensor_along_m_, sensor_z_m_;
 };
 
-// Negative outside the grid.
-FourInts WallGrid::cells_of(FourFloats along_m, FourFloats z_level_m) const {
+FourInts WallGrid::Rows::cells_of(FourFloats along_m, FourFloats z_level_m) const {
   const FourFloats column = along_m * static_cast<float>(1.0 / kColumn_m) + 0.5F * kColumns, none{};
-  const FourFloats row = (z_level_m - static_cast<float>(z_min_)) * static_cast<float>(rows_per_m_);
+  const FourFloats row = (z_level_m - static_cast<float>(z_min_level_m)) * static_cast<float>(per_m());
   const FourTruths inside =
-      (column >= none) & (column < all_four(kColumns)) & (row >= none) & (row < all_four(static_cast<float>(rows_)));
+      (column >= none) & (column < all_four(kColumns)) & (row >= none) & (row < all_four(static_cast<float>(count)));
   const FourInts cell =
       cut_off(inside ? row : none) * static_cast<std::int32_t>(kColumns) + cut_off(inside ? column : none);
   return inside ? cell : FourInts{-1, -1, -1, -1};
@@ -80,7 +80,7 @@ FourInts WallGrid::cells_of(FourFloats along_m, FourFloats z_level_m) const {
 void WallGrid::mark_points(const PointSet& points, Rays rays, FourMarks* marks) {
   for_each_four_points(points, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     if (!marks->look_at(x, y, z, counts)) return;
-    const FourInts cell = cells_of(marks->along_m, marks->z_level_m);
+    const FourInts cell = rows_.cells_of(marks->along_m, marks->z_level_m);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (marks->hits[lane] != 0) {
         inliers_ += static_cast<double>(points.weight[i + lane]);
@@ -97,18 +97,14 @@ void WallGrid::mark_points(const PointSet& points, Rays rays, FourMarks* marks) 
 WallGrid::Rows WallGrid::rows_of(const WallScene& scene) {
   const double height_m = scene.z_max_level_m - scene.z_min_level_m;
   const double row_m = height_m / kRowsMax > kRow_m ? height_m / kRowsMax : kRow_m;
-  return {static_cast<std::uint32_t>(std::ceil(height_m / row_m - 1e-9)), row_m};
+  return {static_cast<std::uint32_t>(std::ceil(height_m / row_m - 1e-9)), scene.z_min_level_m, row_m};
 }
 
 void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach) {
   hits_.fill(0);
   through_.fill(0);
   inliers_ = 0.0;
-  const Rows rows = rows_of(scene);
-  z_min_ = scene.z_min_level_m;
-  row_m_ = rows.height_m;
-  rows_per_m_ = 1.0 / row_m_;
-  rows_ = rows.count;
+  rows_ = rows_of(scene);
   FourMarks in_band(scene, wall, along_level, reach);
   mark_points(scene.band_level, Rays::kOneAPoint, &in_band);
   constexpr double kNothing_m = -1.0;  // what lies outside the band is not on the wall
@@ -119,7 +115,7 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
 
 void WallGrid::count_rows(std::uint32_t column) {
   std::uint8_t solid_rows = 0, open_rows = 0;
-  for (std::uint32_t row = 0; row < rows_; ++row) {
+  for (std::uint32_t row = 0; row < rows_.count; ++row) {
     const std::uint32_t cell = row * kColumns + column;
     solid_rows = static_cast<std::uint8_t>(solid_rows + (solid(cell) ? 1 : 0));
     open_rows = static_cast<std::uint8_t>(open_rows + (open(cell) ? 1 : 0));
@@ -144,7 +140,7 @@ WallEvidence WallGrid::evidence() const {
   }
   out.inliers = static_cast<std::uint32_t>(inliers_);
   out.length_m = static_cast<double>(columns) * kColumn_m;
-  out.area_m2 = static_cast<double>(solid_cells) * kColumn_m * row_m_;
+  out.area_m2 = static_cast<double>(solid_cells) * kColumn_m * rows_.height_m;
   if (solid_cells > 0) {
     out.seen_through = static_cast<double>(own_open_cells) / static_cast<double>(solid_cells + own_open_cells);
   }

@@ -38,10 +38,14 @@ class WallGrid {
 
   void lay_out(Arena& arena);
 
-  // The rows that the wall band is cut into.
+  // The rows that the wall band is cut into; with the columns they make the cells.
   struct Rows {
-    std::uint32_t count;
-    double height_m;
+    std::uint32_t count = 1;
+    double z_min_level_m = 0.0, height_m = 0.3;
+
+    double per_m() const { return 1.0 / height_m; }
+    // Row by row; negative outside. Of places along a line, and up.
+    FourInts cells_of(FourFloats along_m, FourFloats z_level_m) const;
   };
   static Rows rows_of(const WallScene& scene);
 
@@ -65,7 +69,6 @@ class WallGrid {
   enum class Rays { kOneAPoint, kByWeight };
   void mark_points(const PointSet& points, Rays rays, FourMarks* marks);
   bool cell_of(double along_m, double z_level_m, std::uint32_t* cell) const;
-  FourInts cells_of(FourFloats along_m, FourFloats z_level_m) const;
   bool solid(std::uint32_t cell) const { return hits_[cell] >= 2 && hits_[cell] >= through_[cell]; }
   bool open(std::uint32_t cell) const { return through_[cell] >= 2 && through_[cell] > hits_[cell]; }
   void count_rows(std::uint32_t column);
@@ -76,8 +79,7 @@ class WallGrid {
   Span<std::uint16_t> hits_;
   Span<std::uint16_t> through_;
   std::uint8_t solid_rows_[kColumns] = {}, open_rows_[kColumns] = {};
-  double z_min_ = 0.0, row_m_ = 0.3, rows_per_m_ = 1.0 / 0.3;
-  std::uint32_t rows_ = 1;
+  Rows rows_;
   double inliers_ = 0.0;  // measured points
 };
 
