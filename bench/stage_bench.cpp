@@ -40,7 +40,7 @@ void stage_2_outliers(benchmark::State& state) {
   StagePipeline& p = pipeline(state);
   for (auto _ : state) {
     state.PauseTiming();
-    p.restore_voxels();
+    p.build_voxels();
     state.ResumeTiming();
     benchmark::DoNotOptimize(p.remove_outliers());
   }

@@ -30,11 +30,6 @@ api::Config config_for(std::uint32_t points) {
   return out;
 }
 
-void copy(const PointSet& from, PointSet* to) {
-  to->count = from.count;
-  for (std::uint32_t i = 0; i < from.count; ++i) to->set(i, from.at(i), from.weight[i]);
-}
-
 }  // namespace
 
 // The simulated frames are in base already, and the machine faces +X.
@@ -47,7 +42,7 @@ StagePipeline::StagePipeline(std::uint32_t points)
   lay_out(nullptr);
   lay_out(&block_);
   build_voxels();
-  copy(scratch_.cloud_base, &all_voxels_);
+  all_voxels_ = scratch_.cloud_base.count;
   remove_outliers();
   floor_ = find_floor();
   if (!has_floor()) return;
@@ -61,7 +56,7 @@ void StagePipeline::build_voxels() {
 }
 
 std::uint32_t StagePipeline::remove_outliers() {
-  return pose_wall::remove_outliers(settings_, voxels_.leaf_m, &scratch_.cells, scratch_.marks, &scratch_.cloud_base);
+  return pose_wall::remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base);
 }
 
 FloorResult StagePipeline::find_floor() {
@@ -84,15 +79,10 @@ WallsResult StagePipeline::find_walls() {
   return walls;
 }
 
-void StagePipeline::restore_voxels() {
-  copy(all_voxels_, &scratch_.cloud_base);
-}
-
 // Without a block the walk only measures.
 void StagePipeline::lay_out(std::vector<Line>* into) {
   Arena arena(into != nullptr ? into->data() : nullptr);
   scratch_.lay_out(arena, settings_.points_max);
-  all_voxels_.lay_out(arena, settings_.points_max);
   if (into == nullptr) block_.resize(arena.bytes() / sizeof(Line) + 1);
 }
 

@@ -28,11 +28,8 @@ class StagePipeline {
   void cut_band();
   WallsResult find_walls();
 
-  // As it was before the outliers went.
-  void restore_voxels();
-
   std::uint32_t points() const { return cloud_.width; }
-  std::uint32_t voxels() const { return all_voxels_.count; }
+  std::uint32_t voxels() const { return all_voxels_; }
   std::uint32_t clean_voxels() const { return scratch_.cloud_base.count; }
   std::uint32_t band_points() const { return scratch_.band_level.count; }
 
@@ -50,7 +47,7 @@ class StagePipeline {
   pose_wall_cloud cloud_;
   std::vector<Line> block_;
   Scratch scratch_;
-  PointSet all_voxels_;
+  std::uint32_t all_voxels_ = 0;
   VoxelResult voxels_;
   FloorResult floor_;
   LevelResult level_;

@@ -73,11 +73,9 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   band_level.lay_out(arena, points_max);
   beyond_level.lay_out(arena, kBeyondMax);
   // The stages follow each other: what only one of them needs lies on top of what only another does. The grid serves
-  // two, voxels and band, and is begun anew each time.
+  // voxels and outliers, and is begun anew for the band.
   const std::uint64_t of_one_stage = arena.place();
   grid.lay_out(arena, points_max);
-  arena.go_back(of_one_stage);
-  cells.lay_out(arena, points_max);
   arena.go_back(of_one_stage);
   ground.lay_out(arena, points_max);
   arena.go_back(of_one_stage);
@@ -154,8 +152,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
       build_voxels(cloud, settings_, extrinsic_, axes_, &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
-  found.outliers =
-      remove_outliers(settings_, found.voxels.leaf_m, &scratch_.cells, scratch_.marks, &scratch_.cloud_base);
+  found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base);
   stage_done(POSE_WALL_STAGE_OUTLIERS);
   find_floor_if_any(&random, &found);
   stage_done(POSE_WALL_STAGE_GROUND);

@@ -7,7 +7,6 @@
 
 #include "config.hpp"
 #include "containers/arena.hpp"
-#include "containers/cell_index.hpp"
 #include "containers/direction_grid.hpp"
 #include "containers/voxel_grid.hpp"
 #include "pose_wall.h"
@@ -22,7 +21,6 @@ namespace pose_wall {
 // Buffers of one frame. Nothing in here is read before it was written in the same frame.
 struct Scratch {
   VoxelGrid grid;
-  CellIndex cells;
   Span<std::uint8_t> marks;  // per point: keep flags, later labels
   ReturnsByDirection returns_lidar;
   PointSet cloud_base;
@@ -49,10 +47,10 @@ struct Memory {
 
 // Where everything lies in the caller's block:
 //
-//   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid, cells, ground, walls |
+//   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid, ground, walls |
 //
-// Engine is written at open and lives on; the rest is scratch that each frame writes before it reads. The last four lie
-// on top of each other, one stage's each: none outlives its stage, and the grid is begun anew for the band.
+// Engine is written at open and lives on; the rest is scratch that each frame writes before it reads. The last three
+// lie on top of each other: none outlives its stages, and the grid is begun anew for the band.
 class Engine {
  public:
   // Measures (block NULL) or places an engine.

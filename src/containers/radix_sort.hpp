@@ -9,7 +9,7 @@
 
 namespace pose_wall {
 
-constexpr std::uint32_t kRadixBits = 11;
+constexpr std::uint32_t kRadixBits = 12;
 constexpr std::uint32_t kRadixSize = 1U << kRadixBits;
 
 // Indices of the keys in ascending order, equal keys in theirs, least digit first. Only bits that differ between keys

@@ -33,14 +33,4 @@ class Span {
   std::uint32_t size_ = 0;
 };
 
-// Keeps every n-th element in place, so that at most `most` are left.
-template <typename T>
-Span<T> thinned(Span<T> items, std::uint32_t most) {
-  const std::uint32_t stride = (items.size() + most - 1) / most;
-  if (stride <= 1) return items;
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < items.size(); i += stride) items[count++] = items[i];
-  return items.first(count);
-}
-
 }  // namespace pose_wall

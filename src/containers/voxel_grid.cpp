@@ -16,16 +16,20 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
 void VoxelGrid::lay_out(Arena& arena, std::uint32_t capacity) {
   hash_.lay_out(arena, capacity);
   sums_ = arena.take<Sums>(capacity);
-  order_ = arena.take<std::uint32_t>(capacity);
-  spare_ = arena.take<std::uint32_t>(capacity);
+  order_ = arena.take<std::uint32_t>(capacity + 1);
+  spare_ = arena.take<std::uint32_t>(capacity + 1);
   histogram_ = arena.take<std::uint32_t>(kRadixSize);
 }
 
 void VoxelGrid::begin(double leaf_m, double reach_m) {
   hash_.clear();
-  // A power of two, and two cells to spare: the float's steps are as fine near the origin as they can be.
-  std::uint32_t cells = 1;
-  while ((cells - 2.0) * leaf_m < reach_m) cells *= 2;
+  sorted_ = order_.first(0);  // what lies there may be another stage's by now
+  leaf_m_ = leaf_m;
+  // Two cells to spare. Four thirds of a power of two, 10101...: the numbers of cells around the origin differ in few
+  // bits, which is what sorting them costs. The float tells whole steps up to 2^24 of them, 16384 cells.
+  std::uint32_t power = 1;
+  while ((power - 2.0) * leaf_m < reach_m) power *= 2;
+  const std::uint32_t cells = 4 * power / 3;
   const double steps_per_cell = 1U << kStepBits;
   metres_per_step_ = leaf_m / steps_per_cell;
   origin_steps_ = cells * steps_per_cell;
@@ -34,17 +38,17 @@ void VoxelGrid::begin(double leaf_m, double reach_m) {
 
 void VoxelGrid::extract(PointSet* out) {
   const Span<const std::uint64_t> keys = hash_.keys();
-  const Span<std::uint32_t> sorted =
-      radix_order(keys, order_.first(keys.size()), spare_.first(keys.size()), histogram_);
+  sorted_ = radix_order(keys, order_.first(keys.size()), spare_.first(keys.size()), histogram_);
   std::uint64_t fingerprint = keys.size();
   std::uint32_t at = 0;
-  for (const std::uint32_t i : sorted) {
+  for (const std::uint32_t i : sorted_) {
     const std::uint64_t key = keys[i];
     const Sums& s = sums_[i];
     const double per_weight = 1.0 / static_cast<double>(s.weight);
-    out->x[at] = coordinate(key >> (2 * kFieldBits), s.x, per_weight);
-    out->y[at] = coordinate((key >> kFieldBits) & kFieldMask, s.y, per_weight);
-    out->z[at] = coordinate(key & kFieldMask, s.z, per_weight);
+    const VoxelKey::Cell cell = VoxelKey::cell_of(key);
+    out->x[at] = coordinate(cell.x, s.x, per_weight);
+    out->y[at] = coordinate(cell.y, s.y, per_weight);
+    out->z[at] = coordinate(cell.z, s.z, per_weight);
     out->weight[at] = static_cast<float>(s.weight) / static_cast<float>(kWeightOne);
     fingerprint = mixed(fingerprint, key);
     fingerprint = mixed(fingerprint, s.x | static_cast<std::uint64_t>(s.y) << 32);
@@ -53,6 +57,19 @@ void VoxelGrid::extract(PointSet* out) {
   }
   out->count = keys.size();
   fingerprint_ = fingerprint;
+}
+
+Span<const std::uint32_t> VoxelGrid::find_columns() {
+  const Span<std::uint32_t> begins = sorted_.data() == order_.data() ? spare_ : order_;
+  std::uint32_t columns = 0;
+  std::uint64_t last = 0;
+  for (std::uint32_t i = 0; i < sorted_.size(); ++i) {
+    const std::uint64_t column = VoxelKey::column_of(key_in_order(i));
+    if (columns == 0 || column != last) begins[columns++] = i;
+    last = column;
+  }
+  begins[columns] = sorted_.size();
+  return begins.first(columns + 1);
 }
 
 }  // namespace pose_wall

@@ -9,6 +9,7 @@
 #include "containers/point_set.hpp"
 #include "containers/radix_sort.hpp"
 #include "containers/voxel_hash.hpp"
+#include "containers/voxel_key.hpp"
 
 namespace pose_wall {
 
@@ -39,7 +40,8 @@ class VoxelGrid {
   // a quarter of a million points; which of more count depends on their order.
   bool add(std::int32_t x_step, std::int32_t y_step, std::int32_t z_step, std::uint32_t weight_sixteenths) {
     const std::uint32_t known = hash_.count();
-    const std::uint32_t index = hash_.insert(key_of(x_step >> kStepBits, y_step >> kStepBits, z_step >> kStepBits));
+    const std::uint32_t index =
+        hash_.insert(VoxelKey::of(x_step >> kStepBits, y_step >> kStepBits, z_step >> kStepBits));
     if (index == VoxelHash::kFull) return false;
     Sums& s = sums_[index];
     if (index == known) s = Sums{0, 0, 0, 0};
@@ -54,8 +56,14 @@ class VoxelGrid {
     return add(steps_.of(x_m), steps_.of(y_m), steps_.of(z_m), weight_sixteenths);
   }
 
-  // Writes the centroids in the order of their cells (x, then y, then z). out must have room for count().
+  // Writes the centroids in the order of their cells' keys. out must have room for count().
   void extract(PointSet* out);
+
+  // After extract(), until the next begin(): the key of the i-th centroid, and where each column's keys begin in the
+  // list, with its end as the last; nothing, and an end, before.
+  std::uint64_t key_in_order(std::uint32_t i) const { return hash_.key(sorted_[i]); }
+  Span<const std::uint32_t> find_columns();
+  double leaf_m() const { return leaf_m_; }
 
   std::uint32_t count() const { return hash_.count(); }
   // Of all cells and their sums, after extract(): equal clouds give equal numbers, others different ones.
@@ -64,21 +72,14 @@ class VoxelGrid {
  private:
   static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;
   static constexpr std::uint32_t kWeightMost = 1U << 22;  // times the largest step within a cell: below 2^32
-  static constexpr std::uint32_t kFieldBits = 21;
-  static constexpr std::uint64_t kFieldMask = (1ULL << kFieldBits) - 1;
 
   struct Sums {
     std::uint32_t x, y, z;  // weighted steps within the cell
     std::uint32_t weight;
   };
 
-  // Cells are counted from the far corner: no sign, no call to floor().
-  static std::uint64_t key_of(std::int32_t x, std::int32_t y, std::int32_t z) {
-    return (static_cast<std::uint64_t>(x) << (2 * kFieldBits)) | (static_cast<std::uint64_t>(y) << kFieldBits) |
-           static_cast<std::uint64_t>(z);
-  }
   static std::uint32_t within(std::int32_t step) { return static_cast<std::uint32_t>(step) & kStepMask; }
-  float coordinate(std::uint64_t cell, std::uint32_t sum, double per_weight) const {
+  float coordinate(std::uint32_t cell, std::uint32_t sum, double per_weight) const {
     const double step = static_cast<double>(cell << kStepBits) + static_cast<double>(sum) * per_weight + 0.5;
     return static_cast<float>((step - origin_steps_) * metres_per_step_);
   }
@@ -86,9 +87,10 @@ class VoxelGrid {
   VoxelHash hash_;
   Span<Sums> sums_;
   Span<std::uint32_t> order_, spare_;
+  Span<std::uint32_t> sorted_;  // one of the two, in the end
   Span<std::uint32_t> histogram_;
   Steps steps_{1.0F, 0.0F};
-  double metres_per_step_ = 1.0, origin_steps_ = 0.0;
+  double leaf_m_ = 1.0, metres_per_step_ = 1.0, origin_steps_ = 0.0;
   std::uint64_t fingerprint_ = 0;
 };
 

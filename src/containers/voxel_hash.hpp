@@ -10,14 +10,6 @@
 
 namespace pose_wall {
 
-// Three cell numbers in one key, 21 bits each, ordered as (x, y, z). Cells from -2^20 to 2^20 - 1.
-constexpr std::int32_t kCellBias = 1 << 20;
-
-inline std::uint64_t cell_key(std::int32_t x, std::int32_t y, std::int32_t z) {
-  return (static_cast<std::uint64_t>(x + kCellBias) << 42) | (static_cast<std::uint64_t>(y + kCellBias) << 21) |
-         static_cast<std::uint64_t>(z + kCellBias);
-}
-
 // Key to index, open addressing with linear probing over a power-of-two table at most half full. Indices are given out
 // in the order of first insertion.
 class VoxelHash {
@@ -55,17 +47,7 @@ class VoxelHash {
     }
   }
 
-  // Index of the key, or kFull where it is not in the table.
-  std::uint32_t find(std::uint64_t key) const {
-    for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask()) {
-      const std::uint32_t index = slots_[slot];
-      if (index == kFree) return kFull;
-      if (keys_[index] == key) return index;
-    }
-  }
-
   std::uint32_t count() const { return count_; }
-  std::uint32_t capacity() const { return capacity_; }
   std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
   Span<const std::uint64_t> keys() const { return keys_.first(count_); }
 

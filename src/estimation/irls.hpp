@@ -21,8 +21,8 @@ struct IrlsSettings {
   int rounds;
   // Metres and slopes. The least is far below what any fit is worth, and above what sums of floats leave.
   double stands_still = 3e-6;
-  // Of how many residuals the scale is told, at least half of it: a thousand know it to four per cent, and the weights
-  // hardly notice.
+  // Of how many residuals the scale is told, a third of it at least: a thousand know it to four per cent, and the
+  // weights hardly notice.
   std::uint32_t scale_points = 1024;
 };
 

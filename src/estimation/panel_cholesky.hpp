@@ -18,7 +18,7 @@ namespace pose_wall {
 
 class PanelCholesky {
  public:
-  static constexpr std::uint32_t kRowsMost = 128;
+  static constexpr std::uint32_t kRowsMost = 96;
   // Floats of four rows, and of four right sides.
   static constexpr std::uint32_t kPanel = kFour * kRowsMost;
 

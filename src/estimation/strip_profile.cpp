@@ -156,7 +156,7 @@ bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
     c.probability = static_cast<float>(layers_.surface_probability(contrast_of(c)));
     c.judged = true;
   }
-  look_at_flanks();
+  look_at_flanks(first, last);
   return true;
 }
 
@@ -188,13 +188,13 @@ bool StripProfile::judge(double u_centre_m, double reach_m) {
         static_cast<float>(local ? layers_.surface_probability(mean(c) - level) : plain.surface_probability(mean(c)));
     c.judged = true;
   }
-  look_at_flanks();
+  look_at_flanks(first, last);
   return more;
 }
 
-// The flanks of a strip lie between it and the wall: they belong to the strip.
-void StripProfile::look_at_flanks() {
-  for (std::int32_t column = 0; column < static_cast<std::int32_t>(kColumns); ++column) {
+// The flanks of a strip lie between it and the wall: they belong to the strip. Of columns further out nothing is known.
+void StripProfile::look_at_flanks(std::int32_t first, std::int32_t last) {
+  for (std::int32_t column = first; column <= last; ++column) {
     float least = 1.0F;
     for (std::int32_t k = column - kFlank; k <= column + kFlank; ++k) {
       if (k < 0 || k >= static_cast<std::int32_t>(kColumns)) continue;

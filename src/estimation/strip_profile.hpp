@@ -37,7 +37,8 @@ class StripProfile {
   // columns further away get 0: nothing is known of them yet.
   bool find(double u_centre_m, double reach_m, double gate_m);
   // With residuals from the plane through the surface: tells all columns within reach_m apart by the step that was
-  // found. Columns that were judged before keep their probability. False where there were no others.
+  // found. Columns that were judged before keep their probability. False where there were no others. reach_m: never
+  // less than in the last call.
   bool judge(double u_centre_m, double reach_m);
 
   // A column that was judged to be a strip's.
@@ -84,7 +85,7 @@ class StripProfile {
   void find_levels(std::int32_t first, std::int32_t last);
   bool level_around(std::int32_t column, double* level_m) const;
   static double contrast_of(const Column& c) { return mean(c) - c.level_m; }
-  void look_at_flanks();
+  void look_at_flanks(std::int32_t first, std::int32_t last);
   bool narrow(std::int32_t first, std::int32_t last, double gate_m) const;
 
   Span<Column> columns_;

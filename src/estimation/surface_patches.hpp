@@ -20,7 +20,7 @@ struct SurfacePatch {
 
 class SurfacePatches {
  public:
-  static constexpr std::uint32_t kMost = 128;
+  static constexpr std::uint32_t kMost = 96;
 
   void lay_out(Arena& arena);
 

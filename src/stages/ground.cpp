@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "containers/even_share.hpp"
 #include "estimation/irls.hpp"
 #include "estimation/mlesac.hpp"
 #include "estimation/protection.hpp"
@@ -19,9 +20,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kRadiusGrowth = 1.5;
-constexpr int kRadiusSteps = 10;
-constexpr std::uint32_t kQuickPointsMax = 1000;
+constexpr double kRadiusGrowth = 2.25;
+constexpr int kRadiusSteps = 6;  // from the least first radius to the greatest last
+// A wider radius with hardly more in it would tell the same once more.
+constexpr double kWorthALook = 1.02;
+constexpr std::uint32_t kQuickPointsMax = 500;
 constexpr std::uint32_t kCandidatesMin = 60;
 constexpr double kAreaMin_m2 = 2.0;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
@@ -186,18 +189,18 @@ bool stands_alone(const Candidate& best, Span<const Candidate> candidates) {
   return true;
 }
 
-FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std::uint32_t> open, const Settings& s,
-                         const Axes& axes, const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
+// all: of the open ones, those within the radius.
+FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std::uint32_t> open,
+                         Span<const std::uint32_t> all, const Settings& s, const Axes& axes,
+                         const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
   FloorResult none;
   none.fit.refused = true;
   none.fit.reasons = POSE_WALL_R_FLOOR_NOT_FOUND;
   none.roi_radius_m = radius_m;
-  const std::uint32_t n = within_radius(cloud, open, radius_m, scratch->candidates);
-  none.candidates = n;
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, n, kCandidatesMin, n >= kCandidatesMin));
-  if (n < kCandidatesMin) return none;
-  const Span<const std::uint32_t> all = scratch->candidates.first(n);
+  none.candidates = all.size();
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, all.size(), kCandidatesMin, all.size() >= kCandidatesMin));
+  if (all.size() < kCandidatesMin) return none;
   const std::uint32_t low = lowest_part(cloud, all, s.ground_z_percentile, scratch->low);
 
   FloorShortlist list;
@@ -212,7 +215,7 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
 
   FloorResult out = fit_floor(cloud, open, radius_m, best->plane, s, sensor, scratch);
   out.fit.iterations = none.fit.iterations;
-  out.candidates = n;
+  out.candidates = all.size();
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
   reach_to_rivals(*best, Span<const Candidate>(candidates, count), &out);
@@ -251,13 +254,14 @@ void reach_to_other(const FloorResult& other, const Settings& s, FloorResult* fl
   floor->pitch_bound_rad += larger(0.0, pitch - levels.pitch_rad);
 }
 
-// Who chooses the smallest of several claims chooses a claim that is too small.
-void widen(const Settings& s, FloorResult* floor) {
-  constexpr double kWinnersCurse = 0.25;
+// Who chooses the smallest of several claims chooses a claim that is too small, the more so the more there are.
+void widen(const Settings& s, std::uint32_t claims, FloorResult* floor) {
+  constexpr double kPerOtherClaim = 1.0 / 16.0;
   if (floor->fit.refused) return;
+  const double curse = kPerOtherClaim * static_cast<double>(claims - 1);
   const Levels levels = levels_of(*floor, s);
-  floor->roll_bound_rad += kWinnersCurse * levels.roll_rad;
-  floor->pitch_bound_rad += kWinnersCurse * levels.pitch_rad;
+  floor->roll_bound_rad += curse * levels.roll_rad;
+  floor->pitch_bound_rad += curse * levels.pitch_rad;
 }
 
 }  // namespace
@@ -277,29 +281,39 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
 FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
                        GroundScratch* scratch) {
-  const std::uint32_t open =
-      scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->open);
+  const Span<const std::uint32_t> open = scratch->open.first(
+      scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->open));
   FloorResult within[kRadiusSteps];
   for (FloorResult& floor : within) floor.fit.refused = true;
-  int best = 0;
+  int tried = 0, best = 0;
+  double worth_a_look = 0.0;
+  const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
   double radius_m = settings.ground_roi_radius;
-  for (int step = 0; step < kRadiusSteps; ++step) {
-    POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(step), radius_m));
-    within[step] = floor_within(radius_m, cloud_base, scratch->open.first(open), settings, axes, sensor_base_m,
-                                last_floor, random, scratch);
+  for (bool widest = false; !widest && tried < kRadiusSteps; radius_m *= kRadiusGrowth) {
+    widest = !(radius_m < settings.ground_roi_radius_max);
+    if (widest) radius_m = settings.ground_roi_radius_max;
+    const Span<const std::uint32_t> all =
+        scratch->candidates.first(within_radius(cloud_base, open, radius_m, scratch->candidates));
+    if (tried > 0 && static_cast<double>(all.size()) < worth_a_look) continue;
+    if (all.size() >= kCandidatesMin) worth_a_look = kWorthALook * static_cast<double>(all.size());
+    POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
+    const FloorResult& floor = within[tried] =
+        floor_within(radius_m, cloud_base, open, all, settings, axes, sensor_base_m, last_floor, random, scratch);
     // Of refused ones the widest that got furthest tells why.
-    const bool told_more = within[best].fit.refused && within[step].fit.refused && within[step].fit.found;
-    const double level = levels_of(within[step], settings).worse();
-    if (told_more || level < levels_of(within[best], settings).worse()) best = step;
-    const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
-    if (levels_of(within[best], settings).worse() <= good_enough || radius_m >= settings.ground_roi_radius_max) break;
-    radius_m = radius_m * kRadiusGrowth < settings.ground_roi_radius_max ? radius_m * kRadiusGrowth
-                                                                         : settings.ground_roi_radius_max;
+    const bool told_more = within[best].fit.refused && floor.fit.refused && floor.fit.found;
+    if (told_more || levels_of(floor, settings).worse() < levels_of(within[best], settings).worse()) best = tried;
+    ++tried;
+    if (levels_of(within[best], settings).worse() <= good_enough) break;
   }
   POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(best)));
   FloorResult out = within[best];
-  for (const FloorResult& other : within) reach_to_other(other, settings, &out);
-  if (best > 0) widen(settings, &out);  // the first radius is the configured one: it was not picked for its claim
+  std::uint32_t claims = 0;
+  for (const FloorResult& other : within) {
+    reach_to_other(other, settings, &out);
+    claims += other.fit.refused ? 0U : 1U;
+  }
+  // The first radius is the configured one: it was not picked for its claim.
+  if (best > 0) widen(settings, claims, &out);
   return out;
 }
 

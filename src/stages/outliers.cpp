@@ -3,41 +3,19 @@
 
 #include "stages/outliers.hpp"
 
+#include "containers/voxel_columns.hpp"
 #include "math/four_floats.hpp"
 
 namespace pose_wall {
 namespace {
 
-// The cells around one, the nearest first.
-struct Offset {
-  std::int32_t x, y, z;
-};
-struct Offsets {
-  static constexpr std::uint32_t kCells = 26;
-  Offset item[kCells] = {};
-
-  constexpr Offsets() {
-    std::uint32_t count = 0;
-    for (int steps = 1; steps <= 3; ++steps) {
-      for (std::int32_t x = -1; x <= 1; ++x) {
-        for (std::int32_t y = -1; y <= 1; ++y) {
-          for (std::int32_t z = -1; z <= 1; ++z) {
-            if (x * x + y * y + z * z == steps) item[count++] = {x, y, z};
-          }
-        }
-      }
-    }
-  }
-};
-
 class NeighbourCounter {
  public:
-  NeighbourCounter(const PointSet& points, const CellIndex& cells, double radius_m, std::uint32_t needed)
-      : points_(points), cells_(cells), radius2_(static_cast<float>(radius_m * radius_m)), needed_(needed) {}
+  NeighbourCounter(const PointSet& points, VoxelGrid* grid, double radius_m, std::uint32_t needed)
+      : points_(points), columns_(grid, radius_m), radius2_(static_cast<float>(radius_m * radius_m)), needed_(needed) {}
 
-  // Voxels come in the order of their cells, and on a surface those next to each other in the list are next to each
-  // other: most points are done with that. What this does not find, has_enough() may. Of the four points from i on;
-  // near either end of the list nothing is found.
+  // Voxels next to each other in the list are neighbours, as a rule: most points are done with that. What this does not
+  // find, has_enough() may. Of the four points from i on; near either end of the list nothing is found.
   FourTruths have_enough_in_list(std::uint32_t i) const {
     if (i < kLook || i + kFour + kLook > points_.count) return FourTruths{};
     const FourFloats x = load_four(&points_.x[i]), y = load_four(&points_.y[i]), z = load_four(&points_.z[i]);
@@ -54,58 +32,69 @@ class NeighbourCounter {
     return found >= static_cast<std::int32_t>(needed_);
   }
 
-  // The point's own cell goes first, then those that share a face with it; counting stops at the needed number.
-  bool has_enough(std::uint32_t i) const {
-    static constexpr Offsets kOffsets;
-    std::uint32_t found = 0;
-    if (count_in(cells_.points_beside(i), i, &found)) return true;
-    const std::int32_t cx = cells_.cell(points_.x[i]), cy = cells_.cell(points_.y[i]), cz = cells_.cell(points_.z[i]);
-    for (const Offset& o : kOffsets.item) {
-      if (count_in(cells_.points_in(cx + o.x, cy + o.y, cz + o.z), i, &found)) return true;
-    }
-    return false;
+  // Counting stops at the needed number. For one point after the other.
+  bool has_enough(std::uint32_t i) {
+    std::uint32_t found = 0;  // itself among them
+    columns_.for_each_run(i, [&](std::uint32_t begin, std::uint32_t end) {
+      while (begin < end && found <= needed_) {
+        const std::uint32_t until = end - begin < kAtOnce ? end : begin + kAtOnce;
+        found += near_in_run(i, begin, until);
+        begin = until;
+      }
+      return found <= needed_;
+    });
+    return found > needed_;
   }
 
  private:
   static constexpr std::uint32_t kLook = 3;
+  static constexpr std::uint32_t kAtOnce = 64;
 
-  bool is_near(std::uint32_t i, std::uint32_t j) const {
-    const float dx = points_.x[j] - points_.x[i], dy = points_.y[j] - points_.y[i], dz = points_.z[j] - points_.z[i];
-    return dx * dx + dy * dy + dz * dz <= radius2_;
-  }
-
-  bool count_in(Span<const std::uint32_t> members, std::uint32_t i, std::uint32_t* found) const {
-    for (const std::uint32_t j : members) {
-      if (j != i && is_near(i, j) && ++*found >= needed_) return true;
+  std::uint32_t near_in_run(std::uint32_t i, std::uint32_t begin, std::uint32_t end) const {
+    FourInts found{};  // true is -1
+    std::uint32_t j = begin;
+    for (; j + kFour <= end; j += kFour) {
+      const FourFloats dx = load_four(&points_.x[j]) - points_.x[i], dy = load_four(&points_.y[j]) - points_.y[i];
+      const FourFloats dz = load_four(&points_.z[j]) - points_.z[i];
+      found -= dx * dx + dy * dy + dz * dz <= radius2_;
     }
-    return false;
+    std::uint32_t count = static_cast<std::uint32_t>(found[0] + found[1] + found[2] + found[3]);
+    for (; j < end; ++j) {
+      const float dx = points_.x[j] - points_.x[i], dy = points_.y[j] - points_.y[i], dz = points_.z[j] - points_.z[i];
+      count += dx * dx + dy * dy + dz * dz <= radius2_ ? 1U : 0U;
+    }
+    return count;
   }
 
   const PointSet& points_;
-  const CellIndex& cells_;
+  VoxelColumns columns_;
   float radius2_;
   std::uint32_t needed_;
 };
 
-}  // namespace
-
-std::uint32_t remove_outliers(const Settings& settings, double leaf_m, CellIndex* cells, Span<std::uint8_t> keep,
-                              PointSet* points) {
-  if (settings.outlier_min_neighbors == 0) return 0;
-  const double radius_m = settings.outlier_radius > 2.0 * leaf_m ? settings.outlier_radius : 2.0 * leaf_m;
-  cells->build(*points, radius_m);
-  const NeighbourCounter counter(*points, *cells, radius_m, settings.outlier_min_neighbors);
-  for (std::uint32_t i = 0; i < points->count; i += kFour) {
-    const FourTruths enough = counter.have_enough_in_list(i);
-    const std::uint32_t end = i + kFour < points->count ? i + kFour : points->count;
-    for (std::uint32_t k = i; k < end; ++k) keep[k] = enough[k - i] != 0 || counter.has_enough(k) ? 1 : 0;
-  }
+// The points that are kept move up, in their order.
+std::uint32_t close_gaps(Span<const std::uint8_t> keep, PointSet* points) {
   std::uint32_t kept = 0;
   while (kept < points->count && keep[kept] != 0) ++kept;
   for (std::uint32_t i = kept; i < points->count; ++i) {
     if (keep[i] != 0) points->copy(kept++, i);
   }
-  const std::uint32_t removed = points->count - kept;
+  return kept;
+}
+
+}  // namespace
+
+std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep, PointSet* points) {
+  if (settings.outlier_min_neighbors == 0 || points->count == 0) return 0;
+  const double least_m = 2.0 * grid->leaf_m();
+  const double radius_m = settings.outlier_radius > least_m ? settings.outlier_radius : least_m;
+  NeighbourCounter counter(*points, grid, radius_m, settings.outlier_min_neighbors);
+  for (std::uint32_t i = 0; i < points->count; i += kFour) {
+    const FourTruths enough = counter.have_enough_in_list(i);
+    const std::uint32_t end = i + kFour < points->count ? i + kFour : points->count;
+    for (std::uint32_t k = i; k < end; ++k) keep[k] = enough[k - i] != 0 || counter.has_enough(k) ? 1 : 0;
+  }
+  const std::uint32_t kept = close_gaps(keep, points), removed = points->count - kept;
   points->count = kept;
   return removed;
 }

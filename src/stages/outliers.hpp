@@ -6,15 +6,14 @@
 #pragma once
 
 #include "config.hpp"
-#include "containers/cell_index.hpp"
+#include "containers/voxel_grid.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
 
 // Drops centroids with fewer than outlier_min_neighbors others within outlier_radius (two leaves where the leaf has
 // grown, or none would have any), keeping the order of the rest.
-// Returns how many went. keep: scratch, one byte per point.
-std::uint32_t remove_outliers(const Settings& settings, double leaf_m, CellIndex* cells, Span<std::uint8_t> keep,
-                              PointSet* points);
+// Returns how many went. points: just what the grid has extracted; keep: scratch, one byte per point.
+std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep, PointSet* points);
 
 }  // namespace pose_wall

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "containers/even_share.hpp"
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "stages/walls_across.hpp"
@@ -89,10 +90,12 @@ void note_sight(const WallSight& sight, const WallEdges& edges, bool grooved) {
 #endif
 
 void thin_out(const PointSet& band_level, PointSet* thin_level) {
-  const std::uint32_t stride = band_level.count / kThinMost + 1;
   thin_level->count = 0;
-  for (std::uint32_t i = 0; i < band_level.count; i += stride) {
-    thin_level->set(thin_level->count++, band_level.at(i), band_level.weight[i]);
+  EvenShare share;
+  for (std::uint32_t i = 0; i < band_level.count && thin_level->count < kThinMost; ++i) {
+    if (share.takes(kThinMost, band_level.count)) {
+      thin_level->set(thin_level->count++, band_level.at(i), band_level.weight[i]);
+    }
   }
 }
 

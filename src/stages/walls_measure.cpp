@@ -38,7 +38,7 @@ void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
     voxels += 1.0;
     measured += static_cast<double>(points.weight[k]);
   }
-  fit->inliers = static_cast<std::uint32_t>(measured * surface.points->stride);
+  fit->inliers = static_cast<std::uint32_t>(measured * surface.points->measured_per_weight);
   fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
 }
 

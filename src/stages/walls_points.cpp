@@ -71,7 +71,7 @@ void WallPoints::lay_out(Arena& arena) {
   spare = arena.take<float>(kRow);
   part = arena.take<std::uint8_t>(kRow);
   patch_room = arena.take<Patch>(PatchGrid::kCapacity);
-  surface.lay_out(arena, kSurfaceMost);
+  surface.lay_out(arena, kMost);
 }
 
 void WallPoints::begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level) {
@@ -171,19 +171,10 @@ void WallPoints::mark_columns(const StripProfile& strips, Span<std::uint32_t> pl
 void WallPoints::copy_surface() {
   surface.plane = at.plane;
   surface.frame = at.frame;
-  std::uint32_t most = 0, count = 0, until_next = 0;
-  for_each_patch([&](const Patch& patch, std::uint32_t begin) { most += patch.surface_end - begin; });
-  static_assert(kMost <= 3 * kSurfaceMost, "every third one has room");
-  // Neighbours may lie in two layers by turns: every second one would take but one of them.
-  const std::uint32_t every = most > kSurfaceMost ? 3 : 1;
+  std::uint32_t count = 0;
   for_each_patch([&](const Patch& patch, std::uint32_t begin) {
     for (std::uint32_t k = begin; k < patch.surface_end; ++k) {
       if (!(probability[k] >= 0.5F)) continue;
-      if (until_next > 0) {
-        --until_next;
-        continue;
-      }
-      until_next = every - 1;
       surface.u[count] = at.u[k];
       surface.v[count] = at.v[k];
       surface.r[count] = at.r[k];

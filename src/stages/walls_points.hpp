@@ -17,14 +17,13 @@ namespace pose_wall {
 
 // u along the road, v up, r towards the machine.
 struct WallPoints {
-  static constexpr std::uint32_t kMost = 16384;
-  static constexpr std::uint32_t kSurfaceMost = 8192;  // for a fit that is only a step this is plenty
+  static constexpr std::uint32_t kMost = 8192;
 
   TangentPoints at;
-  std::uint32_t stride = 1;    // of the points that belong here, every n-th is
-  Span<float> bias;            // change of r per metre of range bias
-  Eigen::Vector3d sensor;      // u, v, r
-  double z_at_origin_m = 0.0;  // z_level = z_at_origin + v z_per_v + r z_per_r
+  double measured_per_weight = 1.0;  // of the points that belong here, only a part is; together they stand for all
+  Span<float> bias;                  // change of r per metre of range bias
+  Eigen::Vector3d sensor;            // u, v, r
+  double z_at_origin_m = 0.0;        // z_level = z_at_origin + v z_per_v + r z_per_r
   double z_per_v = 1.0, z_per_r = 0.0;
   // Of each patch of PatchGrid the places behind its last points: a point of a strip may be the surface's as well, by
   // a small probability.
@@ -33,7 +32,7 @@ struct WallPoints {
   };
   Span<Patch> patches;
   Span<float> spare;      // a row for who needs one for a while
-  TangentPoints surface;  // a copy, evenly thinned, of those that are more likely the surface's than not
+  TangentPoints surface;  // a copy of those that are more likely the surface's than not
 
   void lay_out(Arena& arena);
   // along_level: horizontal and in the plane, so that u tells nothing of the height.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "containers/even_share.hpp"
 #include "estimation/groove_profile.hpp"
 #include "estimation/near_plane.hpp"
 
@@ -40,17 +41,24 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
             double gate_m, const WallGrid& grid, WallFitScratch* scratch) {
   const Span<std::uint32_t> near = points_near(scene.band_level, start, gate_m, scratch->near);
   std::uint32_t count = 0;
+  double measured = 0.0, taken = 0.0;
   for (const std::uint32_t i : near) {
     const Eigen::Vector3d p = scene.band_level.at(i);
-    if (heights.contain(p.z()) && grid.solid_at(along.dot(p), p.z())) near[count++] = i;
+    if (!heights.contain(p.z()) || !grid.solid_at(along.dot(p), p.z())) continue;
+    measured += static_cast<double>(scene.band_level.weight[i]);
+    near[count++] = i;
   }
-  scratch->points.begin(scene, start, along);
-  const std::uint32_t stride = (count + WallPoints::kMost - 1) / WallPoints::kMost;
-  scratch->points.stride = stride > 1 ? stride : 1;
-  for (std::uint32_t k = 0; k < count; k += scratch->points.stride) {
-    scratch->points.add(scene.band_level.at(near[k]), scene.band_level.weight[near[k]]);
+  WallPoints& points = scratch->points;
+  points.begin(scene, start, along);
+  EvenShare share;
+  for (const std::uint32_t i : near.first(count)) {
+    if (points.at.count == WallPoints::kMost) break;
+    if (!share.takes(WallPoints::kMost, count)) continue;
+    points.add(scene.band_level.at(i), scene.band_level.weight[i]);
+    taken += static_cast<double>(scene.band_level.weight[i]);
   }
-  scratch->points.sort_by_patch(&scratch->patches, scratch->near);
+  points.measured_per_weight = taken > 0.0 ? measured / taken : 1.0;
+  points.sort_by_patch(&scratch->patches, scratch->near);
 }
 
 bool is_grooved(const WallScene& scene, const WallSurface& surface) {

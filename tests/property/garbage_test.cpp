@@ -134,6 +134,25 @@ TEST(Garbage, OfPointsThatFillTheAirNothingIsValid) {
   EXPECT_GT(without_voxels, 0);
 }
 
+// The lists of the frame before lie where other stages have written since.
+TEST(Garbage, APointCloudThatDoesNotFitBetweenTwoRoadsLeavesNothingBehind) {
+  const Points road = points_of(sim::Simulator(sim::make_setup("clean", "vlp16", false, 1), 1).render(0));
+  std::mt19937 random(14);
+  Points air(65000);
+  for (auto& p : air) p = {within(&random, 20), within(&random, 20), within(&random, 2.5F)};
+  for (const char* points_max : {"5000", "16000"}) {
+    const pose_wall_config config = config_with({{"points_max", points_max}});
+    EngineUnderTest engine(config);
+    for (int round = 0; round < 3; ++round) {
+      const pose_wall_result r = engine.process(cloud_of(road, 200000000LL * round));
+      EXPECT_GT(r.voxels, 0U) << points_max;
+      const pose_wall_result none = engine.process(cloud_of(air, 200000000LL * round + 100000000));
+      EXPECT_EQ(none.voxels, 0U) << points_max;
+      EXPECT_NE(none.frame_reasons & POSE_WALL_R_LEAF_GROWN, 0U) << points_max;
+    }
+  }
+}
+
 // A real-looking frame with a growing share of its coordinates replaced: the engine measures, weakens, holds, gives up.
 TEST(Garbage, ADamagedRoadBreaksNoPromise) {
   const Points road = points_of(sim::Simulator(sim::make_setup("rough", "os1-64", false, 1), 1).render(0));

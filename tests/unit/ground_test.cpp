@@ -63,6 +63,24 @@ TEST(Ground, OnlySeenFarAway) {
   EXPECT_GT(f.roi_radius_m, 3.0);
 }
 
+// Rough enough that no radius is good enough. Within a wider one there is no more of it, or half as much again.
+TEST(Ground, AWiderRadiusIsLookedAtWhereItHoldsMore) {
+  for (const bool more : {false, true}) {
+    GroundFixture g({{"ground_roi_radius", "3"}, {"ground_roi_radius_max", "15"}});
+    g.add_level({-2.0, 2.0, -2.0, 2.0}, 0.0, 0.04);
+    if (more) g.add_level({3.0, 6.0, -2.0, 2.0}, 0.0, 0.04);
+    const FloorResult wide = g.floor();
+    g.settings().ground_roi_radius_max = 3.0;
+    const FloorResult narrow = g.floor();
+    ASSERT_TRUE(wide.fit.found && narrow.fit.found);
+    EXPECT_EQ(narrow.roi_radius_m, 3.0);
+    EXPECT_EQ(wide.roi_radius_m, more ? 6.75 : 3.0);
+    const bool the_same = wide.fit.plane.n == narrow.fit.plane.n && wide.roll_bound_rad == narrow.roll_bound_rad &&
+                          wide.pitch_bound_rad == narrow.pitch_bound_rad;
+    EXPECT_EQ(the_same, !more);
+  }
+}
+
 TEST(Ground, NothingOrNoFloorIsRefused) {
   GroundFixture empty;
   EXPECT_TRUE(empty.floor().fit.refused);

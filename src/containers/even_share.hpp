@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "containers/span.hpp"
+
+namespace pose_wall {
+
+// An even share of what is offered one by one. Every n-th would take one of two layers that come by turns, for any even
+// n; the multiples of the golden ratio fill the circle about evenly, and those of every n-th of them do so as well, for
+// short n.
+class EvenShare {
+ public:
+  // Takes `most` of `all`, on the average over many that are offered.
+  bool takes(std::uint32_t most, std::uint32_t all) {
+    constexpr std::uint32_t kGoldenTurn = 0x9E3779B9U;
+    turn_ += kGoldenTurn;
+    return all <= most || static_cast<std::uint64_t>(turn_) * all < static_cast<std::uint64_t>(most) << 32;
+  }
+
+ private:
+  std::uint32_t turn_ = 0;
+};
+
+// Keeps an even share of the items in place, about `most` of them.
+template <typename T>
+Span<T> thinned(Span<T> items, std::uint32_t most) {
+  if (items.size() <= most) return items;
+  EvenShare share;
+  std::uint32_t count = 0;
+  for (const T& item : items) {
+    if (share.takes(most, items.size())) items[count++] = item;
+  }
+  return items.first(count);
+}
+
+}  // namespace pose_wall

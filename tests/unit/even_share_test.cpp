@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: of what is offered as much is taken as is asked for, of all and of every n-th.
+
+#include "containers/even_share.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pose_wall {
+namespace {
+
+constexpr int kOffered = 10000;
+
+TEST(EvenShare, TakesAsMuchAsIsAskedFor) {
+  for (const std::uint32_t all : {21U, 40U, 60U, 200U, 5000U}) {
+    EvenShare share;
+    int taken = 0;
+    for (int i = 0; i < kOffered; ++i) taken += share.takes(20, all) ? 1 : 0;
+    EXPECT_NEAR(taken, kOffered * 20.0 / all, 3.0) << all;
+  }
+}
+
+TEST(EvenShare, TakesAllOfFew) {
+  EvenShare share;
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(share.takes(20, static_cast<std::uint32_t>(i % 21)));
+}
+
+// Two layers, or the lines of a sensor, that come by turns: none of them goes short.
+TEST(EvenShare, TakesAsMuchOfEveryNth) {
+  for (int period = 2; period <= 34; ++period) {
+    for (int phase = 0; phase < period; ++phase) {
+      EvenShare share;
+      int taken = 0, offered = 0;
+      for (int i = 0; i < kOffered; ++i) {
+        const bool takes = share.takes(1, 2);
+        if (i % period != phase) continue;
+        ++offered;
+        taken += takes ? 1 : 0;
+      }
+      EXPECT_NEAR(taken, 0.5 * offered, 0.05 * offered + 2.0) << period << " from " << phase;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall

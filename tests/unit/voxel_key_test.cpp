@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a key tells its cell, keys are in the order of columns and heights, and a column's keys are a run.
+
+#include "containers/voxel_key.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace pose_wall {
+namespace {
+
+constexpr std::int32_t kMost = (1 << 21) - 1;
+
+TEST(VoxelKey, TellsItsCell) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<std::int32_t> draw(0, kMost);
+  for (int i = 0; i < 10000; ++i) {
+    const std::int32_t x = draw(random), y = draw(random), z = draw(random);
+    const VoxelKey::Cell cell = VoxelKey::cell_of(VoxelKey::of(x, y, z));
+    ASSERT_EQ(cell.x, static_cast<std::uint32_t>(x));
+    ASSERT_EQ(cell.y, static_cast<std::uint32_t>(y));
+    ASSERT_EQ(cell.z, static_cast<std::uint32_t>(z));
+  }
+  EXPECT_EQ(VoxelKey::of(0, 0, 0), 0U);
+  EXPECT_EQ(VoxelKey::of(kMost, kMost, kMost), (1ULL << 63) - 1);
+}
+
+TEST(VoxelKey, IsInTheOrderOfColumnsAndHeights) {
+  EXPECT_LT(VoxelKey::of(3, kMost, kMost), VoxelKey::of(4, 0, 0)) << "columns along x come first";
+  EXPECT_LT(VoxelKey::of(3, 3, kMost), VoxelKey::of(0, 4, 0)) << "then along y";
+  EXPECT_LT(VoxelKey::of(3, 3, 7), VoxelKey::of(0, 0, 8)) << "within a column the lower one";
+  EXPECT_LT(VoxelKey::of(1, 3, 7), VoxelKey::of(2, 0, 7)) << "and at the same height by x";
+  EXPECT_LT(VoxelKey::of(1, 2, 7), VoxelKey::of(1, 3, 7));
+}
+
+TEST(VoxelKey, OfAColumnTheLeastAndTheNextBoundARun) {
+  const std::uint64_t column = VoxelKey::column_at(17, 29);
+  EXPECT_EQ(VoxelKey::x_of_column(column), 17U);
+  EXPECT_EQ(VoxelKey::y_of_column(column), 29U);
+  for (std::int32_t x = 60; x < 80; ++x) {
+    for (std::int32_t y = 108; y < 128; ++y) {
+      for (std::int32_t z = 40; z < 50; ++z) {
+        const std::uint64_t key = VoxelKey::of(x, y, z);
+        const bool in_run = key >= VoxelKey::least_of(column, 43) && key < VoxelKey::least_of(column, 47);
+        const bool in_column = x / 4 == 17 && y / 4 == 29;
+        ASSERT_EQ(VoxelKey::column_of(key) == column, in_column);
+        ASSERT_EQ(in_run, in_column && z >= 43 && z < 47);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall
