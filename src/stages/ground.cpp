@@ -189,11 +189,18 @@ bool stands_alone(const Candidate& best, Span<const Candidate> candidates) {
   return true;
 }
 
-// all: of the open ones, those within the radius.
-FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std::uint32_t> open,
-                         Span<const std::uint32_t> all, const Settings& s, const Axes& axes,
+// A radius, and which points are open and within it.
+struct Within {
+  double radius_m;
+  Span<const std::uint32_t> open;  // all of them: the fit goes by where the rays meet the floor
+  Span<const std::uint32_t> all;
+};
+
+FloorResult floor_within(const Within& within, const PointSet& cloud, const Settings& s, const Axes& axes,
                          const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
+  const double radius_m = within.radius_m;
+  const Span<const std::uint32_t> all = within.all;
   FloorResult none;
   none.fit.refused = true;
   none.fit.reasons = POSE_WALL_R_FLOOR_NOT_FOUND;
@@ -213,7 +220,7 @@ FloorResult floor_within(double radius_m, const PointSet& cloud, Span<const std:
   POSE_WALL_NOTE(note_floor_choice(Span<const Candidate>(candidates, count), best));
   if (best == nullptr) return none;
 
-  FloorResult out = fit_floor(cloud, open, radius_m, best->plane, s, sensor, scratch);
+  FloorResult out = fit_floor(cloud, within.open, radius_m, best->plane, s, sensor, scratch);
   out.fit.iterations = none.fit.iterations;
   out.candidates = all.size();
   out.roi_radius_m = radius_m;
@@ -298,7 +305,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
     if (all.size() >= kCandidatesMin) worth_a_look = kWorthALook * static_cast<double>(all.size());
     POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
     const FloorResult& floor = within[tried] =
-        floor_within(radius_m, cloud_base, open, all, settings, axes, sensor_base_m, last_floor, random, scratch);
+        floor_within({radius_m, open, all}, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
     // Of refused ones the widest that got furthest tells why.
     const bool told_more = within[best].fit.refused && floor.fit.refused && floor.fit.found;
     if (told_more || levels_of(floor, settings).worse() < levels_of(within[best], settings).worse()) best = tried;
