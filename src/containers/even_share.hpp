@@ -25,6 +25,18 @@ class EvenShare {
   std::uint32_t turn_ = 0;
 };
 
+// visit(k) for an even share of the numbers below `all`, at most `most` of them.
+template <typename Visit>
+void for_even_share(std::uint32_t all, std::uint32_t most, const Visit& visit) {
+  EvenShare share;
+  std::uint32_t visited = 0;
+  for (std::uint32_t k = 0; k < all && visited < most; ++k) {
+    if (!share.takes(most, all)) continue;
+    visit(k);
+    ++visited;
+  }
+}
+
 // Keeps an even share of the items in place, about `most` of them.
 template <typename T>
 Span<T> thinned(Span<T> items, std::uint32_t most) {

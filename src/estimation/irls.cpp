@@ -85,7 +85,7 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
                     const IrlsSettings& settings) {
   IrlsOver result;
   result.over = start;
-  // Odd: neighbours may lie in two layers by turns.
+  // Odd: neighbours in the list may lie in two layers by turns, and an even stride would take but one of them.
   const std::uint32_t stride = (points_with_weight(points, count) / settings.scale_points + 1) | 1U;
   for (int i = 0; i < settings.rounds; ++i) {
     Round round{static_cast<float>(result.over.offset_m), static_cast<float>(result.over.slope_u),
@@ -109,7 +109,7 @@ IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, 
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points) {
   points->begin(start, Eigen::Vector3d::Zero(), u_hint);
   const std::uint32_t room = points->capacity(), needed = room > 0 ? (indices.size() + room - 1) / room : 1;
-  const std::uint32_t stride = needed <= 1 ? 1 : needed | 1U;
+  const std::uint32_t stride = needed <= 1 ? 1 : needed | 1U;  // odd, as above
   for (std::uint32_t k = 0; k < indices.size(); k += stride)
     points->add(cloud.at(indices[k]), cloud.weight[indices[k]]);
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);

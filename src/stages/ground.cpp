@@ -189,18 +189,18 @@ bool stands_alone(const Candidate& best, Span<const Candidate> candidates) {
   return true;
 }
 
-// A radius, and which points are open and within it.
-struct Within {
+// A radius, which points are open, and which of them are within it. A fit goes by where the rays meet the floor, and so
+// chooses among all that are open.
+struct Look {
   double radius_m;
-  Span<const std::uint32_t> open;  // all of them: the fit goes by where the rays meet the floor
-  Span<const std::uint32_t> all;
+  Span<const std::uint32_t> open, within;
 };
 
-FloorResult floor_within(const Within& within, const PointSet& cloud, const Settings& s, const Axes& axes,
+FloorResult floor_within(const Look& look, const PointSet& cloud, const Settings& s, const Axes& axes,
                          const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
-  const double radius_m = within.radius_m;
-  const Span<const std::uint32_t> all = within.all;
+  const double radius_m = look.radius_m;
+  const Span<const std::uint32_t> all = look.within;
   FloorResult none;
   none.fit.refused = true;
   none.fit.reasons = POSE_WALL_R_FLOOR_NOT_FOUND;
@@ -220,7 +220,7 @@ FloorResult floor_within(const Within& within, const PointSet& cloud, const Sett
   POSE_WALL_NOTE(note_floor_choice(Span<const Candidate>(candidates, count), best));
   if (best == nullptr) return none;
 
-  FloorResult out = fit_floor(cloud, within.open, radius_m, best->plane, s, sensor, scratch);
+  FloorResult out = fit_floor(cloud, look.open, radius_m, best->plane, s, sensor, scratch);
   out.fit.iterations = none.fit.iterations;
   out.candidates = all.size();
   out.roi_radius_m = radius_m;
@@ -293,7 +293,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
   FloorResult within[kRadiusSteps];
   for (FloorResult& floor : within) floor.fit.refused = true;
   int tried = 0, best = 0;
-  double worth_a_look = 0.0;
+  double worth_a_look = 0.0;  // so many points
   const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
   double radius_m = settings.ground_roi_radius;
   for (bool widest = false; !widest && tried < kRadiusSteps; radius_m *= kRadiusGrowth) {
@@ -301,7 +301,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
     if (widest) radius_m = settings.ground_roi_radius_max;
     const Span<const std::uint32_t> all =
         scratch->candidates.first(within_radius(cloud_base, open, radius_m, scratch->candidates));
-    if (tried > 0 && static_cast<double>(all.size()) < worth_a_look) continue;
+    if (static_cast<double>(all.size()) < worth_a_look) continue;
     if (all.size() >= kCandidatesMin) worth_a_look = kWorthALook * static_cast<double>(all.size());
     POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
     const FloorResult& floor = within[tried] =

@@ -18,16 +18,11 @@ class NeighbourCounter {
   // find, has_enough() may. Of the four points from i on; near either end of the list nothing is found.
   FourTruths have_enough_in_list(std::uint32_t i) const {
     if (i < kLook || i + kFour + kLook > points_.count) return FourTruths{};
-    const FourFloats x = load_four(&points_.x[i]), y = load_four(&points_.y[i]), z = load_four(&points_.z[i]);
+    const FourPlaces here = four_from(i);
     FourInts found{};  // true is -1
-    const auto look = [&](std::uint32_t j) {
-      const FourFloats dx = load_four(&points_.x[j]) - x, dy = load_four(&points_.y[j]) - y;
-      const FourFloats dz = load_four(&points_.z[j]) - z;
-      found -= dx * dx + dy * dy + dz * dz <= radius2_;
-    };
     for (std::uint32_t away = 1; away <= kLook; ++away) {
-      look(i - away);
-      look(i + away);
+      found -= are_near(here, four_from(i - away));
+      found -= are_near(here, four_from(i + away));
     }
     return found >= static_cast<std::int32_t>(needed_);
   }
@@ -50,20 +45,24 @@ class NeighbourCounter {
   static constexpr std::uint32_t kLook = 3;
   static constexpr std::uint32_t kAtOnce = 64;
 
+  FourPlaces four_from(std::uint32_t j) const {
+    return {load_four(&points_.x[j]), load_four(&points_.y[j]), load_four(&points_.z[j])};
+  }
+  FourPlaces some_from(std::uint32_t j, std::uint32_t count) const {
+    return {load_some(&points_.x[j], count), load_some(&points_.y[j], count), load_some(&points_.z[j], count)};
+  }
+
+  FourTruths are_near(const FourPlaces& a, const FourPlaces& b) const {
+    const FourFloats dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
+    return dx * dx + dy * dy + dz * dz <= radius2_;
+  }
+
   std::uint32_t near_in_run(std::uint32_t i, std::uint32_t begin, std::uint32_t end) const {
+    const FourPlaces here{all_four(points_.x[i]), all_four(points_.y[i]), all_four(points_.z[i])};
     FourInts found{};  // true is -1
-    std::uint32_t j = begin;
-    for (; j + kFour <= end; j += kFour) {
-      const FourFloats dx = load_four(&points_.x[j]) - points_.x[i], dy = load_four(&points_.y[j]) - points_.y[i];
-      const FourFloats dz = load_four(&points_.z[j]) - points_.z[i];
-      found -= dx * dx + dy * dy + dz * dz <= radius2_;
-    }
-    std::uint32_t count = static_cast<std::uint32_t>(found[0] + found[1] + found[2] + found[3]);
-    for (; j < end; ++j) {
-      const float dx = points_.x[j] - points_.x[i], dy = points_.y[j] - points_.y[i], dz = points_.z[j] - points_.z[i];
-      count += dx * dx + dy * dy + dz * dz <= radius2_ ? 1U : 0U;
-    }
-    return count;
+    for (; begin + kFour <= end; begin += kFour) found -= are_near(here, four_from(begin));
+    if (begin < end) found -= first_of_four(end - begin) & are_near(here, some_from(begin, end - begin));
+    return static_cast<std::uint32_t>(found[0] + found[1] + found[2] + found[3]);
   }
 
   const PointSet& points_;

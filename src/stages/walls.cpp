@@ -91,12 +91,9 @@ void note_sight(const WallSight& sight, const WallEdges& edges, bool grooved) {
 
 void thin_out(const PointSet& band_level, PointSet* thin_level) {
   thin_level->count = 0;
-  EvenShare share;
-  for (std::uint32_t i = 0; i < band_level.count && thin_level->count < kThinMost; ++i) {
-    if (share.takes(kThinMost, band_level.count)) {
-      thin_level->set(thin_level->count++, band_level.at(i), band_level.weight[i]);
-    }
-  }
+  for_even_share(band_level.count, kThinMost, [&](std::uint32_t i) {
+    thin_level->set(thin_level->count++, band_level.at(i), band_level.weight[i]);
+  });
 }
 
 // Refines the short list, merges what became alike, and weighs what is left.

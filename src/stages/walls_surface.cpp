@@ -50,13 +50,11 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
   }
   WallPoints& points = scratch->points;
   points.begin(scene, start, along);
-  EvenShare share;
-  for (const std::uint32_t i : near.first(count)) {
-    if (points.at.count == WallPoints::kMost) break;
-    if (!share.takes(WallPoints::kMost, count)) continue;
+  for_even_share(count, WallPoints::kMost, [&](std::uint32_t k) {
+    const std::uint32_t i = near[k];
     points.add(scene.band_level.at(i), scene.band_level.weight[i]);
     taken += static_cast<double>(scene.band_level.weight[i]);
-  }
+  });
   points.measured_per_weight = taken > 0.0 ? measured / taken : 1.0;
   points.sort_by_patch(&scratch->patches, scratch->near);
 }

@@ -26,6 +26,22 @@ TEST(EvenShare, TakesAllOfFew) {
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(share.takes(20, static_cast<std::uint32_t>(i % 21)));
 }
 
+TEST(EvenShare, NeverTakesMoreThanThereIsRoomFor) {
+  for (std::uint32_t all = 1; all < 2000; all += 7) {
+    for (const std::uint32_t most : {1U, 8U, 100U, 1999U}) {
+      std::uint32_t taken = 0, last = 0;
+      for_even_share(all, most, [&](std::uint32_t k) {
+        ASSERT_LT(k, all);
+        ASSERT_TRUE(taken == 0 || k > last);
+        last = k;
+        ++taken;
+      });
+      ASSERT_LE(taken, most);
+      ASSERT_GE(taken + 3, all < most ? all : most) << all;
+    }
+  }
+}
+
 // Two layers, or the lines of a sensor, that come by turns: none of them goes short.
 TEST(EvenShare, TakesAsMuchOfEveryNth) {
   for (int period = 2; period <= 34; ++period) {
