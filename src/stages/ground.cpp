@@ -271,6 +271,18 @@ void widen(const Settings& s, std::uint32_t claims, FloorResult* floor) {
   floor->pitch_bound_rad += curse * levels.pitch_rad;
 }
 
+// The machine stands on its floor, and about upright. Where more than one plane may be that floor and this one is
+// steep, it may be a heap's flank as well, and so may its rivals: the levels reach to upright.
+void reach_to_upright(FloorResult* floor) {
+  constexpr double kSteep_rad = 0.26;  // 15 degrees; broken rock lies at 30 to 40
+  if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
+  const RollPitch tilt = roll_pitch_of_up(floor->fit.plane.n);
+  const double steep_rad = larger(std::fabs(tilt.roll_rad), std::fabs(tilt.pitch_rad));
+  if (!(steep_rad > kSteep_rad)) return;
+  floor->roll_bound_rad += steep_rad;
+  floor->pitch_bound_rad += steep_rad;
+}
+
 }  // namespace
 
 void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
@@ -321,6 +333,7 @@ FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, con
   }
   // The first radius is the configured one: it was not picked for its claim.
   if (best > 0) widen(settings, claims, &out);
+  reach_to_upright(&out);
   return out;
 }
 

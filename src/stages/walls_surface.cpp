@@ -8,6 +8,7 @@
 #include "containers/even_share.hpp"
 #include "estimation/groove_profile.hpp"
 #include "estimation/near_plane.hpp"
+#include "stages/walls_bends.hpp"
 
 namespace pose_wall {
 namespace {
@@ -22,10 +23,6 @@ constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows 
 constexpr double kStripsLeftOver = 0.05;
 // What a split into two layers may leave of the nearer one in the surface, of its share times its step.
 constexpr double kLayersLeftOver = 0.5;
-constexpr double kCut_m = 0.25;
-constexpr double kSpanMin_m = 0.9;
-constexpr double kCurvatureInSigmas = 3.5;
-constexpr double kBulgeMin_m = 0.04;
 constexpr int kCutsMax = 6;
 constexpr int kQuickRounds = 3;
 constexpr std::uint32_t kQuickPointsMax = 500;
@@ -91,46 +88,6 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   fit.layer_sigma_m =
       std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m + layers_m * layers_m);
   return fit;
-}
-
-// Lean of the surface between two heights: the plane's, less the slope of the distances from it.
-double lean_between(const WallSurface& fit, const Heights& heights) {
-  double w = 0.0, z = 0.0, zz = 0.0, r = 0.0, zr = 0.0;
-  const double foreshortening = fit.irls.over.foreshortening();
-  for (std::uint32_t k = 0; k < fit.points->at.count; ++k) {
-    const double height = fit.points->z_level_m(k);
-    if (!heights.contain(height)) continue;
-    const double residual = fit.points->at.distance(k, fit.irls.over, foreshortening);
-    const double weight = fit.weight(static_cast<double>(fit.points->at.u[k]), residual);
-    w += weight;
-    z += weight * height;
-    zz += weight * height * height;
-    r += weight * residual;
-    zr += weight * height * residual;
-  }
-  const double spread = w * zz - z * z;
-  const double slope = spread > 1e-9 * w * w ? (w * zr - z * r) / spread : 0.0;
-  return lean_of(fit.irls_plane()) - slope;
-}
-
-// An arched roof begins within the band, a heap ends in it: where the wall bends towards the machine at its top or its
-// foot, that end is cut off. True where it was, and the fit is to be repeated.
-bool cut_bent_rows(const WallSurface& fit, Heights* heights) {
-  const double span_m = heights->max_m - heights->min_m;
-  if (span_m - kCut_m < kSpanMin_m) return false;
-  const bool significant = fit.patch.curvature_v > kCurvatureInSigmas * fit.patch.curvature_v_sigma;
-  const bool matters = fit.patch.curvature_v * span_m * span_m > kBulgeMin_m;
-  if (!significant || !matters) return false;
-  // A wall stands more upright than an arch or a heap: the half that leans more loses its end.
-  const double middle = 0.5 * (heights->min_m + heights->max_m);
-  const double lower = lean_between(fit, {heights->min_m, middle});
-  const double upper = lean_between(fit, {middle, heights->max_m});
-  if (std::fabs(upper) >= std::fabs(lower)) {
-    heights->max_m -= kCut_m;
-  } else {
-    heights->min_m += kCut_m;
-  }
-  return true;
 }
 
 }  // namespace

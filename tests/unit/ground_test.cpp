@@ -188,6 +188,21 @@ TEST(Ground, BoundsReachToTheFartherOfTwoRivalFloors) {
   }
 }
 
+// Two flanks of one heap, and nothing level: the floor under the machine is neither.
+TEST(Ground, WhereAllThatMayBeTheFloorIsSteepTheBoundsReachToUpright) {
+  for (const bool across : {false, true}) {
+    SCOPED_TRACE(across ? "across" : "along");
+    const FloorResult f = Valley{0.0, 0.45, -0.33, across}.floor();
+    ASSERT_TRUE(f.fit.found && !f.fit.refused);
+    ASSERT_NE(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
+    const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
+    const double steep_rad = std::max(std::fabs(angles.roll_rad), std::fabs(angles.pitch_rad));
+    EXPECT_GT(steep_rad, 0.3);
+    EXPECT_GE(f.roll_bound_rad, steep_rad);
+    EXPECT_GE(f.pitch_bound_rad, steep_rad);
+  }
+}
+
 TEST(Ground, ASlopeOfAThirdOfTheFloorIsNoRival) {
   for (const bool across : {false, true}) {
     const FloorResult f = Valley{2.5, 0.14, 0.0, across}.floor();
