@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "estimation/near_plane.hpp"
 #include "math/rotation.hpp"
 #include "report.hpp"
+#include "stages/labels.hpp"
 #include "stages/level.hpp"
 #include "stages/outliers.hpp"
 #include "stages/quality.hpp"
@@ -67,7 +67,7 @@ void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level
 }  // namespace
 
 void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
-  marks = arena.take<std::uint8_t>(points_max);
+  marks = arena.take<std::uint8_t>(points_max + kFour);
   returns_lidar.lay_out(arena);
   cloud_base.lay_out(arena, points_max);
   band_level.lay_out(arena, points_max);
@@ -233,7 +233,7 @@ void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
   report_findings(*found, result);
   result->frame_index = memory_.frames++;
   result->confidence = least_confidence(*result);
-  label_points(*found);
+  label_points(scratch_.cloud_base, found->floor, found->level, found->walls.side, settings_, scratch_.marks);
   remember(*found);
 }
 
@@ -271,26 +271,6 @@ void Engine::remember(const FrameFindings& found) {
     memory_.has_wall[side] = !found.walls.side[side].fit.refused;
     memory_.last_wall[side] = found.walls.side[side].fit.plane;
   }
-}
-
-void Engine::label_points(const FrameFindings& found) {
-  const PointSet& cloud = scratch_.cloud_base;
-  const Plane& floor = found.floor.fit.plane;
-  scratch_.marks.first(cloud.count).fill(POSE_WALL_LABEL_OTHER);
-  if (found.floor.fit.refused) return;
-  const double floor_reach_m = settings_.ground_ransac_thresh, wall_reach_m = settings_.wall_ransac_thresh;
-  for (int side = 0; side < 2; ++side) {
-    const PlaneFit& wall = found.walls.side[side].fit;
-    if (wall.refused) continue;
-    const Plane wall_base{found.level.R_level_base.transpose() * wall.plane.n, wall.plane.d};
-    for_each_between(cloud, wall_base, -wall_reach_m, wall_reach_m, [&](std::uint32_t i, float) {
-      const double height_m = floor.signed_distance(cloud.at(i));
-      if (!(height_m >= settings_.wall_z_min && height_m <= settings_.wall_z_max)) return;
-      scratch_.marks[i] = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
-    });
-  }
-  for_each_between(cloud, floor, -floor_reach_m, floor_reach_m,
-                   [&](std::uint32_t i, float) { scratch_.marks[i] = POSE_WALL_LABEL_FLOOR; });
 }
 
 void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {

@@ -21,7 +21,7 @@ namespace pose_wall {
 // Buffers of one frame. Nothing in here is read before it was written in the same frame.
 struct Scratch {
   VoxelGrid grid;
-  Span<std::uint8_t> marks;  // per point: keep flags, later labels
+  Span<std::uint8_t> marks;  // per point, and for a four behind the last: keep flags, later labels
   ReturnsByDirection returns_lidar;
   PointSet cloud_base;
   PointSet band_level;
@@ -82,7 +82,6 @@ class Engine {
   void conclude(FrameFindings* found, pose_wall_result* result);
   void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
   void remember(const FrameFindings& found);
-  void label_points(const FrameFindings& found);
   std::int64_t now() const { return clock_ != nullptr ? clock_(clock_user_) : 0; }
   std::uint64_t sum() const;
   void seal() { seal_ = sum(); }

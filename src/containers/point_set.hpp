@@ -13,20 +13,18 @@
 namespace pose_wall {
 
 // Points as a structure of arrays, in one frame that the owner's name tells. weight: how many measured points the
-// centroid stands for (times its intensity weight, where that is on).
+// centroid stands for (times its intensity weight, where that is on). Rows go on for a four behind the capacity: the
+// last points are read four at a time too, and what comes with them is anything.
 struct PointSet {
   Span<float> x, y, z, weight;
   std::uint32_t count = 0;
 
   void lay_out(Arena& arena, std::uint32_t capacity) {
-    x = arena.take<float>(capacity);
-    y = arena.take<float>(capacity);
-    z = arena.take<float>(capacity);
-    weight = arena.take<float>(capacity);
+    for (Span<float>* row : {&x, &y, &z, &weight}) *row = arena.take<float>(capacity + kFour);
     count = 0;
   }
 
-  std::uint32_t capacity() const { return x.size(); }
+  std::uint32_t capacity() const { return x.size() - kFour; }
 
   Eigen::Vector3d at(std::uint32_t i) const {
     return {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
@@ -70,18 +68,9 @@ inline FourPlaces four_of(const PointSet& points, Span<const std::uint32_t> list
 // visit(first index, x, y, z, which of the four count) over all points.
 template <typename Visit>
 void for_each_four_points(const PointSet& points, const Visit& visit) {
-  float last[3][kFour] = {};  // what is left over in the end, padded
-  const std::uint32_t whole = points.count - points.count % kFour;
-  for (std::uint32_t i = whole; i < points.count; ++i) {
-    last[0][i - whole] = points.x[i];
-    last[1][i - whole] = points.y[i];
-    last[2][i - whole] = points.z[i];
-  }
-  for (std::uint32_t i = 0; i < points.count; i += kFour) {
-    const bool is_whole = i < whole;
-    visit(i, load_four(is_whole ? &points.x[i] : last[0]), load_four(is_whole ? &points.y[i] : last[1]),
-          load_four(is_whole ? &points.z[i] : last[2]), first_of_four(points.count - i));
-  }
+  for_each_four(points.count, [&](std::uint32_t i, FourTruths counts) {
+    visit(i, load_four(&points.x[i]), load_four(&points.y[i]), load_four(&points.z[i]), counts);
+  });
 }
 
 }  // namespace pose_wall

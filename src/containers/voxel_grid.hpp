@@ -10,6 +10,7 @@
 #include "containers/radix_sort.hpp"
 #include "containers/voxel_hash.hpp"
 #include "containers/voxel_key.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -33,6 +34,7 @@ class VoxelGrid {
   struct Steps {
     float per_m, origin;
     std::int32_t of(float coordinate_m) const { return static_cast<std::int32_t>(coordinate_m * per_m + origin); }
+    FourInts of(FourFloats coordinates_m) const { return cut_off(coordinates_m * per_m + origin); }
   };
   const Steps& steps() const { return steps_; }
 

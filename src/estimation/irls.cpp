@@ -23,9 +23,10 @@ struct Round {
 };
 
 std::uint32_t points_with_weight(const TangentPoints& p, std::uint32_t count) {
-  std::uint32_t with = 0;
-  for (std::uint32_t k = 0; k < count; ++k) with += p.weight[k] > 0.0F ? 1U : 0U;
-  return with;
+  FourInts with{};  // true is -1
+  for_each_four(count,
+                [&](std::uint32_t k, FourTruths counts) { with -= counts & (load_four(&p.weight[k]) > FourFloats{}); });
+  return static_cast<std::uint32_t>(with[0] + with[1] + with[2] + with[3]);
 }
 
 double scale_of(const TangentPoints& p, std::uint32_t count, std::uint32_t stride, const Round& round, double gate_m) {
@@ -72,9 +73,9 @@ NormalEquations equations_of(const TangentPoints& p, std::uint32_t count, const 
     sums.add(load_four(&p.u[k]), load_four(&p.v[k]), load_four(&p.r[k]), load_four(&p.weight[k]), round);
   }
   if (k < count) {
-    const std::uint32_t left = count - k;
-    sums.add(load_some(&p.u[k], left), load_some(&p.v[k], left), load_some(&p.r[k], left),
-             load_some(&p.weight[k], left), round);
+    const FourTruths counts = first_of_four(count - k);
+    const auto some = [&](const Span<float>& row) { return counts ? load_four(&row[k]) : FourFloats{}; };
+    sums.add(some(p.u), some(p.v), some(p.r), some(p.weight), round);
   }
   return sums.equations();
 }

@@ -68,9 +68,9 @@ double truncated_cost(const PointSet& points, const Plane& plane, double thresho
     }
     if (has_lost(sum_of_lanes(sums) / (each_m2 * i), i, too_much)) return too_much;
   }
-  for (std::uint32_t i = whole; i < n; ++i) {
-    const FourFloats r = distances.of_some(points, i, 1);
-    sums[0] += r[0] * r[0] < limit ? r[0] * r[0] : limit;
+  if (whole < n) {
+    const FourFloats r = distances.of(points, whole), costs = smaller_of(r * r, all_four(limit));
+    for (std::uint32_t lane = 0; lane < n - whole; ++lane) sums[0] += costs[lane];
   }
   const double cost = n > 0 ? sum_of_lanes(sums) / (each_m2 * n) : 1.0;
   return cost < too_much ? cost : too_much;

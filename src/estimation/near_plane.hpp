@@ -26,12 +26,23 @@ class FourDistances {
   FourFloats of(const PointSet& points, std::uint32_t from) const {
     return of(load_four(&points.x[from]), load_four(&points.y[from]), load_four(&points.z[from]));
   }
-  FourFloats of_some(const PointSet& points, std::uint32_t from, std::uint32_t count) const {
-    return of(load_some(&points.x[from], count), load_some(&points.y[from], count), load_some(&points.z[from], count));
-  }
 
  private:
   FourFloats nx_, ny_, nz_, d_;
+};
+
+// Both sides of a plane up to a distance. Nothing lies within a negative one.
+class Slab {
+ public:
+  Slab(const Plane& plane, double half_m) : distances_(plane), half_m_(static_cast<float>(half_m)) {}
+
+  FourTruths holds(FourFloats x, FourFloats y, FourFloats z) const {
+    return magnitude_of(distances_.of(x, y, z)) <= half_m_;
+  }
+
+ private:
+  FourDistances distances_;
+  float half_m_;
 };
 
 // Calls visit(i, distance) for the points whose signed distance from the plane is among those that keep asks for, in
@@ -40,11 +51,10 @@ template <typename Keep, typename Visit>
 void for_each_where(const PointSet& points, const Plane& plane, const Keep& keep, const Visit& visit) {
   const FourDistances distances(plane);
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
-    const std::uint32_t left = points.count - i, lanes = left < kFour ? left : kFour;
-    const FourFloats r = lanes == kFour ? distances.of(points, i) : distances.of_some(points, i, lanes);
-    const FourTruths kept = keep(r);
+    const FourFloats r = distances.of(points, i);
+    const FourTruths kept = first_of_four(points.count - i) & keep(r);
     if (!any_of(kept)) continue;
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (kept[lane] != 0 && !visit(i + lane, r[lane])) return;
     }
   }

@@ -35,20 +35,17 @@ struct PlaneOver {
 };
 
 struct TangentPoints {
-  Span<float> u, v, r, weight;  // metres; weight as PointSet's
+  Span<float> u, v, r, weight;  // metres; weight as PointSet's, and rows go on for a four as its do
   std::uint32_t count = 0;
   Plane plane;
   TangentFrame frame;
 
   void lay_out(Arena& arena, std::uint32_t points_max) {
-    u = arena.take<float>(points_max);
-    v = arena.take<float>(points_max);
-    r = arena.take<float>(points_max);
-    weight = arena.take<float>(points_max);
+    for (Span<float>* row : {&u, &v, &r, &weight}) *row = arena.take<float>(points_max + kFour);
     count = 0;
   }
 
-  std::uint32_t capacity() const { return u.size(); }
+  std::uint32_t capacity() const { return u.size() - kFour; }
 
   // Around a plane, with the origin's foot as origin and u along the hint.
   void begin(const Plane& around, const Eigen::Vector3d& origin, const Eigen::Vector3d& u_hint) {

@@ -29,13 +29,6 @@ inline FourFloats load_four(const float* from) {
   return four;
 }
 
-// The first `count` of them; the others are zero.
-inline FourFloats load_some(const float* from, std::uint32_t count) {
-  float padded[kFour] = {};
-  for (std::uint32_t lane = 0; lane < count; ++lane) padded[lane] = from[lane];
-  return load_four(padded);
-}
-
 inline FourFloats smaller_of(FourFloats a, FourFloats b) {
   return a < b ? a : b;
 }

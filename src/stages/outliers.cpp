@@ -48,9 +48,6 @@ class NeighbourCounter {
   FourPlaces four_from(std::uint32_t j) const {
     return {load_four(&points_.x[j]), load_four(&points_.y[j]), load_four(&points_.z[j])};
   }
-  FourPlaces some_from(std::uint32_t j, std::uint32_t count) const {
-    return {load_some(&points_.x[j], count), load_some(&points_.y[j], count), load_some(&points_.z[j], count)};
-  }
 
   FourTruths are_near(const FourPlaces& a, const FourPlaces& b) const {
     const FourFloats dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
@@ -60,8 +57,8 @@ class NeighbourCounter {
   std::uint32_t near_in_run(std::uint32_t i, std::uint32_t begin, std::uint32_t end) const {
     const FourPlaces here{all_four(points_.x[i]), all_four(points_.y[i]), all_four(points_.z[i])};
     FourInts found{};  // true is -1
-    for (; begin + kFour <= end; begin += kFour) found -= are_near(here, four_from(begin));
-    if (begin < end) found -= first_of_four(end - begin) & are_near(here, some_from(begin, end - begin));
+    for_each_four(begin, end,
+                  [&](std::uint32_t k, FourTruths counts) { found -= counts & are_near(here, four_from(k)); });
     return static_cast<std::uint32_t>(found[0] + found[1] + found[2] + found[3]);
   }
 

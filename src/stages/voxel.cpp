@@ -110,9 +110,12 @@ class Pass {
     const std::uint32_t begin = block->count, end = begin + count;
     block->count = end;
     if (plain_) {
-      read_floats(point + cloud_.x.offset, begin, end, block->x_lidar);
-      read_floats(point + cloud_.y.offset, begin, end, block->y_lidar);
-      read_floats(point + cloud_.z.offset, begin, end, block->z_lidar);
+      const unsigned char *x = point + cloud_.x.offset, *y = point + cloud_.y.offset, *z = point + cloud_.z.offset;
+      for (std::uint32_t k = begin, at = 0; k < end; ++k, at += cloud_.point_step) {
+        std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
+        std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
+        std::memcpy(&block->z_lidar[k], z + at, sizeof(float));
+      }
     } else {
       const unsigned char* at = point;
       for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) {
@@ -126,11 +129,6 @@ class Pass {
       return;
     }
     for (std::uint32_t k = begin; k < end; ++k, point += cloud_.point_step) block->weight[k] = weight_of(point);
-  }
-
-  [[gnu::noinline]] void read_floats(const unsigned char* from, std::uint32_t begin, std::uint32_t end,
-                                     float* row) const {
-    for (std::uint32_t k = begin; k < end; ++k, from += cloud_.point_step) std::memcpy(&row[k], from, sizeof(float));
   }
 
   std::uint32_t weight_of(const unsigned char* point) const {
@@ -170,9 +168,9 @@ class Pass {
       store_four(base.x, &b->x_base[k]);
       store_four(base.y, &b->y_base[k]);
       store_four(base.z, &b->z_base[k]);
-      store_four(cut_off(base.x * steps.per_m + steps.origin), &b->x_step[k]);
-      store_four(cut_off(base.y * steps.per_m + steps.origin), &b->y_step[k]);
-      store_four(cut_off(base.z * steps.per_m + steps.origin), &b->z_step[k]);
+      store_four(steps.of(base.x), &b->x_step[k]);
+      store_four(steps.of(base.y), &b->y_step[k]);
+      store_four(steps.of(base.z), &b->z_step[k]);
       const FourInts ahead = {kAhead, kAhead, kAhead, kAhead}, behind = {kBehind, kBehind, kBehind, kBehind};
       const FourInts left = {kLeft, kLeft, kLeft, kLeft}, right = {kRight, kRight, kRight, kRight};
       const FourFloats to_front = turned(forward_lidar_, x, y, z), to_left = turned(left_lidar_, x, y, z);

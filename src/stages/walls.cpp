@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "containers/even_share.hpp"
+#include "estimation/near_plane.hpp"
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "stages/walls_across.hpp"
@@ -278,18 +279,19 @@ Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&bes
 // Share of the band that lies on the chosen walls. In a cavern or a hall full of things, two flat spots may happen to
 // be parallel, but they explain next to nothing of what is seen.
 double explained_share(const WallScene& scene, const WallChoice& choice) {
-  const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
-  std::uint32_t explained = 0;
-  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    bool on_wall = false;
-    for (const WallCandidate* wall : choice.side) {
-      on_wall = on_wall || (wall != nullptr && std::fabs(wall->plane.signed_distance(p)) <= reach_m);
-    }
-    explained += on_wall ? 1U : 0U;
-  }
-  return scene.band_level.count > 0 ? static_cast<double>(explained) / static_cast<double>(scene.band_level.count)
-                                    : 0.0;
+  constexpr double kNowhere_m = -1.0;
+  const auto slab = [&](const WallCandidate* wall) {
+    if (wall == nullptr) return Slab(Plane{}, kNowhere_m);
+    return Slab(wall->plane, kOnWallInThresholds * scene.settings.wall_ransac_thresh);
+  };
+  const Slab left = slab(choice.side[0]), right = slab(choice.side[1]);
+  const PointSet& band = scene.band_level;
+  FourInts explained{};  // true is -1
+  for_each_four_points(band, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    explained -= counts & (left.holds(x, y, z) | right.holds(x, y, z));
+  });
+  const std::int32_t points = explained[0] + explained[1] + explained[2] + explained[3];
+  return band.count > 0 ? static_cast<double>(points) / static_cast<double>(band.count) : 0.0;
 }
 
 }  // namespace

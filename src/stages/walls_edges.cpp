@@ -45,7 +45,16 @@ constexpr double kLayerSpan_m = 6.0;
 
 }  // namespace
 
-bool EndPlaces::End::is_looked_past() const {
+FourInts EndPlaces::places_of(FourFloats along_m) {
+  const FourFloats place = magnitude_of(along_m) * static_cast<float>(1.0 / kPlace_m), none{};
+  const FourTruths is_near = place < static_cast<float>(kPlaces), is_ahead = along_m >= none;
+  const FourInts behind{}, ahead = behind + static_cast<std::int32_t>(kPlaces);
+  const FourInts elsewhere = behind + static_cast<std::int32_t>(kElsewhere);
+  return is_near ? cut_off(is_near ? place : none) + (is_ahead ? ahead : behind) : elsewhere;
+}
+
+bool EndPlaces::is_looked_past(std::uint32_t begin) const {
+  const double *const on = on_ + begin, *const past = past_ + begin, *const just_behind = just_behind_ + begin;
   std::uint32_t beyond = 0;  // the first place behind the last that has anything on the plane
   for (std::uint32_t k = 0; k < kPlaces; ++k) beyond = on[k] > kOnMin && on[k] > past[k] ? k + 1 : beyond;
   double passing = 0.0, bending = 0.0;
@@ -82,17 +91,14 @@ bool DepthsBehind::hold_a_layer(double on_plane) const {
   return bits_in(places) >= kLayerPlacesMin && (last - first) * kPlace_m >= kLayerSpan_m;
 }
 
-double* EndPlaces::place(double along_m, double (End::*places)[kPlaces]) {
-  const double place = std::fabs(along_m) / kPlace_m;
-  if (!(place < kPlaces)) return &elsewhere_;
-  return &(end_[along_m < 0.0 ? 0 : 1].*places)[static_cast<std::uint32_t>(place)];
-}
-
-void TopPlaces::add(double along_m, double height, bool is_past, double points) {
-  const double place = along_m / kPlace_m + 0.5 * kPlaces;
-  if (!(place >= 0.0 && place < kPlaces && height >= 0.0 && height < 1.0)) return;
-  Place& p = place_[static_cast<std::uint32_t>(place)];
-  (is_past ? p.past : p.on)[static_cast<std::uint32_t>(height * kSteps)] += static_cast<float>(points);
+FourInts TopPlaces::cells_of(FourFloats along_m, FourFloats height, FourTruths is_past) {
+  const FourFloats place = along_m * static_cast<float>(1.0 / kPlace_m) + 0.5F * kPlaces, none{};
+  const FourTruths inside =
+      (place >= none) & (place < static_cast<float>(kPlaces)) & (height >= none) & (height < 1.0F);
+  const FourInts first{}, past = first + static_cast<std::int32_t>(kSteps), no_cell = first + kNoCell;
+  const FourInts of_place = cut_off(inside ? place : none) * static_cast<std::int32_t>(kPlaceCells);
+  const FourInts step = cut_off(inside ? height * static_cast<float>(kSteps) : none);
+  return inside ? of_place + (is_past ? past : first) + step : no_cell;
 }
 
 // There is a height with nothing of the plane above it but what has passed over it, wherever the plane is seen below.
@@ -103,18 +109,18 @@ bool TopPlaces::is_looked_over() const {
   };
   Above above[kSteps];  // by the lowest step that counts as above
   for (std::uint32_t k = 0; k < kPlaces; ++k) {
-    const Place& p = place_[k];
+    const float *const on = &cell_[k * kPlaceCells], *const past = on + kSteps;
     double on_below = 0.0, past_below = 0.0;
     for (std::uint32_t step = 0; step < kSteps; ++step) {
-      on_below += static_cast<double>(p.on[step]);
-      past_below += static_cast<double>(p.past[step]);
+      on_below += static_cast<double>(on[step]);
+      past_below += static_cast<double>(past[step]);
     }
     double on_above = 0.0, past_above = 0.0;
     for (std::uint32_t step = kSteps; step-- > 0;) {
-      on_above += static_cast<double>(p.on[step]);
-      past_above += static_cast<double>(p.past[step]);
-      on_below -= static_cast<double>(p.on[step]);
-      past_below -= static_cast<double>(p.past[step]);
+      on_above += static_cast<double>(on[step]);
+      past_above += static_cast<double>(past[step]);
+      on_below -= static_cast<double>(on[step]);
+      past_below -= static_cast<double>(past[step]);
       if (!(on_below > kOnMin && on_below > past_below)) continue;  // an opening, or nothing is seen of it here
       Above& a = above[step];
       a.on += on_above;
@@ -142,7 +148,10 @@ void add_what_is_too_far(const WallScene& scene, const SightLines& lines, double
       if (count == 0 || count <= kMostOfACell * scene.returns_lidar.all.count(row, column)) continue;
       const SightLines::Crossing c = lines.far(row, column);
       if (!c.near) continue;
-      tops->add(c.along_m, (c.z_level_m - scene.z_min_level_m) / height_m, true, static_cast<double>(count));
+      const double height = (c.z_level_m - scene.z_min_level_m) / height_m;
+      const std::int32_t cell = TopPlaces::cells_of(all_four(static_cast<float>(c.along_m)),
+                                                    all_four(static_cast<float>(height)), FourInts{-1, -1, -1, -1})[0];
+      if (cell != TopPlaces::kNoCell) tops->add(cell, static_cast<float>(count));
     }
   }
 }
@@ -176,21 +185,16 @@ class FourRays {
   float along_base_[3], up_base_[3];
 };
 
-// One return of the sensor against the plane.
-struct Return {
-  double r_m, weight;
-  double point_along_m, point_z_level_m;
-  double along_m, z_level_m;  // where its ray meets the plane, or would
-};
-
 // What the returns tell of the plane's edges. Rays to the floor right behind the plane pass it too.
 class EdgeTally {
  public:
   EdgeTally(const WallScene& scene, double margin_m, EdgeScratch* scratch)
-      : scene_(scene),
-        margin_m_(margin_m),
+      : z_min_level_m_(static_cast<float>(scene.z_min_level_m)),
+        z_max_level_m_(static_cast<float>(scene.z_max_level_m)),
+        margin_m_(static_cast<float>(margin_m)),
         height_m_(scene.z_max_level_m + kAboveBand_m - scene.z_min_level_m),
-        high_level_m_(scene.z_min_level_m + kHighShare * (scene.z_max_level_m - scene.z_min_level_m)),
+        high_level_m_(
+            static_cast<float>(scene.z_min_level_m + kHighShare * (scene.z_max_level_m - scene.z_min_level_m))),
         scratch_(*scratch) {
     scratch_.ends.clear();
     scratch_.tops.clear();
@@ -201,33 +205,63 @@ class EdgeTally {
   double on_plane() const { return on_plane_; }
   double height_m() const { return height_m_; }
 
-  void add(const Return& p) {
-    const bool is_past = p.r_m < -margin_m_;
-    if (!is_past && p.z_level_m >= high_level_m_ && std::fabs(p.along_m) <= kHighReach_m) seen_high_ += p.weight;
-    if (p.r_m > margin_m_) return;
-    if (!is_past || p.r_m < -kWellBehind_m) {
-      scratch_.tops.add(p.along_m, (p.z_level_m - scene_.z_min_level_m) / height_m_, is_past, p.weight);
+  // Distances from the plane of those that count, their weights, and their rays.
+  void add(FourFloats r_m, FourFloats weights, FourTruths counts, const FourRays& rays) {
+    const FourTruths is_past = r_m < -margin_m_;
+    if (!has_seen_high()) look_high(weights, counts & ~is_past, rays);
+    const FourTruths tells = counts & (r_m <= margin_m_);
+    if (!any_of(tells)) return;
+    const FourTruths for_tops = tells & (~is_past | (r_m < static_cast<float>(-kWellBehind_m)));
+    const FourInts top = TopPlaces::cells_of(
+        rays.along_m, (rays.z_level_m - z_min_level_m_) * static_cast<float>(1.0 / height_m_), is_past);
+    const FourTruths on_plane = tells & ~is_past & in_band(rays.point_z_level_m);
+    const FourInts end = EndPlaces::places_of(rays.point_along_m);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (for_tops[lane] != 0 && top[lane] != TopPlaces::kNoCell) scratch_.tops.add(top[lane], weights[lane]);
+      if (on_plane[lane] != 0) scratch_.ends.add_on(end[lane], weights[lane]);
     }
-    add_depth(p);
-    const bool point_in_band = scene_.in_band(p.point_z_level_m);
-    if (!is_past && point_in_band) {
-      *scratch_.ends.on(p.point_along_m) += p.weight;
-      on_plane_ += larger(p.weight, 1.0);
-      return;
-    }
-    if (p.r_m > -kBend_m && point_in_band) *scratch_.ends.just_behind(p.point_along_m) += p.weight;
-    if (p.r_m < 0.0 && scene_.in_band(p.z_level_m)) *scratch_.ends.past(p.along_m) += p.weight;
+    const FourFloats none{};
+    on_plane_ += sum_of_lanes(on_plane ? larger_of(weights, all_four(1.0F)) : none);
+    const FourTruths elsewhere = tells & ~on_plane;
+    if (any_of(elsewhere)) add_elsewhere(r_m, weights, elsewhere, end, rays);
   }
 
  private:
-  void add_depth(const Return& p) {
-    const bool in_height =
-        p.point_z_level_m >= scene_.z_min_level_m && p.point_z_level_m <= scene_.z_max_level_m + kAboveBand_m;
-    if (p.r_m < -kWellBehind_m && in_height) scratch_.depths.add(-p.r_m, p.point_along_m, larger(p.weight, 1.0));
+  FourTruths in_band(FourFloats z_level_m) const {
+    return (z_level_m >= z_min_level_m_) & (z_level_m <= z_max_level_m_);
   }
 
-  const WallScene& scene_;
-  double margin_m_, height_m_, high_level_m_;
+  void look_high(FourFloats weights, FourTruths counts, const FourRays& rays) {
+    const FourTruths high =
+        counts & (rays.z_level_m >= high_level_m_) & (magnitude_of(rays.along_m) <= static_cast<float>(kHighReach_m));
+    const FourFloats none{};
+    seen_high_ += sum_of_lanes(high ? weights : none);
+  }
+
+  // Past the plane, or on it above and below the band.
+  void add_elsewhere(FourFloats r_m, FourFloats weights, FourTruths counts, const FourInts& end, const FourRays& rays) {
+    const FourTruths point_in_band = in_band(rays.point_z_level_m);
+    const FourTruths deep = counts & (r_m < static_cast<float>(-kWellBehind_m)) &
+                            (rays.point_z_level_m >= z_min_level_m_) &
+                            (rays.point_z_level_m <= z_max_level_m_ + static_cast<float>(kAboveBand_m));
+    const FourTruths bends = counts & point_in_band & (r_m > static_cast<float>(-kBend_m));
+    const FourFloats none{};
+    const FourTruths passes = counts & (r_m < none) & in_band(rays.z_level_m);
+    const FourInts passed = EndPlaces::places_of(rays.along_m);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const double weight = static_cast<double>(weights[lane]);
+      if (deep[lane] != 0) {
+        scratch_.depths.add(-static_cast<double>(r_m[lane]), static_cast<double>(rays.point_along_m[lane]),
+                            larger(weight, 1.0));
+      }
+      if (bends[lane] != 0) scratch_.ends.add_just_behind(end[lane], weights[lane]);
+      if (passes[lane] != 0) scratch_.ends.add_past(passed[lane], weights[lane]);
+    }
+  }
+
+  float z_min_level_m_, z_max_level_m_, margin_m_;
+  double height_m_;
+  float high_level_m_;
   EdgeScratch& scratch_;
   double seen_high_ = 0.0, on_plane_ = 0.0;
 };
@@ -241,7 +275,6 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
   EdgeTally tally(scene, margin_m, scratch);
   const FourDistances distances(Plane{scene.R_level_base.transpose() * wall.n, wall.d});
   FourRays rays(scene, along_level, inside_m);
-  const auto at = [](FourFloats four, std::uint32_t lane) { return static_cast<double>(four[lane]); };
   const auto look = [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourFloats r = distances.of(x, y, z);
     // What looks away from the plane tells nothing, and what ends before it only how high the sensor looks.
@@ -249,11 +282,7 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
     const FourTruths tells = counts & (r < static_cast<float>(limit_m));
     if (!any_of(tells)) return;
     rays.look_at(x, y, z, r);
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (tells[lane] == 0) continue;
-      tally.add({at(r, lane), static_cast<double>(scene.cloud_base.weight[i + lane]), at(rays.point_along_m, lane),
-                 at(rays.point_z_level_m, lane), at(rays.along_m, lane), at(rays.z_level_m, lane)});
-    }
+    tally.add(r, load_four(&scene.cloud_base.weight[i]), tells, rays);
   };
   for_each_four_points(scene.cloud_base, look);
   add_what_is_too_far(scene, SightLines(scene, wall, along_level), tally.height_m(), &scratch->tops);

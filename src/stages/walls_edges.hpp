@@ -8,6 +8,7 @@
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
 #include "estimation/plane.hpp"
+#include "math/four_floats.hpp"
 #include "stages/walls_scene.hpp"
 
 namespace pose_wall {
@@ -27,45 +28,43 @@ struct WallEdges {
   bool layer_behind = false;
 };
 
-// Measured points by place, which is half a metre along the plane.
+// Measured points by place, which is half a metre along the plane, on either side of the sensor.
 class EndPlaces {
  public:
-  void clear() { *this = EndPlaces(); }
-  double* on(double along_m) { return place(along_m, &End::on); }
-  double* past(double along_m) { return place(along_m, &End::past); }
-  double* just_behind(double along_m) { return place(along_m, &End::just_behind); }
-  bool both_are_looked_past() const { return end_[0].is_looked_past() && end_[1].is_looked_past(); }
+  static constexpr std::uint32_t kPlaces = 30;  // on either side
 
-  static constexpr std::uint32_t kPlaces = 30;  // on either side of the sensor
+  void clear() { *this = EndPlaces(); }
+  // Of four points. What lies too far away is counted where nobody looks.
+  static FourInts places_of(FourFloats along_m);
+  void add_on(std::int32_t place, float points) { on_[place] += static_cast<double>(points); }
+  void add_past(std::int32_t place, float points) { past_[place] += static_cast<double>(points); }
+  void add_just_behind(std::int32_t place, float points) { just_behind_[place] += static_cast<double>(points); }
+  bool both_are_looked_past() const { return is_looked_past(0) && is_looked_past(kPlaces); }
 
  private:
-  struct End {
-    double on[kPlaces] = {}, past[kPlaces] = {}, just_behind[kPlaces] = {};
-    bool is_looked_past() const;
-  };
-  // What lies too far away is counted where nobody looks.
-  double* place(double along_m, double (End::*places)[kPlaces]);
+  static constexpr std::uint32_t kElsewhere = 2 * kPlaces;
+  // Of the end whose places begin here.
+  bool is_looked_past(std::uint32_t begin) const;
 
-  End end_[2];
-  double elsewhere_ = 0.0;
+  double on_[kElsewhere + 1] = {}, past_[kElsewhere + 1] = {}, just_behind_[kElsewhere + 1] = {};
 };
 
 // Measured points by place and by the height at which their rays meet the plane, in steps from the lowest.
 class TopPlaces {
  public:
-  void lay_out(Arena& arena) { place_ = arena.take<Place>(kPlaces); }
-  void clear() { place_.fill(Place{}); }
-  // height: 0 (lowest) to 1; what is outside is left out.
-  void add(double along_m, double height, bool is_past, double points);
+  void lay_out(Arena& arena) { cell_ = arena.take<float>(kPlaces * kPlaceCells); }
+  void clear() { cell_.fill(0.0F); }
+  // Of four points; height: 0 (lowest) to 1. What lies outside has no cell.
+  static constexpr std::int32_t kNoCell = -1;
+  static FourInts cells_of(FourFloats along_m, FourFloats height, FourTruths is_past);
+  void add(std::int32_t cell, float points) { cell_[static_cast<std::uint32_t>(cell)] += points; }
   bool is_looked_over() const;
 
  private:
   static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;
   static constexpr std::uint32_t kSteps = 32;
-  struct Place {
-    float on[kSteps], past[kSteps];
-  };
-  Span<Place> place_;
+  static constexpr std::uint32_t kPlaceCells = 2 * kSteps;  // on the plane, and past it
+  Span<float> cell_;
 };
 
 // Measured points behind a plane by how far behind it they lie, and over which places along it.

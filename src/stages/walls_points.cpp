@@ -63,9 +63,9 @@ WallPoints::Patch all_surface(std::uint32_t end) {
 }  // namespace
 
 void WallPoints::lay_out(Arena& arena) {
-  // A patch's points are read four at a time, the last ones with what lies behind them.
+  // Rows change places with those of the points.
   constexpr std::uint32_t kRow = kMost + kFour;
-  at.lay_out(arena, kRow);
+  at.lay_out(arena, kMost);
   bias = arena.take<float>(kRow);
   probability = arena.take<float>(kRow);
   spare = arena.take<float>(kRow);

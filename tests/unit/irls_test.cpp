@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: a plane is found again under a third of outliers, weights are capped, and what spans no plane is refused.
+// Proves: a plane is found again under a third of outliers, weights are capped, what spans no plane is refused, and
+// what lies behind the last point plays no part.
 
 #include "estimation/irls.hpp"
 
@@ -9,6 +10,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "support/stage_fixtures.hpp"
 
@@ -60,6 +62,28 @@ TEST(Irls, RecoversThePlaneUnderAThirdOfOutliers) {
     EXPECT_LT(angle_between(got.plane, leaning()), 0.001) << outliers;
     EXPECT_NEAR(got.plane.d, 2.5, 0.003) << outliers;
     EXPECT_LT(got.scale_m, 0.02) << outliers;
+  }
+}
+
+// The last points are read four at a time with what lies behind them.
+TEST(Irls, WhatLiesBehindTheLastPointPlaysNoPart) {
+  test::OwnedPoints points(kPoints);
+  fill(0.0, 0.01, &points);
+  test::Placed<TangentPoints> scratch(kPoints);
+  for (const std::uint32_t count : {100U, 101U, 102U, 103U}) {
+    IrlsOver fits[2];
+    for (const float behind : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+      scratch->begin(leaning(), Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
+      for (std::uint32_t i = 0; i < count; ++i) scratch->add(points.set().at(i), 1.0F);
+      for (std::uint32_t k = count; k < count + kFour; ++k) {
+        for (Span<float>* row : {&scratch->u, &scratch->v, &scratch->r, &scratch->weight}) (*row)[k] = behind;
+      }
+      IrlsOver& fit = fits[behind == 0.0F ? 0 : 1];
+      fit = irls_tukey(*scratch, count, PlaneOver{}, kSettings);
+      ASSERT_TRUE(fit.solved) << count;
+    }
+    EXPECT_EQ(fits[0].over.as_correction(), fits[1].over.as_correction()) << count;
+    EXPECT_EQ(fits[0].scale_m, fits[1].scale_m) << count;
   }
 }
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: points up to a distance or within a slab are visited once, in their order, whatever their number, with their
-// distances, and no further than the visitor wants.
+// distances, no further than the visitor wants, and none from behind the last one.
 
 #include "estimation/near_plane.hpp"
 
@@ -33,6 +33,30 @@ TEST(NearPlane, VisitsWhatLiesOnAPlaneOrBehindIt) {
       EXPECT_NEAR(distance_m, plane.signed_distance(points.set().at(i)), 1e-5);
     });
     EXPECT_EQ(visited, expected) << count;
+  }
+}
+
+// Rows go on behind the last point, and what lies there may lie on the plane as well.
+TEST(NearPlane, WhatLiesBehindTheLastPointIsNotVisited) {
+  const Plane plane{Eigen::Vector3d(0.0, -1.0, 0.0), 2.0};
+  for (std::uint32_t count = 0; count < 9; ++count) {
+    test::OwnedPoints points(8);
+    PointSet& set = points.set();
+    for (std::uint32_t i = 0; i < 8 + kFour; ++i) set.set(i, Eigen::Vector3d(0.1 * i, 2.0, 0.0), 1.0F);
+    set.count = count;
+    std::uint32_t visited = 0;
+    for_each_between(set, plane, -0.1, 0.1, [&](std::uint32_t i, float) { EXPECT_EQ(i, visited++); });
+    EXPECT_EQ(visited, count);
+  }
+}
+
+TEST(NearPlane, ASlabHoldsBothSidesAndANegativeOneNothing) {
+  const Plane plane{Eigen::Vector3d(0.0, -1.0, 0.0), 2.0};
+  const FourFloats x{}, y{1.5F, 1.75F, 2.25F, 2.5F}, z{};
+  const FourTruths held = Slab(plane, 0.25).holds(x, y, z), nothing = Slab(plane, -1.0).holds(x, y, z);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    EXPECT_EQ(held[lane] != 0, lane == 1 || lane == 2) << lane;
+    EXPECT_EQ(nothing[lane], 0) << lane;
   }
 }
 

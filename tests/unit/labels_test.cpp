@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: each point is labelled by the surface that it lies on, the floor before a wall, a wall within the band only,
+// whatever the number of points; nothing lies on what was refused.
+
+#include "stages/labels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "pose_wall.h"
+#include "support/stage_fixtures.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kFloorBelow_m = 1.4;
+
+struct Seen {
+  Eigen::Vector3d at;
+  std::uint8_t label;
+};
+
+const Seen kSeen[] = {
+    {{1.0, 0.0, -1.4}, POSE_WALL_LABEL_FLOOR},  {{1.0, 2.5, 0.0}, POSE_WALL_LABEL_LEFT},
+    {{1.0, -2.0, 0.0}, POSE_WALL_LABEL_RIGHT},  {{1.0, 0.5, 0.3}, POSE_WALL_LABEL_OTHER},
+    {{-3.0, 2.52, 0.9}, POSE_WALL_LABEL_LEFT},  {{-3.0, -2.02, 0.9}, POSE_WALL_LABEL_RIGHT},
+    {{2.0, 2.5, 1.6}, POSE_WALL_LABEL_OTHER},   {{2.0, 2.5, -1.2}, POSE_WALL_LABEL_OTHER},
+    {{2.0, 2.5, -1.38}, POSE_WALL_LABEL_FLOOR}, {{2.0, 2.7, 0.0}, POSE_WALL_LABEL_OTHER},
+    {{2.0, -1.8, 0.0}, POSE_WALL_LABEL_OTHER},
+};
+constexpr std::uint32_t kCount = sizeof(kSeen) / sizeof(kSeen[0]);
+
+struct Found {
+  FloorResult floor;
+  LevelResult level;
+  WallResult walls[2];
+
+  Found() {
+    floor.fit.plane = {Eigen::Vector3d::UnitZ(), kFloorBelow_m};
+    level.R_level_base = Eigen::Matrix3d::Identity();
+    walls[0].fit.plane = {-Eigen::Vector3d::UnitY(), 2.5};
+    walls[1].fit.plane = {Eigen::Vector3d::UnitY(), 2.0};
+  }
+};
+
+std::vector<std::uint8_t> labels_of(const Found& found, std::uint32_t count) {
+  test::OwnedPoints points(kCount);
+  for (std::uint32_t i = 0; i < count; ++i) points.add(kSeen[i].at);
+  std::vector<std::uint8_t> labels(count + kFour, 0xEE);
+  label_points(points.set(), found.floor, found.level, found.walls, test::settings_with(),
+               Span<std::uint8_t>(labels.data(), static_cast<std::uint32_t>(labels.size())));
+  labels.resize(count);
+  return labels;
+}
+
+TEST(Labels, EachPointHasItsSurfaces) {
+  for (std::uint32_t count = 0; count <= kCount; ++count) {
+    const std::vector<std::uint8_t> labels = labels_of(Found(), count);
+    for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(labels[i], kSeen[i].label) << i << " of " << count;
+  }
+}
+
+TEST(Labels, NothingLiesOnAWallThatWasRefused) {
+  for (int side = 0; side < 2; ++side) {
+    Found found;
+    found.walls[side].fit.refused = true;
+    const std::uint8_t of_side = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
+    const std::vector<std::uint8_t> labels = labels_of(found, kCount);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      EXPECT_EQ(labels[i], kSeen[i].label == of_side ? POSE_WALL_LABEL_OTHER : kSeen[i].label) << i;
+    }
+  }
+}
+
+// Without a floor nothing is known of heights, so of walls neither.
+TEST(Labels, NothingLiesAnywhereWhereTheFloorWasRefused) {
+  Found found;
+  found.floor.fit.refused = true;
+  for (const std::uint8_t label : labels_of(found, kCount)) EXPECT_EQ(label, POSE_WALL_LABEL_OTHER);
+}
+
+}  // namespace
+}  // namespace pose_wall
