@@ -102,15 +102,32 @@ bool lies_behind(const Plane& rival, const Plane& chosen) {
   return rival.n.dot(chosen.n) > kParallelCos && rival.d > chosen.d + kBehind_m;
 }
 
+// By how much a plane goes on past the ends of another one, both ends together.
+double past_ends_m(const WallEvidence& plane, const WallEvidence& other) {
+  const double before_m = other.along_min_m - plane.along_min_m, after_m = plane.along_max_m - other.along_max_m;
+  return (before_m > 0.0 ? before_m : 0.0) + (after_m > 0.0 ? after_m : 0.0);
+}
+
+constexpr double kPastEndsMin_m = 3.0;
+constexpr double kBesideWall_m = 4.0;  // what stands along a wall is no further from it
+
 // A curtain or a long vehicle ends, and the wall behind it goes on where it ends. An opening in a wall shows what lies
 // behind only between the wall's own parts.
 bool goes_on_behind(const WallCandidate& rival, const WallCandidate& chosen) {
-  constexpr double kBehindMax_m = 4.0;
-  constexpr double kOutsideMin_m = 3.0;
-  if (!lies_behind(rival.plane, chosen.plane) || rival.plane.d > chosen.plane.d + kBehindMax_m) return false;
-  const double before_m = chosen.evidence.along_min_m - rival.evidence.along_min_m;
-  const double after_m = rival.evidence.along_max_m - chosen.evidence.along_max_m;
-  return (before_m > 0.0 ? before_m : 0.0) + (after_m > 0.0 ? after_m : 0.0) >= kOutsideMin_m;
+  return lies_behind(rival.plane, chosen.plane) && rival.plane.d <= chosen.plane.d + kBesideWall_m &&
+         past_ends_m(rival.evidence, chosen.evidence) >= kPastEndsMin_m;
+}
+
+// The other way round: what was chosen shows itself in the opening of a wall that goes on to its sides, as the end of a
+// crosscut does. Nearer to it than that, what goes on may be props, and no wall.
+bool goes_on_before(const WallCandidate& rival, const WallCandidate& chosen) {
+  return lies_behind(chosen.plane, rival.plane) && chosen.plane.d > rival.plane.d + kBesideWall_m &&
+         rival.evidence.length_m >= kPastEndsMin_m && past_ends_m(rival.evidence, chosen.evidence) >= kPastEndsMin_m;
+}
+
+double rival_share(const WallCandidate& rival, const WallCandidate& chosen) {
+  if (goes_on_behind(rival, chosen) || goes_on_before(rival, chosen)) return kGoesOnShare;
+  return lies_behind(rival.plane, chosen.plane) ? kBehindShare : kRivalShare;
 }
 
 // Few points are no excuse here: they are enough to cast doubt.
@@ -119,9 +136,7 @@ const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate* c
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
     if (&c == chosen || (c.faults & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS)) != 0) continue;
-    double share = lies_behind(c.plane, chosen->plane) ? kBehindShare : kRivalShare;
-    if (goes_on_behind(c, *chosen)) share = kGoesOnShare;
-    if (!(c.evidence.score_m2 >= share * chosen->evidence.score_m2)) continue;
+    if (!(c.evidence.score_m2 >= rival_share(c, *chosen) * chosen->evidence.score_m2)) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
@@ -176,10 +191,8 @@ void note_rival(const WallChoice& out, int side) {
   const WallCandidate* const rival = out.rival[side];
   if (rival == nullptr) return;
   const WallCandidate& chosen = *out.side[side];
-  double share = lies_behind(rival->plane, chosen.plane) ? kBehindShare : kRivalShare;
-  if (goes_on_behind(*rival, chosen)) share = kGoesOnShare;
   trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALL_RIVAL,
-                 rival->evidence.score_m2 / chosen.evidence.score_m2, share, false);
+                 rival->evidence.score_m2 / chosen.evidence.score_m2, rival_share(*rival, chosen), false);
 }
 #endif
 

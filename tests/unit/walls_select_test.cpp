@@ -174,6 +174,32 @@ TEST(WallSelect, ARivalNearlyAsGoodIsNamed) {
   EXPECT_EQ(chosen.rival[1], nullptr);
 }
 
+WallCandidate from_to(WallCandidate c, double from_m, double to_m, double solid_m) {
+  c.evidence.along_min_m = from_m;
+  c.evidence.along_max_m = to_m;
+  c.evidence.length_m = solid_m;
+  return c;
+}
+
+// The end of a crosscut shows more of itself than is left of the wall to both sides of its mouth.
+TEST(WallSelect, AWallThatGoesOnBesideWhatItsOpeningShowsIsARival) {
+  struct Case {
+    double at_m, from_m, to_m, solid_m;
+    bool is_rival;
+  };
+  for (const Case& near :
+       {Case{2.0, -9.0, 6.0, 7.0, true}, Case{2.0, -7.5, 4.0, 3.5, true}, Case{2.0, -5.0, 5.0, 10.0, false},
+        Case{2.0, -9.0, 6.0, 2.0, false}, Case{12.0, -9.0, 6.0, 7.0, false}}) {
+    Choice c;
+    c.left = list({from_to(left_wall(15.0, 20.0), -4.0, 4.0, 8.0),
+                   from_to(left_wall(near.at_m, 5.0), near.from_m, near.to_m, near.solid_m)});
+    c.right = list({from_to(right_wall(2.5, 20.0), -9.0, 9.0, 18.0)});
+    const WallChoice chosen = c.choose();
+    EXPECT_EQ(chosen.side[0], &c.left.item[0]);
+    EXPECT_EQ(chosen.rival[0], near.is_rival ? &c.left.item[1] : nullptr) << near.from_m << " " << near.solid_m;
+  }
+}
+
 TEST(WallSelect, NothingAnywhere) {
   const WallChoice chosen = Choice().choose();
   for (int side = 0; side < 2; ++side) {
