@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "math/four_floats.hpp"
 #include "math/rotation.hpp"
 #include "report.hpp"
 #include "stages/labels.hpp"

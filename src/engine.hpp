@@ -18,7 +18,8 @@
 
 namespace pose_wall {
 
-// Buffers of one frame. Nothing in here is read before it was written in the same frame.
+// Buffers of one frame. Nothing in here counts that was not written in the same frame: what lies behind the last of a
+// row is read with it, and masked.
 struct Scratch {
   VoxelGrid grid;
   Span<std::uint8_t> marks;  // per point, and for a four behind the last: keep flags, later labels
@@ -49,7 +50,7 @@ struct Memory {
 //
 //   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid, ground, walls |
 //
-// Engine is written at open and lives on; the rest is scratch that each frame writes before it reads. The last three
+// Engine is written at open and lives on; the rest is scratch that each frame writes before it counts. The last three
 // lie on top of each other: none outlives its stages, and the grid is begun anew for the band.
 class Engine {
  public:

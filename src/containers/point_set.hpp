@@ -24,7 +24,7 @@ struct PointSet {
     count = 0;
   }
 
-  std::uint32_t capacity() const { return x.size() - kFour; }
+  std::uint32_t capacity() const { return x.size() < kFour ? 0 : x.size() - kFour; }
 
   Eigen::Vector3d at(std::uint32_t i) const {
     return {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
@@ -65,7 +65,7 @@ inline FourPlaces four_of(const PointSet& points, Span<const std::uint32_t> list
   return out;
 }
 
-// visit(first index, x, y, z, which of the four count) over all points.
+// visit(first index, x, y, z, which of the four count) over all points; those that do not count are anything.
 template <typename Visit>
 void for_each_four_points(const PointSet& points, const Visit& visit) {
   for_each_four(points.count, [&](std::uint32_t i, FourTruths counts) {

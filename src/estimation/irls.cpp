@@ -26,7 +26,7 @@ std::uint32_t points_with_weight(const TangentPoints& p, std::uint32_t count) {
   FourInts with{};  // true is -1
   for_each_four(count,
                 [&](std::uint32_t k, FourTruths counts) { with -= counts & (load_four(&p.weight[k]) > FourFloats{}); });
-  return static_cast<std::uint32_t>(with[0] + with[1] + with[2] + with[3]);
+  return sum_of_lanes(with);
 }
 
 double scale_of(const TangentPoints& p, std::uint32_t count, std::uint32_t stride, const Round& round, double gate_m) {

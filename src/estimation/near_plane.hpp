@@ -31,10 +31,11 @@ class FourDistances {
   FourFloats nx_, ny_, nz_, d_;
 };
 
-// Both sides of a plane up to a distance. Nothing lies within a negative one.
+// Both sides of a plane up to a distance.
 class Slab {
  public:
   Slab(const Plane& plane, double half_m) : distances_(plane), half_m_(static_cast<float>(half_m)) {}
+  static Slab empty() { return {Plane{}, -1.0}; }
 
   FourTruths holds(FourFloats x, FourFloats y, FourFloats z) const {
     return magnitude_of(distances_.of(x, y, z)) <= half_m_;

@@ -69,7 +69,7 @@ FourInts PatchGrid::patch_of(FourFloats u_m, FourFloats v_m) const {
 void PatchGrid::set(std::uint32_t patch, std::uint32_t layer, const Sums& sums) {
   const auto total = [](FourFloats lanes) { return static_cast<float>(sum_of_lanes(lanes)); };
   Patch& p = cells_[layer * patches() + patch];
-  p.count = static_cast<std::uint32_t>(sums.count_[0] + sums.count_[1] + sums.count_[2] + sums.count_[3]);
+  p.count = sum_of_lanes(sums.count_);
   if (p.count == 0) {
     p = Patch{};
     return;

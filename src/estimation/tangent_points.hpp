@@ -45,7 +45,7 @@ struct TangentPoints {
     count = 0;
   }
 
-  std::uint32_t capacity() const { return u.size() - kFour; }
+  std::uint32_t capacity() const { return u.size() < kFour ? 0 : u.size() - kFour; }
 
   // Around a plane, with the origin's foot as origin and u along the hint.
   void begin(const Plane& around, const Eigen::Vector3d& origin, const Eigen::Vector3d& u_hint) {

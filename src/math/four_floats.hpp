@@ -46,6 +46,15 @@ using FourInts = std::int32_t __attribute__((vector_size(16)));
 // Of a comparison: all ones where it holds, or zero. `truths ? a : b` takes lane by lane.
 using FourTruths = FourInts;
 
+inline FourInts all_four_ints(std::int32_t x) {
+  return FourInts{x, x, x, x};
+}
+
+// How many were counted, lane by lane.
+inline std::uint32_t sum_of_lanes(FourInts counts) {
+  return static_cast<std::uint32_t>(counts[0] + counts[1] + counts[2] + counts[3]);
+}
+
 template <typename Four, typename Lane>
 void store_four(Four four, Lane* to) {
   std::memcpy(to, &four, sizeof(four));

@@ -25,6 +25,10 @@ RollPitch roll_pitch_of_up(const Eigen::Vector3d& up_base) {
   return {arc_tangent2(up_base.y(), up_base.z()), arc_tangent2(-up_base.x(), in_yz)};
 }
 
+double tilt_of_up(const Eigen::Vector3d& up_base) {
+  return arc_tangent2(std::sqrt(up_base.x() * up_base.x() + up_base.y() * up_base.y()), up_base.z());
+}
+
 Eigen::Matrix3d level_rotation(const Eigen::Vector3d& up_base) {
   // The matrix straight from the normal: sin and cos of both angles are ratios of its components.
   const double in_yz = std::sqrt(up_base.y() * up_base.y() + up_base.z() * up_base.z());

@@ -20,6 +20,9 @@ struct RollPitch {
 // roll = atan2(n_y, n_z), pitch = atan2(-n_x, sqrt(n_y^2 + n_z^2)) of the floor's upward normal.
 RollPitch roll_pitch_of_up(const Eigen::Vector3d& up_base);
 
+// Angle between up and +Z, whichever way it leans.
+double tilt_of_up(const Eigen::Vector3d& up_base);
+
 // Ry(pitch) Rx(roll) of the above: takes up to +Z and has no turn about Z of its own.
 Eigen::Matrix3d level_rotation(const Eigen::Vector3d& up_base);
 

@@ -272,15 +272,15 @@ void widen(const Settings& s, std::uint32_t claims, FloorResult* floor) {
 }
 
 // The machine stands on its floor, and about upright. Where more than one plane may be that floor and this one is
-// steep, it may be a heap's flank as well, and so may its rivals: the levels reach to upright.
+// steep, it may be a heap's flank as well, and so may its rivals: the levels reach to upright, of roll and of pitch, as
+// nothing tells which way the rivals lean.
 void reach_to_upright(FloorResult* floor) {
   constexpr double kSteep_rad = 0.26;  // 15 degrees; broken rock lies at 30 to 40
   if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
-  const RollPitch tilt = roll_pitch_of_up(floor->fit.plane.n);
-  const double steep_rad = larger(std::fabs(tilt.roll_rad), std::fabs(tilt.pitch_rad));
-  if (!(steep_rad > kSteep_rad)) return;
-  floor->roll_bound_rad += steep_rad;
-  floor->pitch_bound_rad += steep_rad;
+  const double tilt_rad = tilt_of_up(floor->fit.plane.n);
+  if (!(tilt_rad > kSteep_rad)) return;
+  floor->roll_bound_rad += tilt_rad;
+  floor->pitch_bound_rad += tilt_rad;
 }
 
 }  // namespace

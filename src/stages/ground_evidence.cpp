@@ -110,7 +110,7 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
       if (four.place[lane] != FourBins::kNowhere) eighths_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
     }
   });
-  points_within_ = static_cast<std::uint32_t>(within[0] + within[1] + within[2] + within[3]);
+  points_within_ = sum_of_lanes(within);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     const std::uint32_t place = out[i];

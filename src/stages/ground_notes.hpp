@@ -16,20 +16,17 @@
 #include "estimation/irls.hpp"
 #include "estimation/mlesac.hpp"
 #include "math/elementary.hpp"
+#include "math/rotation.hpp"
 #include "stages/ground_search.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
 
-inline double tilt_of(const Plane& floor) {
-  return arc_tangent2(std::sqrt(floor.n.x() * floor.n.x() + floor.n.y() * floor.n.y()), floor.n.z());
-}
-
 inline void note_floor_plane(const Plane& plane, pose_wall_trace_fate fate, double support,
                              const Eigen::Vector3d& sensor_base_m) {
   pose_wall_trace_candidate* const noted = trace::candidate(fate, plane);
   noted->height_m = plane.signed_distance(sensor_base_m);
-  noted->tilt_rad = tilt_of(plane);
+  noted->tilt_rad = tilt_of_up(plane.n);
   noted->support = support;
 }
 
@@ -61,7 +58,7 @@ void note_floor_choice(Span<const Candidate> candidates, const Candidate* best) 
 inline void note_floor_gates(const Settings& s, const Eigen::Vector3d& sensor_base_m, const Plane& start,
                              const PlaneFit& fit) {
   const double height_m = fit.plane.signed_distance(sensor_base_m);
-  trace::gate(POSE_WALL_TRACE_FLOOR_TILT, tilt_of(fit.plane), radians(s.ground_tilt_max_deg),
+  trace::gate(POSE_WALL_TRACE_FLOOR_TILT, tilt_of_up(fit.plane.n), radians(s.ground_tilt_max_deg),
               fit.plane.n.z() >= cosine(radians(s.ground_tilt_max_deg)));
   trace::gate(POSE_WALL_TRACE_FLOOR_HEIGHT_MIN, height_m, s.ground_height_min, height_m >= s.ground_height_min);
   trace::gate(POSE_WALL_TRACE_FLOOR_HEIGHT_MAX, height_m, s.ground_height_max, height_m <= s.ground_height_max);
@@ -78,8 +75,8 @@ class BestOutside {
 
   void offer(const Plane& plane) {
     constexpr double kSteepest_rad = 1.05;  // what is steeper is a wall
-    if (may_be_floor(plane, FloorLimits(settings_), sensor_base_m_) || tilt_of(plane) > kSteepest_rad) return;
-    const bool steep = tilt_of(plane) > radians(settings_.ground_tilt_max_deg);
+    if (may_be_floor(plane, FloorLimits(settings_), sensor_base_m_) || tilt_of_up(plane.n) > kSteepest_rad) return;
+    const bool steep = tilt_of_up(plane.n) > radians(settings_.ground_tilt_max_deg);
     Hypothesis& best = steep ? steep_ : displaced_;
     const double cost = truncated_cost(subset_, plane, settings_.ground_ransac_thresh, best.cost);
     if (cost < best.cost) best = {plane, cost};

@@ -59,7 +59,7 @@ class NeighbourCounter {
     FourInts found{};  // true is -1
     for_each_four(begin, end,
                   [&](std::uint32_t k, FourTruths counts) { found -= counts & are_near(here, four_from(k)); });
-    return static_cast<std::uint32_t>(found[0] + found[1] + found[2] + found[3]);
+    return sum_of_lanes(found);
   }
 
   const PointSet& points_;

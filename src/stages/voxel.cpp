@@ -111,7 +111,8 @@ class Pass {
     block->count = end;
     if (plain_) {
       const unsigned char *x = point + cloud_.x.offset, *y = point + cloud_.y.offset, *z = point + cloud_.z.offset;
-      for (std::uint32_t k = begin, at = 0; k < end; ++k, at += cloud_.point_step) {
+      std::size_t at = 0;
+      for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) {
         std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
         std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
         std::memcpy(&block->z_lidar[k], z + at, sizeof(float));

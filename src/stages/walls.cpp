@@ -254,6 +254,22 @@ void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCa
   }
 }
 
+// Two walls vouch for each other as far as they run alike. One that is too short to stand alone, beside one that runs
+// otherwise, may be a boulder.
+void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, WallResult (*walls)[2]) {
+  constexpr double kUnlike_rad = 0.14;  // 8 degrees: walls of one road rarely differ by four
+  if (choice.side[0] == nullptr || choice.side[1] == nullptr) return;
+  const double apart = angle_in_plan((*walls)[0].fit.plane, (*walls)[1].fit.plane);
+  for (int side = 0; side < 2; ++side) {
+    if (choice.side[side]->evidence.length_m >= s.wall_alone_length_min) continue;
+    POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_SHORT_APART, apart, kUnlike_rad,
+                                  !(apart > kUnlike_rad)));
+    if (!(apart > kUnlike_rad)) continue;
+    (*walls)[side].fit.reasons |= POSE_WALL_R_WALLS_NOT_PARALLEL;
+    for (double& bound : (*walls)[side].distance_bound_m) bound += kMayBeBehind_m;
+  }
+}
+
 // Both sides lean the same way about the road: one out, the other in. Each wall may lean by itself, but where both do
 // so by this much it is the level that is wrong: a heap's flank was taken for the floor. Returns the turn by which the
 // level may be off, as a vector along the road, rad. Zero unless both are sure.
@@ -279,9 +295,8 @@ Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&bes
 // Share of the band that lies on the chosen walls. In a cavern or a hall full of things, two flat spots may happen to
 // be parallel, but they explain next to nothing of what is seen.
 double explained_share(const WallScene& scene, const WallChoice& choice) {
-  constexpr double kNowhere_m = -1.0;
   const auto slab = [&](const WallCandidate* wall) {
-    if (wall == nullptr) return Slab(Plane{}, kNowhere_m);
+    if (wall == nullptr) return Slab::empty();
     return Slab(wall->plane, kOnWallInThresholds * scene.settings.wall_ransac_thresh);
   };
   const Slab left = slab(choice.side[0]), right = slab(choice.side[1]);
@@ -290,8 +305,7 @@ double explained_share(const WallScene& scene, const WallChoice& choice) {
   for_each_four_points(band, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     explained -= counts & (left.holds(x, y, z) | right.holds(x, y, z));
   });
-  const std::int32_t points = explained[0] + explained[1] + explained[2] + explained[3];
-  return band.count > 0 ? static_cast<double>(points) / static_cast<double>(band.count) : 0.0;
+  return band.count > 0 ? static_cast<double>(sum_of_lanes(explained)) / static_cast<double>(band.count) : 0.0;
 }
 
 }  // namespace
@@ -339,6 +353,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     }
   }
   doubt_those_alone(scene.settings, choice, beside, &out);
+  doubt_short_ones_apart(scene.settings, choice, &out.side);
   return out;
 }
 

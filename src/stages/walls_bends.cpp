@@ -9,7 +9,7 @@ namespace pose_wall {
 namespace {
 
 constexpr double kCut_m = 0.25;
-constexpr double kSpanMin_m = 0.5;  // of what is seen, for the cut to leave enough to tell a lean by
+constexpr double kSpanMin_m = 0.5;  // the cut must leave so much of what is seen: less does not tell a lean
 constexpr double kCurvatureInSigmas = 3.5;
 constexpr double kBulgeMin_m = 0.04;
 

@@ -3,8 +3,6 @@
 
 #include "stages/walls_edges.hpp"
 
-#include <cmath>
-
 #include "estimation/near_plane.hpp"
 #include "math/bits.hpp"
 #include "math/larger.hpp"
@@ -48,9 +46,8 @@ constexpr double kLayerSpan_m = 6.0;
 FourInts EndPlaces::places_of(FourFloats along_m) {
   const FourFloats place = magnitude_of(along_m) * static_cast<float>(1.0 / kPlace_m), none{};
   const FourTruths is_near = place < static_cast<float>(kPlaces), is_ahead = along_m >= none;
-  const FourInts behind{}, ahead = behind + static_cast<std::int32_t>(kPlaces);
-  const FourInts elsewhere = behind + static_cast<std::int32_t>(kElsewhere);
-  return is_near ? cut_off(is_near ? place : none) + (is_ahead ? ahead : behind) : elsewhere;
+  const FourInts begin = is_ahead ? all_four_ints(static_cast<std::int32_t>(kPlaces)) : all_four_ints(0);
+  return is_near ? cut_off(is_near ? place : none) + begin : all_four_ints(static_cast<std::int32_t>(kElsewhere));
 }
 
 bool EndPlaces::is_looked_past(std::uint32_t begin) const {
@@ -95,10 +92,10 @@ FourInts TopPlaces::cells_of(FourFloats along_m, FourFloats height, FourTruths i
   const FourFloats place = along_m * static_cast<float>(1.0 / kPlace_m) + 0.5F * kPlaces, none{};
   const FourTruths inside =
       (place >= none) & (place < static_cast<float>(kPlaces)) & (height >= none) & (height < 1.0F);
-  const FourInts first{}, past = first + static_cast<std::int32_t>(kSteps), no_cell = first + kNoCell;
+  const FourInts begin = is_past ? all_four_ints(static_cast<std::int32_t>(kSteps)) : all_four_ints(0);
   const FourInts of_place = cut_off(inside ? place : none) * static_cast<std::int32_t>(kPlaceCells);
   const FourInts step = cut_off(inside ? height * static_cast<float>(kSteps) : none);
-  return inside ? of_place + (is_past ? past : first) + step : no_cell;
+  return inside ? of_place + begin + step : all_four_ints(kNoCell);
 }
 
 // There is a height with nothing of the plane above it but what has passed over it, wherever the plane is seen below.
@@ -149,8 +146,9 @@ void add_what_is_too_far(const WallScene& scene, const SightLines& lines, double
       const SightLines::Crossing c = lines.far(row, column);
       if (!c.near) continue;
       const double height = (c.z_level_m - scene.z_min_level_m) / height_m;
+      // Rare: one is told as four that are alike.
       const std::int32_t cell = TopPlaces::cells_of(all_four(static_cast<float>(c.along_m)),
-                                                    all_four(static_cast<float>(height)), FourInts{-1, -1, -1, -1})[0];
+                                                    all_four(static_cast<float>(height)), all_four_ints(-1))[0];
       if (cell != TopPlaces::kNoCell) tops->add(cell, static_cast<float>(count));
     }
   }
@@ -192,7 +190,9 @@ class EdgeTally {
       : z_min_level_m_(static_cast<float>(scene.z_min_level_m)),
         z_max_level_m_(static_cast<float>(scene.z_max_level_m)),
         margin_m_(static_cast<float>(margin_m)),
+        well_behind_m_(static_cast<float>(larger(kWellBehind_m, margin_m))),
         height_m_(scene.z_max_level_m + kAboveBand_m - scene.z_min_level_m),
+        per_height_(static_cast<float>(1.0 / height_m_)),
         high_level_m_(
             static_cast<float>(scene.z_min_level_m + kHighShare * (scene.z_max_level_m - scene.z_min_level_m))),
         scratch_(*scratch) {
@@ -211,9 +211,8 @@ class EdgeTally {
     if (!has_seen_high()) look_high(weights, counts & ~is_past, rays);
     const FourTruths tells = counts & (r_m <= margin_m_);
     if (!any_of(tells)) return;
-    const FourTruths for_tops = tells & (~is_past | (r_m < static_cast<float>(-kWellBehind_m)));
-    const FourInts top = TopPlaces::cells_of(
-        rays.along_m, (rays.z_level_m - z_min_level_m_) * static_cast<float>(1.0 / height_m_), is_past);
+    const FourTruths for_tops = tells & (~is_past | (r_m < -well_behind_m_));
+    const FourInts top = TopPlaces::cells_of(rays.along_m, (rays.z_level_m - z_min_level_m_) * per_height_, is_past);
     const FourTruths on_plane = tells & ~is_past & in_band(rays.point_z_level_m);
     const FourInts end = EndPlaces::places_of(rays.point_along_m);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
@@ -241,8 +240,7 @@ class EdgeTally {
   // Past the plane, or on it above and below the band.
   void add_elsewhere(FourFloats r_m, FourFloats weights, FourTruths counts, const FourInts& end, const FourRays& rays) {
     const FourTruths point_in_band = in_band(rays.point_z_level_m);
-    const FourTruths deep = counts & (r_m < static_cast<float>(-kWellBehind_m)) &
-                            (rays.point_z_level_m >= z_min_level_m_) &
+    const FourTruths deep = counts & (r_m < -well_behind_m_) & (rays.point_z_level_m >= z_min_level_m_) &
                             (rays.point_z_level_m <= z_max_level_m_ + static_cast<float>(kAboveBand_m));
     const FourTruths bends = counts & point_in_band & (r_m > static_cast<float>(-kBend_m));
     const FourFloats none{};
@@ -259,9 +257,9 @@ class EdgeTally {
     }
   }
 
-  float z_min_level_m_, z_max_level_m_, margin_m_;
+  float z_min_level_m_, z_max_level_m_, margin_m_, well_behind_m_;
   double height_m_;
-  float high_level_m_;
+  float per_height_, high_level_m_;
   EdgeScratch& scratch_;
   double seen_high_ = 0.0, on_plane_ = 0.0;
 };

@@ -54,8 +54,8 @@ class TopPlaces {
  public:
   void lay_out(Arena& arena) { cell_ = arena.take<float>(kPlaces * kPlaceCells); }
   void clear() { cell_.fill(0.0F); }
-  // Of four points; height: 0 (lowest) to 1. What lies outside has no cell.
   static constexpr std::int32_t kNoCell = -1;
+  // Of four points; height: 0 (lowest) to 1. What lies outside has no cell.
   static FourInts cells_of(FourFloats along_m, FourFloats height, FourTruths is_past);
   void add(std::int32_t cell, float points) { cell_[static_cast<std::uint32_t>(cell)] += points; }
   bool is_looked_over() const;

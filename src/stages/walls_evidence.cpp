@@ -74,7 +74,7 @@ FourInts WallGrid::Rows::cells_of(FourFloats along_m, FourFloats z_level_m) cons
       (column >= none) & (column < all_four(kColumns)) & (row >= none) & (row < all_four(static_cast<float>(count)));
   const FourInts cell =
       cut_off(inside ? row : none) * static_cast<std::int32_t>(kColumns) + cut_off(inside ? column : none);
-  return inside ? cell : FourInts{-1, -1, -1, -1};
+  return inside ? cell : all_four_ints(-1);
 }
 
 void WallGrid::mark_points(const PointSet& points, Rays rays, FourMarks* marks) {

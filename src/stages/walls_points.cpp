@@ -63,13 +63,12 @@ WallPoints::Patch all_surface(std::uint32_t end) {
 }  // namespace
 
 void WallPoints::lay_out(Arena& arena) {
-  // Rows change places with those of the points.
-  constexpr std::uint32_t kRow = kMost + kFour;
   at.lay_out(arena, kMost);
-  bias = arena.take<float>(kRow);
-  probability = arena.take<float>(kRow);
-  spare = arena.take<float>(kRow);
-  part = arena.take<std::uint8_t>(kRow);
+  const std::uint32_t row = at.u.size();  // rows change places with the points'
+  bias = arena.take<float>(row);
+  probability = arena.take<float>(row);
+  spare = arena.take<float>(row);
+  part = arena.take<std::uint8_t>(row);
   patch_room = arena.take<Patch>(PatchGrid::kCapacity);
   surface.lay_out(arena, kMost);
 }

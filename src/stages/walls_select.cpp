@@ -94,12 +94,12 @@ std::uint32_t faults_of(const WallCandidates& list, double length_min_m) {
   return reasons;
 }
 
-// Whether a plane lies parallel behind the chosen one: a vehicle or a curtain hides most of the wall behind it, and
+// Whether a plane lies parallel behind another one: a vehicle or a curtain hides most of the wall behind it, and
 // little of that wall is enough to doubt what stands before it.
-bool lies_behind(const Plane& rival, const Plane& chosen) {
+bool lies_behind(const Plane& plane, const Plane& other) {
   constexpr double kParallelCos = 0.995;
   constexpr double kBehind_m = 0.2;
-  return rival.n.dot(chosen.n) > kParallelCos && rival.d > chosen.d + kBehind_m;
+  return plane.n.dot(other.n) > kParallelCos && plane.d > other.d + kBehind_m;
 }
 
 // By how much a plane goes on past the ends of another one, both ends together.
@@ -109,6 +109,7 @@ double past_ends_m(const WallEvidence& plane, const WallEvidence& other) {
 }
 
 constexpr double kPastEndsMin_m = 3.0;
+constexpr double kGoesOnLengthMin_m = 3.0;
 constexpr double kBesideWall_m = 4.0;  // what stands along a wall is no further from it
 
 // A curtain or a long vehicle ends, and the wall behind it goes on where it ends. An opening in a wall shows what lies
@@ -119,10 +120,11 @@ bool goes_on_behind(const WallCandidate& rival, const WallCandidate& chosen) {
 }
 
 // The other way round: what was chosen shows itself in the opening of a wall that goes on to its sides, as the end of a
-// crosscut does. Nearer to it than that, what goes on may be props, and no wall.
+// crosscut does. What goes on less than kBesideWall_m before it may be props, and no wall.
 bool goes_on_before(const WallCandidate& rival, const WallCandidate& chosen) {
   return lies_behind(chosen.plane, rival.plane) && chosen.plane.d > rival.plane.d + kBesideWall_m &&
-         rival.evidence.length_m >= kPastEndsMin_m && past_ends_m(rival.evidence, chosen.evidence) >= kPastEndsMin_m;
+         rival.evidence.length_m >= kGoesOnLengthMin_m &&
+         past_ends_m(rival.evidence, chosen.evidence) >= kPastEndsMin_m;
 }
 
 double rival_share(const WallCandidate& rival, const WallCandidate& chosen) {

@@ -78,7 +78,7 @@ double mean_within(Span<const float> residuals, double centre, double window_m) 
     sum += inside ? off : none;
     count -= inside;
   });
-  const std::int32_t inside = count[0] + count[1] + count[2] + count[3];
+  const std::uint32_t inside = sum_of_lanes(count);
   return inside > 0 ? centre + sum_of_lanes(sum) / inside : centre;
 }
 

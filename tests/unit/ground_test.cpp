@@ -126,6 +126,7 @@ TEST(Ground, ABenchIsNotTheFloorUnlessItSaysSo) {
 struct Valley {
   double middle_half_m, left_slope_rad, right_slope_rad;
   bool across = false;
+  double heading_rad = 0.0;
 
   FloorResult floor() const {
     // One radius: nothing but the rivals moves the bounds by much.
@@ -134,7 +135,9 @@ struct Valley {
     for (double x = -8.0; x <= 8.0; x += 0.1) {
       for (double y = -8.0; y <= 8.0; y += 0.1) {
         const double along = x + noise.uniform(-0.04, 0.04), aside = y + noise.uniform(-0.04, 0.04);
-        g.add(across ? aside : along, across ? along : aside, height_m(aside) + noise.normal(0.005));
+        const double x_m = across ? aside : along, y_m = across ? along : aside;
+        const double cosine = std::cos(heading_rad), sine = std::sin(heading_rad);
+        g.add(cosine * x_m + sine * y_m, cosine * y_m - sine * x_m, height_m(aside) + noise.normal(0.005));
       }
     }
     return g.floor();
@@ -188,18 +191,30 @@ TEST(Ground, BoundsReachToTheFartherOfTwoRivalFloors) {
   }
 }
 
+// The road may climb: a steep floor that has no rival is as sure as a level one.
+TEST(Ground, ASteepFloorWithoutRivalsKeepsItsBounds) {
+  GroundFixture g;
+  g.tilt(0.25, 0.2);
+  g.add_road();
+  const FloorResult f = g.floor();
+  ASSERT_TRUE(f.fit.found && !f.fit.refused);
+  EXPECT_LT(std::max(f.roll_bound_rad, f.pitch_bound_rad), 0.01);
+}
+
 // Two flanks of one heap, and nothing level: the floor under the machine is neither.
+// Whichever way the machine looks: askew to the heap neither roll nor pitch is 15 degrees, and the tilt is.
 TEST(Ground, WhereAllThatMayBeTheFloorIsSteepTheBoundsReachToUpright) {
-  for (const bool across : {false, true}) {
-    SCOPED_TRACE(across ? "across" : "along");
-    const FloorResult f = Valley{0.0, 0.45, -0.33, across}.floor();
+  for (const double heading_rad : {0.0, 0.785, 1.571}) {
+    SCOPED_TRACE(heading_rad);
+    Valley valley{0.0, 0.38, -0.27};
+    valley.heading_rad = heading_rad;
+    const FloorResult f = valley.floor();
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
     ASSERT_NE(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
-    const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
-    const double steep_rad = std::max(std::fabs(angles.roll_rad), std::fabs(angles.pitch_rad));
-    EXPECT_GT(steep_rad, 0.3);
-    EXPECT_GE(f.roll_bound_rad, steep_rad);
-    EXPECT_GE(f.pitch_bound_rad, steep_rad);
+    const double tilt_rad = tilt_of_up(f.fit.plane.n);
+    EXPECT_GT(tilt_rad, 0.26);
+    EXPECT_GE(f.roll_bound_rad, tilt_rad);
+    EXPECT_GE(f.pitch_bound_rad, tilt_rad);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "math/rotation.hpp"
 #include "pose_wall.h"
 #include "support/stage_fixtures.hpp"
 
@@ -46,9 +47,10 @@ struct Found {
   }
 };
 
-std::vector<std::uint8_t> labels_of(const Found& found, std::uint32_t count) {
+std::vector<std::uint8_t> labels_of(const Found& found, std::uint32_t count,
+                                    const Eigen::Matrix3d& R_base_level = Eigen::Matrix3d::Identity()) {
   test::OwnedPoints points(kCount);
-  for (std::uint32_t i = 0; i < count; ++i) points.add(kSeen[i].at);
+  for (std::uint32_t i = 0; i < count; ++i) points.add(R_base_level * kSeen[i].at);
   std::vector<std::uint8_t> labels(count + kFour, 0xEE);
   label_points(points.set(), found.floor, found.level, found.walls, test::settings_with(),
                Span<std::uint8_t>(labels.data(), static_cast<std::uint32_t>(labels.size())));
@@ -73,6 +75,16 @@ TEST(Labels, NothingLiesOnAWallThatWasRefused) {
       EXPECT_EQ(labels[i], kSeen[i].label == of_side ? POSE_WALL_LABEL_OTHER : kSeen[i].label) << i;
     }
   }
+}
+
+// Heights count from the floor, of a machine that stands askew, and walls are planes of the levelled frame.
+TEST(Labels, AMachineThatStandsAskewSeesTheSame) {
+  const Eigen::Matrix3d R_base_level = level_rotation(Eigen::Vector3d(-0.1, 0.14, 0.98).normalized()).transpose();
+  Found found;
+  found.level.R_level_base = R_base_level.transpose();
+  found.floor.fit.plane.n = R_base_level * Eigen::Vector3d::UnitZ();
+  const std::vector<std::uint8_t> labels = labels_of(found, kCount, R_base_level);
+  for (std::uint32_t i = 0; i < kCount; ++i) EXPECT_EQ(labels[i], kSeen[i].label) << i;
 }
 
 // Without a floor nothing is known of heights, so of walls neither.

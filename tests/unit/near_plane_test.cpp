@@ -50,10 +50,10 @@ TEST(NearPlane, WhatLiesBehindTheLastPointIsNotVisited) {
   }
 }
 
-TEST(NearPlane, ASlabHoldsBothSidesAndANegativeOneNothing) {
+TEST(NearPlane, ASlabHoldsBothSidesAndAnEmptyOneNothing) {
   const Plane plane{Eigen::Vector3d(0.0, -1.0, 0.0), 2.0};
   const FourFloats x{}, y{1.5F, 1.75F, 2.25F, 2.5F}, z{};
-  const FourTruths held = Slab(plane, 0.25).holds(x, y, z), nothing = Slab(plane, -1.0).holds(x, y, z);
+  const FourTruths held = Slab(plane, 0.25).holds(x, y, z), nothing = Slab::empty().holds(x, y, z);
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
     EXPECT_EQ(held[lane] != 0, lane == 1 || lane == 2) << lane;
     EXPECT_EQ(nothing[lane], 0) << lane;

@@ -191,6 +191,11 @@ constexpr GateWords kSightWords[] = {
      "It stands alone, and what is seen on the other side is turned by {value} against it: which of them runs "
      "along the road is not known.",
      "see the other side; a junction, or a road that widens"},
+    {"short_apart",
+     "It is shorter than a wall that stands alone ({key}), and turned by {value} against the other side's; beyond "
+     "{limit} "
+     "that one does not vouch for it.",
+     "see the other side; show more of the wall"},
     {"wall_near",
      "{value} returns of this side are nearer than {key}; at most {limit} are let pass: something blocks the view.",
      "clean the window, or move what stands there; a smaller {key} where the wall is that near"},
