@@ -290,7 +290,8 @@ enum pose_wall_reason {
   /* the outcome */
   POSE_WALL_R_LEVEL_MISSING = 1 << 21, /* walls not searched: this frame has no floor to level by */
   POSE_WALL_R_ALERT_LIMIT = 1 << 22,   /* protection level above the alert limit */
-  POSE_WALL_R_INNOVATION = 1 << 23,    /* jumped further from the last value than the machine can move */
+  POSE_WALL_R_INNOVATION = 1 << 23,    /* jumped further from the last value than the machine can move, or was refused
+                                          and never good before: waits to be confirmed by three more frames */
   POSE_WALL_R_RATE_LIMITED = 1 << 24,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
   POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held value's protection level passed the alert limit, or hold_max passed */
   POSE_WALL_R_WALL_TOO_NEAR = 1 << 26, /* returns nearer than range_min block the view to this side */

@@ -177,7 +177,7 @@ const char* reason_text(std::uint32_t bit_index) {  // NOLINT(readability-functi
     case POSE_WALL_R_ALERT_LIMIT:
       return "the protection level is above the alert limit";
     case POSE_WALL_R_INNOVATION:
-      return "the value jumped further than the machine can move and waits to be confirmed";
+      return "the value jumped further than the machine can move, or was refused until now, and waits to be confirmed";
     case POSE_WALL_R_RATE_LIMITED:
       return "the smoothed yaw follows by yaw_rate_limit_deg per frame";
     case POSE_WALL_R_HOLD_EXPIRED:

@@ -27,16 +27,17 @@ double gain(double dt_s, double tau_s) {
 }
 
 // A jump from the last good value further than machine and errors allow: either this value or that one is wrong. Both
-// stay possible until the new one has come again kConfirmations times.
+// stay possible until the new one has come again kConfirmations times. And where there was no good value yet and frames
+// were refused, the first that is not is one of several looks at the same thing, and the others said no.
 void check_innovation(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
   const double rate = fastest(quantity, s);
   const double from_good = m.protection + t->good.raw_protection + rate * t->good.age_s;
-  if (!t->good.exists || std::fabs(m.raw - t->good.raw) <= from_good) {
+  if (t->good.exists ? std::fabs(m.raw - t->good.raw) <= from_good : t->to_confirm == 0) {
     t->to_confirm = 0;
     return;
   }
   const double from_last = m.protection + t->raw_protection + rate * t->age_s;
-  const bool comes_again = t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
+  const bool comes_again = t->has_value && t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
   t->to_confirm = comes_again ? t->to_confirm - 1 : kConfirmations;
 }
 
@@ -63,7 +64,10 @@ void note_timing(const FrameTiming& t, const Settings& s) {
 }
 
 void note_innovation(const Measurement& m, std::uint32_t quantity, const Settings& s, const Track& t) {
-  if (!t.good.exists) return;
+  if (!t.good.exists) {
+    trace::gate(POSE_WALL_TRACE_CONFIRMED, t.to_confirm, 0.0, t.to_confirm == 0);
+    return;
+  }
   const double reach = m.protection + t.good.raw_protection + fastest(quantity, s) * t.good.age_s;
   trace::gate(POSE_WALL_TRACE_INNOVATION, std::fabs(m.raw - t.good.raw), reach, t.to_confirm == 0);
 }
@@ -109,7 +113,8 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   if (t->to_confirm > 0) {
     const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
     const double away = larger_or_nan(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
-    t->protection = larger_or_nan(t->protection, away + reach);
+    const double level_with_good = larger_or_nan(t->protection, away + reach);
+    t->protection = t->good.exists ? level_with_good : t->protection + alert_limit(quantity, s);
     out->reasons |= POSE_WALL_R_INNOVATION;
   }
   const bool within = t->protection <= alert_limit(quantity, s);
@@ -127,6 +132,7 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
 void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t, pose_wall_value* out) {
   out->reasons = m.reasons;
   out->raw = not_a_number();
+  if (!t->good.exists) t->to_confirm = kConfirmations;
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_EVER, t->has_value));
   if (!t->has_value) {
     out->reasons |= POSE_WALL_R_NEVER_MEASURED;

@@ -32,7 +32,8 @@ struct Track {
   double age_s = 0.0;       // since that frame
   bool expired = false;     // held for too long, or the clock jumped: the filter starts afresh
   LastGood good;
-  // After a jump the last good value stays in the protection level until the new one has come again and again.
+  // After a jump the last good value stays in the protection level until the new one has come again and again; what was
+  // refused before there was a good one must come again, too.
   std::uint32_t to_confirm = 0;
 };
 

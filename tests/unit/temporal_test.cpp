@@ -104,6 +104,31 @@ TEST(Temporal, TheFirstMeasurementIsTakenAsItIs) {
   EXPECT_NEAR(v.confidence, 0.10 / 0.12, 1e-12);
 }
 
+// The first look that is not refused is one of several at the same thing, and the others said no.
+TEST(Temporal, WhatWasRefusedBeforeItWasEverGoodMustComeAgain) {
+  Life life;
+  life.missing(0);
+  for (int i = 1; i <= 3; ++i) {
+    const pose_wall_value v = life.measured(100 * i, 2.5);
+    EXPECT_EQ(v.state, POSE_WALL_DEGRADED) << i;
+    EXPECT_NE(v.reasons & POSE_WALL_R_INNOVATION, 0U) << i;
+    EXPECT_GE(v.protection_level, 0.10) << i << ": no better than the alert limit";
+  }
+  EXPECT_EQ(life.measured(400, 2.5).state, POSE_WALL_VALID) << "it came three times more";
+  EXPECT_EQ(life.missing(500).state, POSE_WALL_HELD);
+  EXPECT_EQ(life.measured(600, 2.5).state, POSE_WALL_VALID) << "it had been good";
+}
+
+TEST(Temporal, WhatIsRefusedAgainAndAgainOrNeverComesAlikeIsNeverValid) {
+  Life now_and_then, never_alike;
+  for (int i = 0; i < 40; ++i) {
+    const pose_wall_value v = i % 3 == 0 ? now_and_then.missing(100 * i) : now_and_then.measured(100 * i, 2.5);
+    EXPECT_NE(v.state, POSE_WALL_VALID) << i;
+    const pose_wall_value w = i == 0 ? never_alike.missing(0) : never_alike.measured(100 * i, 2.0 + i % 4);
+    EXPECT_NE(w.state, POSE_WALL_VALID) << i;
+  }
+}
+
 // First order: after five time constants 99 % of a small step is there; the level covers the lag all the way.
 TEST(Temporal, SmoothingFollowsWithTheTimeConstantAndTheLevelCoversTheLag) {
   Life life({{"temporal_smoothing_tau", "0.3"}});

@@ -209,6 +209,7 @@ constexpr GateWords kOutcomeWords[] = {
      "It jumped by {value} from the last good value; {limit} can be motion and errors ({key}). Both stay "
      "possible until it has come again.",
      "a faster machine needs a larger {key}"},
+    {"confirmed", "Frames before it were refused and none was good yet: it has to come again, {value} more.", ""},
     {"level_smoothed", "Its protection level is {value}; {limit} is the alert limit ({key}).",
      "more of the surface in view, or a larger {key} if you can bear it"},
     {"ever", "It was never measured before, so there is nothing to hold.", ""},
