@@ -72,7 +72,8 @@ TEST(Labels, NothingLiesOnAWallThatWasRefused) {
     const std::uint8_t of_side = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
     const std::vector<std::uint8_t> labels = labels_of(found, kCount);
     for (std::uint32_t i = 0; i < kCount; ++i) {
-      EXPECT_EQ(labels[i], kSeen[i].label == of_side ? POSE_WALL_LABEL_OTHER : kSeen[i].label) << i;
+      const std::uint8_t expected = kSeen[i].label == of_side ? std::uint8_t{POSE_WALL_LABEL_OTHER} : kSeen[i].label;
+      EXPECT_EQ(labels[i], expected) << i;
     }
   }
 }
