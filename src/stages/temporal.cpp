@@ -111,10 +111,13 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   t->protection = m.protection + std::fabs(t->value - m.raw);
   POSE_WALL_NOTE(note_innovation(m, quantity, s, *t));
   if (t->to_confirm > 0) {
-    const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
-    const double away = larger_or_nan(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
-    const double level_with_good = larger_or_nan(t->protection, away + reach);
-    t->protection = t->good.exists ? level_with_good : t->protection + alert_limit(quantity, s);
+    if (t->good.exists) {
+      const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
+      const double away = larger_or_nan(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
+      t->protection = larger_or_nan(t->protection, away + reach);
+    } else {
+      t->protection += alert_limit(quantity, s);  // no better than what would do harm
+    }
     out->reasons |= POSE_WALL_R_INNOVATION;
   }
   const bool within = t->protection <= alert_limit(quantity, s);
