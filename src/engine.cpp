@@ -149,8 +149,8 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   std::int64_t at[POSE_WALL_STAGES + 1] = {now()};
   const auto stage_done = [&](pose_wall_stage stage) { at[stage + 1] = now(); };
 
-  found.voxels =
-      build_voxels(cloud, settings_, extrinsic_, axes_, &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
+  found.voxels = build_voxels(cloud, settings_, extrinsic_, axes_, memory_.leaf, &scratch_.grid,
+                              &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
   found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base);
@@ -266,6 +266,7 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
 }
 
 void Engine::remember(const FrameFindings& found) {
+  memory_.leaf = found.voxels.leaf;
   memory_.has_floor = !found.floor.fit.refused;
   memory_.last_floor = found.floor.fit.plane;
   for (int side = 0; side < 2; ++side) {

@@ -24,9 +24,9 @@ struct Scratch {
   VoxelGrid grid;
   Span<std::uint8_t> marks;  // per point, and for a four behind the last: keep flags, later labels
   ReturnsByDirection returns_lidar;
-  PointSet cloud_base;
-  PointSet band_level;
-  PointSet beyond_level;
+  BoundedPoints cloud_base;
+  BoundedPoints band_level;
+  BoundedPoints beyond_level;
   GroundScratch ground;
   WallsScratch walls;
 
@@ -40,6 +40,7 @@ struct Memory {
   Plane last_wall[2];
   bool has_floor = false;
   bool has_wall[2] = {false, false};
+  LeafMemory leaf;
   std::uint64_t fingerprint = 0;
   std::uint32_t repeats = 0;  // how often the last cloud has come again
   double repeated_s = 0.0;    // and since when

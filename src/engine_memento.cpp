@@ -9,7 +9,7 @@ namespace pose_wall {
 namespace {
 
 // To be changed with what visit() walks over.
-constexpr std::uint64_t kVersion = 0x706F73652D6D0001ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D0002ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version, checksum
 
 // Every member is one word of eight bytes, least significant first.
@@ -121,8 +121,8 @@ void visit(Way* way, Memory* m) {
   visit_all(way, &t.has_stamp, &t.still_frames, &t.stamp_ns, &t.last_dt_s, &t.dt_before_s);
   visit(way, &m->last_floor);
   for (Plane& wall : m->last_wall) visit(way, &wall);
-  visit_all(way, &m->has_floor, &m->has_wall[0], &m->has_wall[1], &m->fingerprint, &m->repeats, &m->repeated_s,
-            &m->frames);
+  visit_all(way, &m->has_floor, &m->has_wall[0], &m->has_wall[1], &m->leaf.begin_with, &m->leaf.voxels, &m->fingerprint,
+            &m->repeats, &m->repeated_s, &m->frames);
 }
 
 // FNV-1a: for accidents, not for attackers.

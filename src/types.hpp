@@ -42,8 +42,15 @@ struct IngestCounts {
   std::uint32_t near_by_quadrant[kQuadrants] = {};
 };
 
+// What a cloud leaves behind for the next one's leaf.
+struct LeafMemory {
+  std::uint32_t begin_with = 0;  // how often the leaf that is tried first has grown
+  std::uint32_t voxels = 0;      // how many there were with it when one growth less was last tried in vain
+};
+
 struct VoxelResult {
   IngestCounts counts;
+  LeafMemory leaf;
   double leaf_m = 0.0;
   bool leaf_grown = false;
   bool fits = false;  // false: points fill the air, or points_max is far too small; there are no voxels then

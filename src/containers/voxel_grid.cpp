@@ -6,6 +6,11 @@
 namespace pose_wall {
 namespace {
 
+// By odd numbers, so that nothing is lost.
+std::uint64_t spread(std::uint64_t value, std::uint64_t odd) {
+  return value * odd;
+}
+
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E3779B97F4A7C15ULL;
   return hash ^ (hash >> 29);
@@ -32,13 +37,24 @@ void VoxelGrid::begin(double leaf_m, double reach_m) {
   const std::uint32_t cells = 4 * power / 3;
   const double steps_per_cell = 1U << kStepBits;
   metres_per_step_ = leaf_m / steps_per_cell;
-  origin_steps_ = cells * steps_per_cell;
+  origin_steps_ = static_cast<std::int32_t>(cells << kStepBits);
   steps_ = {static_cast<float>(steps_per_cell / leaf_m), static_cast<float>(origin_steps_)};
 }
 
 void VoxelGrid::extract(PointSet* out) {
+  const std::uint32_t cells = count();
+  sorted_ = radix_order(hash_.keys(), order_.first(cells), spare_.first(cells), histogram_);
+  write_sorted(out);
+}
+
+void VoxelGrid::extract_as_they_came(PointSet* out) {
+  sorted_ = order_.first(count());
+  for (std::uint32_t i = 0; i < sorted_.size(); ++i) sorted_[i] = i;
+  write_sorted(out);
+}
+
+void VoxelGrid::write_sorted(PointSet* out) {
   const Span<const std::uint64_t> keys = hash_.keys();
-  sorted_ = radix_order(keys, order_.first(keys.size()), spare_.first(keys.size()), histogram_);
   std::uint64_t fingerprint = keys.size();
   std::uint32_t at = 0;
   for (const std::uint32_t i : sorted_) {
@@ -50,9 +66,9 @@ void VoxelGrid::extract(PointSet* out) {
     out->y[at] = coordinate(cell.y, s.y, per_weight);
     out->z[at] = coordinate(cell.z, s.z, per_weight);
     out->weight[at] = static_cast<float>(s.weight) / static_cast<float>(kWeightOne);
-    fingerprint = mixed(fingerprint, key);
-    fingerprint = mixed(fingerprint, s.x | static_cast<std::uint64_t>(s.y) << 32);
-    fingerprint = mixed(fingerprint, s.z | static_cast<std::uint64_t>(s.weight) << 32);
+    fingerprint =
+        mixed(fingerprint, key ^ spread(s.x | static_cast<std::uint64_t>(s.y) << 32, 0xC2B2AE3D27D4EB4FULL) ^
+                               spread(s.z | static_cast<std::uint64_t>(s.weight) << 32, 0x165667B19E3779F9ULL));
     ++at;
   }
   out->count = keys.size();

@@ -58,8 +58,10 @@ class VoxelGrid {
     return add(steps_.of(x_m), steps_.of(y_m), steps_.of(z_m), weight_sixteenths);
   }
 
-  // Writes the centroids in the order of their cells' keys. out must have room for count().
+  // Writes the centroids in the order of their cells' keys, or in that in which the cells came. out must have room for
+  // count().
   void extract(PointSet* out);
+  void extract_as_they_came(PointSet* out);
 
   // After extract(), until the next begin(): the key of the i-th centroid, and where each column's keys begin in the
   // list, with its end as the last; nothing, and an end, before.
@@ -80,10 +82,12 @@ class VoxelGrid {
     std::uint32_t weight;
   };
 
+  void write_sorted(PointSet* out);
   static std::uint32_t within(std::int32_t step) { return static_cast<std::uint32_t>(step) & kStepMask; }
   float coordinate(std::uint32_t cell, std::uint32_t sum, double per_weight) const {
-    const double step = static_cast<double>(cell << kStepBits) + static_cast<double>(sum) * per_weight + 0.5;
-    return static_cast<float>((step - origin_steps_) * metres_per_step_);
+    const std::int32_t steps = static_cast<std::int32_t>(cell << kStepBits) - origin_steps_;
+    return static_cast<float>((static_cast<double>(steps) + static_cast<double>(sum) * per_weight + 0.5) *
+                              metres_per_step_);
   }
 
   VoxelHash hash_;
@@ -92,7 +96,8 @@ class VoxelGrid {
   Span<std::uint32_t> sorted_;  // one of the two, in the end
   Span<std::uint32_t> histogram_;
   Steps steps_{1.0F, 0.0F};
-  double leaf_m_ = 1.0, metres_per_step_ = 1.0, origin_steps_ = 0.0;
+  double leaf_m_ = 1.0, metres_per_step_ = 1.0;
+  std::int32_t origin_steps_ = 0;
   std::uint64_t fingerprint_ = 0;
 };
 

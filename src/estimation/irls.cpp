@@ -29,11 +29,13 @@ std::uint32_t points_with_weight(const TangentPoints& p, std::uint32_t count) {
   return sum_of_lanes(with);
 }
 
+// By one of so many fours.
 double scale_of(const TangentPoints& p, std::uint32_t count, std::uint32_t stride, const Round& round, double gate_m) {
   ScaleHistogram histogram(gate_m);
-  for (std::uint32_t k = 0; k < count; k += stride) {
-    if (!(p.weight[k] > 0.0F)) continue;
-    histogram.add((p.r[k] - round.offset - round.slope_u * p.u[k] - round.slope_v * p.v[k]) * round.foreshortening);
+  for (std::uint32_t k = 0; k < count; k += stride * kFour) {
+    const FourFloats over =
+        load_four(&p.r[k]) - round.offset - round.slope_u * load_four(&p.u[k]) - round.slope_v * load_four(&p.v[k]);
+    histogram.add(over * round.foreshortening, first_of_four(count - k) & (load_four(&p.weight[k]) > FourFloats{}));
   }
   return histogram.scale_m();
 }
@@ -86,8 +88,7 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
                     const IrlsSettings& settings) {
   IrlsOver result;
   result.over = start;
-  // Odd: neighbours in the list may lie in two layers by turns, and an even stride would take but one of them.
-  const std::uint32_t stride = (points_with_weight(points, count) / settings.scale_points + 1) | 1U;
+  const std::uint32_t stride = points_with_weight(points, count) / settings.scale_points + 1;
   for (int i = 0; i < settings.rounds; ++i) {
     Round round{static_cast<float>(result.over.offset_m), static_cast<float>(result.over.slope_u),
                 static_cast<float>(result.over.slope_v),  static_cast<float>(result.over.foreshortening()),

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "containers/span.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -23,15 +24,24 @@ class ScaleHistogram {
     ++inside_;
   }
 
+  // Of four residuals, those that count.
+  void add(FourFloats residuals_m, FourTruths counts) {
+    const FourFloats place = magnitude_of(residuals_m) * bins_per_m_;
+    const FourTruths inside = counts & (place < static_cast<float>(kBins));
+    const FourInts bin =
+        inside ? cut_off(inside ? place : FourFloats{}) : all_four_ints(static_cast<std::int32_t>(kBins));
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) ++bins_[static_cast<std::uint32_t>(bin[lane])];
+    inside_ += sum_of_lanes(-inside);
+  }
+
   // The gate where nothing lies inside.
   double scale_m() const {
     constexpr double kMadToSigma = 1.4826;
     if (inside_ == 0) return gate_m_;
+    std::uint32_t below = 0, b = 0;
+    while (2 * (below + bins_[b]) < inside_) below += bins_[b++];
     const double half = 0.5 * static_cast<double>(inside_);
-    double below = 0.0;
-    std::uint32_t b = 0;
-    while (below + static_cast<double>(bins_[b]) < half) below += static_cast<double>(bins_[b++]);
-    const double within_bin = (half - below) / static_cast<double>(bins_[b]);
+    const double within_bin = (half - static_cast<double>(below)) / static_cast<double>(bins_[b]);
     return kMadToSigma * (static_cast<double>(b) + within_bin) * gate_m_ / kBins;
   }
 
@@ -40,7 +50,7 @@ class ScaleHistogram {
   double gate_m_;
   float bins_per_m_;
   std::uint32_t inside_ = 0;
-  std::uint32_t bins_[kBins] = {};
+  std::uint32_t bins_[kBins + 1] = {};  // and one for all that lie outside or do not count
 };
 
 inline double robust_scale(Span<const float> residuals, double gate_m) {

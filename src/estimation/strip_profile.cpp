@@ -29,57 +29,41 @@ constexpr double kWideShareMax = 0.34;
 
 void StripProfile::lay_out(Arena& arena) {
   columns_ = arena.take<Column>(kColumns);
+  verdicts_ = arena.take<Verdict>(kColumns);
 }
 
-void StripProfile::begin(double u_min_m, double v_min_m, double v_max_m) {
+void StripProfile::begin(double u_min_m, double z_min_m, double z_max_m) {
   u_min_ = u_min_m;
-  v_min_ = v_min_m;
-  rows_per_m_ = kRowBits / (v_max_m - v_min_m);
+  z_min_ = z_min_m;
+  rows_per_m_ = kRowBits / (z_max_m - z_min_m);
   columns_.fill(Column{});
+  verdicts_.fill(Verdict{});
 }
 
-void StripProfile::begin_anew() {
-  for (Column& c : columns_) {
-    c.sum = 0.0F;
-    c.count = 0;
-    c.rows = 0;
-  }
-}
-
-void StripProfile::add(double u_m, double v_m, double residual_m) {
-  const auto four = [](double x) { return all_four(static_cast<float>(x)); };
-  add(four(u_m), four(v_m), four(residual_m), FourTruths{-1, 0, 0, 0});
-}
-
-void StripProfile::add(FourFloats u_m, FourFloats v_m, FourFloats residual_m, FourTruths counts) {
+void StripProfile::add(FourFloats u_m, FourFloats v_m, FourFloats r_m, FourFloats z_m, FourTruths counts) {
   const FourFloats none{};
   const FourFloats column = (u_m - static_cast<float>(u_min_)) * static_cast<float>(kColumnsPerMetre);
-  const FourFloats row = (v_m - static_cast<float>(v_min_)) * static_cast<float>(rows_per_m_);
+  const FourFloats row = (z_m - static_cast<float>(z_min_)) * static_cast<float>(rows_per_m_);
   const FourTruths inside = counts & (column >= none) & (column < all_four(static_cast<float>(kColumns))) &
                             (row >= none) & (row < all_four(static_cast<float>(kRowBits)));
   const FourInts columns = cut_off(inside ? column : none), rows = cut_off(inside ? row : none);
   for (std::uint32_t k = 0; k < kFour; ++k) {
+    if (inside[k] == 0) continue;
     Column& c = columns_[static_cast<std::uint32_t>(columns[k])];
-    if (inside[k] == 0 || c.count == 0xFFFF) continue;
-    c.sum += residual_m[k];
-    ++c.count;
-    c.rows = static_cast<std::uint16_t>(c.rows | (1U << static_cast<unsigned>(rows[k])));
+    c.sums += FourFloats{r_m[k], u_m[k], v_m[k], 1.0F};
+    c.rows |= 1U << static_cast<unsigned>(rows[k]);
   }
 }
 
-StripProfile::FourColumns StripProfile::columns_of(FourFloats u_m) const {
-  const FourFloats place = (u_m - static_cast<float>(u_min_)) * static_cast<float>(kColumnsPerMetre), none{};
-  const FourTruths known = (place >= none) & (place < all_four(static_cast<float>(kColumns)));
-  const FourInts column = cut_off(known ? place : none);
-  FourColumns out{};
-  for (std::uint32_t k = 0; k < kFour; ++k) {
-    const Column& c = columns_[static_cast<std::uint32_t>(column[k])];
-    out.surface_probability[k] = c.shown;
-    out.is_strip[k] = c.is_strip() ? -1 : 0;
+// The mean distance of a column's points is the distance of their mean: no point is looked at again.
+void StripProfile::look_from(const PlaneOver& over) {
+  const double foreshortening = over.foreshortening();
+  for (Column& c : columns_) {
+    if (!c.has_points()) continue;
+    const double r = static_cast<double>(c.sums[0]), u = static_cast<double>(c.sums[1]),
+                 v = static_cast<double>(c.sums[2]), points = static_cast<double>(c.sums[3]);
+    c.mean_m = ((r - over.slope_u * u - over.slope_v * v) / points - over.offset_m) * foreshortening;
   }
-  out.surface_probability = known ? out.surface_probability : none;
-  out.is_strip &= known;
-  return out;
 }
 
 bool StripProfile::seen(const Column& c) const {
@@ -95,7 +79,7 @@ bool StripProfile::level_around(std::int32_t column, double* level_m) const {
     if (!seen(c)) continue;
     // Insertion keeps them sorted; there are at most 13.
     std::uint32_t at = n++;
-    for (const double value = mean(c);; --at) {
+    for (const double value = c.mean_m;; --at) {
       if (at == 0 || means[at - 1] <= value) {
         means[at] = value;
         break;
@@ -134,8 +118,9 @@ bool StripProfile::narrow(std::int32_t first, std::int32_t last, double gate_m) 
   return strips >= kStripsMin && static_cast<double>(wide) <= kWideShareMax * static_cast<double>(strips);
 }
 
-bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
+bool StripProfile::find(const PlaneOver& over, double u_centre_m, double reach_m, double gate_m) {
   layers_ = TwoLayers{};
+  look_from(over);
   std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
   if (first < 0) first = 0;
   if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
@@ -160,16 +145,17 @@ bool StripProfile::find(double u_centre_m, double reach_m, double gate_m) {
   return true;
 }
 
-bool StripProfile::judge(double u_centre_m, double reach_m) {
+bool StripProfile::judge(const PlaneOver& over, double u_centre_m, double reach_m) {
+  look_from(over);
   std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
   if (first < 0) first = 0;
   if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
   // How far the rock's columns scatter about the plane, without the local level.
   double w = 0.0, squares = 0.0;
   for (const Column& c : columns_) {
-    if (!c.judged || c.count == 0) continue;
+    if (!c.judged || !c.has_points()) continue;
     w += static_cast<double>(c.probability);
-    squares += static_cast<double>(c.probability) * mean(c) * mean(c);
+    squares += static_cast<double>(c.probability) * c.mean_m * c.mean_m;
   }
   TwoLayers plain = layers_;
   plain.centre_m = 0.0;
@@ -179,13 +165,13 @@ bool StripProfile::judge(double u_centre_m, double reach_m) {
   bool more = false;
   for (std::int32_t k = first; k <= last; ++k) {
     Column& c = columns_[static_cast<std::uint32_t>(k)];
-    if (c.judged || c.count == 0) continue;
+    if (c.judged || !c.has_points()) continue;
     more = true;
     // The plane may drift out here: by the level around, as long as that cannot be the strips' own.
     double level = 0.0;
     const bool local = level_around(k, &level) && std::fabs(level) < 0.5 * layers_.step_m;
     c.probability =
-        static_cast<float>(local ? layers_.surface_probability(mean(c) - level) : plain.surface_probability(mean(c)));
+        static_cast<float>(local ? layers_.surface_probability(c.mean_m - level) : plain.surface_probability(c.mean_m));
     c.judged = true;
   }
   look_at_flanks(first, last);
@@ -199,9 +185,10 @@ void StripProfile::look_at_flanks(std::int32_t first, std::int32_t last) {
     for (std::int32_t k = column - kFlank; k <= column + kFlank; ++k) {
       if (k < 0 || k >= static_cast<std::int32_t>(kColumns)) continue;
       const Column& c = columns_[static_cast<std::uint32_t>(k)];
-      if ((k == column || (c.judged && c.count > 0)) && c.probability < least) least = c.probability;
+      if ((k == column || (c.judged && c.has_points())) && c.probability < least) least = c.probability;
     }
-    columns_[static_cast<std::uint32_t>(column)].shown = least;
+    const auto at = static_cast<std::uint32_t>(column);
+    verdicts_[at] = {least, columns_[at].is_strip() ? -1 : 0};
   }
 }
 

@@ -80,7 +80,7 @@ std::uint32_t lowest_part(const PointSet& cloud, Span<const std::uint32_t> candi
 }
 
 // Refines what the search left, merges what became alike, and looks at each as a floor.
-std::uint32_t weigh(const PointSet& cloud, Span<const std::uint32_t> all, const Settings& s, const Axes& axes,
+std::uint32_t weigh(const BoundedPoints& cloud, Span<const std::uint32_t> all, const Settings& s, const Axes& axes,
                     const Eigen::Vector3d& sensor, FloorShortlist* list, GroundScratch* scratch,
                     Candidate (&out)[kFloorShortlist]) {
   const FloorLimits limits(s);
@@ -196,7 +196,7 @@ struct Look {
   Span<const std::uint32_t> open, within;
 };
 
-FloorResult floor_within(const Look& look, const PointSet& cloud, const Settings& s, const Axes& axes,
+FloorResult floor_within(const Look& look, const BoundedPoints& cloud, const Settings& s, const Axes& axes,
                          const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
   const double radius_m = look.radius_m;
@@ -297,7 +297,7 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   uneven.lay_out(arena);
 }
 
-FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, const Axes& axes,
+FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
                        GroundScratch* scratch) {
   const Span<const std::uint32_t> open = scratch->open.first(

@@ -35,7 +35,7 @@ struct GroundScratch {
 
 // Looks for the floor within ground_roi_radius, and in growing steps up to ground_roi_radius_max where it is not seen
 // well enough to be valid. last_floor: the last frame's plane or nullptr, scored like any other hypothesis.
-FloorResult find_floor(const PointSet& cloud_base, const Settings& settings, const Axes& axes,
+FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
                        GroundScratch* scratch);
 

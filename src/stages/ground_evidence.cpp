@@ -214,15 +214,16 @@ bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen:
   return false;
 }
 
-bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
-                    const Eigen::Vector3d& sensor_base_m, double share_max) {
+bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
+                    double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max) {
   // The floor may fall away from its local plane by this much, and more the farther away.
   constexpr double kBelow_m = 0.2;
   constexpr double kFall = 0.03;
   const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   const auto most = static_cast<std::uint32_t>(share_max * marked.points_within());
   std::uint32_t below = 0;
-  for_each_up_to_while(points_base, marked_plane, -kBelow_m, [&](std::uint32_t i, float height_m) {
+  const Slab low(marked_plane, kAnyDepth_m, -kBelow_m);
+  for_each_in_while(points_base, low, [&](std::uint32_t i, float height_m) {
     const Eigen::Vector3d p = points_base.at(i);
     const double away2 = p.head<2>().squaredNorm(), height = static_cast<double>(height_m);
     if (!(away2 <= limit2) || !(height < -(kBelow_m + kFall * std::sqrt(away2)))) return true;

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "containers/arena.hpp"
-#include "containers/point_set.hpp"
+#include "containers/bounded_points.hpp"
 #include "estimation/plane.hpp"
 #include "types.hpp"
 
@@ -80,8 +80,8 @@ class FloorGrid {
 // Whether more than a share of all points within the radius lie below the marked plane without being reflections in it.
 // Nothing does below a floor; below a deck, a bench or a table there is floor, seen past the edge. The radius is that
 // of find_open, which counted all points within it.
-bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const PointSet& points_base, double radius_m,
-                    const Eigen::Vector3d& sensor_base_m, double share_max);
+bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
+                    double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max);
 
 // Share of the points on 'below' whose ray from the sensor passes through open floor of the plane marked in the grid:
 // no light comes through a floor, so such a plane is a reflection in wet ground.

@@ -20,7 +20,7 @@ LevelResult level_by(const Plane& floor_base, const Axes& axes) {
 }
 
 void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
-                   PointSet* band_level, PointSet* beyond_level) {
+                   BoundedPoints* band_level, BoundedPoints* beyond_level) {
   const auto z_min = static_cast<float>(level.floor_z_level_m + settings.wall_z_min);
   const auto z_max = static_cast<float>(level.floor_z_level_m + settings.wall_z_max);
   // The band is averaged over cells of twice the size, some three times the area: one of three keeps the balance.
@@ -46,7 +46,10 @@ void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const S
       }
     }
   });
-  grid->extract(band_level);
+  // The cloud is in an order of its own already, whatever that of the points was.
+  grid->extract_as_they_came(band_level);
+  band_level->bound();
+  beyond_level->bound();
 }
 
 }  // namespace pose_wall

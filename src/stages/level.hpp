@@ -6,6 +6,7 @@
 #pragma once
 
 #include "config.hpp"
+#include "containers/bounded_points.hpp"
 #include "containers/voxel_grid.hpp"
 #include "types.hpp"
 
@@ -17,8 +18,8 @@ LevelResult level_by(const Plane& floor_base, const Axes& axes);
 constexpr std::uint32_t kBeyondMax = 8192;
 
 // Levelled points between wall_z_min and wall_z_max above the floor, averaged once more, and a part of those above and
-// below, evenly thinned: beyond_level's weights tell how many of the band's each stands for.
+// below, evenly thinned, both bounded: beyond_level's weights tell how many of the band's each stands for.
 void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
-                   PointSet* band_level, PointSet* beyond_level);
+                   BoundedPoints* band_level, BoundedPoints* beyond_level);
 
 }  // namespace pose_wall

@@ -78,21 +78,29 @@ std::uint32_t close_gaps(Span<const std::uint8_t> keep, PointSet* points) {
   return kept;
 }
 
-}  // namespace
-
-std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep, PointSet* points) {
-  if (settings.outlier_min_neighbors == 0 || points->count == 0) return 0;
+void mark_those_with_neighbours(const Settings& settings, const PointSet& points, VoxelGrid* grid,
+                                Span<std::uint8_t> keep) {
   const double least_m = 2.0 * grid->leaf_m();
   const double radius_m = settings.outlier_radius > least_m ? settings.outlier_radius : least_m;
-  NeighbourCounter counter(*points, grid, radius_m, settings.outlier_min_neighbors);
-  for (std::uint32_t i = 0; i < points->count; i += kFour) {
+  NeighbourCounter counter(points, grid, radius_m, settings.outlier_min_neighbors);
+  for (std::uint32_t i = 0; i < points.count; i += kFour) {
     const FourTruths enough = counter.have_enough_in_list(i);
-    const std::uint32_t end = i + kFour < points->count ? i + kFour : points->count;
+    const std::uint32_t end = i + kFour < points.count ? i + kFour : points.count;
     for (std::uint32_t k = i; k < end; ++k) keep[k] = enough[k - i] != 0 || counter.has_enough(k) ? 1 : 0;
   }
-  const std::uint32_t kept = close_gaps(keep, points), removed = points->count - kept;
-  points->count = kept;
-  return removed;
+}
+
+}  // namespace
+
+std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep,
+                              BoundedPoints* points) {
+  const std::uint32_t before = points->count;
+  if (settings.outlier_min_neighbors > 0 && before > 0) {
+    mark_those_with_neighbours(settings, *points, grid, keep);
+    points->count = close_gaps(keep, points);
+  }
+  points->bound();
+  return before - points->count;
 }
 
 }  // namespace pose_wall

@@ -14,10 +14,6 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kLeafGrowth = 1.26;  // about the cube root of 2
-// What stands on a floor is told by what lies above it within 0.75 m, in two layers at least. Voxels too large for that
-// show the layers of their own lattice instead, wherever points fill the air, and these look like floors and walls.
-constexpr double kLeafMost_m = 0.26;
 constexpr double kAnythingFits_m = 64.0;
 
 // What becomes of a point. The last of these that holds counts.
@@ -272,20 +268,18 @@ class Pass {
 }  // namespace
 
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
-                         const Axes& axes, VoxelGrid* grid, ReturnsByDirection* returns_lidar, PointSet* cloud_base) {
+                         const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
+                         PointSet* cloud_base) {
   VoxelResult result;
   const Pass pass(cloud, settings, extrinsic, axes);
-  result.leaf_m = settings.voxel_leaf;
-  const auto fits = [&] {
-    grid->begin(result.leaf_m, reach_of(settings));
-    return pass.run(grid, returns_lidar, &result.counts);
-  };
-  result.fits = fits();
-  while (!result.fits && result.leaf_m < kLeafMost_m) {
-    result.leaf_grown = true;
-    result.leaf_m = result.leaf_m * kLeafGrowth < kLeafMost_m ? result.leaf_m * kLeafGrowth : kLeafMost_m;
-    result.fits = fits();
-  }
+  LeafSearch leaf(settings.voxel_leaf, settings.points_max, last);
+  do {
+    grid->begin(leaf.leaf_m(), reach_of(settings));
+    result.fits = pass.run(grid, returns_lidar, &result.counts);
+  } while (leaf.goes_on(result.fits, grid->count()));
+  result.leaf_m = leaf.leaf_m();
+  result.leaf_grown = leaf.has_grown();
+  result.leaf = leaf.memory(result.fits, grid->count());
   if (!result.fits) {  // the points are counted all the same
     grid->begin(kAnythingFits_m, reach_of(settings));
     pass.run(grid, returns_lidar, &result.counts);

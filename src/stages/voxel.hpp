@@ -9,15 +9,17 @@
 #include "containers/direction_grid.hpp"
 #include "containers/voxel_grid.hpp"
 #include "pose_wall.h"
+#include "stages/voxel_leaf.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
 
 // Filters (finite, not zero, range_min..range_max from the sensor, outside the body boxes), moves points to base and
 // averages them per voxel. When a frame needs more voxels than there is room for, it starts again with a larger leaf:
-// the leaf depends on the set of points alone, not on their order. returns_lidar counts all that was returned, before
-// the filters.
+// the leaf depends on the set of points and on what the last cloud left behind, not on the points' order. returns_lidar
+// counts all that was returned, before the filters.
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
-                         const Axes& axes, VoxelGrid* grid, ReturnsByDirection* returns_lidar, PointSet* cloud_base);
+                         const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
+                         PointSet* cloud_base);
 
 }  // namespace pose_wall

@@ -90,11 +90,17 @@ void note_sight(const WallSight& sight, const WallEdges& edges, bool grooved) {
 }
 #endif
 
-void thin_out(const PointSet& band_level, PointSet* thin_level) {
+// One side after the other, so that blocks of points lie on one.
+void thin_out(const WallScene& scene, BoundedPoints* thin_level) {
+  const PointSet& band = scene.band_level;
   thin_level->count = 0;
-  for_even_share(band_level.count, kThinMost, [&](std::uint32_t i) {
-    thin_level->set(thin_level->count++, band_level.at(i), band_level.weight[i]);
-  });
+  for (const bool left : {true, false}) {
+    for_even_share(band.count, kThinMost, [&](std::uint32_t i) {
+      const Eigen::Vector3d p = band.at(i);
+      if ((scene.left_level.dot(p) > 0.0) == left) thin_level->set(thin_level->count++, p, band.weight[i]);
+    });
+  }
+  thin_level->bound();
 }
 
 // Refines the short list, merges what became alike, and weighs what is left.
@@ -322,7 +328,7 @@ void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView sides[2] = {{f, l}, {f, -l}};
-  thin_out(scene.band_level, &scratch->thin_level);
+  thin_out(scene, &scratch->thin_level);
   WallCandidates beside[2];
   std::uint32_t scored[2] = {};
   search_both(scene, sides, last, random, scratch, beside, scored);

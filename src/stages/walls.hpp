@@ -18,7 +18,7 @@ constexpr std::uint32_t kThinMost = 4096;
 
 struct WallsScratch {
   WallSearch search[2];
-  PointSet thin_level;  // a part of the band, enough to refine hypotheses
+  BoundedPoints thin_level;  // a part of the band, enough to refine hypotheses
   WallGrid grid;
   WallFitScratch fit;
   SightScratch sight;

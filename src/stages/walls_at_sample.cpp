@@ -33,8 +33,10 @@ double stands_out_at(const WallScene& scene, const WallGrid& grid, const WallRes
   constexpr double kWindow_m = 2.0;
   const double along_m = wall.along_level.dot(sample_level_m);
   const double to_machine_m = wall.fit.plane.signed_distance(sample_level_m);
+  const Slab beside({wall.along_level, -along_m}, kWindow_m + kFloats_m);
+  const Slab before(wall.fit.plane, kOff_m - kFloats_m, to_machine_m);
   Distances nearer;
-  for_each_between(scene.band_level, wall.fit.plane, kOff_m - kFloats_m, to_machine_m, [&](std::uint32_t i, float) {
+  for_each_in_both(scene.band_level, beside, before, [&](std::uint32_t i) {
     const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = wall.fit.plane.signed_distance(p), beside_m = wall.along_level.dot(p) - along_m;
     if (!(r >= kOff_m && r <= to_machine_m - kOff_m) || !(std::fabs(beside_m) <= kWindow_m)) return;
@@ -87,8 +89,9 @@ void add_short_steps(const WallScene& scene, const WallSurface& surface, const W
   const double nearest_m = wall.fit.plane.signed_distance(sample_level_m) - kOff_m;
   StepProfile profile(kStep_m + kPerRoughness * surface.patch.tau_m);
   const Plane across{wall.along_level, -along_m};
-  constexpr double kReach_m = StepProfile::kHalf_m + kFloats_m;
-  for_each_between(scene.band_level, across, -kReach_m, kReach_m, [&](std::uint32_t i, float) {
+  const Slab beside(across, StepProfile::kHalf_m + kFloats_m);
+  const Slab this_side(wall.fit.plane, kAnyDepth_m, nearest_m + kFloats_m);
+  for_each_in_both(scene.band_level, beside, this_side, [&](std::uint32_t i) {
     const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = wall.fit.plane.signed_distance(p);
     if (r <= nearest_m && surface.heights.contain(p.z())) profile.add(across.signed_distance(p), r);

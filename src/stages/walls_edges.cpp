@@ -271,18 +271,20 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
   const double inside_m = wall.signed_distance(scene.sensor_level_m);
   if (!(inside_m > 0.0)) return {};
   EdgeTally tally(scene, margin_m, scratch);
-  const FourDistances distances(Plane{scene.R_level_base.transpose() * wall.n, wall.d});
+  const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
+  const Slab slab(wall_base, kAnyDepth_m, larger(margin_m, inside_m));
   FourRays rays(scene, along_level, inside_m);
-  const auto look = [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    const FourFloats r = distances.of(x, y, z);
+  const PointSet& points = scene.cloud_base;
+  for_each_four_about(scene.cloud_base, slab, [&](std::uint32_t i, FourTruths counts) {
+    const FourFloats x = load_four(&points.x[i]), y = load_four(&points.y[i]), z = load_four(&points.z[i]);
+    const FourFloats r = slab.distances().of(x, y, z);
     // What looks away from the plane tells nothing, and what ends before it only how high the sensor looks.
     const double limit_m = tally.has_seen_high() && margin_m <= inside_m ? margin_m : inside_m;
     const FourTruths tells = counts & (r < static_cast<float>(limit_m));
     if (!any_of(tells)) return;
     rays.look_at(x, y, z, r);
-    tally.add(r, load_four(&scene.cloud_base.weight[i]), tells, rays);
-  };
-  for_each_four_points(scene.cloud_base, look);
+    tally.add(r, load_four(&points.weight[i]), tells, rays);
+  });
   add_what_is_too_far(scene, SightLines(scene, wall, along_level), tally.height_m(), &scratch->tops);
   return {scratch->ends.both_are_looked_past(), scratch->tops.is_looked_over(), !tally.has_seen_high(),
           scratch->depths.hold_a_layer(tally.on_plane())};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/near_plane.hpp"
+#include "math/larger.hpp"
 
 namespace pose_wall {
 namespace {
@@ -35,8 +36,10 @@ bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) co
 // Four points, or the rays to them, against a plane, in floats: no cell is known to the millimetre.
 class WallGrid::FourMarks {
  public:
-  FourMarks(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach)
-      : distances_(wall),
+  // Not inlined: it is called from two places.
+  [[gnu::noinline]] FourMarks(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level,
+                              const Reach& reach)
+      : slab_(wall, kAnyDepth_m, larger(reach.hit_m, -reach.behind_m)),
         hit_m_(static_cast<float>(reach.hit_m)),
         behind_m_(static_cast<float>(-reach.behind_m)),
         inside_m_(static_cast<float>(wall.signed_distance(scene.sensor_level_m))),
@@ -45,9 +48,12 @@ class WallGrid::FourMarks {
         sensor_along_m_(static_cast<float>(along_level.dot(scene.sensor_level_m))),
         sensor_z_m_(static_cast<float>(scene.sensor_level_m.z())) {}
 
+  // What lies further before the plane tells nothing.
+  const Slab& slab() const { return slab_; }
+
   // False where none of them tells anything.
   bool look_at(FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    const FourFloats r = distances_.of(x, y, z);
+    const FourFloats r = slab_.distances().of(x, y, z);
     hits = counts & (r <= hit_m_) & (r >= -hit_m_);
     passes = counts & (r < behind_m_) & (r < -hit_m_);
     if (!(inside_m_ > 0.0F)) passes = FourTruths{};
@@ -63,7 +69,7 @@ class WallGrid::FourMarks {
   FourFloats along_m{}, z_level_m{};
 
  private:
-  FourDistances distances_;
+  Slab slab_;
   float hit_m_, behind_m_, inside_m_, along_x_, along_y_, sensor_along_m_, sensor_z_m_;
 };
 
@@ -77,9 +83,9 @@ FourInts WallGrid::Rows::cells_of(FourFloats along_m, FourFloats z_level_m) cons
   return inside ? cell : all_four_ints(-1);
 }
 
-void WallGrid::mark_points(const PointSet& points, Rays rays, FourMarks* marks) {
-  for_each_four_points(points, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    if (!marks->look_at(x, y, z, counts)) return;
+void WallGrid::mark_points(const BoundedPoints& points, Rays rays, FourMarks* marks) {
+  for_each_four_about(points, marks->slab(), [&](std::uint32_t i, FourTruths counts) {
+    if (!marks->look_at(load_four(&points.x[i]), load_four(&points.y[i]), load_four(&points.z[i]), counts)) return;
     const FourInts cell = rows_.cells_of(marks->along_m, marks->z_level_m);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (marks->hits[lane] != 0) {

@@ -67,7 +67,7 @@ class WallGrid {
  private:
   class FourMarks;
   enum class Rays { kOneAPoint, kByWeight };
-  void mark_points(const PointSet& points, Rays rays, FourMarks* marks);
+  void mark_points(const BoundedPoints& points, Rays rays, FourMarks* marks);
   bool cell_of(double along_m, double z_level_m, std::uint32_t* cell) const;
   bool solid(std::uint32_t cell) const { return hits_[cell] >= 2 && hits_[cell] >= through_[cell]; }
   bool open(std::uint32_t cell) const { return through_[cell] >= 2 && through_[cell] > hits_[cell]; }

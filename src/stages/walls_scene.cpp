@@ -10,9 +10,9 @@
 
 namespace pose_wall {
 
-WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const PointSet& cloud_base,
-                     const ReturnsByDirection& returns_lidar, const Settings& settings, const LevelResult& level,
-                     const Axes& axes, const Extrinsic& extrinsic) {
+WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyond_level,
+                     const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
+                     const LevelResult& level, const Axes& axes, const Extrinsic& extrinsic) {
   const Eigen::Matrix3d& R = level.R_level_base;
   Eigen::Vector3d forward = R * axes.forward_base;
   forward.z() = 0.0;

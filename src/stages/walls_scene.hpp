@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "config.hpp"
+#include "containers/bounded_points.hpp"
 #include "containers/direction_grid.hpp"
-#include "containers/point_set.hpp"
 #include "estimation/plane.hpp"
 #include "types.hpp"
 
@@ -20,9 +20,9 @@ constexpr double kWellBehind_m = 0.25;
 
 // What the walls are looked for in: the machine, levelled.
 struct WallScene {
-  const PointSet& band_level;
-  const PointSet& beyond_level;  // above and below the band; weight: how many each stands for
-  const PointSet& cloud_base;    // all points, before the band was cut
+  const BoundedPoints& band_level;
+  const BoundedPoints& beyond_level;  // above and below the band; weight: how many each stands for
+  const BoundedPoints& cloud_base;    // all points, before the band was cut
   const ReturnsByDirection& returns_lidar;
   const Settings& settings;
   const Extrinsic& extrinsic;
@@ -37,9 +37,9 @@ struct WallScene {
   bool in_band(double z_level_m) const { return z_level_m >= z_min_level_m && z_level_m <= z_max_level_m; }
 };
 
-WallScene wall_scene(const PointSet& band_level, const PointSet& beyond_level, const PointSet& cloud_base,
-                     const ReturnsByDirection& returns_lidar, const Settings& settings, const LevelResult& level,
-                     const Axes& axes, const Extrinsic& extrinsic);
+WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyond_level,
+                     const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
+                     const LevelResult& level, const Axes& axes, const Extrinsic& extrinsic);
 
 // Share of the way from the sensor, sensor_inside_m before a plane, to a point behind it (signed distance r_m < 0) at
 // which the ray passes the plane.

@@ -40,7 +40,7 @@ double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, S
   const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
   Distances depths;
   scratch->behind_lidar.copy(scene.returns_lidar.too_far);
-  for_each_up_to(scene.cloud_base, wall_base, -behind_m, [&](std::uint32_t i, float distance_m) {
+  for_each_in(scene.cloud_base, Slab(wall_base, kAnyDepth_m, -behind_m), [&](std::uint32_t i, float distance_m) {
     const double r = static_cast<double>(distance_m);
     scratch->behind_lidar.add(scratch->direction_of[i], points_of(scene.cloud_base.weight[i]));
     const Eigen::Vector3d ray = scene.cloud_base.at(i) - scene.extrinsic.sensor_base_m;

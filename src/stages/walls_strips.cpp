@@ -28,12 +28,10 @@ constexpr int kFrontRounds = 4;
 constexpr double kFrontScaleMin_m = 0.005;
 constexpr double kFrontScaleMax_m = 0.03;
 
-void fill_strips(const WallSurface& fit, StripProfile* strips) {
-  const WallPoints& points = *fit.points;
-  const double foreshortening = fit.irls.over.foreshortening();
-  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths counts) {
-    const FourFloats r = points.at.four_distances(k, fit.irls.over, foreshortening);
-    strips->add(load_four(&points.at.u[k]), points.four_z_level_m(k), r, counts);
+void fill_strips(const WallPoints& points, StripProfile* strips) {
+  const TangentPoints& at = points.at;
+  for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {
+    strips->add(load_four(&at.u[k]), load_four(&at.v[k]), load_four(&at.r[k]), points.four_z_level_m(k), counts);
   });
 }
 
@@ -243,17 +241,14 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
                                   first.slope_v * points.sensor.y());
   StripProfile& strips = scratch->strips;
   strips.begin(sensor_m - kProfileReach_m, fit->heights.min_m, fit->heights.max_m);
-  fill_strips(*fit, &strips);
-  if (!strips.find(sensor_m, kSeenWithin * away_m, settings.gate_m)) return;
+  fill_strips(points, &strips);
+  if (!strips.find(fit->irls.over, sensor_m, kSeenWithin * away_m, settings.gate_m)) return;
   double reach_m = kSeenWithin * away_m;
   IrlsSettings step = settings;
   step.rounds = kStepRounds;
   for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
-    if (ring > 0) {
-      strips.begin_anew();
-      fill_strips(*fit, &strips);
-      if (!strips.judge(sensor_m, reach_m)) continue;  // an opening: the wall may go on behind it
-    }
+    // An opening: the wall may go on behind it.
+    if (ring > 0 && !strips.judge(fit->irls.over, sensor_m, reach_m)) continue;
     points.mark_columns(strips, scratch->near);
     points.copy_surface();
     fit->irls = irls_tukey(points.surface, points.surface.count, fit->irls.over, step);

@@ -92,13 +92,14 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
 
 }  // namespace
 
-Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m, Span<std::uint32_t> out) {
+Span<std::uint32_t> points_near(const BoundedPoints& points, const Plane& plane, double gate_m,
+                                Span<std::uint32_t> out) {
   std::uint32_t count = 0;
-  for_each_between(points, plane, -gate_m, gate_m, [&](std::uint32_t i, float) { out[count++] = i; });
+  for_each_in(points, Slab(plane, gate_m), [&](std::uint32_t i, float) { out[count++] = i; });
   return out.first(count);
 }
 
-bool refine_hypothesis(const PointSet& band_level, double thresh_m, const Eigen::Vector3d& along_level,
+bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
                        WallFitScratch* scratch, Plane* plane) {
   const IrlsSettings quick = quick_irls(3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds);
   for (const double gate : {kFirstGateInThresholds * thresh_m, 3.0 * thresh_m}) {

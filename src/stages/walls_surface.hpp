@@ -12,10 +12,11 @@
 namespace pose_wall {
 
 // Indices of the points within gate_m of the plane.
-Span<std::uint32_t> points_near(const PointSet& points, const Plane& plane, double gate_m, Span<std::uint32_t> out);
+Span<std::uint32_t> points_near(const BoundedPoints& points, const Plane& plane, double gate_m,
+                                Span<std::uint32_t> out);
 
 // A few rounds of Tukey from a drawn hypothesis on points of the band, its lean set free. False where nothing holds it.
-bool refine_hypothesis(const PointSet& band_level, double thresh_m, const Eigen::Vector3d& along_level,
+bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
                        WallFitScratch* scratch, Plane* plane);
 
 // Marks the grid with a plane: with the RANSAC threshold to judge a hypothesis, or as wide as the fit reaches.

@@ -69,8 +69,8 @@ using test::wraps::refuse;
 
 POSE_WALL_WRAP(VoxelResult, BUILD_VOXELS, build_voxels,
                (const pose_wall_cloud& cloud, const Settings& s, const Extrinsic& extrinsic, const Axes& axes,
-                VoxelGrid* grid, ReturnsByDirection* returns, PointSet* out)) {
-  VoxelResult r = build_voxels_for_real(cloud, s, extrinsic, axes, grid, returns, out);
+                const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns, PointSet* out)) {
+  VoxelResult r = build_voxels_for_real(cloud, s, extrinsic, axes, last, grid, returns, out);
   const bool overflow = fails(Fault::kVoxelsDoNotFit);
   if (overflow || fails(Fault::kVoxelsNone)) out->count = 0;
   if (overflow) r.fits = false;
@@ -78,7 +78,7 @@ POSE_WALL_WRAP(VoxelResult, BUILD_VOXELS, build_voxels,
 }
 
 POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
-               (const Settings& s, VoxelGrid* grid, Span<std::uint8_t> marks, PointSet* points)) {
+               (const Settings& s, VoxelGrid* grid, Span<std::uint8_t> marks, BoundedPoints* points)) {
   const std::uint32_t before = points->count;
   const std::uint32_t outliers = remove_outliers_for_real(s, grid, marks, points);
   if (!fails(Fault::kOutliersAll)) return outliers;
@@ -87,7 +87,7 @@ POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
 }
 
 POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor,
-               (const PointSet& cloud, const Settings& s, const Axes& axes, const Eigen::Vector3d& sensor_m,
+               (const BoundedPoints& cloud, const Settings& s, const Axes& axes, const Eigen::Vector3d& sensor_m,
                 const Plane* last, Random* random, GroundScratch* scratch)) {
   FloorResult r = find_floor_for_real(cloud, s, axes, sensor_m, last, random, scratch);
   if (fails(Fault::kFloorNotFound)) {
@@ -130,8 +130,8 @@ POSE_WALL_WRAP(LevelResult, LEVEL_BY, level_by, (const Plane& floor, const Axes&
 }
 
 POSE_WALL_WRAP(void, CUT_WALL_BAND, cut_wall_band,
-               (const PointSet& cloud, const LevelResult& level, const Settings& s, VoxelGrid* grid, PointSet* band,
-                PointSet* beyond)) {
+               (const PointSet& cloud, const LevelResult& level, const Settings& s, VoxelGrid* grid,
+                BoundedPoints* band, BoundedPoints* beyond)) {
   cut_wall_band_for_real(cloud, level, s, grid, band, beyond);
   if (fails(Fault::kBandEmpty)) band->count = beyond->count = 0;
 }
@@ -148,7 +148,7 @@ POSE_WALL_WRAP(WallsResult, FIND_WALLS, find_walls,
 }
 
 POSE_WALL_WRAP(bool, REFINE_HYPOTHESIS, refine_hypothesis,
-               (const PointSet& band, double thresh_m, const Eigen::Vector3d& along, WallFitScratch* scratch,
+               (const BoundedPoints& band, double thresh_m, const Eigen::Vector3d& along, WallFitScratch* scratch,
                 Plane* plane)) {
   return !fails(Fault::kRefineFails) && refine_hypothesis_for_real(band, thresh_m, along, scratch, plane);
 }
@@ -166,13 +166,15 @@ POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
 }
 
 // "Found" without a look: no column is judged then.
-POSE_WALL_WRAP(bool, FIND_STRIPS, strips, (StripProfile * self, double u_m, double reach_m, double gate_m)) {
+POSE_WALL_WRAP(bool, FIND_STRIPS, strips,
+               (StripProfile * self, const PlaneOver& over, double u_m, double reach_m, double gate_m)) {
   if (fails(Fault::kStripsUnjudgedFound)) return true;
-  return !fails(Fault::kStripsNotFound) && strips_for_real(self, u_m, reach_m, gate_m);
+  return !fails(Fault::kStripsNotFound) && strips_for_real(self, over, u_m, reach_m, gate_m);
 }
 
-POSE_WALL_WRAP(bool, JUDGE_STRIPS, judge_strips, (StripProfile * self, double u_m, double reach_m)) {
-  return !fails(Fault::kStripsNotJudged) && judge_strips_for_real(self, u_m, reach_m);
+POSE_WALL_WRAP(bool, JUDGE_STRIPS, judge_strips,
+               (StripProfile * self, const PlaneOver& over, double u_m, double reach_m)) {
+  return !fails(Fault::kStripsNotJudged) && judge_strips_for_real(self, over, u_m, reach_m);
 }
 
 POSE_WALL_WRAP(TwoLayers, TWO_LAYERS, two_layers, (const LayerHistogram& histogram, const LayerDemands& demands)) {

@@ -90,13 +90,14 @@ class BandFixture {
       const PointSet& from = part->set();
       for (std::uint32_t i = 0; i < from.count; ++i) cloud_->set(cloud_->count++, from.at(i), from.weight[i]);
     }
+    cloud_->bound();
   }
 
   Settings settings_;
   Extrinsic extrinsic_{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
   OwnedPoints points_;
   OwnedPoints beyond_;
-  Placed<PointSet> cloud_;
+  Placed<BoundedPoints> cloud_;
   Placed<ReturnsByDirection> returns_lidar_;
   Noise noise_;
 };

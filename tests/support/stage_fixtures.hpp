@@ -11,7 +11,7 @@
 
 #include "config.hpp"
 #include "containers/arena.hpp"
-#include "containers/point_set.hpp"
+#include "containers/bounded_points.hpp"
 #include "support/aligned_block.hpp"
 #include "support/engine_under_test.hpp"
 
@@ -49,7 +49,7 @@ class Placed {
   T object_;
 };
 
-// A PointSet that grows up to its capacity, with the list of all its indices.
+// Points that grow up to their capacity, with the list of all their indices; bounded whenever they are asked for.
 class OwnedPoints {
  public:
   explicit OwnedPoints(std::uint32_t capacity) : points_(capacity) { points_->count = 0; }
@@ -57,17 +57,23 @@ class OwnedPoints {
   void add(double x, double y, double z, float weight = 1.0F) {
     points_->set(points_->count, Eigen::Vector3d(x, y, z), weight);
     indices_.push_back(points_->count++);
+    bounded_ = false;
   }
   void add(const Eigen::Vector3d& p) { add(p.x(), p.y(), p.z()); }
 
-  PointSet& set() { return *points_; }
+  BoundedPoints& set() {
+    if (!bounded_) points_->bound();
+    bounded_ = true;
+    return *points_;
+  }
   Span<const std::uint32_t> all() const {
     return Span<const std::uint32_t>(indices_.data(), static_cast<std::uint32_t>(indices_.size()));
   }
 
  private:
-  Placed<PointSet> points_;
+  Placed<BoundedPoints> points_;
   std::vector<std::uint32_t> indices_;
+  bool bounded_ = false;
 };
 
 inline Settings settings_with(std::initializer_list<KeyValue> values = {}) {

@@ -182,7 +182,7 @@ TEST(Irls, PointsWithoutWeightPlayNoPart) {
   const IrlsOver b = irls_tukey(*some, some->count, PlaneOver{}, kSettings);
   ASSERT_TRUE(a.solved && b.solved);
   EXPECT_NEAR(a.over.offset_m, b.over.offset_m, 2e-4);
-  EXPECT_NEAR(a.scale_m, b.scale_m, 5e-4);
+  EXPECT_NEAR(a.scale_m, b.scale_m, 2e-3) << "each of some 750 of the points, but not the same";
 }
 
 TEST(Irls, EndsWhereItStandsStill) {

@@ -53,7 +53,7 @@ TEST(Level, TheBandIsCutByHeightAboveTheTiltedFloor) {
     inside += height >= 0.5 && height <= 1.5 ? 1U : 0U;
   }
   test::Placed<VoxelGrid> grid(4000U);
-  test::Placed<PointSet> band(4000U), beyond(kBeyondMax);
+  test::Placed<BoundedPoints> band(4000U), beyond(kBeyondMax);
   cut_wall_band(points.set(), level, settings, grid.get(), band.get(), beyond.get());
   float weight = 0.0F;
   for (std::uint32_t i = 0; i < band->count; ++i) {
@@ -77,7 +77,7 @@ TEST(Level, WeightsPassTheSecondVoxels) {
   points.add(2.0, 2.0, 0.0, 3.0F);
   points.add(2.01, 2.01, 0.01, 5.0F);
   test::Placed<VoxelGrid> grid(2U);
-  test::Placed<PointSet> band(2U), beyond(kBeyondMax);
+  test::Placed<BoundedPoints> band(2U), beyond(kBeyondMax);
   Plane floor;
   floor.d = 1.0;
   cut_wall_band(points.set(), level_by(floor, ahead_is_x()), test::settings_with({{"wall_voxel_leaf", "0.5"}}),

@@ -35,7 +35,7 @@ struct Voxels {
   }
 
   test::Placed<VoxelGrid> grid;
-  test::Placed<PointSet> points;
+  test::Placed<BoundedPoints> points;
   std::vector<std::uint8_t> keep;
 };
 

@@ -29,17 +29,23 @@ struct Strips {
 
 using Surface = std::function<double(double u, double v)>;
 
+// The plane is upright: v is the height.
+void add(StripProfile* profile, double u, double v, double r) {
+  const auto four = [](double x) { return all_four(static_cast<float>(x)); };
+  profile->add(four(u), four(v), four(r), four(v), FourTruths{-1, 0, 0, 0});
+}
+
 // A point every 2.5 cm along and 7 cm up.
 void fill(StripProfile* profile, double from_m, double to_m, Noise* noise, const Surface& surface) {
   for (double u = from_m; u < to_m; u += 0.025) {
-    for (double v = kLow_m + 0.02; v < kHigh_m; v += 0.07) profile->add(u, v, surface(u, v) + noise->normal(0.01));
+    for (double v = kLow_m + 0.02; v < kHigh_m; v += 0.07) add(profile, u, v, surface(u, v) + noise->normal(0.01));
   }
 }
 
-bool find(StripProfile* profile, Noise* noise, const Surface& surface) {
+bool find(StripProfile* profile, Noise* noise, const Surface& surface, double length_m = 2.0 * kReach_m) {
   profile->begin(-kProfile_m, kLow_m, kHigh_m);
-  fill(profile, -kReach_m, kReach_m, noise, surface);
-  return profile->find(0.0, kReach_m, kGate_m);
+  fill(profile, -0.5 * length_m, 0.5 * length_m, noise, surface);
+  return profile->find(PlaneOver{}, 0.0, kReach_m, kGate_m);
 }
 
 Surface with_strips(const Rock& rock, const Strips& strips) {
@@ -130,9 +136,11 @@ TEST(StripProfile, ColumnsSeenAtFewHeightsSayNothing) {
   for (const int rings : {1, 3, 8}) {
     profile->begin(-kProfile_m, kLow_m, kHigh_m);
     for (double u = -kReach_m; u < kReach_m; u += 0.01) {
-      for (int ring = 0; ring < rings; ++ring) profile->add(u, -1.0 + 0.25 * ring, strips.at(u) ? strips.depth_m : 0.0);
+      for (int ring = 0; ring < rings; ++ring) {
+        add(profile.get(), u, -1.0 + 0.25 * ring, strips.at(u) ? strips.depth_m : 0.0);
+      }
     }
-    EXPECT_EQ(profile->find(0.0, kReach_m, kGate_m), rings == 8) << rings;
+    EXPECT_EQ(profile->find(PlaneOver{}, 0.0, kReach_m, kGate_m), rings == 8) << rings;
   }
 }
 
@@ -142,31 +150,55 @@ TEST(StripProfile, TellsThemApartFurtherOut) {
   Noise noise(3);
   const Rock rock(0.03, 0.3, &noise);
   const Surface surface = with_strips(rock, strips);
-  ASSERT_TRUE(find(profile.get(), &noise, surface));
+  ASSERT_TRUE(find(profile.get(), &noise, surface, 40.0));
   EXPECT_EQ(profile->surface_probability(9.5), 0.0) << "nothing is known there yet";
   EXPECT_FALSE(profile->is_strip(10.0));
   const double near_before = profile->surface_probability(0.5);
-  profile->begin_anew();
-  fill(profile.get(), -20.0, 20.0, &noise, surface);
-  EXPECT_TRUE(profile->judge(0.0, 12.0));
+  EXPECT_TRUE(profile->judge(PlaneOver{}, 0.0, 12.0));
   EXPECT_GE(judged(*profile, strips, 4.0, 11.5).share(), 0.9);
   EXPECT_GE(judged(*profile, strips, -11.5, -4.0).share(), 0.9);
   EXPECT_EQ(profile->surface_probability(0.5), near_before) << "what was judged stays";
   EXPECT_EQ(profile->surface_probability(15.5), 0.0) << "out of the second reach";
-  EXPECT_FALSE(profile->judge(0.0, 12.0)) << "there is nothing new";
+  EXPECT_FALSE(profile->judge(PlaneOver{}, 0.0, 12.0)) << "there is nothing new";
+}
+
+// Points are looked at once; from another plane the columns' means are told by the points' own.
+TEST(StripProfile, SeenFromAnotherPlaneAsIfThePointsWereItsOwn) {
+  test::Placed<StripProfile> own, other;
+  const PlaneOver over{0.3, 0.05, -0.1};
+  const double foreshortening = over.foreshortening();
+  const Strips strips{0.12, 0.15, 1.0};
+  Noise noise(6);
+  const Rock rock(0.03, 0.3, &noise);
+  for (StripProfile* profile : {own.get(), other.get()}) profile->begin(-kProfile_m, kLow_m, kHigh_m);
+  for (double u = -20.0; u < 20.0; u += 0.025) {
+    for (double v = kLow_m + 0.02; v < kHigh_m; v += 0.07) {
+      const double residual = strips.at(u) ? strips.depth_m : rock.at(u, v);
+      add(own.get(), u, v, residual);
+      add(other.get(), u, v, residual / foreshortening + over.offset_m + over.slope_u * u + over.slope_v * v);
+    }
+  }
+  ASSERT_TRUE(own->find(PlaneOver{}, 0.0, kReach_m, kGate_m));
+  ASSERT_TRUE(other->find(over, 0.0, kReach_m, kGate_m));
+  ASSERT_TRUE(own->judge(PlaneOver{}, 0.0, 12.0));
+  ASSERT_TRUE(other->judge(over, 0.0, 12.0));
+  EXPECT_NEAR(other->layers().step_m, own->layers().step_m, 1e-4);
+  for (double u = -11.5; u < 11.5; u += 0.05) {
+    EXPECT_NEAR(other->surface_probability(u), own->surface_probability(u), 0.02) << u;
+  }
 }
 
 TEST(StripProfile, HarmlessOutsideAndEmpty) {
   test::Placed<StripProfile> profile;
   profile->begin(-kProfile_m, kLow_m, kHigh_m);
-  EXPECT_FALSE(profile->find(0.0, kReach_m, kGate_m));
+  EXPECT_FALSE(profile->find(PlaneOver{}, 0.0, kReach_m, kGate_m));
   for (const double wild : {-1e30, -33.0, 33.0, 1e30, std::nan("")}) {
-    profile->add(wild, 0.0, 0.1);
-    profile->add(0.0, wild, 0.1);
+    add(profile.get(), wild, 0.0, 0.1);
+    add(profile.get(), 0.0, wild, 0.1);
     EXPECT_FALSE(profile->is_strip(wild));
     EXPECT_EQ(profile->surface_probability(wild), 0.0);
   }
-  EXPECT_FALSE(profile->find(0.0, 1e3, kGate_m));
+  EXPECT_FALSE(profile->find(PlaneOver{}, 0.0, 1e3, kGate_m));
   EXPECT_EQ(profile->surface_probability(0.0), 0.0);
 }
 
@@ -206,12 +238,12 @@ TEST(StripProfile, FourPointsCountAsEachByItself) {
       u[lane] = static_cast<float>(at_u);
       v[lane] = static_cast<float>(at_v);
       r[lane] = static_cast<float>(residual);
-      if (lane < lanes) one->add(static_cast<double>(u[lane]), static_cast<double>(v[lane]), residual);
+      if (lane < lanes) add(one.get(), static_cast<double>(u[lane]), static_cast<double>(v[lane]), residual);
     }
-    four->add(u, v, r, first_of_four(lanes));
+    four->add(u, v, r, v, first_of_four(lanes));
   }
-  ASSERT_TRUE(one->find(0.0, kReach_m, kGate_m));
-  ASSERT_TRUE(four->find(0.0, kReach_m, kGate_m));
+  ASSERT_TRUE(one->find(PlaneOver{}, 0.0, kReach_m, kGate_m));
+  ASSERT_TRUE(four->find(PlaneOver{}, 0.0, kReach_m, kGate_m));
   EXPECT_EQ(four->layers().step_m, one->layers().step_m);
   for (double u = -kReach_m; u < kReach_m; u += 0.05) {
     EXPECT_EQ(four->surface_probability(u), one->surface_probability(u)) << u;

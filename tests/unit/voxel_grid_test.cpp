@@ -122,6 +122,37 @@ TEST(VoxelGrid, CentroidsComeInTheOrderOfTheirKeys) {
   }
 }
 
+TEST(VoxelGrid, AsTheyCameAreTheSameCentroidsInTheOrderOfTheirFirstPoints) {
+  test::Placed<VoxelGrid> grid(20000U);
+  test::Placed<PointSet> sorted(20000U), came(20000U);
+  const std::vector<Xyz> points = random_points(15000, 1.0, 9);
+  grid->begin(0.1, kReach_m);
+  for (const Xyz& p : points) EXPECT_TRUE(add(grid.get(), p));
+  grid->extract(sorted.get());
+  grid->extract_as_they_came(came.get());
+  const auto all_of = [](const PointSet& set) {
+    std::vector<std::array<float, 4>> all;
+    for (std::uint32_t i = 0; i < set.count; ++i) all.push_back({set.x[i], set.y[i], set.z[i], set.weight[i]});
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  EXPECT_EQ(all_of(*came), all_of(*sorted));
+  std::uint32_t next = 0;
+  test::Placed<VoxelGrid> alone(20000U);
+  alone->begin(0.1, kReach_m);
+  for (const Xyz& p : points) {
+    if (alone->count() == came->count) break;
+    EXPECT_TRUE(add(alone.get(), p));
+    if (alone->count() == next) continue;  // a cell that was there
+    for (int k = 0; k < 3; ++k) {
+      const float centre = k == 0 ? came->x[next] : (k == 1 ? came->y[next] : came->z[next]);
+      EXPECT_NEAR(centre, p[static_cast<std::size_t>(k)], 0.101) << next;
+    }
+    ++next;
+  }
+  EXPECT_EQ(next, came->count);
+}
+
 TEST(VoxelGrid, OrderOfPointsDoesNotMatterToASingleBit) {
   std::vector<Xyz> points = random_points(15000, 3.0, 2);
   const Gridded before = gridded(points, 0.05 * 3.7);

@@ -40,13 +40,14 @@ std::vector<std::uint32_t> filled_cells(const DirectionGrid& grid) {
   return cells;
 }
 
-Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic = at_origin()) {
+Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic = at_origin(),
+                 const LeafMemory& last = {}) {
   const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
   test::Placed<VoxelGrid> grid(settings.points_max);
   test::Placed<ReturnsByDirection> returns;
   test::Placed<PointSet> out(settings.points_max);
   Voxels v;
-  v.result = build_voxels(cloud, settings, extrinsic, axes, grid.get(), returns.get(), out.get());
+  v.result = build_voxels(cloud, settings, extrinsic, axes, last, grid.get(), returns.get(), out.get());
   v.filled = filled_cells(returns->all);
   for (std::uint32_t i = 0; i < out->count; ++i) v.points.push_back(out->at(i));
   for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
@@ -154,6 +155,22 @@ TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
   const Voxels second = voxels_of(test::cloud_of(points, 0), settings);
   EXPECT_EQ(second.result.fingerprint, first.result.fingerprint);
   EXPECT_EQ(second.result.leaf_m, first.result.leaf_m);
+}
+
+TEST(Voxel, WhatTheLastCloudNeededIsTriedFirstAndGivesTheSame) {
+  const test::Points points = scattered(2, 40000, 3, 1);
+  const Settings settings = test::settings_with({{"points_max", "5000"}});
+  const Voxels first = voxels_of(test::cloud_of(points, 0), settings);
+  const Voxels second = voxels_of(test::cloud_of(points, 0), settings, at_origin(), first.result.leaf);
+  EXPECT_EQ(second.result.leaf_m, first.result.leaf_m);
+  EXPECT_EQ(second.result.fingerprint, first.result.fingerprint);
+  EXPECT_TRUE(second.result.leaf_grown);
+  EXPECT_EQ(second.result.counts.points_in, 40000U);
+  EXPECT_EQ(second.returns, 40000U);
+  // Where there is much less, the leaf is what it would have been, at once.
+  const Voxels after = voxels_of(test::cloud_of(scattered(3, 2000, 3, 1), 0), settings, at_origin(), first.result.leaf);
+  EXPECT_EQ(after.result.leaf_m, settings.voxel_leaf);
+  EXPECT_FALSE(after.result.leaf_grown);
 }
 
 // Large voxels of points that fill the air would lie in layers, each like a floor.

@@ -110,9 +110,13 @@ test::Placed<StripProfile> strips_every_metre() {
   strips->begin(-20.0, -1.0, 1.0);
   for (double u = -12.0; u < 15.0; u += 0.02) {
     const bool strip = std::fabs(u - std::round(u)) < 0.075;
-    for (double v = -0.95; v < 1.0; v += 0.1) strips->add(u, v, (strip ? 0.1 : 0.0) + 0.004 * std::sin(40.0 * u + v));
+    for (double v = -0.95; v < 1.0; v += 0.1) {
+      const double r = (strip ? 0.1 : 0.0) + 0.004 * std::sin(40.0 * u + v);
+      const FourFloats height = all_four(static_cast<float>(v));
+      strips->add(all_four(static_cast<float>(u)), height, all_four(static_cast<float>(r)), height, first_of_four(1));
+    }
   }
-  EXPECT_TRUE(strips->find(0.0, 10.0, 0.2));
+  EXPECT_TRUE(strips->find(PlaneOver{}, 0.0, 10.0, 0.2));
   return strips;
 }
 

@@ -103,10 +103,12 @@ endfunction()
 # That, and what keeps the heap and other bits on other machines out of the engine.
 function(pose_wall_engine_flags target)
   pose_wall_bare_flags(${target})
-  # These change what a header means or the bits it computes: who includes engine headers must compile alike. A failed
+  # These change what a header means or the bits it computes: who includes engine headers must compile alike. Lanes that
+  # do not count are computed with the others and may divide by zero, so nobody can have these trap anyway. A failed
   # Eigen assertion traps in every build type; Eigen's own would bring assert(), and with it stdio and abort().
   target_compile_options(${target} PUBLIC
-    -ffp-contract=off -fno-math-errno "-Deigen_assert(condition)=((condition)?(void)0:__builtin_trap())")
+    -ffp-contract=off -fno-math-errno -fno-trapping-math
+    "-Deigen_assert(condition)=((condition)?(void)0:__builtin_trap())")
   target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
 endfunction()
 
