@@ -118,6 +118,26 @@ TEST(Quality, ARangeBiasOfBothWallsCancelsAndOfOneCounts) {
   EXPECT_GE(one.measured().quantity[POSE_WALL_YAW].protection, 0.03 * 0.2);
 }
 
+// By two of their standard deviations walls differ by chance; by nearly three, neither is known so well.
+TEST(Quality, WallsThatDifferMoreThanIsLikelyAreLessWellKnown) {
+  const auto yaw_of_apart = [](double apart_in_sigmas) {
+    Scene scene;
+    scene.walls[1].yaw_rad = scene.walls[0].yaw_rad + apart_in_sigmas * std::sqrt(2.0) * 0.001;
+    return scene.measured().quantity[POSE_WALL_YAW];
+  };
+  const Measurement alike = yaw_of_apart(0.0);
+  EXPECT_EQ(yaw_of_apart(1.9).sigma, alike.sigma);
+  EXPECT_EQ(yaw_of_apart(1.9).protection, alike.protection);
+  EXPECT_NEAR(yaw_of_apart(2.5).sigma, 1.25 * alike.sigma, 0.02 * alike.sigma);
+  EXPECT_NEAR(yaw_of_apart(2.9).protection, 1.45 * alike.protection, 0.02 * alike.protection);
+  double last = 0.0;
+  for (double apart = 0.0; apart < 6.0; apart += 0.125) {
+    const double level = yaw_of_apart(apart).protection;
+    EXPECT_GT(level, 0.95 * last) << "no better for being further apart: " << apart;
+    last = level;
+  }
+}
+
 TEST(Quality, WallsThatDifferWidenTheLevelToReachEither) {
   Scene scene;
   scene.walls[0].yaw_rad = 0.00;
