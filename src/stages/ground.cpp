@@ -275,7 +275,7 @@ void widen(const Settings& s, std::uint32_t claims, FloorResult* floor) {
 // steep, it may be a heap's flank as well, and so may its rivals: the levels reach to upright, of roll and of pitch, as
 // nothing tells which way the rivals lean.
 void reach_to_upright(FloorResult* floor) {
-  constexpr double kSteep_rad = 0.26;  // 15 degrees; broken rock lies at 30 to 40
+  constexpr double kSteep_rad = 0.17;  // 10 degrees; a radius takes in part of a flank, which lies at 30 to 40
   if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
   const double tilt_rad = tilt_of_up(floor->fit.plane.n);
   if (!(tilt_rad > kSteep_rad)) return;
