@@ -44,8 +44,10 @@ struct IngestCounts {
 
 // What a cloud leaves behind for the next one's leaf.
 struct LeafMemory {
-  std::uint32_t begin_with = 0;  // how often the leaf that is tried first has grown
-  std::uint32_t voxels = 0;      // how many there were with it when one growth less was last tried in vain
+  static constexpr std::uint32_t kAnyFewer = 0xFFFFFFFFU;  // with it, whatever there are now is fewer
+
+  std::uint32_t begin_with = 0;      // how often the leaf that is tried first has grown
+  std::uint32_t voxels = kAnyFewer;  // how many there were with it when one growth less was last tried in vain
 };
 
 struct VoxelResult {

@@ -6,11 +6,6 @@
 namespace pose_wall {
 namespace {
 
-// By odd numbers, so that nothing is lost.
-std::uint64_t spread(std::uint64_t value, std::uint64_t odd) {
-  return value * odd;
-}
-
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * 0x9E3779B97F4A7C15ULL;
   return hash ^ (hash >> 29);
@@ -66,9 +61,10 @@ void VoxelGrid::write_sorted(PointSet* out) {
     out->y[at] = coordinate(cell.y, s.y, per_weight);
     out->z[at] = coordinate(cell.z, s.z, per_weight);
     out->weight[at] = static_cast<float>(s.weight) / static_cast<float>(kWeightOne);
-    fingerprint =
-        mixed(fingerprint, key ^ spread(s.x | static_cast<std::uint64_t>(s.y) << 32, 0xC2B2AE3D27D4EB4FULL) ^
-                               spread(s.z | static_cast<std::uint64_t>(s.weight) << 32, 0x165667B19E3779F9ULL));
+    const std::uint64_t xy = s.x | static_cast<std::uint64_t>(s.y) << 32,
+                        zw = s.z | static_cast<std::uint64_t>(s.weight) << 32;
+    // Odd factors of many bits, so that sums and key do not undo each other's changes.
+    fingerprint = mixed(fingerprint, key ^ (xy * 0xC2B2AE3D27D4EB4FULL) ^ (zw * 0x165667B19E3779F9ULL));
     ++at;
   }
   out->count = keys.size();

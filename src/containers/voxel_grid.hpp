@@ -63,14 +63,15 @@ class VoxelGrid {
   void extract(PointSet* out);
   void extract_as_they_came(PointSet* out);
 
-  // After extract(), until the next begin(): the key of the i-th centroid, and where each column's keys begin in the
-  // list, with its end as the last; nothing, and an end, before.
+  // After extract() in the order of the keys, until the next begin(): the key of the i-th centroid, and where each
+  // column's keys begin in the list, with its end as the last; nothing, and an end, before.
   std::uint64_t key_in_order(std::uint32_t i) const { return hash_.key(sorted_[i]); }
   Span<const std::uint32_t> find_columns();
   double leaf_m() const { return leaf_m_; }
 
   std::uint32_t count() const { return hash_.count(); }
-  // Of all cells and their sums, after extract(): equal clouds give equal numbers, others different ones.
+  // Of all cells and their sums, after extract() in the order of the keys: equal clouds give equal numbers, others
+  // different ones.
   std::uint64_t fingerprint() const { return fingerprint_; }
 
  private:

@@ -29,7 +29,8 @@ std::uint32_t points_with_weight(const TangentPoints& p, std::uint32_t count) {
   return sum_of_lanes(with);
 }
 
-// By one of so many fours.
+// Of lists that are thinned, one of so many is taken, an odd number: neighbours may lie in two layers by turns, and an
+// even stride would take but one of them. Here it is one of so many fours.
 double scale_of(const TangentPoints& p, std::uint32_t count, std::uint32_t stride, const Round& round, double gate_m) {
   ScaleHistogram histogram(gate_m);
   for (std::uint32_t k = 0; k < count; k += stride * kFour) {
@@ -88,7 +89,7 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
                     const IrlsSettings& settings) {
   IrlsOver result;
   result.over = start;
-  const std::uint32_t stride = points_with_weight(points, count) / settings.scale_points + 1;
+  const std::uint32_t stride = (points_with_weight(points, count) / settings.scale_points + 1) | 1U;
   for (int i = 0; i < settings.rounds; ++i) {
     Round round{static_cast<float>(result.over.offset_m), static_cast<float>(result.over.slope_u),
                 static_cast<float>(result.over.slope_v),  static_cast<float>(result.over.foreshortening()),
@@ -111,7 +112,7 @@ IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, 
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points) {
   points->begin(start, Eigen::Vector3d::Zero(), u_hint);
   const std::uint32_t room = points->capacity(), needed = room > 0 ? (indices.size() + room - 1) / room : 1;
-  const std::uint32_t stride = needed <= 1 ? 1 : needed | 1U;  // odd, as above
+  const std::uint32_t stride = needed <= 1 ? 1 : needed | 1U;  // odd, as for the scale
   for (std::uint32_t k = 0; k < indices.size(); k += stride)
     points->add(cloud.at(indices[k]), cloud.weight[indices[k]]);
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);

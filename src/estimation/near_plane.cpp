@@ -19,7 +19,7 @@ bool BlocksIn::next(std::uint32_t* begin, std::uint32_t* end) {
   for (const std::uint32_t blocks = points_.blocks(); block_ < blocks; ++block_) {
     const std::uint32_t lane = block_ % kFour;
     if (lane == 0) {
-      meet_ = slab_.may_meet(points_, block_);
+      meet_ = first_of_four(blocks - block_) & slab_.may_meet(points_, block_);
       if (!any_of(meet_)) {
         block_ += kFour - 1;
         continue;

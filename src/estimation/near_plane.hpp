@@ -71,6 +71,7 @@ class BlocksIn {
   FourTruths meet_{};  // of the four blocks that block_ is one of
 };
 
+// The low limit of a slab that goes on behind its plane, however far.
 constexpr double kAnyDepth_m = -1e6;
 
 // visit(first index, which of the four count): over the blocks that may hold points of the slab; others come with them.

@@ -19,8 +19,8 @@ constexpr std::uint32_t kWeakWall =
     POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_WALL_FEW_INLIERS | POSE_WALL_R_CURVED;
 // Walls that differ by more than this many standard deviations are not parallel: the road has no one direction.
 constexpr double kSplayInSigmas = 3.0;
-// From here on up to there, rather than both by chance, the rock is less well known than it seems: the standard
-// deviation is stretched until they differ by no more (Birge 1932).
+// By so many they differ by chance. Where it is more, the rock is known less well than it seems: the standard deviation
+// is stretched until they differ by no more than this (Birge 1932), up to kSplayInSigmas.
 constexpr double kLikelyInSigmas = 2.0;
 // No part of the chain is better known than this.
 constexpr double kSigmaMinAngle_rad = 1e-5;
@@ -125,13 +125,10 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double apart_in_sigmas = (difference - biased_apart) / std::sqrt(variance[0] + variance[1]);
-  double stretch = 1.0;
-  if (apart_in_sigmas > kSplayInSigmas) {
-    // The road's own direction lies between the walls'; the mean may lie at either.
-    bound += larger(w[0], w[1]) * difference;
-  } else {
-    stretch = larger(stretch, apart_in_sigmas / kLikelyInSigmas);
-  }
+  const bool splayed = apart_in_sigmas > kSplayInSigmas;
+  // The road's own direction lies between the walls'; the mean may lie at either.
+  if (splayed) bound += larger(w[0], w[1]) * difference;
+  const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
   const double dof = 1.0 / (w[0] * w[0] / walls[0].dof_slope + w[1] * w[1] / walls[1].dof_slope);
   const double tilt_share = larger(tilt_to_yaw(walls[0], level), tilt_to_yaw(walls[1], level));

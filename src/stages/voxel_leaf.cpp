@@ -13,39 +13,53 @@ constexpr double kMost_m = 0.26;
 // So many fewer voxels than when a smaller leaf was tried in vain, and it is tried again.
 constexpr double kFewer = 0.95;
 
-}  // namespace
-
-double VoxelLeaf::leaf_m(std::uint32_t growths) const {
-  double leaf_m = least_m_;
+double grown(double least_m, std::uint32_t growths) {
+  double leaf_m = least_m;
   for (std::uint32_t k = 0; k < growths && leaf_m < kMost_m; ++k) {
     leaf_m = leaf_m * kGrowth < kMost_m ? leaf_m * kGrowth : kMost_m;
   }
   return leaf_m;
 }
 
-bool VoxelLeaf::is_largest(std::uint32_t growths) const {
-  return !(leaf_m(growths) < kMost_m);
+bool is_largest(double leaf_m) {
+  return !(leaf_m < kMost_m);
+}
+
+}  // namespace
+
+LeafSearch::LeafSearch(double least_m, std::uint32_t room, const LeafMemory& last)
+    : least_m_(least_m), room_(room), last_(last) {
+  // A memory may come from anywhere: no leaf grows further than to the largest.
+  while (growths_ < last.begin_with && !is_largest(grown(least_m, growths_))) ++growths_;
+  last_.begin_with = growths_;
+}
+
+double LeafSearch::leaf_m() const {
+  return grown(least_m_, growths_);
+}
+
+bool LeafSearch::are_as_many_as_last(std::uint32_t voxels) const {
+  return growths_ == last_.begin_with && static_cast<double>(voxels) >= kFewer * static_cast<double>(last_.voxels);
 }
 
 bool LeafSearch::goes_on(bool fits, std::uint32_t voxels) {
   if (!fits) {
-    if (leaf_.is_largest(growths_)) return false;
+    if (is_largest(leaf_m())) return false;
     in_vain_ = true;
     ++growths_;
     return true;
   }
-  if (in_vain_) return false;
-  // One growth less makes them twice as many where they fill space, and fewer on surfaces: so many less surely fit.
+  if (in_vain_ || are_as_many_as_last(voxels)) return false;
+  // One growth less makes them about twice as many where they fill space, and fewer on surfaces.
   const std::uint32_t before = growths_;
   for (std::uint64_t most = 2ULL * voxels; growths_ > 0 && most <= room_; most *= 2) --growths_;
   return growths_ < before;
 }
 
 LeafMemory LeafSearch::memory(bool fits, std::uint32_t voxels) const {
-  constexpr std::uint32_t kAnyFewer = 0xFFFFFFFFU;
-  if (!fits || growths_ == 0) return {growths_, kAnyFewer};
+  if (!fits || growths_ == 0) return {growths_, LeafMemory::kAnyFewer};
   if (in_vain_) return {growths_, voxels};
-  if (growths_ < last_.begin_with || voxels < kFewer * last_.voxels) return {growths_ - 1, kAnyFewer};
+  if (!are_as_many_as_last(voxels)) return {growths_ - 1, LeafMemory::kAnyFewer};
   return {growths_, last_.voxels};
 }
 

@@ -3,7 +3,8 @@
 //
 // How large the voxels of a cloud are: as small as the config says, or larger where it has more of them than there is
 // room for. That is known when the room is full, which is most of a pass over the cloud; so the leaf that the last
-// cloud of a sensor needed is tried first with the next one.
+// cloud of a sensor needed is tried first with the next one. Where clouds become thinner it comes down again: at once
+// as far as the voxels would have room even if they filled space, and from there by one growth a cloud.
 
 #pragma once
 
@@ -13,25 +14,13 @@
 
 namespace pose_wall {
 
-// Leaves by how often they have grown, each time to 1.26 times the size.
-class VoxelLeaf {
- public:
-  explicit VoxelLeaf(double least_m) : least_m_(least_m) {}
-
-  double leaf_m(std::uint32_t growths) const;
-  bool is_largest(std::uint32_t growths) const;
-
- private:
-  double least_m_;
-};
-
-// The leaves that are tried for one cloud, one after the other.
+// The leaves that are tried for one cloud, one after the other, each by how often it has grown to 1.26 times its size.
 class LeafSearch {
  public:
-  LeafSearch(double least_m, std::uint32_t room, const LeafMemory& last)
-      : leaf_(least_m), room_(room), last_(last), growths_(last.begin_with) {}
+  // room: for so many voxels.
+  LeafSearch(double least_m, std::uint32_t room, const LeafMemory& last);
 
-  double leaf_m() const { return leaf_.leaf_m(growths_); }
+  double leaf_m() const;
   bool has_grown() const { return growths_ > 0; }
   // After a pass with this leaf: whether another is to be tried. voxels: how many there were, if they all had room.
   bool goes_on(bool fits, std::uint32_t voxels);
@@ -39,10 +28,12 @@ class LeafSearch {
   LeafMemory memory(bool fits, std::uint32_t voxels) const;
 
  private:
-  VoxelLeaf leaf_;
+  bool are_as_many_as_last(std::uint32_t voxels) const;
+
+  double least_m_;
   std::uint32_t room_;
   LeafMemory last_;
-  std::uint32_t growths_;
+  std::uint32_t growths_ = 0;
   bool in_vain_ = false;  // a smaller one was tried
 };
 

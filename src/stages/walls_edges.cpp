@@ -272,7 +272,7 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
   if (!(inside_m > 0.0)) return {};
   EdgeTally tally(scene, margin_m, scratch);
   const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
-  const Slab slab(wall_base, kAnyDepth_m, larger(margin_m, inside_m));
+  const Slab slab(wall_base, kAnyDepth_m, inside_m);
   FourRays rays(scene, along_level, inside_m);
   const PointSet& points = scene.cloud_base;
   for_each_four_about(scene.cloud_base, slab, [&](std::uint32_t i, FourTruths counts) {

@@ -48,6 +48,33 @@ TEST(Memento, AnyFrameCanBeComputedAgain) {
   }
 }
 
+// More voxels than there is room for, far fewer, and more again: each frame begins with the leaf of the one before.
+TEST(Memento, TheLeafOfTheLastFrameIsInIt) {
+  pose_wall_config config = small_config();
+  set(&config, "points_max", "5000");
+  EngineUnderTest all(config);
+  const std::size_t one_of[] = {1, 1, 3, 3, 3, 3, 1, 2, 2, 2, 2, 9, 9};
+  std::int64_t stamp_ns = 0;
+  int grown = 0, from_the_past = 0;
+  for (const std::size_t every : one_of) {
+    const Points whole = room_points(static_cast<std::uint32_t>(every));
+    Points points;
+    for (std::size_t i = 0; i < whole.size(); i += every) points.push_back(whole[i]);
+    const pose_wall_cloud cloud = cloud_of(points, stamp_ns += 100000000);
+    const Memento before = save(&all);
+    const pose_wall_result expected = all.process(cloud);
+    EngineUnderTest other(config), fresh(config);
+    ASSERT_EQ(load(&other, before), POSE_WALL_OK);
+    const pose_wall_result again = other.process(cloud);
+    EXPECT_EQ(std::memcmp(&expected, &again, sizeof again), 0) << stamp_ns;
+    EXPECT_EQ(save(&other), save(&all));
+    grown += (expected.frame_reasons & POSE_WALL_R_LEAF_GROWN) != 0 ? 1 : 0;
+    from_the_past += fresh.process(cloud).voxels != expected.voxels ? 1 : 0;
+  }
+  EXPECT_GT(grown, 4);
+  EXPECT_GT(from_the_past, 0) << "the leaf comes down by and by: else this test shows nothing";
+}
+
 // Without what came before, the second frame comes out otherwise: the test above can fail.
 TEST(Memento, WithoutItTheSameFrameIsAnother) {
   EngineUnderTest all(small_config()), fresh(small_config());

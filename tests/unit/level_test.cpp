@@ -67,6 +67,12 @@ TEST(Level, TheBandIsCutByHeightAboveTheTiltedFloor) {
     ASSERT_TRUE(height < 0.5 + 1e-4 || height > 1.5 - 1e-4);
     ASSERT_EQ(beyond->weight[i], 1.0F);
   }
+  for (const BoundedPoints* part : {band.get(), beyond.get()}) {
+    for (std::uint32_t i = 0; i < part->count; ++i) {
+      const std::uint32_t block = i / BoundedPoints::kBlock;
+      ASSERT_LE(std::fabs(part->x[i] - part->centre_x[block]), part->half_x[block] + 1e-4F) << "bounded";
+    }
+  }
   EXPECT_NEAR(3.0 * beyond->count, 4000.0 - static_cast<double>(weight), 3.0) << "one of three outside the band";
   // Floats on the border may fall to either side.
   EXPECT_NEAR(weight, static_cast<float>(inside), 2.0F);

@@ -123,6 +123,23 @@ TEST(NearPlane, BlocksHideNoPoint) {
   }
 }
 
+// Rows of boxes are read four at a time: what lies behind the last is of another frame.
+TEST(NearPlane, BlocksBehindTheLastDoNotCount) {
+  for (const float left : {0.0F, std::nanf(""), 1e30F}) {
+    for (std::uint32_t count = 1; count < 5 * BoundedPoints::kBlock; count += 13) {
+      test::OwnedPoints points(6 * BoundedPoints::kBlock);
+      for (std::uint32_t i = 0; i < count; ++i) points.add(1.0, 2.0, 0.0);
+      BoundedPoints& set = points.set();
+      for (Span<float>* row : {&set.centre_x, &set.centre_y, &set.centre_z, &set.half_x, &set.half_y, &set.half_z}) {
+        for (std::uint32_t block = set.blocks(); block < row->size(); ++block) (*row)[block] = left;
+      }
+      std::uint32_t visited = 0;
+      for_each_in(set, Slab({Eigen::Vector3d::UnitX(), -1.0}, 0.1), [&](std::uint32_t, float) { ++visited; });
+      EXPECT_EQ(visited, count);
+    }
+  }
+}
+
 TEST(NearPlane, BlocksElsewhereArePassedOver) {
   test::OwnedPoints points(20 * BoundedPoints::kBlock);
   for (std::uint32_t i = 0; i < 20 * BoundedPoints::kBlock; ++i) points.add(i / BoundedPoints::kBlock, 0.1, 0.2);

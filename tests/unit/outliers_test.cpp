@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimation/near_plane.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {
@@ -53,6 +54,10 @@ TEST(Outliers, AreThoseThatAllPairsSay) {
           by_all_pairs(*voxels.points, settings.outlier_radius, settings.outlier_min_neighbors);
       const std::uint32_t removed = voxels.remove_outliers(settings);
       ASSERT_EQ(voxels.points->count, expected.size()) << needed << " within " << radius;
+      std::uint32_t in_blocks = 0;
+      for_each_in(*voxels.points, Slab(Plane{}, 1e3), [&](std::uint32_t, float) { ++in_blocks; });
+      EXPECT_EQ(in_blocks, voxels.points->count) << "bounded, also where none are asked for";
+      EXPECT_NEAR(voxels.points->centre_x[0], voxels.points->x[0], voxels.points->half_x[0] + 1e-4F);
       EXPECT_EQ(removed, before - expected.size());
       for (std::uint32_t i = 0; i < voxels.points->count; ++i) ASSERT_EQ(voxels.points->at(i), expected[i]) << "order";
     }

@@ -130,11 +130,23 @@ TEST(Quality, WallsThatDifferMoreThanIsLikelyAreLessWellKnown) {
   EXPECT_EQ(yaw_of_apart(1.9).protection, alike.protection);
   EXPECT_NEAR(yaw_of_apart(2.5).sigma, 1.25 * alike.sigma, 0.02 * alike.sigma);
   EXPECT_NEAR(yaw_of_apart(2.9).protection, 1.45 * alike.protection, 0.02 * alike.protection);
-  double last = 0.0;
-  for (double apart = 0.0; apart < 6.0; apart += 0.125) {
-    const double level = yaw_of_apart(apart).protection;
-    EXPECT_GT(level, 0.95 * last) << "no better for being further apart: " << apart;
-    last = level;
+}
+
+// However few pieces they are known by, and whether one is known much better.
+TEST(Quality, WallsFurtherApartAreNeverKnownBetter) {
+  for (const double dof : {3.0, 8.0, 40.0}) {
+    for (const double second_sigma : {0.0005, 0.001, 0.004}) {
+      Measurement last;
+      for (double apart = 0.0; apart < 0.03; apart += 0.0001) {
+        Scene scene;
+        scene.walls[1] = good_wall(scene.walls[0].yaw_rad + apart, second_sigma);
+        for (WallResult& wall : scene.walls) wall.dof_slope = dof;
+        const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
+        EXPECT_GE(yaw.protection, last.protection) << apart << " " << second_sigma << " " << dof;
+        EXPECT_GE(yaw.sigma, last.sigma) << apart << " " << second_sigma << " " << dof;
+        last = yaw;
+      }
+    }
   }
 }
 
