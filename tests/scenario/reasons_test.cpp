@@ -61,7 +61,7 @@ const std::vector<Row> kRows = {
     {POSE_WALL_R_WALL_SHORT, POSE_WALL_YAW, {"cavern"}, {"one_wall"}},
     {POSE_WALL_R_WALL_LEANS, POSE_WALL_D_LF, {"trapezoid", {"lean_left_deg=25"}}, {"trapezoid", {"lean_left_deg=10"}}},
     {POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_D_LF, {"props_before_void"}, {"pipes"}},
-    {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_D_LF, {"props"}, {"rough"}},
+    {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_D_LF, {"props", {"prop_radius_m=0.15"}}, {"rough"}},
     {POSE_WALL_R_WALLS_NOT_PARALLEL, POSE_WALL_YAW, {"splayed_wide"}, {"splayed"}},
     {POSE_WALL_R_YAW_OUT_OF_RANGE, POSE_WALL_YAW, {"turned", {"turned_left_deg=47", "face_distance_m=0"}},
      {"turned", {"turned_left_deg=40", "face_distance_m=0"}}},
