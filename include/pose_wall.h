@@ -258,9 +258,8 @@ enum pose_wall_reason {
   /* the frame */
   POSE_WALL_R_NO_POINTS = 1 << 0,  /* too few points survive the filters */
   POSE_WALL_R_LEAF_GROWN = 1 << 1, /* of the frame: voxel leaf enlarged to stay within points_max, or still so since the
-                                      last frames (a note, not a fault).
-                                      Of a value: even voxels of 0.26 m were too many, and nothing is told from larger
-                                      ones */
+                                      last frames (a note, not a fault). Of a value: even voxels of 0.26 m were too
+                                      many, and nothing is told from larger ones */
   POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp equals the last frame's: taken as the same frame again, values are held;
                                        after the second such frame they expire */
   POSE_WALL_R_STAMP_BACK =

@@ -10,6 +10,7 @@
 #include "math/four_floats.hpp"
 #include "math/four_turns.hpp"
 #include "stages/voxel_cloud_reader.hpp"
+#include "stages/voxel_leaf.hpp"
 
 namespace pose_wall {
 namespace {

@@ -9,7 +9,6 @@
 #include "containers/direction_grid.hpp"
 #include "containers/voxel_grid.hpp"
 #include "pose_wall.h"
-#include "stages/voxel_leaf.hpp"
 #include "types.hpp"
 
 namespace pose_wall {

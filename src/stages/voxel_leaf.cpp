@@ -13,16 +13,16 @@ constexpr double kMost_m = 0.26;
 // So many fewer voxels than when a smaller leaf was tried in vain, and it is tried again.
 constexpr double kFewer = 0.95;
 
+bool is_largest(double leaf_m) {
+  return !(leaf_m < kMost_m);
+}
+
 double grown(double least_m, std::uint32_t growths) {
   double leaf_m = least_m;
-  for (std::uint32_t k = 0; k < growths && leaf_m < kMost_m; ++k) {
+  for (std::uint32_t k = 0; k < growths && !is_largest(leaf_m); ++k) {
     leaf_m = leaf_m * kGrowth < kMost_m ? leaf_m * kGrowth : kMost_m;
   }
   return leaf_m;
-}
-
-bool is_largest(double leaf_m) {
-  return !(leaf_m < kMost_m);
 }
 
 }  // namespace
