@@ -118,7 +118,7 @@ double PatchGrid::Scatter::at(double share2) const {
 }
 
 std::uint32_t PatchGrid::collect_means(Errors errors) {
-  const int rounds = errors == Errors::kMeasured ? kScatterRounds : kScatterRoundsOfAStep;
+  const int rounds = errors == Errors::kPlaneOnly ? kScatterRoundsOfAStep : kScatterRounds;
   std::uint32_t n = 0;
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     const std::uint32_t cells = columns_ * rows_, first = layer * cells;
@@ -231,6 +231,7 @@ PatchFit PatchGrid::fit(Errors errors) {
     measure_correlation(pairs, fitted, &whole);
     sandwich(n, pairs, whole, inverse, &out);
   }
+  if (errors == Errors::kCovariance) return out;
   test_bend(n, &out);
   out.visibility_m = visibility(roughness[0].tau2);
   return out;

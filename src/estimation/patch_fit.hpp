@@ -81,8 +81,8 @@ class PatchGrid {
   void set(std::uint32_t patch, std::uint32_t layer, const Sums& sums);
 
   // kPlaneOnly: the correction alone, without its covariance and without a look for bends. Finding those is most of the
-  // work, and a fit that is only a step on the way to the next one needs neither.
-  enum class Errors { kMeasured, kPlaneOnly };
+  // work, and a fit that is only a step on the way to the next one needs neither. kCovariance: all but the bends.
+  enum class Errors { kMeasured, kCovariance, kPlaneOnly };
   PatchFit fit(Errors errors = Errors::kMeasured);
 
  private:

@@ -23,7 +23,7 @@ class LayerHistogram {
   double gate_m() const { return gate_m_; }
   double total() const { return total_; }
   double count(std::uint32_t bin) const { return count_[bin]; }
-  double centre(std::uint32_t bin) const { return ((static_cast<double>(bin) + 0.5) * 2.0 / kBins - 1.0) * gate_m_; }
+  double centre(std::uint32_t bin) const { return ((static_cast<double>(bin) + 0.5) * (2.0 / kBins) - 1.0) * gate_m_; }
 
  private:
   double gate_m_;

@@ -223,14 +223,16 @@ bool step_with_fronts(int rounds_max, const WallSurface& surface, WallFitScratch
 
 }  // namespace
 
-void join_fronts(WallFitScratch* scratch, WallSurface* fit) {
+bool join_fronts(WallFitScratch* scratch, WallSurface* fit) {
   WallSurface joint = *fit;
   joint.irls.over = fit->over();
-  if (!step_with_fronts(kLastRounds, *fit, scratch, &joint.irls.over)) return;
+  if (!step_with_fronts(kLastRounds, *fit, scratch, &joint.irls.over)) return false;
   joint.fronts = measure_fronts(joint);
-  if (!joint.fronts.found) return;
+  if (!joint.fronts.found) return false;
   fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &joint);
-  if (joint.patch.solved && agree(*fit, joint)) *fit = joint;
+  if (!joint.patch.solved || !agree(*fit, joint)) return false;
+  *fit = joint;
+  return true;
 }
 
 void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit) {

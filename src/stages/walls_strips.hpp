@@ -80,7 +80,7 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
 void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit);
 
 // Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does. Where
-// they do not contradict the rock they join the fit, with a step of their own.
-void join_fronts(WallFitScratch* scratch, WallSurface* fit);
+// they do not contradict the rock they join the fit, with a step of their own. False where they do not: nothing changes then.
+bool join_fronts(WallFitScratch* scratch, WallSurface* fit);
 
 }  // namespace pose_wall
