@@ -67,15 +67,14 @@ FourInts PatchGrid::patch_of(FourFloats u_m, FourFloats v_m) const {
 }
 
 void PatchGrid::set(std::uint32_t patch, std::uint32_t layer, const Sums& sums) {
-  const auto total = [](FourFloats lanes) { return static_cast<float>(sum_of_lanes(lanes)); };
   Patch& p = cells_[layer * patches() + patch];
   p.count = sum_of_lanes(sums.count_);
   if (p.count == 0) {
     p = Patch{};
     return;
   }
-  p.first = FourFloats{total(sums.w_), total(sums.wu_), total(sums.wv_), total(sums.wr_)};
-  p.second = FourFloats{total(sums.wrr_), total(sums.wb_), total(sums.r_), total(sums.rr_)};
+  p.first = sums_of_lanes(sums.w_, sums.wu_, sums.wv_, sums.wr_);
+  p.second = sums_of_lanes(sums.wrr_, sums.wb_, sums.r_, sums.rr_);
 }
 
 // Rock scatters points alike wherever they are hit; the noise of the range only by its share across the surface. Least
@@ -146,7 +145,8 @@ std::uint32_t PatchGrid::collect_means(Errors errors) {
   return n;
 }
 
-void PatchGrid::centre(std::uint32_t n) {
+// Where the strips' patches lie, and how far they stand out, on average.
+PatchGrid::StripCentre PatchGrid::strip_centre(std::uint32_t n) const {
   double w = 0.0, wu = 0.0, wv = 0.0, wr = 0.0, wb = 0.0;
   for (const Mean& p : means_.first(n)) {
     if (p.layer == 0) continue;
@@ -156,22 +156,32 @@ void PatchGrid::centre(std::uint32_t n) {
     wr += p.information * p.r;
     wb += p.information * p.b;
   }
-  for (Mean& p : means_.first(n)) {
-    const bool strip = p.layer != 0;
-    p.a = strip ? Eigen::Vector3d(0.0, p.u - wu / w, p.v - wv / w) : Eigen::Vector3d(1.0, p.u, p.v);
-    p.r_centred = strip ? p.r - wr / w : p.r;
-    p.b_centred = strip ? p.b - wb / w : p.b;
-  }
+  return {wu / w, wv / w, wr / w, wb / w};
 }
 
 bool PatchGrid::solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse) {
-  centre(n);
-  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d rhs = Eigen::Vector3d::Zero();
-  for (const Mean& p : means_.first(n)) {
-    m += p.information * p.a * p.a.transpose();
-    rhs += p.information * p.r_centred * p.a;
+  const StripCentre centre = strip_centre(n);
+  double m00 = 0.0, m01 = 0.0, m02 = 0.0, m11 = 0.0, m12 = 0.0, m22 = 0.0, r0 = 0.0, r1 = 0.0, r2 = 0.0;
+  for (Mean& p : means_.first(n)) {
+    const bool strip = p.layer != 0;
+    const double a0 = strip ? 0.0 : 1.0, a1 = strip ? p.u - centre.u : p.u, a2 = strip ? p.v - centre.v : p.v;
+    p.a = Eigen::Vector3d(a0, a1, a2);
+    p.r_centred = strip ? p.r - centre.r : p.r;
+    p.b_centred = strip ? p.b - centre.b : p.b;
+    const double w0 = p.information * a0, w1 = p.information * a1, w2 = p.information * a2;
+    m00 += w0 * a0;
+    m01 += w0 * a1;
+    m02 += w0 * a2;
+    m11 += w1 * a1;
+    m12 += w1 * a2;
+    m22 += w2 * a2;
+    r0 += w0 * p.r_centred;
+    r1 += w1 * p.r_centred;
+    r2 += w2 * p.r_centred;
   }
+  Eigen::Matrix3d m;
+  m << m00, m01, m02, m01, m11, m12, m02, m12, m22;
+  const Eigen::Vector3d rhs(r0, r1, r2);
   const double volume = m(0, 0) * m(1, 1) * m(2, 2);
   if (!(volume > 0.0) || !(m.determinant() > 1e-9 * volume)) return false;
   *inverse = m.inverse();

@@ -140,7 +140,10 @@ class PatchGrid {
 
   Scatter scatter_by_incidence(std::uint32_t first, std::uint32_t cells, int rounds) const;
   std::uint32_t collect_means(Errors errors);
-  void centre(std::uint32_t n);
+  struct StripCentre {
+    double u, v, r, b;
+  };
+  StripCentre strip_centre(std::uint32_t n) const;
   bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
   double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;
   struct Neighbour {

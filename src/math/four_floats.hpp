@@ -106,4 +106,11 @@ inline double sum_of_lanes(FourFloats four) {
          (static_cast<double>(four[2]) + static_cast<double>(four[3]));
 }
 
+// Of four at once, as floats: the four lanes of a, of b, of c and of d.
+inline FourFloats sums_of_lanes(FourFloats a, FourFloats b, FourFloats c, FourFloats d) {
+  const FourFloats ab = FourFloats{a[0], b[0], a[1], b[1]} + FourFloats{a[2], b[2], a[3], b[3]};
+  const FourFloats cd = FourFloats{c[0], d[0], c[1], d[1]} + FourFloats{c[2], d[2], c[3], d[3]};
+  return FourFloats{ab[0], ab[1], cd[0], cd[1]} + FourFloats{ab[2], ab[3], cd[2], cd[3]};
+}
+
 }  // namespace pose_wall
