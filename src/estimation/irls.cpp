@@ -116,7 +116,7 @@ IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, 
   for (std::uint32_t k = 0; k < indices.size(); k += stride)
     points->add(cloud.at(indices[k]), cloud.weight[indices[k]]);
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);
-  return {points->plane_of(fit.over), fit.scale_m, fit.solved};
+  return {points->plane_of(fit.over), fit.over, fit.scale_m, fit.solved};
 }
 
 }  // namespace pose_wall

@@ -193,7 +193,7 @@ void PatchGrid::sandwich(std::uint32_t n, const PairSums (&sums)[kLayersMax], co
 // on simulated rock of 2 to 8 cm over 0.1 to 1 m. Scatter without roughness between patches is noise of the sensor.
 double PatchGrid::visibility(double tau2) const {
   double scatter = 0.0, freedom = 0.0;
-  for (const Patch& p : cells_.first(columns_ * rows_)) {
+  for (const PatchSums& p : cells_.first(columns_ * rows_)) {
     if (p.count < 2) continue;
     scatter += p.rr() - p.r() * p.r() / static_cast<double>(p.count);
     freedom += static_cast<double>(p.count - 1);

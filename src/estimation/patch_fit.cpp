@@ -21,7 +21,7 @@ constexpr double kNoiseMin_m = 0.001;
 }  // namespace
 
 void PatchGrid::lay_out(Arena& arena) {
-  cells_ = arena.take<Patch>(kCapacity);
+  cells_ = arena.take<PatchSums>(kCapacity);
   means_ = arena.take<Mean>(kCapacity);
   mean_of_cell_ = arena.take<std::int32_t>(kCapacity);
 }
@@ -41,19 +41,14 @@ void PatchGrid::begin(double u_min_m, double u_max_m, double v_min_m, double v_m
   }
   if (static_cast<std::uint64_t>(columns_) * rows_ * layers > kCapacity) columns_ = rows_ = 1;
   cells_per_m_ = static_cast<float>(1.0 / patch);
-  cells_.first(columns_ * rows_ * layers_).fill(Patch{});
+  cells_.first(columns_ * rows_ * layers_).fill(PatchSums{});
 }
 
-void PatchGrid::add(double u_m, double v_m, double residual_m, double weight, double bias, std::uint32_t layer) {
-  const float u = static_cast<float>(u_m), v = static_cast<float>(v_m), r = static_cast<float>(residual_m);
-  const float w = static_cast<float>(weight), wr = w * r;
-  const float fu = (u - u_min_) * cells_per_m_, fv = (v - v_min_) * cells_per_m_;
+void PatchGrid::add(const PatchPoint& point, std::uint32_t layer) {
+  const float fu = (point.u_m - u_min_) * cells_per_m_, fv = (point.v_m - v_min_) * cells_per_m_;
   if (!(fu >= 0.0F && fu < static_cast<float>(columns_) && fv >= 0.0F && fv < static_cast<float>(rows_))) return;
   const std::uint32_t row = layer * rows_ + static_cast<std::uint32_t>(fv);
-  Patch& p = cells_[row * columns_ + static_cast<std::uint32_t>(fu)];
-  p.first += FourFloats{w, w * u, w * v, wr};
-  p.second += FourFloats{wr * r, w * static_cast<float>(bias), r, r * r};
-  ++p.count;
+  cells_[row * columns_ + static_cast<std::uint32_t>(fu)].add(point.sums);
 }
 
 // What lies outside is counted to the patch next to it.
@@ -66,15 +61,8 @@ FourInts PatchGrid::patch_of(FourFloats u_m, FourFloats v_m) const {
          index_of((u_m - u_min_) * cells_per_m_, columns_);
 }
 
-void PatchGrid::set(std::uint32_t patch, std::uint32_t layer, const Sums& sums) {
-  Patch& p = cells_[layer * patches() + patch];
-  p.count = sum_of_lanes(sums.count_);
-  if (p.count == 0) {
-    p = Patch{};
-    return;
-  }
-  p.first = sums_of_lanes(sums.w_, sums.wu_, sums.wv_, sums.wr_);
-  p.second = sums_of_lanes(sums.wrr_, sums.wb_, sums.r_, sums.rr_);
+void PatchGrid::set(std::uint32_t patch, std::uint32_t layer, const PatchLanes& sums) {
+  cells_[layer * patches() + patch] = sums.total();
 }
 
 // Rock scatters points alike wherever they are hit; the noise of the range only by its share across the surface. Least
@@ -84,7 +72,7 @@ PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uin
   for (int round = 0; round < rounds; ++round) {
     double g = 0.0, gc = 0.0, gcc = 0.0, gs = 0.0, gcs = 0.0;
     for (std::uint32_t k = first; k < first + cells; ++k) {
-      const Patch& p = cells_[k];
+      const PatchSums& p = cells_[k];
       if (p.count < 2) continue;
       const double freedom = static_cast<double>(p.count - 1), c = p.share() * p.share();
       const double variance = p.scatter() / freedom, before = round > 0 ? out.at(c) : 1.0;
@@ -123,7 +111,7 @@ std::uint32_t PatchGrid::collect_means(Errors errors) {
     const std::uint32_t cells = columns_ * rows_, first = layer * cells;
     const Scatter expected = scatter_by_incidence(first, cells, rounds);
     for (std::uint32_t c = first; c < first + cells; ++c) {
-      const Patch& p = cells_[c];
+      const PatchSums& p = cells_[c];
       mean_of_cell_[c] = -1;
       if (!(p.w() > 1e-9)) continue;
       const double own = p.scatter(), share = p.share();

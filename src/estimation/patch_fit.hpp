@@ -18,6 +18,7 @@
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
+#include "estimation/patch_sums.hpp"
 #include "math/four_floats.hpp"
 
 namespace pose_wall {
@@ -49,11 +50,6 @@ struct PatchFit {
   double bend_slope_v_at(double u_m, double v_m) const;
 };
 
-// Four points of a surface: where they are, their residuals, and how these answer to a range bias.
-struct FourPoints {
-  FourFloats u_m, v_m, residual_m, bias;
-};
-
 // Points may come in two layers: the surface, and strips at a constant but unknown step before it. The strips then say
 // nothing about the offset, but as much about the slopes as their own straightness allows.
 class PatchGrid {
@@ -67,18 +63,15 @@ class PatchGrid {
 
   // Patches of patch_m, or larger where the extent needs more than there is room for.
   void begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m, std::uint32_t layers = 1);
-  // residual_m: signed distance of a centroid from the plane; weight: points it stands for times its robust weight;
-  // bias: change of the residual per metre of range bias (ray direction . normal).
-  void add(double u_m, double v_m, double residual_m, double weight, double bias, std::uint32_t layer = 0);
+  void add(const PatchPoint& point, std::uint32_t layer = 0);
 
   // For who has the points in the order of their patches, and looks at all of them again and again: which patch each is
   // in, as long as there is no other begin(); how many patches a layer has; and for a fit of as many layers as were
-  // begun or fewer, the sum of every patch of each. Points that hardly weigh, up to 1e-6, do not count here.
-  class Sums;
+  // begun or fewer, the sums of every patch of each.
   FourInts patch_of(FourFloats u_m, FourFloats v_m) const;
   std::uint32_t patches() const { return columns_ * rows_; }
   void begin_anew(std::uint32_t layers) { layers_ = layers; }
-  void set(std::uint32_t patch, std::uint32_t layer, const Sums& sums);
+  void set(std::uint32_t patch, std::uint32_t layer, const PatchLanes& sums);
 
   // kPlaneOnly: the correction alone, without its covariance and without a look for bends. Finding those is most of the
   // work, and a fit that is only a step on the way to the next one needs neither. kCovariance: all but the bends.
@@ -89,24 +82,6 @@ class PatchGrid {
   static constexpr std::uint32_t kQuadraticTerms = 6;  // 1, u, v, uu, uv, vv
   using Quadratic = Eigen::Matrix<double, kQuadraticTerms, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  // Sums over its points, as floats: what they leave is far below what a patch's mean is worth.
-  struct Patch {
-    FourFloats first;   // w, wu, wv, wr
-    FourFloats second;  // wrr, wb, and without weights r, rr
-    std::uint32_t count;
-
-    double w() const { return static_cast<double>(first[0]); }
-    double wu() const { return static_cast<double>(first[1]); }
-    double wv() const { return static_cast<double>(first[2]); }
-    double wr() const { return static_cast<double>(first[3]); }
-    double wrr() const { return static_cast<double>(second[0]); }
-    double wb() const { return static_cast<double>(second[1]); }
-    double r() const { return static_cast<double>(second[2]); }
-    double rr() const { return static_cast<double>(second[3]); }
-    double share() const { return wb() / w(); }
-    // Weighted squares about the mean.
-    double scatter() const { return wrr() - wr() * wr() / w(); }
-  };
   // A patch with points, averaged.
   struct Mean {
     double u, v, r, b;
@@ -185,36 +160,11 @@ class PatchGrid {
   Eigen::Matrix3d covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const;
   void test_bend(std::uint32_t n, PatchFit* out);
 
-  Span<Patch> cells_;
+  Span<PatchSums> cells_;
   Span<Mean> means_;
   Span<std::int32_t> mean_of_cell_;  // index into means_, -1 for an empty cell
   std::uint32_t columns_ = 1, rows_ = 1, layers_ = 1;
   float u_min_ = 0, v_min_ = 0, cells_per_m_ = 1;  // of the patches
-};
-
-// Of the points of one patch, each lane for itself.
-class PatchGrid::Sums {
- public:
-  void add(const FourPoints& p, FourFloats weights) {
-    // Next to no weight, and the point would still count as one that tells how the points scatter.
-    constexpr float kLeast = 1e-6F;
-    const FourTruths counts = weights > all_four(kLeast);
-    const FourFloats none{}, w = counts ? weights : none, r = counts ? p.residual_m : none;
-    w_ += w;
-    wu_ += w * p.u_m;
-    wv_ += w * p.v_m;
-    wr_ += w * r;
-    wrr_ += w * r * r;
-    wb_ += w * p.bias;
-    r_ += r;
-    rr_ += r * r;
-    count_ -= counts;
-  }
-
- private:
-  friend class PatchGrid;
-  FourFloats w_{}, wu_{}, wv_{}, wr_{}, wrr_{}, wb_{}, r_{}, rr_{};
-  FourInts count_{};
 };
 
 }  // namespace pose_wall

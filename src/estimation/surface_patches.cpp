@@ -12,46 +12,34 @@ constexpr double kNoiseMin_m = 0.001;
 // A patch's own scatter counts like this many more points of the pooled scatter.
 constexpr double kPriorPoints = 10.0;
 
+double scatter_of(const PatchSums& sums) {
+  const double scatter = sums.scatter();
+  return scatter > 0.0 ? scatter : 0.0;
+}
+
 }  // namespace
 
-void SurfacePatches::Cell::add(const Cell& other) {
-  w += other.w;
-  wu += other.wu;
-  wv += other.wv;
-  wr += other.wr;
-  wrr += other.wrr;
-  wb += other.wb;
-  count += other.count;
-}
-
-double SurfacePatches::Cell::scatter() const {
-  const double sum = wrr - wr * wr / w;
-  return sum > 0.0 ? sum : 0.0;
-}
-
 void SurfacePatches::lay_out(Arena& arena) {
-  cells_ = arena.take<Cell>(kSide * kSide);
+  cells_ = arena.take<PatchSums>(kSide * kSide);
   patches_ = arena.take<SurfacePatch>(kMost);
 }
 
 void SurfacePatches::begin(double reach_m, double patch_m) {
   const double fits = 2.0 * reach_m / static_cast<double>(kSide - 1);
-  cells_per_m_ = 1.0 / (patch_m > fits ? patch_m : fits);
-  from_m_ = -reach_m;
-  cells_.fill(Cell{});
+  cells_per_m_ = static_cast<float>(1.0 / (patch_m > fits ? patch_m : fits));
+  from_m_ = static_cast<float>(-reach_m);
+  cells_.fill(PatchSums{});
 }
 
-void SurfacePatches::add(double u_m, double v_m, double residual_m, double weight, double bias) {
-  const double fu = (u_m - from_m_) * cells_per_m_, fv = (v_m - from_m_) * cells_per_m_;
-  if (!(fu >= 0.0 && fu < kSide && fv >= 0.0 && fv < kSide)) return;
-  const double wr = weight * residual_m;
-  const Cell point{weight, weight * u_m, weight * v_m, wr, wr * residual_m, weight * bias, 1.0};
-  cells_[static_cast<std::uint32_t>(fv) * kSide + static_cast<std::uint32_t>(fu)].add(point);
+void SurfacePatches::add(const PatchPoint& point) {
+  const float fu = (point.u_m - from_m_) * cells_per_m_, fv = (point.v_m - from_m_) * cells_per_m_;
+  if (!(fu >= 0.0F && fu < kSide && fv >= 0.0F && fv < kSide)) return;
+  cells_[static_cast<std::uint32_t>(fv) * kSide + static_cast<std::uint32_t>(fu)].add(point.sums);
 }
 
 // side x side cells as one.
-SurfacePatches::Cell SurfacePatches::block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const {
-  Cell sum{};
+PatchSums SurfacePatches::block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const {
+  PatchSums sum;
   for (std::uint32_t v = iv; v < iv + side && v < kSide; ++v) {
     for (std::uint32_t u = iu; u < iu + side && u < kSide; ++u) sum.add(cells_[v * kSide + u]);
   }
@@ -64,7 +52,7 @@ SurfacePatches::Occupied SurfacePatches::occupied() const {
   for (std::uint32_t v = 0; v < kSide; ++v) {
     std::uint64_t bits = 0;
     for (std::uint32_t u = 0; u < kSide; ++u) {
-      bits |= static_cast<std::uint64_t>(cells_[v * kSide + u].w > kWeightMin) << u;
+      bits |= static_cast<std::uint64_t>(cells_[v * kSide + u].w() > kWeightMin) << u;
     }
     out.row[v] = bits;
   }
@@ -91,10 +79,10 @@ std::uint32_t SurfacePatches::Occupied::count_blocks(std::uint32_t side) const {
 
 double SurfacePatches::pooled_variance() const {
   double scatter = 0.0, freedom = 0.0;
-  for (const Cell& c : cells_) {
-    if (c.count < 2.0) continue;
-    scatter += c.scatter();
-    freedom += c.count - 1.0;
+  for (const PatchSums& c : cells_) {
+    if (c.count < 2) continue;
+    scatter += scatter_of(c);
+    freedom += static_cast<double>(c.count - 1);
   }
   const double variance = freedom > 0.0 ? scatter / freedom : 0.0;
   return variance > kNoiseMin_m * kNoiseMin_m ? variance : kNoiseMin_m * kNoiseMin_m;
@@ -108,10 +96,10 @@ Span<const SurfacePatch> SurfacePatches::collect() {
   std::uint32_t count = 0;
   for (std::uint32_t iv = 0; iv < kSide; iv += side) {
     cells.for_each_block(iv, side, [&](std::uint32_t iu) {
-      const Cell c = block(iu, iv, side);
-      const double variance = (kPriorPoints * pooled + c.scatter()) / (kPriorPoints + c.count - 1.0);
+      const PatchSums c = block(iu, iv, side);
+      const double variance = (kPriorPoints * pooled + scatter_of(c)) / (kPriorPoints - 1.0 + static_cast<double>(c.count));
       const double least = kNoiseMin_m * kNoiseMin_m;
-      patches_[count++] = {c.wu / c.w, c.wv / c.w, c.wr / c.w, c.wb / c.w, (variance > least ? variance : least) / c.w};
+      patches_[count++] = {c.wu() / c.w(), c.wv() / c.w(), c.wr() / c.w(), c.share(), (variance > least ? variance : least) / c.w()};
     });
   }
   return Span<const SurfacePatch>(patches_.data(), count);

@@ -9,6 +9,7 @@
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
+#include "estimation/patch_sums.hpp"
 
 namespace pose_wall {
 
@@ -26,21 +27,12 @@ class SurfacePatches {
 
   // Around (0, 0) out to reach_m.
   void begin(double reach_m, double patch_m);
-  // residual_m: signed distance of a centroid from the plane; weight: points it stands for times its robust weight;
-  // bias: change of the residual per metre of range bias (ray direction . normal).
-  void add(double u_m, double v_m, double residual_m, double weight, double bias);
+  void add(const PatchPoint& point);
   // At most kMost patches of patch_m, or of the smallest multiple of it that needs no more.
   Span<const SurfacePatch> collect();
 
  private:
   static constexpr std::uint32_t kSide = 64;
-  struct Cell {
-    double w, wu, wv, wr, wrr, wb, count;
-
-    void add(const Cell& other);
-    double scatter() const;
-  };
-
   // A bit for each cell of a row that holds something.
   struct Occupied {
     std::uint64_t row[kSide];
@@ -52,12 +44,12 @@ class SurfacePatches {
   };
 
   Occupied occupied() const;
-  Cell block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const;
+  PatchSums block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const;
   double pooled_variance() const;
 
-  Span<Cell> cells_;
+  Span<PatchSums> cells_;
   Span<SurfacePatch> patches_;
-  double from_m_ = 0.0, cells_per_m_ = 1.0;
+  float from_m_ = 0.0F, cells_per_m_ = 1.0F;
 };
 
 }  // namespace pose_wall

@@ -54,11 +54,17 @@ struct TangentPoints {
     count = 0;
   }
 
-  void add(const Eigen::Vector3d& p, float points) {
+  // u, v, r.
+  Eigen::Vector3d in_frame(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d q = p - frame.origin;
-    u[count] = static_cast<float>(frame.u.dot(q));
-    v[count] = static_cast<float>(frame.v.dot(q));
-    r[count] = static_cast<float>(plane.n.dot(q));
+    return {frame.u.dot(q), frame.v.dot(q), plane.n.dot(q)};
+  }
+
+  void add(const Eigen::Vector3d& p, float points) {
+    const Eigen::Vector3d q = in_frame(p);
+    u[count] = static_cast<float>(q.x());
+    v[count] = static_cast<float>(q.y());
+    r[count] = static_cast<float>(q.z());
     weight[count] = points;
     ++count;
   }

@@ -51,12 +51,6 @@ bool stands_still(const Plane& a, const Plane& b) {
   return std::fabs(a.d - b.d) < kStill && (a.n - b.n).cwiseAbs().maxCoeff() < kStill;
 }
 
-// Where the ray to a point meets the plane.
-Eigen::Vector3d foot_of(const Eigen::Vector3d& p, const Plane& plane, const Eigen::Vector3d& sensor_base_m) {
-  const double sensor = plane.signed_distance(sensor_base_m), height = plane.signed_distance(p);
-  return sensor_base_m + (p - sensor_base_m) * (sensor / (sensor - height));
-}
-
 // Selections after the first go by height over the plane, clear of what stands on the floor, and within the radius
 // where the ray meets the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges
 // only, and these look like a higher floor.
@@ -105,27 +99,37 @@ Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f)
   return {0.0, -gradient.dot(f.u), -gradient.dot(f.v)};
 }
 
-void fill_patches(const PointSet& cloud, Span<const std::uint32_t> chosen, const IrlsResult& irls,
-                  const TangentFrame& f, double radius_m, const Eigen::Vector3d& sensor_base_m,
-                  GroundScratch* scratch) {
+// In the coordinates of the points, whose residuals are by the plane over theirs.
+void fill_patches(const TangentPoints& points, const IrlsResult& irls, double radius_m,
+                  const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
   const double reach_m = kStretch * radius_m;
   scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m);
   scratch->surface.begin(reach_m, kPatch_m);
   // A range that errs moves a point along the ray: height and place err together, which tilts a plane that is seen over
-  // a short length. On a floor no rougher than the ranges the error is taken back along the ray.
+  // a short length. On a floor no rougher than the ranges the error is taken back along the ray, to where that meets
+  // the plane.
   const double rougher = irls.scale_m / kScaleMin_m - 1.0;
-  const double noise_share = rougher < 1.0 ? 1.0 - rougher : 0.0;
-  for (const std::uint32_t i : chosen) {
-    const Eigen::Vector3d p = cloud.at(i);
-    const double r = irls.plane.signed_distance(p);
-    const double w = flat_top_weight(r, kSensorNoise_m, irls.scale_m) * static_cast<double>(cloud.weight[i]);
-    if (!(w > 0.0)) continue;
-    const Eigen::Vector3d ray = (p - sensor_base_m).normalized();
-    const Eigen::Vector3d q = p + noise_share * (foot_of(p, irls.plane, sensor_base_m) - p) - f.origin;
-    const double u = f.u.dot(q), v = f.v.dot(q), bias = ray.dot(irls.plane.n);
-    scratch->patches.add(u, v, r, w, bias);
-    scratch->surface.add(u, v, r, w, bias);
-  }
+  const auto noise_share = static_cast<float>(rougher < 1.0 ? 1.0 - rougher : 0.0);
+  const auto inside = static_cast<float>(irls.plane.signed_distance(sensor_base_m));
+  const auto per_cutoff = static_cast<float>(1.0 / (kTukeyCutoff * irls.scale_m));
+  const double foreshortening = irls.over.foreshortening();
+  const Eigen::Vector3f sensor = points.in_frame(sensor_base_m).cast<float>();
+  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats r = points.four_distances(k, irls.over, foreshortening);
+    const FourFloats du = load_four(&points.u[k]) - sensor.x(), dv = load_four(&points.v[k]) - sensor.y();
+    const FourFloats dr = load_four(&points.r[k]) - sensor.z();
+    const FourFloats bias = (r - inside) / root_of(du * du + dv * dv + dr * dr);
+    const FourFloats way = 1.0F + noise_share * (inside / (inside - r) - 1.0F);
+    const FourFloats u = sensor.x() + du * way, v = sensor.y() + dv * way;
+    const FourFloats weights =
+        flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff) * load_four(&points.weight[k]);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] == 0 || !(weights[lane] > 0.0F)) continue;
+      const PatchPoint point = PatchPoint::of(u[lane], v[lane], r[lane], weights[lane], bias[lane]);
+      scratch->patches.add(point);
+      scratch->surface.add(point);
+    }
+  });
 }
 
 void count_inliers(const PointSet& cloud, Span<const std::uint32_t> open, double radius_m, double thresh_m,
@@ -194,8 +198,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   out.fit.plane = irls.plane;
-  const TangentFrame frame = tangent_frame(irls.plane, Eigen::Vector3d::Zero(), u_hint);
-  fill_patches(cloud_base, chosen, irls, frame, radius_m, sensor_base_m, scratch);
+  if (irls.solved) fill_patches(scratch->points, irls, radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
@@ -205,10 +208,12 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
     out.fit.reasons |= POSE_WALL_R_FLOOR_THIN;
     return out;
   }
-  out.fit.plane = corrected(irls.plane, frame, uneven.correction);
+  PlaneOver over = irls.over;
+  over.add(uneven.correction);
+  out.fit.plane = scratch->points.plane_of(over);
   out.fit.found = true;
   count_inliers(cloud_base, open, radius_m, settings.ground_ransac_thresh, &out.fit);
-  set_uncertainty(uneven, bend, patches, frame, out.fit.plane, settings, &out);
+  set_uncertainty(uneven, bend, patches, scratch->points.frame, out.fit.plane, settings, &out);
   return out;
 }
 

@@ -75,11 +75,9 @@ void WallPoints::lay_out(Arena& arena) {
 
 void WallPoints::begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level) {
   at.begin(around, Eigen::Vector3d::Zero(), along_level);
-  const TangentFrame& f = at.frame;
-  const Eigen::Vector3d from_origin = scene.sensor_level_m - f.origin;
-  sensor = Eigen::Vector3d(f.u.dot(from_origin), f.v.dot(from_origin), around.n.dot(from_origin));
-  z_at_origin_m = f.origin.z();
-  z_per_v = f.v.z();
+  sensor = at.in_frame(scene.sensor_level_m);
+  z_at_origin_m = at.frame.origin.z();
+  z_per_v = at.frame.v.z();
   z_per_r = around.n.z();
 }
 

@@ -178,7 +178,7 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
   patches->begin_anew(surface.fronts.found ? 2 : 1);
   // of_four(k, distances): what four points weigh.
   const auto sums = [&](std::uint32_t begin, std::uint32_t end, const auto& of_four) {
-    PatchGrid::Sums out;
+    PatchLanes out;
     for_each_four(begin, end, [&](std::uint32_t k, FourTruths counts) {
       const FourFloats r = points.at.four_distances(k, surface.irls.over, foreshortening);
       const FourFloats stands_for = counts ? load_four(&points.at.weight[k]) : FourFloats{};

@@ -12,6 +12,7 @@
 #include "config.hpp"
 #include "containers/arena.hpp"
 #include "containers/bounded_points.hpp"
+#include "estimation/patch_sums.hpp"
 #include "support/aligned_block.hpp"
 #include "support/engine_under_test.hpp"
 
@@ -75,6 +76,11 @@ class OwnedPoints {
   std::vector<std::uint32_t> indices_;
   bool bounded_ = false;
 };
+
+inline PatchPoint patch_point(double u_m, double v_m, double residual_m, double weight, double bias) {
+  return PatchPoint::of(static_cast<float>(u_m), static_cast<float>(v_m), static_cast<float>(residual_m),
+                        static_cast<float>(weight), static_cast<float>(bias));
+}
 
 inline Settings settings_with(std::initializer_list<KeyValue> values = {}) {
   return read_settings(config_with(values));

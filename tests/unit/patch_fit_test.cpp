@@ -36,7 +36,7 @@ PatchFit fit(PatchGrid* grid, double noise_m, double scale_m, test::Noise* noise
     const double u = noise->uniform(-kLength_m / 2, kLength_m / 2), v = noise->uniform(0.0, kHeight_m);
     const double r = surface(u, v) + noise->normal(noise_m);
     // As the stages do: Tukey weights of the robust scale.
-    grid->add(u, v, r, tukey_weight(r, scale_m), 1.0);
+    grid->add(test::patch_point(u, v, r, tukey_weight(r, scale_m), 1.0));
   }
   return grid->fit();
 }
@@ -105,7 +105,7 @@ TEST(PatchFit, FarFromTheOriginTheErrorsAreTheSame) {
         const double u = noise.uniform(0.0, 8.0), v = noise.uniform(0.0, 2.0);
         if (u > 2.0 && u < 3.0 && v < 1.0) continue;  // a hole
         const std::uint32_t layer = layers == 2 && u > 5.0 && u < 6.0 ? 1U : 0U;
-        grid->add(from_m + u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0, layer);
+        grid->add(test::patch_point(from_m + u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0), layer);
       }
       fits[far] = grid->fit();
       ASSERT_TRUE(fits[far].solved);
@@ -143,7 +143,7 @@ TEST(PatchFit, ABiasMovesTheFitAsTheResponseSays) {
     for (int i = 0; i < kPoints; ++i) {
       const double u = noise.uniform(-4, 4), v = noise.uniform(0, 2);
       const double along_normal = -2.0 / std::sqrt(4.0 + u * u);  // ray . normal of a wall 2 m away
-      grid->add(u, v, noise.normal(0.003) + biased * kBias_m * along_normal, 1.0, along_normal);
+      grid->add(test::patch_point(u, v, noise.normal(0.003) + biased * kBias_m * along_normal, 1.0, along_normal));
     }
     fits[biased] = grid->fit();
     ASSERT_TRUE(fits[biased].solved);
@@ -194,7 +194,7 @@ TEST(PatchFit, OnRoughRockTheCurvatureIsChance) {
         for (int i = 0; i < kPoints / 2; ++i) {
           const double u = noise.uniform(-half_wall_m, half_wall_m), v = noise.uniform(0.0, kHeight_m);
           const double r = rock.at(u, v) + noise.normal(0.01);
-          grid->add(u, v, r, tukey_weight(r, 0.1), 1.0);
+          grid->add(test::patch_point(u, v, r, tukey_weight(r, 0.1), 1.0));
         }
         const PatchFit f = grid->fit();
         ASSERT_TRUE(f.solved);
@@ -217,7 +217,7 @@ TEST(PatchFit, CurvatureThatNoPointsShowIsUnknown) {
     grid->begin(-kLength_m / 2, kLength_m / 2, 0.0, kHeight_m, 0.5);
     for (int i = 0; i < kPoints; ++i) {
       const double u = noise.uniform(-kLength_m / 2, kLength_m / 2), v = i % 2 == 0 ? 0.3 : 0.8;
-      grid->add(u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0);
+      grid->add(test::patch_point(u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0));
     }
     const PatchFit f = grid->fit();
     ASSERT_TRUE(f.solved);
@@ -247,10 +247,10 @@ TEST(PatchFit, RefusesWhatHoldsNoPlane) {
   test::Placed<PatchGrid> grid;
   grid->begin(-4, 4, 0, 2, 0.5);
   EXPECT_FALSE(grid->fit().solved) << "empty";
-  for (int i = 0; i < 1000; ++i) grid->add(1.1, 1.1, 0.0, 1.0, 1.0);
+  for (int i = 0; i < 1000; ++i) grid->add(test::patch_point(1.1, 1.1, 0.0, 1.0, 1.0));
   EXPECT_FALSE(grid->fit().solved) << "one place";
   grid->begin(-4, 4, 0, 2, 0.5);
-  for (int i = 0; i < 1000; ++i) grid->add(-4.0 + 0.008 * i, 1.1, 0.001 * (i % 3), 1.0, 1.0);
+  for (int i = 0; i < 1000; ++i) grid->add(test::patch_point(-4.0 + 0.008 * i, 1.1, 0.001 * (i % 3), 1.0, 1.0));
   EXPECT_FALSE(grid->fit().solved) << "one line";
 }
 
@@ -258,10 +258,10 @@ TEST(PatchFit, PointsOutsideTheGridAndNaNAreLeftOut) {
   test::Placed<PatchGrid> grid;
   grid->begin(0, 4, 0, 2, 0.5);
   test::Noise noise(7);
-  for (int i = 0; i < 500; ++i) grid->add(noise.uniform(0, 4), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0);
+  for (int i = 0; i < 500; ++i) grid->add(test::patch_point(noise.uniform(0, 4), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
   for (const double wild : {-1.0, 1e9, -1e30, std::nan("")}) {
-    grid->add(wild, 1.0, 99.0, 1.0, 1.0);
-    grid->add(1.0, wild, 99.0, 1.0, 1.0);
+    grid->add(test::patch_point(wild, 1.0, 99.0, 1.0, 1.0));
+    grid->add(test::patch_point(1.0, wild, 99.0, 1.0, 1.0));
   }
   const PatchFit f = grid->fit();
   ASSERT_TRUE(f.solved);
@@ -272,7 +272,7 @@ TEST(PatchFit, AnExtentLargerThanTheGridGetsLargerPatches) {
   test::Placed<PatchGrid> grid;
   grid->begin(-100, 100, 0, 2, 0.5);
   test::Noise noise(8);
-  for (int i = 0; i < 5000; ++i) grid->add(noise.uniform(-100, 100), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0);
+  for (int i = 0; i < 5000; ++i) grid->add(test::patch_point(noise.uniform(-100, 100), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
   const PatchFit f = grid->fit();
   EXPECT_GT(f.patches, 40U);
   EXPECT_LE(f.patches, PatchGrid::kCapacity);
@@ -288,11 +288,11 @@ TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
     const auto surface = [](double u, double v) { return 0.01 + 0.002 * u + 0.001 * v; };
     for (int i = 0; i < kPoints; ++i) {
       const double u = noise.uniform(-1.5, 1.5), v = noise.uniform(0, 2);
-      grid->add(u, v, surface(u, v) + noise.normal(0.01), 1.0, 1.0, 0);
+      grid->add(test::patch_point(u, v, surface(u, v) + noise.normal(0.01), 1.0, 1.0), 0);
     }
     for (int i = 0; k > 0 && i < kPoints; ++i) {
       const double u = noise.uniform(-8, 8), v = noise.uniform(0, 2);
-      grid->add(u, v, (k == 1 ? 0.1 : 0.4) + surface(u, v) + noise.normal(0.01), 1.0, 1.0, 1);
+      grid->add(test::patch_point(u, v, (k == 1 ? 0.1 : 0.4) + surface(u, v) + noise.normal(0.01), 1.0, 1.0), 1);
     }
     fits[k] = grid->fit();
     ASSERT_TRUE(fits[k].solved);
@@ -319,15 +319,14 @@ TEST(PatchFit, SumsOfPatchesAreThoseOfTheirPoints) {
     // Next to no weight is none.
     const float weight = i % 5 == 0 ? 1e-9F : 1.0F + static_cast<float>(i % 3);
     if (weight > 1e-6F) {
-      one->add(static_cast<double>(u), static_cast<double>(v), static_cast<double>(r), static_cast<double>(weight),
-               0.5);
+      one->add(PatchPoint::of(u, v, r, weight, 0.5F));
     }
     const FourInts patch = sorted->patch_of(all_four(u), all_four(v));
     of_patch.at(static_cast<std::size_t>(patch[0])).push_back({u, v, r, weight});
   }
   sorted->begin_anew(1);
   for (std::uint32_t patch = 0; patch < sorted->patches(); ++patch) {
-    PatchGrid::Sums sums;
+    PatchLanes sums;
     const auto& points = of_patch[patch];
     for (std::size_t k = 0; k < points.size(); k += kFour) {
       FourFloats row[4] = {};

@@ -22,7 +22,7 @@ TEST(SurfacePatches, MeansAndTheirVariances) {
   constexpr double kSigma_m = 0.02;
   constexpr int kPoints = 4000;
   for (int i = 0; i < kPoints; ++i) {
-    patches->add(noise.uniform(-1, 0.999), noise.uniform(-1, 0.999), 0.1 + noise.normal(kSigma_m), 1.0, -0.5);
+    patches->add(test::patch_point(noise.uniform(-1, 0.999), noise.uniform(-1, 0.999), 0.1 + noise.normal(kSigma_m), 1.0, -0.5));
   }
   const Span<const SurfacePatch> found = patches->collect();
   ASSERT_EQ(found.size(), 16U);
@@ -41,7 +41,7 @@ TEST(SurfacePatches, NeverMoreThanThereIsRoomFor) {
     patches->begin(reach, 0.5);
     double points = 0.0;
     for (double u = -reach; u < reach; u += 0.2) {
-      for (double v = -reach; v < reach; v += 0.2, ++points) patches->add(u, v, 0.01, 1.0, 0.0);
+      for (double v = -reach; v < reach; v += 0.2, ++points) patches->add(test::patch_point(u, v, 0.01, 1.0, 0.0));
     }
     const Span<const SurfacePatch> found = patches->collect();
     EXPECT_LE(found.size(), SurfacePatches::kMost);
@@ -56,11 +56,11 @@ TEST(SurfacePatches, WhatLiesOutsideIsLeftOut) {
   test::Placed<SurfacePatches> patches;
   patches->begin(2.0, 0.5);
   for (const double far : {-2.01, 1e9, std::nan(""), HUGE_VAL}) {
-    patches->add(far, 0.0, 0.0, 1.0, 0.0);
-    patches->add(0.0, far, 0.0, 1.0, 0.0);
+    patches->add(test::patch_point(far, 0.0, 0.0, 1.0, 0.0));
+    patches->add(test::patch_point(0.0, far, 0.0, 1.0, 0.0));
   }
   EXPECT_EQ(patches->collect().size(), 0U);
-  patches->add(0.0, 0.0, 0.0, 0.0, 0.0);
+  patches->add(test::patch_point(0.0, 0.0, 0.0, 0.0, 0.0));
   EXPECT_EQ(patches->collect().size(), 0U) << "without weight";
 }
 
