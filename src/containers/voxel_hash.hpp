@@ -19,9 +19,11 @@ class VoxelHash {
   // capacity: how many keys; the table has at least twice as many slots.
   void lay_out(Arena& arena, std::uint32_t capacity) {
     capacity_ = capacity;
-    bits_ = 1;
-    while ((1U << bits_) < 2 * capacity) ++bits_;
-    slots_ = arena.take<std::uint32_t>(1U << bits_);
+    std::uint32_t bits = 1;
+    while ((1U << bits) < 2 * capacity) ++bits;
+    shift_ = 64 - bits;
+    mask_ = (1U << bits) - 1;
+    slots_ = arena.take<std::uint32_t>(1U << bits);
     keys_ = arena.take<std::uint64_t>(capacity);
   }
 
@@ -35,7 +37,7 @@ class VoxelHash {
   // often the next one too.
   std::uint32_t insert(std::uint64_t key) {
     if (key == last_key_) return last_index_;
-    for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask()) {
+    for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask_) {
       const std::uint32_t index = slots_[slot];
       if (index == kFree) {
         if (count_ == capacity_) return kFull;
@@ -54,10 +56,9 @@ class VoxelHash {
  private:
   static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
 
-  std::uint32_t mask() const { return (1U << bits_) - 1; }
   // Fibonacci hashing: the high bits of the product depend on all bits of the key.
   std::uint32_t home(std::uint64_t key) const {
-    return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15ULL) >> (64 - bits_));
+    return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
   }
   std::uint32_t remember(std::uint64_t key, std::uint32_t index) {
     last_key_ = key;
@@ -71,7 +72,7 @@ class VoxelHash {
   std::uint32_t last_index_ = 0;
   std::uint32_t capacity_ = 0;
   std::uint32_t count_ = 0;
-  std::uint32_t bits_ = 1;
+  std::uint32_t mask_ = 1, shift_ = 63;  // of the table's slots
 };
 
 }  // namespace pose_wall
