@@ -3,6 +3,8 @@
 
 #include "containers/voxel_grid.hpp"
 
+#include <cstring>
+
 namespace pose_wall {
 namespace {
 
@@ -32,13 +34,15 @@ void VoxelGrid::begin(double leaf_m, double reach_m) {
   const std::uint32_t cells = 4 * power / 3;
   const double steps_per_cell = 1U << kStepBits;
   metres_per_step_ = leaf_m / steps_per_cell;
-  origin_steps_ = static_cast<std::int32_t>(cells << kStepBits);
-  steps_ = {static_cast<float>(steps_per_cell / leaf_m), static_cast<float>(origin_steps_)};
+  origin_cell_ = static_cast<std::int32_t>(cells);
+  steps_per_m_ = static_cast<float>(steps_per_cell / leaf_m);
+  origin_step_ = static_cast<float>(cells << kStepBits);
 }
 
 void VoxelGrid::extract(PointSet* out) {
   const std::uint32_t cells = count();
   sorted_ = radix_order(hash_.keys(), order_.first(cells), spare_.first(cells), histogram_);
+  fingerprint_ = fingerprint_of_sorted();
   write_sorted(out);
 }
 
@@ -48,27 +52,43 @@ void VoxelGrid::extract_as_they_came(PointSet* out) {
   write_sorted(out);
 }
 
+std::uint64_t VoxelGrid::fingerprint_of_sorted() const {
+  std::uint64_t fingerprint = sorted_.size();
+  for (const std::uint32_t i : sorted_) {
+    std::uint64_t halves[2];
+    std::memcpy(halves, &sums_[i], sizeof(halves));
+    // Odd factors of many bits, so that sums and key do not undo each other's changes.
+    fingerprint =
+        mixed(fingerprint, hash_.key(i) ^ (halves[0] * 0xC2B2AE3D27D4EB4FULL) ^ (halves[1] * 0x165667B19E3779F9ULL));
+  }
+  return fingerprint;
+}
+
 void VoxelGrid::write_sorted(PointSet* out) {
   const Span<const std::uint64_t> keys = hash_.keys();
-  std::uint64_t fingerprint = keys.size();
-  std::uint32_t at = 0;
-  for (const std::uint32_t i : sorted_) {
-    const std::uint64_t key = keys[i];
-    const Sums& s = sums_[i];
-    const double per_weight = 1.0 / static_cast<double>(s.weight);
-    const VoxelKey::Cell cell = VoxelKey::cell_of(key);
-    out->x[at] = coordinate(cell.x, s.x, per_weight);
-    out->y[at] = coordinate(cell.y, s.y, per_weight);
-    out->z[at] = coordinate(cell.z, s.z, per_weight);
-    out->weight[at] = static_cast<float>(s.weight) / static_cast<float>(kWeightOne);
-    const std::uint64_t xy = s.x | static_cast<std::uint64_t>(s.y) << 32,
-                        zw = s.z | static_cast<std::uint64_t>(s.weight) << 32;
-    // Odd factors of many bits, so that sums and key do not undo each other's changes.
-    fingerprint = mixed(fingerprint, key ^ (xy * 0xC2B2AE3D27D4EB4FULL) ^ (zw * 0x165667B19E3779F9ULL));
-    ++at;
+  const auto leaf_m = static_cast<float>(leaf_m_), metres_per_step = static_cast<float>(metres_per_step_);
+  const auto coordinates = [&](FourInts cells, FourWords sums, FourFloats per_weight) {
+    const FourFloats steps = __builtin_convertvector(sums, FourFloats) * per_weight + 0.5F;
+    return __builtin_convertvector(cells - origin_cell_, FourFloats) * leaf_m + steps * metres_per_step;
+  };
+  for (std::uint32_t at = 0; at < sorted_.size(); at += kFour) {
+    std::uint64_t four_keys[kFour];
+    Sums sums[kFour];
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const std::uint32_t i = sorted_[at + lane < sorted_.size() ? at + lane : at];
+      four_keys[lane] = keys[i];
+      sums[lane] = sums_[i];
+    }
+    const VoxelKey::FourCells cells = VoxelKey::cells_of(four_keys);
+    FourWords of[kFour];  // x, y, z, weight
+    transpose(sums[0], sums[1], sums[2], sums[3], of);
+    const FourFloats weights = __builtin_convertvector(of[3], FourFloats), per_weight = 1.0F / weights;
+    store_four(coordinates(cells.x, of[0], per_weight), &out->x[at]);
+    store_four(coordinates(cells.y, of[1], per_weight), &out->y[at]);
+    store_four(coordinates(cells.z, of[2], per_weight), &out->z[at]);
+    store_four(weights * (1.0F / kWeightOne), &out->weight[at]);
   }
-  out->count = keys.size();
-  fingerprint_ = fingerprint;
+  out->count = sorted_.size();
 }
 
 Span<const std::uint32_t> VoxelGrid::find_columns() {

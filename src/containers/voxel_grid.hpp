@@ -29,33 +29,27 @@ class VoxelGrid {
   // Starts a new grid; leaf from 0.01 m to 100 m, |x|, |y|, |z| <= reach_m < 1000 m.
   void begin(double leaf_m, double reach_m);
 
-  // The step that holds a coordinate is coordinate * per_m + origin, cut off: who adds many points does it for several
-  // at once.
-  struct Steps {
-    float per_m, origin;
-    std::int32_t of(float coordinate_m) const { return static_cast<std::int32_t>(coordinate_m * per_m + origin); }
-    FourInts of(FourFloats coordinates_m) const { return cut_off(coordinates_m * per_m + origin); }
-  };
-  const Steps& steps() const { return steps_; }
+  static constexpr std::uint32_t kWeightMost = 1U << 22;  // times the largest step within a cell: below 2^32
+  // What a point adds to its cell: its steps within the cell times its weight, and the weight, in sixteenths.
+  using Sums = FourWords;  // x, y, z, weight
+
+  // Of four points that reach no further than begin() was told; weights: 1 to kWeightMost.
+  void split(FourFloats x_m, FourFloats y_m, FourFloats z_m, FourWords weights, std::uint64_t* keys, Sums* sums) const {
+    const FourInts x = steps_of(x_m), y = steps_of(y_m), z = steps_of(z_m);
+    VoxelKey::of_four({x >> kStepBits, y >> kStepBits, z >> kStepBits}, keys);
+    transpose(within(x) * weights, within(y) * weights, within(z) * weights, weights, sums);
+  }
 
   // False where the point needs a new cell and there is no room: the grid is then of no use. A cell takes the weight of
-  // a quarter of a million points; which of more count depends on their order.
-  bool add(std::int32_t x_step, std::int32_t y_step, std::int32_t z_step, std::uint32_t weight_sixteenths) {
+  // a quarter of a million points; what would make it more is left out, which depends on their order.
+  bool add(std::uint64_t key, Sums sums) {
     const std::uint32_t known = hash_.count();
-    const std::uint32_t index =
-        hash_.insert(VoxelKey::of(x_step >> kStepBits, y_step >> kStepBits, z_step >> kStepBits));
+    const std::uint32_t index = hash_.insert(key);
     if (index == VoxelHash::kFull) return false;
     Sums& s = sums_[index];
-    if (index == known) s = Sums{0, 0, 0, 0};
-    const std::uint32_t room = kWeightMost - s.weight, w = weight_sixteenths < room ? weight_sixteenths : room;
-    s.x += w * within(x_step);
-    s.y += w * within(y_step);
-    s.z += w * within(z_step);
-    s.weight += w;
+    if (index == known) s = Sums{};
+    if (sums[3] <= kWeightMost - s[3]) s += sums;
     return true;
-  }
-  bool add(float x_m, float y_m, float z_m, std::uint32_t weight_sixteenths) {
-    return add(steps_.of(x_m), steps_.of(y_m), steps_.of(z_m), weight_sixteenths);
   }
 
   // Writes the centroids in the order of their cells' keys, or in that in which the cells came. out must have room for
@@ -76,29 +70,21 @@ class VoxelGrid {
 
  private:
   static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;
-  static constexpr std::uint32_t kWeightMost = 1U << 22;  // times the largest step within a cell: below 2^32
 
-  struct Sums {
-    std::uint32_t x, y, z;  // weighted steps within the cell
-    std::uint32_t weight;
-  };
-
+  std::uint64_t fingerprint_of_sorted() const;
   void write_sorted(PointSet* out);
-  static std::uint32_t within(std::int32_t step) { return static_cast<std::uint32_t>(step) & kStepMask; }
-  float coordinate(std::uint32_t cell, std::uint32_t sum, double per_weight) const {
-    const std::int32_t steps = static_cast<std::int32_t>(cell << kStepBits) - origin_steps_;
-    return static_cast<float>((static_cast<double>(steps) + static_cast<double>(sum) * per_weight + 0.5) *
-                              metres_per_step_);
-  }
+  // The step that holds a coordinate is coordinate * per_m + origin, cut off.
+  FourInts steps_of(FourFloats coordinates_m) const { return cut_off(coordinates_m * steps_per_m_ + origin_step_); }
+  static FourWords within(FourInts steps) { return reinterpret_cast<FourWords>(steps) & kStepMask; }
 
   VoxelHash hash_;
   Span<Sums> sums_;
   Span<std::uint32_t> order_, spare_;
   Span<std::uint32_t> sorted_;  // one of the two, in the end
   Span<std::uint32_t> histogram_;
-  Steps steps_{1.0F, 0.0F};
+  float steps_per_m_ = 1.0F, origin_step_ = 0.0F;
   double leaf_m_ = 1.0, metres_per_step_ = 1.0;
-  std::int32_t origin_steps_ = 0;
+  std::int32_t origin_cell_ = 0;
   std::uint64_t fingerprint_ = 0;
 };
 

@@ -10,6 +10,9 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
+
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -23,22 +26,29 @@ struct VoxelKey {
   static constexpr std::uint32_t kYShift = kZShift + kZBits;
   static constexpr std::uint32_t kXShift = kYShift + kColumnBits;
 
-  struct Cell {
-    std::uint32_t x, y, z;
+  // Of four cells at once, and back.
+  struct FourCells {
+    FourInts x, y, z;
   };
-
-  static std::uint64_t of(std::int32_t x, std::int32_t y, std::int32_t z) {
-    constexpr std::int32_t kInColumn = static_cast<std::int32_t>(kColumnCells) - 1;
-    const auto field = [](std::int32_t value, std::uint32_t shift) {
-      return static_cast<std::uint64_t>(value) << shift;
-    };
-    return field(x >> kInColumnBits, kXShift) | field(y >> kInColumnBits, kYShift) | field(z, kZShift) |
-           field(x & kInColumn, kInColumnBits) | field(y & kInColumn, 0);
+  static void of_four(const FourCells& cells, std::uint64_t* keys) {
+    const FourInts x_column = cells.x >> kInColumnBits, y_column = cells.y >> kInColumnBits;
+    const FourInts high = (x_column << (kXShift - kHalf)) | (y_column >> (kHalf - kYShift));
+    const FourInts low = (y_column << kYShift) | (cells.z << kZShift) | ((cells.x & kInColumn) << kInColumnBits) |
+                         (cells.y & kInColumn);
+    const FourLongs whole = __builtin_convertvector(reinterpret_cast<FourWords>(high), FourLongs) << kHalf |
+                            __builtin_convertvector(reinterpret_cast<FourWords>(low), FourLongs);
+    std::memcpy(keys, &whole, sizeof(whole));
   }
-
-  static Cell cell_of(std::uint64_t key) {
-    return {part(key, kXShift, kColumnBits) << kInColumnBits | part(key, kInColumnBits, kInColumnBits),
-            part(key, kYShift, kColumnBits) << kInColumnBits | part(key, 0, kInColumnBits), z_of(key)};
+  static FourCells cells_of(const std::uint64_t* keys) {
+    FourLongs whole;
+    std::memcpy(&whole, keys, sizeof(whole));
+    const FourWords high = __builtin_convertvector(whole >> kHalf, FourWords),
+                    low = __builtin_convertvector(whole, FourWords);
+    const FourWords x_column = high >> (kXShift - kHalf);
+    const FourWords y_column = (high << (kHalf - kYShift) | low >> kYShift) & ((1U << kColumnBits) - 1);
+    const FourWords x = x_column << kInColumnBits | ((low >> kInColumnBits) & kInColumn);
+    const FourWords y = y_column << kInColumnBits | (low & kInColumn), z = low >> kZShift & ((1U << kZBits) - 1);
+    return {reinterpret_cast<FourInts>(x), reinterpret_cast<FourInts>(y), reinterpret_cast<FourInts>(z)};
   }
 
   static std::uint32_t z_of(std::uint64_t key) { return part(key, kZShift, kZBits); }
@@ -56,6 +66,11 @@ struct VoxelKey {
   }
 
  private:
+  static constexpr std::int32_t kInColumn = static_cast<std::int32_t>(kColumnCells) - 1;
+  static constexpr std::uint32_t kHalf = 32;  // bits
+  static_assert(kXShift >= kHalf && kYShift < kHalf && kYShift + kColumnBits > kHalf, "y lies across the halves");
+  using FourLongs = std::uint64_t __attribute__((vector_size(32)));
+
   static std::uint32_t part(std::uint64_t number, std::uint32_t shift, std::uint32_t bits) {
     return static_cast<std::uint32_t>(number >> shift) & ((1U << bits) - 1);
   }

@@ -43,6 +43,7 @@ inline float largest_of(FourFloats four) {
 }
 
 using FourInts = std::int32_t __attribute__((vector_size(16)));
+using FourWords = std::uint32_t __attribute__((vector_size(16)));
 // Of a comparison: all ones where it holds, or zero. `truths ? a : b` takes lane by lane.
 using FourTruths = FourInts;
 
@@ -106,11 +107,32 @@ inline double sum_of_lanes(FourFloats four) {
          (static_cast<double>(four[2]) + static_cast<double>(four[3]));
 }
 
+// Lanes of a, 0 to 3, and of b, 4 to 7.
+template <int kFirst, int kSecond, int kThird, int kFourth, typename Four>
+Four picked(Four a, Four b) {
+#ifdef __clang__
+  return __builtin_shufflevector(a, b, kFirst, kSecond, kThird, kFourth);
+#else
+  return __builtin_shuffle(a, b, FourInts{kFirst, kSecond, kThird, kFourth});
+#endif
+}
+
+// Of four rows of four the columns.
+template <typename Four>
+void transpose(Four a, Four b, Four c, Four d, Four* columns) {
+  const Four ab01 = picked<0, 4, 1, 5>(a, b), ab23 = picked<2, 6, 3, 7>(a, b);
+  const Four cd01 = picked<0, 4, 1, 5>(c, d), cd23 = picked<2, 6, 3, 7>(c, d);
+  columns[0] = picked<0, 1, 4, 5>(ab01, cd01);
+  columns[1] = picked<2, 3, 6, 7>(ab01, cd01);
+  columns[2] = picked<0, 1, 4, 5>(ab23, cd23);
+  columns[3] = picked<2, 3, 6, 7>(ab23, cd23);
+}
+
 // Of four at once, as floats: the four lanes of a, of b, of c and of d.
 inline FourFloats sums_of_lanes(FourFloats a, FourFloats b, FourFloats c, FourFloats d) {
-  const FourFloats ab = FourFloats{a[0], b[0], a[1], b[1]} + FourFloats{a[2], b[2], a[3], b[3]};
-  const FourFloats cd = FourFloats{c[0], d[0], c[1], d[1]} + FourFloats{c[2], d[2], c[3], d[3]};
-  return FourFloats{ab[0], ab[1], cd[0], cd[1]} + FourFloats{ab[2], ab[3], cd[2], cd[3]};
+  const FourFloats ab = picked<0, 4, 1, 5>(a, b) + picked<2, 6, 3, 7>(a, b);
+  const FourFloats cd = picked<0, 4, 1, 5>(c, d) + picked<2, 6, 3, 7>(c, d);
+  return picked<0, 1, 4, 5>(ab, cd) + picked<2, 3, 6, 7>(ab, cd);
 }
 
 }  // namespace pose_wall

@@ -33,11 +33,16 @@ void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const S
   for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths) {
     const FourPlaces p = to_level(x, y, z);
     const FourTruths in_band = (p.z >= z_min) & (p.z <= z_max);
+    std::uint64_t keys[kFour];
+    VoxelGrid::Sums sums[kFour];
+    if (any_of(in_band)) {
+      const FourInts weights = cut_off(load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F);
+      grid->split(p.x, p.y, p.z, reinterpret_cast<FourWords>(weights), keys, sums);
+    }
     for (std::uint32_t lane = 0; lane < kFour && i + lane < cloud_base.count; ++lane) {
       if (in_band[lane] != 0) {
         // There is room: never more cells than points, and both grids have the same capacity.
-        grid->add(p.x[lane], p.y[lane], p.z[lane],
-                  static_cast<std::uint32_t>(cloud_base.weight[i + lane] * kWeightOne + 0.5F));
+        grid->add(keys[lane], sums[lane]);
       } else if (until_next == 0) {
         beyond_level->add(p.x[lane], p.y[lane], p.z[lane], static_cast<float>(share));
         until_next = every - 1;

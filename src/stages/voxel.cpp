@@ -27,7 +27,8 @@ struct PointBlock {
   float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];
   float range2[kSize];
   float x_base[kSize], y_base[kSize], z_base[kSize];
-  std::int32_t x_step[kSize], y_step[kSize], z_step[kSize];
+  std::uint64_t key[kSize];  // of a voxel
+  VoxelGrid::Sums sums[kSize];
   std::int32_t direction[kSize];  // cell of a DirectionGrid
   std::int32_t quadrant[kSize];
   std::int32_t fate[kSize];
@@ -153,7 +154,7 @@ class Pass {
   }
 
   // What is beyond may be anything: it is turned as if it were zero, and left out at the end.
-  void turn_to_base(const VoxelGrid::Steps& steps, PointBlock* b) const {
+  void turn_to_base(const VoxelGrid& grid, PointBlock* b) const {
     for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
       FourInts fate;
       std::memcpy(&fate, &b->fate[k], sizeof(fate));
@@ -166,9 +167,9 @@ class Pass {
       store_four(base.x, &b->x_base[k]);
       store_four(base.y, &b->y_base[k]);
       store_four(base.z, &b->z_base[k]);
-      store_four(steps.of(base.x), &b->x_step[k]);
-      store_four(steps.of(base.y), &b->y_step[k]);
-      store_four(steps.of(base.z), &b->z_step[k]);
+      FourWords weights;
+      std::memcpy(&weights, &b->weight[k], sizeof(weights));
+      grid.split(base.x, base.y, base.z, weights, &b->key[k], &b->sums[k]);
       const FourInts ahead = {kAhead, kAhead, kAhead, kAhead}, behind = {kBehind, kBehind, kBehind, kBehind};
       const FourInts left = {kLeft, kLeft, kLeft, kLeft}, right = {kRight, kRight, kRight, kRight};
       const FourFloats to_front = turned(forward_lidar_, x, y, z), to_left = turned(left_lidar_, x, y, z);
@@ -203,7 +204,7 @@ class Pass {
       block->x_lidar[k] = block->y_lidar[k] = block->z_lidar[k] = 0.0F;
     }
     judge_ranges(block);
-    turn_to_base(grid->steps(), block);
+    turn_to_base(*grid, block);
     judge_bodies(block);
     for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
       store_four(DirectionGrid::cells_of(load_four(&block->x_lidar[k]), load_four(&block->y_lidar[k]),
@@ -219,7 +220,7 @@ class Pass {
       returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
       if (block->fate[k] == kKept) {
         ++counts->kept_by_quadrant[block->quadrant[k]];
-        if (!grid->add(block->x_step[k], block->y_step[k], block->z_step[k], block->weight[k])) return false;
+        if (!grid->add(block->key[k], block->sums[k])) return false;
       } else if (block->fate[k] == kNear) {
         ++counts->near_by_quadrant[block->quadrant[k]];
       } else {

@@ -30,6 +30,22 @@ TEST(FourFloats, SumInDoubles) {
   EXPECT_EQ(sum_of_lanes(FourFloats{1e8F, 1.0F, -1e8F, 1.0F}), 2.0);
 }
 
+TEST(FourFloats, SumsOfFourAtOnceEachInItsLane) {
+  const FourFloats sums = sums_of_lanes(FourFloats{1.0F, 2.0F, 3.0F, 4.0F}, FourFloats{}, all_four(-0.5F),
+                                        FourFloats{1e3F, 1e2F, 10.0F, 1.0F});
+  const float expected[kFour] = {10.0F, 0.0F, -2.0F, 1111.0F};
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) EXPECT_EQ(sums[lane], expected[lane]);
+}
+
+TEST(FourFloats, RowsBecomeColumns) {
+  const FourWords rows[kFour] = {{0, 1, 2, 3}, {10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32, 33}};
+  FourWords columns[kFour];
+  transpose(rows[0], rows[1], rows[2], rows[3], columns);
+  for (std::uint32_t row = 0; row < kFour; ++row) {
+    for (std::uint32_t column = 0; column < kFour; ++column) EXPECT_EQ(columns[column][row], rows[row][column]);
+  }
+}
+
 TEST(FourFloats, CutOffRootMagnitudeAnyAndStore) {
   const FourFloats four{2.9F, -2.9F, 0.25F, 9.0F};
   const std::int32_t cut[kFour] = {2, -2, 0, 9};

@@ -9,6 +9,7 @@
 
 #include "estimation/near_plane.hpp"
 #include "support/stage_fixtures.hpp"
+#include "support/voxels.hpp"
 
 namespace pose_wall {
 namespace {
@@ -28,9 +29,7 @@ std::vector<Eigen::Vector3d> by_all_pairs(const PointSet& points, double radius,
 struct Voxels {
   explicit Voxels(double leaf_m) : grid(600U), points(600U), keep(600, 0xEE) { grid->begin(leaf_m, 100.0); }
 
-  void add(double x, double y, double z) {
-    grid->add(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), kWeightOne);
-  }
+  void add(double x, double y, double z) { test::add_point(grid.get(), x, y, z); }
   std::uint32_t remove_outliers(const Settings& settings) {
     return pose_wall::remove_outliers(settings, grid.get(), Span<std::uint8_t>(keep.data(), 600), points.get());
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/stage_fixtures.hpp"
+#include "support/voxels.hpp"
 
 namespace pose_wall {
 namespace {
@@ -22,7 +23,7 @@ struct Voxels {
   explicit Voxels(std::uint32_t capacity) : grid(capacity), points(capacity) { grid->begin(kLeaf_m, 50.0); }
 
   void add(double x, double y, double z) {
-    ASSERT_TRUE(grid->add(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), kWeightOne));
+    ASSERT_TRUE(test::add_point(grid.get(), x, y, z));
   }
 
   test::Placed<VoxelGrid> grid;

@@ -16,6 +16,7 @@
 #include <tuple>
 
 #include "support/stage_fixtures.hpp"
+#include "support/voxels.hpp"
 
 namespace pose_wall {
 namespace {
@@ -39,7 +40,7 @@ struct Gridded {
 constexpr double kReach_m = 200.0;
 
 bool add(VoxelGrid* grid, const Xyz& p, std::uint32_t weight = kWeightOne) {
-  return grid->add(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), weight);
+  return test::add_point(grid, p[0], p[1], p[2], weight);
 }
 
 Gridded gridded(const std::vector<Xyz>& points, double leaf, std::uint32_t capacity = 20000) {
@@ -100,14 +101,13 @@ TEST(VoxelGrid, CentroidsComeInTheOrderOfTheirKeys) {
   grid->begin(kLeaf, kReach_m);
   for (const Xyz& p : random_points(15000, 3.0, 8)) EXPECT_TRUE(add(grid.get(), p));
   grid->extract(out.get());
-  const VoxelKey::Cell first = VoxelKey::cell_of(grid->key_in_order(0));
+  const std::array<std::int32_t, 3> first = test::cell_of(grid->key_in_order(0));
   for (std::uint32_t i = 1; i < out->count; ++i) {
     ASSERT_LT(grid->key_in_order(i - 1), grid->key_in_order(i));
-    const VoxelKey::Cell cell = VoxelKey::cell_of(grid->key_in_order(i));
-    const auto apart = [](std::uint32_t a, std::uint32_t b) { return static_cast<double>(a) - static_cast<double>(b); };
-    ASSERT_NEAR(out->x[i] - out->x[0], kLeaf * apart(cell.x, first.x), kLeaf) << "the key is that of the centroid";
-    ASSERT_NEAR(out->y[i] - out->y[0], kLeaf * apart(cell.y, first.y), kLeaf);
-    ASSERT_NEAR(out->z[i] - out->z[0], kLeaf * apart(cell.z, first.z), kLeaf);
+    const std::array<std::int32_t, 3> cell = test::cell_of(grid->key_in_order(i));
+    ASSERT_NEAR(out->x[i] - out->x[0], kLeaf * (cell[0] - first[0]), kLeaf) << "the key is that of the centroid";
+    ASSERT_NEAR(out->y[i] - out->y[0], kLeaf * (cell[1] - first[1]), kLeaf);
+    ASSERT_NEAR(out->z[i] - out->z[0], kLeaf * (cell[2] - first[2]), kLeaf);
   }
   const Span<const std::uint32_t> begins = grid->find_columns();
   ASSERT_EQ(begins[0], 0U);
@@ -219,6 +219,31 @@ TEST(VoxelGrid, BeginForgetsTheLastFrame) {
   grid->begin(1.0, kReach_m);
   grid->extract(out.get());
   EXPECT_EQ(out->count, 0U);
+}
+
+// Four at a time is as one by one, each with its own weight.
+TEST(VoxelGrid, FourPointsAreSplitAsEachIs) {
+  test::Placed<VoxelGrid> together(100U), one_by_one(100U);
+  test::Placed<PointSet> a(100U), b(100U);
+  const FourFloats x{-3.2F, 0.1F, 0.15F, 190.0F}, y{5.0F, -0.1F, -0.12F, -190.0F}, z{0.0F, 0.3F, 0.31F, 2.0F};
+  const FourWords weights{1, 16, 7, 1U << 22};
+  for (auto* grid : {together.get(), one_by_one.get()}) grid->begin(0.25, kReach_m);
+  std::uint64_t keys[kFour];
+  VoxelGrid::Sums sums[kFour];
+  together->split(x, y, z, weights, keys, sums);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    EXPECT_TRUE(together->add(keys[lane], sums[lane]));
+    EXPECT_TRUE(add(one_by_one.get(), {x[lane], y[lane], z[lane]}, weights[lane]));
+  }
+  together->extract(a.get());
+  one_by_one->extract(b.get());
+  EXPECT_EQ(together->fingerprint(), one_by_one->fingerprint());
+  ASSERT_EQ(a->count, 3U) << "the second and the third share a voxel";
+  ASSERT_EQ(b->count, 3U);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(a->x[i], b->x[i]);
+    EXPECT_EQ(a->weight[i], b->weight[i]);
+  }
 }
 
 // Sums are kept within their words: what comes after a quarter of a million points changes nothing.

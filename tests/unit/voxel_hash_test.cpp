@@ -12,8 +12,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "containers/voxel_key.hpp"
 #include "support/stage_fixtures.hpp"
+#include "support/voxels.hpp"
 
 namespace pose_wall {
 namespace {
@@ -26,7 +26,7 @@ TEST(VoxelHash, BehavesAsAMapOverManyFrames) {
     std::unordered_map<std::uint64_t, std::uint32_t> expected;
     for (int i = 0; i < 3000; ++i) {
       const auto draw = [&] { return static_cast<std::int32_t>(random() % 12); };
-      const std::uint64_t key = VoxelKey::of(draw(), draw(), draw());
+      const std::uint64_t key = test::key_of(draw(), draw(), draw());
       const auto known = expected.find(key);
       const std::uint32_t index = hash->insert(key);
       if (known != expected.end()) {
@@ -49,12 +49,12 @@ TEST(VoxelHash, BehavesAsAMapOverManyFrames) {
 TEST(VoxelHash, AClearedTableHoldsNothing) {
   test::Placed<VoxelHash> hash(64U);
   hash->clear();
-  EXPECT_EQ(hash->insert(VoxelKey::of(1, 2, 3)), 0U);
+  EXPECT_EQ(hash->insert(test::key_of(1, 2, 3)), 0U);
   hash->clear();
   EXPECT_EQ(hash->count(), 0U);
   // The cache of the last key must not survive the clear either.
-  EXPECT_EQ(hash->insert(VoxelKey::of(4, 5, 6)), 0U);
-  EXPECT_EQ(hash->insert(VoxelKey::of(1, 2, 3)), 1U);
+  EXPECT_EQ(hash->insert(test::key_of(4, 5, 6)), 0U);
+  EXPECT_EQ(hash->insert(test::key_of(1, 2, 3)), 1U);
 }
 
 TEST(VoxelHash, RoomForOneKey) {
@@ -71,7 +71,7 @@ TEST(VoxelHash, KeysOfAPlaneDoNotPileUp) {
   std::vector<int> home(1U << kBits);
   for (std::int32_t x = 0; x < 40; ++x) {
     for (std::int32_t z = 0; z < 40; ++z) {
-      const std::uint64_t key = VoxelKey::of(x, 50, z);
+      const std::uint64_t key = test::key_of(x, 50, z);
       ++home[static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ULL) >> (64 - kBits))];
     }
   }

@@ -9,6 +9,8 @@
 
 #include <random>
 
+#include "support/voxels.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -18,22 +20,33 @@ TEST(VoxelKey, TellsItsCell) {
   std::mt19937 random(1);
   std::uniform_int_distribution<std::int32_t> draw(0, kMost);
   for (int i = 0; i < 10000; ++i) {
-    const std::int32_t x = draw(random), y = draw(random), z = draw(random);
-    const VoxelKey::Cell cell = VoxelKey::cell_of(VoxelKey::of(x, y, z));
-    ASSERT_EQ(cell.x, static_cast<std::uint32_t>(x));
-    ASSERT_EQ(cell.y, static_cast<std::uint32_t>(y));
-    ASSERT_EQ(cell.z, static_cast<std::uint32_t>(z));
+    VoxelKey::FourCells cells{};
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      cells.x[lane] = draw(random);
+      cells.y[lane] = draw(random);
+      cells.z[lane] = draw(random);
+    }
+    std::uint64_t keys[kFour];
+    VoxelKey::of_four(cells, keys);
+    const VoxelKey::FourCells back = VoxelKey::cells_of(keys);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      ASSERT_EQ(back.x[lane], cells.x[lane]);
+      ASSERT_EQ(back.y[lane], cells.y[lane]);
+      ASSERT_EQ(back.z[lane], cells.z[lane]);
+      ASSERT_EQ(VoxelKey::z_of(keys[lane]), static_cast<std::uint32_t>(cells.z[lane]));
+      ASSERT_EQ(keys[lane], test::key_of(cells.x[lane], cells.y[lane], cells.z[lane])) << "each lane for itself";
+    }
   }
-  EXPECT_EQ(VoxelKey::of(0, 0, 0), 0U);
-  EXPECT_EQ(VoxelKey::of(kMost, kMost, kMost), (1ULL << 63) - 1);
+  EXPECT_EQ(test::key_of(0, 0, 0), 0U);
+  EXPECT_EQ(test::key_of(kMost, kMost, kMost), (1ULL << 63) - 1);
 }
 
 TEST(VoxelKey, IsInTheOrderOfColumnsAndHeights) {
-  EXPECT_LT(VoxelKey::of(3, kMost, kMost), VoxelKey::of(4, 0, 0)) << "columns along x come first";
-  EXPECT_LT(VoxelKey::of(3, 3, kMost), VoxelKey::of(0, 4, 0)) << "then along y";
-  EXPECT_LT(VoxelKey::of(3, 3, 7), VoxelKey::of(0, 0, 8)) << "within a column the lower one";
-  EXPECT_LT(VoxelKey::of(1, 3, 7), VoxelKey::of(2, 0, 7)) << "and at the same height by x";
-  EXPECT_LT(VoxelKey::of(1, 2, 7), VoxelKey::of(1, 3, 7));
+  EXPECT_LT(test::key_of(3, kMost, kMost), test::key_of(4, 0, 0)) << "columns along x come first";
+  EXPECT_LT(test::key_of(3, 3, kMost), test::key_of(0, 4, 0)) << "then along y";
+  EXPECT_LT(test::key_of(3, 3, 7), test::key_of(0, 0, 8)) << "within a column the lower one";
+  EXPECT_LT(test::key_of(1, 3, 7), test::key_of(2, 0, 7)) << "and at the same height by x";
+  EXPECT_LT(test::key_of(1, 2, 7), test::key_of(1, 3, 7));
 }
 
 TEST(VoxelKey, OfAColumnTheLeastAndTheNextBoundARun) {
@@ -43,7 +56,7 @@ TEST(VoxelKey, OfAColumnTheLeastAndTheNextBoundARun) {
   for (std::int32_t x = 60; x < 80; ++x) {
     for (std::int32_t y = 108; y < 128; ++y) {
       for (std::int32_t z = 40; z < 50; ++z) {
-        const std::uint64_t key = VoxelKey::of(x, y, z);
+        const std::uint64_t key = test::key_of(x, y, z);
         const bool in_run = key >= VoxelKey::least_of(column, 43) && key < VoxelKey::least_of(column, 47);
         const bool in_column = x / 4 == 17 && y / 4 == 29;
         ASSERT_EQ(VoxelKey::column_of(key) == column, in_column);
