@@ -52,27 +52,42 @@ bool has_lost(double mean, std::uint32_t count, double too_much) {
   return above * above * count >= kSureInSigmas * kSureInSigmas * variance;
 }
 
+// Of the points from begin to end. The height of a point tells nothing of its distance from an upright plane.
+template <bool kUpright>
+FourFloats sum_of_costs(const PointSet& points, const FourDistances& distances, std::uint32_t begin, std::uint32_t end,
+                        FourFloats limit_m2) {
+  const float *x = &points.x[begin], *y = &points.y[begin], *z = &points.z[begin];
+  const auto costs_at = [&](std::uint32_t further) {
+    const FourFloats x_m = load_four(x + further), y_m = load_four(y + further);
+    const FourFloats r = kUpright ? distances.of(x_m, y_m) : distances.of(x_m, y_m, load_four(z + further));
+    return smaller_of(r * r, limit_m2);
+  };
+  FourFloats even{}, odd{};
+  for (; begin + 2 * kFour <= end; begin += 2 * kFour, x += 2 * kFour, y += 2 * kFour, z += 2 * kFour) {
+    even += costs_at(0);
+    odd += costs_at(kFour);
+  }
+  for (; begin < end; begin += kFour, x += kFour, y += kFour, z += kFour) {
+    even += first_of_four(end - begin) ? costs_at(0) : FourFloats{};
+  }
+  return even + odd;
+}
+
 }  // namespace
 
 double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m, double too_much) {
   const FourDistances distances(plane);
-  const float limit = static_cast<float>(threshold_m * threshold_m);
-  FourFloats sums{};
-  const std::uint32_t n = points.count, whole = n - n % kFour;
-  const double each_m2 = static_cast<double>(limit);
-  for (std::uint32_t i = 0; i < whole;) {
-    const std::uint32_t until = i + kLook < whole ? i + kLook : whole;
-    for (; i < until; i += kFour) {
-      const FourFloats r = distances.of(points, i);
-      sums += smaller_of(r * r, all_four(limit));
-    }
-    if (has_lost(sum_of_lanes(sums) / (each_m2 * i), i, too_much)) return too_much;
+  const FourFloats limit_m2 = all_four(static_cast<float>(threshold_m * threshold_m));
+  const double most_m2 = static_cast<double>(limit_m2[0]);
+  const bool upright = plane.n.z() == 0.0;  // as what is drawn as a wall
+  double sum_m2 = 0.0;
+  for (std::uint32_t i = 0; i < points.count;) {
+    const std::uint32_t end = i + kLook < points.count ? i + kLook : points.count;
+    sum_m2 += sum_of_lanes((upright ? sum_of_costs<true> : sum_of_costs<false>)(points, distances, i, end, limit_m2));
+    i = end;
+    if (has_lost(sum_m2 / (most_m2 * i), i, too_much)) return too_much;
   }
-  if (whole < n) {
-    const FourFloats r = distances.of(points, whole), costs = smaller_of(r * r, all_four(limit));
-    for (std::uint32_t lane = 0; lane < n - whole; ++lane) sums[0] += costs[lane];
-  }
-  const double cost = n > 0 ? sum_of_lanes(sums) / (each_m2 * n) : 1.0;
+  const double cost = points.count > 0 ? sum_m2 / (most_m2 * points.count) : 1.0;
   return cost < too_much ? cost : too_much;
 }
 
