@@ -21,7 +21,7 @@ class ScaleHistogram {
     const float place = std::fabs(residual_m) * bins_per_m_;
     if (!(place < static_cast<float>(kBins))) return;
     ++bins_[static_cast<std::uint32_t>(place)];
-    ++inside_;
+    ++inside_[0];
   }
 
   // Of four residuals, those that count.
@@ -31,16 +31,17 @@ class ScaleHistogram {
     const FourInts bin =
         inside ? cut_off(inside ? place : FourFloats{}) : all_four_ints(static_cast<std::int32_t>(kBins));
     for (std::uint32_t lane = 0; lane < kFour; ++lane) ++bins_[static_cast<std::uint32_t>(bin[lane])];
-    inside_ += sum_of_lanes(-inside);
+    inside_ -= inside;
   }
 
   // The gate where nothing lies inside.
   double scale_m() const {
     constexpr double kMadToSigma = 1.4826;
-    if (inside_ == 0) return gate_m_;
+    const std::uint32_t inside = sum_of_lanes(inside_);
+    if (inside == 0) return gate_m_;
     std::uint32_t below = 0, b = 0;
-    while (2 * (below + bins_[b]) < inside_) below += bins_[b++];
-    const double half = 0.5 * static_cast<double>(inside_);
+    while (2 * (below + bins_[b]) < inside) below += bins_[b++];
+    const double half = 0.5 * static_cast<double>(inside);
     const double within_bin = (half - static_cast<double>(below)) / static_cast<double>(bins_[b]);
     return kMadToSigma * (static_cast<double>(b) + within_bin) * gate_m_ / kBins;
   }
@@ -49,7 +50,7 @@ class ScaleHistogram {
   static constexpr std::uint32_t kBins = 256;
   double gate_m_;
   float bins_per_m_;
-  std::uint32_t inside_ = 0;
+  FourInts inside_{};  // how many, in four parts
   std::uint32_t bins_[kBins + 1] = {};  // and one for all that lie outside or do not count
 };
 
