@@ -53,7 +53,7 @@ class VoxelGrid {
   }
 
   // Writes the centroids in the order of their cells' keys, or in that in which the cells came. out must have room for
-  // count().
+  // count(), and rows that go on for a four: whole fours are written.
   void extract(PointSet* out);
   void extract_as_they_came(PointSet* out);
 

@@ -31,12 +31,12 @@ struct VoxelKey {
     FourInts x, y, z;
   };
   static void of_four(const FourCells& cells, std::uint64_t* keys) {
-    const FourInts x_column = cells.x >> kInColumnBits, y_column = cells.y >> kInColumnBits;
-    const FourInts high = (x_column << (kXShift - kHalf)) | (y_column >> (kHalf - kYShift));
-    const FourInts low = (y_column << kYShift) | (cells.z << kZShift) | ((cells.x & kInColumn) << kInColumnBits) |
-                         (cells.y & kInColumn);
-    const FourLongs whole = __builtin_convertvector(reinterpret_cast<FourWords>(high), FourLongs) << kHalf |
-                            __builtin_convertvector(reinterpret_cast<FourWords>(low), FourLongs);
+    const auto x = reinterpret_cast<FourWords>(cells.x), y = reinterpret_cast<FourWords>(cells.y);
+    const auto z = reinterpret_cast<FourWords>(cells.z);
+    const FourWords x_column = x >> kInColumnBits, y_column = y >> kInColumnBits;
+    const FourWords high = (x_column << (kXShift - kHalf)) | (y_column >> (kHalf - kYShift));
+    const FourWords low = (y_column << kYShift) | (z << kZShift) | ((x & kInColumn) << kInColumnBits) | (y & kInColumn);
+    const FourLongs whole = __builtin_convertvector(high, FourLongs) << kHalf | __builtin_convertvector(low, FourLongs);
     std::memcpy(keys, &whole, sizeof(whole));
   }
   static FourCells cells_of(const std::uint64_t* keys) {
@@ -66,7 +66,7 @@ struct VoxelKey {
   }
 
  private:
-  static constexpr std::int32_t kInColumn = static_cast<std::int32_t>(kColumnCells) - 1;
+  static constexpr std::uint32_t kInColumn = kColumnCells - 1;
   static constexpr std::uint32_t kHalf = 32;  // bits
   static_assert(kXShift >= kHalf && kYShift < kHalf && kYShift + kColumnBits > kHalf, "y lies across the halves");
   using FourLongs = std::uint64_t __attribute__((vector_size(32)));

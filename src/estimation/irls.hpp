@@ -47,12 +47,13 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
 
 struct IrlsResult {
   Plane plane;
-  PlaneOver over;  // the plane it began with
+  PlaneOver over;  // the same plane, over the one it began with
   double scale_m = 0.0;
   bool solved = false;
 };
 
-// The same on points of a cloud, all of them or as many as points has room for; they are in there then.
+// The same on points of a cloud, or on an even share of them that points has room for. What it was fitted on is left in
+// points, in the frame of the plane it began with.
 IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points);
 

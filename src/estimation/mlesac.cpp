@@ -59,7 +59,7 @@ FourFloats sum_of_costs(const PointSet& points, const FourDistances& distances, 
   const float *x = &points.x[begin], *y = &points.y[begin], *z = &points.z[begin];
   const auto costs_at = [&](std::uint32_t further) {
     const FourFloats x_m = load_four(x + further), y_m = load_four(y + further);
-    const FourFloats r = kUpright ? distances.of(x_m, y_m) : distances.of(x_m, y_m, load_four(z + further));
+    const FourFloats r = kUpright ? distances.of_upright(x_m, y_m) : distances.of(x_m, y_m, load_four(z + further));
     return smaller_of(r * r, limit_m2);
   };
   FourFloats even{}, odd{};
@@ -79,7 +79,7 @@ double truncated_cost(const PointSet& points, const Plane& plane, double thresho
   const FourDistances distances(plane);
   const FourFloats limit_m2 = all_four(static_cast<float>(threshold_m * threshold_m));
   const double most_m2 = static_cast<double>(limit_m2[0]);
-  const bool upright = plane.n.z() == 0.0;  // as what is drawn as a wall
+  const bool upright = plane.n.z() == 0.0;  // exactly, as what is drawn as a wall
   double sum_m2 = 0.0;
   for (std::uint32_t i = 0; i < points.count;) {
     const std::uint32_t end = i + kLook < points.count ? i + kLook : points.count;

@@ -24,8 +24,8 @@ class FourDistances {
         d_(all_four(static_cast<float>(plane.d))) {}
 
   FourFloats of(FourFloats x, FourFloats y, FourFloats z) const { return nx_ * x + ny_ * y + nz_ * z + d_; }
-  // From an upright plane.
-  FourFloats of(FourFloats x, FourFloats y) const { return nx_ * x + ny_ * y + d_; }
+  // From an upright plane, at any height.
+  FourFloats of_upright(FourFloats x, FourFloats y) const { return nx_ * x + ny_ * y + d_; }
   FourFloats of(const PointSet& points, std::uint32_t from) const {
     return of(load_four(&points.x[from]), load_four(&points.y[from]), load_four(&points.z[from]));
   }

@@ -74,7 +74,8 @@ class PatchGrid {
   void set(std::uint32_t patch, std::uint32_t layer, const PatchLanes& sums);
 
   // kPlaneOnly: the correction alone, without its covariance and without a look for bends. Finding those is most of the
-  // work, and a fit that is only a step on the way to the next one needs neither. kCovariance: all but the bends.
+  // work, and a fit that is only a step on the way to the next one needs neither. kCovariance: all but the bends and
+  // the visibility.
   enum class Errors { kMeasured, kCovariance, kPlaneOnly };
   PatchFit fit(Errors errors = Errors::kMeasured);
 

@@ -11,6 +11,9 @@
 
 namespace pose_wall {
 
+// With next to no weight a point would still count as one that tells how the points scatter: up to here it is left out.
+constexpr float kPatchWeightLeast = 1e-6F;
+
 struct PatchSums {
   FourFloats first{};   // w, wu, wv, wr
   FourFloats second{};  // wrr, wb, and without weights r, rr
@@ -44,7 +47,8 @@ struct PatchPoint {
   // bias: change of the residual per metre of range bias (ray direction . normal).
   static PatchPoint of(float u_m, float v_m, float residual_m, float weight, float bias) {
     const FourFloats first = weight * FourFloats{1.0F, u_m, v_m, residual_m};
-    return {u_m, v_m, {first, FourFloats{first[3] * residual_m, weight * bias, residual_m, residual_m * residual_m}, 1}};
+    return {
+        u_m, v_m, {first, FourFloats{first[3] * residual_m, weight * bias, residual_m, residual_m * residual_m}, 1}};
   }
 };
 
@@ -53,13 +57,11 @@ struct FourPoints {
   FourFloats u_m, v_m, residual_m, bias;
 };
 
-// Of the points of one patch, each lane for itself. Points that hardly weigh, up to 1e-6, do not count here.
+// Of the points of one patch, each lane for itself. What does not count has no weight, but is a number all the same.
 class PatchLanes {
  public:
   void add(const FourPoints& p, FourFloats weights) {
-    // Next to no weight, and the point would still count as one that tells how the points scatter.
-    constexpr float kLeast = 1e-6F;
-    const FourTruths counts = weights > all_four(kLeast);
+    const FourTruths counts = weights > all_four(kPatchWeightLeast);
     const FourFloats none{}, w = counts ? weights : none, r = counts ? p.residual_m : none;
     w_ += w;
     wu_ += w * p.u_m;
@@ -73,7 +75,7 @@ class PatchLanes {
   }
 
   PatchSums total() const {
-    return {sums_of_lanes(w_, wu_, wv_, wr_), sums_of_lanes(wrr_, wb_, r_, rr_), sum_of_lanes(count_)};
+    return {four_sums_of_lanes(w_, wu_, wv_, wr_), four_sums_of_lanes(wrr_, wb_, r_, rr_), sum_of_lanes(count_)};
   }
 
  private:

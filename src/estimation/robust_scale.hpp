@@ -50,7 +50,7 @@ class ScaleHistogram {
   static constexpr std::uint32_t kBins = 256;
   double gate_m_;
   float bins_per_m_;
-  FourInts inside_{};  // how many, in four parts
+  FourInts inside_{};                   // how many, in four parts
   std::uint32_t bins_[kBins + 1] = {};  // and one for all that lie outside or do not count
 };
 

@@ -97,9 +97,11 @@ Span<const SurfacePatch> SurfacePatches::collect() {
   for (std::uint32_t iv = 0; iv < kSide; iv += side) {
     cells.for_each_block(iv, side, [&](std::uint32_t iu) {
       const PatchSums c = block(iu, iv, side);
-      const double variance = (kPriorPoints * pooled + scatter_of(c)) / (kPriorPoints - 1.0 + static_cast<double>(c.count));
+      const double variance =
+          (kPriorPoints * pooled + scatter_of(c)) / (kPriorPoints - 1.0 + static_cast<double>(c.count));
       const double least = kNoiseMin_m * kNoiseMin_m;
-      patches_[count++] = {c.wu() / c.w(), c.wv() / c.w(), c.wr() / c.w(), c.share(), (variance > least ? variance : least) / c.w()};
+      patches_[count++] = {c.wu() / c.w(), c.wv() / c.w(), c.wr() / c.w(), c.share(),
+                           (variance > least ? variance : least) / c.w()};
     });
   }
   return Span<const SurfacePatch>(patches_.data(), count);

@@ -30,7 +30,9 @@ struct Mixture {
 class Densities {
  public:
   Densities(const Mixture& m, double gate_m)
-      : m_(m), per_sigma_(1.0 / m.sigma), top_((1.0 - kUniformShare) / std::sqrt(2.0 * kPi) * per_sigma_),
+      : m_(m),
+        per_sigma_(1.0 / m.sigma),
+        top_((1.0 - kUniformShare) / std::sqrt(2.0 * kPi) * per_sigma_),
         strays_(kUniformShare / (2.0 * gate_m)) {}
 
   double surface(double x) const { return (1.0 - m_.share) * top_ * bell(x - m_.centre); }
@@ -59,8 +61,8 @@ double log_likelihood(const Histogram& h, const Mixture& m) {
   return sum;
 }
 
-// One round of EM; step stays 0 for a single layer. Returns about what it gained in log likelihood: as much as moving
-// the means by so many sigmas costs the points that are theirs.
+// One round of EM; step stays 0 for a single layer. Returns about what it gained in log likelihood: by as much as
+// means, width and share have moved, in terms of what the counts tell of each.
 double improve(const Histogram& h, double sigma_min_m, Mixture* m) {
   double w0 = 0, w1 = 0, x0 = 0, x1 = 0, xx = 0;
   const Mixture before = *m;
@@ -83,8 +85,10 @@ double improve(const Histogram& h, double sigma_min_m, Mixture* m) {
   m->share = w1 / (w0 + w1);
   m->sigma = variance > sigma_min_m * sigma_min_m ? std::sqrt(variance) : sigma_min_m;
   const double moved0 = m->centre - before.centre, moved1 = moved0 + m->step - before.step;
-  const double wider = m->sigma - before.sigma;
-  return (0.5 * (w0 * moved0 * moved0 + w1 * moved1 * moved1) + (w0 + w1) * wider * wider) / (m->sigma * m->sigma);
+  const double wider = m->sigma - before.sigma, more = m->share - before.share;
+  const double by_share = m->share > 0.0 ? 0.5 * (w0 + w1) * more * more / (m->share * (1.0 - m->share)) : 0.0;
+  return by_share +
+         (0.5 * (w0 * moved0 * moved0 + w1 * moved1 * moved1) + (w0 + w1) * wider * wider) / (m->sigma * m->sigma);
 }
 
 Mixture improved(const Histogram& h, double sigma_min_m, int rounds, Mixture m) {
@@ -96,15 +100,16 @@ Mixture improved(const Histogram& h, double sigma_min_m, int rounds, Mixture m) 
 
 // EM climbs to the nearest top: it starts with the plane on the surface, between the layers, and on the nearer one, a
 // few rounds each, and goes on from the best (short runs; Biernacki, Celeux and Govaert 2003).
-Mixture two_layers(const Histogram& h, double sigma_min_m) {
+Mixture mixture_of_two(const Histogram& h, double sigma_min_m) {
   const double gate_m = h.gate_m();
   Mixture best{};
   double most = 0.0;
   for (const double step : {gate_m / 4.0, gate_m / 2.0}) {
     for (const double centre : {0.0, -step / 2.0, -step}) {
       const Mixture trial = improved(h, sigma_min_m, kTrialRounds, {centre, gate_m / 8.0, step, 0.3});
+      if (!(trial.step > 0.0 && trial.share > 0.0)) continue;
       const double likely = log_likelihood(h, trial);
-      if (!(trial.step > 0.0) || (best.share > 0.0 && !(likely > most))) continue;
+      if (best.share > 0.0 && !(likely > most)) continue;
       best = trial;
       most = likely;
     }
@@ -127,7 +132,7 @@ void LayerHistogram::add(Span<const float> distances_m) {
 
 double TwoLayers::surface_probability(double residual_m) const {
   const Mixture mixture{centre_m, sigma_m, step_m, share};
-  const Densities expected(mixture, 1.0);
+  const Densities expected(mixture, 1.0);  // of strays nothing is asked
   const double surface = expected.surface(residual_m), nearer = expected.nearer(residual_m);
   return surface + nearer > 0.0 ? surface / (surface + nearer) : 0.0;
 }
@@ -136,7 +141,7 @@ TwoLayers find_two_layers(const LayerHistogram& h, const LayerDemands& demands) 
   TwoLayers out;
   if (!(h.total() > 0.0)) return out;
   const Mixture one = improved(h, demands.sigma_min_m, kRounds, {0.0, h.gate_m() / 4.0, 0.0, 0.0});
-  const Mixture two = two_layers(h, demands.sigma_min_m);
+  const Mixture two = mixture_of_two(h, demands.sigma_min_m);
   out.centre_m = two.centre;
   out.sigma_m = two.sigma;
   out.step_m = two.step;

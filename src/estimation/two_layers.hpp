@@ -31,7 +31,8 @@ class LayerHistogram {
   double count_[kBins] = {};
 };
 
-// Two Gaussians of one width: the surface around `centre_m` and, `step_m` nearer to the sensor, what stands out of it.
+// Where found, two Gaussians of one width: the surface around `centre_m` and, `step_m` nearer to the sensor, what
+// stands out of it.
 struct TwoLayers {
   bool found = false;
   double centre_m = 0.0;  // of the surface, relative to the plane

@@ -128,8 +128,8 @@ void transpose(Four a, Four b, Four c, Four d, Four* columns) {
   columns[3] = picked<2, 3, 6, 7>(ab23, cd23);
 }
 
-// Of four at once, as floats: the four lanes of a, of b, of c and of d.
-inline FourFloats sums_of_lanes(FourFloats a, FourFloats b, FourFloats c, FourFloats d) {
+// Of four at once, as floats: the lanes of a, of b, of c and of d, in the order (0 + 2) + (1 + 3).
+inline FourFloats four_sums_of_lanes(FourFloats a, FourFloats b, FourFloats c, FourFloats d) {
   const FourFloats ab = picked<0, 4, 1, 5>(a, b) + picked<2, 6, 3, 7>(a, b);
   const FourFloats cd = picked<0, 4, 1, 5>(c, d) + picked<2, 6, 3, 7>(c, d);
   return picked<0, 1, 4, 5>(ab, cd) + picked<2, 3, 6, 7>(ab, cd);

@@ -23,7 +23,7 @@ struct GroundScratch {
   Span<std::uint32_t> open;        // points with nothing standing on them, within the greatest radius
   Span<std::uint32_t> candidates;  // of those, within the radius that is tried
   Span<std::uint32_t> low;         // of those, the lowest part; later the selection of the fit
-  TangentPoints points;            // of these, as many as a fit of the plane alone needs
+  TangentPoints points;            // of these, as many as a fit takes
   PointSet subset;
   FloorGrid grid;
   PatchGrid patches;

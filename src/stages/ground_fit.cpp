@@ -12,7 +12,6 @@
 #include "estimation/tangent_frame.hpp"
 #include "estimation/tukey.hpp"
 #include "math/elementary.hpp"
-#include "math/four_turns.hpp"
 #include "trace/trace.hpp"
 
 namespace pose_wall {
@@ -124,7 +123,7 @@ void fill_patches(const TangentPoints& points, const IrlsResult& irls, double ra
     const FourFloats weights =
         flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff) * load_four(&points.weight[k]);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (counts[lane] == 0 || !(weights[lane] > 0.0F)) continue;
+      if (counts[lane] == 0 || !(weights[lane] > kPatchWeightLeast)) continue;
       const PatchPoint point = PatchPoint::of(u[lane], v[lane], r[lane], weights[lane], bias[lane]);
       scratch->patches.add(point);
       scratch->surface.add(point);

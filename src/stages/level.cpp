@@ -30,14 +30,16 @@ void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const S
   grid->begin(settings.wall_voxel_leaf, reach_of(settings));
   std::uint32_t until_next = 0;
   const FourTurns to_level(level.R_level_base);
-  for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths) {
+  for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourPlaces p = to_level(x, y, z);
-    const FourTruths in_band = (p.z >= z_min) & (p.z <= z_max);
+    const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max);
     std::uint64_t keys[kFour];
     VoxelGrid::Sums sums[kFour];
     if (any_of(in_band)) {
-      const FourInts weights = cut_off(load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F);
-      grid->split(p.x, p.y, p.z, reinterpret_cast<FourWords>(weights), keys, sums);
+      const FourFloats none{}, sixteenths = load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F;
+      const FourInts weights = cut_off(in_band ? sixteenths : none);
+      grid->split(in_band ? p.x : none, in_band ? p.y : none, in_band ? p.z : none,
+                  reinterpret_cast<FourWords>(weights), keys, sums);
     }
     for (std::uint32_t lane = 0; lane < kFour && i + lane < cloud_base.count; ++lane) {
       if (in_band[lane] != 0) {

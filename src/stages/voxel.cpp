@@ -202,6 +202,7 @@ class Pass {
     if (count == 0) return true;
     for (std::uint32_t k = count; k < PointBlock::kSize; ++k) {
       block->x_lidar[k] = block->y_lidar[k] = block->z_lidar[k] = 0.0F;
+      block->weight[k] = kWeightOne;
     }
     judge_ranges(block);
     turn_to_base(*grid, block);

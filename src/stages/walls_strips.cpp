@@ -19,8 +19,10 @@ constexpr double kLayerGainPerPoint = 0.02;
 constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, parted by the voxels
 constexpr double kLayersApartInSigmas = 2.5;
 constexpr int kStepRounds = 4;  // of the surface alone: it tells its roughness, the plane comes of both
-constexpr int kJointRounds = 3;
+constexpr int kJointRounds = 2;
 constexpr int kLastRounds = 8;
+// Metres and slopes: the round that comes to this takes its step, and one more follows.
+constexpr double kFrontsStandStill = 2e-4;
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
 constexpr double kFrontStepMin_m = 0.06;
@@ -92,9 +94,8 @@ double where_most_are(Span<const float> residuals, double* window_m) {
 
 StripFronts measure_fronts(const WallSurface& fit) {
   StripFronts fronts;
-  // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
+  if (!may_have_fronts(fit)) return fronts;
   const double step_m = fit.strips->layers().step_m;
-  if (!(step_m >= kFrontStepMin_m)) return fronts;
   const Span<float> residuals = fronts_between(fit, 0.5 * step_m, 2.5 * step_m);
   if (residuals.size() < kFrontPointsMin) return fronts;
   double window_m = 2.0 * step_m;
@@ -107,6 +108,11 @@ StripFronts measure_fronts(const WallSurface& fit) {
 }
 
 }  // namespace
+
+// Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
+bool may_have_fronts(const WallSurface& fit) {
+  return fit.strips != nullptr && fit.strips->layers().step_m >= kFrontStepMin_m;
+}
 
 void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   near = arena.take<std::uint32_t>(points_max);
@@ -215,7 +221,7 @@ bool step_with_fronts(int rounds_max, const WallSurface& surface, WallFitScratch
     fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
     if (!joint.patch.solved) return false;
     joint.irls.over = joint.over();
-    if (joint.patch.correction.cwiseAbs().maxCoeff() < kBeforePatches) break;
+    if (joint.patch.correction.cwiseAbs().maxCoeff() < kFrontsStandStill) break;
   }
   *over = joint.irls.over;
   return true;

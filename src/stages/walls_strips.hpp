@@ -79,8 +79,11 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
 // points lie in two layers, the fit is repeated on the outer one, and the others are dropped.
 void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit);
 
-// Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does. Where
-// they do not contradict the rock they join the fit, with a step of their own. False where they do not: nothing changes then.
+// Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does, if
+// they stand out by more than the rock itself.
+bool may_have_fronts(const WallSurface& fit);
+// Where they do not contradict the rock they join the fit, which needs its covariance, with a step of their own, and
+// the bends are looked for. False where they do not: the fit is as it was then.
 bool join_fronts(WallFitScratch* scratch, WallSurface* fit);
 
 }  // namespace pose_wall

@@ -31,8 +31,8 @@ TEST(FourFloats, SumInDoubles) {
 }
 
 TEST(FourFloats, SumsOfFourAtOnceEachInItsLane) {
-  const FourFloats sums = sums_of_lanes(FourFloats{1.0F, 2.0F, 3.0F, 4.0F}, FourFloats{}, all_four(-0.5F),
-                                        FourFloats{1e3F, 1e2F, 10.0F, 1.0F});
+  const FourFloats sums = four_sums_of_lanes(FourFloats{1.0F, 2.0F, 3.0F, 4.0F}, FourFloats{}, all_four(-0.5F),
+                                             FourFloats{1e3F, 1e2F, 10.0F, 1.0F});
   const float expected[kFour] = {10.0F, 0.0F, -2.0F, 1111.0F};
   for (std::uint32_t lane = 0; lane < kFour; ++lane) EXPECT_EQ(sums[lane], expected[lane]);
 }

@@ -17,11 +17,11 @@
 namespace pose_wall {
 namespace {
 
-FloorResult fit(test::GroundFixture* g, const Plane& start) {
+FloorResult fit(test::GroundFixture* g, const Plane& start,
+                const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
   test::Placed<GroundScratch> scratch(g->points().set().capacity());
-  scratch->grid.find_open(g->points().set(), 15.0, 0.0, scratch->open);
-  return fit_floor(g->points().set(), g->points().all(), 3.0, start, g->settings(), Eigen::Vector3d::Zero(),
-                   scratch.get());
+  scratch->grid.find_open(g->points().set(), 15.0, sensor_base_m.z(), scratch->open);
+  return fit_floor(g->points().set(), g->points().all(), 3.0, start, g->settings(), sensor_base_m, scratch.get());
 }
 
 Plane near_floor() {
@@ -101,6 +101,27 @@ TEST(GroundFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
     outside += std::fabs(angles.pitch_rad) > f.pitch_bound_rad + factor * f.pitch_sigma_rad ? 1 : 0;
   }
   EXPECT_EQ(outside, 0);
+}
+
+// More than a fit takes: an even share of them says the same, wherever the sensor is.
+TEST(GroundFit, AnyCountOfPointsAndAnyPlaceOfTheSensor) {
+  const double slope = 0.03;
+  for (const int count : {2000, 8192, 8193, 20000}) {
+    for (const Eigen::Vector3d& sensor : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(-1.5, 0.8, 0.6)}) {
+      test::GroundFixture g;
+      test::Noise noise(4);
+      for (int i = 0; i < count; ++i) {
+        const double x = noise.uniform(-2, 2), y = noise.uniform(-2, 2);
+        g.add(x, y, slope * y + noise.normal(0.005));
+      }
+      const FloorResult f = fit(&g, near_floor(), sensor);
+      ASSERT_TRUE(f.fit.found && !f.fit.refused) << count;
+      EXPECT_EQ(f.fit.inliers, static_cast<std::uint32_t>(count));
+      const Eigen::Vector3d up = Eigen::Vector3d(0.0, -slope, 1.0).normalized();
+      EXPECT_LT((f.fit.plane.n - up).norm(), 5.0 * (f.roll_sigma_rad + f.pitch_sigma_rad)) << count;
+      EXPECT_LT(f.roll_sigma_rad, 0.005 / std::sqrt(0.3 * count)) << "the points that were taken count";
+    }
+  }
 }
 
 TEST(GroundFit, TooFewPointsAreRefused) {

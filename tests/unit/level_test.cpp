@@ -78,6 +78,37 @@ TEST(Level, TheBandIsCutByHeightAboveTheTiltedFloor) {
   EXPECT_NEAR(weight, static_cast<float>(inside), 2.0F);
 }
 
+// Fours lie partly in the band, each point has its own weight, and what lies behind the last is anything.
+TEST(Level, EachOfFourIsCutForItself) {
+  for (std::uint32_t n = 1; n <= 9; ++n) {
+    test::Placed<PointSet> points(n);
+    points->count = n;
+    double expected = 0.0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const bool in_band = i % 3 != 1;
+      points->set(i, {1.0 + i, 0.0, in_band ? 0.0 : 5.0}, 1.0F + static_cast<float>(i));
+      if (in_band) expected += 1.0 + i;
+    }
+    for (std::uint32_t i = n; i < n + kFour; ++i) {
+      points->x[i] = points->y[i] = points->weight[i] = std::nanf("");
+      points->z[i] = 0.0F;
+    }
+    test::Placed<VoxelGrid> grid(n);
+    test::Placed<BoundedPoints> band(n), beyond(kBeyondMax);
+    Plane floor;
+    floor.d = 1.0;
+    cut_wall_band(*points, level_by(floor, ahead_is_x()), test::settings_with({}), grid.get(), band.get(),
+                  beyond.get());
+    double weight = 0.0;
+    for (std::uint32_t i = 0; i < band->count; ++i) {
+      weight += static_cast<double>(band->weight[i]);
+      EXPECT_NEAR(band->weight[i], band->x[i], 1e-3F) << "its own weight";
+    }
+    EXPECT_EQ(weight, expected) << n;
+    EXPECT_EQ(band->count, n - (n + 1) / 3) << n;
+  }
+}
+
 TEST(Level, WeightsPassTheSecondVoxels) {
   test::OwnedPoints points(2);
   points.add(2.0, 2.0, 0.0, 3.0F);

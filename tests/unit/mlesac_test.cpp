@@ -50,6 +50,29 @@ TEST(TruncatedCost, CountsThatFillNoLaneAreCountedTheSame) {
   }
 }
 
+// An upright plane is asked without heights: the cost is what it is by all three coordinates, for any count.
+TEST(TruncatedCost, OfAnUprightPlaneHeightsPlayNoPart) {
+  test::Noise noise(7);
+  Plane upright{Eigen::Vector3d(0.6, -0.8, 0.0), 0.3}, leaning = upright;
+  leaning.n.z() = 1e-30;  // the general way
+  for (std::uint32_t n = 1; n < 300; n += 7) {
+    test::Placed<PointSet> points(n);
+    points->count = 0;
+    double expected = 0.0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Eigen::Vector3d p(noise.uniform(-0.5, 0.5), noise.uniform(0, 0.8), noise.normal(3.0));
+      points->set(points->count++, p, 1.0F);
+      const double share = upright.signed_distance(p) / 0.2;
+      expected += share * share < 1.0 ? share * share : 1.0;
+    }
+    for (std::uint32_t i = n; i < n + kFour; ++i) points->x[i] = points->y[i] = points->z[i] = std::nanf("");
+    EXPECT_NEAR(truncated_cost(*points, upright, 0.2, 1e300), expected / n, 1e-5) << n;
+    EXPECT_NEAR(truncated_cost(*points, leaning, 0.2, 1e300), expected / n, 1e-5) << n;
+    points->z[n / 2] = std::nanf("");
+    EXPECT_NEAR(truncated_cost(*points, upright, 0.2, 1e300), expected / n, 1e-5) << "not even read";
+  }
+}
+
 // Who has lost need not be told by how much; who costs less by more than chance is told exactly.
 TEST(TruncatedCost, EndsEarlyOnlyForWhatCostsTooMuch) {
   test::Noise noise(4);

@@ -258,7 +258,8 @@ TEST(PatchFit, PointsOutsideTheGridAndNaNAreLeftOut) {
   test::Placed<PatchGrid> grid;
   grid->begin(0, 4, 0, 2, 0.5);
   test::Noise noise(7);
-  for (int i = 0; i < 500; ++i) grid->add(test::patch_point(noise.uniform(0, 4), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
+  for (int i = 0; i < 500; ++i)
+    grid->add(test::patch_point(noise.uniform(0, 4), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
   for (const double wild : {-1.0, 1e9, -1e30, std::nan("")}) {
     grid->add(test::patch_point(wild, 1.0, 99.0, 1.0, 1.0));
     grid->add(test::patch_point(1.0, wild, 99.0, 1.0, 1.0));
@@ -272,7 +273,8 @@ TEST(PatchFit, AnExtentLargerThanTheGridGetsLargerPatches) {
   test::Placed<PatchGrid> grid;
   grid->begin(-100, 100, 0, 2, 0.5);
   test::Noise noise(8);
-  for (int i = 0; i < 5000; ++i) grid->add(test::patch_point(noise.uniform(-100, 100), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
+  for (int i = 0; i < 5000; ++i)
+    grid->add(test::patch_point(noise.uniform(-100, 100), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
   const PatchFit f = grid->fit();
   EXPECT_GT(f.patches, 40U);
   EXPECT_LE(f.patches, PatchGrid::kCapacity);
@@ -345,6 +347,11 @@ TEST(PatchFit, SumsOfPatchesAreThoseOfTheirPoints) {
     EXPECT_NEAR(a.covariance(k, k), b.covariance(k, k), 1e-3 * a.covariance(k, k));
   }
   EXPECT_NEAR(a.visibility_m, b.visibility_m, 1e-5);
+  const PatchFit without_bends = one->fit(PatchGrid::Errors::kCovariance);
+  EXPECT_EQ(without_bends.correction, a.correction);
+  EXPECT_EQ(without_bends.covariance, a.covariance);
+  EXPECT_EQ(without_bends.bias_response, a.bias_response);
+  EXPECT_EQ(without_bends.dof_slope, a.dof_slope);
 }
 
 TEST(PatchFit, EveryPlaceHasAPatch) {

@@ -22,7 +22,8 @@ TEST(SurfacePatches, MeansAndTheirVariances) {
   constexpr double kSigma_m = 0.02;
   constexpr int kPoints = 4000;
   for (int i = 0; i < kPoints; ++i) {
-    patches->add(test::patch_point(noise.uniform(-1, 0.999), noise.uniform(-1, 0.999), 0.1 + noise.normal(kSigma_m), 1.0, -0.5));
+    patches->add(
+        test::patch_point(noise.uniform(-1, 0.999), noise.uniform(-1, 0.999), 0.1 + noise.normal(kSigma_m), 1.0, -0.5));
   }
   const Span<const SurfacePatch> found = patches->collect();
   ASSERT_EQ(found.size(), 16U);

@@ -40,7 +40,7 @@ TwoLayers found_in(const std::vector<float>& r) {
 // 4000 residuals of 2 cm: means to 0.5 mm, shares to 1 %; bins of the histogram below a centimetre.
 TEST(TwoLayers, RibsInFrontOfASurfaceAreFound) {
   for (const double share : {0.12, 0.3, 0.5}) {
-    for (const double centre : {0.0, -0.04}) {
+    for (const double centre : {0.0, -0.04, -0.12}) {  // the plane on the surface, before it, on the nearer layer
       const TwoLayers t = found_in(residuals(share, 0.12, 0.02, centre, 1));
       ASSERT_TRUE(t.found) << share << " " << centre;
       EXPECT_NEAR(t.centre_m, centre, 0.005);

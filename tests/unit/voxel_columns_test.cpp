@@ -22,9 +22,7 @@ constexpr double kLeaf_m = 0.05;
 struct Voxels {
   explicit Voxels(std::uint32_t capacity) : grid(capacity), points(capacity) { grid->begin(kLeaf_m, 50.0); }
 
-  void add(double x, double y, double z) {
-    ASSERT_TRUE(test::add_point(grid.get(), x, y, z));
-  }
+  void add(double x, double y, double z) { ASSERT_TRUE(test::add_point(grid.get(), x, y, z)); }
 
   test::Placed<VoxelGrid> grid;
   test::Placed<PointSet> points;

@@ -242,11 +242,18 @@ TEST(VoxelGrid, FourPointsAreSplitAsEachIs) {
   ASSERT_EQ(b->count, 3U);
   for (std::uint32_t i = 0; i < 3; ++i) {
     EXPECT_EQ(a->x[i], b->x[i]);
+    EXPECT_EQ(a->y[i], b->y[i]);
+    EXPECT_EQ(a->z[i], b->z[i]);
     EXPECT_EQ(a->weight[i], b->weight[i]);
+    if (a->weight[i] != 23.0F / kWeightOne) continue;
+    const float share = 16.0F / 23.0F, step_m = 0.25F / 1024.0F;
+    EXPECT_NEAR(a->x[i], share * x[1] + (1.0F - share) * x[2], step_m);
+    EXPECT_NEAR(a->y[i], share * y[1] + (1.0F - share) * y[2], step_m);
+    EXPECT_NEAR(a->z[i], share * z[1] + (1.0F - share) * z[2], step_m);
   }
 }
 
-// Sums are kept within their words: what comes after a quarter of a million points changes nothing.
+// Sums are kept within their words: what would make it more than a quarter of a million points is left out.
 TEST(VoxelGrid, MorePointsThanACellCounts) {
   test::Placed<VoxelGrid> grid(4U);
   test::Placed<PointSet> out(4U);
@@ -256,6 +263,16 @@ TEST(VoxelGrid, MorePointsThanACellCounts) {
   ASSERT_EQ(out->count, 1U);
   EXPECT_NEAR(out->x[0], 0.999F, 1e-3F);
   EXPECT_EQ(out->weight[0], 262144.0F);
+  grid->begin(1.0, kReach_m);
+  add(grid.get(), {0.25, 0.25, 0.25});
+  add(grid.get(), {0.75, 0.75, 0.75}, VoxelGrid::kWeightMost);
+  grid->extract(out.get());
+  EXPECT_EQ(out->weight[0], 1.0F) << "all of it or nothing";
+  grid->begin(1.0, kReach_m);
+  add(grid.get(), {0.75, 0.75, 0.75}, VoxelGrid::kWeightMost);
+  grid->extract(out.get());
+  EXPECT_EQ(out->weight[0], 262144.0F) << "as much as there is room for";
+  EXPECT_NEAR(out->z[0], 0.75F, 1e-3F);
 }
 
 }  // namespace
