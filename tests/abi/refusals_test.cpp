@@ -224,7 +224,7 @@ TEST(Memory, IsWhatTheReadmeSays) {
   struct Row {
     double points_max, mebibytes;
   };
-  for (const Row& row : {Row{16000, 1.9}, Row{60000, 4.5}, Row{131000, 9.5}}) {
+  for (const Row& row : {Row{16000, 1.8}, Row{60000, 4.5}, Row{131000, 9.5}}) {
     pose_wall_config config;
     ASSERT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
     ASSERT_EQ(pose_wall_config_set_number(&config, "points_max", row.points_max), POSE_WALL_OK);
