@@ -19,7 +19,7 @@ constexpr double kLayerGainPerPoint = 0.02;
 constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, parted by the voxels
 constexpr double kLayersApartInSigmas = 2.5;
 constexpr int kStepRounds = 4;  // of the surface alone: it tells its roughness, the plane comes of both
-constexpr int kJointRounds = 2;
+constexpr int kJointRounds = 3;
 constexpr int kLastRounds = 8;
 // Metres and slopes: the round that comes to this takes its step, and one more follows.
 constexpr double kFrontsStandStill = 2e-4;
