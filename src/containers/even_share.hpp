@@ -28,6 +28,10 @@ class EvenShare {
 // visit(k) for an even share of the numbers below `all`, at most `most` of them.
 template <typename Visit>
 void for_even_share(std::uint32_t all, std::uint32_t most, const Visit& visit) {
+  if (all <= most) {
+    for (std::uint32_t k = 0; k < all; ++k) visit(k);
+    return;
+  }
   EvenShare share;
   std::uint32_t visited = 0;
   for (std::uint32_t k = 0; k < all && visited < most; ++k) {

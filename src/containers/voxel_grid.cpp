@@ -33,7 +33,6 @@ void VoxelGrid::begin(double leaf_m, double reach_m) {
   while ((power - 2.0) * leaf_m < reach_m) power *= 2;
   const std::uint32_t cells = 4 * power / 3;
   const double steps_per_cell = 1U << kStepBits;
-  metres_per_step_ = leaf_m / steps_per_cell;
   origin_cell_ = static_cast<std::int32_t>(cells);
   steps_per_m_ = static_cast<float>(steps_per_cell / leaf_m);
   origin_step_ = static_cast<float>(cells << kStepBits);
@@ -66,7 +65,7 @@ std::uint64_t VoxelGrid::fingerprint_of_sorted() const {
 
 void VoxelGrid::write_sorted(PointSet* out) {
   const Span<const std::uint64_t> keys = hash_.keys();
-  const auto leaf_m = static_cast<float>(leaf_m_), metres_per_step = static_cast<float>(metres_per_step_);
+  const auto leaf_m = static_cast<float>(leaf_m_), metres_per_step = leaf_m / (1U << kStepBits);
   const auto coordinates = [&](FourInts cells, FourWords sums, FourFloats per_weight) {
     const FourFloats steps = __builtin_convertvector(sums, FourFloats) * per_weight + 0.5F;
     return __builtin_convertvector(cells - origin_cell_, FourFloats) * leaf_m + steps * metres_per_step;

@@ -83,7 +83,7 @@ class VoxelGrid {
   Span<std::uint32_t> sorted_;  // one of the two, in the end
   Span<std::uint32_t> histogram_;
   float steps_per_m_ = 1.0F, origin_step_ = 0.0F;
-  double leaf_m_ = 1.0, metres_per_step_ = 1.0;
+  double leaf_m_ = 1.0;
   std::int32_t origin_cell_ = 0;
   std::uint64_t fingerprint_ = 0;
 };

@@ -112,12 +112,8 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
 IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points) {
   points->begin(start, Eigen::Vector3d::Zero(), u_hint);
-  const auto add = [&](std::uint32_t k) { points->add(cloud.at(indices[k]), cloud.weight[indices[k]]); };
-  if (indices.size() <= points->capacity()) {
-    for (std::uint32_t k = 0; k < indices.size(); ++k) add(k);
-  } else {
-    for_even_share(indices.size(), points->capacity(), add);
-  }
+  for_even_share(indices.size(), points->capacity(),
+                 [&](std::uint32_t k) { points->add(cloud.at(indices[k]), cloud.weight[indices[k]]); });
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);
   return {points->plane_of(fit.over), fit.over, fit.scale_m, fit.solved};
 }

@@ -15,15 +15,17 @@ class NormalEquations {
   NormalEquations(double w, double wu, double wv, double wuu, double wuv, double wvv, double wr, double wur, double wvr)
       : w_(w), wu_(wu), wv_(wv), wuu_(wuu), wuv_(wuv), wvv_(wvv), wr_(wr), wur_(wur), wvr_(wvr) {}
 
-  void add(double u, double v, double r, double w) {
-    const double wu = w * u, wv = w * v;
-    w_ += w;
-    wu_ += wu;
-    wv_ += wv;
-    wuu_ += wu * u;
-    wuv_ += wu * v;
-    wvv_ += wv * v;
-    wr_ += w * r;
+  void add(double u, double v, double r, double w) { add_row({1.0, u, v}, r, w); }
+  // Where the row of the design is not (1, u, v).
+  void add_row(const Eigen::Vector3d& row, double r, double w) {
+    const double w0 = w * row[0], wu = w * row[1], wv = w * row[2];
+    w_ += w0 * row[0];
+    wu_ += w0 * row[1];
+    wv_ += w0 * row[2];
+    wuu_ += wu * row[1];
+    wuv_ += wu * row[2];
+    wvv_ += wv * row[2];
+    wr_ += w0 * r;
     wur_ += wu * r;
     wvr_ += wv * r;
   }

@@ -6,17 +6,15 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "estimation/normal_equations.hpp"
+
 namespace pose_wall {
 namespace {
 
-// A patch's own scatter counts beside this many more points of the expected scatter.
-constexpr double kPriorPoints = 10.0;
 constexpr int kScatterRounds = 4;
 constexpr int kScatterRoundsOfAStep = 2;
 constexpr double kSensorNoise_m = 0.03;
 constexpr double kScatterLeast = 0.01;
-// Floor of the noise of one point: no LiDAR repeats better than a millimetre.
-constexpr double kNoiseMin_m = 0.001;
 
 }  // namespace
 
@@ -113,10 +111,9 @@ std::uint32_t PatchGrid::collect_means(Errors errors) {
     for (std::uint32_t c = first; c < first + cells; ++c) {
       const PatchSums& p = cells_[c];
       mean_of_cell_[c] = -1;
-      if (!(p.w() > 1e-9)) continue;
-      const double own = p.scatter(), share = p.share();
-      const double s2 =
-          (kPriorPoints * expected.at(share * share) + (own > 0.0 ? own : 0.0)) / (kPriorPoints + p.count - 1.0);
+      if (!p.has_weight()) continue;
+      const double own = p.scatter_or_none(), share = p.share();
+      const double s2 = (kPriorPoints * expected.at(share * share) + own) / (kPriorPoints + p.count - 1.0);
       Mean& m = means_[n];
       m.u = p.wu() / p.w();
       m.v = p.wv() / p.w();
@@ -149,31 +146,19 @@ PatchGrid::StripCentre PatchGrid::strip_centre(std::uint32_t n) const {
 
 bool PatchGrid::solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse) {
   const StripCentre centre = strip_centre(n);
-  double m00 = 0.0, m01 = 0.0, m02 = 0.0, m11 = 0.0, m12 = 0.0, m22 = 0.0, r0 = 0.0, r1 = 0.0, r2 = 0.0;
+  NormalEquations sums;
   for (Mean& p : means_.first(n)) {
     const bool strip = p.layer != 0;
-    const double a0 = strip ? 0.0 : 1.0, a1 = strip ? p.u - centre.u : p.u, a2 = strip ? p.v - centre.v : p.v;
-    p.a = Eigen::Vector3d(a0, a1, a2);
+    p.a = strip ? Eigen::Vector3d(0.0, p.u - centre.u, p.v - centre.v) : Eigen::Vector3d(1.0, p.u, p.v);
     p.r_centred = strip ? p.r - centre.r : p.r;
     p.b_centred = strip ? p.b - centre.b : p.b;
-    const double w0 = p.information * a0, w1 = p.information * a1, w2 = p.information * a2;
-    m00 += w0 * a0;
-    m01 += w0 * a1;
-    m02 += w0 * a2;
-    m11 += w1 * a1;
-    m12 += w1 * a2;
-    m22 += w2 * a2;
-    r0 += w0 * p.r_centred;
-    r1 += w1 * p.r_centred;
-    r2 += w2 * p.r_centred;
+    sums.add_row(p.a, p.r_centred, p.information);
   }
-  Eigen::Matrix3d m;
-  m << m00, m01, m02, m01, m11, m12, m02, m12, m22;
-  const Eigen::Vector3d rhs(r0, r1, r2);
+  const Eigen::Matrix3d m = sums.information();
   const double volume = m(0, 0) * m(1, 1) * m(2, 2);
   if (!(volume > 0.0) || !(m.determinant() > 1e-9 * volume)) return false;
   *inverse = m.inverse();
-  *solution = *inverse * rhs;
+  *solution = *inverse * sums.right_side();
   for (Mean& p : means_.first(n)) p.error = p.r_centred - solution->dot(p.a);
   return true;
 }

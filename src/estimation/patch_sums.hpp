@@ -13,6 +13,10 @@ namespace pose_wall {
 
 // With next to no weight a point would still count as one that tells how the points scatter: up to here it is left out.
 constexpr float kPatchWeightLeast = 1e-6F;
+// A patch's own scatter counts beside this many more points of the scatter that is expected.
+constexpr double kPriorPoints = 10.0;
+// Floor of the noise of one point: no LiDAR repeats better than a millimetre.
+constexpr double kNoiseMin_m = 0.001;
 
 struct PatchSums {
   FourFloats first{};   // w, wu, wv, wr
@@ -34,8 +38,13 @@ struct PatchSums {
   double r() const { return static_cast<double>(second[2]); }
   double rr() const { return static_cast<double>(second[3]); }
   double share() const { return wb() / w(); }
-  // Weighted squares about the mean; rounding may leave less than nothing.
+  bool has_weight() const { return w() > 1e-9; }
+  // Weighted squares about the mean; rounding may leave less than nothing, or it is cut off there.
   double scatter() const { return wrr() - wr() * wr() / w(); }
+  double scatter_or_none() const {
+    const double all = scatter();
+    return all > 0.0 ? all : 0.0;
+  }
 };
 
 // One point: where it lies in the plane, and what it adds to its patch.

@@ -4,20 +4,6 @@
 #include "estimation/surface_patches.hpp"
 
 namespace pose_wall {
-namespace {
-
-constexpr double kWeightMin = 1e-9;
-// Floor of the noise of one point: no LiDAR repeats better than a millimetre.
-constexpr double kNoiseMin_m = 0.001;
-// A patch's own scatter counts like this many more points of the pooled scatter.
-constexpr double kPriorPoints = 10.0;
-
-double scatter_of(const PatchSums& sums) {
-  const double scatter = sums.scatter();
-  return scatter > 0.0 ? scatter : 0.0;
-}
-
-}  // namespace
 
 void SurfacePatches::lay_out(Arena& arena) {
   cells_ = arena.take<PatchSums>(kSide * kSide);
@@ -52,7 +38,7 @@ SurfacePatches::Occupied SurfacePatches::occupied() const {
   for (std::uint32_t v = 0; v < kSide; ++v) {
     std::uint64_t bits = 0;
     for (std::uint32_t u = 0; u < kSide; ++u) {
-      bits |= static_cast<std::uint64_t>(cells_[v * kSide + u].w() > kWeightMin) << u;
+      bits |= static_cast<std::uint64_t>(cells_[v * kSide + u].has_weight()) << u;
     }
     out.row[v] = bits;
   }
@@ -81,7 +67,7 @@ double SurfacePatches::pooled_variance() const {
   double scatter = 0.0, freedom = 0.0;
   for (const PatchSums& c : cells_) {
     if (c.count < 2) continue;
-    scatter += scatter_of(c);
+    scatter += c.scatter_or_none();
     freedom += static_cast<double>(c.count - 1);
   }
   const double variance = freedom > 0.0 ? scatter / freedom : 0.0;
@@ -98,7 +84,7 @@ Span<const SurfacePatch> SurfacePatches::collect() {
     cells.for_each_block(iv, side, [&](std::uint32_t iu) {
       const PatchSums c = block(iu, iv, side);
       const double variance =
-          (kPriorPoints * pooled + scatter_of(c)) / (kPriorPoints - 1.0 + static_cast<double>(c.count));
+          (kPriorPoints * pooled + c.scatter_or_none()) / (kPriorPoints - 1.0 + static_cast<double>(c.count));
       const double least = kNoiseMin_m * kNoiseMin_m;
       patches_[count++] = {c.wu() / c.w(), c.wv() / c.w(), c.wr() / c.w(), c.share(),
                            (variance > least ? variance : least) / c.w()};

@@ -98,9 +98,10 @@ Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f)
   return {0.0, -gradient.dot(f.u), -gradient.dot(f.v)};
 }
 
-// In the coordinates of the points, whose residuals are by the plane over theirs.
-void fill_patches(const TangentPoints& points, const IrlsResult& irls, double radius_m,
-                  const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+// In the coordinates of the fit's points, whose residuals are by the plane over theirs.
+void fill_patches(const IrlsResult& irls, double radius_m, const Eigen::Vector3d& sensor_base_m,
+                  GroundScratch* scratch) {
+  const TangentPoints& points = scratch->points;
   const double reach_m = kStretch * radius_m;
   scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m);
   scratch->surface.begin(reach_m, kPatch_m);
@@ -197,7 +198,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   out.fit.plane = irls.plane;
-  if (irls.solved) fill_patches(scratch->points, irls, radius_m, sensor_base_m, scratch);
+  if (irls.solved) fill_patches(irls, radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
