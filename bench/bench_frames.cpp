@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 #include <stdexcept>
-#include <utility>
+#include <tuple>
 
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
@@ -14,10 +14,8 @@
 namespace pose_wall::bench {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
-
-tools::sim::Setup setup(const std::string& sensor) {
-  return tools::sim::make_setup("nominal", sensor, false, kSeed);
+tools::sim::Setup setup(const std::string& sensor, std::uint32_t road) {
+  return tools::sim::make_setup("nominal", sensor, false, road);
 }
 
 struct Recording {
@@ -25,11 +23,11 @@ struct Recording {
   std::vector<tools::TruthRow> truths;
 };
 
-const Recording& recording(const std::string& sensor, std::uint32_t count) {
-  static std::map<std::pair<std::string, std::uint32_t>, Recording> kept;
-  Recording& made = kept[{sensor, count}];
+const Recording& recording(const std::string& sensor, std::uint32_t count, std::uint32_t road) {
+  static std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, Recording> kept;
+  Recording& made = kept[{sensor, count, road}];
   if (!made.frames.empty()) return made;
-  const tools::sim::Simulator simulator(setup(sensor), kSeed);
+  const tools::sim::Simulator simulator(setup(sensor, road), road);
   for (std::uint32_t i = 0; i < count; ++i) {
     made.frames.push_back(simulator.render(i));
     made.truths.push_back(simulator.truth(i));
@@ -39,8 +37,8 @@ const Recording& recording(const std::string& sensor, std::uint32_t count) {
 
 }  // namespace
 
-const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count) {
-  return recording(sensor, count).frames;
+const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count, std::uint32_t road) {
+  return recording(sensor, count, road).frames;
 }
 
 tools::sim::Frame resampled(const tools::sim::Frame& frame, std::uint32_t points) {
@@ -73,13 +71,13 @@ tools::sim::Frame spread(std::uint32_t points) {
   return out;
 }
 
-const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count) {
-  return recording(sensor, count).truths;
+const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count, std::uint32_t road) {
+  return recording(sensor, count, road).truths;
 }
 
-api::Config config(const std::string& sensor) {
+api::Config config(const std::string& sensor, std::uint32_t road) {
   api::Config config;
-  for (const tools::sim::EngineSetting& s : tools::sim::engine_setting_list(setup(sensor))) {
+  for (const tools::sim::EngineSetting& s : tools::sim::engine_setting_list(setup(sensor, road))) {
     if (config.set(s.key.c_str(), s.value.c_str()) != POSE_WALL_OK) {
       throw std::runtime_error("the config refused " + s.key + "=" + s.value);
     }

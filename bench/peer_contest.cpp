@@ -42,6 +42,32 @@ Turn pcl_turn(const tools::sim::Frame& frame, const PclSettings& settings, PclMe
   return turn_of(total_ms, reading.stage_ns, reading.value, truth);
 }
 
+void run_on_road(std::uint32_t road, Contest* contest) {
+  const std::string& sensor = contest->sensor;
+  const ContestPlan& plan = contest->plan;
+  const auto& recorded = frames(sensor, plan.frames, road);
+  const auto& truth = truths(sensor, plan.frames, road);
+  const api::Config settings = config(sensor, road);
+  api::Engine engine;
+  if (engine.open(settings) != POSE_WALL_OK) throw std::runtime_error("the engine refused its config");
+  engine.set_clock(cpu_clock);
+  FloorPass floor;
+  for (std::uint32_t i = 0; i < plan.frames; ++i) {
+    pose_wall_result result = api::make_result();
+    const pose_wall_cloud cloud = cloud_of(recorded[i], (i + 1) * kPeriod_ns);
+    contest->contestants[0].turns.push_back(own_turn(&engine, cloud, truth[i].value, &result));
+    for (const PclMethod method : {PclMethod::kRansac, PclMethod::kMlesac}) {
+      const float radius_m =
+          plan.pcl_ground_radius_m > 0.0F ? plan.pcl_ground_radius_m : best_ground_radius_m(sensor, method);
+      contest->contestants[method == PclMethod::kRansac ? 1 : 2].turns.push_back(
+          pcl_turn(recorded[i], pcl_settings(settings, radius_m), method, truth[i].value));
+    }
+    contest->floor_ms.push_back(floor_time_ms(&floor, recorded[i]));
+    contest->points.push_back(result.points_in);
+    contest->voxels.push_back(result.voxels);
+  }
+}
+
 }  // namespace
 
 double Contestant::median_total_ms() const {
@@ -76,29 +102,9 @@ double Contestant::rmse(std::size_t first, std::size_t last) const {
   return std::sqrt(sum / count);
 }
 
-Contest hold_contest(const std::string& sensor, std::uint32_t frame_count) {
-  const auto& recorded = frames(sensor, frame_count);
-  const auto& truth = truths(sensor, frame_count);
-  const api::Config settings = config(sensor);
-  api::Engine engine;
-  if (engine.open(settings) != POSE_WALL_OK) throw std::runtime_error("the engine refused its config");
-  engine.set_clock(cpu_clock);
-  FloorPass floor;
-
-  Contest contest{sensor, {}, {}, {}, {{"pose_wall", {}}, {"PCL RANSAC", {}}, {"PCL MLESAC", {}}}};
-  for (std::uint32_t i = 0; i < frame_count; ++i) {
-    pose_wall_result result = api::make_result();
-    const pose_wall_cloud cloud = cloud_of(recorded[i], (i + 1) * kPeriod_ns);
-    contest.contestants[0].turns.push_back(own_turn(&engine, cloud, truth[i].value, &result));
-    for (const PclMethod method : {PclMethod::kRansac, PclMethod::kMlesac}) {
-      const PclSettings as_ours = pcl_settings(settings, best_ground_radius_m(sensor, method));
-      contest.contestants[method == PclMethod::kRansac ? 1 : 2].turns.push_back(
-          pcl_turn(recorded[i], as_ours, method, truth[i].value));
-    }
-    contest.floor_ms.push_back(floor_time_ms(&floor, recorded[i]));
-    contest.points.push_back(result.points_in);
-    contest.voxels.push_back(result.voxels);
-  }
+Contest hold_contest(const std::string& sensor, const ContestPlan& plan) {
+  Contest contest{sensor, plan, {}, {}, {}, {{"pose_wall", {}}, {"PCL RANSAC", {}}, {"PCL MLESAC", {}}}};
+  for (std::uint32_t road = kFirstRoad; road < kFirstRoad + plan.roads; ++road) run_on_road(road, &contest);
   return contest;
 }
 

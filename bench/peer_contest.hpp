@@ -21,7 +21,7 @@ struct Turn {
 
 struct Contestant {
   std::string name;
-  std::vector<Turn> turns;  // one a frame
+  std::vector<Turn> turns;  // one a frame, road by road
 
   double median_total_ms() const;
   double median_stage_ms(std::size_t stage) const;
@@ -30,13 +30,20 @@ struct Contestant {
   double rmse(std::size_t first, std::size_t last) const;
 };
 
+struct ContestPlan {
+  std::uint32_t roads = 10;
+  std::uint32_t frames = 3;          // of each road, by one engine
+  float pcl_ground_radius_m = 0.0F;  // 0: the best for each sensor and method
+};
+
 struct Contest {
   std::string sensor;
+  ContestPlan plan;
   std::vector<double> points, voxels, floor_ms;  // one a frame
   std::vector<Contestant> contestants;           // pose_wall first
 };
 
 // All times are processor time. Throws std::runtime_error when the engine refuses.
-Contest hold_contest(const std::string& sensor, std::uint32_t frame_count);
+Contest hold_contest(const std::string& sensor, const ContestPlan& plan);
 
 }  // namespace pose_wall::bench

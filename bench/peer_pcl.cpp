@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -21,22 +22,26 @@ namespace pose_wall::bench {
 namespace {
 
 constexpr int kUsage = 2;
-constexpr long kFramesMax = 10000;
+constexpr long kCountMax = 10000;
+constexpr double kRadiusMax_m = 100.0;
 
 constexpr const char* kHelp =
-    "usage: pose_wall_peer_pcl [--frames N] [SENSOR ...]\n\n"
+    "usage: pose_wall_peer_pcl [--roads N] [--frames N] [--pcl-ground-radius M] [SENSOR ...]\n\n"
     "Runs pose_wall, the same pipeline from PCL's parts (SACSegmentation by RANSAC and by MLESAC) and the floor pass\n"
     "(read, turn, range test, one hash insertion a point) on the same simulated frames, turn by turn, one thread "
     "each,\n"
     "and prints a table of times, stage by stage, and one of errors against the simulator's truth.\n\n"
     "  SENSOR      {}; all of them by default\n"
-    "  --frames N  frames of each, 30 by default\n"
+    "  --roads N   so many roads, drawn by the same rules, 10 by default\n"
+    "  --frames N  frames of each, 3 by default\n"
+    "  --pcl-ground-radius M\n"
+    "              of PCL's floor, in metres; the best of 3 to 15 for each sensor and method by default\n"
     "  --help      this text\n\n"
     "Times are processor time. pose_wall's also buy gates, protection levels and smoothing, which PCL's do not.\n"
     "Exit status 0: done, 1: the engine refused, 2: bad usage.\n";
 
 struct Request {
-  std::uint32_t frames = 30;
+  ContestPlan plan;
   std::vector<std::string> sensors;
 };
 
@@ -53,7 +58,7 @@ int complain(const std::string& what) {
 int run(const Request& request) {
   for (const std::string& sensor : request.sensors) {
     try {
-      const Contest contest = hold_contest(sensor, request.frames);
+      const Contest contest = hold_contest(sensor, request.plan);
       print_stages(contest);
       print_accuracy(contest);
       std::fflush(stdout);
@@ -65,22 +70,40 @@ int run(const Request& request) {
   return EXIT_SUCCESS;
 }
 
+// False where it is no number of the range.
+bool read_number(const std::string& word, double least, double most, double* number) {
+  char* end = nullptr;
+  *number = std::strtod(word.c_str(), &end);
+  return end != word.c_str() && *end == '\0' && *number >= least && *number <= most;
+}
+
 int main_of(const std::vector<std::string>& words) {
   Request request;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--help" || words[i] == "-h") {
+    const std::string& word = words[i];
+    if (word == "--help" || word == "-h") {
       fmt::print(kHelp, fmt::join(sensor_names(), ", "));
       return EXIT_SUCCESS;
     }
-    if (words[i] == "--frames") {
-      const long frames = i + 1 < words.size() ? std::strtol(words[++i].c_str(), nullptr, 10) : 0;
-      if (frames < 1 || frames > kFramesMax) return complain(fmt::format("--frames: 1 to {}", kFramesMax));
-      request.frames = static_cast<std::uint32_t>(frames);
-    } else if (tools::sim::find_sensor(words[i]) != nullptr) {
-      request.sensors.push_back(words[i]);
+    const std::string value = i + 1 < words.size() ? words[i + 1] : "";
+    double number = 0.0;
+    if (word == "--frames" || word == "--roads") {
+      if (!read_number(value, 1.0, kCountMax, &number) || number != std::floor(number)) {
+        return complain(fmt::format("{}: a whole number from 1 to {}, not '{}'", word, kCountMax, value));
+      }
+      (word == "--frames" ? request.plan.frames : request.plan.roads) = static_cast<std::uint32_t>(number);
+      ++i;
+    } else if (word == "--pcl-ground-radius") {
+      if (!read_number(value, 1.0, kRadiusMax_m, &number)) {
+        return complain(fmt::format("{}: 1 to {} m, not '{}'", word, kRadiusMax_m, value));
+      }
+      request.plan.pcl_ground_radius_m = static_cast<float>(number);
+      ++i;
+    } else if (tools::sim::find_sensor(word) != nullptr) {
+      request.sensors.push_back(word);
     } else {
-      return complain(fmt::format("no sensor '{}'{}; sensors: {}", words[i],
-                                  tools::did_you_mean(words[i], sensor_names()), fmt::join(sensor_names(), ", ")));
+      return complain(fmt::format("no sensor '{}'{}; sensors: {}", word, tools::did_you_mean(word, sensor_names()),
+                                  fmt::join(sensor_names(), ", ")));
     }
   }
   if (request.sensors.empty()) request.sensors = sensor_names();

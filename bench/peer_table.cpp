@@ -27,8 +27,10 @@ void print_row(const std::string& name, const std::vector<double>& times_ms) {
 }  // namespace
 
 void print_stages(const Contest& contest) {
-  fmt::print("{}: {} frames of about {:.0f} points, {:.0f} voxels; ms of processor time, medians over the frames;\n",
-             contest.sensor, contest.floor_ms.size(), median(contest.points), median(contest.voxels));
+  fmt::print(
+      "{}: {} frames of each of {} roads, about {:.0f} points, {:.0f} voxels; ms of processor time, medians over the\n"
+      "frames; ",
+      contest.sensor, contest.plan.frames, contest.plan.roads, median(contest.points), median(contest.voxels));
   fmt::print("ratio: over pose_wall's\n\n{:14}", "");
   for (const Contestant& one : contest.contestants) {
     fmt::print(" {:>12}{}", one.name, &one != &contest.contestants.front() ? "   ratio" : "");
