@@ -14,22 +14,23 @@
 
 namespace pose_wall::bench {
 
-// The road that times and instructions are of. Other numbers give other rock and floor, drawn by the same rules.
-constexpr std::uint32_t kFirstRoad = 1;
+// The scene with its own sizes, the machine level: what times and instructions are of. From 1 on: roads whose sizes,
+// rock, floor and place of the machine are drawn within the scene's ranges.
+constexpr std::uint32_t kAsItStands = 0;
 
 // Made once per sensor, count and road, and kept.
 const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count,
-                                             std::uint32_t road = kFirstRoad);
+                                             std::uint32_t road = kAsItStands);
 // The same frame with about so many points: every n-th of it, or it several times over, each time shifted a little.
 tools::sim::Frame resampled(const tools::sim::Frame& frame, std::uint32_t points);
 // What fills every table: points spread evenly over a box of 40 x 40 x 5 m around the sensor, hardly two in a voxel.
 tools::sim::Frame spread(std::uint32_t points);
 // The truth of the same frames.
 const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count,
-                                           std::uint32_t road = kFirstRoad);
+                                           std::uint32_t road = kAsItStands);
 
 // The engine's settings for these frames: defaults, a box around the machine's body, the sensor's own settings.
-api::Config config(const std::string& sensor, std::uint32_t road = kFirstRoad);
+api::Config config(const std::string& sensor, std::uint32_t road = kAsItStands);
 
 pose_wall_cloud cloud_of(const tools::sim::Frame& frame, std::int64_t stamp_ns);
 

@@ -2,13 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // pose_wall_budget: does a frame fit into 10 or 20 Hz on this controller? One static program, to be copied there and
-// run:
-//
-//   pose_wall_budget [--frames N] [SENSOR ...]
-//
-// Simulates a rough heading for each sensor, runs the engine on it and prints a verdict. Times are wall time of one
-// thread, with whatever else the controller does meanwhile: run it beside the controller's usual load. Exit status 0:
-// all fit 10 Hz, 1: some do not, 2: bad usage.
+// run. It links nothing but the engine and the simulator, so it writes with printf.
 
 #include <chrono>
 #include <cstdio>
@@ -19,11 +13,13 @@
 #include "bench_frames.hpp"
 #include "quantiles.hpp"
 #include "sim/sensors.hpp"
+#include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::bench {
 namespace {
 
 constexpr int kUsage = 2;
+constexpr long kFramesMax = 100000;
 constexpr std::uint32_t kDifferentFrames = 10;
 constexpr std::int64_t kPeriod_ns = 100'000'000;
 // Other work comes in bursts: a frame that takes more than this of its period will be late some day.
@@ -39,13 +35,30 @@ struct Times {
   double median_ms = 0.0, p99_ms = 0.0, worst_ms = 0.0;
 };
 
+constexpr const char* kHelp =
+    "usage: pose_wall_budget [--frames N] [SENSOR ...]\n\n"
+    "Does a frame fit into 10 or 20 Hz on this controller? Simulates a rough heading for each sensor, runs the engine\n"
+    "on it, and prints the times of a frame and a verdict. They are wall time of one thread, with whatever else the\n"
+    "controller does meanwhile: run it beside the controller's usual load.\n\n"
+    "  SENSOR      %s; all of them by default\n"
+    "  --frames N  frames of each, 1 to %ld, 100 by default\n"
+    "  --help      this text\n\n"
+    "Exit status 0: the worst frame of each fits 10 Hz, 1: some do not, or the engine refused one, 2: bad usage.\n";
+
+std::vector<std::string> sensor_names() {
+  std::vector<std::string> names;
+  for (const tools::sim::SensorModel& model : tools::sim::sensor_models()) names.push_back(model.sensor.name);
+  return names;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 int complain(const std::string& what) {
-  std::fprintf(stderr,
-               "pose_wall_budget: %s\nusage: pose_wall_budget [--frames N] [SENSOR ...]\nsensors:", what.c_str());
-  for (const tools::sim::SensorModel& model : tools::sim::sensor_models()) {
-    std::fprintf(stderr, " %s", model.sensor.name.c_str());
-  }
-  std::fprintf(stderr, "\n");
+  std::fprintf(stderr, "pose_wall_budget: %s\n--help explains\n", what.c_str());
   return kUsage;
 }
 
@@ -84,7 +97,10 @@ int run(const Request& request) {
   bool all_fit = true;
   for (const std::string& sensor : request.sensors) {
     Times t;
-    if (!measure(sensor, request.frames, &t)) return complain("the engine refused a frame of " + sensor);
+    if (!measure(sensor, request.frames, &t)) {
+      std::fprintf(stderr, "pose_wall_budget: the engine refused a frame of %s\n", sensor.c_str());
+      return EXIT_FAILURE;
+    }
     std::printf("%-9s %7u %7u %7.1f ms %7.1f ms %7.1f ms   %-20s %-20s\n", sensor.c_str(), t.points, t.voxels,
                 t.median_ms, t.p99_ms, t.worst_ms, verdict(t.worst_ms, 10.0).c_str(),
                 verdict(t.worst_ms, 20.0).c_str());
@@ -95,27 +111,40 @@ int run(const Request& request) {
   return all_fit ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
+bool read_frames(const std::string& word, std::uint32_t* frames) {
+  char* end = nullptr;
+  const long number = std::strtol(word.c_str(), &end, 10);
+  if (word.empty() || *end != '\0' || number < 1 || number > kFramesMax) return false;
+  *frames = static_cast<std::uint32_t>(number);
+  return true;
+}
+
+int main_of(const std::vector<std::string>& words) {
+  Request request;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--help" || words[i] == "-h") {
+      std::printf(kHelp, listed(sensor_names()).c_str(), kFramesMax);
+      return EXIT_SUCCESS;
+    }
+    if (words[i] == "--frames") {
+      const std::string value = ++i < words.size() ? words[i] : "";
+      if (!read_frames(value, &request.frames)) {
+        return complain("--frames: a whole number from 1 to " + std::to_string(kFramesMax) + ", not '" + value + "'");
+      }
+    } else if (tools::sim::find_sensor(words[i]) != nullptr) {
+      request.sensors.push_back(words[i]);
+    } else {
+      return complain("no sensor '" + words[i] + "'" + tools::did_you_mean(words[i], sensor_names()) +
+                      " (sensors: " + listed(sensor_names()) + ")");
+    }
+  }
+  if (request.sensors.empty()) request.sensors = sensor_names();
+  return run(request);
+}
+
 }  // namespace
 }  // namespace pose_wall::bench
 
 int main(int argc, char** argv) {
-  namespace bench = pose_wall::bench;
-  namespace sim = pose_wall::tools::sim;
-  bench::Request request;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--frames") {
-      const long frames = i + 1 < argc ? std::strtol(argv[++i], nullptr, 10) : 0;
-      if (frames < 1 || frames > 100000) return bench::complain("--frames needs a number from 1 to 100000");
-      request.frames = static_cast<std::uint32_t>(frames);
-    } else if (sim::find_sensor(word) != nullptr) {
-      request.sensors.push_back(word);
-    } else {
-      return bench::complain("unknown word '" + word + "'");
-    }
-  }
-  if (request.sensors.empty()) {
-    for (const sim::SensorModel& model : sim::sensor_models()) request.sensors.push_back(model.sensor.name);
-  }
-  return bench::run(request);
+  return pose_wall::bench::main_of({argv + 1, argv + argc});
 }

@@ -68,6 +68,15 @@ void run_on_road(std::uint32_t road, Contest* contest) {
   }
 }
 
+template <typename Visit>
+void for_each_error(const Contestant& one, std::size_t first, std::size_t last, const Visit& visit) {
+  for (const Turn& turn : one.turns) {
+    for (std::size_t i = first; i <= last; ++i) {
+      if (std::isfinite(turn.error[i])) visit(turn.error[i]);
+    }
+  }
+}
+
 }  // namespace
 
 double Contestant::median_total_ms() const {
@@ -92,19 +101,22 @@ double Contestant::values_per_frame() const {
 
 double Contestant::rmse(std::size_t first, std::size_t last) const {
   double sum = 0.0, count = 0.0;
-  for (const Turn& turn : turns) {
-    for (std::size_t i = first; i <= last; ++i) {
-      if (!std::isfinite(turn.error[i])) continue;
-      sum += turn.error[i] * turn.error[i];
-      count += 1.0;
-    }
-  }
+  for_each_error(*this, first, last, [&](double error) {
+    sum += error * error;
+    count += 1.0;
+  });
   return std::sqrt(sum / count);
+}
+
+double Contestant::median_error(std::size_t first, std::size_t last) const {
+  std::vector<double> all;
+  for_each_error(*this, first, last, [&](double error) { all.push_back(std::fabs(error)); });
+  return median(all);
 }
 
 Contest hold_contest(const std::string& sensor, const ContestPlan& plan) {
   Contest contest{sensor, plan, {}, {}, {}, {{"pose_wall", {}}, {"PCL RANSAC", {}}, {"PCL MLESAC", {}}}};
-  for (std::uint32_t road = kFirstRoad; road < kFirstRoad + plan.roads; ++road) run_on_road(road, &contest);
+  for (std::uint32_t road = 1; road <= plan.roads; ++road) run_on_road(road, &contest);
   return contest;
 }
 

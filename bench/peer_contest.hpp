@@ -26,8 +26,9 @@ struct Contestant {
   double median_total_ms() const;
   double median_stage_ms(std::size_t stage) const;
   double values_per_frame() const;
-  // Of the quantities first to last, where they were measured.
+  // Of the errors of quantities first to last, where they were measured.
   double rmse(std::size_t first, std::size_t last) const;
+  double median_error(std::size_t first, std::size_t last) const;
 };
 
 struct ContestPlan {

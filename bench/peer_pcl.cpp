@@ -32,7 +32,7 @@ constexpr const char* kHelp =
     "each,\n"
     "and prints a table of times, stage by stage, and one of errors against the simulator's truth.\n\n"
     "  SENSOR      {}; all of them by default\n"
-    "  --roads N   so many roads, drawn by the same rules, 10 by default\n"
+    "  --roads N   so many roads of scene nominal, drawn within its ranges, 10 by default\n"
     "  --frames N  frames of each, 3 by default\n"
     "  --pcl-ground-radius M\n"
     "              of PCL's floor, in metres; the best of 3 to 15 for each sensor and method by default\n"
@@ -102,7 +102,7 @@ int main_of(const std::vector<std::string>& words) {
     } else if (tools::sim::find_sensor(word) != nullptr) {
       request.sensors.push_back(word);
     } else {
-      return complain(fmt::format("no sensor '{}'{}; sensors: {}", word, tools::did_you_mean(word, sensor_names()),
+      return complain(fmt::format("no sensor '{}'{} (sensors: {})", word, tools::did_you_mean(word, sensor_names()),
                                   fmt::join(sensor_names(), ", ")));
     }
   }

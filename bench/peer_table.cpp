@@ -53,11 +53,16 @@ void print_stages(const Contest& contest) {
 }
 
 void print_accuracy(const Contest& contest) {
-  fmt::print("{:14} {:>12} {:>18} {:>12} {:>15}\n", "", "values of 7", "roll, pitch RMSE", "yaw", "distances");
+  fmt::print("{:14} {:>12} {:>22} {:>20} {:>18}\n{:14} {:>12} {:>22} {:>20} {:>18}\n", "errors", "values of 7",
+             "roll, pitch, deg", "yaw, deg", "distances, mm", "", "", "RMS   median", "RMS   median", "RMS   median");
   for (const Contestant& one : contest.contestants) {
-    fmt::print("{:14} {:12.2f} {:14.3f} deg {:8.3f} deg {:12.1f} mm\n", one.name, one.values_per_frame(),
-               one.rmse(POSE_WALL_ROLL, POSE_WALL_PITCH) * kDegPerRad,
-               one.rmse(POSE_WALL_YAW, POSE_WALL_YAW) * kDegPerRad, one.rmse(POSE_WALL_D_LF, POSE_WALL_D_RB) * 1e3);
+    const auto both = [&](std::size_t first, std::size_t last, double unit, int digits) {
+      return fmt::format("{:.{}f} {:8.{}f}", one.rmse(first, last) * unit, digits, one.median_error(first, last) * unit,
+                         digits);
+    };
+    fmt::print("{:14} {:12.2f} {:>22} {:>20} {:>18}\n", one.name, one.values_per_frame(),
+               both(POSE_WALL_ROLL, POSE_WALL_PITCH, kDegPerRad, 3), both(POSE_WALL_YAW, POSE_WALL_YAW, kDegPerRad, 3),
+               both(POSE_WALL_D_LF, POSE_WALL_D_RB, 1e3, 1));
   }
   fmt::print("\n");
 }
