@@ -28,10 +28,6 @@ class EvenShare {
 // visit(k) for an even share of the numbers below `all`, at most `most` of them.
 template <typename Visit>
 void for_even_share(std::uint32_t all, std::uint32_t most, const Visit& visit) {
-  if (all <= most) {
-    for (std::uint32_t k = 0; k < all; ++k) visit(k);
-    return;
-  }
   EvenShare share;
   std::uint32_t visited = 0;
   for (std::uint32_t k = 0; k < all && visited < most; ++k) {
@@ -41,15 +37,12 @@ void for_even_share(std::uint32_t all, std::uint32_t most, const Visit& visit) {
   }
 }
 
-// Keeps an even share of the items in place, about `most` of them.
+// Keeps an even share of the items in place, at most `most` of them.
 template <typename T>
 Span<T> thinned(Span<T> items, std::uint32_t most) {
   if (items.size() <= most) return items;
-  EvenShare share;
   std::uint32_t count = 0;
-  for (const T& item : items) {
-    if (share.takes(most, items.size())) items[count++] = item;
-  }
+  for_even_share(items.size(), most, [&](std::uint32_t k) { items[count++] = items[k]; });
   return items.first(count);
 }
 

@@ -53,16 +53,22 @@ struct PointSet {
   }
 };
 
-// Of the points k to k + 3 of a list of indices; those behind its last one are the last one again.
-inline FourPlaces four_of(const PointSet& points, Span<const std::uint32_t> list, std::uint32_t k) {
-  FourPlaces out{};
-  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    const std::uint32_t i = list[k + lane < list.size() ? k + lane : list.size() - 1];
-    out.x[lane] = points.x[i];
-    out.y[lane] = points.y[i];
-    out.z[lane] = points.z[i];
+// The indices k to k + 3 of a list; those behind its last one are the last one again.
+struct FourIndices {
+  std::uint32_t lane[kFour];
+
+  FourIndices(Span<const std::uint32_t> list, std::uint32_t k) {
+    for (std::uint32_t i = 0; i < kFour; ++i) lane[i] = list[k + i < list.size() ? k + i : list.size() - 1];
   }
-  return out;
+  FourFloats of(Span<const float> row) const {
+    return FourFloats{row[lane[0]], row[lane[1]], row[lane[2]], row[lane[3]]};
+  }
+};
+
+// Of the points k to k + 3 of a list of indices.
+inline FourPlaces four_of(const PointSet& points, Span<const std::uint32_t> list, std::uint32_t k) {
+  const FourIndices indices(list, k);
+  return {indices.of(points.x), indices.of(points.y), indices.of(points.z)};
 }
 
 // visit(first index, x, y, z, which of the four count) over all points; those that do not count are anything.

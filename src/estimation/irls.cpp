@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "containers/even_share.hpp"
 #include "estimation/normal_equations.hpp"
 #include "estimation/robust_scale.hpp"
 #include "estimation/tukey.hpp"
@@ -112,8 +111,7 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
 IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points) {
   points->begin(start, Eigen::Vector3d::Zero(), u_hint);
-  for_even_share(indices.size(), points->capacity(),
-                 [&](std::uint32_t k) { points->add(cloud.at(indices[k]), cloud.weight[indices[k]]); });
+  points->add(cloud, indices);
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);
   return {points->plane_of(fit.over), fit.over, fit.scale_m, fit.solved};
 }

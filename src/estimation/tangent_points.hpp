@@ -60,6 +60,8 @@ struct TangentPoints {
     return {frame.u.dot(q), frame.v.dot(q), plane.n.dot(q)};
   }
 
+  // Those of a cloud that a list names, as far as there is room: in floats, to some micrometres.
+  void add(const PointSet& cloud, Span<const std::uint32_t> list);
   void add(const Eigen::Vector3d& p, float points) {
     const Eigen::Vector3d q = in_frame(p);
     u[count] = static_cast<float>(q.x());

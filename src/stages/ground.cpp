@@ -189,14 +189,7 @@ bool stands_alone(const Candidate& best, Span<const Candidate> candidates) {
   return true;
 }
 
-// A radius, which points are open, and which of them are within it. A fit goes by where the rays meet the floor, and so
-// chooses among all that are open.
-struct Look {
-  double radius_m;
-  Span<const std::uint32_t> open, within;
-};
-
-FloorResult floor_within(const Look& look, const BoundedPoints& cloud, const Settings& s, const Axes& axes,
+FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, const Settings& s, const Axes& axes,
                          const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
   const double radius_m = look.radius_m;
@@ -220,7 +213,7 @@ FloorResult floor_within(const Look& look, const BoundedPoints& cloud, const Set
   POSE_WALL_NOTE(note_floor_choice(Span<const Candidate>(candidates, count), best));
   if (best == nullptr) return none;
 
-  FloorResult out = fit_floor(cloud, look.open, radius_m, best->plane, s, sensor, scratch);
+  FloorResult out = fit_floor(cloud, look, best->plane, s, sensor, scratch);
   out.fit.iterations = none.fit.iterations;
   out.candidates = all.size();
   out.roi_radius_m = radius_m;

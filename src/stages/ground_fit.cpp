@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "containers/even_share.hpp"
 #include "estimation/irls.hpp"
 #include "estimation/near_plane.hpp"
 #include "estimation/plane_halves.hpp"
@@ -53,13 +54,13 @@ bool stands_still(const Plane& a, const Plane& b) {
 // Selections after the first go by height over the plane, clear of what stands on the floor, and within the radius
 // where the ray meets the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges
 // only, and these look like a higher floor.
-Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t> open, const FloorGrid& grid,
-                                 const Plane& plane, double gate_m, double radius_m,
-                                 const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
+Span<std::uint32_t> select(const PointSet& cloud, const FloorLook& look, const FloorGrid& grid, const Plane& plane,
+                           double gate_m, const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
+  const Span<const std::uint32_t> open = look.open;
   const double sensor_m = plane.signed_distance(sensor_base_m);
   if (!(sensor_m > gate_m)) return {};
   const auto gate = static_cast<float>(gate_m), inside = static_cast<float>(sensor_m);
-  const auto radius2 = static_cast<float>(radius_m * radius_m);
+  const auto radius2 = static_cast<float>(look.radius_m * look.radius_m);
   const Eigen::Vector3f sensor = sensor_base_m.cast<float>();
   const FourDistances distances(plane);
   std::uint32_t count = 0;
@@ -78,7 +79,7 @@ Span<const std::uint32_t> select(const PointSet& cloud, Span<const std::uint32_t
       if (counts[lane] != 0) out[count++] = open[k + lane];
     }
   });
-  return Span<const std::uint32_t>(out.data(), count);
+  return out.first(count);
 }
 
 // Gradients of roll and pitch by the normal; see roll_pitch_of_up().
@@ -132,19 +133,22 @@ void fill_patches(const IrlsResult& irls, double radius_m, const Eigen::Vector3d
   });
 }
 
-void count_inliers(const PointSet& cloud, Span<const std::uint32_t> open, double radius_m, double thresh_m,
-                   PlaneFit* fit) {
-  double squares = 0.0, measured = 0.0, voxels = 0.0;
-  for (const std::uint32_t i : open) {
-    const Eigen::Vector3d p = cloud.at(i);
-    const double r = fit->plane.signed_distance(p);
-    if (!(r >= -thresh_m && r <= thresh_m) || !(p.head<2>().squaredNorm() <= radius_m * radius_m)) continue;
-    squares += r * r;
-    voxels += 1.0;
-    measured += static_cast<double>(cloud.weight[i]);
-  }
-  fit->inliers = static_cast<std::uint32_t>(measured);
-  fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
+void count_inliers(const PointSet& cloud, Span<const std::uint32_t> within, double thresh_m, PlaneFit* fit) {
+  const FourDistances distances(fit->plane);
+  const FourFloats thresh = all_four(static_cast<float>(thresh_m)), none{};
+  FourFloats squares{}, measured{};
+  FourInts voxels{};  // true is -1
+  for_each_four(within.size(), [&](std::uint32_t k, FourTruths counts) {
+    const FourIndices four(within, k);
+    const FourFloats r = distances.of(four.of(cloud.x), four.of(cloud.y), four.of(cloud.z));
+    counts &= magnitude_of(r) <= thresh;
+    squares += counts ? r * r : none;
+    measured += counts ? four.of(cloud.weight) : none;
+    voxels -= counts;
+  });
+  const std::uint32_t inside = sum_of_lanes(voxels);
+  fit->inliers = static_cast<std::uint32_t>(sum_of_lanes(measured));
+  fit->rms_m = inside > 0 ? std::sqrt(sum_of_lanes(squares) / inside) : 0.0;
 }
 
 // bend: from PatchGrid, that tells whether the floor bends as a whole; the rest is of the plane through its waves.
@@ -181,24 +185,24 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
 
 }  // namespace
 
-FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open, double radius_m, const Plane& start,
-                      const Settings& settings, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+FloorResult fit_floor(const PointSet& cloud_base, const FloorLook& look, const Plane& start, const Settings& settings,
+                      const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
   FloorResult out;
   IrlsSettings tukey = irls_settings(settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
   IrlsResult irls;
   irls.plane = start;
-  Span<const std::uint32_t> chosen;
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
-    chosen = select(cloud_base, open, scratch->grid, irls.plane, tukey.gate_m, radius_m, sensor_base_m, scratch->low);
+    const Span<std::uint32_t> chosen =
+        select(cloud_base, look, scratch->grid, irls.plane, tukey.gate_m, sensor_base_m, scratch->low);
     const Plane before = irls.plane;
-    irls = irls_tukey(cloud_base, chosen, before, u_hint, tukey, &scratch->points);
+    irls = irls_tukey(cloud_base, thinned(chosen, scratch->points.capacity()), before, u_hint, tukey, &scratch->points);
     if (!irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   out.fit.plane = irls.plane;
-  if (irls.solved) fill_patches(irls, radius_m, sensor_base_m, scratch);
+  if (irls.solved) fill_patches(irls, look.radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
@@ -212,7 +216,7 @@ FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open
   over.add(uneven.correction);
   out.fit.plane = scratch->points.plane_of(over);
   out.fit.found = true;
-  count_inliers(cloud_base, open, radius_m, settings.ground_ransac_thresh, &out.fit);
+  count_inliers(cloud_base, look.within, settings.ground_ransac_thresh, &out.fit);
   set_uncertainty(uneven, bend, patches, scratch->points.frame, out.fit.plane, settings, &out);
   return out;
 }

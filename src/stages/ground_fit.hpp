@@ -11,8 +11,15 @@
 
 namespace pose_wall {
 
-// start: the chosen hypothesis. open: the points to select from; those count whose ray meets the plane within radius_m.
-FloorResult fit_floor(const PointSet& cloud_base, Span<const std::uint32_t> open, double radius_m, const Plane& start,
-                      const Settings& settings, const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch);
+// A radius, which points are open, and which of them are within it. The fit goes by where the rays meet the floor, and
+// so chooses among all that are open.
+struct FloorLook {
+  double radius_m;
+  Span<const std::uint32_t> open, within;
+};
+
+// start: the chosen hypothesis.
+FloorResult fit_floor(const PointSet& cloud_base, const FloorLook& look, const Plane& start, const Settings& settings,
+                      const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch);
 
 }  // namespace pose_wall

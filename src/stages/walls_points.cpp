@@ -81,11 +81,14 @@ void WallPoints::begin(const WallScene& scene, const Plane& around, const Eigen:
   z_per_r = around.n.z();
 }
 
-void WallPoints::add(const Eigen::Vector3d& p_level, float weight) {
-  const std::uint32_t k = at.count;
-  at.add(p_level, weight);
-  const Eigen::Vector3d ray = Eigen::Vector3d(at.u[k], at.v[k], at.r[k]) - sensor;
-  bias[k] = static_cast<float>(ray.z() / std::sqrt(ray.squaredNorm()));
+void WallPoints::add(const PointSet& points_level, Span<const std::uint32_t> list) {
+  at.add(points_level, list);
+  const Eigen::Vector3f from = sensor.cast<float>();
+  for_each_four(at.count, [&](std::uint32_t k, FourTruths) {
+    const FourFloats u = load_four(&at.u[k]) - from.x(), v = load_four(&at.v[k]) - from.y();
+    const FourFloats r = load_four(&at.r[k]) - from.z();
+    store_four(r / root_of(u * u + v * v + r * r), &bias[k]);
+  });
 }
 
 void WallPoints::sort_by_patch(PatchGrid* grid, Span<std::uint32_t> places) {
@@ -141,28 +144,32 @@ void WallPoints::mark_columns(const StripProfile& strips, Span<std::uint32_t> pl
   pad(probability, at.count);
   std::uint32_t begin = 0;
   for (Patch& patch : patches) {
-    const std::uint32_t end = patch.end;
-    std::uint32_t next[kParts] = {};
-    for (std::uint32_t k = begin; k < end; ++k) ++next[part[k]];
-    std::uint32_t sum = begin;
-    for (std::uint32_t& place : next) {
-      const std::uint32_t of_part = place;
-      place = sum;
-      sum += of_part;
-    }
-    bool in_order = true;  // as most patches are since the last ring
-    for (std::uint32_t k = begin; k < end; ++k) {
-      places[k] = next[part[k]]++;
-      in_order = in_order && places[k] == k;
-    }
-    if (!in_order) {
-      const auto put_into_order = [&](const Span<float>* row) { move_within(*row, begin, end, places, spare); };
-      for_each_row(put_into_order);
-      put_into_order(&probability);
-    }
-    patch = {next[kSurfaceOnly], next[kBoth], next[kStripOnly], next[kNeither]};
-    begin = end;
+    patch = put_into_order(begin, patch.end, places);
+    begin = patch.end;
   }
+}
+
+WallPoints::Patch WallPoints::put_into_order(std::uint32_t begin, std::uint32_t end, Span<std::uint32_t> places) {
+  std::uint32_t ends[kParts] = {};
+  bool in_order = true;  // as most patches are since the last ring
+  std::uint8_t last = 0;
+  for (std::uint32_t k = begin; k < end; ++k) {
+    in_order = in_order && part[k] >= last;
+    last = part[k];
+    ++ends[last];
+  }
+  std::uint32_t next[kParts], sum = begin;
+  for (std::uint32_t of = 0; of < kParts; ++of) {
+    next[of] = sum;
+    ends[of] = sum += ends[of];
+  }
+  if (!in_order) {
+    for (std::uint32_t k = begin; k < end; ++k) places[k] = next[part[k]]++;
+    const auto move = [&](const Span<float>* row) { move_within(*row, begin, end, places, spare); };
+    for_each_row(move);
+    move(&probability);
+  }
+  return {ends[kSurfaceOnly], ends[kBoth], ends[kStripOnly], ends[kNeither]};
 }
 
 void WallPoints::copy_surface() {

@@ -37,7 +37,8 @@ struct WallPoints {
   void lay_out(Arena& arena);
   // along_level: horizontal and in the plane, so that u tells nothing of the height.
   void begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level);
-  void add(const Eigen::Vector3d& p_level, float weight);
+  // Those that the list names, kMost at most.
+  void add(const PointSet& points_level, Span<const std::uint32_t> list);
   // Begins the patches, and puts the points into their order. places: scratch, one for each point.
   void sort_by_patch(PatchGrid* patches, Span<std::uint32_t> places);
   // Drops the points without weight.
@@ -72,6 +73,9 @@ struct WallPoints {
   void for_each_row(const Visit& visit) {
     for (Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) visit(row);
   }
+
+  // The points of a patch by their part; where they end.
+  Patch put_into_order(std::uint32_t begin, std::uint32_t end, Span<std::uint32_t> places);
 
   Span<float> probability;  // of the surface; once columns are marked
   Span<std::uint8_t> part;  // scratch of mark_columns()

@@ -38,7 +38,7 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
             double gate_m, const WallGrid& grid, WallFitScratch* scratch) {
   const Span<std::uint32_t> near = points_near(scene.band_level, start, gate_m, scratch->near);
   std::uint32_t count = 0;
-  double measured = 0.0, taken = 0.0;
+  double measured = 0.0;
   for (const std::uint32_t i : near) {
     const Eigen::Vector3d p = scene.band_level.at(i);
     if (!heights.contain(p.z()) || !grid.solid_at(along.dot(p), p.z())) continue;
@@ -47,11 +47,9 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
   }
   WallPoints& points = scratch->points;
   points.begin(scene, start, along);
-  for_even_share(count, WallPoints::kMost, [&](std::uint32_t k) {
-    const std::uint32_t i = near[k];
-    points.add(scene.band_level.at(i), scene.band_level.weight[i]);
-    taken += static_cast<double>(scene.band_level.weight[i]);
-  });
+  points.add(scene.band_level, thinned(near.first(count), WallPoints::kMost));
+  double taken = 0.0;
+  for (std::uint32_t k = 0; k < points.at.count; ++k) taken += static_cast<double>(points.at.weight[k]);
   points.measured_per_weight = taken > 0.0 ? measured / taken : 1.0;
   points.sort_by_patch(&scratch->patches, scratch->near);
 }

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace pose_wall {
 namespace {
 
@@ -39,6 +41,21 @@ TEST(EvenShare, NeverTakesMoreThanThereIsRoomFor) {
       ASSERT_LE(taken, most);
       ASSERT_GE(taken + 3, all < most ? all : most) << all;
     }
+  }
+}
+
+TEST(EvenShare, ThinsAListToTheSameShare) {
+  for (const std::uint32_t all : {0U, 1U, 7U, 8U, 9U, 100U, 1777U}) {
+    std::vector<std::uint32_t> items(all), expected;
+    for (std::uint32_t k = 0; k < all; ++k) items[k] = 3 * k;
+    const bool fits = all <= 8;
+    if (fits)
+      expected = items;
+    else
+      for_even_share(all, 8, [&](std::uint32_t k) { expected.push_back(3 * k); });
+    const Span<std::uint32_t> kept = thinned(Span<std::uint32_t>(items.data(), all), 8);
+    EXPECT_EQ(std::vector<std::uint32_t>(kept.begin(), kept.end()), expected) << all;
+    EXPECT_LE(kept.size(), 8U);
   }
 }
 

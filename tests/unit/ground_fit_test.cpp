@@ -21,7 +21,8 @@ FloorResult fit(test::GroundFixture* g, const Plane& start,
                 const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
   test::Placed<GroundScratch> scratch(g->points().set().capacity());
   scratch->grid.find_open(g->points().set(), 15.0, sensor_base_m.z(), scratch->open);
-  return fit_floor(g->points().set(), g->points().all(), 3.0, start, g->settings(), sensor_base_m, scratch.get());
+  return fit_floor(g->points().set(), {3.0, g->points().all(), g->points().all()}, start, g->settings(), sensor_base_m,
+                   scratch.get());
 }
 
 Plane near_floor() {

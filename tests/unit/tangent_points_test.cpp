@@ -50,6 +50,33 @@ TEST(TangentPoints, DistancesAreThoseFromThePlane) {
   }
 }
 
+// Told four at a time, in floats, each is where it is told to be one by one.
+TEST(TangentPoints, PointsOfAListAreThoseOfTheCloud) {
+  constexpr std::uint32_t kRoom = 21;
+  test::Noise noise(5);
+  test::OwnedPoints cloud(kPoints);
+  for (std::uint32_t k = 0; k < kPoints; ++k) {
+    cloud.add(noise.uniform(-30, 30), noise.uniform(-30, 30), noise.uniform(-3, 3), static_cast<float>(k + 1));
+  }
+  for (std::uint32_t listed = 0; listed <= kRoom + 4; ++listed) {
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t k = 0; k < listed; ++k) list.push_back((37 * k + 11) % kPoints);
+    test::Placed<TangentPoints> points(kRoom);
+    points->begin(leaning(), Eigen::Vector3d(0.3, -0.2, 0.1), Eigen::Vector3d::UnitX());
+    points->add(Eigen::Vector3d(1.0, 2.0, 3.0), 0.5F);
+    points->add(cloud.set(), Span<const std::uint32_t>(list.data(), listed));
+    ASSERT_EQ(points->count, listed < kRoom ? listed + 1 : kRoom) << "as far as there is room";
+    EXPECT_EQ(points->weight[0], 0.5F);
+    for (std::uint32_t k = 1; k < points->count; ++k) {
+      const Eigen::Vector3d expected = points->in_frame(cloud.set().at(list[k - 1]));
+      EXPECT_NEAR(points->u[k], expected.x(), 1e-5) << k;
+      EXPECT_NEAR(points->v[k], expected.y(), 1e-5) << k;
+      EXPECT_NEAR(points->r[k], expected.z(), 1e-5) << k;
+      EXPECT_EQ(points->weight[k], cloud.set().weight[list[k - 1]]) << k;
+    }
+  }
+}
+
 TEST(TangentPoints, CorrectionsAddUp) {
   PlaneOver over{0.1, 0.02, -0.03};
   over.add(Eigen::Vector3d(0.01, -0.02, 0.005));

@@ -33,10 +33,11 @@ struct Sorted {
     const WallScene scene = band.scene();
     points->begin(scene, Plane{-Eigen::Vector3d::UnitY(), kWall_m}, Eigen::Vector3d::UnitX());
     test::Noise noise(count);
+    test::OwnedPoints cloud(count);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const Eigen::Vector3d p(noise.uniform(-12, 15), kWall_m + noise.normal(0.02), noise.uniform(-1, 1));
-      points->add(p, static_cast<float>(k + 1));
+      cloud.add(noise.uniform(-12, 15), kWall_m + noise.normal(0.02), noise.uniform(-1, 1), static_cast<float>(k + 1));
     }
+    points->add(cloud.set(), cloud.all());
     before = rows();
     std::vector<std::uint32_t> places(count);
     points->sort_by_patch(patches.get(), Span<std::uint32_t>(places.data(), count));
@@ -68,6 +69,15 @@ void expect_in_patches(Sorted* s) {
     }
   }
   EXPECT_EQ(k, s->points->at.count);
+}
+
+TEST(WallPoints, ABiasIsHowTheRayRunsAlongTheNormal) {
+  Sorted s(101);
+  for (std::uint32_t k = 0; k < s.points->at.count; ++k) {
+    const TangentPoints& at = s.points->at;
+    const Eigen::Vector3d ray = Eigen::Vector3d(at.u[k], at.v[k], at.r[k]) - s.points->sensor;
+    EXPECT_NEAR(s.points->bias[k], ray.z() / ray.norm(), 1e-6) << k;
+  }
 }
 
 TEST(WallPoints, SortingKeepsEachPointTogether) {
