@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 #include <stdexcept>
-#include <tuple>
+#include <utility>
 
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
@@ -24,15 +24,17 @@ tools::sim::Setup setup(const std::string& sensor, std::uint32_t road) {
   return tools::sim::make_setup("nominal", sensor, road != kAsItStands, seed_of(road));
 }
 
-struct Recording {
-  std::vector<tools::sim::Frame> frames;
-  std::vector<tools::TruthRow> truths;
-};
+const Recording& kept_recording(const std::string& sensor, std::uint32_t count) {
+  static std::map<std::pair<std::string, std::uint32_t>, Recording> kept;
+  Recording& made = kept[{sensor, count}];
+  if (made.frames.empty()) made = record(sensor, count, kAsItStands);
+  return made;
+}
 
-const Recording& recording(const std::string& sensor, std::uint32_t count, std::uint32_t road) {
-  static std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, Recording> kept;
-  Recording& made = kept[{sensor, count, road}];
-  if (!made.frames.empty()) return made;
+}  // namespace
+
+Recording record(const std::string& sensor, std::uint32_t count, std::uint32_t road) {
+  Recording made;
   const tools::sim::Simulator simulator(setup(sensor, road), seed_of(road));
   for (std::uint32_t i = 0; i < count; ++i) {
     made.frames.push_back(simulator.render(i));
@@ -41,10 +43,8 @@ const Recording& recording(const std::string& sensor, std::uint32_t count, std::
   return made;
 }
 
-}  // namespace
-
-const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count, std::uint32_t road) {
-  return recording(sensor, count, road).frames;
+const std::vector<tools::sim::Frame>& frames(const std::string& sensor, std::uint32_t count) {
+  return kept_recording(sensor, count).frames;
 }
 
 tools::sim::Frame resampled(const tools::sim::Frame& frame, std::uint32_t points) {
@@ -75,10 +75,6 @@ tools::sim::Frame spread(std::uint32_t points) {
     out.labels.emplace_back();
   }
   return out;
-}
-
-const std::vector<tools::TruthRow>& truths(const std::string& sensor, std::uint32_t count, std::uint32_t road) {
-  return recording(sensor, count, road).truths;
 }
 
 api::Config config(const std::string& sensor, std::uint32_t road) {

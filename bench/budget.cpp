@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,9 @@ constexpr const char* kHelp =
     "  SENSOR      %s; all of them by default\n"
     "  --frames N  frames of each, 1 to %ld, 100 by default\n"
     "  --help      this text\n\n"
-    "Exit status 0: the worst frame of each fits 10 Hz, 1: some do not, or the engine refused one, 2: bad usage.\n";
+    "Exit status 0: the worst frame of each is done within 10 Hz (fits or tight), 1: some are not, or the engine "
+    "refused\n"
+    "its config or a frame, 2: bad usage.\n";
 
 std::vector<std::string> sensor_names() {
   std::vector<std::string> names;
@@ -98,7 +101,7 @@ int run(const Request& request) {
   for (const std::string& sensor : request.sensors) {
     Times t;
     if (!measure(sensor, request.frames, &t)) {
-      std::fprintf(stderr, "pose_wall_budget: the engine refused a frame of %s\n", sensor.c_str());
+      std::fprintf(stderr, "pose_wall_budget: the engine refused its config or a frame of %s\n", sensor.c_str());
       return EXIT_FAILURE;
     }
     std::printf("%-9s %7u %7u %7.1f ms %7.1f ms %7.1f ms   %-20s %-20s\n", sensor.c_str(), t.points, t.voxels,
@@ -133,13 +136,20 @@ int main_of(const std::vector<std::string>& words) {
       }
     } else if (tools::sim::find_sensor(words[i]) != nullptr) {
       request.sensors.push_back(words[i]);
+    } else if (words[i][0] == '-') {
+      return complain("no option '" + words[i] + "'" + tools::did_you_mean(words[i], {"--frames", "--help"}));
     } else {
       return complain("no sensor '" + words[i] + "'" + tools::did_you_mean(words[i], sensor_names()) +
                       " (sensors: " + listed(sensor_names()) + ")");
     }
   }
   if (request.sensors.empty()) request.sensors = sensor_names();
-  return run(request);
+  try {
+    return run(request);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "pose_wall_budget: %s\n", e.what());
+    return EXIT_FAILURE;
+  }
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ Turn pcl_turn(const tools::sim::Frame& frame, const PclSettings& settings, PclMe
 void run_on_road(std::uint32_t road, Contest* contest) {
   const std::string& sensor = contest->sensor;
   const ContestPlan& plan = contest->plan;
-  const auto& recorded = frames(sensor, plan.frames, road);
-  const auto& truth = truths(sensor, plan.frames, road);
+  const Recording recorded = record(sensor, plan.frames, road);
   const api::Config settings = config(sensor, road);
   api::Engine engine;
   if (engine.open(settings) != POSE_WALL_OK) throw std::runtime_error("the engine refused its config");
@@ -54,15 +53,15 @@ void run_on_road(std::uint32_t road, Contest* contest) {
   FloorPass floor;
   for (std::uint32_t i = 0; i < plan.frames; ++i) {
     pose_wall_result result = api::make_result();
-    const pose_wall_cloud cloud = cloud_of(recorded[i], (i + 1) * kPeriod_ns);
-    contest->contestants[0].turns.push_back(own_turn(&engine, cloud, truth[i].value, &result));
+    const pose_wall_cloud cloud = cloud_of(recorded.frames[i], (i + 1) * kPeriod_ns);
+    contest->contestants[0].turns.push_back(own_turn(&engine, cloud, recorded.truths[i].value, &result));
     for (const PclMethod method : {PclMethod::kRansac, PclMethod::kMlesac}) {
       const float radius_m =
           plan.pcl_ground_radius_m > 0.0F ? plan.pcl_ground_radius_m : best_ground_radius_m(sensor, method);
       contest->contestants[method == PclMethod::kRansac ? 1 : 2].turns.push_back(
-          pcl_turn(recorded[i], pcl_settings(settings, radius_m), method, truth[i].value));
+          pcl_turn(recorded.frames[i], pcl_settings(settings, radius_m), method, recorded.truths[i].value));
     }
-    contest->floor_ms.push_back(floor_time_ms(&floor, recorded[i]));
+    contest->floor_ms.push_back(floor_time_ms(&floor, recorded.frames[i]));
     contest->points.push_back(result.points_in);
     contest->voxels.push_back(result.voxels);
   }

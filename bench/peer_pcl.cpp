@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -32,10 +31,10 @@ constexpr const char* kHelp =
     "each,\n"
     "and prints a table of times, stage by stage, and one of errors against the simulator's truth.\n\n"
     "  SENSOR      {}; all of them by default\n"
-    "  --roads N   so many roads of scene nominal, drawn within its ranges, 10 by default\n"
-    "  --frames N  frames of each, 3 by default\n"
+    "  --roads N   so many roads of scene nominal, drawn within its ranges; 1 to 10000, 10 by default\n"
+    "  --frames N  frames of each; 1 to 10000, 3 by default\n"
     "  --pcl-ground-radius M\n"
-    "              of PCL's floor, in metres; the best of 3 to 15 for each sensor and method by default\n"
+    "              of PCL's floor, 1 to 100 m; the best of 3 to 15 for each sensor and method by default\n"
     "  --help      this text\n\n"
     "Times are processor time. pose_wall's also buy gates, protection levels and smoothing, which PCL's do not.\n"
     "Exit status 0: done, 1: the engine refused, 2: bad usage.\n";
@@ -70,11 +69,19 @@ int run(const Request& request) {
   return EXIT_SUCCESS;
 }
 
-// False where it is no number of the range.
-bool read_number(const std::string& word, double least, double most, double* number) {
+bool read_count(const std::string& word, std::uint32_t* count) {
   char* end = nullptr;
-  *number = std::strtod(word.c_str(), &end);
-  return end != word.c_str() && *end == '\0' && *number >= least && *number <= most;
+  const long number = std::strtol(word.c_str(), &end, 10);
+  if (end == word.c_str() || *end != '\0' || number < 1 || number > kCountMax) return false;
+  *count = static_cast<std::uint32_t>(number);
+  return true;
+}
+
+bool read_radius(const std::string& word, float* radius_m) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  *radius_m = static_cast<float>(number);
+  return end != word.c_str() && *end == '\0' && number >= 1.0 && number <= kRadiusMax_m;
 }
 
 int main_of(const std::vector<std::string>& words) {
@@ -86,21 +93,21 @@ int main_of(const std::vector<std::string>& words) {
       return EXIT_SUCCESS;
     }
     const std::string value = i + 1 < words.size() ? words[i + 1] : "";
-    double number = 0.0;
     if (word == "--frames" || word == "--roads") {
-      if (!read_number(value, 1.0, kCountMax, &number) || number != std::floor(number)) {
+      if (!read_count(value, word == "--frames" ? &request.plan.frames : &request.plan.roads)) {
         return complain(fmt::format("{}: a whole number from 1 to {}, not '{}'", word, kCountMax, value));
       }
-      (word == "--frames" ? request.plan.frames : request.plan.roads) = static_cast<std::uint32_t>(number);
       ++i;
     } else if (word == "--pcl-ground-radius") {
-      if (!read_number(value, 1.0, kRadiusMax_m, &number)) {
+      if (!read_radius(value, &request.plan.pcl_ground_radius_m)) {
         return complain(fmt::format("{}: 1 to {} m, not '{}'", word, kRadiusMax_m, value));
       }
-      request.plan.pcl_ground_radius_m = static_cast<float>(number);
       ++i;
     } else if (tools::sim::find_sensor(word) != nullptr) {
       request.sensors.push_back(word);
+    } else if (!word.empty() && word[0] == '-') {
+      return complain(fmt::format("no option '{}'{}", word,
+                                  tools::did_you_mean(word, {"--roads", "--frames", "--pcl-ground-radius", "--help"})));
     } else {
       return complain(fmt::format("no sensor '{}'{} (sensors: {})", word, tools::did_you_mean(word, sensor_names()),
                                   fmt::join(sensor_names(), ", ")));

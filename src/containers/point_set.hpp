@@ -53,7 +53,7 @@ struct PointSet {
   }
 };
 
-// The indices k to k + 3 of a list; those behind its last one are the last one again.
+// The indices k to k + 3 of a list that holds the k-th; those behind its last one are the last one again.
 struct FourIndices {
   std::uint32_t lane[kFour];
 

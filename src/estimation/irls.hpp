@@ -52,8 +52,8 @@ struct IrlsResult {
   bool solved = false;
 };
 
-// The same on points of a cloud, as far as there is room for them in points: see thinned(). What it was fitted on is
-// left in there, in the frame of the plane it began with.
+// The same on points of a cloud. Of more than points has room for only the first are taken: who has more thins them
+// before (even_share.hpp). What it was fitted on is left in points, in the frame of the plane it began with.
 IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
                       const Eigen::Vector3d& u_hint, const IrlsSettings& settings, TangentPoints* points);
 

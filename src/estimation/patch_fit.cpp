@@ -98,7 +98,7 @@ PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uin
 
 double PatchGrid::Scatter::at(double share2) const {
   const double variance = surface + range * share2;
-  const double least = kScatterLeast * (surface + range + kNoiseMin_m * kNoiseMin_m);
+  const double least = kScatterLeast * (surface + range + kPatchNoiseMin_m * kPatchNoiseMin_m);
   return variance > least ? variance : least;
 }
 
@@ -113,7 +113,7 @@ std::uint32_t PatchGrid::collect_means(Errors errors) {
       mean_of_cell_[c] = -1;
       if (!p.has_weight()) continue;
       const double own = p.scatter_or_none(), share = p.share();
-      const double s2 = (kPriorPoints * expected.at(share * share) + own) / (kPriorPoints + p.count - 1.0);
+      const double s2 = (kPatchPriorPoints * expected.at(share * share) + own) / (kPatchPriorPoints + p.count - 1.0);
       Mean& m = means_[n];
       m.u = p.wu() / p.w();
       m.v = p.wv() / p.w();

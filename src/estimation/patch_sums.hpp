@@ -14,11 +14,13 @@ namespace pose_wall {
 // With next to no weight a point would still count as one that tells how the points scatter: up to here it is left out.
 constexpr float kPatchWeightLeast = 1e-6F;
 // A patch's own scatter counts beside this many more points of the scatter that is expected.
-constexpr double kPriorPoints = 10.0;
+constexpr double kPatchPriorPoints = 10.0;
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
-constexpr double kNoiseMin_m = 0.001;
+constexpr double kPatchNoiseMin_m = 0.001;
 
 struct PatchSums {
+  static constexpr double kWeightMin = 1e-9;
+
   FourFloats first{};   // w, wu, wv, wr
   FourFloats second{};  // wrr, wb, and without weights r, rr
   std::uint32_t count = 0;
@@ -38,8 +40,8 @@ struct PatchSums {
   double r() const { return static_cast<double>(second[2]); }
   double rr() const { return static_cast<double>(second[3]); }
   double share() const { return wb() / w(); }
-  bool has_weight() const { return w() > 1e-9; }
-  // Weighted squares about the mean; rounding may leave less than nothing, or it is cut off there.
+  bool has_weight() const { return w() > kWeightMin; }
+  // Weighted squares about the mean. Rounding may leave less than nothing; the other cuts that off.
   double scatter() const { return wrr() - wr() * wr() / w(); }
   double scatter_or_none() const {
     const double all = scatter();

@@ -71,7 +71,7 @@ double SurfacePatches::pooled_variance() const {
     freedom += static_cast<double>(c.count - 1);
   }
   const double variance = freedom > 0.0 ? scatter / freedom : 0.0;
-  return variance > kNoiseMin_m * kNoiseMin_m ? variance : kNoiseMin_m * kNoiseMin_m;
+  return variance > kPatchNoiseMin_m * kPatchNoiseMin_m ? variance : kPatchNoiseMin_m * kPatchNoiseMin_m;
 }
 
 Span<const SurfacePatch> SurfacePatches::collect() {
@@ -84,8 +84,8 @@ Span<const SurfacePatch> SurfacePatches::collect() {
     cells.for_each_block(iv, side, [&](std::uint32_t iu) {
       const PatchSums c = block(iu, iv, side);
       const double variance =
-          (kPriorPoints * pooled + c.scatter_or_none()) / (kPriorPoints - 1.0 + static_cast<double>(c.count));
-      const double least = kNoiseMin_m * kNoiseMin_m;
+          (kPatchPriorPoints * pooled + c.scatter_or_none()) / (kPatchPriorPoints - 1.0 + static_cast<double>(c.count));
+      const double least = kPatchNoiseMin_m * kPatchNoiseMin_m;
       patches_[count++] = {c.wu() / c.w(), c.wv() / c.w(), c.wr() / c.w(), c.share(),
                            (variance > least ? variance : least) / c.w()};
     });

@@ -12,7 +12,7 @@
 namespace pose_wall {
 
 // A radius, which points are open, and which of them are within it. The fit goes by where the rays meet the floor, and
-// so chooses among all that are open.
+// so chooses among all that are open; its inliers are counted of those within.
 struct FloorLook {
   double radius_m;
   Span<const std::uint32_t> open, within;

@@ -161,7 +161,8 @@ WallPoints::Patch WallPoints::put_into_order(std::uint32_t begin, std::uint32_t 
   std::uint32_t next[kParts], sum = begin;
   for (std::uint32_t of = 0; of < kParts; ++of) {
     next[of] = sum;
-    ends[of] = sum += ends[of];
+    sum += ends[of];  // so far how many
+    ends[of] = sum;
   }
   if (!in_order) {
     for (std::uint32_t k = begin; k < end; ++k) places[k] = next[part[k]]++;

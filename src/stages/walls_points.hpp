@@ -74,7 +74,7 @@ struct WallPoints {
     for (Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) visit(row);
   }
 
-  // The points of a patch by their part; where they end.
+  // Orders a patch's points by their part, within a part as they were; where the parts end.
   Patch put_into_order(std::uint32_t begin, std::uint32_t end, Span<std::uint32_t> places);
 
   Span<float> probability;  // of the surface; once columns are marked

@@ -2,14 +2,17 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the refined floor's standard deviations are the spread that is seen over many noisy floors, a floor that
-// bends or waves has a level that says so, and a wall's foot does not tilt it.
+// bends or waves has a level that says so, and a wall's foot does not tilt it;
+// inliers are those within the radius; of many points no side goes short.
 
 #include "stages/ground_fit.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "estimation/protection.hpp"
 #include "support/ground_fixture.hpp"
@@ -102,6 +105,50 @@ TEST(GroundFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
     outside += std::fabs(angles.pitch_rad) > f.pitch_bound_rad + factor * f.pitch_sigma_rad ? 1 : 0;
   }
   EXPECT_EQ(outside, 0);
+}
+
+// The inliers are those within the radius, of the others none.
+TEST(GroundFit, CountsTheInliersWithinTheRadius) {
+  test::GroundFixture g;
+  test::Noise noise(6);
+  std::vector<std::uint32_t> within;
+  double squares = 0.0;
+  for (std::uint32_t i = 0; i < 4000; ++i) {
+    const double x = noise.uniform(-6, 6), y = noise.uniform(-2, 2),
+                 z = noise.normal(std::hypot(x, y) < 3.0 ? 0.004 : 0.01);
+    g.add(x, y, z);
+    if (std::hypot(x, y) > 3.0) continue;
+    within.push_back(i);
+    squares += z * z;
+  }
+  test::Placed<GroundScratch> scratch(g.points().set().capacity());
+  scratch->grid.find_open(g.points().set(), 15.0, 0.0, scratch->open);
+  const auto count = static_cast<std::uint32_t>(within.size());
+  const FloorLook look{3.0, g.points().all(), Span<const std::uint32_t>(within.data(), count)};
+  const FloorResult f =
+      fit_floor(g.points().set(), look, near_floor(), g.settings(), Eigen::Vector3d::Zero(), scratch.get());
+  ASSERT_TRUE(f.fit.found);
+  EXPECT_EQ(f.fit.inliers, count);
+  EXPECT_NEAR(f.fit.rms_m, std::sqrt(squares / count), 2e-4);
+}
+
+// A floor whose points come from one side to the other, as a sensor's do: not the first of them alone are fitted.
+TEST(GroundFit, OfMoreThanAFitTakesNoSideGoesShort) {
+  double sigma[2];
+  for (const bool in_order : {false, true}) {
+    std::vector<Eigen::Vector3d> points;
+    test::Noise noise(4);
+    for (int i = 0; i < 20000; ++i)
+      points.emplace_back(noise.uniform(-2, 2), noise.uniform(-2, 2), noise.normal(0.005));
+    const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.y() < b.y(); };
+    if (in_order) std::sort(points.begin(), points.end(), before);
+    test::GroundFixture g;
+    for (const Eigen::Vector3d& p : points) g.add(p.x(), p.y(), p.z());
+    const FloorResult f = fit(&g, near_floor());
+    ASSERT_TRUE(f.fit.found && !f.fit.refused);
+    sigma[in_order ? 1 : 0] = f.roll_sigma_rad;
+  }
+  EXPECT_LT(sigma[1], 1.5 * sigma[0]) << "on a strip of two fifths of the width it would be 2.4 times as much";
 }
 
 // More than a fit takes: an even share of them says the same, wherever the sensor is.

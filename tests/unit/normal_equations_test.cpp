@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the normal equations give back a plane exactly, and refuse points that span none.
+// Proves: the normal equations give back a plane exactly, sum rows of any design, and refuse points that span none.
 
 #include "estimation/normal_equations.hpp"
 
@@ -40,6 +40,22 @@ TEST(NormalEquations, WeightsDecideBetweenTwoSurfaces) {
   ASSERT_TRUE(equations.solve(kSpreadMin_m, &solution));
   EXPECT_NEAR(solution[0], 0.25, 1e-12);
   EXPECT_EQ(equations.weight(), 49.0 * 4.0);
+}
+
+TEST(NormalEquations, SumRowsOfAnyDesign) {
+  test::Noise noise(7);
+  NormalEquations sums;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d row(i % 2 == 0 ? 0.0 : 1.0, noise.uniform(-4, 4), noise.uniform(-1, 1));
+    const double r = noise.normal(0.1), w = noise.uniform(0.5, 2.0);
+    sums.add_row(row, r, w);
+    information += w * row * row.transpose();
+    right_side += w * row * r;
+  }
+  EXPECT_LT((sums.information() - information).norm(), 1e-12 * information.norm());
+  EXPECT_LT((sums.right_side() - right_side).norm(), 1e-12 * right_side.norm());
 }
 
 TEST(NormalEquations, RefusePointsOnALineInAnyDirection) {

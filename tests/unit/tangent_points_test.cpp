@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: a plane told as a height over another one is that plane: distances and sides are the same, however far it is
-// turned, and corrections add up.
+// turned, corrections add up, and the
+// points of a list are those of the cloud.
 
 #include "estimation/tangent_points.hpp"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: points that are put into the order of their patches stay what they are, each with its weight and its answer
-// to a range bias; what is dropped is gone from its patch and no other; within a patch each lies where its column
-// belongs, and knows what that says; what lies behind the last point is a number.
+// Proves: a range bias answers by how the ray runs along the normal; points that are put into the order of their
+// patches stay what they are, each with its weight and its answer to a range bias; what is dropped is gone from its
+// patch and no other; within a patch each lies where its column belongs, and knows what that says; what lies behind the
+// last point is a number.
 
 #include "stages/walls_points.hpp"
 
@@ -141,6 +142,9 @@ std::uint32_t expect_in_parts(Sorted* s, const StripProfile& strips) {
       EXPECT_EQ(is_strip, k >= patch.surface_only_end && k < patch.strip_end) << k;
       EXPECT_EQ(s->points->surface_probability(k)[0], column.surface_probability[0]) << k;
       in_strips += is_strip ? 1U : 0U;
+      // Weights tell in which order they came: within a part they keep it.
+      const bool begins = k == begin || k == patch.surface_only_end || k == patch.surface_end || k == patch.strip_end;
+      EXPECT_TRUE(begins || s->points->at.weight[k] > s->points->at.weight[k - 1]) << k;
     }
   });
   return in_strips;
