@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench_frames.hpp"
+#include "frames/text_cursor.hpp"
 #include "quantiles.hpp"
 #include "sim/sensors.hpp"
 #include "terminal/did_you_mean.hpp"
@@ -20,7 +21,7 @@ namespace pose_wall::bench {
 namespace {
 
 constexpr int kUsage = 2;
-constexpr long kFramesMax = 100000;
+constexpr std::uint32_t kFramesMax = 100000;
 constexpr std::uint32_t kDifferentFrames = 10;
 constexpr std::int64_t kPeriod_ns = 100'000'000;
 // Other work comes in bursts: a frame that takes more than this of its period will be late some day.
@@ -42,7 +43,7 @@ constexpr const char* kHelp =
     "on it, and prints the times of a frame and a verdict. They are wall time of one thread, with whatever else the\n"
     "controller does meanwhile: run it beside the controller's usual load.\n\n"
     "  SENSOR      %s; all of them by default\n"
-    "  --frames N  frames of each, 1 to %ld, 100 by default\n"
+    "  --frames N  frames of each, 1 to %u, 100 by default\n"
     "  --help      this text\n\n"
     "Exit status 0: the worst frame of each is done within 10 Hz (fits or tight), 1: some are not, or the engine "
     "refused\n"
@@ -114,14 +115,6 @@ int run(const Request& request) {
   return all_fit ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
-bool read_frames(const std::string& word, std::uint32_t* frames) {
-  char* end = nullptr;
-  const long number = std::strtol(word.c_str(), &end, 10);
-  if (word.empty() || *end != '\0' || number < 1 || number > kFramesMax) return false;
-  *frames = static_cast<std::uint32_t>(number);
-  return true;
-}
-
 int main_of(const std::vector<std::string>& words) {
   Request request;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -131,9 +124,11 @@ int main_of(const std::vector<std::string>& words) {
     }
     if (words[i] == "--frames") {
       const std::string value = ++i < words.size() ? words[i] : "";
-      if (!read_frames(value, &request.frames)) {
+      const auto number = tools::parse_number<std::uint32_t>(value);
+      if (!number || *number < 1 || *number > kFramesMax) {
         return complain("--frames: a whole number from 1 to " + std::to_string(kFramesMax) + ", not '" + value + "'");
       }
+      request.frames = *number;
     } else if (tools::sim::find_sensor(words[i]) != nullptr) {
       request.sensors.push_back(words[i]);
     } else if (words[i][0] == '-') {

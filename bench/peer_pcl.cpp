@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "frames/text_cursor.hpp"
 #include "peer_contest.hpp"
 #include "peer_table.hpp"
 #include "sim/sensors.hpp"
@@ -21,8 +22,8 @@ namespace pose_wall::bench {
 namespace {
 
 constexpr int kUsage = 2;
-constexpr long kCountMax = 10000;
-constexpr double kRadiusMax_m = 100.0;
+constexpr std::uint32_t kCountMax = 10000;
+constexpr float kRadiusMax_m = 100.0F;
 
 constexpr const char* kHelp =
     "usage: pose_wall_peer_pcl [--roads N] [--frames N] [--pcl-ground-radius M] [SENSOR ...]\n\n"
@@ -69,21 +70,6 @@ int run(const Request& request) {
   return EXIT_SUCCESS;
 }
 
-bool read_count(const std::string& word, std::uint32_t* count) {
-  char* end = nullptr;
-  const long number = std::strtol(word.c_str(), &end, 10);
-  if (end == word.c_str() || *end != '\0' || number < 1 || number > kCountMax) return false;
-  *count = static_cast<std::uint32_t>(number);
-  return true;
-}
-
-bool read_radius(const std::string& word, float* radius_m) {
-  char* end = nullptr;
-  const double number = std::strtod(word.c_str(), &end);
-  *radius_m = static_cast<float>(number);
-  return end != word.c_str() && *end == '\0' && number >= 1.0 && number <= kRadiusMax_m;
-}
-
 int main_of(const std::vector<std::string>& words) {
   Request request;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -94,14 +80,18 @@ int main_of(const std::vector<std::string>& words) {
     }
     const std::string value = i + 1 < words.size() ? words[i + 1] : "";
     if (word == "--frames" || word == "--roads") {
-      if (!read_count(value, word == "--frames" ? &request.plan.frames : &request.plan.roads)) {
+      const auto number = tools::parse_number<std::uint32_t>(value);
+      if (!number || *number < 1 || *number > kCountMax) {
         return complain(fmt::format("{}: a whole number from 1 to {}, not '{}'", word, kCountMax, value));
       }
+      (word == "--frames" ? request.plan.frames : request.plan.roads) = *number;
       ++i;
     } else if (word == "--pcl-ground-radius") {
-      if (!read_radius(value, &request.plan.pcl_ground_radius_m)) {
+      const auto radius_m = tools::parse_number<float>(value);
+      if (!radius_m || !(*radius_m >= 1.0F && *radius_m <= kRadiusMax_m)) {
         return complain(fmt::format("{}: 1 to {} m, not '{}'", word, kRadiusMax_m, value));
       }
+      request.plan.pcl_ground_radius_m = *radius_m;
       ++i;
     } else if (tools::sim::find_sensor(word) != nullptr) {
       request.sensors.push_back(word);

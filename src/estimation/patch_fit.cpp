@@ -98,8 +98,7 @@ PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uin
 
 double PatchGrid::Scatter::at(double share2) const {
   const double variance = surface + range * share2;
-  const double least = kScatterLeast * (surface + range + kPatchNoiseMin_m * kPatchNoiseMin_m);
-  return variance > least ? variance : least;
+  return larger(variance, kScatterLeast * (surface + range + kPatchNoiseMin_m * kPatchNoiseMin_m));
 }
 
 std::uint32_t PatchGrid::collect_means(Errors errors) {

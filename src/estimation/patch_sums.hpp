@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "math/four_floats.hpp"
+#include "math/larger.hpp"
 
 namespace pose_wall {
 
@@ -43,10 +44,7 @@ struct PatchSums {
   bool has_weight() const { return w() > kWeightMin; }
   // Weighted squares about the mean. Rounding may leave less than nothing; the other cuts that off.
   double scatter() const { return wrr() - wr() * wr() / w(); }
-  double scatter_or_none() const {
-    const double all = scatter();
-    return all > 0.0 ? all : 0.0;
-  }
+  double scatter_or_none() const { return larger(scatter(), 0.0); }
 };
 
 // One point: where it lies in the plane, and what it adds to its patch.

@@ -71,7 +71,7 @@ double SurfacePatches::pooled_variance() const {
     freedom += static_cast<double>(c.count - 1);
   }
   const double variance = freedom > 0.0 ? scatter / freedom : 0.0;
-  return variance > kPatchNoiseMin_m * kPatchNoiseMin_m ? variance : kPatchNoiseMin_m * kPatchNoiseMin_m;
+  return larger(variance, kPatchNoiseMin_m * kPatchNoiseMin_m);
 }
 
 Span<const SurfacePatch> SurfacePatches::collect() {
@@ -85,9 +85,8 @@ Span<const SurfacePatch> SurfacePatches::collect() {
       const PatchSums c = block(iu, iv, side);
       const double variance =
           (kPatchPriorPoints * pooled + c.scatter_or_none()) / (kPatchPriorPoints - 1.0 + static_cast<double>(c.count));
-      const double least = kPatchNoiseMin_m * kPatchNoiseMin_m;
       patches_[count++] = {c.wu() / c.w(), c.wv() / c.w(), c.wr() / c.w(), c.share(),
-                           (variance > least ? variance : least) / c.w()};
+                           larger(variance, kPatchNoiseMin_m * kPatchNoiseMin_m) / c.w()};
     });
   }
   return Span<const SurfacePatch>(patches_.data(), count);

@@ -63,14 +63,6 @@ struct TangentPoints {
   // Those of a cloud that a list names; of more than there is room for the first. In floats: to some micrometres within
   // 30 m, tens of them at 200 m.
   void add(const PointSet& cloud, Span<const std::uint32_t> list);
-  void add(const Eigen::Vector3d& p, float points) {
-    const Eigen::Vector3d q = in_frame(p);
-    u[count] = static_cast<float>(q.x());
-    v[count] = static_cast<float>(q.y());
-    r[count] = static_cast<float>(q.z());
-    weight[count] = points;
-    ++count;
-  }
 
   Plane plane_of(const PlaneOver& over) const { return corrected(plane, frame, over.as_correction()); }
   double distance(std::uint32_t k, const PlaneOver& over, double foreshortening) const {

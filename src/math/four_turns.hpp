@@ -9,8 +9,7 @@
 
 namespace pose_wall {
 
-// A turn and a shift of four points at once, in floats: to some micrometres within 30 m, tens of them at
-// 200 m.
+// A turn and a shift of four points at once, in floats: to some micrometres within 30 m, tens at 200 m.
 class FourTurns {
  public:
   explicit FourTurns(const Eigen::Matrix3d& R, const Eigen::Vector3d& shift_m = Eigen::Vector3d::Zero()) {

@@ -51,9 +51,9 @@ bool stands_still(const Plane& a, const Plane& b) {
   return std::fabs(a.d - b.d) < kStill && (a.n - b.n).cwiseAbs().maxCoeff() < kStill;
 }
 
-// Selections go by height over the plane, clear of what stands on the floor, and within the radius
-// where the ray meets the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges
-// only, and these look like a higher floor.
+// Selections go by height over the plane, clear of what stands on the floor, and within the radius where the ray meets
+// the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges only, and these look
+// like a higher floor.
 Span<std::uint32_t> select(const PointSet& cloud, const FloorLook& look, const FloorGrid& grid, const Plane& plane,
                            double gate_m, const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
   const Span<const std::uint32_t> open = look.open;

@@ -13,6 +13,7 @@
 #include "containers/arena.hpp"
 #include "containers/bounded_points.hpp"
 #include "estimation/patch_sums.hpp"
+#include "estimation/tangent_points.hpp"
 #include "support/aligned_block.hpp"
 #include "support/engine_under_test.hpp"
 
@@ -76,6 +77,16 @@ class OwnedPoints {
   std::vector<std::uint32_t> indices_;
   bool bounded_ = false;
 };
+
+// One point more, told in doubles.
+inline void add_point(const Eigen::Vector3d& p, float weight, TangentPoints* points) {
+  const Eigen::Vector3d q = points->in_frame(p);
+  const std::uint32_t k = points->count++;
+  points->u[k] = static_cast<float>(q.x());
+  points->v[k] = static_cast<float>(q.y());
+  points->r[k] = static_cast<float>(q.z());
+  points->weight[k] = weight;
+}
 
 inline PatchPoint patch_point(double u_m, double v_m, double residual_m, double weight, double bias) {
   return PatchPoint::of(static_cast<float>(u_m), static_cast<float>(v_m), static_cast<float>(residual_m),

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the refined floor's standard deviations are the spread that is seen over many noisy floors, a floor that
-// bends or waves has a level that says so, and a wall's foot does not tilt it;
-// inliers are those within the radius; of many points no side goes short.
+// bends or waves has a level that says so, and a wall's foot does not tilt it; inliers are those within the radius; of
+// many points no side goes short.
 
 #include "stages/ground_fit.hpp"
 
@@ -20,12 +20,17 @@
 namespace pose_wall {
 namespace {
 
-FloorResult fit(test::GroundFixture* g, const Plane& start,
-                const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
+FloorResult fit_within(test::GroundFixture* g, Span<const std::uint32_t> within, const Plane& start,
+                       const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
   test::Placed<GroundScratch> scratch(g->points().set().capacity());
   scratch->grid.find_open(g->points().set(), 15.0, sensor_base_m.z(), scratch->open);
-  return fit_floor(g->points().set(), {3.0, g->points().all(), g->points().all()}, start, g->settings(), sensor_base_m,
+  return fit_floor(g->points().set(), {3.0, g->points().all(), within}, start, g->settings(), sensor_base_m,
                    scratch.get());
+}
+
+FloorResult fit(test::GroundFixture* g, const Plane& start,
+                const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
+  return fit_within(g, g->points().all(), start, sensor_base_m);
 }
 
 Plane near_floor() {
@@ -121,12 +126,8 @@ TEST(GroundFit, CountsTheInliersWithinTheRadius) {
     within.push_back(i);
     squares += z * z;
   }
-  test::Placed<GroundScratch> scratch(g.points().set().capacity());
-  scratch->grid.find_open(g.points().set(), 15.0, 0.0, scratch->open);
   const auto count = static_cast<std::uint32_t>(within.size());
-  const FloorLook look{3.0, g.points().all(), Span<const std::uint32_t>(within.data(), count)};
-  const FloorResult f =
-      fit_floor(g.points().set(), look, near_floor(), g.settings(), Eigen::Vector3d::Zero(), scratch.get());
+  const FloorResult f = fit_within(&g, Span<const std::uint32_t>(within.data(), count), near_floor());
   ASSERT_TRUE(f.fit.found);
   EXPECT_EQ(f.fit.inliers, count);
   EXPECT_NEAR(f.fit.rms_m, std::sqrt(squares / count), 2e-4);

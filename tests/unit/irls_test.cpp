@@ -79,7 +79,7 @@ TEST(Irls, WhatLiesBehindTheLastPointPlaysNoPart) {
     settings.scale_points = (count + 2) / 3;
     for (const float behind : {0.0F, 1.0F, std::numeric_limits<float>::quiet_NaN()}) {
       scratch->begin(leaning(), Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
-      for (std::uint32_t i = 0; i < count; ++i) scratch->add(points.set().at(i), 1.0F);
+      for (std::uint32_t i = 0; i < count; ++i) test::add_point(points.set().at(i), 1.0F, scratch.get());
       for (std::uint32_t k = count; k < count + kFour; ++k) {
         for (Span<float>* row : {&scratch->u, &scratch->v, &scratch->r, &scratch->weight}) (*row)[k] = behind;
       }
@@ -142,9 +142,9 @@ TEST(Irls, AnyCountOfPoints) {
     points->begin(Plane{Eigen::Vector3d::UnitZ(), 0.0}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
     for (std::uint32_t i = 0; i < count; ++i) {
       const double u = i % 2 == 0 ? noise.uniform(-4, 0) : noise.uniform(0, 4), v = i % 4 < 2 ? -1.0 : 1.0;
-      points->add(Eigen::Vector3d(u, v, 0.02 + 0.01 * u - 0.005 * v), 1.0F);
+      test::add_point(Eigen::Vector3d(u, v, 0.02 + 0.01 * u - 0.005 * v), 1.0F, points.get());
     }
-    for (int i = 0; i < 3; ++i) points->add(Eigen::Vector3d(1.0, 1.0, 0.1), 1000.0F);
+    for (int i = 0; i < 3; ++i) test::add_point(Eigen::Vector3d(1.0, 1.0, 0.1), 1000.0F, points.get());
     const IrlsOver fit = irls_tukey(*points, count, PlaneOver{}, kSettings);
     ASSERT_TRUE(fit.solved) << count;
     EXPECT_NEAR(fit.over.offset_m, 0.02, 1e-5) << count;
@@ -176,8 +176,8 @@ TEST(Irls, PointsWithoutWeightPlayNoPart) {
   for (std::uint32_t i = 0; i < kHalved; ++i) {
     const bool out = i % 8 < 5;  // a layer 6 cm off, within the gate
     const Eigen::Vector3d p(noise.uniform(-4, 4), noise.uniform(-1, 1), noise.normal(0.01) + (out ? 0.06 : 0.0));
-    all->add(p, out ? 0.0F : 1.0F);
-    if (!out) some->add(p, 1.0F);
+    test::add_point(p, out ? 0.0F : 1.0F, all.get());
+    if (!out) test::add_point(p, 1.0F, some.get());
   }
   const IrlsOver a = irls_tukey(*all, all->count, PlaneOver{}, kSettings);
   const IrlsOver b = irls_tukey(*some, some->count, PlaneOver{}, kSettings);
@@ -191,7 +191,8 @@ TEST(Irls, EndsWhereItStandsStill) {
   points->begin(Plane{Eigen::Vector3d::UnitZ(), 0.0}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
   test::Noise noise(9);
   for (int i = 0; i < 400; ++i) {
-    points->add(Eigen::Vector3d(noise.uniform(-4, 4), noise.uniform(-1, 1), 0.03 + noise.normal(0.01)), 1.0F);
+    test::add_point(Eigen::Vector3d(noise.uniform(-4, 4), noise.uniform(-1, 1), 0.03 + noise.normal(0.01)), 1.0F,
+                    points.get());
   }
   IrlsSettings once = kSettings, soon = kSettings;
   once.rounds = 1;

@@ -2,8 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: a plane told as a height over another one is that plane: distances and sides are the same, however far it is
-// turned, corrections add up, and the
-// points of a list are those of the cloud.
+// turned, corrections add up, and the points of a list are those of the cloud.
 
 #include "estimation/tangent_points.hpp"
 
@@ -27,7 +26,7 @@ struct Cloud {
     points->begin(around, Eigen::Vector3d(0.3, -0.2, 0.1), Eigen::Vector3d::UnitX());
     for (std::uint32_t k = 0; k < kPoints; ++k) {
       at.emplace_back(noise.uniform(-15, 15), noise.uniform(-15, 15), noise.uniform(-3, 3));
-      points->add(at.back(), 1.0F);
+      test::add_point(at.back(), 1.0F, points.get());
     }
   }
 };
@@ -64,7 +63,7 @@ TEST(TangentPoints, PointsOfAListAreThoseOfTheCloud) {
     for (std::uint32_t k = 0; k < listed; ++k) list.push_back((37 * k + 11) % kPoints);
     test::Placed<TangentPoints> points(kRoom);
     points->begin(leaning(), Eigen::Vector3d(0.3, -0.2, 0.1), Eigen::Vector3d::UnitX());
-    points->add(Eigen::Vector3d(1.0, 2.0, 3.0), 0.5F);
+    test::add_point(Eigen::Vector3d(1.0, 2.0, 3.0), 0.5F, points.get());
     points->add(cloud.set(), Span<const std::uint32_t>(list.data(), listed));
     ASSERT_EQ(points->count, listed < kRoom ? listed + 1 : kRoom) << "as far as there is room";
     EXPECT_EQ(points->weight[0], 0.5F);
@@ -91,7 +90,7 @@ TEST(TangentPoints, BeginForgetsWhatWasThere) {
   Cloud cloud(leaning());
   cloud.points->begin(Plane{}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX());
   EXPECT_EQ(cloud.points->count, 0U);
-  cloud.points->add(Eigen::Vector3d(1.0, 2.0, 3.0), 5.0F);
+  test::add_point(Eigen::Vector3d(1.0, 2.0, 3.0), 5.0F, cloud.points.get());
   EXPECT_EQ(cloud.points->u[0], 1.0F);
   EXPECT_EQ(cloud.points->v[0], 2.0F);
   EXPECT_EQ(cloud.points->r[0], 3.0F);
