@@ -51,10 +51,6 @@ class OpenBlock {
   pose_wall_engine* engine_ = nullptr;
 };
 
-bool same(const pose_wall_result& a, const pose_wall_result& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
 TEST(BitFlips, EveryBitOfWhatLivesOnIsNoticed) {
   OpenBlock disturbed, undisturbed;
   disturbed.processed(0);

@@ -32,14 +32,14 @@ struct Described {
   }
 };
 
-struct Case {
+struct DescriptionCase {
   const char* name;
   std::int32_t status;
   const char* states;  // of a frame that is taken; the room is still the truth of what is told
   void (*spoil)(Described*);
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const DescriptionCase& c, std::ostream* out) {
   *out << c.name;
 }
 
@@ -47,7 +47,7 @@ constexpr std::int32_t kOk = POSE_WALL_OK, kField = POSE_WALL_E_CLOUD_FIELD, kSt
 constexpr std::int32_t kSize = POSE_WALL_E_CLOUD_SIZE, kStruct = POSE_WALL_E_STRUCT_SIZE;
 constexpr std::uint32_t kMost = 0xFFFFFFFF;
 
-const Case kCases[] = {
+const DescriptionCase kDescriptions[] = {
     {"struct_size_0", kStruct, "", [](auto* d) { d->cloud.struct_size = 0; }},
     {"struct_size_one_less", kStruct, "", [](auto* d) { --d->cloud.struct_size; }},
     {"struct_size_8_more", kStruct, "", [](auto* d) { d->cloud.struct_size += 8; }},
@@ -168,10 +168,6 @@ pose_wall_result result_of_garbage() {
   return result;
 }
 
-bool same(const pose_wall_result& a, const pose_wall_result& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
-
 // The engine next to it never saw the refused cloud: the next frames are the same bits.
 void expect_refused(std::int32_t status, const pose_wall_cloud& cloud) {
   FaultRoom disturbed, undisturbed;
@@ -194,7 +190,7 @@ void expect_taken(const char* states, const pose_wall_cloud& cloud) {
   EXPECT_LE(room.frames_until_valid(cloud.stamp_ns), kBackWithin);
 }
 
-class Descriptions : public ::testing::TestWithParam<Case> {};
+class Descriptions : public ::testing::TestWithParam<DescriptionCase> {};
 
 TEST_P(Descriptions, AreRefusedOrRead) {
   Described d;
@@ -209,7 +205,7 @@ TEST_P(Descriptions, AreRefusedOrRead) {
   EXPECT_LT(std::clock() - before, 4 * CLOCKS_PER_SEC);
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, Descriptions, ::testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Faults, Descriptions, ::testing::ValuesIn(kDescriptions),
                          [](const auto& test) { return name_of(test.param.name); });
 
 // Every type of each coordinate. Floats are the room; of a double that reaches over the next field, or is the point's

@@ -38,6 +38,10 @@ inline const Points& ribbed_room_frame(std::uint32_t seed) {
 
 using FramesOf = const Points& (*)(std::uint32_t seed);
 
+inline bool same(const pose_wall_result& a, const pose_wall_result& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 // One letter for each of the seven: V valid, D degraded, H held, I invalid.
 inline std::string states_of(const pose_wall_result& r) {
   std::string states;

@@ -17,19 +17,19 @@ namespace {
 
 using Point = std::array<float, 3>;
 
-struct Case {
+struct PointCase {
   const char* name;
   const char* states;  // of the frame with the fault, after a good one
   bool is_the_room;    // what is told must be true of the room
   void (*spoil)(Points*);
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const PointCase& c, std::ostream* out) {
   *out << c.name;
 }
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
-constexpr float kMost = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::min();
+constexpr float kGreatest = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::min();
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
 
 void all(Points* points, float value) {
@@ -80,7 +80,7 @@ void noise(Points* points, double sigma_m) {
   }
 }
 
-const Case kCases[] = {
+const PointCase kPointCases[] = {
     {"nan_everywhere", "H", true, [](auto* p) { all(p, kNan); }},
     {"nan_in_x", "H", true, [](auto* p) { axis(p, 0, kNan); }},
     {"nan_in_y", "H", true, [](auto* p) { axis(p, 1, kNan); }},
@@ -93,11 +93,11 @@ const Case kCases[] = {
     {"minus_inf_in_y", "H", true, [](auto* p) { axis(p, 1, -kInf); }},
     {"minus_inf_in_z", "H", true, [](auto* p) { axis(p, 2, -kInf); }},
     {"inf_in_every_second_z", "VVx....", true, [](auto* p) { axis(p, 2, kInf, 2); }},
-    {"largest_float_in_x", "H", true, [](auto* p) { axis(p, 0, kMost); }},
-    {"largest_float_in_y", "H", true, [](auto* p) { axis(p, 1, kMost); }},
-    {"largest_float_in_z", "H", true, [](auto* p) { axis(p, 2, kMost); }},
-    {"minus_largest_float_everywhere", "H", true, [](auto* p) { all(p, -kMost); }},
-    {"largest_float_now_and_then", "L", true, [](auto* p) { axis(p, 0, kMost, 50); }},
+    {"largest_float_in_x", "H", true, [](auto* p) { axis(p, 0, kGreatest); }},
+    {"largest_float_in_y", "H", true, [](auto* p) { axis(p, 1, kGreatest); }},
+    {"largest_float_in_z", "H", true, [](auto* p) { axis(p, 2, kGreatest); }},
+    {"minus_largest_float_everywhere", "H", true, [](auto* p) { all(p, -kGreatest); }},
+    {"largest_float_now_and_then", "L", true, [](auto* p) { axis(p, 0, kGreatest, 50); }},
     {"denormals", "H", true, [](auto* p) { all(p, kDenormal); }},
     {"least_floats", "H", true, [](auto* p) { all(p, kLeast); }},
     {"denormals_in_z", "h", true, [](auto* p) { axis(p, 2, kDenormal); }},
@@ -190,7 +190,7 @@ const Case kCases[] = {
     {"backwards", "V", true, [](auto* p) { std::reverse(p->begin(), p->end()); }},
 };
 
-class PointFaults : public ::testing::TestWithParam<Case> {};
+class PointFaults : public ::testing::TestWithParam<PointCase> {};
 
 TEST_P(PointFaults, GiveTheStatesOfTheTable) {
   FaultRoom room;
@@ -205,7 +205,7 @@ TEST_P(PointFaults, GiveTheStatesOfTheTable) {
   EXPECT_LE(room.frames_until_valid(kPeriod_ns), kBackWithin);
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, PointFaults, ::testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Faults, PointFaults, ::testing::ValuesIn(kPointCases),
                          [](const auto& test) { return name_of(test.param.name); });
 
 // As many voxels as there is room for, one less and one more: points on a level, each in a voxel of its own.

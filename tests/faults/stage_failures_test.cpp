@@ -13,7 +13,7 @@
 namespace pose_wall::test {
 namespace {
 
-struct Case {
+struct StageCase {
   const char* name;
   Fault fault;
   const char* once;      // states of the frame with the fault
@@ -22,11 +22,11 @@ struct Case {
   FramesOf frames_of = room_frame;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const StageCase& c, std::ostream* out) {
   *out << c.name;
 }
 
-const Case kCases[] = {
+const StageCase kStageCases[] = {
     {"voxels_do_not_fit", Fault::kVoxelsDoNotFit, "H", "I"},
     {"voxels_none", Fault::kVoxelsNone, "H", "I"},
     {"outliers_are_all", Fault::kOutliersAll, "H", "I"},
@@ -76,7 +76,7 @@ const Case kCases[] = {
     {"report_writes_nothing", Fault::kReportSilent, "V", "V", false},
 };
 
-class StageFailures : public ::testing::TestWithParam<Case> {
+class StageFailures : public ::testing::TestWithParam<StageCase> {
  protected:
   void TearDown() override { fail_from_now_on(Fault::kNone); }
 
@@ -122,7 +122,7 @@ TEST_P(StageFailures, ForGoodIsHeldThenInvalid) {
   EXPECT_LE(room.frames_until_valid(6 * kHalfSecond_ns), kBackWithin);
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, StageFailures, ::testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Faults, StageFailures, ::testing::ValuesIn(kStageCases),
                          [](const auto& test) { return name_of(test.param.name); });
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMs_ns = 1000000, kHour_ns = 3600000000000;
 
-struct Case {
+struct StampCase {
   const char* name;
   std::vector<std::int64_t> stamps_ns;
   char good;   // states of the last frame, if it shows the room
@@ -22,13 +22,13 @@ struct Case {
   std::uint32_t frame_reason;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const StampCase& c, std::ostream* out) {
   *out << c.name;
 }
 
 constexpr std::int64_t kAt = 100 * kMs_ns;
 
-const Case kCases[] = {
+const StampCase kStampCases[] = {
     {"goes_on", {0, kAt}, 'V', 'H', 0},
     {"stands_still_once", {0, kAt, kAt}, 'H', 'H', POSE_WALL_R_STAMP_STILL},
     {"stands_still_twice", {0, kAt, kAt, kAt}, 'H', 'H', POSE_WALL_R_STAMP_STILL},
@@ -56,7 +56,7 @@ const Case kCases[] = {
     {"seconds_for_nanoseconds", {1700000000, 1700000000, 1700000000, 1700000000}, 'I', 'I', POSE_WALL_R_STAMP_STILL},
 };
 
-class Stamps : public ::testing::TestWithParam<Case> {};
+class Stamps : public ::testing::TestWithParam<StampCase> {};
 
 TEST_P(Stamps, OfGoodFrames) {
   FaultRoom room;
@@ -89,7 +89,7 @@ TEST_P(Stamps, AskedForByAge) {
   EXPECT_EQ(states_of(room.good(kPeriod_ns)), "VVVVVVV");
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, Stamps, ::testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Faults, Stamps, ::testing::ValuesIn(kStampCases),
                          [](const auto& test) { return name_of(test.param.name); });
 
 }  // namespace

@@ -94,14 +94,14 @@ constexpr std::uint64_t kDrawsMax = 1000;
 class RoadClass : public ::testing::TestWithParam<Class> {};
 
 TEST_P(RoadClass, ValidIsRightAndWhatCanBeMeasuredIs) {
-  constexpr std::uint32_t kFrames = 3;
+  constexpr std::uint32_t kFramesARoad = 3;
   const Class& c = GetParam();
   Counts counts;
   for (std::uint64_t seed = 1; seed <= std::min<std::uint64_t>(c.seeds, kDrawsMax); ++seed) {
     if (is_open_fault(c, seed)) continue;
     const sim::SceneSetup setup = sim::make_setup(c.scene, c.sensor, true, seed);
-    const std::vector<JudgedFrame> frames = run_frames(setup, seed, kFrames);
-    for (std::uint32_t i = 0; i < kFrames; ++i) judge(frames[i], seed, i, &counts);
+    const std::vector<JudgedFrame> frames = run_frames(setup, seed, kFramesARoad);
+    for (std::uint32_t i = 0; i < kFramesARoad; ++i) judge(frames[i], seed, i, &counts);
   }
   ASSERT_GT(counts.with_truth, 0.0);
   RecordProperty("measured_share", std::to_string(counts.measured / counts.with_truth));

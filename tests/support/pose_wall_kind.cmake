@@ -3,8 +3,8 @@
 
 # pose_wall_test_kind(<kind> [WHITE_BOX] [NATIVE] [WORDS] TIMEOUT <seconds> [NEEDS <target>] [ONLY <target>...])
 # The executable pose_wall_<kind>_tests from <kind>/*_test.cpp, one ctest entry per case, labelled with the kind.
-# ONLY: links these beside the archive, and none of the tools. WORDS: they compute nothing themselves,
-# and most of what they take to compile is the same templates, so that a quick build compiles some files together: these
+# ONLY: links these beside the archive, and none of the tools. WORDS: they compute nothing themselves.
+# Most of what tests take to compile is the same templates, so that a quick build compiles some files together: these
 # cannot use one name for two things.
 # Nothing is made when the folder is empty, a needed target is not part of this build, or a NATIVE kind is cross built.
 function(pose_wall_test_kind kind)
@@ -32,13 +32,7 @@ function(pose_wall_test_kind kind)
   # What is tested is optimised as ever. The tests hardly are: they would take longer to compile than they save.
   target_compile_options(${target} PRIVATE $<IF:$<BOOL:${kind_WORDS}>,-O0,-O1>)
   if(POSE_WALL_QUICK_BUILD)
-    if(kind_WORDS)
-      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-    endif()
-    target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <string> <vector>)
-    if(NOT kind_ONLY)
-      target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry>)
-    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   endif()
   # The objects come first: they define every pose_wall_*, so that tools which link the archive add no second copy.
   if(kind_WHITE_BOX)

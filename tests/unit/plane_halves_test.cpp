@@ -57,9 +57,9 @@ TEST(PlaneHalves, ReachMakesUpForAKerb) {
 TEST(PlaneHalves, RoughGroundHardlyReaches) {
   test::Noise noise(2);
   double sum = 0.0;
-  constexpr int kRuns = 200;
-  for (int run = 0; run < kRuns; ++run) {
-    sum += reach(patches_of([](double v) { return 0.1 * v; }, 0.02, &noise), kSlopeV) / kRuns;
+  constexpr int kDraws = 200;
+  for (int run = 0; run < kDraws; ++run) {
+    sum += reach(patches_of([](double v) { return 0.1 * v; }, 0.02, &noise), kSlopeV) / kDraws;
   }
   EXPECT_LT(sum, 0.001);
 }

@@ -14,11 +14,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::int32_t kMost = (1 << 21) - 1;
+constexpr std::int32_t kLastCell = (1 << 21) - 1;
 
 TEST(VoxelKey, TellsItsCell) {
   std::mt19937 random(1);
-  std::uniform_int_distribution<std::int32_t> draw(0, kMost);
+  std::uniform_int_distribution<std::int32_t> draw(0, kLastCell);
   for (int i = 0; i < 10000; ++i) {
     VoxelKey::FourCells cells{};
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
@@ -38,12 +38,12 @@ TEST(VoxelKey, TellsItsCell) {
     }
   }
   EXPECT_EQ(test::key_of(0, 0, 0), 0U);
-  EXPECT_EQ(test::key_of(kMost, kMost, kMost), (1ULL << 63) - 1);
+  EXPECT_EQ(test::key_of(kLastCell, kLastCell, kLastCell), (1ULL << 63) - 1);
 }
 
 TEST(VoxelKey, IsInTheOrderOfColumnsAndHeights) {
-  EXPECT_LT(test::key_of(3, kMost, kMost), test::key_of(4, 0, 0)) << "columns along x come first";
-  EXPECT_LT(test::key_of(3, 3, kMost), test::key_of(0, 4, 0)) << "then along y";
+  EXPECT_LT(test::key_of(3, kLastCell, kLastCell), test::key_of(4, 0, 0)) << "columns along x come first";
+  EXPECT_LT(test::key_of(3, 3, kLastCell), test::key_of(0, 4, 0)) << "then along y";
   EXPECT_LT(test::key_of(3, 3, 7), test::key_of(0, 0, 8)) << "within a column the lower one";
   EXPECT_LT(test::key_of(1, 3, 7), test::key_of(2, 0, 7)) << "and at the same height by x";
   EXPECT_LT(test::key_of(1, 2, 7), test::key_of(1, 3, 7));

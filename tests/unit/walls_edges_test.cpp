@@ -94,16 +94,16 @@ TEST(WallEnds, AWallThatEndsOnOneSideOnlyIsNone) {
 // An arc as chords of half a metre, to the left of a plane that touches it beside the sensor: both of its ends lie more
 // than the margin behind the plane from 2.7 m on.
 TEST(WallEnds, AWallThatBendsAwayIsNone) {
-  constexpr double kRadius_m = 25.0, kWall_m = 2.0, kChord_m = 0.5;
+  constexpr double kRadius_m = 25.0, kChordsAt_m = 2.0, kChord_m = 0.5;
   for (const Lidar& lidar : kLidars) {
     RayScene scene = road();
     for (double x = -15.0; x < 15.0; x += kChord_m) {
       const double middle_m = x + 0.5 * kChord_m;
       const double back_m = kRadius_m - std::sqrt(kRadius_m * kRadius_m - middle_m * middle_m);
-      scene.add(side_panel(kWall_m + back_m, {x, x + kChord_m}, kFull));
+      scene.add(side_panel(kChordsAt_m + back_m, {x, x + kChord_m}, kFull));
     }
-    EXPECT_FALSE(edges(scene, kWall_m, lidar).island);
-    EXPECT_FALSE(edges(scene, kWall_m, lidar).low);
+    EXPECT_FALSE(edges(scene, kChordsAt_m, lidar).island);
+    EXPECT_FALSE(edges(scene, kChordsAt_m, lidar).low);
   }
 }
 

@@ -21,7 +21,7 @@ constexpr std::uint8_t kDualReturn = 0x39;
 constexpr std::uint8_t kHiRes = 0x24;
 constexpr double kFiring_ns = 55'296.0;
 constexpr double kLaser_ns = 2'304.0;
-constexpr double kUnit_m = 0.002;
+constexpr double kVelodyneUnit_m = 0.002;
 // A turn has 1,800 firings of 16 at 600 turns a minute, 3,600 at 300; more means that no wrap was seen.
 constexpr std::size_t kFiringsMax = 20'000;
 
@@ -110,7 +110,7 @@ VelodyneAssembler::Firing VelodyneAssembler::firing_of(ByteView lasers, double a
     ScanPoint& point = firing.points[ring_of(laser)];
     point.ring = static_cast<std::uint16_t>(ring_of(laser));
     point.t_ns = static_cast<std::uint32_t>(after_ns);
-    const double range_m = kUnit_m * little_endian_at(lasers, 3 * laser, 2);
+    const double range_m = kVelodyneUnit_m * little_endian_at(lasers, 3 * laser, 2);
     if (range_m == 0.0) continue;
     const bool hi_res = product_ == kHiRes;
     const double elevation_rad = kPuck[laser].elevation_deg * (hi_res ? kHiResStep : 1.0) * kRadPerDeg;

@@ -9,7 +9,7 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-const std::vector<Parameter> kRows = {
+const std::vector<Parameter> kMachineRows = {
     POSE_WALL_SIM_WORDS(machine, Machine, forward_axis, "+X|-X|+Y|-Y", 3.0, "the machine's forward axis in base"),
     MACHINE(base_height_m, "m", 0.05, 20.0, "base origin above the floor"),
     MACHINE(lateral_m, "m", -500.0, 500.0, "+ left of the centre line"),
@@ -57,7 +57,7 @@ const std::vector<Parameter> kRows = {
 }  // namespace
 
 std::vector<Parameter> machine_parameters() {
-  return kRows;
+  return kMachineRows;
 }
 
 }  // namespace pose_wall::tools::sim

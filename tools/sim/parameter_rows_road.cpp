@@ -13,7 +13,7 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-const std::vector<Parameter> kRows = {
+const std::vector<Parameter> kRoadRows = {
     ROAD(width_m, "m", 0.5, 1000.0, "between the mean walls, at the floor of the centre line"),
     ROAD(height_m, "m", 1.0, 50.0, "floor to roof, or to the crown of an arch"),
     ROAD(lean_left_deg, "deg", -30.0, 30.0, "+ leans away from the road at the top"),
@@ -112,7 +112,7 @@ const std::vector<Parameter> kRows = {
 }  // namespace
 
 std::vector<Parameter> road_parameters() {
-  return kRows;
+  return kRoadRows;
 }
 
 }  // namespace pose_wall::tools::sim

@@ -10,7 +10,7 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-const std::vector<Parameter> kRows = {
+const std::vector<Parameter> kSensorRows = {
     SENSOR(rings, "1", 0.0, 512.0, "of a rotating sensor; 0: non-repetitive pattern"),
     SENSOR(columns, "1", 0.0, 8192.0, "of a rotating sensor"),
     SENSOR(pattern_points, "1", 0.0, 1e6, "beams per frame of a non-repetitive pattern"),
@@ -67,7 +67,7 @@ const std::vector<Parameter> kRows = {
 }  // namespace
 
 std::vector<Parameter> sensor_parameters() {
-  return kRows;
+  return kSensorRows;
 }
 
 }  // namespace pose_wall::tools::sim
