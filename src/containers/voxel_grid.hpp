@@ -40,17 +40,26 @@ class VoxelGrid {
     transpose(within(x) * weights, within(y) * weights, within(z) * weights, weights, sums);
   }
 
-  // False where the point needs a new cell and there is no room: the grid is then of no use. A cell takes the weight of
-  // a quarter of a million points; what would make it more is left out, which depends on their order.
-  bool add(std::uint64_t key, Sums sums) {
-    const std::uint32_t known = hash_.count();
-    const std::uint32_t index = hash_.insert(key);
-    if (index == VoxelHash::kFull) return false;
-    Sums& s = sums_[index];
-    if (index == known) s = Sums{};
-    if (sums[3] <= kWeightMost - s[3]) s += sums;
-    return true;
-  }
+  // Puts points in, one after the other; nobody else looks at the grid meanwhile.
+  class Filling {
+   public:
+    explicit Filling(VoxelGrid* grid) : hash_(&grid->hash_), sums_(grid->sums_.data()) {}
+
+    // False where the point needs a new cell and there is no room: the grid is then of no use. A cell takes the weight
+    // of a quarter of a million points; what would make it more is left out, which depends on their order.
+    bool add(std::uint64_t key, Sums sums) {
+      const std::uint32_t known = hash_.count();
+      const std::uint32_t index = hash_.insert(key);
+      if (index == VoxelHash::kFull) return false;
+      const Sums all = index == known ? sums : sums_[index] + sums;
+      if (all[3] <= kWeightMost) sums_[index] = all;
+      return true;
+    }
+
+   private:
+    VoxelHash::Filling hash_;
+    Sums* const sums_;
+  };
 
   // Writes the centroids in the order of their cells' keys, or in that in which the cells came. out must have room for
   // count(), and rows that go on for a four: whole fours are written.

@@ -29,25 +29,58 @@ class VoxelHash {
 
   void clear() {
     count_ = 0;
-    last_key_ = ~0ULL;
     slots_.fill(kFree);
   }
 
-  // Index of the key, new or old; kFull where a new key does not fit. Points arrive in scan order, so the last key is
-  // often the next one too.
-  std::uint32_t insert(std::uint64_t key) {
-    if (key == last_key_) return last_index_;
-    for (std::uint32_t slot = home(key);; slot = (slot + 1) & mask_) {
-      const std::uint32_t index = slots_[slot];
+  // Puts keys in, one after the other: what changes with each of them lies in registers, not in the table. Nobody else
+  // looks at the table meanwhile.
+  class Filling {
+   public:
+    explicit Filling(VoxelHash* hash)
+        : hash_(*hash),
+          slots_(hash->slots_.data()),
+          keys_(hash->keys_.data()),
+          capacity_(hash->capacity_),
+          mask_(hash->mask_),
+          shift_(hash->shift_),
+          count_(hash->count_) {}
+    ~Filling() { hash_.count_ = count_; }
+    Filling(const Filling&) = delete;
+    Filling& operator=(const Filling&) = delete;
+
+    // Index of the key, new or old; kFull where a new key does not fit. Points arrive in scan order, so the last key is
+    // often the next one too.
+    std::uint32_t insert(std::uint64_t key) {
+      if (key == last_key_) return last_index_;
+      std::uint32_t slot = home(key), index = slots_[slot];
+      while (index != kFree && keys_[index] != key) {
+        slot = (slot + 1) & mask_;
+        index = slots_[slot];
+      }
       if (index == kFree) {
         if (count_ == capacity_) return kFull;
-        slots_[slot] = count_;
-        keys_[count_] = key;
-        return remember(key, count_++);
+        slots_[slot] = index = count_;
+        keys_[count_++] = key;
       }
-      if (keys_[index] == key) return remember(key, index);
+      last_key_ = key;
+      return last_index_ = index;
     }
-  }
+
+    std::uint32_t count() const { return count_; }
+
+   private:
+    // Fibonacci hashing: the high bits of the product depend on all bits of the key.
+    std::uint32_t home(std::uint64_t key) const {
+      return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
+    }
+
+    VoxelHash& hash_;
+    std::uint32_t* const slots_;
+    std::uint64_t* const keys_;
+    const std::uint32_t capacity_, mask_, shift_;
+    std::uint32_t count_, last_index_ = 0;
+    std::uint64_t last_key_ = ~0ULL;
+  };
 
   std::uint32_t count() const { return count_; }
   std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
@@ -56,20 +89,8 @@ class VoxelHash {
  private:
   static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
 
-  // Fibonacci hashing: the high bits of the product depend on all bits of the key.
-  std::uint32_t home(std::uint64_t key) const {
-    return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
-  }
-  std::uint32_t remember(std::uint64_t key, std::uint32_t index) {
-    last_key_ = key;
-    last_index_ = index;
-    return index;
-  }
-
   Span<std::uint32_t> slots_;  // indices
   Span<std::uint64_t> keys_;
-  std::uint64_t last_key_ = ~0ULL;
-  std::uint32_t last_index_ = 0;
   std::uint32_t capacity_ = 0;
   std::uint32_t count_ = 0;
   std::uint32_t mask_ = 1, shift_ = 63;  // of the table's slots

@@ -213,19 +213,17 @@ class Pass {
                  &block->direction[k]);
     }
     counts->points_in += count;
+    VoxelGrid::Filling cells(grid);
     for (std::uint32_t k = 0; k < count; ++k) {
-      if (block->fate[k] == kBeyond) {
-        count_beyond(*block, k, returns_lidar, counts);
-        continue;
-      }
-      returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
       if (block->fate[k] == kKept) {
+        returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
         ++counts->kept_by_quadrant[block->quadrant[k]];
-        if (!grid->add(block->key[k], block->sums[k])) return false;
-      } else if (block->fate[k] == kNear) {
-        ++counts->near_by_quadrant[block->quadrant[k]];
+        if (!cells.add(block->key[k], block->sums[k])) return false;
+      } else if (block->fate[k] == kBeyond) {
+        count_beyond(*block, k, returns_lidar, counts);
       } else {
-        ++counts->dropped_body;
+        returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
+        ++(block->fate[k] == kNear ? counts->near_by_quadrant[block->quadrant[k]] : counts->dropped_body);
       }
     }
     counts->kept = sum_of(counts->kept_by_quadrant);

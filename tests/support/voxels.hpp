@@ -17,7 +17,7 @@ inline bool add_point(VoxelGrid* grid, double x_m, double y_m, double z_m, std::
   std::uint64_t keys[kFour];
   VoxelGrid::Sums sums[kFour];
   grid->split(four(x_m), four(y_m), four(z_m), FourWords{weight, weight, weight, weight}, keys, sums);
-  return grid->add(keys[0], sums[0]);
+  return VoxelGrid::Filling(grid).add(keys[0], sums[0]);
 }
 
 inline std::uint64_t key_of(std::int32_t x, std::int32_t y, std::int32_t z) {

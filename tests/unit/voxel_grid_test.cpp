@@ -232,7 +232,7 @@ TEST(VoxelGrid, FourPointsAreSplitAsEachIs) {
   VoxelGrid::Sums sums[kFour];
   together->split(x, y, z, weights, keys, sums);
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    EXPECT_TRUE(together->add(keys[lane], sums[lane]));
+    EXPECT_TRUE(VoxelGrid::Filling(together.get()).add(keys[lane], sums[lane]));
     EXPECT_TRUE(add(one_by_one.get(), {x[lane], y[lane], z[lane]}, weights[lane]));
   }
   together->extract(a.get());
