@@ -71,15 +71,16 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   marks = arena.take<std::uint8_t>(points_max + kFour);
   returns_lidar.lay_out(arena);
   cloud_base.lay_out(arena, points_max);
+  // The stages follow each other: what only one of them needs lies on top of what only another does. The grid serves
+  // voxels and outliers, and is begun anew for the band, which is cut when the floor is found.
+  const std::uint64_t before_band = arena.place();
   band_level.lay_out(arena, points_max);
   beyond_level.lay_out(arena, kBeyondMax);
-  // The stages follow each other: what only one of them needs lies on top of what only another does. The grid serves
-  // voxels and outliers, and is begun anew for the band.
-  const std::uint64_t of_one_stage = arena.place();
+  const std::uint64_t behind_band = arena.place();
   grid.lay_out(arena, points_max);
-  arena.go_back(of_one_stage);
+  arena.go_back(before_band);
   ground.lay_out(arena, points_max);
-  arena.go_back(of_one_stage);
+  arena.go_back(behind_band);
   walls.lay_out(arena, points_max);
   arena.go_behind_all();
 }

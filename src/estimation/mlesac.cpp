@@ -20,25 +20,20 @@ constexpr std::uint32_t kLook = 128;  // points between two looks whether a hypo
 constexpr double kSureInSigmas = 3.0;
 
 struct Histogram {
-  std::uint32_t bins[kBins] = {};
-  std::uint32_t beyond = 0;
+  std::uint32_t bins[kBins + 2] = {};  // the last two: beyond, and of no point
+  std::uint32_t beyond() const { return bins[kBins]; }
 };
 
-Histogram histogram_of_residuals(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane,
-                                 double sigma_m) {
+Histogram histogram_of_residuals(const PointSet& points, const Plane& plane, double sigma_m) {
   Histogram h;
-  const float nx = static_cast<float>(plane.n.x()), ny = static_cast<float>(plane.n.y());
-  const float nz = static_cast<float>(plane.n.z()), d = static_cast<float>(plane.d);
-  const float bins_per_m = static_cast<float>(kBins / (kSpanInSigmas * sigma_m));
-  for (const std::uint32_t i : indices) {
-    const float r = nx * points.x[i] + ny * points.y[i] + nz * points.z[i] + d;
-    const float place = std::fabs(r) * bins_per_m;
-    if (place < static_cast<float>(kBins)) {
-      ++h.bins[static_cast<std::uint32_t>(place)];
-    } else {
-      ++h.beyond;
-    }
-  }
+  const FourDistances distances(plane);
+  const FourFloats bins_per_m = all_four(static_cast<float>(kBins / (kSpanInSigmas * sigma_m))),
+                   beyond = all_four(kBins);
+  for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourFloats place = magnitude_of(distances.of(x, y, z)) * bins_per_m;
+    const FourInts bin = counts ? cut_off(place < beyond ? place : beyond) : all_four_ints(kBins + 1);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) ++h.bins[static_cast<std::uint32_t>(bin[lane])];
+  });
   return h;
 }
 
@@ -91,11 +86,10 @@ double truncated_cost(const PointSet& points, const Plane& plane, double thresho
   return cost < too_much ? cost : too_much;
 }
 
-MlesacScore mlesac_score(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane, double sigma_m,
-                         double outlier_span_m) {
-  if (indices.size() == 0) return {0.0, 0.0};
-  const Histogram h = histogram_of_residuals(points, indices, plane, sigma_m);
-  const double n = static_cast<double>(indices.size());
+MlesacScore mlesac_score(const PointSet& points, const Plane& plane, double sigma_m, double outlier_span_m) {
+  if (points.count == 0) return {0.0, 0.0};
+  const Histogram h = histogram_of_residuals(points, plane, sigma_m);
+  const double n = points.count;
   // Density of |r| at each bin's centre relative to the uniform density.
   double ratio[kBins];
   for (std::uint32_t b = 0; b < kBins; ++b) {
@@ -114,7 +108,7 @@ MlesacScore mlesac_score(const PointSet& points, Span<const std::uint32_t> indic
     if (!(share > 1e-4)) share = 1e-4;
     if (!(share < 0.9999)) share = 0.9999;
   }
-  double log_likelihood = static_cast<double>(h.beyond) * natural_log(1.0 - share);
+  double log_likelihood = static_cast<double>(h.beyond()) * natural_log(1.0 - share);
   for (std::uint32_t b = 0; b < kBins; ++b) {
     if (h.bins[b] != 0) {
       log_likelihood += static_cast<double>(h.bins[b]) * natural_log(share * ratio[b] + (1.0 - share));

@@ -25,7 +25,6 @@ struct MlesacScore {
 
 // Mixture of a Gaussian of the given sigma around the plane and a uniform density over outlier_span_m, the mixing
 // weight by EM over a histogram of |r|: one pass over the points, then a bounded number of passes over the bins.
-MlesacScore mlesac_score(const PointSet& points, Span<const std::uint32_t> indices, const Plane& plane, double sigma_m,
-                         double outlier_span_m);
+MlesacScore mlesac_score(const PointSet& points, const Plane& plane, double sigma_m, double outlier_span_m);
 
 }  // namespace pose_wall

@@ -46,52 +46,68 @@ struct Candidate {
   bool ghost = false;
 };
 
-std::uint32_t within_radius(const PointSet& cloud, Span<const std::uint32_t> open, double radius_m,
-                            Span<std::uint32_t> out) {
-  const float limit = static_cast<float>(radius_m * radius_m);
-  std::uint32_t count = 0;
-  for (const std::uint32_t i : open) {
-    if (cloud.x[i] * cloud.x[i] + cloud.y[i] * cloud.y[i] <= limit) out[count++] = i;
-  }
-  return count;
+// In their order.
+void keep_within(const PointSet& open, double radius_m, PointSet* out) {
+  const FourFloats limit = all_four(static_cast<float>(radius_m * radius_m));
+  out->count = 0;
+  for_each_four_points(open, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourTruths within = counts & (x * x + y * y <= limit);
+    if (!any_of(~within)) {  // as most fours that have any
+      const std::uint32_t at = out->count;
+      store_four(x, &out->x[at]);
+      store_four(y, &out->y[at]);
+      store_four(z, &out->z[at]);
+      store_four(load_four(&open.weight[k]), &out->weight[at]);
+      out->count += kFour;
+      return;
+    }
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (within[lane] != 0) out->add(x[lane], y[lane], z[lane], open.weight[k + lane]);
+    }
+  });
 }
 
 // The lowest percentile by z, off a histogram of centimetres.
-std::uint32_t lowest_part(const PointSet& cloud, Span<const std::uint32_t> candidates, double percentile,
-                          Span<std::uint32_t> out) {
+std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::uint32_t> out) {
   constexpr std::uint32_t kBins = 2048;
   constexpr float kFloor_m = -10.24F;
-  std::uint32_t bins[kBins] = {};
-  const auto bin_of = [&](std::uint32_t i) {
-    const float place = (cloud.z[i] - kFloor_m) * 100.0F;
-    if (!(place > 0.0F)) return 0U;
-    return place < static_cast<float>(kBins) ? static_cast<std::uint32_t>(place) : kBins - 1;
+  std::uint32_t bins[kBins + 1] = {};  // the last: of none
+  const auto bins_of = [](FourFloats z) {
+    const FourFloats place = (z - kFloor_m) * 100.0F;
+    return cut_off(smaller_of(larger_of(place, FourFloats{}), all_four(kBins - 1.0F)));
   };
-  for (const std::uint32_t i : candidates) ++bins[bin_of(i)];
-  const double wanted = percentile / 100.0 * static_cast<double>(candidates.size());
+  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourInts bin = counts ? bins_of(load_four(&points.z[k])) : all_four_ints(kBins);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) ++bins[static_cast<std::uint32_t>(bin[lane])];
+  });
+  const double wanted = percentile / 100.0 * static_cast<double>(points.count);
   double below = 0.0;
-  std::uint32_t limit = 0;
-  for (; limit < kBins && below < wanted; ++limit) below += static_cast<double>(bins[limit]);
+  std::int32_t limit = 0;
+  for (; limit < static_cast<std::int32_t>(kBins) && below < wanted; ++limit) below += static_cast<double>(bins[limit]);
   std::uint32_t count = 0;
-  for (const std::uint32_t i : candidates) {
-    if (bin_of(i) < limit) out[count++] = i;
-  }
+  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
+    counts &= bins_of(load_four(&points.z[k])) < limit;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] != 0) out[count++] = k + lane;
+    }
+  });
   return count;
 }
 
 // Refines what the search left, merges what became alike, and looks at each as a floor.
-std::uint32_t weigh(const BoundedPoints& cloud, Span<const std::uint32_t> all, const Settings& s, const Axes& axes,
+std::uint32_t weigh(const BoundedPoints& cloud, const PointSet& within, const Settings& s, const Axes& axes,
                     const Eigen::Vector3d& sensor, FloorShortlist* list, GroundScratch* scratch,
                     Candidate (&out)[kFloorShortlist]) {
   const FloorLimits limits(s);
   const IrlsSettings quick = quick_irls(2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2);
   // The low points have done their work; their room holds a part of all, enough to refine a hypothesis.
-  for (std::uint32_t i = 0; i < all.size(); ++i) scratch->low[i] = all[i];
-  const Span<const std::uint32_t> part = thinned(scratch->low.first(all.size()), kQuickPointsMax);
+  std::uint32_t of_part = 0;
+  for_even_share(within.count, kQuickPointsMax, [&](std::uint32_t k) { scratch->low[of_part++] = k; });
+  const Span<const std::uint32_t> part = scratch->low.first(of_part);
   std::uint32_t count = 0;
   for (std::uint32_t k = 0; k < list->count(); ++k) {
     const IrlsResult refined =
-        irls_tukey(cloud, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
+        irls_tukey(within, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
     POSE_WALL_NOTE(note_refined_floor(refined, 1.0 - (*list)[k].cost, s, sensor));
     if (!refined.solved || !may_be_floor(refined.plane, limits, sensor)) continue;
     bool repeats = false;
@@ -99,8 +115,8 @@ std::uint32_t weigh(const BoundedPoints& cloud, Span<const std::uint32_t> all, c
     POSE_WALL_NOTE(if (repeats) trace::fate(refined.plane, POSE_WALL_TRACE_REPEATS));
     if (repeats) continue;
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_UNSUPPORTED));
-    if (mlesac_score(cloud, all, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
-    scratch->grid.mark(cloud, all, refined.plane, s.ground_ransac_thresh);
+    if (mlesac_score(within, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
+    scratch->grid.mark(within, refined.plane, s.ground_ransac_thresh);
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
     if (has_much_below(scratch->grid, refined.plane, cloud, s.ground_roi_radius_max, sensor, kBelowShareMax)) continue;
     out[count++] = {refined.plane, scratch->grid.evidence(axes), false};
@@ -109,16 +125,16 @@ std::uint32_t weigh(const BoundedPoints& cloud, Span<const std::uint32_t> all, c
 }
 
 // Planes below another one, seen through its open floor, are reflections in wet ground.
-void mark_ghosts(const PointSet& cloud, Span<const std::uint32_t> all, const Settings& s, const Eigen::Vector3d& sensor,
-                 GroundScratch* scratch, Span<Candidate> candidates) {
+void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3d& sensor, GroundScratch* scratch,
+                 Span<Candidate> candidates) {
   for (const Candidate& above : candidates) {
     if (above.evidence.area_m2 < kAreaMin_m2) continue;
     bool marked = false;
     for (Candidate& below : candidates) {
       if (!(below.plane.signed_distance(sensor) > above.plane.signed_distance(sensor) + 0.1)) continue;
-      if (!marked) scratch->grid.mark(cloud, all, above.plane, s.ground_ransac_thresh);
+      if (!marked) scratch->grid.mark(within, above.plane, s.ground_ransac_thresh);
       marked = true;
-      below.ghost = below.ghost || share_seen_through(scratch->grid, above.plane, below.plane, cloud, all, sensor,
+      below.ghost = below.ghost || share_seen_through(scratch->grid, above.plane, below.plane, within, sensor,
                                                       s.ground_ransac_thresh) > kGhostShare;
     }
   }
@@ -193,29 +209,30 @@ FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, cons
                          const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
                          GroundScratch* scratch) {
   const double radius_m = look.radius_m;
-  const Span<const std::uint32_t> all = look.within;
+  const PointSet& within = look.within_base;
   FloorResult none;
   none.fit.refused = true;
   none.fit.reasons = POSE_WALL_R_FLOOR_NOT_FOUND;
   none.roi_radius_m = radius_m;
-  none.candidates = all.size();
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, all.size(), kCandidatesMin, all.size() >= kCandidatesMin));
-  if (all.size() < kCandidatesMin) return none;
-  const std::uint32_t low = lowest_part(cloud, all, s.ground_z_percentile, scratch->low);
+  none.candidates = within.count;
+  POSE_WALL_NOTE(
+      trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, within.count, kCandidatesMin, within.count >= kCandidatesMin));
+  if (within.count < kCandidatesMin) return none;
+  const std::uint32_t low = lowest_part(within, s.ground_z_percentile, scratch->low);
 
   FloorShortlist list;
-  const GroundSearchInput in{cloud, all, scratch->low.first(low), sensor, last_floor};
+  const GroundSearchInput in{within, scratch->low.first(low), sensor, last_floor};
   none.fit.iterations = search_floor(in, s, random, &scratch->subset, &list);
   Candidate candidates[kFloorShortlist];
-  const std::uint32_t count = weigh(cloud, all, s, axes, sensor, &list, scratch, candidates);
-  mark_ghosts(cloud, all, s, sensor, scratch, Span<Candidate>(candidates, count));
+  const std::uint32_t count = weigh(cloud, within, s, axes, sensor, &list, scratch, candidates);
+  mark_ghosts(within, s, sensor, scratch, Span<Candidate>(candidates, count));
   const Candidate* best = best_of(Span<const Candidate>(candidates, count));
   POSE_WALL_NOTE(note_floor_choice(Span<const Candidate>(candidates, count), best));
   if (best == nullptr) return none;
 
-  FloorResult out = fit_floor(cloud, look, best->plane, s, sensor, scratch);
+  FloorResult out = fit_floor(look, best->plane, s, sensor, scratch);
   out.fit.iterations = none.fit.iterations;
-  out.candidates = all.size();
+  out.candidates = within.count;
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
   reach_to_rivals(*best, Span<const Candidate>(candidates, count), &out);
@@ -279,8 +296,8 @@ void reach_to_upright(FloorResult* floor) {
 }  // namespace
 
 void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
-  open = arena.take<std::uint32_t>(points_max);
-  candidates = arena.take<std::uint32_t>(points_max);
+  open_base.lay_out(arena, points_max);
+  within_base.lay_out(arena, points_max);
   low = arena.take<std::uint32_t>(points_max);
   points.lay_out(arena, kGroundFitPoints);
   subset.lay_out(arena, kGroundSubset);
@@ -293,10 +310,11 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
 FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
                        GroundScratch* scratch) {
-  const Span<const std::uint32_t> open = scratch->open.first(
-      scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->open));
-  FloorResult within[kRadiusSteps];
-  for (FloorResult& floor : within) floor.fit.refused = true;
+  const PointSet& open = scratch->open_base;
+  scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->low,
+                          &scratch->open_base);
+  FloorResult floors[kRadiusSteps];
+  for (FloorResult& floor : floors) floor.fit.refused = true;
   int tried = 0, best = 0;
   double worth_a_look = 0.0;  // so many points
   const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
@@ -304,23 +322,23 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
   for (bool widest = false; !widest && tried < kRadiusSteps; radius_m *= kRadiusGrowth) {
     widest = !(radius_m < settings.ground_roi_radius_max);
     if (widest) radius_m = settings.ground_roi_radius_max;
-    const Span<const std::uint32_t> all =
-        scratch->candidates.first(within_radius(cloud_base, open, radius_m, scratch->candidates));
-    if (static_cast<double>(all.size()) < worth_a_look) continue;
-    if (all.size() >= kCandidatesMin) worth_a_look = kWorthALook * static_cast<double>(all.size());
+    if (!widest) keep_within(open, radius_m, &scratch->within_base);
+    const PointSet& within = widest ? open : scratch->within_base;
+    if (static_cast<double>(within.count) < worth_a_look) continue;
+    if (within.count >= kCandidatesMin) worth_a_look = kWorthALook * static_cast<double>(within.count);
     POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
-    const FloorResult& floor = within[tried] =
-        floor_within({radius_m, open, all}, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
+    const FloorResult& floor = floors[tried] =
+        floor_within({radius_m, open, within}, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
     // Of refused ones the widest that got furthest tells why.
-    const bool told_more = within[best].fit.refused && floor.fit.refused && floor.fit.found;
-    if (told_more || levels_of(floor, settings).worse() < levels_of(within[best], settings).worse()) best = tried;
+    const bool told_more = floors[best].fit.refused && floor.fit.refused && floor.fit.found;
+    if (told_more || levels_of(floor, settings).worse() < levels_of(floors[best], settings).worse()) best = tried;
     ++tried;
-    if (levels_of(within[best], settings).worse() <= good_enough) break;
+    if (levels_of(floors[best], settings).worse() <= good_enough) break;
   }
   POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(best)));
-  FloorResult out = within[best];
+  FloorResult out = floors[best];
   std::uint32_t claims = 0;
-  for (const FloorResult& other : within) {
+  for (const FloorResult& other : floors) {
     reach_to_other(other, settings, &out);
     claims += other.fit.refused ? 0U : 1U;
   }

@@ -20,10 +20,10 @@ namespace pose_wall {
 constexpr std::uint32_t kGroundFitPoints = 8192;
 
 struct GroundScratch {
-  Span<std::uint32_t> open;        // points with nothing standing on them, within the greatest radius
-  Span<std::uint32_t> candidates;  // of those, within the radius that is tried
-  Span<std::uint32_t> low;         // of those, the lowest part; later the selection of the fit
-  TangentPoints points;            // of these, as many as a fit takes
+  PointSet open_base;       // points with nothing standing on them, within the greatest radius
+  PointSet within_base;     // of those, within the radius that is tried
+  Span<std::uint32_t> low;  // of those, the lowest part; later the selection of the fit
+  TangentPoints points;     // of these, as many as a fit takes
   PointSet subset;
   FloorGrid grid;
   PatchGrid patches;

@@ -94,8 +94,8 @@ class FloorGrid::FourBins {
   float radius2_, lowest_m_;
 };
 
-std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
-                                   Span<std::uint32_t> out) {
+void FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
+                          Span<std::uint32_t> places, PointSet* open) {
   eighths_.fill(0);
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
   FourBins four(radius_m, lowest_m_);
@@ -104,23 +104,22 @@ std::uint32_t FloorGrid::find_open(const PointSet& points_base, double radius_m,
     four.look_at(x, y, z);
     within -= four.within & counts;
     for (std::uint32_t lane = 0; lane < kFour && i + lane < points_base.count; ++lane) {
-      // Until it is known which are open, the list holds where each lies.
       const auto place = static_cast<std::uint32_t>(four.place[lane]);
-      out[i + lane] = place;
+      places[i + lane] = place;
       if (four.place[lane] != FourBins::kNowhere) eighths_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
     }
   });
   points_within_ = sum_of_lanes(within);
-  std::uint32_t count = 0;
+  open->count = 0;
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
-    const std::uint32_t place = out[i];
+    const std::uint32_t place = places[i];
     if (place == static_cast<std::uint32_t>(FourBins::kNowhere)) continue;
     const std::uint64_t heights = eighths_[place / FourBins::kBins];
     const int bin = static_cast<int>(place % FourBins::kBins);
-    if (!two_or_more(bins_above(heights, bin)) && !two_or_more(bins_below(heights, bin))) out[count++] = i;
+    if (two_or_more(bins_above(heights, bin)) || two_or_more(bins_below(heights, bin))) continue;
+    open->add(points_base.x[i], points_base.y[i], points_base.z[i], points_base.weight[i]);
   }
   for (std::uint64_t& heights : eighths_) heights = heights != 0 ? stood_on(heights) : 0;
-  return count;
 }
 
 FourTruths FloorGrid::clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m,
@@ -162,15 +161,14 @@ void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
   }
 }
 
-void FloorGrid::mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m) {
+void FloorGrid::mark(const PointSet& open_base, const Plane& plane, double thresh_m) {
   clear_marks();
   const FourDistances distances(plane);
   const FourFloats most = all_four(static_cast<float>(thresh_m));
-  for_each_four(open.size(), [&](std::uint32_t k, FourTruths counts) {
-    const FourPlaces p = four_of(points_base, open, k);
-    const FourTruths on_plane = counts & (magnitude_of(distances.of(p.x, p.y, p.z)) <= most);
+  for_each_four_points(open_base, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourTruths on_plane = counts & (magnitude_of(distances.of(x, y, z)) <= most);
     if (!any_of(on_plane)) return;
-    const FourInts ix = cells_of(p.x), iy = cells_of(p.y);
+    const FourInts ix = cells_of(x), iy = cells_of(y);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (on_plane[lane] != 0 && marked_[index(ix[lane], iy[lane])] == 0) mark_cell(ix[lane], iy[lane]);
     }
@@ -236,12 +234,11 @@ bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const Bo
 }
 
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,
-                          const PointSet& points_base, Span<const std::uint32_t> open,
-                          const Eigen::Vector3d& sensor_base_m, double thresh_m) {
+                          const PointSet& open_base, const Eigen::Vector3d& sensor_base_m, double thresh_m) {
   const double sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   std::uint32_t on_below = 0, through = 0;
-  for (const std::uint32_t i : open) {
-    const Eigen::Vector3d p = points_base.at(i);
+  for (std::uint32_t i = 0; i < open_base.count; ++i) {
+    const Eigen::Vector3d p = open_base.at(i);
     if (!(std::fabs(below.signed_distance(p)) <= thresh_m)) continue;
     ++on_below;
     const double height = marked_plane.signed_distance(p);

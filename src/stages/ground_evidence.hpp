@@ -29,12 +29,12 @@ class FloorGrid {
 
   void lay_out(Arena& arena);
 
-  // Indices of the points within the radius that have nothing standing on them or hanging under them: no points from a
-  // quarter of a metre to a metre above or below in the same cell. Floor is open and so is roof; walls, heaps, people
-  // and machines are not. Without this, a slab cut through two walls beats a sparsely seen floor by its points. out has
+  // The points within the radius that have nothing standing on them or hanging under them: no points from a quarter of
+  // a metre to a metre above or below in the same cell. Floor is open and so is roof; walls, heaps, people and machines
+  // are not. Without this, a slab cut through two walls beats a sparsely seen floor by its points. places and open have
   // room for all points.
-  std::uint32_t find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
-                          Span<std::uint32_t> out);
+  void find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m, Span<std::uint32_t> places,
+                 PointSet* open);
 
   // How many points lie within the radius at all.
   std::uint32_t points_within() const { return points_within_; }
@@ -43,8 +43,8 @@ class FloorGrid {
   // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
   FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m, FourTruths counts) const;
 
-  // Marks the cells in which a plane has points. open: by find_open(), all of them within the grid.
-  void mark(const PointSet& points_base, Span<const std::uint32_t> open, const Plane& plane, double thresh_m);
+  // Marks the cells in which a plane has points. open_base: by find_open(), all of them within the grid.
+  void mark(const PointSet& open_base, const Plane& plane, double thresh_m);
   // Of the marked plane.
   FloorEvidence evidence(const Axes& axes) const;
   // Whether the marked plane has floor at or next to this place.
@@ -83,10 +83,9 @@ class FloorGrid {
 bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
                     double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max);
 
-// Share of the points on 'below' whose ray from the sensor passes through open floor of the plane marked in the grid:
-// no light comes through a floor, so such a plane is a reflection in wet ground.
+// Share of the open points on 'below' whose ray from the sensor passes through open floor of the plane marked in the
+// grid: no light comes through a floor, so such a plane is a reflection in wet ground.
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,
-                          const PointSet& points_base, Span<const std::uint32_t> open,
-                          const Eigen::Vector3d& sensor_base_m, double thresh_m);
+                          const PointSet& open_base, const Eigen::Vector3d& sensor_base_m, double thresh_m);
 
 }  // namespace pose_wall

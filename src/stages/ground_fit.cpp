@@ -54,9 +54,8 @@ bool stands_still(const Plane& a, const Plane& b) {
 // Selections go by height over the plane, clear of what stands on the floor, and within the radius where the ray meets
 // the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges only, and these look
 // like a higher floor.
-Span<std::uint32_t> select(const PointSet& cloud, const FloorLook& look, const FloorGrid& grid, const Plane& plane,
-                           double gate_m, const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
-  const Span<const std::uint32_t> open = look.open;
+Span<std::uint32_t> select(const FloorLook& look, const FloorGrid& grid, const Plane& plane, double gate_m,
+                           const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
   const double sensor_m = plane.signed_distance(sensor_base_m);
   if (!(sensor_m > gate_m)) return {};
   const auto gate = static_cast<float>(gate_m), inside = static_cast<float>(sensor_m);
@@ -64,21 +63,21 @@ Span<std::uint32_t> select(const PointSet& cloud, const FloorLook& look, const F
   const Eigen::Vector3f sensor = sensor_base_m.cast<float>();
   const FourDistances distances(plane);
   std::uint32_t count = 0;
-  for_each_four(open.size(), [&](std::uint32_t k, FourTruths counts) {
-    const FourPlaces p = four_of(cloud, open, k);
-    const FourFloats height = distances.of(p.x, p.y, p.z);
-    counts &= (height >= -gate) & (height <= gate);
-    if (!any_of(counts)) return;
-    const FourFloats way = inside / (inside - height);  // to where the ray meets the plane
-    const FourFloats x = sensor.x() + (p.x - sensor.x()) * way, y = sensor.y() + (p.y - sensor.y()) * way;
-    const FourFloats z = sensor.z() + (p.z - sensor.z()) * way;
-    counts &= x * x + y * y <= radius2;
-    if (!any_of(counts)) return;
-    counts = grid.clear_around(x, y, z, counts);
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (counts[lane] != 0) out[count++] = open[k + lane];
-    }
-  });
+  for_each_four_points(
+      look.open_base, [&](std::uint32_t k, FourFloats px, FourFloats py, FourFloats pz, FourTruths counts) {
+        const FourFloats height = distances.of(px, py, pz);
+        counts &= (height >= -gate) & (height <= gate);
+        if (!any_of(counts)) return;
+        const FourFloats way = inside / (inside - height);  // to where the ray meets the plane
+        const FourFloats x = sensor.x() + (px - sensor.x()) * way, y = sensor.y() + (py - sensor.y()) * way;
+        const FourFloats z = sensor.z() + (pz - sensor.z()) * way;
+        counts &= x * x + y * y <= radius2;
+        if (!any_of(counts)) return;
+        counts = grid.clear_around(x, y, z, counts);
+        for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+          if (counts[lane] != 0) out[count++] = k + lane;
+        }
+      });
   return out.first(count);
 }
 
@@ -133,17 +132,16 @@ void fill_patches(const IrlsResult& irls, double radius_m, const Eigen::Vector3d
   });
 }
 
-void count_inliers(const PointSet& cloud, Span<const std::uint32_t> within, double thresh_m, PlaneFit* fit) {
+void count_inliers(const PointSet& within_base, double thresh_m, PlaneFit* fit) {
   const FourDistances distances(fit->plane);
   const FourFloats thresh = all_four(static_cast<float>(thresh_m)), none{};
   FourFloats squares{}, measured{};
   FourInts voxels{};  // true is -1
-  for_each_four(within.size(), [&](std::uint32_t k, FourTruths counts) {
-    const FourIndices four(within, k);
-    const FourFloats r = distances.of(four.of(cloud.x), four.of(cloud.y), four.of(cloud.z));
+  for_each_four(within_base.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats r = distances.of(within_base, k);
     counts &= magnitude_of(r) <= thresh;
     squares += counts ? r * r : none;
-    measured += counts ? four.of(cloud.weight) : none;
+    measured += counts ? load_four(&within_base.weight[k]) : none;
     voxels -= counts;
   });
   const std::uint32_t inside = sum_of_lanes(voxels);
@@ -185,7 +183,7 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
 
 }  // namespace
 
-FloorResult fit_floor(const PointSet& cloud_base, const FloorLook& look, const Plane& start, const Settings& settings,
+FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
                       const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
   FloorResult out;
   IrlsSettings tukey = irls_settings(settings);
@@ -195,9 +193,10 @@ FloorResult fit_floor(const PointSet& cloud_base, const FloorLook& look, const P
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
     const Span<std::uint32_t> chosen =
-        select(cloud_base, look, scratch->grid, irls.plane, tukey.gate_m, sensor_base_m, scratch->low);
+        select(look, scratch->grid, irls.plane, tukey.gate_m, sensor_base_m, scratch->low);
     const Plane before = irls.plane;
-    irls = irls_tukey(cloud_base, thinned(chosen, scratch->points.capacity()), before, u_hint, tukey, &scratch->points);
+    irls = irls_tukey(look.open_base, thinned(chosen, scratch->points.capacity()), before, u_hint, tukey,
+                      &scratch->points);
     if (!irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
@@ -216,7 +215,7 @@ FloorResult fit_floor(const PointSet& cloud_base, const FloorLook& look, const P
   over.add(uneven.correction);
   out.fit.plane = scratch->points.plane_of(over);
   out.fit.found = true;
-  count_inliers(cloud_base, look.within, settings.ground_ransac_thresh, &out.fit);
+  count_inliers(look.within_base, settings.ground_ransac_thresh, &out.fit);
   set_uncertainty(uneven, bend, patches, scratch->points.frame, out.fit.plane, settings, &out);
   return out;
 }

@@ -11,15 +11,15 @@
 
 namespace pose_wall {
 
-// A radius, which points are open, and which of them are within it. The fit goes by where the rays meet the floor, and
-// so chooses among all that are open; its inliers are counted of those within.
+// A radius, the open points, and those of them within it. The fit goes by where the rays meet the floor, and so chooses
+// among all that are open; its inliers are counted of those within.
 struct FloorLook {
   double radius_m;
-  Span<const std::uint32_t> open, within;
+  const PointSet &open_base, &within_base;
 };
 
 // start: the chosen hypothesis.
-FloorResult fit_floor(const PointSet& cloud_base, const FloorLook& look, const Plane& start, const Settings& settings,
+FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
                       const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch);
 
 }  // namespace pose_wall

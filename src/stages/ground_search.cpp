@@ -16,24 +16,28 @@ namespace {
 constexpr double kTriangleMin_m2 = 0.10;  // twice the area of the three points: slivers give wild normals
 constexpr std::uint32_t kDrawsPerIteration = 8;
 
+// One of the low points, or of all.
+std::uint32_t drawn(const GroundSearchInput& in, bool of_low, Random* random) {
+  return of_low ? in.low[random->below(in.low.size())] : random->below(in.open_base.count);
+}
+
 // Half from the low points, half from all, so that a floor counts as a whole even where the machine leans and the
 // lowest points are one side of it only.
 void fill_subset(const GroundSearchInput& in, Random* random, PointSet* subset) {
   for (std::uint32_t k = 0; k < kGroundSubset; ++k) {
-    const Span<const std::uint32_t> from = k % 2 == 0 ? in.low : in.open;
-    const std::uint32_t i = from[random->below(from.size())];
-    subset->x[k] = in.points_base.x[i];
-    subset->y[k] = in.points_base.y[i];
-    subset->z[k] = in.points_base.z[i];
+    const std::uint32_t i = drawn(in, k % 2 == 0, random);
+    subset->x[k] = in.open_base.x[i];
+    subset->y[k] = in.open_base.y[i];
+    subset->z[k] = in.open_base.z[i];
   }
   subset->count = kGroundSubset;
 }
 
 // The plane through three drawn points, normal up; false for slivers.
-bool draw_plane(const PointSet& points, Span<const std::uint32_t> from, Random* random, Plane* plane) {
-  const Eigen::Vector3d a = points.at(from[random->below(from.size())]);
-  const Eigen::Vector3d b = points.at(from[random->below(from.size())]);
-  const Eigen::Vector3d c = points.at(from[random->below(from.size())]);
+bool draw_plane(const GroundSearchInput& in, bool of_low, Random* random, Plane* plane) {
+  const Eigen::Vector3d a = in.open_base.at(drawn(in, of_low, random));
+  const Eigen::Vector3d b = in.open_base.at(drawn(in, of_low, random));
+  const Eigen::Vector3d c = in.open_base.at(drawn(in, of_low, random));
   const Eigen::Vector3d cross = (b - a).cross(c - a);
   const double area = std::sqrt(cross.squaredNorm());
   if (!(area >= kTriangleMin_m2)) return false;
@@ -84,8 +88,7 @@ std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings
   for (std::uint32_t draw = 0; draw < draws && scored < settings.ground_iterations; ++draw) {
     Plane plane;
     // Every other draw from all points: where reflections lie lowest, the low points hold no floor.
-    const Span<const std::uint32_t> from = draw % 2 == 1 ? in.open : in.low;
-    if (!draw_plane(in.points_base, from, random, &plane)) continue;
+    if (!draw_plane(in, draw % 2 == 0, random, &plane)) continue;
     POSE_WALL_NOTE(outside.offer(plane));
     if (may_be_floor(plane, limits, in.sensor_base_m)) score(plane);
   }

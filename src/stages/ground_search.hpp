@@ -18,9 +18,8 @@ constexpr std::uint32_t kGroundSubset = 512;
 using FloorShortlist = Shortlist<kFloorShortlist>;
 
 struct GroundSearchInput {
-  const PointSet& points_base;
-  Span<const std::uint32_t> open;  // all open points within the region of interest
-  Span<const std::uint32_t> low;   // the lowest part of them
+  const PointSet& open_base;      // open points within the region of interest
+  Span<const std::uint32_t> low;  // the lowest part of them
   const Eigen::Vector3d& sensor_base_m;
   const Plane* last_floor;  // hypothesis 0: scored like any other; nullptr if none
 };

@@ -106,9 +106,9 @@ POSE_WALL_WRAP(std::uint32_t, SEARCH_FLOOR, search_floor,
 }
 
 POSE_WALL_WRAP(FloorResult, FIT_FLOOR, fit_floor,
-               (const PointSet& cloud, const FloorLook& look, const Plane& start, const Settings& s,
-                const Eigen::Vector3d& sensor_m, GroundScratch* scratch)) {
-  FloorResult r = fit_floor_for_real(cloud, look, start, s, sensor_m, scratch);
+               (const FloorLook& look, const Plane& start, const Settings& s, const Eigen::Vector3d& sensor_m,
+                GroundScratch* scratch)) {
+  FloorResult r = fit_floor_for_real(look, start, s, sensor_m, scratch);
   if (fails(Fault::kFloorFitFails)) refuse(&r.fit, POSE_WALL_R_FLOOR_THIN);
   return r;
 }

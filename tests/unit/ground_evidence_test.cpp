@@ -22,15 +22,15 @@ namespace {
 const Axes kAhead_x{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
 
 struct Open {
-  explicit Open(test::GroundFixture* g) : indices(g->points().set().capacity()) {
-    count = grid->find_open(g->points().set(), 15.0, 0.0,
-                            Span<std::uint32_t>(indices.data(), static_cast<std::uint32_t>(indices.size())));
+  explicit Open(test::GroundFixture* g) : points(g->points().set().capacity()) {
+    std::vector<std::uint32_t> places(g->points().set().capacity());
+    const auto count = static_cast<std::uint32_t>(places.size());
+    grid->find_open(g->points().set(), 15.0, 0.0, Span<std::uint32_t>(places.data(), count), points.get());
   }
-  Span<const std::uint32_t> span() const { return Span<const std::uint32_t>(indices.data(), count); }
+  const PointSet& set() const { return *points; }
   const FloorGrid& grid_of() const { return *grid; }
   mutable test::Placed<FloorGrid> grid;
-  std::vector<std::uint32_t> indices;
-  std::uint32_t count = 0;
+  mutable test::Placed<PointSet> points;
 };
 
 Plane level_at(double height_above_floor) {
@@ -45,17 +45,24 @@ TEST(FloorGrid, FloorIsOpenAndWallsAreNot) {
   const std::uint32_t floor_points = g.points().set().count;
   g.add_wall(2.5);
   Open open(&g);
-  std::uint32_t of_floor = 0;
-  for (const std::uint32_t i : open.span()) of_floor += i < floor_points ? 1U : 0U;
+  // In their order, whole: what is left out is skipped.
+  const PointSet &all = g.points().set(), &left = open.set();
+  std::uint32_t of_floor = 0, i = 0;
+  for (std::uint32_t k = 0; k < left.count; ++k, ++i) {
+    while (i < all.count && (all.x[i] != left.x[k] || all.y[i] != left.y[k] || all.z[i] != left.z[k])) ++i;
+    ASSERT_LT(i, all.count) << "no point of the cloud";
+    EXPECT_EQ(left.weight[k], all.weight[i]);
+    of_floor += i < floor_points ? 1U : 0U;
+  }
   EXPECT_GT(of_floor, 0.95 * floor_points);
-  EXPECT_LT(open.count - of_floor, 0.1 * (g.points().set().count - floor_points));
+  EXPECT_LT(left.count - of_floor, 0.1 * (all.count - floor_points));
 }
 
 TEST(FloorGrid, AreaIsMeasuredInPlan) {
   test::GroundFixture g;
   g.add_level({-3, 3, -2.0, 2.0}, 0.0);
   Open open(&g);
-  open.grid->mark(g.points().set(), open.span(), level_at(0.0), 0.03);
+  open.grid->mark(open.set(), level_at(0.0), 0.03);
   const FloorEvidence e = open.grid->evidence(kAhead_x);
   EXPECT_NEAR(e.area_m2, 24.0, 3.0);  // a cell of a quarter of a metre more on each edge
   EXPECT_GE(e.score_m2, e.area_m2);
@@ -63,14 +70,14 @@ TEST(FloorGrid, AreaIsMeasuredInPlan) {
   EXPECT_TRUE(open.grid->marked_near(1.0, 1.0));
   EXPECT_FALSE(open.grid->marked_near(10.0, 1.0));
   EXPECT_FALSE(open.grid->marked_near(1e6, -1e6));
-  open.grid->mark(g.points().set(), open.span(), level_at(0.5), 0.03);
+  open.grid->mark(open.set(), level_at(0.5), 0.03);
   EXPECT_EQ(open.grid->evidence(kAhead_x).area_m2, 0.0);
 }
 
 bool more_is_below(test::GroundFixture* g, double height_above_floor, double share) {
   Open open(g);
   const Plane plane = level_at(height_above_floor);
-  open.grid->mark(g->points().set(), open.span(), plane, 0.03);
+  open.grid->mark(open.set(), plane, 0.03);
   return has_much_below(*open.grid, plane, g->points().set(), 15.0, Eigen::Vector3d::Zero(), share);
 }
 
@@ -98,14 +105,12 @@ TEST(FloorGrid, AReflectionIsSeenThroughTheFloor) {
   g.add_level({-6, 6, -2.0, 2.0}, 0.0, 0.005, 0.15);
   g.add_level({-4, 4, -1.5, 1.5}, -1.0, 0.005, 0.15);
   Open open(&g);
-  open.grid->mark(g.points().set(), open.span(), level_at(0.0), 0.03);
+  open.grid->mark(open.set(), level_at(0.0), 0.03);
   const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-  EXPECT_GT(share_seen_through(*open.grid, level_at(0.0), level_at(-1.0), g.points().set(), open.span(), sensor, 0.03),
-            0.9);
+  EXPECT_GT(share_seen_through(*open.grid, level_at(0.0), level_at(-1.0), open.set(), sensor, 0.03), 0.9);
   // And the floor is not seen through the reflection.
-  open.grid->mark(g.points().set(), open.span(), level_at(-1.0), 0.03);
-  EXPECT_LT(share_seen_through(*open.grid, level_at(-1.0), level_at(0.0), g.points().set(), open.span(), sensor, 0.03),
-            0.1);
+  open.grid->mark(open.set(), level_at(-1.0), 0.03);
+  EXPECT_LT(share_seen_through(*open.grid, level_at(-1.0), level_at(0.0), open.set(), sensor, 0.03), 0.1);
 }
 
 // As FloorGrid::clear_around(), one cell and one height at a time.
@@ -177,7 +182,7 @@ TEST(FloorGrid, AnyCountOfPointsIsMarked) {
     test::GroundFixture g;
     for (std::uint32_t k = 0; k < points; ++k) g.points().add(0.5 * k - 2.1, 0.1, -test::kFloorBelow_m);
     Open open(&g);
-    open.grid->mark(g.points().set(), open.span(), level_at(0.0), 0.03);
+    open.grid->mark(open.set(), level_at(0.0), 0.03);
     EXPECT_EQ(open.grid->evidence(kAhead_x).area_m2, points * 0.0625) << "a cell each";
   }
 }
@@ -190,7 +195,7 @@ TEST(FloorGrid, PointsFarOutsideAndOddHeightsDoNoHarm) {
     g.add(0.0, 0.0, far);
   }
   Open open(&g);
-  open.grid->mark(g.points().set(), open.span(), level_at(0.0), 0.03);
+  open.grid->mark(open.set(), level_at(0.0), 0.03);
   EXPECT_LE(open.grid->evidence(kAhead_x).area_m2, 1.0);
 }
 

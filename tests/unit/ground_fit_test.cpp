@@ -20,17 +20,16 @@
 namespace pose_wall {
 namespace {
 
-FloorResult fit_within(test::GroundFixture* g, Span<const std::uint32_t> within, const Plane& start,
+FloorResult fit_within(test::GroundFixture* g, const PointSet& within, const Plane& start,
                        const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
   test::Placed<GroundScratch> scratch(g->points().set().capacity());
-  scratch->grid.find_open(g->points().set(), 15.0, sensor_base_m.z(), scratch->open);
-  return fit_floor(g->points().set(), {3.0, g->points().all(), within}, start, g->settings(), sensor_base_m,
-                   scratch.get());
+  scratch->grid.find_open(g->points().set(), 15.0, sensor_base_m.z(), scratch->low, &scratch->open_base);
+  return fit_floor({3.0, g->points().set(), within}, start, g->settings(), sensor_base_m, scratch.get());
 }
 
 FloorResult fit(test::GroundFixture* g, const Plane& start,
                 const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
-  return fit_within(g, g->points().all(), start, sensor_base_m);
+  return fit_within(g, g->points().set(), start, sensor_base_m);
 }
 
 Plane near_floor() {
@@ -116,18 +115,19 @@ TEST(GroundFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
 TEST(GroundFit, CountsTheInliersWithinTheRadius) {
   test::GroundFixture g;
   test::Noise noise(6);
-  std::vector<std::uint32_t> within;
+  test::OwnedPoints within(4000);
   double squares = 0.0;
   for (std::uint32_t i = 0; i < 4000; ++i) {
     const double x = noise.uniform(-6, 6), y = noise.uniform(-2, 2),
                  z = noise.normal(std::hypot(x, y) < 3.0 ? 0.004 : 0.01);
     g.add(x, y, z);
     if (std::hypot(x, y) > 3.0) continue;
-    within.push_back(i);
+    const PointSet& all = g.points().set();
+    within.add(all.at(i));
     squares += z * z;
   }
-  const auto count = static_cast<std::uint32_t>(within.size());
-  const FloorResult f = fit_within(&g, Span<const std::uint32_t>(within.data(), count), near_floor());
+  const std::uint32_t count = within.set().count;
+  const FloorResult f = fit_within(&g, within.set(), near_floor());
   ASSERT_TRUE(f.fit.found);
   EXPECT_EQ(f.fit.inliers, count);
   EXPECT_NEAR(f.fit.rms_m, std::sqrt(squares / count), 2e-4);

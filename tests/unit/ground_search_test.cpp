@@ -54,9 +54,8 @@ TEST(GroundSearch, TheFloorLeadsAndTheWorkIsBounded) {
     if (g.points().set().z[i] < -1.0F) low.push_back(i);
   }
   const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-  const GroundSearchInput in{g.points().set(), g.points().all(),
-                             Span<const std::uint32_t>(low.data(), static_cast<std::uint32_t>(low.size())), sensor,
-                             nullptr};
+  const GroundSearchInput in{
+      g.points().set(), Span<const std::uint32_t>(low.data(), static_cast<std::uint32_t>(low.size())), sensor, nullptr};
   const std::uint32_t scored = search_floor(in, g.settings(), &random, subset.get(), &list);
   EXPECT_LE(scored, 100U);
   ASSERT_GT(list.count(), 0U);
@@ -74,7 +73,7 @@ TEST(GroundSearch, TooFewLowPointsGiveNothing) {
   FloorShortlist list;
   Random random(1);
   const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-  const GroundSearchInput in{g.points().set(), g.points().all(), {}, sensor, nullptr};
+  const GroundSearchInput in{g.points().set(), {}, sensor, nullptr};
   EXPECT_EQ(search_floor(in, g.settings(), &random, subset.get(), &list), 0U);
   EXPECT_EQ(list.count(), 0U);
 }
