@@ -65,12 +65,6 @@ struct FourIndices {
   }
 };
 
-// Of the points k to k + 3 of a list of indices.
-inline FourPlaces four_of(const PointSet& points, Span<const std::uint32_t> list, std::uint32_t k) {
-  const FourIndices indices(list, k);
-  return {indices.of(points.x), indices.of(points.y), indices.of(points.z)};
-}
-
 // visit(first index, x, y, z, which of the four count) over all points; those that do not count are anything.
 template <typename Visit>
 void for_each_four_points(const PointSet& points, const Visit& visit) {

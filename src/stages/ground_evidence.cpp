@@ -111,12 +111,18 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
   });
   points_within_ = sum_of_lanes(within);
   open->count = 0;
+  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);
+  std::uint32_t last = kNowhere;
+  bool is_open = false;
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     const std::uint32_t place = places[i];
-    if (place == static_cast<std::uint32_t>(FourBins::kNowhere)) continue;
-    const std::uint64_t heights = eighths_[place / FourBins::kBins];
-    const int bin = static_cast<int>(place % FourBins::kBins);
-    if (two_or_more(bins_above(heights, bin)) || two_or_more(bins_below(heights, bin))) continue;
+    if (place != last) {  // points come in the order of their places, more or less
+      const std::uint64_t heights = place != kNowhere ? eighths_[place / FourBins::kBins] : 0;
+      const int bin = static_cast<int>(place % FourBins::kBins);
+      is_open = place != kNowhere && !two_or_more(bins_above(heights, bin)) && !two_or_more(bins_below(heights, bin));
+      last = place;
+    }
+    if (!is_open) continue;
     open->add(points_base.x[i], points_base.y[i], points_base.z[i], points_base.weight[i]);
   }
   for (std::uint64_t& heights : eighths_) heights = heights != 0 ? stood_on(heights) : 0;
