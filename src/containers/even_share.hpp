@@ -15,23 +15,29 @@ namespace pose_wall {
 class EvenShare {
  public:
   // Takes `most` of `all`, on the average over many that are offered.
-  bool takes(std::uint32_t most, std::uint32_t all) {
+  EvenShare(std::uint32_t most, std::uint32_t all) : limit_(kWhole) {
+    if (all > most) limit_ = (kWhole * most + all - 1) / all;
+  }
+
+  bool takes() {
     constexpr std::uint32_t kGoldenTurn = 0x9E3779B9U;
     turn_ += kGoldenTurn;
-    return all <= most || static_cast<std::uint64_t>(turn_) * all < static_cast<std::uint64_t>(most) << 32;
+    return turn_ < limit_;
   }
 
  private:
+  static constexpr std::uint64_t kWhole = 1ULL << 32;
+  std::uint64_t limit_;
   std::uint32_t turn_ = 0;
 };
 
 // visit(k) for an even share of the numbers below `all`, at most `most` of them.
 template <typename Visit>
 void for_even_share(std::uint32_t all, std::uint32_t most, const Visit& visit) {
-  EvenShare share;
+  EvenShare share(most, all);
   std::uint32_t visited = 0;
   for (std::uint32_t k = 0; k < all && visited < most; ++k) {
-    if (!share.takes(most, all)) continue;
+    if (!share.takes()) continue;
     visit(k);
     ++visited;
   }

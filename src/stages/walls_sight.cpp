@@ -121,6 +121,8 @@ WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
 void note_directions(const WallScene& scene, SightScratch* scratch) {
   const FourTurns to_lidar(scene.extrinsic.R_base_lidar.transpose(),
                            -(scene.extrinsic.R_base_lidar.transpose() * scene.extrinsic.sensor_base_m));
+  scratch->expected.look_at(scene.returns_lidar.all);
+  scratch->seen.look_at(scene.returns_lidar.all, scratch->expected);
   scratch->kept_lidar.clear();
   for_each_four_points(scene.cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths) {
     const FourPlaces ray = to_lidar(x, y, z);
@@ -137,10 +139,8 @@ WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector
                   SightScratch* scratch) {
   if (!(wall.signed_distance(scene.sensor_level_m) > 0.0)) return {};
   const double depth_m = mark_behind(scene, wall, behind_m, scratch);
-  const ExpectedReturns expected(scene.returns_lidar.all);
   const SightLines lines(scene, wall, along_level);
-  const SeenColumns seen(scene.returns_lidar.all, expected);
-  const SightColumns columns(scene, *scratch, expected, lines, seen);
+  const SightColumns columns(scene, *scratch, lines);
   const double brightness = columns.brightness();
   WallSight out;
   if (brightness >= kDimShare) {

@@ -9,6 +9,7 @@
 #include "containers/direction_grid.hpp"
 #include "estimation/plane.hpp"
 #include "stages/walls_scene.hpp"
+#include "stages/walls_sight_expected.hpp"
 
 namespace pose_wall {
 
@@ -33,6 +34,8 @@ struct SightScratch {
   Span<std::uint16_t> direction_of;  // each point of the cloud: its cell in a grid of directions
   DirectionGrid kept_lidar;          // points that are left after the filters
   DirectionGrid behind_lidar;        // of these and of what is too far, what has passed through the plane
+  ExpectedReturns expected;
+  SeenColumns seen;
 
   void lay_out(Arena& arena, std::uint32_t points_max) {
     direction_of = arena.take<std::uint16_t>(points_max);
@@ -41,7 +44,7 @@ struct SightScratch {
   }
 };
 
-// Once a frame, before any plane is looked at: sorts the cloud's points by direction.
+// Once a frame, before any plane is looked at: sorts the cloud's points by direction, and tells what is to be expected.
 void note_directions(const WallScene& scene, SightScratch* scratch);
 
 // behind_m: returns this far behind the plane have passed through it.

@@ -25,9 +25,6 @@ constexpr double kDeadShare = 0.1;
 constexpr double kBrightShare = 0.7;
 constexpr double kBrightCellsMin = 0.05;
 constexpr std::uint32_t kCellsMin = 20;
-constexpr double kEmptyShare = 0.05;
-constexpr std::uint32_t kBlockedColumns = 5;  // 14 degrees
-constexpr int kSectorsForgiven = 2;
 constexpr double kZoneCellsMin = 60.0;
 constexpr double kZoneColumnsMin = 10.0;
 
@@ -44,44 +41,7 @@ double chance_below(double limit, double mean) {
   return sum;
 }
 
-struct Sector {
-  std::uint32_t from = 0, columns = 0;
-};
-
-// The widest run of empty columns, around the circle.
-Sector widest_sector(const bool (&empty)[kColumns]) {
-  Sector widest;
-  for (std::uint32_t from = 0; from < kColumns; ++from) {
-    if (!empty[from] || (empty[(from + kColumns - 1) % kColumns] && from > 0)) continue;
-    Sector here{from, 0};
-    while (here.columns < kColumns && empty[(from + here.columns) % kColumns]) ++here.columns;
-    if (here.columns > widest.columns) widest = here;
-  }
-  return widest;
-}
-
 }  // namespace
-
-SeenColumns::SeenColumns(const DirectionGrid& returns_lidar, const ExpectedReturns& expected) {
-  bool empty[kColumns];
-  for (std::uint32_t c = 0; c < kColumns; ++c) {
-    double count = 0.0, all = 0.0;
-    for (std::uint32_t row = 0; row < kRows; ++row) {
-      count += returns_lidar.count(row, c);
-      all += expected.at(row, c);
-    }
-    empty[c] = !(count > kEmptyShare * all);
-  }
-  for (bool& seen : is_seen) seen = true;
-  for (int forgiven = 0; forgiven < kSectorsForgiven; ++forgiven) {
-    const Sector sector = widest_sector(empty);
-    for (std::uint32_t k = 0; k < sector.columns; ++k) {
-      const std::uint32_t c = (sector.from + k) % kColumns;
-      empty[c] = false;
-      is_seen[c] = sector.columns < kBlockedColumns;
-    }
-  }
-}
 
 void SightTally::add(const SightTally& other, double sign) {
   cells += sign * other.cells;
@@ -97,17 +57,21 @@ bool SightColumn::is_gap() const {
   return tally.silent + tally.through > kGapShare * tally.cells;
 }
 
+bool SightColumns::may_show(std::uint32_t column) const {
+  return directions_.seen.is_seen[column] && lines_.looks_towards(column);
+}
+
 bool SightColumns::can_tell(std::uint32_t row, std::uint32_t column) const {
-  return expected_.at(row, column) >= kExpectedMin;
+  return directions_.expected.at(row, column) >= kExpectedMin;
 }
 
 bool SightColumns::is_silent(std::uint32_t row, std::uint32_t column, double brightness) const {
-  return scene_.returns_lidar.all.count(row, column) < kSilentShare * brightness * expected_.at(row, column);
+  return scene_.returns_lidar.all.count(row, column) < kSilentShare * brightness * directions_.expected.at(row, column);
 }
 
 bool SightColumns::is_through(std::uint32_t row, std::uint32_t column) const {
-  const std::uint32_t all = points_.kept_lidar.count(row, column) + scene_.returns_lidar.too_far.count(row, column);
-  return points_.behind_lidar.count(row, column) > kThroughShare * all;
+  const std::uint32_t all = directions_.kept_lidar.count(row, column) + scene_.returns_lidar.too_far.count(row, column);
+  return directions_.behind_lidar.count(row, column) > kThroughShare * all;
 }
 
 bool SightColumns::in_band(const SightLines::Crossing& crossing) const {
@@ -118,9 +82,10 @@ double SightColumns::brightness() const {
   constexpr std::uint32_t kBins = 64;
   std::uint32_t bins[kBins] = {}, cells = 0;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
-    for (std::uint32_t row = 0; row < kRows && seen_.is_seen[column]; ++row) {
+    if (!may_show(column)) continue;
+    for (std::uint32_t row = 0; row < kRows; ++row) {
       if (!can_tell(row, column) || !in_band(lines_.at(row, column))) continue;
-      const double share = scene_.returns_lidar.all.count(row, column) / expected_.at(row, column);
+      const double share = scene_.returns_lidar.all.count(row, column) / directions_.expected.at(row, column);
       const auto bin = static_cast<std::uint32_t>(share * kBins);
       ++bins[bin < kBins ? bin : kBins - 1];
       ++cells;
@@ -142,12 +107,14 @@ double SightColumns::brightness() const {
 SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
   constexpr double kLowest_m = -1e3;
   SightColumn out;
+  if (!may_show(column)) return out;
   double top_level_m = kLowest_m;
-  for (std::uint32_t row = 0; row < kRows && seen_.is_seen[column]; ++row) {
+  for (std::uint32_t row = 0; row < kRows; ++row) {
     if (!can_tell(row, column)) continue;
     const SightLines::Crossing c = lines_.at(row, column);
     if (!c.near || c.z_level_m < scene_.z_min_level_m || c.z_level_m > scene_.z_max_level_m + kAboveBand_m) continue;
-    const double mean = brightness * expected_.at(row, column), by_chance = chance_below(kSilentShare * mean, mean);
+    const double mean = brightness * directions_.expected.at(row, column),
+                 by_chance = chance_below(kSilentShare * mean, mean);
     const bool silent = is_silent(row, column, brightness), through = !silent && is_through(row, column);
     if (c.z_level_m > top_level_m) {
       top_level_m = c.z_level_m;
@@ -169,9 +136,11 @@ SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
 void SightColumns::count_elsewhere(std::uint32_t column, SilenceElsewhere* out) const {
   double top_up = -1.0;
   bool any = false, top_is_silent = false;
+  const bool towards = lines_.looks_towards(column);
   for (std::uint32_t row = 0; row < kRows; ++row) {
+    if (!can_tell(row, column)) continue;
     const SightLines::Zone zone = lines_.zone(row, column);
-    if (!can_tell(row, column) || zone == SightLines::kAlong || lines_.at(row, column).near) continue;
+    if (zone == SightLines::kAlong || (towards && lines_.at(row, column).near)) continue;
     const bool silent_here = is_silent(row, column, 1.0);
     if (!any || lines_.up(row, column) > top_up) {
       top_up = lines_.up(row, column);
@@ -188,7 +157,7 @@ void SightColumns::count_elsewhere(std::uint32_t column, SilenceElsewhere* out) 
 SightColumns::Blindness SightColumns::elsewhere() const {
   SilenceElsewhere counted;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
-    if (seen_.is_seen[column]) count_elsewhere(column, &counted);
+    if (directions_.seen.is_seen[column]) count_elsewhere(column, &counted);
   }
   Blindness out;
   // The least of the three: one of them may be dark too.

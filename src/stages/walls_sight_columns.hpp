@@ -12,13 +12,6 @@
 
 namespace pose_wall {
 
-// Columns that the sensor looks at. The two widest sectors from which nothing comes at any elevation are out of sight:
-// blocked, or beyond its field of view. More of them are gaps of a row of things with nothing behind it.
-struct SeenColumns {
-  SeenColumns(const DirectionGrid& returns_lidar, const ExpectedReturns& expected);
-  bool is_seen[DirectionGrid::kColumns];
-};
-
 // Numbers of cells, and of columns by their highest cell. Silent tops are those that chance does not explain.
 struct SightTally {
   double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
@@ -36,9 +29,9 @@ struct SightColumn {
 
 class SightColumns {
  public:
-  SightColumns(const WallScene& scene, const SightScratch& points, const ExpectedReturns& expected,
-               const SightLines& lines, const SeenColumns& seen)
-      : scene_(scene), points_(points), expected_(expected), lines_(lines), seen_(seen) {}
+  // directions: noted by note_directions(), and what has passed through the plane.
+  SightColumns(const WallScene& scene, const SightScratch& directions, const SightLines& lines)
+      : scene_(scene), directions_(directions), lines_(lines) {}
 
   // How much of the expected comes back where the plane is seen best, 0..1; negative where too little of it is looked
   // at. A wet wall answers less than a dry one, but all over.
@@ -63,16 +56,15 @@ class SightColumns {
   };
   void count_elsewhere(std::uint32_t column, SilenceElsewhere* out) const;
 
+  bool may_show(std::uint32_t column) const;
   bool can_tell(std::uint32_t row, std::uint32_t column) const;
   bool is_silent(std::uint32_t row, std::uint32_t column, double brightness) const;
   bool is_through(std::uint32_t row, std::uint32_t column) const;
   bool in_band(const SightLines::Crossing& crossing) const;
 
   const WallScene& scene_;
-  const SightScratch& points_;
-  const ExpectedReturns& expected_;
+  const SightScratch& directions_;
   const SightLines& lines_;
-  const SeenColumns& seen_;
 };
 
 }  // namespace pose_wall

@@ -3,7 +3,6 @@
 
 #include "stages/walls_sight_lines.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pose_wall {
@@ -11,30 +10,8 @@ namespace {
 
 // Cosine of the angle from the normal: rays that run along the plane say nothing about it.
 constexpr double kTowardsMin = 0.2;
-// Half of the directions may be dark, or blocked, or hidden.
-constexpr double kExpectedRank = 0.75;
-constexpr std::uint32_t kSeenMin = DirectionGrid::kColumns / 8;
 
 }  // namespace
-
-ExpectedReturns::ExpectedReturns(const DirectionGrid& returns_lidar) {
-  for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
-    width_[column] = DirectionGrid::width(column);
-  }
-  for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
-    double counts[DirectionGrid::kColumns];
-    std::uint32_t seen = 0;
-    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
-      const std::uint32_t count = returns_lidar.count(row, column);
-      if (count > 0) counts[seen++] = count / width_[column];
-    }
-    per_width_[row] = 0.0;
-    if (seen < kSeenMin) continue;
-    double* const rank = counts + static_cast<std::uint32_t>(kExpectedRank * seen);
-    std::nth_element(counts, rank, counts + seen);
-    per_width_[row] = *rank;
-  }
-}
 
 SightLines::SightLines(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level)
     : inside_m_(wall.signed_distance(scene.sensor_level_m)), sensor_z_level_m_(scene.sensor_level_m.z()) {
@@ -51,6 +28,14 @@ SightLines::SightLines(const WallScene& scene, const Plane& wall, const Eigen::V
 
 SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) const {
   return within(kReach_m, kTowardsMin, row, column);
+}
+
+bool SightLines::looks_towards(std::uint32_t column) const {
+  constexpr double kLittleLess = 0.99;  // rounding may make a ray a little longer than 1
+  // In the row that looks most towards the plane.
+  const double flat = -(n_lidar_.x() * column_[column].x + n_lidar_.y() * column_[column].y);
+  const double most2 = (flat > 0.0 ? flat * flat : 0.0) + n_lidar_.z() * n_lidar_.z();
+  return most2 > kLittleLess * kTowardsMin * kTowardsMin;
 }
 
 SightLines::Crossing SightLines::far(std::uint32_t row, std::uint32_t column) const {

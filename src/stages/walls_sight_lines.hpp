@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The directions in which the sensor looks at a plane, and what is to be expected from them.
+// The directions in which the sensor looks at a plane.
 
 #pragma once
 
@@ -10,18 +10,6 @@
 #include "stages/walls_scene.hpp"
 
 namespace pose_wall {
-
-// How many returns a cell of directions has where nothing is dark. A sensor looks the same way all around, so each row
-// is compared with itself.
-class ExpectedReturns {
- public:
-  explicit ExpectedReturns(const DirectionGrid& returns_lidar);
-  double at(std::uint32_t row, std::uint32_t column) const { return per_width_[row] * width_[column]; }
-
- private:
-  double per_width_[DirectionGrid::kRows];
-  double width_[DirectionGrid::kColumns];
-};
 
 // Where the middles of the cells meet a plane.
 class SightLines {
@@ -38,6 +26,8 @@ class SightLines {
     double z_level_m;
   };
   Crossing at(std::uint32_t row, std::uint32_t column) const;
+  // False where at() is near in no row: half of the columns look away.
+  bool looks_towards(std::uint32_t column) const;
   // The same up to kFarReach_m and at a grazing angle, where a cell's middle says little about its edges.
   Crossing far(std::uint32_t row, std::uint32_t column) const;
   // Where else the sensor looks; along the road it may see nothing for being too far.

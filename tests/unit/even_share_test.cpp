@@ -16,16 +16,18 @@ constexpr int kOffered = 10000;
 
 TEST(EvenShare, TakesAsMuchAsIsAskedFor) {
   for (const std::uint32_t all : {21U, 40U, 60U, 200U, 5000U}) {
-    EvenShare share;
+    EvenShare share(20, all);
     int taken = 0;
-    for (int i = 0; i < kOffered; ++i) taken += share.takes(20, all) ? 1 : 0;
+    for (int i = 0; i < kOffered; ++i) taken += share.takes() ? 1 : 0;
     EXPECT_NEAR(taken, kOffered * 20.0 / all, 3.0) << all;
   }
 }
 
 TEST(EvenShare, TakesAllOfFew) {
-  EvenShare share;
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(share.takes(20, static_cast<std::uint32_t>(i % 21)));
+  for (std::uint32_t all = 0; all <= 20; ++all) {
+    EvenShare share(20, all);
+    for (int i = 0; i < 100; ++i) EXPECT_TRUE(share.takes()) << all;
+  }
 }
 
 TEST(EvenShare, NeverTakesMoreThanThereIsRoomFor) {
@@ -50,9 +52,9 @@ TEST(EvenShare, ThinsAListToTheSameShare) {
     constexpr std::uint32_t kMost = 10;
     std::vector<std::uint32_t> items(all), expected;
     for (std::uint32_t k = 0; k < all; ++k) items[k] = 3 * k;
-    EvenShare share;
+    EvenShare share(kMost, all);
     for (std::uint32_t k = 0; k < all; ++k) {
-      if (share.takes(kMost, all) && expected.size() < kMost) expected.push_back(3 * k);
+      if (share.takes() && expected.size() < kMost) expected.push_back(3 * k);
     }
     const Span<std::uint32_t> kept = thinned(Span<std::uint32_t>(items.data(), all), kMost);
     EXPECT_EQ(std::vector<std::uint32_t>(kept.begin(), kept.end()), expected) << all;
@@ -66,10 +68,10 @@ TEST(EvenShare, ThinsAListToTheSameShare) {
 TEST(EvenShare, TakesAsMuchOfEveryNth) {
   for (int period = 2; period <= 34; ++period) {
     for (int phase = 0; phase < period; ++phase) {
-      EvenShare share;
+      EvenShare share(1, 2);
       int taken = 0, offered = 0;
       for (int i = 0; i < kOffered; ++i) {
-        const bool takes = share.takes(1, 2);
+        const bool takes = share.takes();
         if (i % period != phase) continue;
         ++offered;
         taken += takes ? 1 : 0;
