@@ -71,6 +71,20 @@ inline std::uint32_t DirectionGrid::cell_of(const Eigen::Vector3d& ray) {
   return (row < kRows ? row : kRows - 1) * kColumns + (column < kColumns ? column : 0);
 }
 
+inline FourInts DirectionGrid::cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2) {
+  constexpr float kColumnsPerWay = kColumns / 4.0F, kRowsPerSine = kRows / 2.0F;
+  const FourFloats none{}, last_row = all_four(kRows - 1.0F), past_columns = all_four(static_cast<float>(kColumns));
+  const FourFloats around = magnitude_of(x) + magnitude_of(y);
+  const FourFloats share = around > none ? y / around : none;
+  const FourFloats way = x < none ? 2.0F - share : (share < none ? 4.0F + share : share);
+  const FourFloats up = norm2 > none ? z / root_of(norm2) : none;
+  const FourFloats row = (up + 1.0F) * kRowsPerSine, column = way * kColumnsPerWay;
+  // Written so that what is not a number falls into some cell too.
+  const FourFloats in_rows = row < last_row ? (row > none ? row : none) : last_row;
+  const FourFloats in_columns = column < past_columns ? (column > none ? column : none) : none;
+  return cut_off(in_rows) * static_cast<std::int32_t>(kColumns) + cut_off(in_columns);
+}
+
 // What a cloud's points say by their direction alone, whatever became of them later.
 struct ReturnsByDirection {
   DirectionGrid all;      // nearer than range_min and in the body boxes too

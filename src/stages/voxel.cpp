@@ -25,7 +25,6 @@ struct PointBlock {
   static constexpr std::uint32_t kSize = 64;
   std::uint32_t count = 0;
   float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];
-  float range2[kSize];
   float x_base[kSize], y_base[kSize], z_base[kSize];
   std::uint64_t key[kSize];  // of a voxel
   VoxelGrid::Sums sums[kSize];
@@ -70,6 +69,7 @@ class Pass {
         range_max2_(static_cast<float>(settings.range_max * settings.range_max)),
         swap_(needs_swap(cloud)),
         plain_(is_plain_xyz32(cloud)),
+        in_a_row_(is_xyz32_in_a_row(cloud)),
         intensity_weight_(cloud.intensity.type != POSE_WALL_FIELD_NONE ? settings.intensity_weight : 0.0),
         mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, swap_) : 0.0) {
     for (const Box* box : {&settings.body_box_1, &settings.body_box_2, &settings.body_box_3, &settings.body_box_4}) {
@@ -110,7 +110,17 @@ class Pass {
     if (plain_) {
       const unsigned char *x = point + cloud_.x.offset, *y = point + cloud_.y.offset, *z = point + cloud_.z.offset;
       std::size_t at = 0;
-      for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) {
+      std::uint32_t k = begin;
+      for (; in_a_row_ && k + kFour <= end; k += kFour, at += kFour * cloud_.point_step) {
+        FourFloats points[kFour], rows[kFour];
+        for (std::uint32_t i = 0; i < kFour; ++i)
+          std::memcpy(&points[i], x + at + i * cloud_.point_step, sizeof(*points));
+        transpose(points[0], points[1], points[2], points[3], rows);
+        store_four(rows[0], &block->x_lidar[k]);
+        store_four(rows[1], &block->y_lidar[k]);
+        store_four(rows[2], &block->z_lidar[k]);
+      }
+      for (; k < end; ++k, at += cloud_.point_step) {
         std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
         std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
         std::memcpy(&block->z_lidar[k], z + at, sizeof(float));
@@ -141,37 +151,29 @@ class Pass {
     return row[0] * x + row[1] * y + row[2] * z;
   }
 
-  void judge_ranges(PointBlock* b) const {
-    const FourInts kept = {kKept, kKept, kKept, kKept}, near = {kNear, kNear, kNear, kNear};
-    const FourInts beyond = {kBeyond, kBeyond, kBeyond, kBeyond};
-    for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
-      const FourFloats x = load_four(&b->x_lidar[k]), y = load_four(&b->y_lidar[k]), z = load_four(&b->z_lidar[k]);
-      const FourFloats range2 = x * x + y * y + z * z, none{};
-      const FourInts not_far = range2 <= range_max2_ ? kept : beyond, not_zero = range2 > none ? not_far : beyond;
-      store_four(range2, &b->range2[k]);
-      store_four(range2 < range_min2_ ? (not_zero == beyond ? beyond : near) : not_zero, &b->fate[k]);
-    }
-  }
-
   // What is beyond may be anything: it is turned as if it were zero, and left out at the end.
-  void turn_to_base(const VoxelGrid& grid, PointBlock* b) const {
+  void judge_and_turn(const VoxelGrid& grid, PointBlock* b) const {
+    const FourInts kept = all_four_ints(kKept), near = all_four_ints(kNear), beyond = all_four_ints(kBeyond);
+    const FourInts ahead = all_four_ints(kAhead), behind = all_four_ints(kBehind);
+    const FourInts left = all_four_ints(kLeft), right = all_four_ints(kRight);
+    const FourFloats least2 = all_four(range_min2_), most2 = all_four(range_max2_), none{};
+    const FourTurns to_base = to_base_;  // nothing that is stored can be thought to change it
     for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
-      FourInts fate;
-      std::memcpy(&fate, &b->fate[k], sizeof(fate));
-      const FourInts beyond = {kBeyond, kBeyond, kBeyond, kBeyond};
-      const FourTruths there = fate != beyond;
-      const FourFloats none{}, x = there ? load_four(&b->x_lidar[k]) : none,
-                               y = there ? load_four(&b->y_lidar[k]) : none;
-      const FourFloats z = there ? load_four(&b->z_lidar[k]) : none;
-      const FourPlaces base = to_base_(x, y, z);
+      FourFloats x = load_four(&b->x_lidar[k]), y = load_four(&b->y_lidar[k]), z = load_four(&b->z_lidar[k]);
+      const FourFloats range2 = x * x + y * y + z * z;
+      const FourTruths there = (range2 <= most2) & (range2 > none);
+      store_four(there ? (range2 < least2 ? near : kept) : beyond, &b->fate[k]);
+      store_four(DirectionGrid::cells_of(x, y, z, range2), &b->direction[k]);
+      x = there ? x : none;
+      y = there ? y : none;
+      z = there ? z : none;
+      const FourPlaces base = to_base(x, y, z);
       store_four(base.x, &b->x_base[k]);
       store_four(base.y, &b->y_base[k]);
       store_four(base.z, &b->z_base[k]);
       FourWords weights;
       std::memcpy(&weights, &b->weight[k], sizeof(weights));
       grid.split(base.x, base.y, base.z, weights, &b->key[k], &b->sums[k]);
-      const FourInts ahead = {kAhead, kAhead, kAhead, kAhead}, behind = {kBehind, kBehind, kBehind, kBehind};
-      const FourInts left = {kLeft, kLeft, kLeft, kLeft}, right = {kRight, kRight, kRight, kRight};
       const FourFloats to_front = turned(forward_lidar_, x, y, z), to_left = turned(left_lidar_, x, y, z);
       const FourInts along = to_front > none ? ahead : behind, across = to_left > none ? left : right;
       store_four(magnitude_of(to_left) > magnitude_of(to_front) ? across : along, &b->quadrant[k]);
@@ -204,14 +206,8 @@ class Pass {
       block->x_lidar[k] = block->y_lidar[k] = block->z_lidar[k] = 0.0F;
       block->weight[k] = kWeightOne;
     }
-    judge_ranges(block);
-    turn_to_base(*grid, block);
+    judge_and_turn(*grid, block);
     judge_bodies(block);
-    for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
-      store_four(DirectionGrid::cells_of(load_four(&block->x_lidar[k]), load_four(&block->y_lidar[k]),
-                                         load_four(&block->z_lidar[k]), load_four(&block->range2[k])),
-                 &block->direction[k]);
-    }
     counts->points_in += count;
     VoxelGrid::Filling cells(grid);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -261,7 +257,7 @@ class Pass {
   std::uint32_t box_count_ = 0;
   float forward_lidar_[3], left_lidar_[3];
   bool swap_;
-  bool plain_;
+  bool plain_, in_a_row_;
   double intensity_weight_;
   double mean_intensity_;
 };

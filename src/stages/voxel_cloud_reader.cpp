@@ -85,6 +85,12 @@ bool is_plain_xyz32(const pose_wall_cloud& cloud) {
          cloud.z.type == POSE_WALL_FIELD_FLOAT32 && !needs_swap(cloud);
 }
 
+bool is_xyz32_in_a_row(const pose_wall_cloud& cloud) {
+  constexpr std::uint32_t kBytes = sizeof(float), kOfFour = 4 * kBytes;
+  return is_plain_xyz32(cloud) && cloud.y.offset - cloud.x.offset == kBytes &&
+         cloud.z.offset - cloud.y.offset == kBytes && cloud.point_step - cloud.x.offset >= kOfFour;
+}
+
 std::uint32_t rows_of(const pose_wall_cloud& cloud) {
   return cloud.width != 0 ? cloud.height : 0;
 }

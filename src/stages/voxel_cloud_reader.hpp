@@ -26,6 +26,9 @@ bool needs_swap(const pose_wall_cloud& cloud);
 // x, y and z are native floats: the common case, read without a switch per field.
 bool is_plain_xyz32(const pose_wall_cloud& cloud);
 
+// And lie one after the other, with as much of the point behind them as makes them four: read at once.
+bool is_xyz32_in_a_row(const pose_wall_cloud& cloud);
+
 // Rows that hold points: none where they have no width, whatever the height says.
 std::uint32_t rows_of(const pose_wall_cloud& cloud);
 

@@ -170,5 +170,27 @@ TEST(CloudReader, TheFastPathIsForNativeFloatsOnly) {
   EXPECT_FALSE(is_plain_xyz32(c));
 }
 
+// Four floats are read where x, y and z begin: the fourth must be of the point, too.
+TEST(CloudReader, ReadAtOnceIsWhatLiesInARowWithAFourthBehindIt) {
+  pose_wall_cloud c = good();
+  EXPECT_TRUE(is_xyz32_in_a_row(c));
+  const auto in_a_row = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t point_step) {
+    c.x.offset = x;
+    c.y.offset = y;
+    c.z.offset = z;
+    c.point_step = point_step;
+    return is_xyz32_in_a_row(c);
+  };
+  EXPECT_TRUE(in_a_row(16, 20, 24, 32));
+  EXPECT_FALSE(in_a_row(16, 20, 24, 31));
+  EXPECT_FALSE(in_a_row(0, 4, 8, 12)) << "packed";
+  EXPECT_FALSE(in_a_row(8, 4, 0, 48));
+  EXPECT_FALSE(in_a_row(0, 8, 16, 48));
+  EXPECT_FALSE(in_a_row(4, 8, 0, 48));
+  c = good();
+  c.big_endian = 1;
+  EXPECT_FALSE(is_xyz32_in_a_row(c));
+}
+
 }  // namespace
 }  // namespace pose_wall
