@@ -3,6 +3,8 @@
 
 #include "stages/outliers.hpp"
 
+#include <cstring>
+
 #include "containers/voxel_columns.hpp"
 #include "math/four_floats.hpp"
 
@@ -85,6 +87,10 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
   NeighbourCounter counter(points, grid, radius_m, settings.outlier_min_neighbors);
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
     const FourTruths enough = counter.have_enough_in_list(i);
+    if (!any_of(~enough)) {  // as most
+      std::memset(&keep[i], 1, kFour);
+      continue;
+    }
     const std::uint32_t end = i + kFour < points.count ? i + kFour : points.count;
     for (std::uint32_t k = i; k < end; ++k) keep[k] = enough[k - i] != 0 || counter.has_enough(k) ? 1 : 0;
   }
