@@ -51,6 +51,10 @@ struct PointSet {
     z[to] = z[from];
     weight[to] = weight[from];
   }
+  // Of the four from there on, some of which may lie where they go.
+  void copy_four(std::uint32_t to, std::uint32_t from) {
+    for (const Span<float>* row : {&x, &y, &z, &weight}) store_four(load_four(&(*row)[from]), &(*row)[to]);
+  }
 };
 
 // The indices k to k + 3 of a list that holds the k-th; those behind its last one are the last one again.

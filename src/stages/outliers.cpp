@@ -11,6 +11,8 @@
 namespace pose_wall {
 namespace {
 
+constexpr std::uint8_t kAllFour[kFour] = {1, 1, 1, 1};
+
 class NeighbourCounter {
  public:
   NeighbourCounter(const PointSet& points, VoxelGrid* grid, double radius_m, std::uint32_t needed)
@@ -73,9 +75,15 @@ class NeighbourCounter {
 // The points that are kept move up, in their order.
 std::uint32_t close_gaps(Span<const std::uint8_t> keep, PointSet* points) {
   std::uint32_t kept = 0;
-  while (kept < points->count && keep[kept] != 0) ++kept;
-  for (std::uint32_t i = kept; i < points->count; ++i) {
-    if (keep[i] != 0) points->copy(kept++, i);
+  for (std::uint32_t i = 0; i < points->count;) {
+    if (i + kFour <= points->count && std::memcmp(&keep[i], kAllFour, kFour) == 0) {
+      points->copy_four(kept, i);
+      kept += kFour;
+      i += kFour;
+    } else {
+      if (keep[i] != 0) points->copy(kept++, i);
+      ++i;
+    }
   }
   return kept;
 }
@@ -88,7 +96,7 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
     const FourTruths enough = counter.have_enough_in_list(i);
     if (!any_of(~enough)) {  // as most
-      std::memset(&keep[i], 1, kFour);
+      std::memcpy(&keep[i], kAllFour, kFour);
       continue;
     }
     const std::uint32_t end = i + kFour < points.count ? i + kFour : points.count;
