@@ -298,7 +298,7 @@ void reach_to_upright(FloorResult* floor) {
 void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   open_base.lay_out(arena, points_max);
   within_base.lay_out(arena, points_max);
-  low = arena.take<std::uint32_t>(points_max);
+  low = arena.take<std::uint32_t>(points_max + kFour);
   points.lay_out(arena, kGroundFitPoints);
   subset.lay_out(arena, kGroundSubset);
   grid.lay_out(arena);

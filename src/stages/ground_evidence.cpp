@@ -100,23 +100,27 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
   FourBins four(radius_m, lowest_m_);
   FourInts within{};  // true is -1
+  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);
+  std::uint32_t last = kNowhere;  // points come in the order of their places, more or less
   for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     four.look_at(x, y, z);
     within -= four.within & counts;
-    for (std::uint32_t lane = 0; lane < kFour && i + lane < points_base.count; ++lane) {
-      const auto place = static_cast<std::uint32_t>(four.place[lane]);
-      places[i + lane] = place;
-      if (four.place[lane] != FourBins::kNowhere) eighths_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
+    const FourInts here = counts ? four.place : all_four_ints(FourBins::kNowhere);
+    store_four(here, &places[i]);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const auto place = static_cast<std::uint32_t>(here[lane]);
+      if (place == last) continue;
+      last = place;
+      if (place != kNowhere) eighths_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
     }
   });
   points_within_ = sum_of_lanes(within);
   open->count = 0;
-  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);
-  std::uint32_t last = kNowhere;
+  last = kNowhere;
   bool is_open = false;
   for (std::uint32_t i = 0; i < points_base.count; ++i) {
     const std::uint32_t place = places[i];
-    if (place != last) {  // points come in the order of their places, more or less
+    if (place != last) {
       const std::uint64_t heights = place != kNowhere ? eighths_[place / FourBins::kBins] : 0;
       const int bin = static_cast<int>(place % FourBins::kBins);
       is_open = place != kNowhere && !two_or_more(bins_above(heights, bin)) && !two_or_more(bins_below(heights, bin));

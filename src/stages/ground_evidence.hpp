@@ -32,7 +32,7 @@ class FloorGrid {
   // The points within the radius that have nothing standing on them or hanging under them: no points from a quarter of
   // a metre to a metre above or below in the same cell. Floor is open and so is roof; walls, heaps, people and machines
   // are not. Without this, a slab cut through two walls beats a sparsely seen floor by its points. places and open have
-  // room for all points.
+  // room for all points, and places for a four behind them.
   void find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m, Span<std::uint32_t> places,
                  PointSet* open);
 

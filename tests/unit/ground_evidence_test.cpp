@@ -23,7 +23,7 @@ const Axes kAhead_x{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
 
 struct Open {
   explicit Open(test::GroundFixture* g) : points(g->points().set().capacity()) {
-    std::vector<std::uint32_t> places(g->points().set().capacity());
+    std::vector<std::uint32_t> places(g->points().set().capacity() + kFour);
     const auto count = static_cast<std::uint32_t>(places.size());
     grid->find_open(g->points().set(), 15.0, 0.0, Span<std::uint32_t>(places.data(), count), points.get());
   }
