@@ -49,10 +49,12 @@ struct Memory {
 
 // Where everything lies in the caller's block:
 //
-//   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid, ground, walls |
+//   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid  |
+//                                           | ground                            |
+//                                                                     | walls |
 //
-// Engine is written at open and lives on; the rest is scratch that each frame writes before it counts. The last three
-// lie on top of each other: none outlives its stages, and the grid is begun anew for the band.
+// Engine is written at open and lives on; the rest is scratch that each frame writes before it counts. What lies on top
+// of each other outlives none of its stages: the grid is begun anew for the band, which is cut once the floor is known.
 class Engine {
  public:
   // Measures (block NULL) or places an engine.

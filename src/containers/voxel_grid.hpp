@@ -40,13 +40,14 @@ class VoxelGrid {
     transpose(within(x) * weights, within(y) * weights, within(z) * weights, weights, sums);
   }
 
-  // Puts points in, one after the other; nobody else looks at the grid meanwhile.
+  // Puts points in, one after the other; nobody else looks at what the grid holds meanwhile.
   class Filling {
    public:
     explicit Filling(VoxelGrid* grid) : hash_(&grid->hash_), sums_(grid->sums_.data()) {}
 
-    // False where the point needs a new cell and there is no room: the grid is then of no use. A cell takes the weight
-    // of a quarter of a million points; what would make it more is left out, which depends on their order.
+    // Of a point that was split(). False where it needs a new cell and there is no room: the grid is then of no use. A
+    // cell takes the weight of a quarter of a million points; what would make it more is left out, which depends on
+    // their order.
     bool add(std::uint64_t key, Sums sums) {
       const std::uint32_t known = hash_.count();
       const std::uint32_t index = hash_.insert(key);

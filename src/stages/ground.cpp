@@ -36,6 +36,9 @@ constexpr double kAcrossSpreadMin_m = 0.2;
 constexpr double kGhostShare = 0.4;
 constexpr double kBelowShareMax = 0.05;
 constexpr double kRivalShare = 0.5;
+// Neither a floor nor a rival of one, whose score is at most twice its area: where no floor is within the radius, all
+// planes are such splinters.
+constexpr double kTellsNothing_m2 = 0.5 * kRivalShare * kAreaMin_m2;
 constexpr double kOutlierSpan_m = 4.0;
 // A floor this good needs no wider look: the wider, the less "local" the floor is.
 constexpr double kGoodEnough = 0.3;
@@ -47,7 +50,7 @@ struct Candidate {
 };
 
 // In their order.
-void keep_within(const PointSet& open, double radius_m, PointSet* out) {
+void copy_within(const PointSet& open, double radius_m, PointSet* out) {
   const FourFloats limit = all_four(static_cast<float>(radius_m * radius_m));
   out->count = 0;
   for_each_four_points(open, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
@@ -117,9 +120,11 @@ std::uint32_t weigh(const BoundedPoints& cloud, const PointSet& within, const Se
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_UNSUPPORTED));
     if (mlesac_score(within, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
     scratch->grid.mark(within, refined.plane, s.ground_ransac_thresh);
+    const FloorEvidence evidence = scratch->grid.evidence(axes);
+    if (evidence.area_m2 < kTellsNothing_m2) continue;
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
     if (has_much_below(scratch->grid, refined.plane, cloud, s.ground_roi_radius_max, sensor, kBelowShareMax)) continue;
-    out[count++] = {refined.plane, scratch->grid.evidence(axes), false};
+    out[count++] = {refined.plane, evidence, false};
   }
   return count;
 }
@@ -322,7 +327,7 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
   for (bool widest = false; !widest && tried < kRadiusSteps; radius_m *= kRadiusGrowth) {
     widest = !(radius_m < settings.ground_roi_radius_max);
     if (widest) radius_m = settings.ground_roi_radius_max;
-    if (!widest) keep_within(open, radius_m, &scratch->within_base);
+    if (!widest) copy_within(open, radius_m, &scratch->within_base);
     const PointSet& within = widest ? open : scratch->within_base;
     if (static_cast<double>(within.count) < worth_a_look) continue;
     if (within.count >= kCandidatesMin) worth_a_look = kWorthALook * static_cast<double>(within.count);

@@ -20,10 +20,12 @@ namespace pose_wall {
 constexpr std::uint32_t kGroundFitPoints = 8192;
 
 struct GroundScratch {
-  PointSet open_base;       // points with nothing standing on them, within the greatest radius
-  PointSet within_base;     // of those, within the radius that is tried
-  Span<std::uint32_t> low;  // of those, the lowest part; later the selection of the fit; and for a four behind them
-  TangentPoints points;     // of these, as many as a fit takes
+  PointSet open_base;    // points with nothing standing on them, within the greatest radius
+  PointSet within_base;  // of those, within the radius that is tried
+  // Where each point lies, until it is known which are open; then which of those within are the lowest part, then which
+  // of the open ones a fit takes.
+  Span<std::uint32_t> low;
+  TangentPoints points;  // of these, as many as a fit takes
   PointSet subset;
   FloorGrid grid;
   PatchGrid patches;

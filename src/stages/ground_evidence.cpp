@@ -81,7 +81,7 @@ class FloorGrid::FourBins {
     const FourTruths inside = within & (bin >= none) & (bin < all_four(kHeightBins)) & (ix >= none) &
                               (ix < all_four(kSide)) & (iy >= none) & (iy < all_four(kSide));
     const FourInts cell = cut_off(inside ? iy : none) * kSide + cut_off(inside ? ix : none);
-    place = inside ? cell * kBins + cut_off(inside ? bin : none) : FourInts{kNowhere, kNowhere, kNowhere, kNowhere};
+    place = inside ? cell * kBins + cut_off(inside ? bin : none) : all_four_ints(kNowhere);
   }
 
   FourTruths within{};

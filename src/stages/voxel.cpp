@@ -109,18 +109,18 @@ class Pass {
     block->count = end;
     if (plain_) {
       const unsigned char *x = point + cloud_.x.offset, *y = point + cloud_.y.offset, *z = point + cloud_.z.offset;
+      const std::size_t step = cloud_.point_step;
       std::size_t at = 0;
       std::uint32_t k = begin;
-      for (; in_a_row_ && k + kFour <= end; k += kFour, at += kFour * cloud_.point_step) {
+      for (; in_a_row_ && k + kFour <= end; k += kFour, at += kFour * step) {
         FourFloats points[kFour], rows[kFour];
-        for (std::uint32_t i = 0; i < kFour; ++i)
-          std::memcpy(&points[i], x + at + i * cloud_.point_step, sizeof(*points));
+        for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], x + at + i * step, sizeof(*points));
         transpose(points[0], points[1], points[2], points[3], rows);
         store_four(rows[0], &block->x_lidar[k]);
         store_four(rows[1], &block->y_lidar[k]);
         store_four(rows[2], &block->z_lidar[k]);
       }
-      for (; k < end; ++k, at += cloud_.point_step) {
+      for (; k < end; ++k, at += step) {
         std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
         std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
         std::memcpy(&block->z_lidar[k], z + at, sizeof(float));

@@ -26,7 +26,7 @@ class SightLines {
     double z_level_m;
   };
   Crossing at(std::uint32_t row, std::uint32_t column) const;
-  // False where at() is near in no row: half of the columns look away.
+  // False only where at() is near in no row, as in about half of the columns; true where it may be.
   bool looks_towards(std::uint32_t column) const;
   // The same up to kFarReach_m and at a grazing angle, where a cell's middle says little about its edges.
   Crossing far(std::uint32_t row, std::uint32_t column) const;

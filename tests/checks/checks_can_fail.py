@@ -455,5 +455,45 @@ class Abi(BrokenProject):
         self.fails("implicit padding", *command)
 
 
+class Budget(BrokenProject):
+    HELP = "usage: [--frames N] vlp16, mid360, os1-64, os0-128; Exit status"
+    ROW = "%-9s   28787   15746     4.2 ms     4.4 ms     4.5 ms   {ten}    {twenty}"
+
+    REFUSES = ("did you mean '--frames', did you mean 'os1-64', from 1 to 100000, not '' '0' '12x' '--frmaes' 'os1-46' "
+               "'nothing' --frames vlp16 mid360")
+
+    def check(self, help_text=HELP, refuses=REFUSES, ten="fits, 5 % of it", twenty="fits, 9 % of it", status=0):
+        row = self.ROW.format(ten=ten, twenty=twenty)
+        lines = ["#!/usr/bin/env python3", "import sys", "words = sys.argv[1:]",
+                 f"if words == ['--help']: sys.exit(print({help_text!r}))",
+                 "if words != ['--frames', '2', 'vlp16', 'mid360']:",
+                 f"    sys.stderr.write({refuses!r}); sys.exit(2)",
+                 f"for name in ['vlp16', 'mid360']: print({row!r}.replace('%-9s', name))", f"sys.exit({status})"]
+        self.write("budget", "\n".join(lines))
+        (self.root / "budget").chmod(0o755)
+        return (CHECKS / "check_budget.py", self.root / "budget")
+
+    def test_passes(self):
+        self.passes(*self.check())
+
+    def test_help_without_a_sensor(self):
+        self.fails("does not say 'mid360'", *self.check(help_text=self.HELP.replace("mid360", "")))
+
+    def test_complaint_without_advice(self):
+        self.fails("without did you mean", *self.check(refuses="no"))
+
+    def test_no_row(self):
+        self.fails("no row for each sensor", *self.check(ten="5 %"))
+
+    def test_share_of_another_period(self):
+        self.fails("are not 4.5 ms", *self.check(ten="fits, 9 % of it"))
+
+    def test_verdict(self):
+        self.fails("is said to be 'too slow'", *self.check(twenty="too slow, 9 % of it"))
+
+    def test_status(self):
+        self.fails("and the status is 1", *self.check(status=1))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -101,6 +101,20 @@ TEST(Ground, OneLineOnTheFloorIsNoFloor) {
   EXPECT_TRUE(g.floor().fit.refused);
 }
 
+// A piece of a floor is seen and is too little; a splinter, with as many points, is none.
+TEST(Ground, ASplinterIsNoFloorAndAPieceTooLittleOfOne) {
+  constexpr double kStep_m = 0.02;
+  GroundFixture splinter({{"ground_inlier_min", "50"}}), piece({{"ground_inlier_min", "50"}});
+  splinter.add_level({1.05, 1.45, 0.05, 0.45}, 0.0, 0.003, kStep_m);
+  piece.add_level({1.05, 2.2, 0.05, 1.2}, 0.0, 0.003, 2.0 * kStep_m);
+  const FloorResult nothing = splinter.floor(), little = piece.floor();
+  EXPECT_TRUE(nothing.fit.refused);
+  EXPECT_FALSE(nothing.fit.found);
+  EXPECT_NE(nothing.fit.reasons & POSE_WALL_R_FLOOR_NOT_FOUND, 0U);
+  EXPECT_TRUE(little.fit.refused);
+  EXPECT_NE(little.fit.reasons & POSE_WALL_R_FLOOR_THIN, 0U);
+}
+
 TEST(Ground, FewPointsAreRefused) {
   GroundFixture g({{"ground_inlier_min", "100000"}});
   g.add_road();

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "support/stage_fixtures.hpp"
@@ -160,6 +161,20 @@ TEST(Mlesac, NothingNearThePlaneIsNoEvidence) {
   const MlesacScore empty = mlesac_score(none.set(), Plane{}, kSigma, kSpan);
   EXPECT_EQ(empty.cost, 0.0);
   EXPECT_EQ(empty.inlier_share, 0.0);
+}
+
+// What lies behind the last point of a row is read with it, and counts for nothing.
+TEST(Mlesac, AnyCountOfPointsIsTheirOwn) {
+  for (std::uint32_t count = 1; count <= 9; ++count) {
+    test::OwnedPoints points = at_heights(std::vector<double>(count, 0.0));
+    for (const float behind : {0.0F, 5.0F, std::numeric_limits<float>::quiet_NaN()}) {
+      PointSet& set = points.set();
+      for (std::uint32_t k = count; k % kFour != 0; ++k) set.x[k] = set.y[k] = set.z[k] = behind;
+      const MlesacScore got = mlesac_score(set, Plane{}, kSigma, kSpan);
+      EXPECT_NEAR(got.cost, -5.07, 0.01) << count << " " << behind;
+      EXPECT_NEAR(got.inlier_share, 1.0, 1e-3) << count << " " << behind;
+    }
+  }
 }
 
 TEST(Mlesac, ThePlaneBesideThePointsScoresWorse) {
