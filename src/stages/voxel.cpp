@@ -108,23 +108,7 @@ class Pass {
     const std::uint32_t begin = block->count, end = begin + count;
     block->count = end;
     if (plain_) {
-      const unsigned char *x = point + cloud_.x.offset, *y = point + cloud_.y.offset, *z = point + cloud_.z.offset;
-      const std::size_t step = cloud_.point_step;
-      std::size_t at = 0;
-      std::uint32_t k = begin;
-      for (; in_a_row_ && k + kFour <= end; k += kFour, at += kFour * step) {
-        FourFloats points[kFour], rows[kFour];
-        for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], x + at + i * step, sizeof(*points));
-        transpose(points[0], points[1], points[2], points[3], rows);
-        store_four(rows[0], &block->x_lidar[k]);
-        store_four(rows[1], &block->y_lidar[k]);
-        store_four(rows[2], &block->z_lidar[k]);
-      }
-      for (; k < end; ++k, at += step) {
-        std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
-        std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
-        std::memcpy(&block->z_lidar[k], z + at, sizeof(float));
-      }
+      read_plain(point, begin, end, block);
     } else {
       const unsigned char* at = point;
       for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) {
@@ -138,6 +122,26 @@ class Pass {
       return;
     }
     for (std::uint32_t k = begin; k < end; ++k, point += cloud_.point_step) block->weight[k] = weight_of(point);
+  }
+
+  void read_plain(const unsigned char* point, std::uint32_t begin, std::uint32_t end, PointBlock* block) const {
+    const unsigned char *x = point + cloud_.x.offset, *y = point + cloud_.y.offset, *z = point + cloud_.z.offset;
+    const std::size_t step = cloud_.point_step;
+    std::size_t at = 0;
+    std::uint32_t k = begin;
+    for (; in_a_row_ && k + kFour <= end; k += kFour, at += kFour * step) {
+      FourFloats points[kFour], rows[kFour];
+      for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], x + at + i * step, sizeof(*points));
+      transpose(points[0], points[1], points[2], points[3], rows);
+      store_four(rows[0], &block->x_lidar[k]);
+      store_four(rows[1], &block->y_lidar[k]);
+      store_four(rows[2], &block->z_lidar[k]);
+    }
+    for (; k < end; ++k, at += step) {
+      std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
+      std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
+      std::memcpy(&block->z_lidar[k], z + at, sizeof(float));
+    }
   }
 
   std::uint32_t weight_of(const unsigned char* point) const {
