@@ -41,7 +41,7 @@ Json seven(const SevenStatistics& quantities) {
   return all;
 }
 
-Json counted(std::size_t events, std::size_t frames) {
+Json rate_of(std::size_t events, std::size_t frames) {
   return {{"frames", events},
           {"rate", frames > 0 ? static_cast<double>(events) / static_cast<double>(frames) : std::nan("")},
           {"rate_bound_95", rate_bound_95(events, frames)}};
@@ -49,9 +49,9 @@ Json counted(std::size_t events, std::size_t frames) {
 
 Json counts(const FrameCounts& f) {
   return {{"frames", f.frames},
-          {"misleading", counted(f.misleading, f.frames)},
-          {"value_beyond_protection", counted(f.value_beyond_protection, f.frames)},
-          {"raw_beyond_protection", counted(f.raw_beyond_protection, f.frames)}};
+          {"misleading", rate_of(f.misleading, f.frames)},
+          {"value_beyond_protection", rate_of(f.value_beyond_protection, f.frames)},
+          {"raw_beyond_protection", rate_of(f.raw_beyond_protection, f.frames)}};
 }
 
 Json totals(const Totals& t) {

@@ -17,7 +17,7 @@
 namespace pose_wall::tools::doctor {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotMeasured_m = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDirection_deg = 0.1;
 constexpr double kSameSurface_m = 0.25;
 constexpr std::size_t kPairs = 6;
@@ -45,7 +45,7 @@ Ranges ranges_of(const KeptFrame& frame) {
 }
 
 void by_repetition(const std::vector<KeptFrame>& frames, RangeNoise& noise) {
-  noise.repeated_m = kNone;
+  noise.repeated_m = kNotMeasured_m;
   std::vector<double> differences_m;
   std::size_t looked = 0, again = 0;
   for (std::size_t k = 0; k < kPairs; ++k) {
@@ -109,7 +109,7 @@ void by_planes(const std::vector<KeptFrame>& frames, const RoadFrame& frame, con
       for (const PatchPoint& point : points) scaled_m.push_back((point.off_m - middle_m) / point.cosine);
     }
   }
-  noise.plane_m = scaled_m.size() >= 300 ? robust_sigma(scaled_m) : kNone;
+  noise.plane_m = scaled_m.size() >= 300 ? robust_sigma(scaled_m) : kNotMeasured_m;
 }
 
 }  // namespace

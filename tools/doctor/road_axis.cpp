@@ -16,7 +16,7 @@
 namespace pose_wall::tools::doctor {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoWall_m = std::numeric_limits<double>::quiet_NaN();
 // Below this the walls are seen in less than every third frame, or one of them alone in less than two thirds.
 constexpr double kScoreMin = 0.3;
 constexpr double kAmbiguousShare = 0.7;
@@ -56,8 +56,8 @@ void take_walls(const Trial& trial, Direction& direction) {
   direction.yaw_rad = median(yaws);
   road.azimuth_spread_rad = spread90(yaws);
   road.azimuth_sigma_rad = median(sigmas);
-  road.left_m = lefts.empty() ? kNone : median(lefts);
-  road.right_m = rights.empty() ? kNone : median(rights);
+  road.left_m = lefts.empty() ? kNoWall_m : median(lefts);
+  road.right_m = rights.empty() ? kNoWall_m : median(rights);
   road.distance_spread_m = std::max(lefts.empty() ? 0.0 : spread90(lefts), rights.empty() ? 0.0 : spread90(rights));
   road.distance_sigma_m = distance_sigmas.empty() ? 0.0 : median(distance_sigmas);
 }
