@@ -51,9 +51,12 @@ struct PointSet {
     z[to] = z[from];
     weight[to] = weight[from];
   }
-  // Of the four from there on, some of which may lie where they go.
-  void copy_four(std::uint32_t to, std::uint32_t from) {
-    for (const Span<float>* row : {&x, &y, &z, &weight}) store_four(load_four(&(*row)[from]), &(*row)[to]);
+  // The four of a set from there on; in this set itself some of them may lie where they go.
+  void copy_four(std::uint32_t to, const PointSet& of, std::uint32_t from) {
+    store_four(load_four(&of.x[from]), &x[to]);
+    store_four(load_four(&of.y[from]), &y[to]);
+    store_four(load_four(&of.z[from]), &z[to]);
+    store_four(load_four(&of.weight[from]), &weight[to]);
   }
 };
 

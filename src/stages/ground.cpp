@@ -56,11 +56,7 @@ void copy_within(const PointSet& open, double radius_m, PointSet* out) {
   for_each_four_points(open, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourTruths within = counts & (x * x + y * y <= limit);
     if (!any_of(~within)) {  // as most fours that have any
-      const std::uint32_t at = out->count;
-      store_four(x, &out->x[at]);
-      store_four(y, &out->y[at]);
-      store_four(z, &out->z[at]);
-      store_four(load_four(&open.weight[k]), &out->weight[at]);
+      out->copy_four(out->count, open, k);
       out->count += kFour;
       return;
     }

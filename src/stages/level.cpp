@@ -19,8 +19,11 @@ LevelResult level_by(const Plane& floor_base, const Axes& axes) {
   return level;
 }
 
-void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
-                   BoundedPoints* band_level, BoundedPoints* beyond_level) {
+namespace {
+
+// What lies in the band goes into the grid, an even part of what does not into beyond_level.
+void part_by_height(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+                    PointSet* beyond_level) {
   const auto z_min = static_cast<float>(level.floor_z_level_m + settings.wall_z_min);
   const auto z_max = static_cast<float>(level.floor_z_level_m + settings.wall_z_max);
   // The band is averaged over cells of twice the size, some three times the area: one of three keeps the balance.
@@ -29,33 +32,38 @@ void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const S
   beyond_level->count = 0;
   grid->begin(settings.wall_voxel_leaf, reach_of(settings));
   std::uint32_t until_next = 0;
-  {
-    VoxelGrid::Filling band(grid);
-    const FourTurns to_level(level.R_level_base);
-    for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-      const FourPlaces p = to_level(x, y, z);
-      const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max);
-      std::uint64_t keys[kFour];
-      VoxelGrid::Sums sums[kFour];
-      if (any_of(in_band)) {
-        const FourFloats none{}, sixteenths = load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F;
-        const FourInts weights = cut_off(in_band ? sixteenths : none);
-        grid->split(in_band ? p.x : none, in_band ? p.y : none, in_band ? p.z : none,
-                    reinterpret_cast<FourWords>(weights), keys, sums);
+  VoxelGrid::Filling band(grid);
+  const FourTurns to_level(level.R_level_base);
+  for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourPlaces p = to_level(x, y, z);
+    const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max);
+    std::uint64_t keys[kFour];
+    VoxelGrid::Sums sums[kFour];
+    if (any_of(in_band)) {
+      const FourFloats none{}, sixteenths = load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F;
+      const FourInts weights = cut_off(in_band ? sixteenths : none);
+      grid->split(in_band ? p.x : none, in_band ? p.y : none, in_band ? p.z : none,
+                  reinterpret_cast<FourWords>(weights), keys, sums);
+    }
+    for (std::uint32_t lane = 0; lane < kFour && i + lane < cloud_base.count; ++lane) {
+      if (in_band[lane] != 0) {
+        // There is room: never more cells than points, and both grids have the same capacity.
+        band.add(keys[lane], sums[lane]);
+      } else if (until_next == 0) {
+        beyond_level->add(p.x[lane], p.y[lane], p.z[lane], static_cast<float>(share));
+        until_next = every - 1;
+      } else {
+        --until_next;
       }
-      for (std::uint32_t lane = 0; lane < kFour && i + lane < cloud_base.count; ++lane) {
-        if (in_band[lane] != 0) {
-          // There is room: never more cells than points, and both grids have the same capacity.
-          band.add(keys[lane], sums[lane]);
-        } else if (until_next == 0) {
-          beyond_level->add(p.x[lane], p.y[lane], p.z[lane], static_cast<float>(share));
-          until_next = every - 1;
-        } else {
-          --until_next;
-        }
-      }
-    });
-  }
+    }
+  });
+}
+
+}  // namespace
+
+void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+                   BoundedPoints* band_level, BoundedPoints* beyond_level) {
+  part_by_height(cloud_base, level, settings, grid, beyond_level);
   // The cloud is in an order of its own already, whatever that of the points was.
   grid->extract_as_they_came(band_level);
   band_level->bound();

@@ -11,7 +11,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint8_t kAllFour[kFour] = {1, 1, 1, 1};
+constexpr std::uint8_t kKeepFour[kFour] = {1, 1, 1, 1};
 
 class NeighbourCounter {
  public:
@@ -76,8 +76,8 @@ class NeighbourCounter {
 std::uint32_t close_gaps(Span<const std::uint8_t> keep, PointSet* points) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < points->count;) {
-    if (i + kFour <= points->count && std::memcmp(&keep[i], kAllFour, kFour) == 0) {
-      points->copy_four(kept, i);
+    if (i + kFour <= points->count && std::memcmp(&keep[i], kKeepFour, kFour) == 0) {
+      points->copy_four(kept, *points, i);
       kept += kFour;
       i += kFour;
     } else {
@@ -96,7 +96,7 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
     const FourTruths enough = counter.have_enough_in_list(i);
     if (!any_of(~enough)) {  // as most
-      std::memcpy(&keep[i], kAllFour, kFour);
+      std::memcpy(&keep[i], kKeepFour, kFour);
       continue;
     }
     const std::uint32_t end = i + kFour < points.count ? i + kFour : points.count;
