@@ -145,15 +145,17 @@ bool StripProfile::find(const PlaneOver& over, double u_centre_m, double reach_m
   return true;
 }
 
-bool StripProfile::judge(const PlaneOver& over, double u_centre_m, double reach_m) {
+double StripProfile::judge(const PlaneOver& over, double u_centre_m, double reach_m) {
   look_from(over);
   std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
   if (first < 0) first = 0;
   if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
   // How far the rock's columns scatter about the plane, without the local level.
   double w = 0.0, squares = 0.0;
+  float points_before = 0.0F, points_now = 0.0F;
   for (const Column& c : columns_) {
     if (!c.judged || !c.has_points()) continue;
+    points_before += c.sums[3];
     w += static_cast<double>(c.probability);
     squares += static_cast<double>(c.probability) * c.mean_m * c.mean_m;
   }
@@ -162,11 +164,10 @@ bool StripProfile::judge(const PlaneOver& over, double u_centre_m, double reach_
   plain.share = 0.5;
   plain.sigma_m = w > 0.0 ? std::sqrt(squares / w) : layers_.sigma_m;
   if (!(plain.sigma_m >= layers_.sigma_m)) plain.sigma_m = layers_.sigma_m;
-  bool more = false;
   for (std::int32_t k = first; k <= last; ++k) {
     Column& c = columns_[static_cast<std::uint32_t>(k)];
     if (c.judged || !c.has_points()) continue;
-    more = true;
+    points_now += c.sums[3];
     // The plane may drift out here: by the level around, as long as that cannot be the strips' own.
     double level = 0.0;
     const bool local = level_around(k, &level) && std::fabs(level) < 0.5 * layers_.step_m;
@@ -175,7 +176,7 @@ bool StripProfile::judge(const PlaneOver& over, double u_centre_m, double reach_
     c.judged = true;
   }
   look_at_flanks(first, last);
-  return more;
+  return static_cast<double>(points_now / (points_before + points_now));
 }
 
 // The flanks of a strip lie between it and the wall: they belong to the strip. Of columns further out nothing is known.

@@ -14,15 +14,20 @@ namespace {
 constexpr double kSeenWithin = 1.5;
 constexpr double kProfileReach_m = 32.0;
 constexpr int kRings = 4;  // each twice as far as the last
+// A ring that adds no more than this share of the points would tell the plane once more that is known.
+constexpr double kWorthAFit = 0.12;
 constexpr double kLayerPointsMin = 100.0;
 constexpr double kLayerGainPerPoint = 0.02;
 constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, parted by the voxels
 constexpr double kLayersApartInSigmas = 2.5;
 constexpr int kStepRounds = 4;  // of the surface alone: it tells its roughness, the plane comes of both
-constexpr int kJointRounds = 3;
-constexpr int kLastRounds = 8;
-// Metres and slopes: the round that comes to this takes its step, and one more follows.
-constexpr double kFrontsStandStill = 2e-4;
+// The round that comes to this takes its step, and one more follows. Of a ring's fit the next ring needs the direction.
+struct JointRounds {
+  int most;
+  double offset_stands_still_m, slopes_stand_still;
+};
+constexpr JointRounds kOfARing{3, 1e9, 5e-4};
+constexpr JointRounds kLast{8, 2e-4, 2e-4};
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
 constexpr double kFrontStepMin_m = 0.06;
@@ -210,32 +215,28 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
 
 namespace {
 
-// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still.
-// False where no fronts are found.
-bool step_with_fronts(int rounds_max, const WallSurface& surface, WallFitScratch* scratch, PlaneOver* over) {
-  WallSurface joint = surface;
-  joint.irls.over = *over;
-  for (int round = 0; round < rounds_max; ++round) {
-    joint.fronts = measure_fronts(joint);
-    if (!joint.fronts.found) return false;
-    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &joint);
-    if (!joint.patch.solved) return false;
-    joint.irls.over = joint.over();
-    if (joint.patch.correction.cwiseAbs().maxCoeff() < kFrontsStandStill) break;
+// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still. False
+// where no fronts are found.
+bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSurface* joint) {
+  for (int round = 1;; ++round) {
+    joint->fronts = measure_fronts(*joint);
+    if (!joint->fronts.found) return false;
+    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, joint);
+    if (!joint->patch.solved) return false;
+    const Eigen::Vector3d moved = joint->patch.correction.cwiseAbs();
+    const bool stands_still =
+        moved[0] < rounds.offset_stands_still_m && moved.tail<2>().maxCoeff() < rounds.slopes_stand_still;
+    if (stands_still || round == rounds.most) return true;
+    joint->irls.over = joint->over();
   }
-  *over = joint.irls.over;
-  return true;
 }
 
 }  // namespace
 
 bool join_fronts(WallFitScratch* scratch, WallSurface* fit) {
   WallSurface joint = *fit;
-  joint.irls.over = fit->over();
-  if (!step_with_fronts(kLastRounds, *fit, scratch, &joint.irls.over)) return false;
-  joint.fronts = measure_fronts(joint);
-  if (!joint.fronts.found) return false;
-  fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &joint);
+  if (!fit_with_fronts(kLast, scratch, &joint)) return false;
+  joint.patch = scratch->patches.fit(PatchGrid::Errors::kMeasured);
   if (!joint.patch.solved || !agree(*fit, joint)) return false;
   *fit = joint;
   return true;
@@ -254,24 +255,30 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   double reach_m = kSeenWithin * away_m;
   IrlsSettings step = settings;
   step.rounds = kStepRounds;
+  PlaneOver surface_alone = fit->irls.over, with_fronts;
+  bool had_fronts = false, marked = false;
   for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
-    // An opening: the wall may go on behind it.
-    if (ring > 0 && !strips.judge(fit->irls.over, sensor_m, reach_m)) continue;
+    const double added = ring > 0 ? strips.judge(fit->irls.over, sensor_m, reach_m) : 1.0;
+    if (added > 0.0) marked = false;
+    if (!(added > kWorthAFit)) continue;  // also at an opening: the wall may go on behind it
     points.mark_columns(strips, scratch->near);
+    marked = true;
     points.copy_surface();
-    fit->irls = irls_tukey(points.surface, points.surface.count, fit->irls.over, step);
+    fit->irls = irls_tukey(points.surface, points.surface.count, surface_alone, step);
     if (!fit->irls.solved) return;
     fit->strips = &strips;
+    surface_alone = fit->irls.over;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
-    PlaneOver over = fit->irls.over;
-    if (step_with_fronts(kJointRounds, *fit, scratch, &over)) {
-      fit->irls.over = over;
-      continue;
+    WallSurface next = *fit;
+    if (had_fronts) next.irls.over = with_fronts;
+    had_fronts = fit_with_fronts(kOfARing, scratch, &next);
+    if (!had_fronts) {
+      next = *fit;
+      fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &next);
     }
-    WallSurface alone = *fit;
-    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &alone);
-    if (alone.patch.solved) fit->irls.over = alone.over();
+    if (next.patch.solved) fit->irls.over = with_fronts = next.over();
   }
+  if (!marked) points.mark_columns(strips, scratch->near);
 }
 
 }  // namespace pose_wall
