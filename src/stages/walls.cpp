@@ -106,20 +106,30 @@ void thin_out(const WallScene& scene, BoundedPoints* thin_level) {
 // Refines the short list, merges what became alike, and weighs what is left.
 void weigh(const WallScene& scene, const SideView& view, WallSearch* search, WallsScratch* scratch,
            WallCandidates* out) {
-  const SameWall same{view};
   const WallLimits limits(radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi);
-  const double thresh_m = scene.settings.wall_ransac_thresh;
+  const auto refine = [&](RefineWidth width, Plane* plane) {
+    const double thresh_m = scene.settings.wall_ransac_thresh;
+    const bool holds =
+        refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, width, &scratch->fit, plane);
+    POSE_WALL_NOTE(if (holds) note_refined_wall(*plane));
+    return holds;
+  };
+  const auto repeats = [&](const Plane& plane, double apart_m) {
+    const SameWall same{view, apart_m};
+    bool out_has_it = false;
+    for (std::uint32_t j = 0; j < out->count; ++j) out_has_it = out_has_it || same(out->item[j].plane, plane);
+    POSE_WALL_NOTE(if (out_has_it) trace::fate(plane, POSE_WALL_TRACE_REPEATS));
+    return out_has_it;
+  };
   out->count = 0;
   for (std::uint32_t k = 0; k < search->list().count(); ++k) {
     Plane plane = search->list()[k].plane;
     POSE_WALL_NOTE(note_drawn_wall(plane));
-    if (!refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, &scratch->fit, &plane)) continue;
-    POSE_WALL_NOTE(note_refined_wall(plane));
-    if (!may_be_wall(plane, view, limits)) continue;
-    bool repeats = false;
-    for (std::uint32_t j = 0; j < out->count; ++j) repeats = repeats || same(out->item[j].plane, plane);
-    POSE_WALL_NOTE(trace::fate(plane, POSE_WALL_TRACE_REPEATS));
-    if (repeats) continue;
+    if (!refine(RefineWidth::kWide, &plane)) continue;
+    // What is this near one that is there already would come still nearer.
+    if (repeats(plane, 0.5 * SameWall::kApart_m)) continue;
+    if (!refine(RefineWidth::kNarrow, &plane)) continue;
+    if (!may_be_wall(plane, view, limits) || repeats(plane, SameWall::kApart_m)) continue;
     mark_wall(scene, plane, along_of(plane, view.along_level), MarkWidth::kThreshold, &scratch->grid);
     const WallEvidence evidence = scratch->grid.evidence();
     out->item[out->count++] = {plane, evidence, faults_of(plane, evidence, scene.settings)};

@@ -20,13 +20,12 @@ constexpr double kDrawSlack_deg = 5.0;  // hypotheses may lie a little outside: 
 
 bool SameWall::operator()(const Plane& a, const Plane& b) const {
   constexpr double kReach_m = 3.0;
-  constexpr double kApart_m = 0.15;
   const double across_a = a.n.dot(view.side_level), across_b = b.n.dot(view.side_level);
   if (!(std::fabs(across_a) > 1e-3 && std::fabs(across_b) > 1e-3)) return false;
   for (const double s : {-kReach_m, 0.0, kReach_m}) {
     const Eigen::Vector3d p = s * view.along_level;
     const double lateral_a = -a.signed_distance(p) / across_a, lateral_b = -b.signed_distance(p) / across_b;
-    if (!(std::fabs(lateral_a - lateral_b) <= kApart_m)) return false;
+    if (!(std::fabs(lateral_a - lateral_b) <= apart_m)) return false;
   }
   return true;
 }

@@ -26,9 +26,11 @@ struct SideView {
   Eigen::Vector3d side_level;
 };
 
-// Whether two planes beside the same direction mean the same wall.
+// Whether two planes beside the same direction mean the same wall: are no further apart, beside the machine, than that.
 struct SameWall {
+  static constexpr double kApart_m = 0.15;
   SideView view;
+  double apart_m = kApart_m;
   bool operator()(const Plane& a, const Plane& b) const;
 };
 

@@ -14,7 +14,8 @@ namespace pose_wall {
 namespace {
 
 constexpr double kScaleMin_m = 0.003;
-constexpr double kFirstGateInThresholds = 5.0;  // wide enough to see the lean of a wall cut by a vertical hypothesis
+constexpr double kWideInThresholds = 5.0;
+constexpr double kNarrowInThresholds = 3.0;
 constexpr double kGateInThresholds = 4.0;
 // Points this far behind a plane passed through it. Below, they are the rock's own roughness.
 constexpr double kBehindInThresholds = 3.0;
@@ -101,15 +102,13 @@ Span<std::uint32_t> points_near(const BoundedPoints& points, const Plane& plane,
 }
 
 bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
-                       WallFitScratch* scratch, Plane* plane) {
-  const IrlsSettings quick = quick_irls(3.0 * thresh_m, kScaleMin_m, thresh_m, kQuickRounds);
-  for (const double gate : {kFirstGateInThresholds * thresh_m, 3.0 * thresh_m}) {
-    const Span<std::uint32_t> near = thinned(points_near(band_level, *plane, gate, scratch->near), kQuickPointsMax);
-    const IrlsResult refined = irls_tukey(band_level, near, *plane, along_level, quick, &scratch->points.at);
-    if (!refined.solved) return false;
-    *plane = refined.plane;
-  }
-  return true;
+                       RefineWidth width, WallFitScratch* scratch, Plane* plane) {
+  const IrlsSettings quick = quick_irls(kNarrowInThresholds * thresh_m, kScaleMin_m, thresh_m, kQuickRounds);
+  const double gate_m = (width == RefineWidth::kWide ? kWideInThresholds : kNarrowInThresholds) * thresh_m;
+  const Span<std::uint32_t> near = thinned(points_near(band_level, *plane, gate_m, scratch->near), kQuickPointsMax);
+  const IrlsResult refined = irls_tukey(band_level, near, *plane, along_level, quick, &scratch->points.at);
+  if (refined.solved) *plane = refined.plane;
+  return refined.solved;
 }
 
 void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level, MarkWidth width,

@@ -148,9 +148,9 @@ POSE_WALL_WRAP(WallsResult, FIND_WALLS, find_walls,
 }
 
 POSE_WALL_WRAP(bool, REFINE_HYPOTHESIS, refine_hypothesis,
-               (const BoundedPoints& band, double thresh_m, const Eigen::Vector3d& along, WallFitScratch* scratch,
-                Plane* plane)) {
-  return !fails(Fault::kRefineFails) && refine_hypothesis_for_real(band, thresh_m, along, scratch, plane);
+               (const BoundedPoints& band, double thresh_m, const Eigen::Vector3d& along, RefineWidth width,
+                WallFitScratch* scratch, Plane* plane)) {
+  return !fails(Fault::kRefineFails) && refine_hypothesis_for_real(band, thresh_m, along, width, scratch, plane);
 }
 
 POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,

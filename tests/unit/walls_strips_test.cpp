@@ -71,9 +71,11 @@ Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed, boo
   test::Placed<WallFitScratch> scratch(band.points().set().capacity());
   // As drawn: half way to the strips' fronts and half a degree off.
   Plane start{Eigen::Vector3d(std::sin(0.009), -std::cos(0.009), 0.0), kWall_m - 0.5 * strips.depth_m};
-  if (!refine_hypothesis(scene.band_level, scene.settings.wall_ransac_thresh, Eigen::Vector3d::UnitX(), scratch.get(),
-                         &start))
-    return {};
+  for (const RefineWidth width : {RefineWidth::kWide, RefineWidth::kNarrow}) {
+    if (!refine_hypothesis(scene.band_level, scene.settings.wall_ransac_thresh, Eigen::Vector3d::UnitX(), width,
+                           scratch.get(), &start))
+      return {};
+  }
   const WallSurface surface = fit_surface(scene, start, grid.get(), scratch.get());
   Fitted out;
   out.strips = surface.strips != nullptr;
