@@ -56,6 +56,24 @@ double sum_of_products(const Eigen::Matrix<double, 6, 1>& terms, FourFloats firs
   return terms.head<3>().dot(first_three(first)) + terms.tail<3>().dot(first_three(others));
 }
 
+// Sums over pairs of patches: each part of one times each of the other.
+struct Products {
+  FourFloats row[kFour] = {};
+
+  void add(FourFloats own, FourFloats others) {
+    row[0] += own[0] * others;
+    row[1] += own[1] * others;
+    row[2] += own[2] * others;
+    row[3] += own[3] * others;
+  }
+  double at(std::uint32_t k, std::uint32_t l) const { return static_cast<double>(row[k][l]); }
+  Eigen::Matrix3d of_first_three() const {
+    Eigen::Matrix3d out;
+    for (int k = 0; k < 3; ++k) out.row(k) = first_three(row[k]);
+    return out;
+  }
+};
+
 }  // namespace
 
 double PatchFit::variance_at(double u_m, double v_m) const {
@@ -103,24 +121,30 @@ void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
     p.of_pairs[0] = packed(p.a, p.error);
     p.of_pairs[1] = packed(p.information * p.a, p.information * std::sqrt(p.information));
   }
+  Products designs[kLayersMax][kLags + 1], weighted[kLayersMax][kLags + 1];
   for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
-    PairSums& of_layer = (*sums)[p.layer];
-    FourFloats rows[kLags + 1] = {}, weighted[kLags + 1] = {};
+    FourFloats rows_after[kLags + 1] = {}, weighted_after[kLags + 1] = {};
     std::uint32_t pairs[kLags + 1] = {};
     for (const Neighbour& o : neighbours) {
       ++pairs[o.lag];
-      rows[o.lag] += o.mean->of_pairs[0];
-      weighted[o.lag] += o.mean->of_pairs[1];
+      rows_after[o.lag] += o.mean->of_pairs[0];
+      weighted_after[o.lag] += o.mean->of_pairs[1];
     }
     for (int lag = 1; lag <= kLags; ++lag) {
-      PairSums::Lag& sum = of_layer.lag[lag];
-      sum.pairs += pairs[lag];
-      sum.errors += p.error * static_cast<double>(rows[lag][3]);
-      sum.designs += p.a * first_three(rows[lag]).transpose();
-      sum.weighted += p.information * p.a * first_three(weighted[lag]).transpose();
-      sum.weights += static_cast<double>(p.of_pairs[1][3]) * static_cast<double>(weighted[lag][3]);
+      (*sums)[p.layer].lag[lag].pairs += pairs[lag];
+      designs[p.layer][lag].add(p.of_pairs[0], rows_after[lag]);
+      weighted[p.layer][lag].add(p.of_pairs[1], weighted_after[lag]);
     }
   });
+  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
+    for (int lag = 1; lag <= kLags; ++lag) {
+      PairSums::Lag& sum = (*sums)[layer].lag[lag];
+      sum.errors = designs[layer][lag].at(3, 3);
+      sum.designs = designs[layer][lag].of_first_three();
+      sum.weighted = weighted[layer][lag].of_first_three();
+      sum.weights = weighted[layer][lag].at(3, 3);
+    }
+  }
 }
 
 // Correlation of the rock by distance between patches, from products of errors. Errors about a fitted surface are
@@ -228,26 +252,31 @@ double PatchGrid::rock_about_quadratic(std::uint32_t n) const {
 // The same pass as sum_pairs for the quadratic through the surface: errors about it and answers of its coefficients.
 PatchGrid::BendSums PatchGrid::sum_bend_pairs(std::uint32_t n) const {
   BendSums sums;
+  Products weighted[kLags + 1];
+  FourFloats linear[kLags + 1] = {}, quadratic[kLags + 1] = {};
   for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     if (p.layer != 0) return;
-    FourFloats linear[kLags + 1] = {}, quadratic[kLags + 1] = {}, weighted[kLags + 1] = {};
-    std::uint32_t pairs[kLags + 1] = {};
+    FourFloats linear_after[kLags + 1] = {}, quadratic_after[kLags + 1] = {}, weighted_after[kLags + 1] = {};
     for (const Neighbour& o : neighbours) {
-      ++pairs[o.lag];
-      linear[o.lag] += o.mean->of_pairs[0];
-      quadratic[o.lag] += o.mean->of_pairs[1];
-      weighted[o.lag] += o.mean->of_pairs[2];
+      linear_after[o.lag] += o.mean->of_pairs[0];
+      quadratic_after[o.lag] += o.mean->of_pairs[1];
+      weighted_after[o.lag] += o.mean->of_pairs[2];
     }
     const Quadratic terms = quadratic_terms(p);
-    const Eigen::Vector3d own = first_three(p.of_pairs[2]);
+    const FourFloats first = packed(terms.head<3>(), p.error), last = packed(terms.tail<3>(), 1.0);
     for (int lag = 1; lag <= kLags; ++lag) {
-      PairSums::Lag& sum = sums.pairs.lag[lag];
-      sum.pairs += pairs[lag];
-      sum.errors += p.error * static_cast<double>(linear[lag][3]);
-      sum.weighted += own * first_three(weighted[lag]).transpose();
-      sums.taken_by_fit[lag] += sum_of_products(terms, linear[lag], quadratic[lag]);
+      linear[lag] += first * linear_after[lag];
+      quadratic[lag] += last * quadratic_after[lag];
+      weighted[lag].add(p.of_pairs[2], weighted_after[lag]);
     }
   });
+  for (int lag = 1; lag <= kLags; ++lag) {
+    PairSums::Lag& sum = sums.pairs.lag[lag];
+    sum.pairs = static_cast<double>(quadratic[lag][3]);
+    sum.errors = static_cast<double>(linear[lag][3]);
+    sum.weighted = weighted[lag].of_first_three();
+    sums.taken_by_fit[lag] = first_three(linear[lag]).sum() + first_three(quadratic[lag]).sum();
+  }
   for (const Mean& p : means_.first(n)) {
     if (p.layer != 0) continue;
     const Eigen::Vector3d own = first_three(p.of_pairs[2]);
@@ -326,7 +355,7 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
     const Quadratic terms = quadratic_terms(p), answer = inverse * terms;
     p.error -= bend.dot(terms);
     p.of_pairs[0] = packed(answer.head<3>(), p.error);
-    p.of_pairs[1] = packed(answer.tail<3>(), 0.0);
+    p.of_pairs[1] = packed(answer.tail<3>(), 1.0);
     p.of_pairs[2] = packed(p.information * answer.tail<3>(), 0.0);
   }
   // What the pull holds back is not known.

@@ -67,7 +67,7 @@ void StripProfile::look_from(const PlaneOver& over) {
 }
 
 bool StripProfile::seen(const Column& c) const {
-  return bits_in(c.rows) >= kRowsMin;
+  return has_bits(c.rows, kRowsMin);
 }
 
 bool StripProfile::level_around(std::int32_t column, double* level_m) const {

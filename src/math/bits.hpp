@@ -14,4 +14,10 @@ inline int bits_in(std::uint64_t word) {
   return bits;
 }
 
+// Whether so many are set, or more.
+inline bool has_bits(std::uint64_t word, int least) {
+  for (; least > 1; --least) word &= word - 1;
+  return word != 0;
+}
+
 }  // namespace pose_wall
