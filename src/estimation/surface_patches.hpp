@@ -35,7 +35,7 @@ class SurfacePatches {
   static constexpr std::uint32_t kSide = 64;
   // A bit for each cell of a row that holds something.
   struct Occupied {
-    std::uint64_t row[kSide];
+    std::uint64_t row[kSide] = {};
 
     // visit(first column): the blocks of side rows from iv on that hold something.
     template <typename Visit>
@@ -50,6 +50,7 @@ class SurfacePatches {
   Span<PatchSums> cells_;
   Span<SurfacePatch> patches_;
   float from_m_ = 0.0F, cells_per_m_ = 1.0F;
+  std::uint32_t rows_ = kSide;  // that are reached
 };
 
 }  // namespace pose_wall
