@@ -103,33 +103,34 @@ void thin_out(const WallScene& scene, BoundedPoints* thin_level) {
   thin_level->bound();
 }
 
+bool holds_one_like(const WallCandidates& list, const SameWall& same, const Plane& plane) {
+  bool holds = false;
+  for (std::uint32_t i = 0; i < list.count; ++i) holds = holds || same(list.item[i].plane, plane);
+  POSE_WALL_NOTE(if (holds) trace::fate(plane, POSE_WALL_TRACE_REPEATS));
+  return holds;
+}
+
 // Refines the short list, merges what became alike, and weighs what is left.
 void weigh(const WallScene& scene, const SideView& view, WallSearch* search, WallsScratch* scratch,
            WallCandidates* out) {
+  const SameWall same{view}, surely_same{view, 0.5 * SameWall::kApart_m};
   const WallLimits limits(radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi);
   const auto refine = [&](RefineWidth width, Plane* plane) {
     const double thresh_m = scene.settings.wall_ransac_thresh;
-    const bool holds =
-        refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, width, &scratch->fit, plane);
+    const bool holds = refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, width, &scratch->fit, plane);
     POSE_WALL_NOTE(if (holds) note_refined_wall(*plane));
     return holds;
   };
-  const auto repeats = [&](const Plane& plane, double apart_m) {
-    const SameWall same{view, apart_m};
-    bool out_has_it = false;
-    for (std::uint32_t j = 0; j < out->count; ++j) out_has_it = out_has_it || same(out->item[j].plane, plane);
-    POSE_WALL_NOTE(if (out_has_it) trace::fate(plane, POSE_WALL_TRACE_REPEATS));
-    return out_has_it;
-  };
+  POSE_WALL_NOTE(trace::subject(subject_of(scene, view)));
   out->count = 0;
   for (std::uint32_t k = 0; k < search->list().count(); ++k) {
     Plane plane = search->list()[k].plane;
     POSE_WALL_NOTE(note_drawn_wall(plane));
     if (!refine(RefineWidth::kWide, &plane)) continue;
     // What is this near one that is there already would come still nearer.
-    if (repeats(plane, 0.5 * SameWall::kApart_m)) continue;
+    if (holds_one_like(*out, surely_same, plane)) continue;
     if (!refine(RefineWidth::kNarrow, &plane)) continue;
-    if (!may_be_wall(plane, view, limits) || repeats(plane, SameWall::kApart_m)) continue;
+    if (!may_be_wall(plane, view, limits) || holds_one_like(*out, same, plane)) continue;
     mark_wall(scene, plane, along_of(plane, view.along_level), MarkWidth::kThreshold, &scratch->grid);
     const WallEvidence evidence = scratch->grid.evidence();
     out->item[out->count++] = {plane, evidence, faults_of(plane, evidence, scene.settings)};
@@ -138,22 +139,35 @@ void weigh(const WallScene& scene, const SideView& view, WallSearch* search, Wal
 }
 
 // Both sides of a direction: drawn each by itself, then each with the other's direction.
-void search_both(const WallScene& scene, const SideView (&views)[2], const Plane* const last[2], Random* random,
-                 WallsScratch* scratch, WallCandidates (&out)[2], std::uint32_t (&scored)[2]) {
+void draw_both(const WallScene& scene, const SideView (&views)[2], const Plane* const last[2], Random* random,
+               WallSearch (&search)[2]) {
   for (int side = 0; side < 2; ++side) {
-    scratch->search[side].begin(scene.band_level, views[side], scene.settings, random);
-    if (last[side] != nullptr) scratch->search[side].offer(*last[side]);
-    scratch->search[side].draw();
+    search[side].begin(scene.band_level, views[side], scene.settings, random);
+    if (last[side] != nullptr) search[side].offer(*last[side]);
+    search[side].draw();
   }
   for (int side = 0; side < 2; ++side) {
-    WallShortlist& other = scratch->search[1 - side].list();
-    if (other.count() > 0) scratch->search[side].offer_offsets(other[0].plane.n);
+    WallShortlist& other = search[1 - side].list();
+    if (other.count() > 0) search[side].offer_offsets(other[0].plane.n);
   }
-  for (int side = 0; side < 2; ++side) {
-    POSE_WALL_NOTE(trace::subject(subject_of(scene, views[side])));
-    weigh(scene, views[side], &scratch->search[side], scratch, &out[side]);
-    scored[side] = scratch->search[side].scored();
+}
+
+// Nothing is reported of a machine that stands across the road.
+void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* scratch, WallChoice* choice) {
+  const double most_m2 = choice->any() ? most_area_across_m2(scene) : 0.0;
+  if (!may_stand_across(2.0 * most_m2, *choice)) return;
+  const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
+  const SideView ends[2] = {{l, f}, {l, -f}};
+  const Plane* const nothing[2] = {nullptr, nullptr};
+  draw_both(scene, ends, nothing, random, scratch->search);
+  WallCandidates ahead, behind;
+  weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);
+  // With the most that could be behind, what is ahead may still be too little.
+  const WallCandidate* const best = strongest(ahead);
+  if (may_stand_across((best != nullptr ? best->evidence.score_m2 : 0.0) + most_m2, *choice)) {
+    weigh(scene, ends[1], &scratch->search[1], scratch, &behind);
   }
+  refuse_if_across(ahead, behind, scene.settings, choice);
 }
 
 // The truth may be the rival: the protection levels reach to it.
@@ -340,17 +354,11 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const SideView sides[2] = {{f, l}, {f, -l}};
   thin_out(scene, &scratch->thin_level);
   WallCandidates beside[2];
-  std::uint32_t scored[2] = {};
-  search_both(scene, sides, last, random, scratch, beside, scored);
+  draw_both(scene, sides, last, random, scratch->search);
+  for (int side = 0; side < 2; ++side) weigh(scene, sides[side], &scratch->search[side], scratch, &beside[side]);
+  const std::uint32_t scored[2] = {scratch->search[0].scored(), scratch->search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
-  if (may_stand_across(scene, choice)) {
-    const SideView ends[2] = {{l, f}, {l, -f}};
-    const Plane* const nothing[2] = {nullptr, nullptr};
-    WallCandidates across[2];
-    std::uint32_t scored_across[2] = {};
-    search_both(scene, ends, nothing, random, scratch, across, scored_across);
-    refuse_if_across(across[0], across[1], scene.settings, &choice);
-  }
+  refuse_where_across(scene, random, scratch, &choice);
 
   note_directions(scene, &scratch->sight);
   const bool explained = explained_share(scene, choice) >= kExplainedMin;

@@ -87,13 +87,12 @@ double most_area_across_m2(const WallScene& scene) {
   return cells * WallGrid::kColumn_m * rows.height_m;
 }
 
-bool may_stand_across(const WallScene& scene, const WallChoice& choice) {
+bool may_stand_across(double pair_m2, const WallChoice& choice) {
   if (!choice.any()) {
     // Nothing to refuse; but `explain` says what stands across where nothing stands beside.
     POSE_WALL_NOTE(return true);
     return false;
   }
-  const double pair_m2 = 2.0 * most_area_across_m2(scene);
   const bool may = pair_m2 > choice.score_m2;
   POSE_WALL_NOTE(
       if (!may) trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair_m2 / choice.score_m2, 1.0, true));

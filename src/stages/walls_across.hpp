@@ -15,7 +15,8 @@ namespace pose_wall {
 // beside the machine. In a road that is its width, and a little more. To what floats know of a cell's edge.
 double most_area_across_m2(const WallScene& scene);
 
-// False where two planes of that area show no more than what is chosen: then none need be looked for.
-bool may_stand_across(const WallScene& scene, const WallChoice& choice);
+// False where two planes that show no more than this together show no more than what is chosen: then none need be
+// looked for, or not the second one.
+bool may_stand_across(double pair_m2, const WallChoice& choice);
 
 }  // namespace pose_wall

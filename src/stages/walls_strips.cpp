@@ -215,8 +215,8 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
 
 namespace {
 
-// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still. False
-// where no fronts are found.
+// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still.
+// False where no fronts are found.
 bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSurface* joint) {
   for (int round = 1;; ++round) {
     joint->fronts = measure_fronts(*joint);

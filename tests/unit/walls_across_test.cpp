@@ -108,8 +108,9 @@ TEST(WallsAcross, InARoadNothingNeedBeLookedFor) {
   band.add_wall(-2.5, {-20.0, 20.0, 0.3, 2.4});
   band.add_face(20.0, -2.5, 2.5);
   const WallCandidate wall;
-  EXPECT_FALSE(may_stand_across(band.scene(), chosen_of(2.0 * 40.0 * 2.1, &wall)));
-  EXPECT_TRUE(may_stand_across(band.scene(), chosen_of(10.0, &wall))) << "short walls may be faces";
+  EXPECT_FALSE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(2.0 * 40.0 * 2.1, &wall)));
+  EXPECT_TRUE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(10.0, &wall)))
+      << "short walls may be faces";
 }
 
 TEST(WallsAcross, AcrossARoadItIs) {
@@ -119,13 +120,13 @@ TEST(WallsAcross, AcrossARoadItIs) {
   band.add_face(2.5, -12.0, 12.0);
   band.add_face(-2.5, -12.0, 12.0);
   const WallCandidate wall;
-  EXPECT_TRUE(may_stand_across(band.scene(), chosen_of(2.0 * 4.0 * 2.1, &wall)));
+  EXPECT_TRUE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(2.0 * 4.0 * 2.1, &wall)));
 }
 
 TEST(WallsAcross, WhereNothingIsChosenNothingIsRefused) {
   BandFixture band;
   band.add_face(2.5, -12.0, 12.0);
-  EXPECT_FALSE(may_stand_across(band.scene(), WallChoice{}));
+  EXPECT_FALSE(may_stand_across(2.0 * most_area_across_m2(band.scene()), WallChoice{}));
 }
 
 TEST(WallsAcross, WhatMayTurnFurtherCrossesTheRoadOnMoreOfItsLength) {
