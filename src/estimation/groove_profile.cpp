@@ -12,8 +12,7 @@ namespace pose_wall {
 namespace {
 
 constexpr double kRow_m = 0.05;
-constexpr double kPlacesPerMetre = 1.0;
-constexpr std::uint32_t kPlaces = 64;
+constexpr std::uint32_t kPlaces = 64;  // a metre each
 constexpr double kPlacesMin = 4.0;
 constexpr double kPointsMin = 8.0;
 constexpr double kBehindMin_m = 0.04;    // where rock is seen between pipes, the plane is the rock's
@@ -28,27 +27,30 @@ double at_least(double least, double error) {
 }  // namespace
 
 GrooveProfile::GrooveProfile(double z_min_m, double z_max_m, double u_middle_m)
-    : z_min_(z_min_m), u_from_(u_middle_m - 0.5 * kPlaces / kPlacesPerMetre) {
+    : z_min_(static_cast<float>(z_min_m)), u_from_(static_cast<float>(u_middle_m - 0.5 * kPlaces)) {
   const double row_m = (z_max_m - z_min_m) / kRows;
-  rows_per_m_ = 1.0 / (row_m > kRow_m ? row_m : kRow_m);
+  rows_per_m_ = static_cast<float>(1.0 / (row_m > kRow_m ? row_m : kRow_m));
 }
 
-void GrooveProfile::add(double u_m, double z_m, double residual_m) {
-  const double row = (z_m - z_min_) * rows_per_m_, place = (u_m - u_from_) * kPlacesPerMetre;
-  if (!(row >= 0.0 && row < kRows && place >= 0.0 && place < kPlaces)) return;
-  Row& r = rows_[static_cast<std::uint32_t>(row)];
-  const auto residual = static_cast<float>(residual_m);
-  r.count += 1.0F;
-  r.sum += residual;
-  r.squares += residual * residual;
-  r.places |= 1ULL << static_cast<unsigned>(place);
+void GrooveProfile::add(FourFloats u_m, FourFloats z_m, FourFloats residual_m, FourTruths counts) {
+  const FourFloats row = (z_m - z_min_) * rows_per_m_, place = u_m - u_from_, none{};
+  const FourTruths inside =
+      counts & (row >= none) & (row < all_four(kRows)) & (place >= none) & (place < all_four(kPlaces));
+  const FourInts rows = cut_off(inside ? row : none), places = cut_off(inside ? place : none);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (inside[lane] == 0) continue;
+    const float residual = residual_m[lane];
+    Row& r = rows_[static_cast<std::uint32_t>(rows[lane])];
+    r.sums += FourFloats{1.0F, residual, residual * residual};
+    r.places |= 1ULL << static_cast<unsigned>(places[lane]);
+  }
 }
 
 bool GrooveProfile::mean_of(const Row& row, double* mean_m, double* error_m) {
-  const double places = static_cast<double>(bits_in(row.places)), count = static_cast<double>(row.count);
+  const double places = static_cast<double>(bits_in(row.places)), count = static_cast<double>(row.sums[0]);
   if (!(places >= kPlacesMin && count >= kPointsMin)) return false;
-  *mean_m = static_cast<double>(row.sum) / count;
-  const double variance = static_cast<double>(row.squares) / count - *mean_m * *mean_m;
+  *mean_m = static_cast<double>(row.sums[1]) / count;
+  const double variance = static_cast<double>(row.sums[2]) / count - *mean_m * *mean_m;
   *error_m = std::sqrt((variance > 0.0 ? variance : 0.0) / places);
   return true;
 }

@@ -10,6 +10,8 @@
 
 #include <cstdint>
 
+#include "math/four_floats.hpp"
+
 namespace pose_wall {
 
 class GrooveProfile {
@@ -17,22 +19,23 @@ class GrooveProfile {
   // What is further than 32 m from the middle along the wall plays no part.
   GrooveProfile(double z_min_m, double z_max_m, double u_middle_m);
 
-  // residual_m: signed distance from the plane of the surface, positive towards the sensor.
-  void add(double u_m, double z_m, double residual_m);
+  // Of four points, those that count. residual_m: signed distance from the plane of the surface, positive towards the
+  // sensor.
+  void add(FourFloats u_m, FourFloats z_m, FourFloats residual_m, FourTruths counts);
   // Whether two grooves or more, each between what stands out above and below it, lie behind the plane.
   bool is_grooved() const;
 
  private:
   static constexpr std::uint32_t kRows = 64;
   struct Row {
-    float count = 0.0F, sum = 0.0F, squares = 0.0F;
+    FourFloats sums{};         // how many, their residuals, and the squares of these
     std::uint64_t places = 0;  // a bit for each metre of the length with points
   };
   // Mean of a row over the length and its standard error; false where too little of the row is seen.
   static bool mean_of(const Row& row, double* mean_m, double* error_m);
 
   Row rows_[kRows];
-  double z_min_, rows_per_m_, u_from_;
+  float z_min_, rows_per_m_, u_from_;
 };
 
 }  // namespace pose_wall

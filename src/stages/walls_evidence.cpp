@@ -25,14 +25,6 @@ void WallGrid::lay_out(Arena& arena) {
   through_ = arena.take<std::uint16_t>(kColumns * kRowsMax);
 }
 
-bool WallGrid::cell_of(double along_m, double z_level_m, std::uint32_t* cell) const {
-  const double column = along_m * (1.0 / kColumn_m) + kColumns / 2.0,
-               row = (z_level_m - rows_.z_min_level_m) * rows_.per_m();
-  if (!(column >= 0.0 && column < kColumns && row >= 0.0 && row < rows_.count)) return false;
-  *cell = static_cast<std::uint32_t>(row) * kColumns + static_cast<std::uint32_t>(column);
-  return true;
-}
-
 // Four points, or the rays to them, against a plane, in floats: no cell is known to the millimetre.
 class WallGrid::FourMarks {
  public:
@@ -169,10 +161,13 @@ double WallGrid::gap_to_solid_m(double along_m) const {
   return nearest;
 }
 
-bool WallGrid::solid_at(double along_m, double z_level_m) const {
-  std::uint32_t cell = 0;
-  return cell_of(along_m, z_level_m, &cell) && solid(cell) &&
-         column_is_solid(static_cast<std::uint32_t>(cell % kColumns));
+FourTruths WallGrid::solid_at(FourFloats along_m, FourFloats z_level_m, FourTruths counts) const {
+  const FourInts cells = rows_.cells_of(along_m, z_level_m);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    const auto cell = static_cast<std::uint32_t>(cells[lane]);
+    if (cells[lane] < 0 || !solid(cell) || !column_is_solid(cell % kColumns)) counts[lane] = 0;
+  }
+  return counts;
 }
 
 }  // namespace pose_wall

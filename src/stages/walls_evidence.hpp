@@ -61,14 +61,13 @@ class WallGrid {
 
   // Distance along the road from a place to the nearest solid column; large where there is none.
   double gap_to_solid_m(double along_m) const;
-  // Whether the plane is solid where this point lies.
-  bool solid_at(double along_m, double z_level_m) const;
+  // Of four points, of those that count, the ones where the plane is solid.
+  FourTruths solid_at(FourFloats along_m, FourFloats z_level_m, FourTruths counts) const;
 
  private:
   class FourMarks;
   enum class Rays { kOneAPoint, kByWeight };
   void mark_points(const BoundedPoints& points, Rays rays, FourMarks* marks);
-  bool cell_of(double along_m, double z_level_m, std::uint32_t* cell) const;
   bool solid(std::uint32_t cell) const { return hits_[cell] >= 2 && hits_[cell] >= through_[cell]; }
   bool open(std::uint32_t cell) const { return through_[cell] >= 2 && through_[cell] > hits_[cell]; }
   void count_rows(std::uint32_t column);

@@ -37,18 +37,27 @@ IrlsSettings fit_settings(const Settings& s) {
 // Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
 void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along, const Heights& heights,
             double gate_m, const WallGrid& grid, WallFitScratch* scratch) {
-  const Span<std::uint32_t> near = points_near(scene.band_level, start, gate_m, scratch->near);
+  const BoundedPoints& band = scene.band_level;
+  const Slab slab(start, gate_m);
+  const auto along_x = static_cast<float>(along.x()), along_y = static_cast<float>(along.y());
+  const FourFloats lowest = all_four(static_cast<float>(heights.min_m)), none{};
+  const FourFloats highest = all_four(static_cast<float>(heights.max_m));
   std::uint32_t count = 0;
-  double measured = 0.0;
-  for (const std::uint32_t i : near) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    if (!heights.contain(p.z()) || !grid.solid_at(along.dot(p), p.z())) continue;
-    measured += static_cast<double>(scene.band_level.weight[i]);
-    near[count++] = i;
-  }
+  FourFloats weights{};
+  for_each_four_about(band, slab, [&](std::uint32_t i, FourTruths counts) {
+    const FourFloats x = load_four(&band.x[i]), y = load_four(&band.y[i]), z = load_four(&band.z[i]);
+    counts &= slab.holds(x, y, z) & (z >= lowest) & (z <= highest);
+    if (!any_of(counts)) return;
+    counts = grid.solid_at(along_x * x + along_y * y, z, counts);
+    weights += counts ? load_four(&band.weight[i]) : none;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] != 0) scratch->near[count++] = i + lane;
+    }
+  });
+  const double measured = sum_of_lanes(weights);
   WallPoints& points = scratch->points;
   points.begin(scene, start, along);
-  points.add(scene.band_level, thinned(near.first(count), WallPoints::kMost));
+  points.add(scene.band_level, thinned(scratch->near.first(count), WallPoints::kMost));
   double taken = 0.0;
   for (std::uint32_t k = 0; k < points.at.count; ++k) taken += static_cast<double>(points.at.weight[k]);
   points.measured_per_weight = taken > 0.0 ? measured / taken : 1.0;
@@ -59,10 +68,10 @@ bool is_grooved(const WallScene& scene, const WallSurface& surface) {
   const WallPoints& points = *surface.points;
   GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, points.sensor.x());
   const double foreshortening = surface.irls.over.foreshortening();
-  for (std::uint32_t k = 0; k < points.at.count; ++k) {
-    const double residual_m = points.at.distance(k, surface.irls.over, foreshortening);
-    profile.add(static_cast<double>(points.at.u[k]), points.z_level_m(k), residual_m);
-  }
+  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths counts) {
+    profile.add(load_four(&points.at.u[k]), points.four_z_level_m(k),
+                points.at.four_distances(k, surface.irls.over, foreshortening), counts);
+  });
   return profile.is_grooved();
 }
 

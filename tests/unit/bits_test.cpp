@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: bits are counted.
+// Proves: bits are counted, and asked for.
 
 #include "math/bits.hpp"
 
@@ -16,6 +16,14 @@ TEST(Bits, AreCounted) {
   for (int k = 0; k < 64; ++k) {
     EXPECT_EQ(bits_in(1ULL << k), 1);
     EXPECT_EQ(bits_in((1ULL << k) - 1), k);
+  }
+}
+
+TEST(Bits, SoManyOrMore) {
+  EXPECT_FALSE(has_bits(0, 1));
+  EXPECT_TRUE(has_bits(1ULL << 63, 1));
+  for (const std::uint64_t word : {0ULL, 1ULL, 0x8001ULL, 0x70ULL, 0xF0F0ULL, ~0ULL}) {
+    for (int least = 1; least <= 64; ++least) EXPECT_EQ(has_bits(word, least), bits_in(word) >= least) << word;
   }
 }
 

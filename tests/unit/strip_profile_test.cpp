@@ -154,12 +154,12 @@ TEST(StripProfile, TellsThemApartFurtherOut) {
   EXPECT_EQ(profile->surface_probability(9.5), 0.0) << "nothing is known there yet";
   EXPECT_FALSE(profile->is_strip(10.0));
   const double near_before = profile->surface_probability(0.5);
-  EXPECT_TRUE(profile->judge(PlaneOver{}, 0.0, 12.0));
+  EXPECT_NEAR(profile->judge(PlaneOver{}, 0.0, 12.0), 1.0 - kReach_m / 12.0, 0.02) << "points lie evenly";
   EXPECT_GE(judged(*profile, strips, 4.0, 11.5).share(), 0.9);
   EXPECT_GE(judged(*profile, strips, -11.5, -4.0).share(), 0.9);
   EXPECT_EQ(profile->surface_probability(0.5), near_before) << "what was judged stays";
   EXPECT_EQ(profile->surface_probability(15.5), 0.0) << "out of the second reach";
-  EXPECT_FALSE(profile->judge(PlaneOver{}, 0.0, 12.0)) << "there is nothing new";
+  EXPECT_EQ(profile->judge(PlaneOver{}, 0.0, 12.0), 0.0) << "there is nothing new";
 }
 
 // Points are looked at once; from another plane the columns' means are told by the points' own.
@@ -180,8 +180,8 @@ TEST(StripProfile, SeenFromAnotherPlaneAsIfThePointsWereItsOwn) {
   }
   ASSERT_TRUE(own->find(PlaneOver{}, 0.0, kReach_m, kGate_m));
   ASSERT_TRUE(other->find(over, 0.0, kReach_m, kGate_m));
-  ASSERT_TRUE(own->judge(PlaneOver{}, 0.0, 12.0));
-  ASSERT_TRUE(other->judge(over, 0.0, 12.0));
+  ASSERT_GT(own->judge(PlaneOver{}, 0.0, 12.0), 0.0);
+  ASSERT_GT(other->judge(over, 0.0, 12.0), 0.0);
   EXPECT_NEAR(other->layers().step_m, own->layers().step_m, 1e-4);
   for (double u = -11.5; u < 11.5; u += 0.05) {
     EXPECT_NEAR(other->surface_probability(u), own->surface_probability(u), 0.02) << u;

@@ -123,6 +123,12 @@ TEST(WallsAcross, AcrossARoadItIs) {
   EXPECT_TRUE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(2.0 * 4.0 * 2.1, &wall)));
 }
 
+TEST(WallsAcross, WhatIsAheadAndTheMostBehindMayBeTooLittle) {
+  const WallCandidate wall;
+  EXPECT_TRUE(may_stand_across(10.0 + 31.0, chosen_of(40.0, &wall)));
+  EXPECT_FALSE(may_stand_across(10.0 + 30.0, chosen_of(40.0, &wall))) << "as much is no better";
+}
+
 TEST(WallsAcross, WhereNothingIsChosenNothingIsRefused) {
   BandFixture band;
   band.add_face(2.5, -12.0, 12.0);

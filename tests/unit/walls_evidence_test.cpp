@@ -23,6 +23,13 @@ class Marked {
   }
   WallEvidence evidence() { return grid_->evidence(); }
   WallGrid* operator->() { return grid_.get(); }
+  bool solid_at(float along_m, float z_level_m) {
+    const FourTruths solid = grid_->solid_at(all_four(along_m), all_four(z_level_m), FourInts{0, -1, -1, 0});
+    EXPECT_EQ(solid[0], 0) << "does not count";
+    EXPECT_EQ(solid[3], 0);
+    EXPECT_EQ(solid[1], solid[2]);
+    return solid[1] != 0;
+  }
 
  private:
   test::Placed<WallGrid> grid_;
@@ -70,10 +77,10 @@ TEST(WallGrid, GapsAreMeasuredToTheNearestSolidColumn) {
   EXPECT_EQ(grid->gap_to_solid_m(-4.0), 0.0);
   EXPECT_NEAR(grid->gap_to_solid_m(0.5), 2.5, 0.51);
   EXPECT_NEAR(grid->gap_to_solid_m(8.0), 2.0, 0.51);
-  EXPECT_TRUE(grid->solid_at(-4.1, 0.1));
-  EXPECT_FALSE(grid->solid_at(0.5, 0.1));
-  EXPECT_FALSE(grid->solid_at(-4.1, 50.0));
-  EXPECT_FALSE(grid->solid_at(1e6, 0.1));
+  EXPECT_TRUE(grid.solid_at(-4.1F, 0.1F));
+  EXPECT_FALSE(grid.solid_at(0.5F, 0.1F));
+  EXPECT_FALSE(grid.solid_at(-4.1F, 50.0F));
+  EXPECT_FALSE(grid.solid_at(1e6F, 0.1F));
   BandFixture empty;
   EXPECT_GT(Marked(&empty)->gap_to_solid_m(0.0), 100.0);
 }
@@ -93,8 +100,8 @@ TEST(WallGrid, ARayCountsWhereItCrossesThePlaneThoughItEndsOutsideTheBand) {
     band.add_wall(2.0, {-4.0, 4.0, 0.3, 2.4});
     band.beyond().add(2.4, y_m, 1.4, rays);
     Marked grid(&band, 2.0);
-    EXPECT_TRUE(grid->solid_at(-1.2, 0.7)) << "elsewhere nothing changes";
-    return grid->solid_at(1.2, 0.7);
+    EXPECT_TRUE(grid.solid_at(-1.2F, 0.7F)) << "elsewhere nothing changes";
+    return grid.solid_at(1.2F, 0.7F);
   };
   EXPECT_FALSE(solid_with(4.0, 200.0F)) << "a cell holds some 15 hits";
   EXPECT_TRUE(solid_with(4.0, 2.0F)) << "fewer rays than hits";

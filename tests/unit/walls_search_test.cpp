@@ -106,6 +106,9 @@ TEST(WallSearch, SameWallIsSymmetricAndLocal) {
   EXPECT_FALSE(same(a, other) || same(other, a));
   EXPECT_FALSE(same(a, turned));
   EXPECT_FALSE(same(a, Plane{Eigen::Vector3d(1, 0, 0), 2.5})) << "across the road";
+  const SameWall surely_same{kLeft_view, 0.05};
+  EXPECT_FALSE(surely_same(a, near));
+  EXPECT_TRUE(surely_same(a, Plane{Eigen::Vector3d(0, -1, 0), 2.54}));
 }
 
 }  // namespace
