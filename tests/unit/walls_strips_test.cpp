@@ -34,7 +34,20 @@ struct Fitted {
   bool strips = false, fronts = false, solved = false;
   double offset_m = 0.0, yaw_rad = 0.0;  // errors
   double offset_sigma_m = 0.0, yaw_sigma_rad = 0.0;
+  std::uint32_t left_out = 0;  // points in columns that were judged, of which the fit does not know
 };
+
+std::uint32_t left_out_of(const WallSurface& surface) {
+  const WallPoints& points = *surface.points;
+  std::uint32_t count = 0;
+  points.for_each_patch([&](const WallPoints::Patch& patch, std::uint32_t) {
+    for (std::uint32_t k = patch.strip_end; k < patch.end; ++k) {
+      const StripProfile::FourColumns column = surface.strips->columns_of(all_four(points.at.u[k]));
+      count += column.is_strip[0] != 0 || column.surface_probability[0] > 0.0F ? 1U : 0U;
+    }
+  });
+  return count;
+}
 
 // Open from 3.5 to 9 m either way where it says so.
 RayScene wall_with(const Strips& strips, const Rock& rock, bool with_gaps) {
@@ -81,6 +94,7 @@ Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed, boo
   out.strips = surface.strips != nullptr;
   out.fronts = surface.fronts.found;
   out.solved = surface.patch.solved;
+  if (out.strips) out.left_out = left_out_of(surface);
   if (!out.solved) return out;
   const Plane wall = surface.plane();
   const Eigen::Vector3d along = along_of(wall, Eigen::Vector3d::UnitX());
@@ -100,6 +114,7 @@ struct Summary {
     strips += f.strips ? 1 : 0;
     fronts += f.fronts ? 1 : 0;
     EXPECT_TRUE(f.solved);
+    EXPECT_EQ(f.left_out, 0U) << "be a ring's fit worth it or not";
     offset_m += f.offset_m;
     yaw_rad += f.yaw_rad;
     offset2 += f.offset_m * f.offset_m;
