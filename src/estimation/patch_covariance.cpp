@@ -263,7 +263,7 @@ PatchGrid::BendSums PatchGrid::sum_bend_pairs(std::uint32_t n) const {
       weighted_after[o.lag] += o.mean->of_pairs[2];
     }
     const Quadratic terms = quadratic_terms(p);
-    const FourFloats first = packed(terms.head<3>(), p.error), last = packed(terms.tail<3>(), 1.0);
+    const FourFloats first = packed(terms.head<3>(), p.error), last = packed(terms.tail<3>(), 1.0);  // 1 x 1: a pair
     for (int lag = 1; lag <= kLags; ++lag) {
       linear[lag] += first * linear_after[lag];
       quadratic[lag] += last * quadratic_after[lag];

@@ -96,7 +96,7 @@ class PatchGrid {
     // What sums over pairs take of it, as floats: four sums at a time, and what they leave is far below what a
     // correlation is known to. Until test_bend: row of the design and error; the row times the information, and that to
     // the power of 3/2. From there on the quadratic's answer to an error here, over its information: error and answers
-    // of 1, u, v; of uu, uv, vv; these times the information.
+    // of 1, u, v; of uu, uv, vv, and 1, which counts pairs; these times the information.
     FourFloats of_pairs[3];
     std::int32_t iu, iv;
     std::uint32_t layer;

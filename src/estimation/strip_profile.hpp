@@ -34,8 +34,8 @@ class StripProfile {
   // points. Fills surface_probability() there; columns further away get 0: nothing is known of them yet.
   bool find(const PlaneOver& over, double u_centre_m, double reach_m, double gate_m);
   // Seen from the plane through the surface: tells all columns within reach_m apart by the step that was found. Columns
-  // that were judged before keep their probability. reach_m: never less than in the last call. Returns how many of the
-  // points in all that are judged by now lie in others, as a share.
+  // that were judged before keep their probability. reach_m: never less than in the last call. Returns the share of all
+  // points judged by now that lie in columns judged by this call.
   double judge(const PlaneOver& over, double u_centre_m, double reach_m);
 
   // A column that was judged to be a strip's.

@@ -14,21 +14,22 @@ void SurfacePatches::begin(double reach_m, double patch_m) {
   const double fits = 2.0 * reach_m / static_cast<double>(kSide - 1);
   cells_per_m_ = static_cast<float>(1.0 / (patch_m > fits ? patch_m : fits));
   from_m_ = static_cast<float>(-reach_m);
-  rows_ = static_cast<std::uint32_t>(2.0 * reach_m * static_cast<double>(cells_per_m_)) + 1;
-  if (rows_ > kSide) rows_ = kSide;
-  cells_.first(rows_ * kSide).fill(PatchSums{});
+  side_ = static_cast<std::uint32_t>(2.0 * reach_m * static_cast<double>(cells_per_m_)) + 1;
+  if (side_ > kSide) side_ = kSide;
+  cells_.first(side_ * kSide).fill(PatchSums{});
 }
 
 void SurfacePatches::add(const PatchPoint& point) {
   const float fu = (point.u_m - from_m_) * cells_per_m_, fv = (point.v_m - from_m_) * cells_per_m_;
-  if (!(fu >= 0.0F && fu < kSide && fv >= 0.0F && fv < static_cast<float>(rows_))) return;
+  const auto side = static_cast<float>(side_);
+  if (!(fu >= 0.0F && fu < side && fv >= 0.0F && fv < side)) return;
   cells_[static_cast<std::uint32_t>(fv) * kSide + static_cast<std::uint32_t>(fu)].add(point.sums);
 }
 
 // side x side cells as one.
 PatchSums SurfacePatches::block(std::uint32_t iu, std::uint32_t iv, std::uint32_t side) const {
   PatchSums sum;
-  for (std::uint32_t v = iv; v < iv + side && v < rows_; ++v) {
+  for (std::uint32_t v = iv; v < iv + side && v < side_; ++v) {
     for (std::uint32_t u = iu; u < iu + side && u < kSide; ++u) sum.add(cells_[v * kSide + u]);
   }
   return sum;
@@ -37,7 +38,7 @@ PatchSums SurfacePatches::block(std::uint32_t iu, std::uint32_t iv, std::uint32_
 SurfacePatches::Occupied SurfacePatches::occupied() const {
   static_assert(kSide == 64, "a row's bits are one word");
   Occupied out;
-  for (std::uint32_t v = 0; v < rows_; ++v) {
+  for (std::uint32_t v = 0; v < side_; ++v) {
     std::uint64_t bits = 0;
     for (std::uint32_t u = 0; u < kSide; ++u) {
       bits |= static_cast<std::uint64_t>(cells_[v * kSide + u].has_weight()) << u;
@@ -67,7 +68,7 @@ std::uint32_t SurfacePatches::Occupied::count_blocks(std::uint32_t side) const {
 
 double SurfacePatches::pooled_variance() const {
   double scatter = 0.0, freedom = 0.0;
-  for (const PatchSums& c : cells_.first(rows_ * kSide)) {
+  for (const PatchSums& c : cells_.first(side_ * kSide)) {
     if (c.count < 2) continue;
     scatter += c.scatter_or_none();
     freedom += static_cast<double>(c.count - 1);

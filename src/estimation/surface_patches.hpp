@@ -50,7 +50,7 @@ class SurfacePatches {
   Span<PatchSums> cells_;
   Span<SurfacePatch> patches_;
   float from_m_ = 0.0F, cells_per_m_ = 1.0F;
-  std::uint32_t rows_ = kSide;  // that are reached
+  std::uint32_t side_ = kSide;  // cells from -reach to reach
 };
 
 }  // namespace pose_wall

@@ -14,7 +14,7 @@ inline int bits_in(std::uint64_t word) {
   return bits;
 }
 
-// Whether so many are set, or more.
+// Whether so many are set, or more; 1 at least.
 inline bool has_bits(std::uint64_t word, int least) {
   for (; least > 1; --least) word &= word - 1;
   return word != 0;

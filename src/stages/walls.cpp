@@ -118,7 +118,8 @@ void weigh(const WallScene& scene, const SideView& view, WallSearch* search, Wal
   const auto refine = [&](RefineWidth width, Plane* plane) {
     const double thresh_m = scene.settings.wall_ransac_thresh;
     const bool holds = refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, width, &scratch->fit, plane);
-    POSE_WALL_NOTE(if (holds) note_refined_wall(*plane));
+    POSE_WALL_NOTE(if (holds) note_refined_wall(
+        *plane, width == RefineWidth::kWide ? POSE_WALL_TRACE_UNSUPPORTED : POSE_WALL_TRACE_OUT_OF_RANGE));
     return holds;
   };
   POSE_WALL_NOTE(trace::subject(subject_of(scene, view)));
@@ -164,9 +165,8 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);
   // With the most that could be behind, what is ahead may still be too little.
   const WallCandidate* const best = strongest(ahead);
-  if (may_stand_across((best != nullptr ? best->evidence.score_m2 : 0.0) + most_m2, *choice)) {
-    weigh(scene, ends[1], &scratch->search[1], scratch, &behind);
-  }
+  if (!may_stand_across((best != nullptr ? best->evidence.score_m2 : 0.0) + most_m2, *choice)) return;
+  weigh(scene, ends[1], &scratch->search[1], scratch, &behind);
   refuse_if_across(ahead, behind, scene.settings, choice);
 }
 
@@ -356,6 +356,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   WallCandidates beside[2];
   draw_both(scene, sides, last, random, scratch->search);
   for (int side = 0; side < 2; ++side) weigh(scene, sides[side], &scratch->search[side], scratch, &beside[side]);
+  // Before the same searches look ahead and behind.
   const std::uint32_t scored[2] = {scratch->search[0].scored(), scratch->search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
   refuse_where_across(scene, random, scratch, &choice);

@@ -26,9 +26,9 @@ inline void note_drawn_wall(const Plane& plane) {
   trace::candidate(POSE_WALL_TRACE_UNSUPPORTED, plane);
 }
 
-// The one that was noted last, refined; what does not go on from here is out of range.
-inline void note_refined_wall(const Plane& plane) {
-  trace::refined(POSE_WALL_TRACE_OUT_OF_RANGE, plane);
+// The one that was noted last, refined, and what it is if it does not go on from here.
+inline void note_refined_wall(const Plane& plane, pose_wall_trace_fate fate) {
+  trace::refined(fate, plane);
 }
 
 inline void note_weighed_wall(const WallCandidate& c) {

@@ -26,7 +26,8 @@ struct SideView {
   Eigen::Vector3d side_level;
 };
 
-// Whether two planes beside the same direction mean the same wall: are no further apart, beside the machine, than that.
+// Whether two planes beside the same direction mean the same wall: are no further apart, beside the machine, than
+// apart_m.
 struct SameWall {
   static constexpr double kApart_m = 0.15;
   SideView view;

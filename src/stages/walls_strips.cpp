@@ -14,19 +14,21 @@ namespace {
 constexpr double kSeenWithin = 1.5;
 constexpr double kProfileReach_m = 32.0;
 constexpr int kRings = 4;  // each twice as far as the last
-// A ring that adds no more than this share of the points would tell the plane once more that is known.
+// A ring that adds no more than this share of the points judged by then would tell the plane once more that is known:
+// its points are told apart, and count in the last fit.
 constexpr double kWorthAFit = 0.12;
 constexpr double kLayerPointsMin = 100.0;
 constexpr double kLayerGainPerPoint = 0.02;
 constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, parted by the voxels
 constexpr double kLayersApartInSigmas = 2.5;
 constexpr int kStepRounds = 4;  // of the surface alone: it tells its roughness, the plane comes of both
-// The round that comes to this takes its step, and one more follows. Of a ring's fit the next ring needs the direction.
+// The round that moves the plane by no more than this is the last. Of a ring's fit the next ring needs the direction.
 struct JointRounds {
   int most;
   double offset_stands_still_m, slopes_stand_still;
 };
-constexpr JointRounds kOfARing{3, 1e9, 5e-4};
+constexpr double kAnyOffset_m = 1e9;
+constexpr JointRounds kOfARing{3, kAnyOffset_m, 5e-4};
 constexpr JointRounds kLast{8, 2e-4, 2e-4};
 constexpr double kAgreeInSigmas = 3.5;
 constexpr std::uint32_t kFrontPointsMin = 60;
@@ -215,8 +217,9 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
 
 namespace {
 
-// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still.
-// False where no fronts are found.
+// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still. The
+// last correction is left to over(): the patches' sums are those of the plane before it. False where no fronts are
+// found.
 bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSurface* joint) {
   for (int round = 1;; ++round) {
     joint->fronts = measure_fronts(*joint);
@@ -255,8 +258,8 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   double reach_m = kSeenWithin * away_m;
   IrlsSettings step = settings;
   step.rounds = kStepRounds;
-  PlaneOver surface_alone = fit->irls.over, with_fronts;
-  bool had_fronts = false, marked = false;
+  PlaneOver surface_alone = fit->irls.over, left_off;
+  bool had_fronts = false, marked = false;  // marked: the points know what the columns say
   for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
     const double added = ring > 0 ? strips.judge(fit->irls.over, sensor_m, reach_m) : 1.0;
     if (added > 0.0) marked = false;
@@ -270,13 +273,13 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
     surface_alone = fit->irls.over;
     // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
     WallSurface next = *fit;
-    if (had_fronts) next.irls.over = with_fronts;
+    if (had_fronts) next.irls.over = left_off;
     had_fronts = fit_with_fronts(kOfARing, scratch, &next);
     if (!had_fronts) {
       next = *fit;
       fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &next);
     }
-    if (next.patch.solved) fit->irls.over = with_fronts = next.over();
+    if (next.patch.solved) fit->irls.over = left_off = next.over();
   }
   if (!marked) points.mark_columns(strips, scratch->near);
 }

@@ -15,8 +15,8 @@ namespace pose_wall {
 Span<std::uint32_t> points_near(const BoundedPoints& points, const Plane& plane, double gate_m,
                                 Span<std::uint32_t> out);
 
-// A few rounds of Tukey from a drawn hypothesis on points of the band, its lean set free: first wide enough to see the
-// lean of a wall that an upright hypothesis cuts, then narrow. False where nothing holds it.
+// A few rounds of Tukey from a drawn hypothesis on points of the band, its lean set free. False where nothing holds it.
+// It is called first wide, to see the lean of a wall that an upright hypothesis cuts, then narrow.
 enum class RefineWidth { kWide, kNarrow };
 bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
                        RefineWidth width, WallFitScratch* scratch, Plane* plane);

@@ -172,9 +172,9 @@ POSE_WALL_WRAP(bool, FIND_STRIPS, strips,
   return !fails(Fault::kStripsNotFound) && strips_for_real(self, over, u_m, reach_m, gate_m);
 }
 
-POSE_WALL_WRAP(bool, JUDGE_STRIPS, judge_strips,
+POSE_WALL_WRAP(double, JUDGE_STRIPS, judge_strips,
                (StripProfile * self, const PlaneOver& over, double u_m, double reach_m)) {
-  return !fails(Fault::kStripsNotJudged) && judge_strips_for_real(self, over, u_m, reach_m);
+  return fails(Fault::kStripsNotJudged) ? 0.0 : judge_strips_for_real(self, over, u_m, reach_m);
 }
 
 POSE_WALL_WRAP(TwoLayers, TWO_LAYERS, two_layers, (const LayerHistogram& histogram, const LayerDemands& demands)) {

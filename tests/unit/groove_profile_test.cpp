@@ -87,6 +87,26 @@ TEST(GrooveProfile, WallsSeenBetweenWhatStandsBeforeThemAreNot) {
       << "steel sets";
 }
 
+// What does not count lies in the grooves, and would fill them.
+TEST(GrooveProfile, FourPointsCountAsEachByItself) {
+  const Surface surface = pipes(0.2, 0.4);
+  for (const std::uint32_t lanes : {1U, 2U, 3U, 4U}) {
+    test::Noise noise(7);
+    GrooveProfile profile(kLow_m, kHigh_m, 0.0);
+    for (int i = 0; i < 16000; ++i) {
+      FourFloats u{}, z{}, residual{};
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+        const double at_u = noise.uniform(-kHalfLength_m, kHalfLength_m), at_z = noise.uniform(kLow_m, kHigh_m);
+        u[lane] = static_cast<float>(at_u);
+        z[lane] = static_cast<float>(at_z);
+        residual[lane] = lane < lanes ? static_cast<float>(surface(at_u, at_z)) : 1.0F;
+      }
+      profile.add(u, z, residual, first_of_four(lanes));
+    }
+    EXPECT_TRUE(profile.is_grooved()) << lanes;
+  }
+}
+
 TEST(GrooveProfile, LittleSeenTellsNothing) {
   EXPECT_FALSE(is_grooved(pipes(0.2, 0.4), 0.012, 0.9)) << "two metres of length";
   GrooveProfile empty(kLow_m, kHigh_m, 0.0);

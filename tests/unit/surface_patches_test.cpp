@@ -56,13 +56,25 @@ TEST(SurfacePatches, NeverMoreThanThereIsRoomFor) {
 TEST(SurfacePatches, WhatLiesOutsideIsLeftOut) {
   test::Placed<SurfacePatches> patches;
   patches->begin(2.0, 0.5);
-  for (const double far : {-2.01, 1e9, std::nan(""), HUGE_VAL}) {
+  for (const double far : {-2.01, 2.6, 1e9, std::nan(""), HUGE_VAL}) {
     patches->add(test::patch_point(far, 0.0, 0.0, 1.0, 0.0));
     patches->add(test::patch_point(0.0, far, 0.0, 1.0, 0.0));
   }
   EXPECT_EQ(patches->collect().size(), 0U);
   patches->add(test::patch_point(0.0, 0.0, 0.0, 0.0, 0.0));
   EXPECT_EQ(patches->collect().size(), 0U) << "without weight";
+}
+
+TEST(SurfacePatches, NothingIsLeftOfAWiderGridBefore) {
+  test::Placed<SurfacePatches> patches;
+  patches->begin(19.0, 0.5);
+  for (double u = -18.9; u < 19.0; u += 0.5) {
+    for (double v = -18.9; v < 19.0; v += 0.5) patches->add(test::patch_point(u, v, 0.01, 1.0, 0.0));
+  }
+  for (const double reach_m : {3.0, 19.0}) {
+    patches->begin(reach_m, 0.5);
+    EXPECT_EQ(patches->collect().size(), 0U) << reach_m;
+  }
 }
 
 }  // namespace

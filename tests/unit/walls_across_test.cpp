@@ -129,6 +129,24 @@ TEST(WallsAcross, WhatIsAheadAndTheMostBehindMayBeTooLittle) {
   EXPECT_FALSE(may_stand_across(10.0 + 30.0, chosen_of(40.0, &wall))) << "as much is no better";
 }
 
+std::uint32_t reasons_between(bool face_behind) {
+  BandFixture band({{"yaw_max_deg", "5"}});
+  for (const double y_m : {4.0, -4.0}) band.add_wall(y_m, {-3.0, 3.0, 0.3, 2.4});
+  band.add_face(4.0, -3.5, 3.5);
+  if (face_behind) band.add_face(-4.0, -3.5, 3.5);
+  test::Placed<WallsScratch> scratch(band.points().set().capacity());
+  Random random(1);
+  const Plane* const nothing[2] = {nullptr, nullptr};
+  const WallsResult found = find_walls(band.scene(), nothing, &random, scratch.get());
+  return found.side[0].fit.reasons & found.side[1].fit.reasons;
+}
+
+// Each face shows less than the two sides do, and so would the most that could stand there; both together show more.
+TEST(WallsAcross, WhatIsBehindIsWeighedWhereItMayTellWithWhatIsAhead) {
+  EXPECT_NE(reasons_between(true) & POSE_WALL_R_CROSS_ROAD, 0U);
+  EXPECT_EQ(reasons_between(false) & POSE_WALL_R_CROSS_ROAD, 0U);
+}
+
 TEST(WallsAcross, WhereNothingIsChosenNothingIsRefused) {
   BandFixture band;
   band.add_face(2.5, -12.0, 12.0);
