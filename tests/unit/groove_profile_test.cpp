@@ -87,7 +87,7 @@ TEST(GrooveProfile, WallsSeenBetweenWhatStandsBeforeThemAreNot) {
       << "steel sets";
 }
 
-// What does not count lies in the grooves, and would fill them.
+// What does not count stands far out everywhere, and would hide the grooves.
 TEST(GrooveProfile, FourPointsCountAsEachByItself) {
   const Surface surface = pipes(0.2, 0.4);
   for (const std::uint32_t lanes : {1U, 2U, 3U, 4U}) {
