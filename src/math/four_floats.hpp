@@ -81,9 +81,15 @@ inline FourFloats magnitude_of(FourFloats four) {
 }
 
 inline bool any_of(FourTruths truths) {
-  std::uint64_t halves[2];
-  std::memcpy(halves, &truths, sizeof(halves));
-  return (halves[0] | halves[1]) != 0;
+#ifdef __SSE2__
+  return __builtin_ia32_movmskps(reinterpret_cast<FourFloats>(truths)) != 0;
+#else
+  using FourShorts = std::int16_t __attribute__((vector_size(8)));
+  const FourShorts halves = __builtin_convertvector(truths, FourShorts);
+  std::uint64_t bits;
+  std::memcpy(&bits, &halves, sizeof(bits));
+  return bits != 0;
+#endif
 }
 
 inline FourTruths first_of_four(std::uint32_t count) {

@@ -19,16 +19,19 @@ class NeighbourCounter {
       : points_(points), columns_(grid, radius_m), radius2_(static_cast<float>(radius_m * radius_m)), needed_(needed) {}
 
   // Voxels next to each other in the list are neighbours, as a rule: most points are done with that. What this does not
-  // find, has_enough() may. Of the four points from i on; near either end of the list nothing is found.
-  FourTruths have_enough_in_list(std::uint32_t i) const {
-    if (i < kLook || i + kFour + kLook > points_.count) return FourTruths{};
+  // find, has_enough() may. Of the next four points, from i on; near the end of the list nothing is found.
+  FourTruths next_have_enough_in_list(std::uint32_t i) {
+    static_assert(kLook < kFour, "those before are of the last four");
+    if (i + kFour + kLook > points_.count) return FourTruths{};
     const FourPlaces here = four_from(i);
-    FourInts found{};  // true is -1
-    for (std::uint32_t away = 1; away <= kLook; ++away) {
-      found -= are_near(here, four_from(i - away));
-      found -= are_near(here, four_from(i + away));
-    }
-    return found >= static_cast<std::int32_t>(needed_);
+    const Ahead ahead = {are_near(here, four_from(i + 1)), are_near(here, four_from(i + 2)),
+                         are_near(here, four_from(i + 3))};
+    // Who is near one that lies before it was told when that was asked.
+    const FourInts found = ahead.by_1 + picked<3, 4, 5, 6>(last_.by_1, ahead.by_1) +  //
+                           ahead.by_2 + picked<2, 3, 4, 5>(last_.by_2, ahead.by_2) +  //
+                           ahead.by_3 + picked<1, 2, 3, 4>(last_.by_3, ahead.by_3);
+    last_ = ahead;
+    return -found >= static_cast<std::int32_t>(needed_);  // true is -1
   }
 
   // Counting stops at the needed number. For one point after the other.
@@ -47,6 +50,10 @@ class NeighbourCounter {
 
  private:
   static constexpr std::uint32_t kLook = 3;
+  // Of four points: whether that so many places further on in the list is near.
+  struct Ahead {
+    FourTruths by_1{}, by_2{}, by_3{};
+  };
   static constexpr std::uint32_t kAtOnce = 64;
 
   FourPlaces four_from(std::uint32_t j) const {
@@ -70,6 +77,7 @@ class NeighbourCounter {
   VoxelColumns columns_;
   float radius2_;
   std::uint32_t needed_;
+  Ahead last_;  // of the four before
 };
 
 // The points that are kept move up, in their order.
@@ -94,7 +102,7 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
   const double radius_m = settings.outlier_radius > least_m ? settings.outlier_radius : least_m;
   NeighbourCounter counter(points, grid, radius_m, settings.outlier_min_neighbors);
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
-    const FourTruths enough = counter.have_enough_in_list(i);
+    const FourTruths enough = counter.next_have_enough_in_list(i);
     if (!any_of(~enough)) {  // as most
       std::memcpy(&keep[i], kKeepFour, kFour);
       continue;
