@@ -81,7 +81,6 @@ class VoxelGrid {
  private:
   static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;
 
-  std::uint64_t fingerprint_of_sorted() const;
   void write_sorted(PointSet* out);
   // The step that holds a coordinate is coordinate * per_m + origin, cut off.
   FourInts steps_of(FourFloats coordinates_m) const { return cut_off(coordinates_m * steps_per_m_ + origin_step_); }

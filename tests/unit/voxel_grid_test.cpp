@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <tuple>
 
 #include "support/stage_fixtures.hpp"
@@ -172,6 +173,25 @@ TEST(VoxelGrid, AnotherCloudHasAnotherFingerprint) {
   EXPECT_NE(gridded(points, 0.1).fingerprint, before);
   points.pop_back();
   EXPECT_NE(gridded(points, 0.1).fingerprint, before);
+}
+
+// What one point gives another one may take back: sums alone would not tell.
+TEST(VoxelGrid, SmallChangesThatUndoEachOtherGiveOtherFingerprints) {
+  const std::vector<Xyz> points = random_points(200, 1.0, 3);
+  std::set<std::uint64_t> seen = {gridded(points, 0.1, 500).fingerprint};
+  std::size_t clouds = 1;
+  for (std::size_t k = 0; k + 2 < points.size(); ++k) {
+    for (const std::size_t axis : {0U, 1U, 2U}) {
+      std::vector<Xyz> others = points;
+      others[k][axis] += 0.001;
+      others[k + 1][axis] -= 0.001;
+      EXPECT_TRUE(seen.insert(gridded(others, 0.1, 500).fingerprint).second) << k << " along " << axis;
+      std::swap(others[k], others[k + 2]);  // the same points: nothing new
+      EXPECT_FALSE(seen.insert(gridded(others, 0.1, 500).fingerprint).second) << k << " along " << axis;
+      ++clouds;
+    }
+  }
+  EXPECT_EQ(seen.size(), clouds);
 }
 
 TEST(VoxelGrid, EveryCentroidLiesWithinOneLeafOfItsPoints) {
