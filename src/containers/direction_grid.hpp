@@ -28,7 +28,7 @@ class DirectionGrid {
 
   // ray: finite and not zero.
   static std::uint32_t cell_of(const Eigen::Vector3d& ray);
-  // Of four rays at once; norm2: their squared lengths. What is no ray gets some cell.
+  // Of four rays at once, finite ones; norm2: their squared lengths. Of zero it is some cell.
   static FourInts cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2);
   void add(std::uint32_t cell, std::uint32_t returns) {
     constexpr std::uint32_t kCountMax = 0xFFFF;
@@ -73,16 +73,15 @@ inline std::uint32_t DirectionGrid::cell_of(const Eigen::Vector3d& ray) {
 
 inline FourInts DirectionGrid::cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2) {
   constexpr float kColumnsPerWay = kColumns / 4.0F, kRowsPerSine = kRows / 2.0F;
-  const FourFloats none{}, last_row = all_four(kRows - 1.0F), past_columns = all_four(static_cast<float>(kColumns));
+  const FourFloats none{};
   const FourFloats around = magnitude_of(x) + magnitude_of(y);
   const FourFloats share = around > none ? y / around : none;
   const FourFloats way = x < none ? 2.0F - share : (share < none ? 4.0F + share : share);
   const FourFloats up = norm2 > none ? z / root_of(norm2) : none;
-  const FourFloats row = (up + 1.0F) * kRowsPerSine, column = way * kColumnsPerWay;
-  // Written so that what is not a number falls into some cell too.
-  const FourFloats in_rows = row < last_row ? (row > none ? row : none) : last_row;
-  const FourFloats in_columns = column < past_columns ? (column > none ? column : none) : none;
-  return cut_off(in_rows) * static_cast<std::int32_t>(kColumns) + cut_off(in_columns);
+  // Rounding may reach the end of either: the last row is the last, and after the last column comes the first.
+  const FourInts row = cut_off((up + 1.0F) * kRowsPerSine), last_row = all_four_ints(kRows - 1);
+  const FourInts column = cut_off(way * kColumnsPerWay) & static_cast<std::int32_t>(kColumns - 1);
+  return (row < last_row ? row : last_row) * static_cast<std::int32_t>(kColumns) + column;
 }
 
 // What a cloud's points say by their direction alone, whatever became of them later.

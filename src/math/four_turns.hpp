@@ -19,13 +19,18 @@ class FourTurns {
     }
   }
 
-  FourPlaces operator()(FourFloats x, FourFloats y, FourFloats z) const {
+  FourPlaces operator()(FourFloats x, FourFloats y, FourFloats z) const { return shifted(turned(x, y, z)); }
+
+  FourPlaces turned(FourFloats x, FourFloats y, FourFloats z) const {
     return {of(0, x, y, z), of(1, x, y, z), of(2, x, y, z)};
+  }
+  FourPlaces shifted(const FourPlaces& turned) const {
+    return {turned.x + shift_m_[0], turned.y + shift_m_[1], turned.z + shift_m_[2]};
   }
 
  private:
   FourFloats of(int row, FourFloats x, FourFloats y, FourFloats z) const {
-    return R_[row][0] * x + R_[row][1] * y + R_[row][2] * z + shift_m_[row];
+    return R_[row][0] * x + R_[row][1] * y + R_[row][2] * z;
   }
 
   float R_[3][3], shift_m_[3];

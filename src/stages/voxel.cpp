@@ -75,12 +75,9 @@ class Pass {
     for (const Box* box : {&settings.body_box_1, &settings.body_box_2, &settings.body_box_3, &settings.body_box_4}) {
       if (box->holds_something()) boxes_[box_count_++] = *box;
     }
-    const Eigen::Vector3d forward_lidar = extrinsic.R_base_lidar.transpose() * axes.forward_base;
-    const Eigen::Vector3d left_lidar = extrinsic.R_base_lidar.transpose() * axes.left_base;
-    for (int k = 0; k < 3; ++k) {
-      forward_lidar_[k] = static_cast<float>(forward_lidar[k]);
-      left_lidar_[k] = static_cast<float>(left_lidar[k]);
-    }
+    const Eigen::Vector3d x_base = Eigen::Vector3d::UnitX(), y_base = Eigen::Vector3d::UnitY();
+    quadrants_ = {quadrant_of(axes, x_base), quadrant_of(axes, y_base), quadrant_of(axes, -x_base),
+                  quadrant_of(axes, -y_base)};
   }
 
   // False where the grid overflows; counts are complete only on true. Not inlined: it is called from two places.
@@ -151,46 +148,48 @@ class Pass {
     return weight >= 1.0 ? static_cast<std::uint32_t>(weight + 0.5) : 1U;
   }
 
-  static FourFloats turned(const float (&row)[3], FourFloats x, FourFloats y, FourFloats z) {
-    return row[0] * x + row[1] * y + row[2] * z;
+  // That an axis of base points into the middle of.
+  static std::int32_t quadrant_of(const Axes& axes, const Eigen::Vector3d& axis_base) {
+    const double ahead = axes.forward_base.dot(axis_base), left = axes.left_base.dot(axis_base);
+    if (std::fabs(left) > std::fabs(ahead)) return left > 0.0 ? kLeft : kRight;
+    return ahead > 0.0 ? kAhead : kBehind;
   }
 
-  // What is beyond may be anything: it is turned as if it were zero, and left out at the end.
-  void judge_and_turn(const VoxelGrid& grid, PointBlock* b) const {
+  // Whole fours, up to end. What is beyond may be anything: it is turned as if it were zero, and left out at the end.
+  void judge_and_turn(const VoxelGrid& grid, std::uint32_t end, PointBlock* b) const {
     const FourInts kept = all_four_ints(kKept), near = all_four_ints(kNear), beyond = all_four_ints(kBeyond);
-    const FourInts ahead = all_four_ints(kAhead), behind = all_four_ints(kBehind);
-    const FourInts left = all_four_ints(kLeft), right = all_four_ints(kRight);
+    const FourInts with_x = all_four_ints(quadrants_.with_x), with_y = all_four_ints(quadrants_.with_y);
+    const FourInts against_x = all_four_ints(quadrants_.against_x), against_y = all_four_ints(quadrants_.against_y);
     const FourFloats least2 = all_four(range_min2_), most2 = all_four(range_max2_), none{};
     const FourTurns to_base = to_base_;  // nothing that is stored can be thought to change it
-    for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
+    for (std::size_t k = 0; k < end; k += kFour) {
       FourFloats x = load_four(&b->x_lidar[k]), y = load_four(&b->y_lidar[k]), z = load_four(&b->z_lidar[k]);
       const FourFloats range2 = x * x + y * y + z * z;
       const FourTruths there = (range2 <= most2) & (range2 > none);
       store_four(there ? (range2 < least2 ? near : kept) : beyond, &b->fate[k]);
-      store_four(DirectionGrid::cells_of(x, y, z, range2), &b->direction[k]);
       x = there ? x : none;
       y = there ? y : none;
       z = there ? z : none;
-      const FourPlaces base = to_base(x, y, z);
+      store_four(DirectionGrid::cells_of(x, y, z, range2), &b->direction[k]);
+      const FourPlaces ray = to_base.turned(x, y, z), base = to_base.shifted(ray);
       store_four(base.x, &b->x_base[k]);
       store_four(base.y, &b->y_base[k]);
       store_four(base.z, &b->z_base[k]);
       FourWords weights;
       std::memcpy(&weights, &b->weight[k], sizeof(weights));
       grid.split(base.x, base.y, base.z, weights, &b->key[k], &b->sums[k]);
-      const FourFloats to_front = turned(forward_lidar_, x, y, z), to_left = turned(left_lidar_, x, y, z);
-      const FourInts along = to_front > none ? ahead : behind, across = to_left > none ? left : right;
-      store_four(magnitude_of(to_left) > magnitude_of(to_front) ? across : along, &b->quadrant[k]);
+      const FourInts along_x = ray.x > none ? with_x : against_x, along_y = ray.y > none ? with_y : against_y;
+      store_four(magnitude_of(ray.y) > magnitude_of(ray.x) ? along_y : along_x, &b->quadrant[k]);
     }
   }
 
-  void judge_bodies(PointBlock* b) const {
+  void judge_bodies(std::uint32_t end, PointBlock* b) const {
     for (std::uint32_t i = 0; i < box_count_; ++i) {
       const Box& box = boxes_[i];
       const float x0 = static_cast<float>(box.x_min), x1 = static_cast<float>(box.x_max);
       const float y0 = static_cast<float>(box.y_min), y1 = static_cast<float>(box.y_max);
       const float z0 = static_cast<float>(box.z_min), z1 = static_cast<float>(box.z_max);
-      for (std::uint32_t k = 0; k < PointBlock::kSize; k += kFour) {
+      for (std::size_t k = 0; k < end; k += kFour) {
         const FourFloats x = load_four(&b->x_base[k]), y = load_four(&b->y_base[k]), z = load_four(&b->z_base[k]);
         const FourTruths inside = (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1) & (z >= z0) & (z <= z1);
         if (!any_of(inside)) continue;
@@ -206,12 +205,13 @@ class Pass {
     const std::uint32_t count = block->count;
     block->count = 0;
     if (count == 0) return true;
-    for (std::uint32_t k = count; k < PointBlock::kSize; ++k) {
-      block->x_lidar[k] = block->y_lidar[k] = block->z_lidar[k] = 0.0F;
-      block->weight[k] = kWeightOne;
+    std::uint32_t end = count;  // of whole fours
+    for (; end % kFour != 0; ++end) {
+      block->x_lidar[end] = block->y_lidar[end] = block->z_lidar[end] = 0.0F;
+      block->weight[end] = kWeightOne;
     }
-    judge_and_turn(*grid, block);
-    judge_bodies(block);
+    judge_and_turn(*grid, end, block);
+    judge_bodies(end, block);
     counts->points_in += count;
     VoxelGrid::Filling cells(grid);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -259,7 +259,9 @@ class Pass {
   float range_min2_, range_max2_;
   Box boxes_[4] = {};
   std::uint32_t box_count_ = 0;
-  float forward_lidar_[3], left_lidar_[3];
+  struct {
+    std::int32_t with_x, with_y, against_x, against_y;  // base's axes
+  } quadrants_;
   bool swap_;
   bool plain_, in_a_row_;
   double intensity_weight_;
