@@ -35,21 +35,24 @@ void part_by_height(const PointSet& cloud_base, const LevelResult& level, const 
   VoxelGrid::Filling band(grid);
   const FourTurns to_level(level.R_level_base);
   for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    const FourPlaces p = to_level(x, y, z);
-    const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max);
-    std::uint64_t keys[kFour];
-    VoxelGrid::Sums sums[kFour];
+    const FourPlaces p = to_level.turned(x, y, z);
+    const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max), beyond = counts & ~in_band;
     if (any_of(in_band)) {
+      std::uint64_t keys[kFour];
+      VoxelGrid::Sums sums[kFour];
       const FourFloats none{}, sixteenths = load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F;
       const FourInts weights = cut_off(in_band ? sixteenths : none);
       grid->split(in_band ? p.x : none, in_band ? p.y : none, in_band ? p.z : none,
                   reinterpret_cast<FourWords>(weights), keys, sums);
-    }
-    for (std::uint32_t lane = 0; lane < kFour && i + lane < cloud_base.count; ++lane) {
-      if (in_band[lane] != 0) {
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
         // There is room: never more cells than points, and both grids have the same capacity.
-        band.add(keys[lane], sums[lane]);
-      } else if (until_next == 0) {
+        if (in_band[lane] != 0) band.add(keys[lane], sums[lane]);
+      }
+    }
+    if (!any_of(beyond)) return;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (beyond[lane] == 0) continue;
+      if (until_next == 0) {
         beyond_level->add(p.x[lane], p.y[lane], p.z[lane], static_cast<float>(share));
         until_next = every - 1;
       } else {

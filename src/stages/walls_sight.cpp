@@ -29,9 +29,9 @@ constexpr double kBlindTopsMax = 0.1;
 constexpr double kUnexplainedMax = 0.05;
 
 // Weights may go by intensity.
-std::uint32_t points_of(float weight) {
-  const auto rounded = static_cast<std::uint32_t>(weight + 0.5F);
-  return rounded > 0 ? rounded : 1;
+FourInts points_of(FourFloats weights) {
+  const FourInts rounded = cut_off(weights + 0.5F), one = all_four_ints(1);
+  return rounded > one ? rounded : one;
 }
 
 // Sorts what has passed through the plane by direction; returns how deep behind it most of that ends.
@@ -42,7 +42,8 @@ double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, S
   scratch->behind_lidar.copy(scene.returns_lidar.too_far);
   for_each_in(scene.cloud_base, Slab(wall_base, kAnyDepth_m, -behind_m), [&](std::uint32_t i, float distance_m) {
     const double r = static_cast<double>(distance_m);
-    scratch->behind_lidar.add(scratch->direction_of[i], points_of(scene.cloud_base.weight[i]));
+    scratch->behind_lidar.add(scratch->direction_of[i],
+                              static_cast<std::uint32_t>(points_of(all_four(scene.cloud_base.weight[i]))[0]));
     const Eigen::Vector3d ray = scene.cloud_base.at(i) - scene.extrinsic.sensor_base_m;
     const double to_plane = way_to_plane(inside_m, r);
     const double z_level_m = scene.sensor_level_m.z() + to_plane * scene.R_level_base.row(2).dot(ray);
@@ -124,15 +125,19 @@ void note_directions(const WallScene& scene, SightScratch* scratch) {
   scratch->expected.look_at(scene.returns_lidar.all);
   scratch->seen.look_at(scene.returns_lidar.all, scratch->expected);
   scratch->kept_lidar.clear();
-  for_each_four_points(scene.cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths) {
-    const FourPlaces ray = to_lidar(x, y, z);
-    const FourInts cells = DirectionGrid::cells_of(ray.x, ray.y, ray.z, ray.x * ray.x + ray.y * ray.y + ray.z * ray.z);
-    for (std::uint32_t lane = 0; lane < kFour && i + lane < scene.cloud_base.count; ++lane) {
-      const auto cell = static_cast<std::uint32_t>(cells[lane]);
-      scratch->direction_of[i + lane] = static_cast<std::uint16_t>(cell);
-      scratch->kept_lidar.add(cell, points_of(scene.cloud_base.weight[i + lane]));
-    }
-  });
+  for_each_four_points(
+      scene.cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+        // What is read behind the last point may be anything: of zero it is some cell, and it stands for no point.
+        const FourPlaces ray = to_lidar(x, y, z);
+        const FourFloats none{}, rx = counts ? ray.x : none, ry = counts ? ray.y : none, rz = counts ? ray.z : none;
+        const FourInts cells = DirectionGrid::cells_of(rx, ry, rz, rx * rx + ry * ry + rz * rz);
+        const FourInts points = points_of(load_four(&scene.cloud_base.weight[i])) & counts;
+        using FourShorts = std::uint16_t __attribute__((vector_size(8)));
+        store_four(__builtin_convertvector(cells, FourShorts), &scratch->direction_of[i]);
+        for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+          scratch->kept_lidar.add(static_cast<std::uint32_t>(cells[lane]), static_cast<std::uint32_t>(points[lane]));
+        }
+      });
 }
 
 WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double behind_m,

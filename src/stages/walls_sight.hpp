@@ -38,7 +38,7 @@ struct SightScratch {
   SeenColumns seen;
 
   void lay_out(Arena& arena, std::uint32_t points_max) {
-    direction_of = arena.take<std::uint16_t>(points_max);
+    direction_of = arena.take<std::uint16_t>(points_max + kFour);
     kept_lidar.lay_out(arena);
     behind_lidar.lay_out(arena);
   }
