@@ -21,8 +21,7 @@ void count_up(std::uint16_t* counter, std::uint32_t by) {
 }  // namespace
 
 void WallGrid::lay_out(Arena& arena) {
-  hits_ = arena.take<std::uint16_t>(kColumns * kRowsMax);
-  through_ = arena.take<std::uint16_t>(kColumns * kRowsMax);
+  counters_ = arena.take<std::uint16_t>(2 * kCells + 1);
 }
 
 // Four points, or the rays to them, against a plane, in floats: no cell is known to the millimetre.
@@ -76,20 +75,22 @@ FourInts WallGrid::Rows::cells_of(FourFloats along_m, FourFloats z_level_m) cons
 }
 
 void WallGrid::mark_points(const BoundedPoints& points, Rays rays, FourMarks* marks) {
+  const FourInts one = all_four_ints(1), through = all_four_ints(static_cast<std::int32_t>(kCells));
+  const FourInts in_none = through + through;
+  FourFloats measured{};
   for_each_four_about(points, marks->slab(), [&](std::uint32_t i, FourTruths counts) {
     if (!marks->look_at(load_four(&points.x[i]), load_four(&points.y[i]), load_four(&points.z[i]), counts)) return;
+    const FourFloats weights = load_four(&points.weight[i]), none{};
+    measured += marks->hits ? weights : none;
     const FourInts cell = rows_.cells_of(marks->along_m, marks->z_level_m);
+    const FourTruths tells = (marks->hits | marks->passes) & (cell >= FourInts{});
+    const FourInts counter = tells ? (marks->hits ? cell : cell + through) : in_none;
+    const FourInts by = rays == Rays::kOneAPoint ? one : cut_off(weights);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (marks->hits[lane] != 0) {
-        inliers_ += static_cast<double>(points.weight[i + lane]);
-        if (cell[lane] >= 0) count_up(&hits_[static_cast<std::uint32_t>(cell[lane])], 1);
-      } else if (marks->passes[lane] != 0 && cell[lane] >= 0) {
-        const bool one = rays == Rays::kOneAPoint;
-        count_up(&through_[static_cast<std::uint32_t>(cell[lane])],
-                 one ? 1 : static_cast<std::uint32_t>(points.weight[i + lane]));
-      }
+      count_up(&counters_[static_cast<std::uint32_t>(counter[lane])], static_cast<std::uint32_t>(by[lane]));
     }
   });
+  inliers_ += sum_of_lanes(measured);
 }
 
 WallGrid::Rows WallGrid::rows_of(const WallScene& scene) {
@@ -99,8 +100,7 @@ WallGrid::Rows WallGrid::rows_of(const WallScene& scene) {
 }
 
 void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach) {
-  hits_.fill(0);
-  through_.fill(0);
+  counters_.fill(0);
   inliers_ = 0.0;
   rows_ = rows_of(scene);
   FourMarks in_band(scene, wall, along_level, reach);

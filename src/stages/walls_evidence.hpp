@@ -68,15 +68,17 @@ class WallGrid {
   class FourMarks;
   enum class Rays { kOneAPoint, kByWeight };
   void mark_points(const BoundedPoints& points, Rays rays, FourMarks* marks);
-  bool solid(std::uint32_t cell) const { return hits_[cell] >= 2 && hits_[cell] >= through_[cell]; }
-  bool open(std::uint32_t cell) const { return through_[cell] >= 2 && through_[cell] > hits_[cell]; }
+  std::uint16_t hits(std::uint32_t cell) const { return counters_[cell]; }
+  std::uint16_t through(std::uint32_t cell) const { return counters_[kCells + cell]; }
+  bool solid(std::uint32_t cell) const { return hits(cell) >= 2 && hits(cell) >= through(cell); }
+  bool open(std::uint32_t cell) const { return through(cell) >= 2 && through(cell) > hits(cell); }
   void count_rows(std::uint32_t column);
   bool column_is_solid(std::uint32_t column) const {
     return solid_rows_[column] > 0 && solid_rows_[column] >= open_rows_[column];
   }
 
-  Span<std::uint16_t> hits_;
-  Span<std::uint16_t> through_;
+  static constexpr std::uint32_t kCells = kColumns * kRowsMax;
+  Span<std::uint16_t> counters_;  // hits of each cell, what passes through each, and whatever lies in none
   std::uint8_t solid_rows_[kColumns] = {}, open_rows_[kColumns] = {};
   Rows rows_;
   double inliers_ = 0.0;  // measured points
