@@ -14,6 +14,7 @@
 
 #include "angles.hpp"
 #include "doctor/diagnosis.hpp"
+#include "doctor/diagnosis_output.hpp"
 #include "doctor/sensor_seen.hpp"
 #include "doctor/trial.hpp"
 #include "sim/parameters.hpp"
@@ -249,6 +250,17 @@ TEST(Doctor, NoGateIsEverLoosened) {
   }
   EXPECT_GE(config.number("ground_height_min"), defaults.number("ground_height_min"));
   EXPECT_LE(config.number("ground_height_max"), 1.9);
+}
+
+TEST(Doctor, OfNothingItDoesNotSayThatAllIsWell) {
+  doctor::Recording recording;
+  doctor::FrameNote note;
+  note.error = "no PCD header";
+  recording.add(note, {});
+  const std::string text = doctor::diagnosis_text(doctor::diagnose(recording, told(), std::nullopt));
+  EXPECT_EQ(text.find("no setting needs to be changed"), std::string::npos) << text;
+  EXPECT_NE(text.find("no setting is proposed"), std::string::npos) << text;
+  EXPECT_NE(text.find("not usable"), std::string::npos) << text;
 }
 
 TEST(Doctor, StampsAreLookedAt) {

@@ -7,11 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "explain/candidate_words.hpp"
 #include "explain/explanation.hpp"
 #include "explain/explanation_text.hpp"
 #include "explain/gate_words.hpp"
@@ -105,6 +108,68 @@ TEST(GatesTable, RatiosAndColoursOnlyWhereTheyAreAskedFor) {
   EXPECT_TRUE(contains(plain, "REFUSES")) << plain;
   EXPECT_FALSE(contains(plain, "\033")) << plain;
   EXPECT_TRUE(contains(gates_text(Notes(noted.trace), true), "\033[31m"));
+}
+
+TEST(GatesTable, WhatIsAskedTwiceSaysOfWhat) {
+  Noted noted;
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 3.0, 2.0, true);
+  noted.note(POSE_WALL_TRACE_RIGHT, POSE_WALL_TRACE_WALL_LENGTH, 5.0, 2.0, true);
+  for (const std::uint32_t quantity : {POSE_WALL_D_LF, POSE_WALL_D_LB}) {
+    noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_SAMPLE_BEND, 0.0, 0.02, true);
+    noted.note(POSE_WALL_TRACE_QUANTITY + quantity, POSE_WALL_TRACE_SAMPLE_GAP, 0.0, 0.75, true);
+  }
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 4.0, 2.0, true);
+  const std::string text = gates_text(Notes(noted.trace), false);
+  const auto told = [&](const std::string& words) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(told("wall_length (drawn)"), 1U) << text;  // the left one's first
+  EXPECT_LT(text.find("wall_length (drawn)"), text.find("3.00 m")) << text;
+  EXPECT_EQ(told("wall_length"), 3U + 3U) << text;  // and its key in each row
+  EXPECT_EQ(told("sample_bend (d_lf)"), 1U) << text;
+  EXPECT_EQ(told("sample_bend (d_lb)"), 1U) << text;
+}
+
+// A plane of a wall, drawn and come to nothing.
+pose_wall_trace_candidate candidate(std::uint32_t subject, std::uint32_t fate, double angle_rad, double d_m) {
+  pose_wall_trace_candidate c{};
+  c.subject = subject;
+  c.fate = fate;
+  c.normal[0] = std::sin(angle_rad);
+  c.normal[1] = std::cos(angle_rad);
+  c.d_m = d_m;
+  return c;
+}
+
+TEST(PlanesTable, WallsThatCameToNothingAreToldOnce) {
+  Noted noted;
+  const auto add = [&](const pose_wall_trace_candidate& c) { noted.trace.candidate[noted.trace.candidates++] = c; };
+  for (const double d_m : {2.50, 2.53, 2.47}) {
+    add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_OUT_OF_RANGE, 1.0 + 0.1 * (d_m - 2.5), d_m));
+  }
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_UNSUPPORTED, 1.0, 2.5));
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_OUT_OF_RANGE, 1.2, 2.5));
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_OUT_OF_RANGE, 1.0, 3.0));
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WEAKER, 0.0, 2.5));
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WEAKER, 0.0, 2.5));
+  EXPECT_EQ(planes_of(*noted.config.get(), noted.result, Notes(noted.trace), POSE_WALL_TRACE_LEFT).size(), 6U);
+}
+
+TEST(PlanesTable, APlaneOutOfRangeIsToldAgainstWhatItShouldRunAlong) {
+  Noted noted;
+  for (const auto& [subject, says] : {std::pair(POSE_WALL_TRACE_LEFT, "too far across the machine"),
+                                      std::pair(POSE_WALL_TRACE_RIGHT, "too far across"),
+                                      std::pair(POSE_WALL_TRACE_AHEAD, "too far along the machine"),
+                                      std::pair(POSE_WALL_TRACE_BEHIND, "too far along")}) {
+    noted.trace.candidate[0] = candidate(subject, POSE_WALL_TRACE_OUT_OF_RANGE, 1.0, 2.5);
+    noted.trace.candidates = 1;
+    const auto planes = planes_of(*noted.config.get(), noted.result, Notes(noted.trace), subject);
+    ASSERT_EQ(planes.size(), 1U);
+    EXPECT_TRUE(contains(planes[0].fate, says)) << planes[0].fate;
+    EXPECT_TRUE(contains(planes[0].fate, "yaw_max_deg is 45°")) << planes[0].fate;
+  }
 }
 
 // A frame that is refused, and why: by the scene, which is the truth, not by the engine.

@@ -126,12 +126,14 @@ std::string list_text(const char* title, const std::vector<std::string>& lines) 
   return text;
 }
 
-std::string changes_text(const Proposal& proposal) {
+std::string changes_text(const Proposal& proposal, bool is_usable) {
+  if (proposal.changes().empty())
+    return is_usable ? "\nno setting needs to be changed\n" : "\nno setting is proposed\n";
   TextTable table({"change", "from", "to", "because"});
   for (const Change& c : proposal.changes()) {
     table.add_row({c.key, c.before.empty() ? "none" : c.before, c.value, c.reason});
   }
-  return proposal.changes().empty() ? "\nno setting needs to be changed\n" : "\n" + table.text(4);
+  return "\n" + table.text(4);
 }
 
 }  // namespace
@@ -149,7 +151,7 @@ std::string diagnosis_text(const Diagnosis& d) {
   }
   std::string text = table.text(3);
   if (d.check) text += "\n" + check_text(*d.check);
-  text += changes_text(d.proposal);
+  text += changes_text(d.proposal, d.verdict.is_usable());
   text += list_text("To confirm:", d.verdict.confirm);
   return text + "\n" + d.verdict.line() + "\n";
 }

@@ -85,7 +85,9 @@ std::string faults_text(const pose_wall_config& config, const pose_wall_trace_ca
 
 std::string out_of_range_text(const pose_wall_config& config, const pose_wall_trace_candidate& c) {
   if (!is_floor(c)) {
-    return fmt::format("runs too far across the machine (yaw_max_deg is {}°)", number(config, "yaw_max_deg"));
+    const bool is_side = c.subject == POSE_WALL_TRACE_LEFT || c.subject == POSE_WALL_TRACE_RIGHT;
+    return fmt::format("runs too far {} the machine (yaw_max_deg is {}°, and while planes are looked for a few more)",
+                       is_side ? "across" : "along", number(config, "yaw_max_deg"));
   }
   const double lowest = number(config, "ground_height_min"), highest = number(config, "ground_height_max");
   if (c.height_m > highest) return fmt::format("ground_height_max allows {}", metres(highest));
@@ -118,13 +120,19 @@ std::string fate_text(const pose_wall_config& config, const pose_wall_trace_cand
   }
 }
 
-// One surface that lies out of range is drawn again and again.
+// One surface that comes to nothing is drawn again and again.
 bool is_told_already(const pose_wall_trace_candidate& c, const std::vector<PlaneWords>& told) {
-  constexpr double kSame_m = 0.1;
+  constexpr double kSame_m = 0.1, kSameCosine = 0.9986;  // 3 degrees
   const auto is_same = [&](const PlaneWords& t) {
-    return t.candidate.fate == c.fate && std::fabs(t.candidate.height_m - c.height_m) < kSame_m;
+    const pose_wall_trace_candidate& o = t.candidate;
+    if (o.fate != c.fate) return false;
+    if (is_floor(c)) return std::fabs(o.height_m - c.height_m) < kSame_m;
+    const double cosine = o.normal[0] * c.normal[0] + o.normal[1] * c.normal[1] + o.normal[2] * c.normal[2];
+    return std::fabs(o.d_m - c.d_m) < kSame_m && cosine > kSameCosine;
   };
-  return is_floor(c) && c.fate == POSE_WALL_TRACE_OUT_OF_RANGE && std::any_of(told.begin(), told.end(), is_same);
+  const bool came_to_nothing =
+      c.fate == POSE_WALL_TRACE_OUT_OF_RANGE || (c.fate == POSE_WALL_TRACE_UNSUPPORTED && !is_floor(c));
+  return came_to_nothing && std::any_of(told.begin(), told.end(), is_same);
 }
 
 std::string were(std::size_t others) {

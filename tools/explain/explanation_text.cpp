@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -100,14 +101,27 @@ std::string planes_text(const pose_wall_config& config, const pose_wall_result& 
   return rows > 0 ? table.text(4) : "none\n";
 }
 
+// A wall is asked the same twice, as it was drawn and as it was fitted; its bend at two places.
+std::string name_of(const std::vector<Note>& all, std::size_t index) {
+  const Note& note = all[index];
+  const bool at_sample =
+      note.is(POSE_WALL_TRACE_SAMPLE_BEND) && index + 1 < all.size() && all[index + 1].is(POSE_WALL_TRACE_SAMPLE_GAP);
+  if (at_sample) return fmt::format("{} ({})", note.info.name, subject_name(all[index + 1].gate.subject));
+  const bool is_asked_again = std::any_of(
+      all.begin() + static_cast<std::ptrdiff_t>(index) + 1, all.end(),
+      [&](const Note& later) { return later.gate.subject == note.gate.subject && later.gate.gate == note.gate.gate; });
+  return is_asked_again ? fmt::format("{} (drawn)", note.info.name) : note.info.name;
+}
+
 std::string gates_text(const Notes& notes, bool coloured) {
   const std::vector<Note> all = notes.all();
   TextTable table({"of", "gate", "key", "value", "", "limit", "ratio", ""});
-  for (const Note& note : all) {
+  for (std::size_t index = 0; index < all.size(); ++index) {
+    const Note& note = all[index];
     const char* sense = note.info.sense == POSE_WALL_TRACE_IS_SO      ? "is"
                         : note.info.sense == POSE_WALL_TRACE_AT_LEAST ? ">="
                                                                       : "<=";
-    table.add_row({subject_name(note.gate.subject), note.info.name, key_of(note), value_text(note), sense,
+    table.add_row({subject_name(note.gate.subject), name_of(all, index), key_of(note), value_text(note), sense,
                    limit_text(note), ratio_text(note), passed_text(note)});
   }
   return coloured ? coloured_rows(table.text(3), all) : table.text(3);

@@ -120,7 +120,7 @@ int simulate(const SimOptions& options) {
     print_list();
     return kExitDone;
   }
-  if (options.output.empty()) throw std::invalid_argument("--output DIR is needed");
+  if (options.output.empty()) throw std::invalid_argument("--output FOLDER is needed");
   const sim::Simulator simulator(resolve_setup(options), options.seed);
   refuse_folder_of_others(options);
   make_output_folder(options.output);
