@@ -101,7 +101,8 @@ double where_most_are(Span<const float> residuals, double* window_m) {
 
 StripFronts measure_fronts(const WallSurface& fit) {
   StripFronts fronts;
-  if (!may_have_fronts(fit)) return fronts;
+  // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
+  if (fit.strips == nullptr || !(fit.strips->layers().step_m >= kFrontStepMin_m)) return fronts;
   const double step_m = fit.strips->layers().step_m;
   const Span<float> residuals = fronts_between(fit, 0.5 * step_m, 2.5 * step_m);
   if (residuals.size() < kFrontPointsMin) return fronts;
@@ -115,11 +116,6 @@ StripFronts measure_fronts(const WallSurface& fit) {
 }
 
 }  // namespace
-
-// Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
-bool may_have_fronts(const WallSurface& fit) {
-  return fit.strips != nullptr && fit.strips->layers().step_m >= kFrontStepMin_m;
-}
 
 void WallFitScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   near = arena.take<std::uint32_t>(points_max);
@@ -183,8 +179,11 @@ class FourWeights {
 
 }  // namespace
 
-void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit) {
-  const WallSurface& surface = *fit;
+namespace {
+
+// Sums of the patches, of the surface and, where they are found, of the fronts. Not inlined: it is called from two
+// places.
+[[gnu::noinline]] void sum_patches(const WallSurface& surface, PatchGrid* patches) {
   const WallPoints& points = *surface.points;
   const double foreshortening = surface.irls.over.foreshortening();
   const FourWeights weights(surface);
@@ -212,6 +211,12 @@ void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit)
     }
     ++index;
   });
+}
+
+}  // namespace
+
+void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit) {
+  sum_patches(*fit, patches);
   fit->patch = patches->fit(errors);
 }
 
@@ -219,12 +224,20 @@ namespace {
 
 // Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still. The
 // last correction is left to over(): the patches' sums are those of the plane before it. False where no fronts are
-// found.
-bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSurface* joint) {
+// found. alone: gets the surface's own fit by the first plane, with its covariance, unless it is null.
+bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSurface* joint,
+                     PatchFit* alone = nullptr) {
   for (int round = 1;; ++round) {
     joint->fronts = measure_fronts(*joint);
     if (!joint->fronts.found) return false;
-    fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, joint);
+    sum_patches(*joint, &scratch->patches);
+    if (round == 1 && alone != nullptr) {
+      scratch->patches.begin_anew(1);
+      *alone = scratch->patches.fit(PatchGrid::Errors::kCovariance);
+      if (!alone->solved) return false;
+      scratch->patches.begin_anew(PatchGrid::kLayersMax);
+    }
+    joint->patch = scratch->patches.fit(PatchGrid::Errors::kPlaneOnly);
     if (!joint->patch.solved) return false;
     const Eigen::Vector3d moved = joint->patch.correction.cwiseAbs();
     const bool stands_still =
@@ -238,7 +251,7 @@ bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSur
 
 bool join_fronts(WallFitScratch* scratch, WallSurface* fit) {
   WallSurface joint = *fit;
-  if (!fit_with_fronts(kLast, scratch, &joint)) return false;
+  if (!fit_with_fronts(kLast, scratch, &joint, &fit->patch)) return false;
   joint.patch = scratch->patches.fit(PatchGrid::Errors::kMeasured);
   if (!joint.patch.solved || !agree(*fit, joint)) return false;
   *fit = joint;

@@ -80,10 +80,9 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
 void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit);
 
 // Where the strips hide the rock between them, their fronts tell the wall's direction better than the rock does, if
-// they stand out by more than the rock itself.
-bool may_have_fronts(const WallSurface& fit);
-// Where they do not contradict the rock they join the fit, which needs its covariance, with a step of their own, and
-// the bends are looked for. False where they do not: the fit is as it was then.
+// they stand out by more than the rock itself. Where they do not contradict the rock they join the fit, with a step of
+// their own, and the bends are looked for. False where they do, or there are none: the plane is what it was then, and
+// its patches are yet to be fitted.
 bool join_fronts(WallFitScratch* scratch, WallSurface* fit);
 
 }  // namespace pose_wall

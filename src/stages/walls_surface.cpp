@@ -89,11 +89,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
-  const bool may_join = may_have_fronts(fit);
-  fit_patches(may_join ? PatchGrid::Errors::kCovariance : PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
-  if (fit.patch.solved && may_join && !join_fronts(scratch, &fit)) {
-    fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
-  }
+  if (!join_fronts(scratch, &fit)) fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
   fit.layer_sigma_m =
