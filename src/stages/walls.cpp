@@ -139,14 +139,14 @@ void weigh(const WallScene& scene, const SideView& view, WallSearch* search, Wal
   }
 }
 
-// Both sides of a direction: drawn each by itself, then each with the other's direction.
-void draw_both(const WallScene& scene, const SideView (&views)[2], const Plane* const last[2], Random* random,
-               WallSearch (&search)[2]) {
-  for (int side = 0; side < 2; ++side) {
-    search[side].begin(scene.band_level, views[side], scene.settings, random);
-    if (last[side] != nullptr) search[side].offer(*last[side]);
-    search[side].draw();
-  }
+void draw(const WallScene& scene, const SideView& view, const Plane* last, Random* random, WallSearch* search) {
+  search->begin(scene.band_level, view, scene.settings, random);
+  if (last != nullptr) search->offer(*last);
+  search->draw();
+}
+
+// Each side of a direction gets the other's.
+void exchange_directions(WallSearch (&search)[2]) {
   for (int side = 0; side < 2; ++side) {
     WallShortlist& other = search[1 - side].list();
     if (other.count() > 0) search[side].offer_offsets(other[0].plane.n);
@@ -159,13 +159,18 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   if (!may_stand_across(2.0 * most_m2, *choice)) return;
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView ends[2] = {{l, f}, {l, -f}};
-  const Plane* const nothing[2] = {nullptr, nullptr};
-  draw_both(scene, ends, nothing, random, scratch->search);
   WallCandidates ahead, behind;
+  draw(scene, ends[0], nullptr, random, &scratch->search[0]);
   weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);
-  // With the most that could be behind, what is ahead may still be too little.
+  // With the most that could be behind, what is ahead may still be too little, be it half as much again: more than
+  // what the draws have found would not be there in a direction from behind.
+  constexpr double kMoreAtMost = 1.5;
   const WallCandidate* const best = strongest(ahead);
-  if (!may_stand_across((best != nullptr ? best->evidence.score_m2 : 0.0) + most_m2, *choice)) return;
+  const double ahead_m2 = best != nullptr ? best->evidence.score_m2 : 0.0;
+  if (!may_stand_across(kMoreAtMost * ahead_m2 + most_m2, *choice)) return;
+  draw(scene, ends[1], nullptr, random, &scratch->search[1]);
+  exchange_directions(scratch->search);
+  weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);
   weigh(scene, ends[1], &scratch->search[1], scratch, &behind);
   refuse_if_across(ahead, behind, scene.settings, choice);
 }
@@ -354,7 +359,8 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const SideView sides[2] = {{f, l}, {f, -l}};
   thin_out(scene, &scratch->thin_level);
   WallCandidates beside[2];
-  draw_both(scene, sides, last, random, scratch->search);
+  for (int side = 0; side < 2; ++side) draw(scene, sides[side], last[side], random, &scratch->search[side]);
+  exchange_directions(scratch->search);
   for (int side = 0; side < 2; ++side) weigh(scene, sides[side], &scratch->search[side], scratch, &beside[side]);
   // Before the same searches look ahead and behind.
   const std::uint32_t scored[2] = {scratch->search[0].scored(), scratch->search[1].scored()};

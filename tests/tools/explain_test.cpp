@@ -152,8 +152,9 @@ TEST(PlanesTable, WallsThatCameToNothingAreToldOnce) {
   add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_UNSUPPORTED, 1.0, 2.5));
   add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_OUT_OF_RANGE, 1.2, 2.5));
   add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_OUT_OF_RANGE, 1.0, 3.0));
-  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WEAKER, 0.0, 2.5));
-  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WEAKER, 0.0, 2.5));
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WEAKER, 0.0, 2.50));
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WEAKER, 0.0, 2.51));
+  add(candidate(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WEAKER, 0.0, 2.51));  // weighed twice
   EXPECT_EQ(planes_of(*noted.config.get(), noted.result, Notes(noted.trace), POSE_WALL_TRACE_LEFT).size(), 6U);
 }
 

@@ -120,19 +120,25 @@ std::string fate_text(const pose_wall_config& config, const pose_wall_trace_cand
   }
 }
 
-// One surface that comes to nothing is drawn again and again.
+bool is_itself(const pose_wall_trace_candidate& a, const pose_wall_trace_candidate& b) {
+  return std::equal(a.normal, a.normal + 3, b.normal) && !(a.d_m < b.d_m) && !(b.d_m < a.d_m);
+}
+
+// What is ahead may be weighed twice, and one surface that comes to nothing is drawn again and again.
 bool is_told_already(const pose_wall_trace_candidate& c, const std::vector<PlaneWords>& told) {
   constexpr double kSame_m = 0.1, kSameCosine = 0.9986;  // 3 degrees
   const auto is_same = [&](const PlaneWords& t) {
     const pose_wall_trace_candidate& o = t.candidate;
     if (o.fate != c.fate) return false;
+    if (is_itself(o, c)) return true;
+    const bool is_nothing =
+        c.fate == POSE_WALL_TRACE_OUT_OF_RANGE || (c.fate == POSE_WALL_TRACE_UNSUPPORTED && !is_floor(c));
+    if (!is_nothing) return false;
     if (is_floor(c)) return std::fabs(o.height_m - c.height_m) < kSame_m;
     const double cosine = o.normal[0] * c.normal[0] + o.normal[1] * c.normal[1] + o.normal[2] * c.normal[2];
     return std::fabs(o.d_m - c.d_m) < kSame_m && cosine > kSameCosine;
   };
-  const bool came_to_nothing =
-      c.fate == POSE_WALL_TRACE_OUT_OF_RANGE || (c.fate == POSE_WALL_TRACE_UNSUPPORTED && !is_floor(c));
-  return came_to_nothing && std::any_of(told.begin(), told.end(), is_same);
+  return std::any_of(told.begin(), told.end(), is_same);
 }
 
 std::string were(std::size_t others) {
