@@ -7,6 +7,7 @@
 #include <initializer_list>
 
 #include "math/elementary.hpp"
+#include "math/four_exponentials.hpp"
 
 namespace pose_wall {
 namespace {
@@ -26,65 +27,85 @@ struct Mixture {
   double centre, sigma, step, share;  // share 0: one layer
 };
 
-// What a mixture expects at a distance: of the surface, of the nearer layer, and of strays.
+// exp(-z^2 / 2). Not inlined: it is called from many places.
+[[gnu::noinline]] FourFloats bell(FourFloats z) {
+  const FourFloats none{}, x = -0.5F * (z * z);
+  const FourTruths is_near = x > -40.0F;
+  return is_near ? four_exponentials(is_near ? x : none) : none;
+}
+
+// What a mixture expects at four distances: of the surface, of the nearer layer, and of strays.
 class Densities {
  public:
   Densities(const Mixture& m, double gate_m)
-      : m_(m),
-        per_sigma_(1.0 / m.sigma),
-        top_((1.0 - kUniformShare) / std::sqrt(2.0 * kPi) * per_sigma_),
-        strays_(kUniformShare / (2.0 * gate_m)) {}
-
-  double surface(double x) const { return (1.0 - m_.share) * top_ * bell(x - m_.centre); }
-  double nearer(double x) const { return m_.share > 0.0 ? m_.share * top_ * bell(x - m_.centre - m_.step) : 0.0; }
-  double strays() const { return strays_; }
-
- private:
-  double bell(double off) const {
-    const double z2 = off * per_sigma_ * off * per_sigma_;
-    return z2 < 80.0 ? exponential(-0.5 * z2) : 0.0;
+      : centre_(static_cast<float>(m.centre)),
+        nearer_(static_cast<float>(m.centre + m.step)),
+        per_sigma_(static_cast<float>(1.0 / m.sigma)) {
+    const double top = (1.0 - kUniformShare) / (std::sqrt(2.0 * kPi) * m.sigma);
+    top_of_surface_ = static_cast<float>((1.0 - m.share) * top);
+    top_of_nearer_ = static_cast<float>(m.share * top);
+    strays_ = static_cast<float>(kUniformShare / (2.0 * gate_m));
   }
 
-  const Mixture& m_;
-  double per_sigma_, top_, strays_;
+  FourFloats surface(FourFloats x) const { return top_of_surface_ * bell((x - centre_) * per_sigma_); }
+  FourFloats nearer(FourFloats x) const { return top_of_nearer_ * bell((x - nearer_) * per_sigma_); }
+  float strays() const { return strays_; }
+
+ private:
+  float centre_, nearer_, per_sigma_;
+  float top_of_surface_, top_of_nearer_, strays_;
 };
 
 double log_likelihood(const Histogram& h, const Mixture& m) {
   const Densities expected(m, h.gate_m());
   double sum = 0.0;
-  for (std::uint32_t b = 0; b < kBins; ++b) {
-    const double x = h.centre(b);
-    if (h.count(b) > 0.0) {
-      sum += h.count(b) * natural_log(expected.surface(x) + expected.nearer(x) + expected.strays());
+  for (std::uint32_t b = 0; b < kBins; b += kFour) {
+    const FourFloats x = h.four_centres(b), counts = h.four_counts(b);
+    if (!any_of(counts > FourFloats{})) continue;
+    const FourFloats density = expected.surface(x) + expected.nearer(x) + expected.strays();
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (!(counts[lane] > 0.0F)) continue;
+      sum += static_cast<double>(counts[lane]) * natural_log(static_cast<double>(density[lane]));
     }
   }
   return sum;
 }
 
+// Of one layer: its weight, and the sums of what lies off its mean as it was.
+struct LayerSums {
+  FourFloats weight{}, off{}, squares{};
+
+  void add(FourFloats weights, FourFloats offs) {
+    const FourFloats weighted = weights * offs;
+    weight += weights;
+    off += weighted;
+    squares += weighted * offs;
+  }
+};
+
 // One round of EM; step stays 0 for a single layer. Returns about what it gained in log likelihood: by as much as
 // means, width and share have moved, in terms of what the counts tell of each.
 double improve(const Histogram& h, double sigma_min_m, Mixture* m) {
-  double w0 = 0, w1 = 0, x0 = 0, x1 = 0, xx = 0;
   const Mixture before = *m;
   const Densities expected(before, h.gate_m());
-  for (std::uint32_t b = 0; b < kBins; ++b) {
-    if (!(h.count(b) > 0.0)) continue;
-    const double x = h.centre(b), p0 = expected.surface(x), p1 = expected.nearer(x);
-    const double per_density = h.count(b) / (p0 + p1 + expected.strays()), a = p0 * per_density, c = p1 * per_density;
-    w0 += a;
-    w1 += c;
-    x0 += a * x;
-    x1 += c * x;
-    xx += (a + c) * x * x;
+  const auto centre = static_cast<float>(before.centre), nearer = static_cast<float>(before.centre + before.step);
+  LayerSums of_surface, of_nearer;
+  for (std::uint32_t b = 0; b < kBins; b += kFour) {
+    const FourFloats x = h.four_centres(b), p0 = expected.surface(x), p1 = expected.nearer(x);
+    const FourFloats per_density = h.four_counts(b) / (p0 + p1 + expected.strays());
+    of_surface.add(p0 * per_density, x - centre);
+    of_nearer.add(p1 * per_density, x - nearer);
   }
+  const double w0 = sum_of_lanes(of_surface.weight), w1 = sum_of_lanes(of_nearer.weight);
   if (!(w0 > 1.0)) return 0.0;
-  const double mean0 = x0 / w0, mean1 = w1 > 1.0 ? x1 / w1 : mean0 + m->step;
-  const double variance = (xx - w0 * mean0 * mean0 - w1 * mean1 * mean1) / (w0 + w1);
-  m->centre = mean0;
-  m->step = m->share > 0.0 ? mean1 - mean0 : 0.0;
+  const double moved0 = sum_of_lanes(of_surface.off) / w0;
+  const double moved1 = w1 > 1.0 ? sum_of_lanes(of_nearer.off) / w1 : moved0;
+  const double squares = sum_of_lanes(of_surface.squares) + sum_of_lanes(of_nearer.squares);
+  const double variance = (squares - w0 * moved0 * moved0 - w1 * moved1 * moved1) / (w0 + w1);
+  m->centre = before.centre + moved0;
+  m->step = m->share > 0.0 ? before.step + moved1 - moved0 : 0.0;
   m->share = w1 / (w0 + w1);
   m->sigma = variance > sigma_min_m * sigma_min_m ? std::sqrt(variance) : sigma_min_m;
-  const double moved0 = m->centre - before.centre, moved1 = moved0 + m->step - before.step;
   const double wider = m->sigma - before.sigma, more = m->share - before.share;
   const double by_share = m->share > 0.0 ? 0.5 * (w0 + w1) * more * more / (m->share * (1.0 - m->share)) : 0.0;
   return by_share +
@@ -122,7 +143,7 @@ Mixture mixture_of_two(const Histogram& h, double sigma_min_m) {
 void LayerHistogram::add(double distance_m) {
   const double place = (distance_m + gate_m_) * (kBins / (2.0 * gate_m_));
   if (!(place >= 0.0 && place < kBins)) return;
-  count_[static_cast<std::uint32_t>(place)] += 1.0;
+  count_[static_cast<std::uint32_t>(place)] += 1.0F;
   total_ += 1.0;
 }
 
@@ -130,11 +151,11 @@ void LayerHistogram::add(Span<const float> distances_m) {
   for (const float d : distances_m) add(static_cast<double>(d));
 }
 
-double TwoLayers::surface_probability(double residual_m) const {
+FourFloats TwoLayers::surface_probability(FourFloats residuals_m) const {
   const Mixture mixture{centre_m, sigma_m, step_m, share};
   const Densities expected(mixture, 1.0);  // of strays nothing is asked
-  const double surface = expected.surface(residual_m), nearer = expected.nearer(residual_m);
-  return surface + nearer > 0.0 ? surface / (surface + nearer) : 0.0;
+  const FourFloats surface = expected.surface(residuals_m), both = surface + expected.nearer(residuals_m), none{};
+  return both > none ? surface / both : none;
 }
 
 TwoLayers find_two_layers(const LayerHistogram& h, const LayerDemands& demands) {

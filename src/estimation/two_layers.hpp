@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "containers/span.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall {
 
@@ -22,13 +23,18 @@ class LayerHistogram {
 
   double gate_m() const { return gate_m_; }
   double total() const { return total_; }
-  double count(std::uint32_t bin) const { return count_[bin]; }
-  double centre(std::uint32_t bin) const { return ((static_cast<double>(bin) + 0.5) * (2.0 / kBins) - 1.0) * gate_m_; }
+  // Of four bins that follow each other.
+  FourFloats four_counts(std::uint32_t bin) const { return load_four(&count_[bin]); }
+  FourFloats four_centres(std::uint32_t bin) const {
+    const FourFloats middles = FourFloats{0.5F, 1.5F, 2.5F, 3.5F} + static_cast<float>(bin);
+    return (middles * (2.0F / kBins) - 1.0F) * static_cast<float>(gate_m_);
+  }
 
  private:
+  static_assert(kBins % kFour == 0, "whole fours");
   double gate_m_;
   double total_ = 0.0;
-  double count_[kBins] = {};
+  float count_[kBins] = {};
 };
 
 // Where found, two Gaussians of one width: the surface around `centre_m` and, `step_m` nearer to the sensor, what
@@ -40,8 +46,11 @@ struct TwoLayers {
   double step_m = 0.0;
   double share = 0.0;  // of what was counted that belongs to the nearer layer
 
-  // Probability that a distance belongs to the surface.
-  double surface_probability(double distance_m) const;
+  // Probability that a distance belongs to the surface; of four at once, or of one.
+  FourFloats surface_probability(FourFloats distances_m) const;
+  double surface_probability(double distance_m) const {
+    return static_cast<double>(surface_probability(all_four(static_cast<float>(distance_m)))[0]);
+  }
 };
 
 // Expectation maximisation on the histogram. found only where two layers are clearly apart, both hold a fair share and

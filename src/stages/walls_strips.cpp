@@ -161,11 +161,7 @@ class FourWeights {
   FourFloats of_surface(std::uint32_t k, FourFloats r) const {
     FourFloats weights = flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff_);
     if (surface_.strips != nullptr) return weights * surface_.points->surface_probability(k);
-    if (!surface_.layers.found) return weights;
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      weights[lane] *= static_cast<float>(surface_.layers.surface_probability(static_cast<double>(r[lane])));
-    }
-    return weights;
+    return surface_.layers.found ? weights * surface_.layers.surface_probability(r) : weights;
   }
 
   FourFloats of_fronts(FourFloats r) const {

@@ -61,6 +61,27 @@ TEST(TwoLayers, OneRoughSurfaceHasNoSecondLayer) {
   }
 }
 
+// Halfway between two layers of the same share it is even; far from both, where neither is likely, nothing is the
+// surface's; four at once are as one by one.
+TEST(TwoLayers, ProbabilitiesGoFromOneLayerToTheOther) {
+  TwoLayers t;
+  t.centre_m = 0.01;
+  t.sigma_m = 0.02;
+  t.step_m = 0.1;
+  t.share = 0.5;
+  EXPECT_NEAR(t.surface_probability(0.06), 0.5, 1e-3);
+  EXPECT_EQ(t.surface_probability(0.01 - 10.0 * 0.02), 0.0);
+  double last = 1.0;
+  for (double r = -0.1; r < 0.2; r += 0.001) {
+    const double here = t.surface_probability(r);
+    EXPECT_LE(here, last) << r;
+    last = here;
+    const auto from = static_cast<float>(r);
+    const FourFloats four = t.surface_probability(FourFloats{from + 0.1F, from, from - 0.1F, 0.0F});
+    EXPECT_EQ(static_cast<double>(four[1]), here) << r;
+  }
+}
+
 TEST(TwoLayers, TooFewOrNoResiduals) {
   EXPECT_FALSE(found_in({}).found);
   EXPECT_FALSE(found_in(std::vector<float>(50, 0.0F)).found);
