@@ -181,15 +181,25 @@ double StripProfile::judge(const PlaneOver& over, double u_centre_m, double reac
 
 // The flanks of a strip lie between it and the wall: they belong to the strip. Of columns further out nothing is known.
 void StripProfile::look_at_flanks(std::int32_t first, std::int32_t last) {
-  for (std::int32_t column = first; column <= last; ++column) {
-    float least = 1.0F;
-    for (std::int32_t k = column - kFlank; k <= column + kFlank; ++k) {
-      if (k < 0 || k >= static_cast<std::int32_t>(kColumns)) continue;
-      const Column& c = columns_[static_cast<std::uint32_t>(k)];
-      if ((k == column || (c.judged && c.has_points())) && c.probability < least) least = c.probability;
+  static_assert(kFlank == 2, "two columns before and two behind");
+  const auto lesser = [](float a, float b) { return a < b ? a : b; };
+  float second_before = 1.0F, before = 1.0F, here = 1.0F, behind = 1.0F;
+  for (std::int32_t ahead = first - kFlank; ahead <= last + kFlank; ++ahead) {
+    float second_behind = 1.0F;
+    if (ahead >= 0 && ahead < static_cast<std::int32_t>(kColumns)) {
+      const Column& c = columns_[static_cast<std::uint32_t>(ahead)];
+      if (c.judged && c.has_points()) second_behind = c.probability;
     }
-    const auto at = static_cast<std::uint32_t>(column);
-    verdicts_[at] = {least, columns_[at].is_strip() ? -1 : 0};
+    if (ahead >= first + kFlank) {
+      const auto at = static_cast<std::uint32_t>(ahead - kFlank);
+      const Column& c = columns_[at];
+      const float flanks = lesser(lesser(second_before, before), lesser(behind, second_behind));
+      verdicts_[at] = {lesser(lesser(c.probability, here), flanks), c.is_strip() ? -1 : 0};
+    }
+    second_before = before;
+    before = here;
+    here = behind;
+    behind = second_behind;
   }
 }
 
