@@ -26,18 +26,6 @@ void pad(Span<float> row, std::uint32_t count) {
   store_four(FourFloats{}, &row[count]);
 }
 
-// visit(point, patch)
-template <typename Visit>
-void for_each_place(const TangentPoints& at, const PatchGrid& patches, const Visit& visit) {
-  for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {
-    const FourFloats none{};
-    const FourInts patch = patches.patch_of(counts ? load_four(&at.u[k]) : none, counts ? load_four(&at.v[k]) : none);
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (counts[lane] != 0) visit(k + lane, static_cast<std::uint32_t>(patch[lane]));
-    }
-  });
-}
-
 void move_within(Span<float> row, std::uint32_t begin, std::uint32_t end, Span<const std::uint32_t> places,
                  Span<float> spare) {
   for (std::uint32_t k = begin; k < end; ++k) spare[places[k]] = row[k];
@@ -101,15 +89,24 @@ void WallPoints::sort_by_patch(PatchGrid* grid, Span<std::uint32_t> places) {
   grid->begin(of_u.from(), of_u.to(), of_v.from(), of_v.to(), kPatch_m, PatchGrid::kLayersMax);
   patches = patch_room.first(grid->patches());
   patches.fill(Patch{});
-  for_each_place(at, *grid, [&](std::uint32_t, std::uint32_t patch) { ++patches[patch].end; });
+  for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats none{};
+    const FourInts of = grid->patch_of(counts ? load_four(&at.u[k]) : none, counts ? load_four(&at.v[k]) : none);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] == 0) continue;
+      const auto patch = static_cast<std::uint32_t>(of[lane]);
+      places[k + lane] = patch;
+      ++patches[patch].end;
+    }
+  });
   std::uint32_t begin = 0;
   for (Patch& patch : patches) {
     const std::uint32_t of_patch = patch.end;
     patch.end = begin;
     begin += of_patch;
   }
-  // Each goes to where its patch has got to.
-  for_each_place(at, *grid, [&](std::uint32_t k, std::uint32_t patch) { places[k] = patches[patch].end++; });
+  // Each goes from its patch to where that has got to.
+  for (std::uint32_t& place : places.first(at.count)) place = patches[place].end++;
   for (Patch& patch : patches) patch = all_surface(patch.end);
   for_each_row([&](Span<float>* row) {
     for (std::uint32_t k = 0; k < at.count; ++k) spare[places[k]] = (*row)[k];
