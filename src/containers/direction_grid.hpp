@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
@@ -38,6 +39,12 @@ class DirectionGrid {
   void add(const Eigen::Vector3d& ray, std::uint32_t returns) { add(cell_of(ray), returns); }
 
   std::uint32_t count(std::uint32_t row, std::uint32_t column) const { return counts_[row * kColumns + column]; }
+  // Whether any came from this cell or the three behind it in its row.
+  bool any_in_four(std::uint32_t row, std::uint32_t column) const {
+    std::uint64_t four;
+    std::memcpy(&four, &counts_[row * kColumns + column], sizeof(four));
+    return four != 0;
+  }
 
   // Sine of the elevation in the middle of a row.
   static double up(std::uint32_t row) { return (row + 0.5) * (2.0 / kRows) - 1.0; }

@@ -139,17 +139,21 @@ namespace {
 // Over a low thing the sensor may see nothing nearer than range_max.
 void add_what_is_too_far(const WallScene& scene, const SightLines& lines, double height_m, TopPlaces* tops) {
   constexpr double kMostOfACell = 0.5;
+  const auto look_at = [&](std::uint32_t row, std::uint32_t column) {
+    const std::uint32_t count = scene.returns_lidar.too_far.count(row, column);
+    if (count == 0 || count <= kMostOfACell * scene.returns_lidar.all.count(row, column)) return;
+    const SightLines::Crossing c = lines.far(row, column);
+    if (!c.near) return;
+    const double height = (c.z_level_m - scene.z_min_level_m) / height_m;
+    // Rare: one is told as four that are alike.
+    const std::int32_t cell = TopPlaces::cells_of(all_four(static_cast<float>(c.along_m)),
+                                                  all_four(static_cast<float>(height)), all_four_ints(-1))[0];
+    if (cell != TopPlaces::kNoCell) tops->add(cell, static_cast<float>(count));
+  };
   for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
-    for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
-      const std::uint32_t count = scene.returns_lidar.too_far.count(row, column);
-      if (count == 0 || count <= kMostOfACell * scene.returns_lidar.all.count(row, column)) continue;
-      const SightLines::Crossing c = lines.far(row, column);
-      if (!c.near) continue;
-      const double height = (c.z_level_m - scene.z_min_level_m) / height_m;
-      // Rare: one is told as four that are alike.
-      const std::int32_t cell = TopPlaces::cells_of(all_four(static_cast<float>(c.along_m)),
-                                                    all_four(static_cast<float>(height)), all_four_ints(-1))[0];
-      if (cell != TopPlaces::kNoCell) tops->add(cell, static_cast<float>(count));
+    for (std::uint32_t first = 0; first < DirectionGrid::kColumns; first += kFour) {
+      if (!scene.returns_lidar.too_far.any_in_four(row, first)) continue;
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) look_at(row, first + lane);
     }
   }
 }
