@@ -77,7 +77,7 @@ constexpr bool bits_in_order() {
 }
 
 static_assert(bits_in_order() && rows_of(kReasonBits) == POSE_WALL_REASON_COUNT, "reasons by their bits");
-static_assert(in_order(kStates), "states by their numbers");
+static_assert(in_order(kStates) && rows_of(kStates) == POSE_WALL_VALID + 1, "states by their numbers");
 static_assert(in_order(kQuantities) && rows_of(kQuantities) == POSE_WALL_QUANTITIES, "quantities by their numbers");
 static_assert(in_order(kStages) && rows_of(kStages) == POSE_WALL_STAGES, "stages by their numbers");
 

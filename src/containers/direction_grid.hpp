@@ -29,7 +29,7 @@ class DirectionGrid {
 
   // ray: finite and not zero.
   static std::uint32_t cell_of(const Eigen::Vector3d& ray);
-  // Of four rays at once, finite ones; norm2: their squared lengths. Of zero it is some cell.
+  // Of four rays at once, finite ones; norm2: their squared lengths. Of rays shorter than 1e-19 it is some cell.
   static FourInts cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2);
   void add(std::uint32_t cell, std::uint32_t returns) {
     constexpr std::uint32_t kCountMax = 0xFFFF;
@@ -85,10 +85,12 @@ inline FourInts DirectionGrid::cells_of(FourFloats x, FourFloats y, FourFloats z
   const FourFloats share = around > none ? y / around : none;
   const FourFloats way = x < none ? 2.0F - share : (share < none ? 4.0F + share : share);
   const FourFloats up = norm2 > none ? z / root_of(norm2) : none;
-  // Rounding may reach the end of either: the last row is the last, and after the last column comes the first.
-  const FourInts row = cut_off((up + 1.0F) * kRowsPerSine), last_row = all_four_ints(kRows - 1);
+  // Rounding may reach the end of either: the last row is the last, and after the last column comes the first. Of
+  // squares that are hardly floats the sine is anything: it must still be one of the rows.
+  constexpr auto kLastRow = static_cast<std::int32_t>(kRows - 1);
+  const FourInts row = cut_off((up + 1.0F) * kRowsPerSine), last_row = all_four_ints(kLastRow);
   const FourInts column = cut_off(way * kColumnsPerWay) & static_cast<std::int32_t>(kColumns - 1);
-  return (row < last_row ? row : last_row) * static_cast<std::int32_t>(kColumns) + column;
+  return ((row < last_row ? row : last_row) & kLastRow) * static_cast<std::int32_t>(kColumns) + column;
 }
 
 // What a cloud's points say by their direction alone, whatever became of them later.

@@ -74,8 +74,8 @@ class VoxelGrid {
   double leaf_m() const { return leaf_m_; }
 
   std::uint32_t count() const { return hash_.count(); }
-  // Of all cells and their sums, after extract() in the order of the keys: equal clouds give equal numbers, others
-  // different ones.
+  // Of all cells and their sums, in the order in which they were last written: after extract(), that of the keys, equal
+  // clouds give equal numbers, others different ones.
   std::uint64_t fingerprint() const { return fingerprint_; }
 
  private:

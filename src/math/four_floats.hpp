@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 //
 // Four floats that are worked on together: one register of NEON and of SSE. A vector type of GCC and Clang, not of one
-// processor; each lane is what the same sum of single floats would be, so all machines agree to the bit.
+// processor (but for any_of()); each lane is what the same sum of single floats would be, so all machines agree to the
+// bit.
 
 #pragma once
 
@@ -80,6 +81,7 @@ inline FourFloats magnitude_of(FourFloats four) {
   return four;
 }
 
+// Of truths only: each processor looks at as few of a lane's bits as it can.
 inline bool any_of(FourTruths truths) {
 #ifdef __SSE2__
   return __builtin_ia32_movmskps(reinterpret_cast<FourFloats>(truths)) != 0;

@@ -243,8 +243,8 @@ class Pass {
       ++counts->dropped_not_finite;
     } else if (p.squaredNorm() == 0.0) {
       ++counts->dropped_zero;
-    } else if (p.squaredNorm() < 1.0) {  // its square is no float
-      ++counts->near_by_quadrant[block.quadrant[k]];
+    } else if (p.squaredNorm() < 1.0) {  // its square is no float: it was turned as if it were zero
+      ++counts->near_by_quadrant[kBehind];
       returns_lidar->all.add(p, 1);
     } else {
       ++counts->dropped_far;

@@ -162,12 +162,9 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   WallCandidates ahead, behind;
   draw(scene, ends[0], nullptr, random, &scratch->search[0]);
   weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);
-  // With the most that could be behind, what is ahead may still be too little, be it half as much again: more than
-  // what the draws have found would not be there in a direction from behind.
-  constexpr double kMoreAtMost = 1.5;
+  // With the most that could be behind, what is ahead may still be too little.
   const WallCandidate* const best = strongest(ahead);
-  const double ahead_m2 = best != nullptr ? best->evidence.score_m2 : 0.0;
-  if (!may_stand_across(kMoreAtMost * ahead_m2 + most_m2, *choice)) return;
+  if (!is_behind_to_be_drawn(best != nullptr ? best->evidence.score_m2 : 0.0, most_m2, *choice)) return;
   draw(scene, ends[1], nullptr, random, &scratch->search[1]);
   exchange_directions(scratch->search);
   weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);

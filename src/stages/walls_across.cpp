@@ -99,4 +99,9 @@ bool may_stand_across(double pair_m2, const WallChoice& choice) {
   return may;
 }
 
+bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice) {
+  constexpr double kMissedAtMost = 0.15;
+  return may_stand_across(ahead_m2 + kMissedAtMost * choice.score_m2 + most_behind_m2, choice);
+}
+
 }  // namespace pose_wall

@@ -18,5 +18,8 @@ double most_area_across_m2(const WallScene& scene);
 // False where two planes that show no more than this together show no more than what is chosen: then none need be
 // looked for, or not the second one.
 bool may_stand_across(double pair_m2, const WallChoice& choice);
+// So with what the draws ahead have found, while none were made behind, whose directions may show more ahead: up to a
+// share of what is chosen, or the draws would have found it.
+bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice);
 
 }  // namespace pose_wall

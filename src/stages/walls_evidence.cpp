@@ -85,7 +85,7 @@ void WallGrid::mark_points(const BoundedPoints& points, Rays rays, FourMarks* ma
     const FourInts cell = rows_.cells_of(marks->along_m, marks->z_level_m);
     const FourTruths tells = (marks->hits | marks->passes) & (cell >= FourInts{});
     const FourInts counter = tells ? (marks->hits ? cell : cell + through) : in_none;
-    const FourInts by = rays == Rays::kOneAPoint ? one : cut_off(weights);
+    const FourInts by = rays == Rays::kOneAPoint ? one : cut_off(tells ? weights : none);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       count_up(&counters_[static_cast<std::uint32_t>(counter[lane])], static_cast<std::uint32_t>(by[lane]));
     }

@@ -119,6 +119,9 @@ TEST(GatesTable, WhatIsAskedTwiceSaysOfWhat) {
     noted.note(POSE_WALL_TRACE_QUANTITY + quantity, POSE_WALL_TRACE_SAMPLE_GAP, 0.0, 0.75, true);
   }
   noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 4.0, 2.0, true);
+  for (const double rival : {0.6, 0.7}) {
+    noted.note(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_POINTS, rival, 0.5, false);  // no plane's
+  }
   const std::string text = gates_text(Notes(noted.trace), false);
   const auto told = [&](const std::string& words) {
     std::size_t count = 0;
@@ -128,6 +131,7 @@ TEST(GatesTable, WhatIsAskedTwiceSaysOfWhat) {
   EXPECT_EQ(told("wall_length (drawn)"), 1U) << text;  // the left one's first
   EXPECT_LT(text.find("wall_length (drawn)"), text.find("3.00 m")) << text;
   EXPECT_EQ(told("wall_length"), 3U + 3U) << text;  // and its key in each row
+  EXPECT_EQ(told("(drawn)"), 1U) << text;
   EXPECT_EQ(told("sample_bend (d_lf)"), 1U) << text;
   EXPECT_EQ(told("sample_bend (d_lb)"), 1U) << text;
 }

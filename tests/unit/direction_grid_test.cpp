@@ -175,7 +175,7 @@ TEST(DirectionGrid, OfFourCellsOneWithReturnsIsEnough) {
 
 // Zero, what is next to it, and squares that are no floats.
 TEST(DirectionGrid, OddRaysGetSomeCell) {
-  const float odd[] = {0.0F, -0.0F, 1.0F, -1.0F, 1e-40F, 3e38F, -3e38F, -1e-20F};
+  const float odd[] = {0.0F, -0.0F, 1.0F, -1.0F, 1e-40F, 3e38F, -3e38F, -1e-20F, 4.5e-23F, -4.5e-23F, -8e-23F};
   for (const float x : odd) {
     for (const float y : odd) {
       for (const float z : odd) {

@@ -223,6 +223,29 @@ TEST(StripProfile, FourColumnsAreThoseOfEach) {
   EXPECT_GT(strips, 100);
 }
 
+// What is told of a column is the least of what was found of it and of the two to each side.
+TEST(StripProfile, AStripReachesTwoColumnsToEachSide) {
+  for (const double reach_m : {kReach_m, kProfile_m + 5.0}) {  // beyond both ends of the profile, too
+    test::Placed<StripProfile> profile;
+    Noise noise(4);
+    const Rock rock(0.03, 0.3, &noise);
+    ASSERT_TRUE(find(profile.get(), &noise, with_strips(rock, Strips{0.15, 0.15, 1.0})));
+    profile->judge(PlaneOver{}, 0.0, reach_m);
+    const auto middle_of = [](int column) { return (column + 0.5) / 20.0; };
+    int flanks = 0, clear = 0;
+    for (int column = -76; column < 76; ++column) {
+      const double shown = profile->surface_probability(middle_of(column));
+      bool near_a_strip = false;
+      for (int away = -2; away <= 2; ++away) near_a_strip |= profile->is_strip(middle_of(column + away));
+      EXPECT_EQ(shown < 0.2, near_a_strip) << middle_of(column);
+      flanks += near_a_strip && !profile->is_strip(middle_of(column)) ? 1 : 0;
+      clear += near_a_strip ? 0 : 1;
+    }
+    EXPECT_GT(flanks, 10);
+    EXPECT_GT(clear, 40);
+  }
+}
+
 TEST(StripProfile, FourPointsCountAsEachByItself) {
   test::Placed<StripProfile> one, four;
   for (auto* profile : {one.get(), four.get()}) profile->begin(-kProfile_m, kLow_m, kHigh_m);

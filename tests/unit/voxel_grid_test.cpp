@@ -175,6 +175,21 @@ TEST(VoxelGrid, AnotherCloudHasAnotherFingerprint) {
   EXPECT_NE(gridded(points, 0.1).fingerprint, before);
 }
 
+TEST(VoxelGrid, ACloudMovedByWholeLeavesHasAnotherFingerprint) {
+  std::vector<Xyz> points;
+  for (const Xyz& p : random_points(300, 1.0, 5)) {  // on whole steps: the sums within the cells stay the same
+    points.push_back({std::floor(p[0] * 64.0) / 64.0, std::floor(p[1] * 64.0) / 64.0, std::floor(p[2] * 64.0) / 64.0});
+  }
+  std::set<std::uint64_t> seen = {gridded(points, 0.25, 500).fingerprint};
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    for (const double leaves : {-1.0, 1.0, 4.0, 8.0}) {  // by fours the order of the cells stays the same, too
+      std::vector<Xyz> moved = points;
+      for (Xyz& p : moved) p[axis] += leaves * 0.25;
+      EXPECT_TRUE(seen.insert(gridded(moved, 0.25, 500).fingerprint).second) << leaves << " along " << axis;
+    }
+  }
+}
+
 // What one point gives another one may take back: sums alone would not tell.
 TEST(VoxelGrid, SmallChangesThatUndoEachOtherGiveOtherFingerprints) {
   const std::vector<Xyz> points = random_points(200, 1.0, 3);

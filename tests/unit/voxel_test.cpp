@@ -9,9 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "math/elementary.hpp"
 #include "math/rotation.hpp"
 #include "support/clouds.hpp"
 #include "support/stage_fixtures.hpp"
@@ -41,8 +43,7 @@ std::vector<std::uint32_t> filled_cells(const DirectionGrid& grid) {
 }
 
 Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic = at_origin(),
-                 const LeafMemory& last = {}) {
-  const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+                 const LeafMemory& last = {}, const Axes& axes = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()}) {
   test::Placed<VoxelGrid> grid(settings.points_max);
   test::Placed<ReturnsByDirection> returns;
   test::Placed<PointSet> out(settings.points_max);
@@ -60,12 +61,13 @@ Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const E
 TEST(Voxel, EveryPointIsCountedOnce) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
   const test::Points points = {
-      {5, 0, 0},     {0, 5, 0},     {-5, 0, 0},     {0, -5, 0}, {5, 0.001F, 0},  // kept
-      {kNan, 1, 1},  {1, -kInf, 1}, {1, 1, kInf},                                // not finite
-      {0, 0, 0},     {-0.0F, 0, 0},                                              // a no-return
-      {0, 0.29F, 0}, {0, -0.1F, 0}, {1e-30F, 0, 0},                              // near
-      {30.1F, 0, 0}, {1e30F, 0, 0}, {0, 3e38F, 0},                               // far
-      {2, 2, 2},                                                                 // in the body box
+      {5, 0, 0},         {0, 5, 0},      {-5, 0, 0},     {0, -5, 0}, {5, 0.001F, 0},  // kept
+      {kNan, 1, 1},      {1, -kInf, 1},  {1, 1, kInf},                                // not finite
+      {0, 0, 0},         {-0.0F, 0, 0},                                               // a no-return
+      {0, 0.29F, 0},     {0, -0.1F, 0},  {1e-30F, 0, 0},                              // near
+      {0, 0, -4.5e-23F}, {0, 0, 8e-23F},                 // and squares that are hardly floats
+      {30.1F, 0, 0},     {1e30F, 0, 0},  {0, 3e38F, 0},  // far
+      {2, 2, 2},                                         // in the body box
   };
   const Settings settings = test::settings_with({{"body_box_1", "1.5 2.5 1.5 2.5 1.5 2.5"}});
   const Voxels v = voxels_of(test::cloud_of(points, 0), settings);
@@ -73,7 +75,7 @@ TEST(Voxel, EveryPointIsCountedOnce) {
   EXPECT_EQ(c.points_in, points.size());
   EXPECT_EQ(c.kept, 5U);
   EXPECT_EQ(c.dropped_not_finite, 3U);
-  EXPECT_EQ(c.dropped_zero + c.dropped_near, 5U);
+  EXPECT_EQ(c.dropped_zero + c.dropped_near, 7U);
   EXPECT_EQ(c.dropped_zero, 2U);
   EXPECT_EQ(c.dropped_far, 3U);
   EXPECT_EQ(c.dropped_body, 1U);
@@ -104,6 +106,46 @@ TEST(Voxel, DirectionsAreThoseOfTheSensorHoweverItIsMounted) {
   const Voxels v = voxels_of(test::cloud_of({{4, 3, -1}}, 0), test::settings_with(), extrinsic);
   EXPECT_EQ(v.returns, 1U);
   EXPECT_EQ(v.filled, filled_cells(*expected));
+}
+
+// Ahead, left, behind and right are the machine's, whichever axis of base points ahead and however the sensor hangs;
+// and seen from the sensor, wherever it is.
+TEST(Voxel, QuadrantsAreTheMachinesWhateverItsAxes) {
+  const Extrinsic mounts[] = {at_origin(),
+                              {rotation_zyx(0.3, -0.2, 2.0), Eigen::Vector3d(1.0, -2.0, 0.5)},
+                              {rotation_zyx(kPi, 0.1, -0.7), Eigen::Vector3d(-0.5, 0.3, 1.0)}};
+  for (const char* forward : {"+X", "-X", "+Y", "-Y"}) {
+    const Eigen::Vector3d along = forward[1] == 'X' ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d ahead = forward[0] == '+' ? along : Eigen::Vector3d(-along);
+    const Axes axes{ahead, Eigen::Vector3d::UnitZ().cross(ahead)};
+    for (const Extrinsic& mount : mounts) {
+      test::Noise noise(7);
+      test::Points points;
+      std::uint32_t kept[kQuadrants] = {}, near[kQuadrants] = {};
+      while (points.size() < 2000) {
+        const std::array<float, 3> p = {static_cast<float>(noise.uniform(-9.0, 9.0)),
+                                        static_cast<float>(noise.uniform(-9.0, 9.0)),
+                                        static_cast<float>(noise.uniform(-3.0, 3.0))};
+        const Eigen::Vector3d ray = Eigen::Vector3f(p[0], p[1], p[2]).cast<double>();
+        const Eigen::Vector3d ray_base = mount.R_base_lidar * ray;
+        const double to_front = ray_base.dot(axes.forward_base), to_left = ray_base.dot(axes.left_base);
+        const bool on_a_border = std::fabs(std::fabs(to_front) - std::fabs(to_left)) < 1e-4;
+        if (on_a_border || std::fabs(ray.norm() - 4.0) < 1e-4) continue;
+        const std::uint32_t along_it = to_front > 0.0 ? kAhead : kBehind, across_it = to_left > 0.0 ? kLeft : kRight;
+        const std::uint32_t quadrant = std::fabs(to_left) > std::fabs(to_front) ? across_it : along_it;
+        ++(ray.norm() < 4.0 ? near : kept)[quadrant];
+        points.push_back({p[0], p[1], p[2]});
+      }
+      const Settings settings = test::settings_with({{"range_min", "4"}, {"forward_axis", forward}});
+      const Voxels v = voxels_of(test::cloud_of(points, 0), settings, mount, {}, axes);
+      for (std::uint32_t q = 0; q < kQuadrants; ++q) {
+        EXPECT_EQ(v.result.counts.kept_by_quadrant[q], kept[q]) << forward << " " << q;
+        EXPECT_EQ(v.result.counts.near_by_quadrant[q], near[q]) << forward << " " << q;
+        EXPECT_GT(kept[q], 100U) << forward << " " << q;
+        EXPECT_GT(near[q], 20U) << forward << " " << q;
+      }
+    }
+  }
 }
 
 TEST(Voxel, RangeIsFromTheSensorAndBoxesAreInBase) {

@@ -129,6 +129,16 @@ TEST(WallsAcross, WhatIsAheadAndTheMostBehindMayBeTooLittle) {
   EXPECT_FALSE(may_stand_across(10.0 + 30.0, chosen_of(40.0, &wall))) << "as much is no better";
 }
 
+// Directions from behind may show something ahead where its own draws have found nothing.
+TEST(WallsAcross, BehindIsDrawnWhereItMightTellOfMoreAhead) {
+  const WallCandidate wall;
+  const WallChoice choice = chosen_of(40.0, &wall);
+  EXPECT_FALSE(is_behind_to_be_drawn(10.0, 23.9, choice));
+  EXPECT_TRUE(is_behind_to_be_drawn(10.0, 24.1, choice));
+  EXPECT_FALSE(is_behind_to_be_drawn(0.0, 33.9, choice));
+  EXPECT_TRUE(is_behind_to_be_drawn(0.0, 34.1, choice));
+}
+
 std::uint32_t reasons_between(bool face_behind) {
   BandFixture band({{"yaw_max_deg", "5"}});
   for (const double y_m : {4.0, -4.0}) band.add_wall(y_m, {-3.0, 3.0, 0.3, 2.4});

@@ -107,9 +107,13 @@ std::string name_of(const std::vector<Note>& all, std::size_t index) {
   const bool at_sample =
       note.is(POSE_WALL_TRACE_SAMPLE_BEND) && index + 1 < all.size() && all[index + 1].is(POSE_WALL_TRACE_SAMPLE_GAP);
   if (at_sample) return fmt::format("{} ({})", note.info.name, subject_name(all[index + 1].gate.subject));
-  const bool is_asked_again = std::any_of(
-      all.begin() + static_cast<std::ptrdiff_t>(index) + 1, all.end(),
-      [&](const Note& later) { return later.gate.subject == note.gate.subject && later.gate.gate == note.gate.gate; });
+  const bool is_of_a_plane = note.is(POSE_WALL_TRACE_WALL_INLIERS) || note.is(POSE_WALL_TRACE_WALL_LENGTH) ||
+                             note.is(POSE_WALL_TRACE_WALL_SOLID) || note.is(POSE_WALL_TRACE_WALL_LEAN);
+  const auto is_the_same = [&note](const Note& later) {
+    return later.gate.subject == note.gate.subject && later.gate.gate == note.gate.gate;
+  };
+  const bool is_asked_again =
+      is_of_a_plane && std::any_of(all.begin() + static_cast<std::ptrdiff_t>(index) + 1, all.end(), is_the_same);
   return is_asked_again ? fmt::format("{} (drawn)", note.info.name) : note.info.name;
 }
 
