@@ -6,34 +6,6 @@
 #include <cstring>
 
 namespace pose_wall {
-namespace {
-
-// Of a list of cells and their sums, four sums of their own for every fourth cell. Odd factors of many bits, so that
-// what changes in one word does not undo what changes in another.
-class Fingerprint {
- public:
-  void add(const VoxelKey::FourCells& cells, const FourWords (&sums)[kFour]) {
-    const FourWords mixed = word_of(cells.x) * 0x9E3779B1U + word_of(cells.y) * 0x85EBCA77U +
-                            word_of(cells.z) * 0xC2B2AE3DU + sums[0] * 0x27D4EB2FU + sums[1] * 0x165667B1U +
-                            sums[2] * 0xD3A2646DU + sums[3] * 0xFD7046C5U;
-    lanes_ = (lanes_ ^ mixed) * 0xB55A4F09U;
-  }
-
-  std::uint64_t of(std::uint32_t count) const {
-    std::uint64_t halves[2];
-    std::memcpy(halves, &lanes_, sizeof(halves));
-    const std::uint64_t hash = (halves[0] ^ count) * 0x9E3779B97F4A7C15ULL;
-    return (hash ^ hash >> 29 ^ halves[1]) * 0xC2B2AE3D27D4EB4FULL;
-  }
-
- private:
-  static FourWords word_of(FourInts cells) { return reinterpret_cast<FourWords>(cells); }
-
-  FourWords lanes_{};
-};
-
-}  // namespace
-
 void VoxelGrid::lay_out(Arena& arena, std::uint32_t capacity) {
   hash_.lay_out(arena, capacity);
   sums_ = arena.take<Sums>(capacity);
@@ -60,6 +32,7 @@ void VoxelGrid::begin(double leaf_m, double reach_m) {
 void VoxelGrid::extract(PointSet* out) {
   const std::uint32_t cells = count();
   sorted_ = radix_order(hash_.keys(), order_.first(cells), spare_.first(cells), histogram_);
+  fingerprint_ = fingerprint_of_cells();
   write_sorted(out);
 }
 
@@ -69,6 +42,21 @@ void VoxelGrid::extract_as_they_came(PointSet* out) {
   write_sorted(out);
 }
 
+// A sum over the cells, in whatever order they came: each one's x and y times its z and weight, after key and a constant
+// of many bits have been added, and folded, so that what changes in one cell does not undo what changes in another (after
+// NH; Black, Halevi, Krawczyk, Krovetz and Rogaway 1999).
+std::uint64_t VoxelGrid::fingerprint_of_cells() const {
+  const Span<const std::uint64_t> keys = hash_.keys();
+  std::uint64_t sum = keys.size();
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    std::uint64_t halves[2];
+    std::memcpy(halves, &sums_[i], sizeof(halves));
+    const std::uint64_t product = (halves[0] + keys[i] * 0x9E3779B97F4A7C15ULL) * (halves[1] + 0xC2B2AE3D27D4EB4FULL);
+    sum += product ^ product >> 32;
+  }
+  return sum;
+}
+
 void VoxelGrid::write_sorted(PointSet* out) {
   const Span<const std::uint64_t> keys = hash_.keys();
   const auto leaf_m = static_cast<float>(leaf_m_), metres_per_step = leaf_m / (1U << kStepBits);
@@ -76,7 +64,6 @@ void VoxelGrid::write_sorted(PointSet* out) {
     const FourFloats steps = __builtin_convertvector(sums, FourFloats) * per_weight + 0.5F;
     return __builtin_convertvector(cells - origin_cell_, FourFloats) * leaf_m + steps * metres_per_step;
   };
-  Fingerprint fingerprint;
   for (std::uint32_t at = 0; at < sorted_.size(); at += kFour) {
     std::uint64_t four_keys[kFour];
     Sums sums[kFour];
@@ -88,7 +75,6 @@ void VoxelGrid::write_sorted(PointSet* out) {
     const VoxelKey::FourCells cells = VoxelKey::cells_of(four_keys);
     FourWords of[kFour];  // x, y, z, weight
     transpose(sums[0], sums[1], sums[2], sums[3], of);
-    fingerprint.add(cells, of);
     const FourFloats weights = __builtin_convertvector(of[3], FourFloats), per_weight = 1.0F / weights;
     store_four(coordinates(cells.x, of[0], per_weight), &out->x[at]);
     store_four(coordinates(cells.y, of[1], per_weight), &out->y[at]);
@@ -96,7 +82,6 @@ void VoxelGrid::write_sorted(PointSet* out) {
     store_four(weights * (1.0F / kWeightOne), &out->weight[at]);
   }
   out->count = sorted_.size();
-  fingerprint_ = fingerprint.of(out->count);
 }
 
 Span<const std::uint32_t> VoxelGrid::find_columns() {

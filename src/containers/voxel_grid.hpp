@@ -74,13 +74,14 @@ class VoxelGrid {
   double leaf_m() const { return leaf_m_; }
 
   std::uint32_t count() const { return hash_.count(); }
-  // Of all cells and their sums, in the order in which they were last written: after extract(), that of the keys, equal
-  // clouds give equal numbers, others different ones.
+  // Of all cells and their sums, as they were at the last extract(): equal clouds give equal numbers, others different
+  // ones.
   std::uint64_t fingerprint() const { return fingerprint_; }
 
  private:
   static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;
 
+  std::uint64_t fingerprint_of_cells() const;
   void write_sorted(PointSet* out);
   // The step that holds a coordinate is coordinate * per_m + origin, cut off.
   FourInts steps_of(FourFloats coordinates_m) const { return cut_off(coordinates_m * steps_per_m_ + origin_step_); }
