@@ -42,9 +42,9 @@ void VoxelGrid::extract_as_they_came(PointSet* out) {
   write_sorted(out);
 }
 
-// A sum over the cells, in whatever order they came: each one's x and y times its z and weight, after key and a constant
-// of many bits have been added, and folded, so that what changes in one cell does not undo what changes in another (after
-// NH; Black, Halevi, Krawczyk, Krovetz and Rogaway 1999).
+// A sum over the cells, in whatever order they came: each one's x and y times its z and weight, after key and a
+// constant of many bits have been added, and folded, so that what changes in one cell does not undo what changes in
+// another (after NH; Black, Halevi, Krawczyk, Krovetz and Rogaway 1999).
 std::uint64_t VoxelGrid::fingerprint_of_cells() const {
   const Span<const std::uint64_t> keys = hash_.keys();
   std::uint64_t sum = keys.size();
