@@ -9,7 +9,7 @@ namespace pose_wall {
 namespace {
 
 // Each table is one string, its texts one after the other and each with its end, the last for a number that is none:
-// there are no pointers that a loader would have to place, and it takes a third of the code of a switch.
+// there are no pointers that a loader would have to place, and it takes a ninth of the code of a switch.
 constexpr char kStatusTexts[] =
 #define STATUS(number, text) text "\0"
 #include "names.def"

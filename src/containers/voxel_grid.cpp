@@ -6,6 +6,7 @@
 #include <cstring>
 
 namespace pose_wall {
+
 void VoxelGrid::lay_out(Arena& arena, std::uint32_t capacity) {
   hash_.lay_out(arena, capacity);
   sums_ = arena.take<Sums>(capacity);

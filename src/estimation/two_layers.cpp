@@ -91,8 +91,10 @@ double improve(const Histogram& h, double sigma_min_m, Mixture* m) {
   const auto centre = static_cast<float>(before.centre), nearer = static_cast<float>(before.centre + before.step);
   LayerSums of_surface, of_nearer;
   for (std::uint32_t b = 0; b < kBins; b += kFour) {
+    const FourFloats counts = h.four_counts(b);
+    if (!any_of(counts > FourFloats{})) continue;
     const FourFloats x = h.four_centres(b), p0 = expected.surface(x), p1 = expected.nearer(x);
-    const FourFloats per_density = h.four_counts(b) / (p0 + p1 + expected.strays());
+    const FourFloats per_density = counts / (p0 + p1 + expected.strays());
     of_surface.add(p0 * per_density, x - centre);
     of_nearer.add(p1 * per_density, x - nearer);
   }

@@ -81,13 +81,18 @@ inline FourFloats magnitude_of(FourFloats four) {
   return four;
 }
 
+using FourShorts = std::int16_t __attribute__((vector_size(8)));
+// Of integers that fit, and of truths.
+inline FourShorts shorts_of(FourInts four) {
+  return __builtin_convertvector(four, FourShorts);
+}
+
 // Of truths only: each processor looks at as few of a lane's bits as it can.
 inline bool any_of(FourTruths truths) {
 #ifdef __SSE2__
   return __builtin_ia32_movmskps(reinterpret_cast<FourFloats>(truths)) != 0;
 #else
-  using FourShorts = std::int16_t __attribute__((vector_size(8)));
-  const FourShorts halves = __builtin_convertvector(truths, FourShorts);
+  const FourShorts halves = shorts_of(truths);
   std::uint64_t bits;
   std::memcpy(&bits, &halves, sizeof(bits));
   return bits != 0;

@@ -21,7 +21,7 @@ class NeighbourCounter {
   // Voxels next to each other in the list are neighbours, as a rule: most points are done with that. What this does not
   // find, has_enough() may. Of the next four points, from i on; near the end of the list nothing is found.
   FourTruths next_have_enough_in_list(std::uint32_t i) {
-    static_assert(kLook < kFour, "those before are of the last four");
+    static_assert(kLook == 3 && kLook < kFour, "three each way; those before are of the last four");
     if (i + kFour + kLook > points_.count) return FourTruths{};
     const FourPlaces here = four_from(i);
     const Ahead ahead = {are_near(here, four_from(i + 1)), are_near(here, four_from(i + 2)),

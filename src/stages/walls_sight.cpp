@@ -132,8 +132,7 @@ void note_directions(const WallScene& scene, SightScratch* scratch) {
         const FourFloats none{}, rx = counts ? ray.x : none, ry = counts ? ray.y : none, rz = counts ? ray.z : none;
         const FourInts cells = DirectionGrid::cells_of(rx, ry, rz, rx * rx + ry * ry + rz * rz);
         const FourInts points = points_of(counts ? load_four(&scene.cloud_base.weight[i]) : none) & counts;
-        using FourShorts = std::uint16_t __attribute__((vector_size(8)));
-        store_four(__builtin_convertvector(cells, FourShorts), &scratch->direction_of[i]);
+        store_four(shorts_of(cells), &scratch->direction_of[i]);
         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
           scratch->kept_lidar.add(static_cast<std::uint32_t>(cells[lane]), static_cast<std::uint32_t>(points[lane]));
         }

@@ -173,10 +173,6 @@ class FourWeights {
   float per_cutoff_, front_per_cutoff_;
 };
 
-}  // namespace
-
-namespace {
-
 // Sums of the patches, of the surface and, where they are found, of the fronts. Not inlined: it is called from two
 // places.
 [[gnu::noinline]] void sum_patches(const WallSurface& surface, PatchGrid* patches) {

@@ -127,8 +127,8 @@ std::string list_text(const char* title, const std::vector<std::string>& lines) 
 }
 
 std::string changes_text(const Proposal& proposal, bool is_usable) {
-  if (proposal.changes().empty())
-    return is_usable ? "\nno setting needs to be changed\n" : "\nno setting is proposed\n";
+  const char* const of_none = is_usable ? "\nno setting needs to be changed\n" : "\nno setting is proposed\n";
+  if (proposal.changes().empty()) return of_none;
   TextTable table({"change", "from", "to", "because"});
   for (const Change& c : proposal.changes()) {
     table.add_row({c.key, c.before.empty() ? "none" : c.before, c.value, c.reason});
