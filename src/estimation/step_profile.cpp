@@ -17,6 +17,13 @@ bool StepProfile::lies_on(std::uint32_t slice, Way way) const {
   return slices_[slice].on * kOffPerOn > slices_[slice].off[way].count;
 }
 
+double StepProfile::hole_m() const {
+  std::uint32_t first = kCount / 2, last = kCount / 2;
+  while (first > 0 && slices_[first - 1].on == 0) --first;
+  while (last < kCount && slices_[last].on == 0) ++last;
+  return first == 0 || last == kCount ? 2.0 * kHalf_m : (last - first) * kSlice_m;
+}
+
 // Slices without a point neither end a step nor make one longer at its ends.
 double StepProfile::step(Way way) const {
   constexpr std::uint32_t kPlace = kCount / 2;

@@ -38,6 +38,9 @@ class StepProfile {
   double before_m() const { return step(kStepsOut); }
   double behind_m() const { return step(kStepsBack); }
 
+  // Length around the place within which nothing lies on the plane; all of it where that is so to one of its ends.
+  double hole_m() const;
+
  private:
   static constexpr double kSlice_m = 0.05;
   static constexpr std::uint32_t kCount = 40;

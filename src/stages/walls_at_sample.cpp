@@ -80,9 +80,9 @@ bool solid_around(const WallGrid& grid, double along_m) {
   return true;
 }
 
-// A step that shares its columns of the grid with the wall beside it.
-void add_short_steps(const WallScene& scene, const WallSurface& surface, const WallResult& wall,
-                     const Eigen::Vector3d& sample_level_m, double* out_m, double* back_m) {
+// What a column of the grid is too long to tell.
+StepProfile profile_at(const WallScene& scene, const WallSurface& surface, const WallResult& wall,
+                       const Eigen::Vector3d& sample_level_m) {
   constexpr double kStep_m = 0.05;
   constexpr double kPerRoughness = 3.0;
   const double along_m = wall.along_level.dot(sample_level_m);
@@ -96,8 +96,7 @@ void add_short_steps(const WallScene& scene, const WallSurface& surface, const W
     const double r = wall.fit.plane.signed_distance(p);
     if (r <= nearest_m && surface.heights.contain(p.z())) profile.add(across.signed_distance(p), r);
   });
-  *out_m = larger(*out_m, profile.before_m());
-  *back_m = larger(*back_m, profile.behind_m());
+  return profile;
 }
 
 }  // namespace
@@ -107,8 +106,12 @@ AtSample look_at_sample(const WallScene& scene, const WallSurface& surface, cons
   const double along_m = wall.along_level.dot(sample_level_m);
   double out_m = stands_out_at(scene, grid, wall, sample_level_m, distance_m);
   double back_m = solid_around(grid, along_m) ? 0.0 : steps_back_at(scene, wall, sample_level_m);
-  add_short_steps(scene, surface, wall, sample_level_m, &out_m, &back_m);
+  // A step may share its columns with the wall beside it.
+  const StepProfile profile = profile_at(scene, surface, wall, sample_level_m);
+  out_m = larger(out_m, profile.before_m());
+  back_m = larger(back_m, profile.behind_m());
   AtSample seen;
+  seen.hole_m = profile.hole_m();
   seen.interrupted = out_m > 0.0 || back_m > 0.0;
   seen.bound_m = with_margin(out_m) + kBackMargin * back_m;
   return seen;

@@ -15,6 +15,7 @@ namespace pose_wall {
 struct AtSample {
   bool interrupted = false;  // the wall stands out there, steps back, or a road branches off
   double bound_m = 0.0;      // by which the distance may be off for it
+  double hole_m = 0.0;       // length around it in which nothing is seen of the plane
 };
 
 // wall: its plane and direction are set. distance_m: the plane's, at the sampling point.

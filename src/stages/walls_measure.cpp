@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "estimation/near_plane.hpp"
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "stages/walls_at_sample.hpp"
@@ -15,6 +16,9 @@ namespace pose_wall {
 namespace {
 
 constexpr double kExtrapolated_m = 0.75;
+// A post hides less of a wall. Where more is not seen, or the wall is seen to one side only, it may end or step anywhere.
+constexpr double kHoleMax_m = 0.6;
+constexpr double kMayStep_m = 2.0;
 // A bend is told where it takes up this much of an alert limit.
 constexpr double kBendMatters = 0.2;
 // By how much more the direction errs than the covariance says. Which columns are strips is told by the plane that they
@@ -63,40 +67,47 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, WallResult* out
   }
 }
 
-// Where the wall was cut off below or above a sampling point, the plane is prolonged to it; this is how far the surface
-// seen a little below that height or a little above it lies from the plane, whichever is further: it bends.
+// How far the surface that is seen a little below a height or a little above it lies from the plane, whichever is
+// further.
 double offset_at_height(const WallScene& scene, const Plane& plane, double z_level_m) {
   constexpr double kWindow_m = 0.3;
   constexpr double kGate_m = 0.4;
   constexpr double kPointsMin = 10.0;
   double sum[2] = {}, count[2] = {};
-  for (std::uint32_t i = 0; i < scene.band_level.count; ++i) {
-    const Eigen::Vector3d p = scene.band_level.at(i);
-    const double r = plane.signed_distance(p), above_m = p.z() - z_level_m;
-    if (!(std::fabs(above_m) <= kWindow_m) || !(std::fabs(r) <= kGate_m)) continue;
-    sum[above_m > 0.0 ? 1 : 0] += std::fabs(r);
-    count[above_m > 0.0 ? 1 : 0] += 1.0;
+  for (const BoundedPoints* const points : {&scene.band_level, &scene.beyond_level}) {
+    for_each_in(*points, Slab(plane, kGate_m), [&](std::uint32_t i, float r) {
+      const double above_m = static_cast<double>(points->z[i]) - z_level_m;
+      if (!(std::fabs(above_m) <= kWindow_m)) return;
+      sum[above_m > 0.0 ? 1 : 0] += static_cast<double>(r);
+      count[above_m > 0.0 ? 1 : 0] += 1.0;
+    });
   }
   double offset_m = -1.0;
   for (int half = 0; half < 2; ++half) {
-    if (count[half] >= kPointsMin) offset_m = larger(offset_m, sum[half] / count[half]);
+    if (count[half] >= kPointsMin) offset_m = larger(offset_m, std::fabs(sum[half] / count[half]));
   }
   return offset_m >= 0.0 ? offset_m : kGate_m;
 }
 
-// Whether the wall is one plane at this height. Next to where it was cut off it begins to bend.
-bool clear_of_cuts(const WallScene& scene, const Heights& heights, double z_level_m) {
-  constexpr double kBegins_m = 0.25;
-  const bool top_is_cut = heights.max_m < scene.z_max_level_m;
-  const bool foot_is_cut = heights.min_m > scene.z_min_level_m;
-  return z_level_m <= heights.max_m - (top_is_cut ? kBegins_m : 0.0) &&
-         z_level_m >= heights.min_m + (foot_is_cut ? kBegins_m : 0.0);
+// Whether the wall may leave its plane at some height: where it was cut off, where it bends more than it scatters, and
+// where the plane is prolonged above the band.
+bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double z_level_m) {
+  constexpr double kCurvatureInSigmas = 2.0;
+  const Heights& heights = surface.heights;
+  const PatchFit& patch = surface.patch;
+  return heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m ||
+         std::fabs(patch.curvature_v) > kCurvatureInSigmas * patch.curvature_v_sigma || z_level_m > scene.z_max_level_m;
 }
 
 #ifdef POSE_WALL_TRACE
-void note_sample(int quantity, double gap_m, const AtSample& seen) {
+void note_sample(const Settings& s, int quantity, double offset_m, double gap_m, bool in_rock,
+                 const AtSample& seen) {
   const auto subject = static_cast<std::uint32_t>(POSE_WALL_TRACE_QUANTITY + quantity);
+  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_OFFSET, offset_m, kBendMatters * s.alert_limit_distance,
+                 !(offset_m > kBendMatters * s.alert_limit_distance));
   trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_GAP, gap_m, kExtrapolated_m, !(gap_m > kExtrapolated_m));
+  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_HOLE, seen.hole_m, kHoleMax_m, !(seen.hole_m > kHoleMax_m));
+  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_BEFORE, in_rock ? 0.0 : 1.0, 1.0, !in_rock);
   trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_STEP, seen.bound_m, 0.0, !seen.interrupted);
 }
 #endif
@@ -111,21 +122,22 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double bias = patch.bias_response[0] + patch.bias_response[1] * u + patch.bias_response[2] * v;
     out->distance_m[end] = distance_at(out->fit.plane, sample);
     out->distance_sigma_m[end] = std::sqrt(patch.variance_at(u, v));
-    double& bound = out->distance_bound_m[end];
     const double bend = std::fabs(patch.bend_at(u, v));
     POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_SAMPLE_BEND, bend, kBendMatters * scene.settings.alert_limit_distance,
                                !(bend > kBendMatters * scene.settings.alert_limit_distance)));
     if (bend > kBendMatters * scene.settings.alert_limit_distance) out->fit.reasons |= POSE_WALL_R_CURVED;
-    bound = scene.settings.range_bias_max * std::fabs(bias) + bend;
-    const bool in_band = scene.in_band(sample.z());
-    if (in_band && !clear_of_cuts(scene, surface.heights, sample.z())) {
-      bound += offset_at_height(scene, out->fit.plane, sample.z());
-    }
+    const bool leaves_plane = sample.z() >= scene.z_min_level_m && may_leave_plane(scene, surface, sample.z());
+    const double offset_m = leaves_plane ? offset_at_height(scene, out->fit.plane, sample.z()) : 0.0;
     const double along_m = out->along_level.dot(sample);
     const AtSample seen = look_at_sample(scene, surface, grid, *out, sample, out->distance_m[end]);
-    out->extrapolated[end] = seen.interrupted || grid.gap_to_solid_m(along_m) > kExtrapolated_m;
-    POSE_WALL_NOTE(note_sample(POSE_WALL_D_LF + 2 * side + end, grid.gap_to_solid_m(along_m), seen));
-    bound += seen.bound_m;
+    const double gap_m = grid.gap_to_solid_m(along_m);
+    const bool unseen = gap_m > kExtrapolated_m || seen.hole_m > kHoleMax_m;
+    // A distance has no sign: of a point in the rock it looks like one before it.
+    const bool in_rock = out->fit.plane.signed_distance(sample) < 0.0;
+    out->extrapolated[end] = seen.interrupted || unseen || in_rock;
+    POSE_WALL_NOTE(note_sample(scene.settings, POSE_WALL_D_LF + 2 * side + end, offset_m, gap_m, in_rock, seen));
+    out->distance_bound_m[end] = scene.settings.range_bias_max * std::fabs(bias) + bend + offset_m + seen.bound_m +
+                                 (unseen ? kMayStep_m : 0.0) + (in_rock ? 2.0 * out->distance_m[end] : 0.0);
   }
 }
 

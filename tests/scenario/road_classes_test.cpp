@@ -69,21 +69,6 @@ void judge(const JudgedFrame& f, std::uint64_t seed, std::uint32_t frame, Counts
   }
 }
 
-// Draws in which the engine claims too much as it stands: open faults, to be taken from here when they are mended.
-struct OpenFault {
-  const char* scene;
-  std::uint64_t seed;
-};
-constexpr OpenFault kOpenFaults[] = {
-    {"narrow", 2},  // the sampling point ahead lies at the corner of a narrow place: 0.15 m off, level 0.02 m
-    {"narrow", 7},  // the same, 0.19 m
-};
-
-bool is_open_fault(const Class& c, std::uint64_t seed) {
-  return std::any_of(std::begin(kOpenFaults), std::end(kOpenFaults),
-                     [&](const OpenFault& f) { return std::string(f.scene) == c.scene && f.seed == seed; });
-}
-
 // Sanitizers are slow and look for faults of another kind: two draws of each class are enough for them.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr std::uint64_t kDrawsMax = 2;
@@ -98,7 +83,6 @@ TEST_P(RoadClass, ValidIsRightAndWhatCanBeMeasuredIs) {
   const Class& c = GetParam();
   Counts counts;
   for (std::uint64_t seed = 1; seed <= std::min<std::uint64_t>(c.seeds, kDrawsMax); ++seed) {
-    if (is_open_fault(c, seed)) continue;
     const sim::SceneSetup setup = sim::make_setup(c.scene, c.sensor, true, seed);
     const std::vector<JudgedFrame> frames = run_frames(setup, seed, kFramesARoad);
     for (std::uint32_t i = 0; i < kFramesARoad; ++i) judge(frames[i], seed, i, &counts);

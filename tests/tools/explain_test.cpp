@@ -116,7 +116,7 @@ TEST(GatesTable, WhatIsAskedTwiceSaysOfWhat) {
   noted.note(POSE_WALL_TRACE_RIGHT, POSE_WALL_TRACE_WALL_LENGTH, 5.0, 2.0, true);
   for (const std::uint32_t quantity : {POSE_WALL_D_LF, POSE_WALL_D_LB}) {
     noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_SAMPLE_BEND, 0.0, 0.02, true);
-    noted.note(POSE_WALL_TRACE_QUANTITY + quantity, POSE_WALL_TRACE_SAMPLE_GAP, 0.0, 0.75, true);
+    noted.note(POSE_WALL_TRACE_QUANTITY + quantity, POSE_WALL_TRACE_SAMPLE_OFFSET, 0.0, 0.02, true);
   }
   noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 4.0, 2.0, true);
   for (const double rival : {0.6, 0.7}) {

@@ -3,7 +3,8 @@
 
 // Proves: a surface that steps out of its plane or back at a place is seen to, as far as it does, wherever the step
 // begins within half a metre, also where only few points lie in a slice or none in some; posts, a pipe from end to end,
-// noise and a step beside the place are none. Does not prove what a step is.
+// noise and a step beside the place are none. How long a hole around the place is, and that one without an end is the
+// longest. Does not prove what a step is.
 
 #include "estimation/step_profile.hpp"
 
@@ -74,6 +75,34 @@ TEST(StepProfile, APostIsNone) {
 
 TEST(StepProfile, PipesBeforeAWallThatIsSeenAboveThemAreNone) {
   EXPECT_EQ(profile_of([](double, double height) { return height < 1.5 ? 0.3 : 0.0; }).before_m(), 0.0);
+}
+
+// seen: where the plane is, along the road.
+StepProfile seen_where(const std::function<bool(double)>& seen) {
+  StepProfile profile(kStep_m);
+  for (double beside = -1.2; beside < 1.2; beside += 0.02) {
+    if (seen(beside)) profile.add(beside, 0.01);
+  }
+  return profile;
+}
+
+TEST(StepProfile, AHoleIsAsLongAsThePlaneIsSeenNowhereAroundThePlace) {
+  EXPECT_EQ(seen_where([](double) { return true; }).hole_m(), 0.0);
+  for (const double length_m : {0.3, 0.6, 1.0}) {
+    for (const double from_m : {-0.9 * length_m, -0.5 * length_m, -0.1 * length_m}) {
+      const StepProfile hole = seen_where([&](double at) { return at < from_m || at > from_m + length_m; });
+      EXPECT_NEAR(hole.hole_m(), length_m, 0.11) << from_m;
+    }
+  }
+  EXPECT_EQ(seen_where([](double at) { return at < 0.2 || at > 0.8; }).hole_m(), 0.0) << "beside the place";
+}
+
+TEST(StepProfile, WhereThePlaneIsSeenToOneSideOnlyTheHoleHasNoEnd) {
+  constexpr double kAll_m = 2.0 * StepProfile::kHalf_m;
+  EXPECT_EQ(seen_where([](double at) { return at < -0.1; }).hole_m(), kAll_m);
+  EXPECT_EQ(seen_where([](double at) { return at > 0.06; }).hole_m(), kAll_m);
+  EXPECT_EQ(seen_where([](double) { return false; }).hole_m(), kAll_m);
+  EXPECT_EQ(profile_of(step(-1.5, 1.5, 0.3)).hole_m(), kAll_m) << "something before it";
 }
 
 TEST(StepProfile, WithoutPointsThereIsNone) {

@@ -216,7 +216,7 @@ TEST(Walls, ShortOnesVouchForEachOtherAsFarAsTheyRunAlike) {
   for (const double apart_rad : {0.0, 0.1, 0.2, 0.35}) {
     for (const bool both_short : {true, false}) {
       SCOPED_TRACE(::testing::Message() << apart_rad << (both_short ? " both short" : " one short"));
-      BandFixture band;
+      BandFixture band({{"s_front", "1"}, {"s_back", "-1"}});
       band.add_wall(3.0, both_short ? kShort : kLongWall);
       band.add_wall(-3.0, kShort, apart_rad);
       const WallsResult r = band.walls();
@@ -257,16 +257,51 @@ TEST(Walls, AWallAloneTellsTheRoadNoBetterThanTheOtherSideAllows) {
   EXPECT_LT(alone.walls().side[0].yaw_bound_rad, 0.02) << "nothing on the other side speaks against it";
 }
 
-TEST(Walls, BeyondTheLastWallIsExtrapolation) {
+// Also where the last column that is seen is the sampling point's own.
+TEST(Walls, BeyondTheLastWallIsExtrapolationAndTheLevelSaysSo) {
+  for (const double to_m : {0.5, 1.4, 1.8}) {
+    BandFixture band;
+    band.add_wall(2.5, {-8.0, to_m, 0.3, 2.4});
+    band.add_wall(-2.5, kLongWall);
+    const WallsResult r = band.walls();
+    ASSERT_TRUE(is_good(r.side[0])) << to_m;
+    EXPECT_TRUE(r.side[0].extrapolated[0]) << to_m;
+    EXPECT_GE(r.side[0].distance_bound_m[0], 2.0) << to_m;
+    EXPECT_FALSE(r.side[0].extrapolated[1]) << to_m;
+    EXPECT_LT(r.side[0].distance_bound_m[1], 0.05) << to_m;
+    EXPECT_FALSE(r.side[1].extrapolated[0]) << to_m;
+    EXPECT_GT(r.side[0].distance_sigma_m[0], r.side[0].distance_sigma_m[1]) << to_m;
+  }
+}
+
+// A post hides a little of a wall, and what is seen to both sides of it tells enough.
+TEST(Walls, AWallThatIsHiddenAtASamplingPointIsExtrapolatedWhereMuchOfItIs) {
+  for (const double hidden_m : {0.4, 1.0}) {
+    BandFixture band;
+    band.add_wall(2.5, {-8.0, 2.0 - 0.5 * hidden_m, 0.3, 2.4});
+    band.add_wall(2.5, {2.0 + 0.5 * hidden_m, 8.0, 0.3, 2.4});
+    band.add_wall(-2.5, kLongWall);
+    const WallsResult r = band.walls();
+    ASSERT_TRUE(is_good(r.side[0])) << hidden_m;
+    EXPECT_EQ(r.side[0].extrapolated[0], hidden_m > 0.6) << hidden_m;
+    EXPECT_EQ(r.side[0].distance_bound_m[0] >= 2.0, hidden_m > 0.6) << hidden_m;
+  }
+}
+
+TEST(Walls, ASamplingPointInTheRockHasALevelThatReachesToItsOtherSign) {
   BandFixture band;
-  band.add_wall(2.5, {-8.0, 0.5, 0.3, 2.4});
+  band.settings().lateral_offset_left = 2.8;
+  band.add_wall(2.5, kLongWall);
   band.add_wall(-2.5, kLongWall);
   const WallsResult r = band.walls();
-  ASSERT_TRUE(is_good(r.side[0]));
-  EXPECT_TRUE(r.side[0].extrapolated[0]);
-  EXPECT_FALSE(r.side[0].extrapolated[1]);
-  EXPECT_FALSE(r.side[1].extrapolated[0]);
-  EXPECT_GT(r.side[0].distance_sigma_m[0], r.side[0].distance_sigma_m[1]);
+  ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1]));
+  for (int end = 0; end < 2; ++end) {
+    EXPECT_NEAR(r.side[0].distance_m[end], 0.3, 0.02);
+    EXPECT_TRUE(r.side[0].extrapolated[end]);
+    EXPECT_GE(r.side[0].distance_bound_m[end], 2.0 * 0.28);
+    EXPECT_FALSE(r.side[1].extrapolated[end]);
+    EXPECT_LT(r.side[1].distance_bound_m[end], 0.05);
+  }
 }
 
 // Shorter than two columns of the grid: each of them holds points of the wall beside the step.
