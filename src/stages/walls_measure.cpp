@@ -16,7 +16,8 @@ namespace pose_wall {
 namespace {
 
 constexpr double kExtrapolated_m = 0.75;
-// A post hides less of a wall. Where more is not seen, or the wall is seen to one side only, it may end or step anywhere.
+// A post hides less of a wall. Where more is not seen, or the wall is seen to one side only, it may end or step
+// anywhere.
 constexpr double kHoleMax_m = 0.6;
 constexpr double kMayStep_m = 2.0;
 // A bend is told where it takes up this much of an alert limit.
@@ -100,8 +101,7 @@ bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double 
 }
 
 #ifdef POSE_WALL_TRACE
-void note_sample(const Settings& s, int quantity, double offset_m, double gap_m, bool in_rock,
-                 const AtSample& seen) {
+void note_sample(const Settings& s, int quantity, double offset_m, double gap_m, bool in_rock, const AtSample& seen) {
   const auto subject = static_cast<std::uint32_t>(POSE_WALL_TRACE_QUANTITY + quantity);
   trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_OFFSET, offset_m, kBendMatters * s.alert_limit_distance,
                  !(offset_m > kBendMatters * s.alert_limit_distance));

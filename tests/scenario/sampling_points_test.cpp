@@ -3,8 +3,8 @@
 
 // Proves, where the plane is right but the wall at a sampling point is not seen, or not in the plane: each distance is
 // within its level, and none is valid that is off by more than the alert limit. A wall that widens where only the floor
-// is seen of it, a narrow place seen above the band only, an arch whose bend begins at the height of the sampling point,
-// one that is seen too little of, and one whose band ends below the sampling point. Does not prove a rate.
+// is seen of it, a narrow place seen above the band only, an arch whose bend begins at the height of the sampling
+// point, one that is seen too little of, and one whose band ends below the sampling point. Does not prove a rate.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,8 @@ const std::vector<AtPoint> kAtPoints = {
       "mount_z_m=0.87"}, {}, 6},
     {"arch_seen_from_a_tilted_machine", "arch", "mid360", 117,
      {"roll_deg=-7.8", "pitch_deg=-10.07", "mount_roll_deg=180"}},
-    {"arch_seen_from_the_other_side", "arch", "mid360", 185, {"roll_deg=12.01", "pitch_deg=9.14", "mount_roll_deg=180"}},
+    {"arch_seen_from_the_other_side", "arch", "mid360", 185,
+     {"roll_deg=12.01", "pitch_deg=9.14", "mount_roll_deg=180"}},
     {"arch_and_a_sensor_turned_back", "arch", "vlp16", 2002213,
      {"forward_axis=+Y", "turned_left_deg=0.37", "roll_deg=15.08", "pitch_deg=-8.99", "mount_yaw_deg=-168.9"}, {}, 6},
     {"arch_above_the_band", "arch", "vlp16", 0,

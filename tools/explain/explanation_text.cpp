@@ -104,8 +104,8 @@ std::string planes_text(const pose_wall_config& config, const pose_wall_result& 
 // A wall is asked the same twice, as it was drawn and as it was fitted; its bend at two places.
 std::string name_of(const std::vector<Note>& all, std::size_t index) {
   const Note& note = all[index];
-  const bool at_sample =
-      note.is(POSE_WALL_TRACE_SAMPLE_BEND) && index + 1 < all.size() && all[index + 1].is(POSE_WALL_TRACE_SAMPLE_OFFSET);
+  const bool at_sample = note.is(POSE_WALL_TRACE_SAMPLE_BEND) && index + 1 < all.size() &&
+                         all[index + 1].is(POSE_WALL_TRACE_SAMPLE_OFFSET);
   if (at_sample) return fmt::format("{} ({})", note.info.name, subject_name(all[index + 1].gate.subject));
   const bool is_of_a_plane = note.is(POSE_WALL_TRACE_WALL_INLIERS) || note.is(POSE_WALL_TRACE_WALL_LENGTH) ||
                              note.is(POSE_WALL_TRACE_WALL_SOLID) || note.is(POSE_WALL_TRACE_WALL_LEAN);

@@ -152,7 +152,8 @@ constexpr GateWords kFitWords[] = {
      "pass), and the plane is prolonged to it.",
      "s_front and s_back set the sampling points"},
     {"sample_hole",
-     "Around its sampling point nothing is seen of the wall for {value} ({limit} is let pass), or it is seen to one side "
+     "Around its sampling point nothing is seen of the wall for {value} ({limit} is let pass), or it is seen to one "
+     "side "
      "only: it may end or step there.",
      "s_front and s_back set the sampling points"},
     {"sample_before",
