@@ -3,19 +3,16 @@
 
 #include "stages/ground.hpp"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
-#include "containers/even_share.hpp"
-#include "estimation/irls.hpp"
-#include "estimation/mlesac.hpp"
 #include "estimation/protection.hpp"
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "math/rotation.hpp"
+#include "stages/ground_beside.hpp"
+#include "stages/ground_candidates.hpp"
 #include "stages/ground_fit.hpp"
 #include "stages/ground_notes.hpp"
-#include "stages/ground_search.hpp"
 
 namespace pose_wall {
 namespace {
@@ -24,30 +21,14 @@ constexpr double kRadiusGrowth = 2.25;
 constexpr int kRadiusSteps = 6;  // from the least first radius to the greatest last
 // A wider radius with hardly more in it would tell the same once more.
 constexpr double kWorthALook = 1.02;
-constexpr std::uint32_t kQuickPointsMax = 500;
-constexpr std::uint32_t kCandidatesMin = 60;
-constexpr double kAreaMin_m2 = 2.0;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
 constexpr double kSmallArea_m2 = 5.0;
 // Through a floor of this size only reflections are seen.
 constexpr double kSureArea_m2 = 10.0;
 constexpr double kEqualShare = 0.7;
 constexpr double kAcrossSpreadMin_m = 0.2;
-constexpr double kGhostShare = 0.4;
-constexpr double kBelowShareMax = 0.05;
-constexpr double kRivalShare = 0.5;
-// Neither a floor nor a rival of one, whose score is at most twice its area: where no floor is within the radius, all
-// planes are such splinters.
-constexpr double kTellsNothing_m2 = 0.5 * kRivalShare * kAreaMin_m2;
-constexpr double kOutlierSpan_m = 4.0;
 // A floor this good needs no wider look: the wider, the less "local" the floor is.
 constexpr double kGoodEnough = 0.3;
-
-struct Candidate {
-  Plane plane;
-  FloorEvidence evidence;
-  bool ghost = false;
-};
 
 // In their order.
 void copy_within(const PointSet& open, double radius_m, PointSet* out) {
@@ -66,101 +47,17 @@ void copy_within(const PointSet& open, double radius_m, PointSet* out) {
   });
 }
 
-// The lowest percentile by z, off a histogram of centimetres.
-std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::uint32_t> out) {
-  constexpr std::uint32_t kBins = 2048;
-  constexpr float kFloor_m = -10.24F;
-  std::uint32_t bins[kBins + 1] = {};  // the last: of none
-  const auto bins_of = [](FourFloats z) {
-    const FourFloats place = (z - kFloor_m) * 100.0F;
-    return cut_off(smaller_of(larger_of(place, FourFloats{}), all_four(kBins - 1.0F)));
-  };
-  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
-    const FourInts bin = counts ? bins_of(load_four(&points.z[k])) : all_four_ints(kBins);
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) ++bins[static_cast<std::uint32_t>(bin[lane])];
-  });
-  const double wanted = percentile / 100.0 * static_cast<double>(points.count);
-  double below = 0.0;
-  std::int32_t limit = 0;
-  for (; limit < static_cast<std::int32_t>(kBins) && below < wanted; ++limit) below += static_cast<double>(bins[limit]);
-  std::uint32_t count = 0;
-  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
-    counts &= bins_of(load_four(&points.z[k])) < limit;
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (counts[lane] != 0) out[count++] = k + lane;
-    }
-  });
-  return count;
-}
-
-// Refines what the search left, merges what became alike, and looks at each as a floor.
-std::uint32_t weigh(const BoundedPoints& cloud, const PointSet& within, const Settings& s, const Axes& axes,
-                    const Eigen::Vector3d& sensor, FloorShortlist* list, GroundScratch* scratch,
-                    Candidate (&out)[kFloorShortlist]) {
-  const FloorLimits limits(s);
-  const IrlsSettings quick = quick_irls(2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2);
-  // The low points have done their work; their room holds a part of all, enough to refine a hypothesis.
-  std::uint32_t of_part = 0;
-  for_even_share(within.count, kQuickPointsMax, [&](std::uint32_t k) { scratch->low[of_part++] = k; });
-  const Span<const std::uint32_t> part = scratch->low.first(of_part);
-  std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < list->count(); ++k) {
-    const IrlsResult refined =
-        irls_tukey(within, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
-    POSE_WALL_NOTE(note_refined_floor(refined, 1.0 - (*list)[k].cost, s, sensor));
-    if (!refined.solved || !may_be_floor(refined.plane, limits, sensor)) continue;
-    bool repeats = false;
-    for (std::uint32_t j = 0; j < count; ++j) repeats = repeats || same_floor(out[j].plane, refined.plane);
-    POSE_WALL_NOTE(if (repeats) trace::fate(refined.plane, POSE_WALL_TRACE_REPEATS));
-    if (repeats) continue;
-    POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_UNSUPPORTED));
-    if (mlesac_score(within, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
-    scratch->grid.mark(within, refined.plane, s.ground_ransac_thresh);
-    const FloorEvidence evidence = scratch->grid.evidence(axes);
-    if (evidence.area_m2 < kTellsNothing_m2) continue;
-    POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
-    if (has_much_below(scratch->grid, refined.plane, cloud, s.ground_roi_radius_max, sensor, kBelowShareMax)) continue;
-    out[count++] = {refined.plane, evidence, false};
-  }
-  return count;
-}
-
-// Planes below another one, seen through its open floor, are reflections in wet ground.
-void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3d& sensor, GroundScratch* scratch,
-                 Span<Candidate> candidates) {
-  for (const Candidate& above : candidates) {
-    if (above.evidence.area_m2 < kAreaMin_m2) continue;
-    bool marked = false;
-    for (Candidate& below : candidates) {
-      if (!(below.plane.signed_distance(sensor) > above.plane.signed_distance(sensor) + 0.1)) continue;
-      if (!marked) scratch->grid.mark(within, above.plane, s.ground_ransac_thresh);
-      marked = true;
-      below.ghost = below.ghost || share_seen_through(scratch->grid, above.plane, below.plane, within, sensor,
-                                                      s.ground_ransac_thresh) > kGhostShare;
-    }
-  }
-}
-
-const Candidate* best_of(Span<const Candidate> candidates) {
-  const Candidate* best = nullptr;
-  for (const Candidate& c : candidates) {
-    if (c.ghost) continue;
-    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
-  }
-  return best;
-}
-
 // Rival floors nearly as good: the truth may be any, so the protection levels reach to the furthest. Where the floor
 // itself is small, what is seen through it may be no reflection but the floor.
-void reach_to_rivals(const Candidate& best, Span<const Candidate> candidates, FloorResult* out) {
+void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> candidates, FloorResult* out) {
   const RollPitch a = roll_pitch_of_up(best.plane.n);
   double roll = 0.0, pitch = 0.0;
-  for (const Candidate& rival : candidates) {
-    if (&rival == &best || rival.evidence.score_m2 < kRivalShare * best.evidence.score_m2) continue;
+  for (const FloorCandidate& rival : candidates) {
+    if (&rival == &best || rival.evidence.score_m2 < kRivalShareOfFloor * best.evidence.score_m2) continue;
     if (rival.ghost && best.evidence.area_m2 >= kSureArea_m2) continue;
     POSE_WALL_NOTE(trace::fate(rival.plane, POSE_WALL_TRACE_RIVAL));
-    POSE_WALL_NOTE(
-        trace::gate(POSE_WALL_TRACE_FLOOR_RIVAL, rival.evidence.score_m2 / best.evidence.score_m2, kRivalShare, false));
+    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_RIVAL, rival.evidence.score_m2 / best.evidence.score_m2,
+                               kRivalShareOfFloor, false));
     const RollPitch b = roll_pitch_of_up(rival.plane.n);
     roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad));
     pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
@@ -170,7 +67,7 @@ void reach_to_rivals(const Candidate& best, Span<const Candidate> candidates, Fl
   out->pitch_bound_rad += pitch;
 }
 
-void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& best, FloorResult* out) {
+void gate(const Settings& s, const Eigen::Vector3d& sensor, const FloorCandidate& best, FloorResult* out) {
   const auto refuse_unless = [&](bool holds, std::uint32_t reason) {
     if (holds) return;
     out->fit.refused = true;
@@ -179,13 +76,13 @@ void gate(const Settings& s, const Eigen::Vector3d& sensor, const Candidate& bes
   // The fit may have wandered off on a few points of something else.
   const bool stayed = may_be_floor(out->fit.plane, FloorLimits(s), sensor) && same_floor(out->fit.plane, best.plane);
   POSE_WALL_NOTE(note_floor_gates(s, sensor, best.plane, out->fit));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_AREA, best.evidence.area_m2, kAreaMin_m2,
-                             best.evidence.area_m2 >= kAreaMin_m2));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_AREA, best.evidence.area_m2, kFloorAreaMin_m2,
+                             best.evidence.area_m2 >= kFloorAreaMin_m2));
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_SPREAD, best.evidence.across_spread_m, kAcrossSpreadMin_m,
                              best.evidence.across_spread_m >= kAcrossSpreadMin_m));
   refuse_unless(stayed, POSE_WALL_R_FLOOR_NOT_FOUND);
   refuse_unless(out->fit.inliers >= s.ground_inlier_min, POSE_WALL_R_FLOOR_FEW_INLIERS);
-  refuse_unless(best.evidence.area_m2 >= kAreaMin_m2, POSE_WALL_R_FLOOR_THIN);
+  refuse_unless(best.evidence.area_m2 >= kFloorAreaMin_m2, POSE_WALL_R_FLOOR_THIN);
   refuse_unless(best.evidence.across_spread_m >= kAcrossSpreadMin_m, POSE_WALL_R_FLOOR_THIN);
 }
 
@@ -195,9 +92,9 @@ bool lie_alike(const Plane& a, const Plane& b) {
   return a.n.cross(b.n).squaredNorm() <= kAlike_rad * kAlike_rad;
 }
 
-bool stands_alone(const Candidate& best, Span<const Candidate> candidates) {
+bool stands_alone(const FloorCandidate& best, Span<const FloorCandidate> candidates) {
   if (best.evidence.area_m2 >= kSmallArea_m2) return true;
-  for (const Candidate& rival : candidates) {
+  for (const FloorCandidate& rival : candidates) {
     if (&rival == &best || rival.ghost || rival.evidence.score_m2 < kEqualShare * best.evidence.score_m2) continue;
     POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_ALONE, rival.evidence.score_m2 / best.evidence.score_m2,
                                kEqualShare, lie_alike(best.plane, rival.plane)));
@@ -217,18 +114,12 @@ FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, cons
   none.roi_radius_m = radius_m;
   none.candidates = within.count;
   POSE_WALL_NOTE(
-      trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, within.count, kCandidatesMin, within.count >= kCandidatesMin));
-  if (within.count < kCandidatesMin) return none;
-  const std::uint32_t low = lowest_part(within, s.ground_z_percentile, scratch->low);
-
-  FloorShortlist list;
-  const GroundSearchInput in{within, scratch->low.first(low), sensor, last_floor};
-  none.fit.iterations = search_floor(in, s, random, &scratch->subset, &list);
-  Candidate candidates[kFloorShortlist];
-  const std::uint32_t count = weigh(cloud, within, s, axes, sensor, &list, scratch, candidates);
-  mark_ghosts(within, s, sensor, scratch, Span<Candidate>(candidates, count));
-  const Candidate* best = best_of(Span<const Candidate>(candidates, count));
-  POSE_WALL_NOTE(note_floor_choice(Span<const Candidate>(candidates, count), best));
+      trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, within.count, kFloorPointsMin, within.count >= kFloorPointsMin));
+  if (within.count < kFloorPointsMin) return none;
+  FloorCandidates found;
+  none.fit.iterations = find_candidates({within, cloud, sensor, last_floor}, s, axes, random, scratch, &found);
+  const FloorCandidate* best = found.best();
+  POSE_WALL_NOTE(note_floor_choice(found.all(), best));
   if (best == nullptr) return none;
 
   FloorResult out = fit_floor(look, best->plane, s, sensor, scratch);
@@ -236,8 +127,8 @@ FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, cons
   out.candidates = within.count;
   out.roi_radius_m = radius_m;
   out.area_m2 = best->evidence.area_m2;
-  reach_to_rivals(*best, Span<const Candidate>(candidates, count), &out);
-  out.fit.refused = out.fit.refused || !stands_alone(*best, Span<const Candidate>(candidates, count));
+  reach_to_rivals(*best, found.all(), &out);
+  out.fit.refused = out.fit.refused || !stands_alone(*best, found.all());
   gate(s, sensor, *best, &out);
   // A fit that came to nothing, or wandered off, says less of the floor than what it began with.
   if ((out.fit.reasons & POSE_WALL_R_FLOOR_NOT_FOUND) != 0) out.fit.plane = best->plane;
@@ -260,7 +151,7 @@ Levels levels_of(const FloorResult& f, const Settings& s) {
 // truth either. A wider look that was refused may yet have found the truth, or taken it for a rival.
 void reach_to_other(const FloorResult& other, const Settings& s, FloorResult* floor) {
   constexpr double kBeyond = 1.5;
-  const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= kAreaMin_m2;
+  const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= kFloorAreaMin_m2;
   if (other.fit.refused && !wider_look) return;
   const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
   const Levels levels = levels_of(*floor, s);
@@ -326,7 +217,7 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
     if (!widest) copy_within(open, radius_m, &scratch->within_base);
     const PointSet& within = widest ? open : scratch->within_base;
     if (static_cast<double>(within.count) < worth_a_look) continue;
-    if (within.count >= kCandidatesMin) worth_a_look = kWorthALook * static_cast<double>(within.count);
+    if (within.count >= kFloorPointsMin) worth_a_look = kWorthALook * static_cast<double>(within.count);
     POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
     const FloorResult& floor = floors[tried] =
         floor_within({radius_m, open, within}, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
@@ -345,6 +236,7 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
   }
   // The first radius is the configured one: it was not picked for its claim.
   if (best > 0) widen(settings, claims, &out);
+  if (!out.fit.refused) reach_to_floors_beside(cloud_base, settings, axes, sensor_base_m, random, scratch, &out);
   reach_to_upright(&out);
   return out;
 }

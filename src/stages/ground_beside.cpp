@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/ground_beside.hpp"
+
+#include <cmath>
+
+#include "estimation/near_plane.hpp"
+#include "math/elementary.hpp"
+#include "math/larger.hpp"
+#include "math/rotation.hpp"
+#include "stages/ground_notes.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kOffInThresholds = 3.0;
+constexpr double kOneSide = 0.8;  // of the points
+// So well is the line known in which two floors meet.
+constexpr double kNearLine_m = 0.3;
+// A floor all over below another one that lies alike, a table's or a belt's: more than a kerb is high.
+constexpr double kLower_m = 0.5;
+constexpr double kAlike = 0.1;  // slope
+constexpr std::uint32_t kPointsMin = 20;
+// The other plane was looked at in passing.
+constexpr double kStretch = 1.25;
+constexpr double kMargin_rad = 0.026;
+
+// How many points lie in each eighth of a turn around the machine.
+struct Eighths {
+  std::uint32_t count[8] = {}, total = 0;
+
+  // By a hundredth of all points.
+  bool holds_any(std::uint32_t eighth) const { return count[eighth] * 100 >= total; }
+};
+
+// Of those no further than this from the plane.
+Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m) {
+  constexpr std::uint8_t kEighth[] = {0, 1, 7, 6, 3, 2, 4, 5};  // by signs of x and y and which of them is larger
+  const FourDistances heights(plane);
+  const FourFloats reach = all_four(static_cast<float>(reach_m)), none{};
+  Eighths out;
+  for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    counts &= magnitude_of(heights.of(x, y, z)) <= reach;
+    const FourInts which = ((x < none) & 4) | ((y < none) & 2) | ((magnitude_of(x) < magnitude_of(y)) & 1);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      out.count[kEighth[static_cast<std::uint32_t>(which[lane])]] += counts[lane] != 0 ? 1 : 0;
+    }
+    out.total += sum_of_lanes(-counts);
+  });
+  return out;
+}
+
+// To all sides of the machine, but for less than half a turn: then it stands on it.
+bool surround_machine(const Eighths& floor) {
+  constexpr std::uint32_t kEmptyMost = 2;
+  std::uint32_t empty = 0;
+  for (std::uint32_t k = 0; k < 16; ++k) {
+    empty = floor.holds_any(k % 8) ? 0 : empty + 1;
+    if (empty > kEmptyMost) return false;
+  }
+  return true;
+}
+
+// Open points below the sensor and off the floor.
+void copy_left_over(const PointSet& open, const Plane& floor, double off_m, double below_sensor_m, PointSet* out) {
+  const FourDistances heights(floor);
+  const FourFloats off = all_four(static_cast<float>(off_m)), highest = all_four(static_cast<float>(below_sensor_m));
+  out->count = 0;
+  for_each_four_points(open, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourFloats height = heights.of(x, y, z);
+    counts &= (magnitude_of(height) > off) & (height < highest);
+    if (!any_of(counts)) return;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] != 0) out->add(x[lane], y[lane], z[lane], open.weight[k + lane]);
+    }
+  });
+}
+
+// Of the open points on one plane and off the other, the share that lies above the other.
+double share_above(const PointSet& open, const Plane& on, const Plane& other, double thresh_m) {
+  const FourDistances from_own(on), from_other(other);
+  const FourFloats thresh = all_four(static_cast<float>(thresh_m));
+  const FourFloats off = all_four(static_cast<float>(kOffInThresholds * thresh_m));
+  FourInts of_own{}, above{};  // true is -1
+  for_each_four_points(open, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourFloats height = from_other.of(x, y, z);
+    counts &= (magnitude_of(from_own.of(x, y, z)) <= thresh) & (magnitude_of(height) > off);
+    of_own -= counts;
+    above -= counts & (height > FourFloats{});
+  });
+  const std::uint32_t count = sum_of_lanes(of_own);
+  return count > 0 ? static_cast<double>(sum_of_lanes(above)) / count : 0.5;
+}
+
+// Ground that rises in a line lies on the higher one of two planes everywhere, ground that falls on the lower one: each
+// has its points on its own side of the line, and so it has the machine.
+bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, double thresh_m) {
+  const double other_above = share_above(open, other, floor, thresh_m);
+  const double floor_above = share_above(open, floor, other, thresh_m);
+  const bool other_is_higher = other_above >= kOneSide, other_is_lower = other_above <= 1.0 - kOneSide;
+  const bool floor_is_higher = floor_above >= kOneSide, floor_is_lower = floor_above <= 1.0 - kOneSide;
+  const auto slope = [](const Plane& p) { return Eigen::Vector2d(p.n.x() / p.n.z(), p.n.y() / p.n.z()); };
+  const double unlike = std::sqrt((slope(other) - slope(floor)).squaredNorm());
+  const double step_m = floor.d / floor.n.z() - other.d / other.n.z();  // up to the other one, at the machine
+  if (other_is_higher && floor_is_higher) return step_m > -kNearLine_m * unlike;
+  if (other_is_lower && floor_is_lower) return step_m < kNearLine_m * unlike;
+  return other_is_lower && floor_is_higher && step_m < -kLower_m && unlike < kAlike;
+}
+
+}  // namespace
+
+void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, const Axes& axes,
+                            const Eigen::Vector3d& sensor_base_m, Random* random, GroundScratch* scratch,
+                            FloorResult* floor) {
+  const PointSet &open = scratch->open_base, &left_over = scratch->within_base;
+  const Plane plane = floor->fit.plane;
+  if (surround_machine(eighths_of(open, plane, s.ground_ransac_thresh))) return;
+  const double off_m = kOffInThresholds * s.ground_ransac_thresh;
+  copy_left_over(open, plane, off_m, plane.signed_distance(sensor_base_m) - s.ground_height_min, &scratch->within_base);
+  if (left_over.count < kPointsMin) return;
+  FloorCandidates found;
+  find_candidates({left_over, cloud_base, sensor_base_m, nullptr}, s, axes, random, scratch, &found);
+  const RollPitch a = roll_pitch_of_up(plane.n);
+  for (const FloorCandidate& other : found.all()) {
+    if (other.ghost || !may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;
+    const RollPitch b = roll_pitch_of_up(other.plane.n);
+    const auto reach_to = [](double apart_rad, double* bound_rad) {
+      *bound_rad = larger(*bound_rad, kStretch * std::fabs(apart_rad) + kMargin_rad);
+    };
+    reach_to(a.roll_rad - b.roll_rad, &floor->roll_bound_rad);
+    reach_to(a.pitch_rad - b.pitch_rad, &floor->pitch_bound_rad);
+    floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+  }
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/ground_candidates.hpp"
+
+#include "containers/even_share.hpp"
+#include "estimation/irls.hpp"
+#include "estimation/mlesac.hpp"
+#include "stages/ground_below.hpp"
+#include "stages/ground_notes.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kQuickPointsMax = 500;
+constexpr double kGhostShare = 0.4;
+constexpr double kBelowShareMax = 0.05;
+// Neither a floor nor a rival of one, whose score is at most twice its area: where no floor is within the radius, all
+// planes are such splinters.
+constexpr double kTellsNothing_m2 = 0.5 * kRivalShareOfFloor * kFloorAreaMin_m2;
+constexpr double kOutlierSpan_m = 4.0;
+
+// The lowest percentile by z, off a histogram of centimetres.
+std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::uint32_t> out) {
+  constexpr std::uint32_t kBins = 2048;
+  constexpr float kFloor_m = -10.24F;
+  std::uint32_t bins[kBins + 1] = {};  // the last: of none
+  const auto bins_of = [](FourFloats z) {
+    const FourFloats place = (z - kFloor_m) * 100.0F;
+    return cut_off(smaller_of(larger_of(place, FourFloats{}), all_four(kBins - 1.0F)));
+  };
+  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourInts bin = counts ? bins_of(load_four(&points.z[k])) : all_four_ints(kBins);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) ++bins[static_cast<std::uint32_t>(bin[lane])];
+  });
+  const double wanted = percentile / 100.0 * static_cast<double>(points.count);
+  double below = 0.0;
+  std::int32_t limit = 0;
+  for (; limit < static_cast<std::int32_t>(kBins) && below < wanted; ++limit) below += static_cast<double>(bins[limit]);
+  std::uint32_t count = 0;
+  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
+    counts &= bins_of(load_four(&points.z[k])) < limit;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] != 0) out[count++] = k + lane;
+    }
+  });
+  return count;
+}
+
+// Refines what the search left, merges what became alike, and looks at each as a floor.
+void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShortlist* list, GroundScratch* scratch,
+           FloorCandidates* out) {
+  const PointSet& within = in.within_base;
+  const Eigen::Vector3d& sensor = in.sensor_base_m;
+  const FloorLimits limits(s);
+  const IrlsSettings quick = quick_irls(2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2);
+  // The low points have done their work; their room holds a part of all, enough to refine a hypothesis.
+  std::uint32_t of_part = 0;
+  for_even_share(within.count, kQuickPointsMax, [&](std::uint32_t k) { scratch->low[of_part++] = k; });
+  const Span<const std::uint32_t> part = scratch->low.first(of_part);
+  out->count = 0;
+  for (std::uint32_t k = 0; k < list->count(); ++k) {
+    const IrlsResult refined =
+        irls_tukey(within, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
+    POSE_WALL_NOTE(note_refined_floor(refined, 1.0 - (*list)[k].cost, s, sensor));
+    if (!refined.solved || !may_be_floor(refined.plane, limits, sensor)) continue;
+    bool repeats = false;
+    for (const FloorCandidate& c : out->all()) repeats = repeats || same_floor(c.plane, refined.plane);
+    POSE_WALL_NOTE(if (repeats) trace::fate(refined.plane, POSE_WALL_TRACE_REPEATS));
+    if (repeats) continue;
+    POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_UNSUPPORTED));
+    if (mlesac_score(within, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
+    scratch->grid.mark(within, refined.plane, s.ground_ransac_thresh);
+    const FloorEvidence evidence = scratch->grid.evidence(axes);
+    if (evidence.area_m2 < kTellsNothing_m2) continue;
+    POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
+    if (has_much_below(scratch->grid, refined.plane, in.cloud_base, s.ground_roi_radius_max, sensor, kBelowShareMax))
+      continue;
+    out->item[out->count++] = {refined.plane, evidence, false};
+  }
+}
+
+// Planes below another one, seen through its open floor, are reflections in wet ground.
+void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3d& sensor, GroundScratch* scratch,
+                 Span<FloorCandidate> candidates) {
+  for (const FloorCandidate& above : candidates) {
+    if (above.evidence.area_m2 < kFloorAreaMin_m2) continue;
+    bool marked = false;
+    for (FloorCandidate& below : candidates) {
+      if (!(below.plane.signed_distance(sensor) > above.plane.signed_distance(sensor) + 0.1)) continue;
+      if (!marked) scratch->grid.mark(within, above.plane, s.ground_ransac_thresh);
+      marked = true;
+      below.ghost = below.ghost || share_seen_through(scratch->grid, above.plane, below.plane, within, sensor,
+                                                      s.ground_ransac_thresh) > kGhostShare;
+    }
+  }
+}
+
+}  // namespace
+
+const FloorCandidate* FloorCandidates::best() const {
+  const FloorCandidate* best = nullptr;
+  for (const FloorCandidate& c : all()) {
+    if (c.ghost) continue;
+    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
+  }
+  return best;
+}
+
+std::uint32_t find_candidates(const FloorSearch& in, const Settings& s, const Axes& axes, Random* random,
+                              GroundScratch* scratch, FloorCandidates* out) {
+  const std::uint32_t low = lowest_part(in.within_base, s.ground_z_percentile, scratch->low);
+  FloorShortlist list;
+  const GroundSearchInput drawn_from{in.within_base, scratch->low.first(low), in.sensor_base_m, in.last_floor};
+  const std::uint32_t scored = search_floor(drawn_from, s, random, &scratch->subset, &list);
+  weigh(in, s, axes, &list, scratch, out);
+  mark_ghosts(in.within_base, s, in.sensor_base_m, scratch, Span<FloorCandidate>(out->item, out->count));
+  return scored;
+}
+
+}  // namespace pose_wall
