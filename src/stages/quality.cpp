@@ -103,8 +103,9 @@ Measurement yaw_measurement(double raw, double walls_variance, double bound, dou
 
 Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const LevelResult& level, const Settings& s) {
   const double bias = s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
-  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, yaw_bound_of(wall, floor, level) + bias,
-                         wall.dof_slope, tilt_to_yaw(wall, level), floor, s);
+  const double bound = yaw_bound_of(wall, floor, level) + wall.yaw_to_rival_rad + bias;
+  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound, wall.dof_slope,
+                         tilt_to_yaw(wall, level), floor, s);
 }
 
 // Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
@@ -122,6 +123,8 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
   double bound = s.range_bias_max * std::fabs(bias);
   bound += w[0] * yaw_bound_of(walls[0], floor, level) + w[1] * yaw_bound_of(walls[1], floor, level);
+  // Where a road bends ahead, both walls may be those behind the bend: the other one does not vouch for either.
+  bound += larger(walls[0].yaw_to_rival_rad, walls[1].yaw_to_rival_rad);
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double apart_in_sigmas = (difference - biased_apart) / std::sqrt(variance[0] + variance[1]);
@@ -150,7 +153,7 @@ Measurement measure_yaw(const FloorResult& floor, const LevelResult& level, cons
     if (!wall.fit.refused || !m.measured) doubts |= wall.fit.reasons;
   }
   m.reasons |= doubts;
-  m.weak = (doubts & kWeakWall) != 0;
+  m.weak = (doubts & (kWeakWall | POSE_WALL_R_EXTRAPOLATED)) != 0;
   return m;
 }
 

@@ -175,13 +175,24 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
 // The truth may be the rival: the protection levels reach to it.
 void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallResult* wall) {
   const double yaw = yaw_of(along_of(rival, scene.forward_level), scene.forward_level);
-  wall->yaw_bound_rad += std::fabs(yaw - wall->yaw_rad);
+  wall->yaw_to_rival_rad = larger(wall->yaw_to_rival_rad, std::fabs(yaw - wall->yaw_rad));
   for (int end = 0; end < 2; ++end) {
     const double distance = distance_at(rival, scene.sample_level_m[side][end]);
     // The rival was looked at in passing: it is not known to the centimetre.
     wall->distance_bound_m[end] += kRivalStretch * std::fabs(distance - wall->distance_m[end]) + kRivalMargin_m;
   }
   wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
+}
+
+// A wall that is seen only well ahead of the machine, or behind it: in between the road may bend.
+void extend_to_machine(WallResult* wall) {
+  constexpr double kAwayMax_m = 2.0;
+  constexpr double kMayBend_rad = 0.44;  // 25 degrees
+  const double away_m = larger(wall->along_min_m, -wall->along_max_m);
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_AWAY, larger(away_m, 0.0), kAwayMax_m, !(away_m > kAwayMax_m)));
+  if (!(away_m > kAwayMax_m)) return;
+  wall->fit.reasons |= POSE_WALL_R_EXTRAPOLATED;
+  wall->yaw_to_rival_rad = kMayBend_rad;
 }
 
 // Near the sensor, what passes for a wall and is none gives itself away.
@@ -212,6 +223,7 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
   wall.along_max_m = chosen.evidence.along_max_m;
+  extend_to_machine(&wall);
   if (choice.rival[side] != nullptr) reach_to_rival(scene, choice.rival[side]->plane, side, &wall);
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_SOLID_DOUBT, chosen.evidence.seen_through, kSeenThroughDoubt,
                              !(chosen.evidence.seen_through > kSeenThroughDoubt)));

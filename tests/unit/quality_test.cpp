@@ -158,6 +158,19 @@ TEST(Quality, WallsThatDifferWidenTheLevelToReachEither) {
   for (const WallResult& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.protection);
 }
 
+// The weaker wall's rival as well: where the road bends ahead, both walls are those behind the bend.
+TEST(Quality, YawReachesToARivalOfEitherWallHoweverSmallItsWeight) {
+  for (const int side : {0, 1}) {
+    Scene scene;
+    const double before = scene.measured().quantity[POSE_WALL_YAW].protection;
+    scene.walls[side].yaw_sigma_rad = 0.02;
+    scene.walls[side].yaw_to_rival_rad = 0.3;
+    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection, 0.3 + 0.5 * before) << side;
+    scene.walls[1 - side].fit.refused = true;
+    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection, 0.3 + 0.1) << side;
+  }
+}
+
 TEST(Quality, WhatIsDoubtfulIsWeak) {
   for (const std::uint32_t reason :
        {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_R_WALL_FEW_INLIERS, POSE_WALL_R_CURVED}) {

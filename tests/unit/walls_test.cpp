@@ -288,6 +288,20 @@ TEST(Walls, AWallThatIsHiddenAtASamplingPointIsExtrapolatedWhereMuchOfItIs) {
   }
 }
 
+TEST(Walls, WallsThatBeginWellAheadTellTheYawOnlyAsWellAsRoadsRunStraight) {
+  for (const double from_m : {1.0, 3.2}) {
+    BandFixture band;
+    band.add_wall(2.5, {from_m, 12.0, 0.3, 2.4});
+    band.add_wall(-2.5, {-12.0, -from_m, 0.3, 2.4});
+    const WallsResult r = band.walls();
+    for (int side = 0; side < 2; ++side) {
+      ASSERT_TRUE(is_good(r.side[side])) << from_m;
+      EXPECT_EQ(r.side[side].yaw_to_rival_rad > 0.3, from_m > 2.0) << side;
+      EXPECT_EQ((r.side[side].fit.reasons & POSE_WALL_R_EXTRAPOLATED) != 0, from_m > 2.0) << side;
+    }
+  }
+}
+
 TEST(Walls, ASamplingPointInTheRockHasALevelThatReachesToItsOtherSign) {
   BandFixture band;
   band.settings().lateral_offset_left = 2.8;

@@ -161,6 +161,8 @@ constexpr GateWords kFitWords[] = {
      "s_front, s_back, lateral_offset_left and lateral_offset_right set the sampling points"},
     {"sample_step", "At its sampling point the wall may step out or back by {value}.",
      "s_front and s_back set the sampling points"},
+    {"wall_away", "It is seen only {value} away along the road ({limit} is let pass): in between the road may bend.",
+     "a sensor that looks one way only, or the machine hides the wall beside it"},
     {"wall_solid_doubt", "{value} of it is seen through; from {limit} on it is doubted.",
      "things stand before the wall"},
     {"fit_inliers", "{value} measured points lie on the fitted wall; {limit} are needed ({key}).",
