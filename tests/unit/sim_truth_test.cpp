@@ -143,6 +143,25 @@ TEST(SimTruth, ArchIsMeasuredAtTheHeightOfTheBaseOrigin) {
   EXPECT_NEAR(truth.value[3], 2.5 * std::sqrt(1.0 - std::pow(0.8 / 2.5, 2)), 1e-6);
 }
 
+// The other wall, nearer to the left or right of the machine itself, is not this side's.
+TEST(SimTruth, AWallIsTheRoadsHoweverFarTheMachineIsTurned) {
+  for (const double turned_deg : {-40.0, 25.0, 40.0}) {
+    SceneSetup setup;
+    setup.road.arch_springing_m = 1.3;
+    setup.machine.turned_left_deg = turned_deg;
+    setup.machine.lateral_m = -1.0;
+    const TruthRow arch = Simulator(setup, 1).truth(0);
+    const double across_m = 2.0 * 2.5 * std::sqrt(1.0 - std::pow((setup.machine.base_height_m - 1.3) / 2.5, 2));
+    EXPECT_NEAR(arch.value[3] + arch.value[5], across_m, 2e-3) << turned_deg;
+    EXPECT_NEAR(arch.value[4] + arch.value[6], across_m, 2e-3) << turned_deg;
+    setup.road.arch_springing_m = 0.0;
+    setup.road.curve_radius_m = 200.0;
+    const TruthRow curved = Simulator(setup, 1).truth(0);
+    EXPECT_NEAR(curved.value[3] + curved.value[5], 5.0, 0.05) << turned_deg;
+    EXPECT_NEAR(curved.value[4] + curved.value[6], 5.0, 0.05) << turned_deg;
+  }
+}
+
 TEST(SimTruth, YawIsTheMeanDirectionOfWallsThatSplayDifferently) {
   SceneSetup setup = tilted_setup(0.0);
   setup.road.splay_left_deg = 8.0;

@@ -23,6 +23,7 @@ std::optional<SourcedFrame> FileSource::next() {
   sourced.stamp_ns = stamp_from_name(file);
   try {
     sourced.frame = load_frame(file);
+    if (!sourced.stamp_ns) sourced.stamp_ns = sourced.frame->stamp_ns;
   } catch (const std::exception& error) {
     sourced.error = error.what();
   }

@@ -42,7 +42,8 @@ struct Frame {
 
   Bytes bytes;
   pose_wall_cloud cloud{};
-  std::vector<FrameField> fields;  // all that were kept, also those that the engine does not look at
+  std::vector<FrameField> fields;        // all that were kept, also those that the engine does not look at
+  std::optional<std::int64_t> stamp_ns;  // where the file tells; cloud.stamp_ns is for who reads a row of frames
 };
 
 // One named field of a point, as a file format describes it.

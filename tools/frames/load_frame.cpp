@@ -42,6 +42,15 @@ const Format* find_format(const std::filesystem::path& path) {
   return format != kFormats.end() ? &*format : nullptr;
 }
 
+// What a file begins with tells more than how it is called.
+Reader reader_by_content(const Bytes& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
+  const auto begins_with = [text](std::string_view words) { return text.substr(0, words.size()) == words; };
+  if (begins_with("# .PCD") || begins_with("VERSION ")) return read_pcd;
+  if (begins_with("ply\n") || begins_with("ply\r\n")) return read_ply;
+  return nullptr;
+}
+
 Bytes read_bytes(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw FrameError("not a regular file");
@@ -71,15 +80,16 @@ bool has_frame_ending(const std::filesystem::path& path) {
 }
 
 Frame load_frame(const std::filesystem::path& path) {
-  // Before its ending is judged: a mistyped folder has none.
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw FrameError("not there: no such file or folder");
+  Bytes bytes = read_bytes(path);
+  if (const Reader read = reader_by_content(bytes)) return read(std::move(bytes));
   const Format* format = find_format(path);
   if (format == nullptr) {
     throw FrameError(fmt::format("unknown ending '{}'; {} are read, and bags and captures by their content",
                                  path.extension().string(), frame_endings_text()));
   }
-  return format->read(read_bytes(path));
+  return format->read(std::move(bytes));
 }
 
 }  // namespace pose_wall::tools

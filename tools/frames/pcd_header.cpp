@@ -27,6 +27,7 @@ struct RawHeader {
   std::map<std::string_view, Words> entries;
   std::size_t data_offset = 0;
   std::size_t lines = 0;
+  std::optional<std::int64_t> stamp_ns;
 };
 
 Words split_words(std::string_view line) {
@@ -40,6 +41,9 @@ RawHeader read_entries(const Bytes& bytes) {
   TextCursor cursor(as_text(bytes).substr(0, kHeaderBytesMax));
   while (const std::optional<std::string_view> line = cursor.next_line()) {
     Words words = split_words(*line);
+    if (words.size() == 3 && words[0] == "#" && words[1] == "stamp_ns") {
+      raw.stamp_ns = parse_number<std::int64_t>(words[2]);
+    }
     if (words.empty() || words.front().front() == '#') continue;
     std::string_view name = words.front();
     if (name == "COLUMNS") name = "FIELDS";
@@ -162,6 +166,7 @@ PcdHeader parse_pcd_header(const Bytes& bytes) {
   header.encoding = parse_encoding(raw);
   header.data_offset = raw.data_offset;
   header.lines = raw.lines;
+  header.stamp_ns = raw.stamp_ns;
   return header;
 }
 

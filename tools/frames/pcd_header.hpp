@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ struct PcdHeader {
   std::uint64_t points = 0;  // POINTS, or WIDTH x HEIGHT where POINTS is absent
   PcdEncoding encoding = PcdEncoding::kAscii;
   std::size_t data_offset = 0;
-  std::size_t lines = 0;  // of the header, for messages about ascii points
+  std::size_t lines = 0;                 // of the header, for messages about ascii points
+  std::optional<std::int64_t> stamp_ns;  // of a comment "# stamp_ns N": the format has none of its own
 };
 
 // Throws FrameError naming the line.

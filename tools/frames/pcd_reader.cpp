@@ -39,10 +39,7 @@ Frame read_compressed(const Bytes& bytes, const PcdHeader& header) {
   return describe_frame(std::move(points), layout);
 }
 
-}  // namespace
-
-Frame read_pcd(Bytes bytes) {
-  const PcdHeader header = parse_pcd_header(bytes);
+Frame read_points(Bytes bytes, const PcdHeader& header) {
   switch (header.encoding) {
     case PcdEncoding::kAscii:
       return parse_pcd_ascii(bytes, header);
@@ -52,6 +49,15 @@ Frame read_pcd(Bytes bytes) {
       return read_compressed(bytes, header);
   }
   throw FrameError("PCD header: unknown encoding");
+}
+
+}  // namespace
+
+Frame read_pcd(Bytes bytes) {
+  const PcdHeader header = parse_pcd_header(bytes);
+  Frame frame = read_points(std::move(bytes), header);
+  frame.stamp_ns = header.stamp_ns;
+  return frame;
 }
 
 }  // namespace pose_wall::tools

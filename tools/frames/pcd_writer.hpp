@@ -4,12 +4,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 
 namespace pose_wall::tools {
 
 // Binary PCD with the fields x y z intensity, four native floats per point, as one row; there whole or not at all.
-// Throws std::runtime_error that names the file.
-void write_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, std::size_t count);
+// The stamp is a comment, "# stamp_ns N", which others pass over and read_pcd() does not. Throws std::runtime_error
+// that names the file.
+void write_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, std::size_t count,
+                      std::int64_t stamp_ns);
 
 }  // namespace pose_wall::tools

@@ -109,7 +109,7 @@ void draw_yaw(Svg& svg, const Viewport& view, const DrawnFrame& frame, const pos
   const std::string_view colour = state_colour(yaw.state);
   svg.polyline(arc, {colour, 3.0});
   const Pixel tip = view(kArm_m + 0.65, 0.0);
-  svg.text({tip.x, tip.y + 4.5}, fmt::format("yaw {:+.2f}°", yaw.value * kDegPerRad),
+  svg.text({tip.x, tip.y + 4.5}, fmt::format("yaw {:+.2f}°", frame.yaw_rad() * kDegPerRad),
            {colour, 13.5, Anchor::kStart, true, kPanel});
 }
 
@@ -129,7 +129,9 @@ void draw_distance(Svg& svg, const Viewport& view, const FrameScene& scene, cons
     return;
   }
 
-  Pixel foot = view(start.along, start.left + side * value.value);
+  // What is drawn is this frame's own, where it has one: a smoothed value would not fit the line beside it.
+  const double shown_m = std::isfinite(value.raw) ? value.raw : value.value;
+  Pixel foot = view(start.along, start.left + side * shown_m);
   const DrawnPlane wall = frame.wall(distance.left ? scene.result->left : scene.result->right);
   if (wall.found) {
     const Drawn& n = wall.normal;
@@ -141,7 +143,7 @@ void draw_distance(Svg& svg, const Viewport& view, const FrameScene& scene, cons
 
   const double shift = anchor == Anchor::kStart ? 9.0 : -9.0;
   const Pixel words{0.45 * from.x + 0.55 * foot.x + shift, 0.45 * from.y + 0.55 * foot.y};
-  svg.text(words, fmt::format("{} {:.3f} m", distance.name, value.value), {colour, 15.0, anchor, true, kPanel});
+  svg.text(words, fmt::format("{} {:.3f} m", distance.name, shown_m), {colour, 15.0, anchor, true, kPanel});
   svg.text({words.x, words.y + 16.0}, fmt::format("± {:.3f}", value.protection_level),
            {colour, 12.0, anchor, false, kPanel});
 }

@@ -42,6 +42,22 @@ void demand_room_for_the_machine(const Setup& setup) {
               "the machine stands in the curtain (curtain_distance_m, lateral_m)");
 }
 
+// Upright walls and a flat roof: an arch and leaning walls leave it less room, and a tilted machine moves it.
+void demand_sensor_in_the_road(const Setup& setup) {
+  const Machine& m = setup.machine;
+  const Mount& mount = setup.mount;
+  const double turned = m.turned_left_deg * kRadPerDeg;
+  const Vector forward = forward_axis(m), left = Vector::UnitZ().cross(forward);
+  const Vector mounted(mount.mount_x_m, mount.mount_y_m, mount.mount_z_m);
+  const double left_m =
+      start_lateral_m(setup) + std::sin(turned) * mounted.dot(forward) + std::cos(turned) * mounted.dot(left);
+  demand(std::abs(left_m) < 0.5 * setup.road.width_m,
+         "the sensor is in the rock beside the road (mount_x_m, mount_y_m, lateral_m, width_m)");
+  const double height_m = m.base_height_m + mount.mount_z_m;
+  demand(height_m > 0.0 && (setup.road.roof == 0.0 || height_m < setup.road.height_m),
+         "the sensor is in the rock above or below the road (mount_z_m, base_height_m, height_m)");
+}
+
 const Setup& checked(const Setup& setup) {
   const Road& r = setup.road;
   const Machine& m = setup.machine;
@@ -61,6 +77,7 @@ const Setup& checked(const Setup& setup) {
   demand(std::abs(start_lateral_m(setup)) < 0.5 * r.width_m,
          "lateral_m, or near_distance_m, must leave the machine between the walls");
   demand_room_for_the_machine(setup);
+  demand_sensor_in_the_road(setup);
   demand(setup.sensor.elevation_min_deg < setup.sensor.elevation_max_deg,
          "elevation_min_deg must be below elevation_max_deg");
   return setup;

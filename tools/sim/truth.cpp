@@ -3,6 +3,7 @@
 
 #include "sim/truth.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -40,10 +41,10 @@ double distance_to_plane(const Setup& setup, const World& rock, int side, const 
 }
 
 // The nearest point by direction: every degree first, then closer around the best one.
-double distance_to_rock(const World& rock, const SectorIndex& index, const Vector& from, const Vector& ahead,
+double distance_to_rock(const World& rock, const SectorIndex& index, const Vector& from, const Vector& along,
                         const Vector& sideways) {
   const auto range = [&](double angle) {
-    const Vector direction = std::cos(angle) * sideways + std::sin(angle) * ahead;
+    const Vector direction = std::cos(angle) * sideways + std::sin(angle) * along;
     return rock.trace({from, direction}, kSearchReach_m, rock.objects(), index).t_m;
   };
   double best_angle = 0.0;
@@ -76,11 +77,11 @@ double yaw_by_walls(const Setup& setup, const MachinePose& pose, const Matrix& R
 }
 
 double wall_distance(const Setup& setup, const World& rock, int side, const Vector& P_road, double height_m,
-                     const Vector& ahead_road, const Vector& left_road, StepRule rule) {
+                     const Vector& along_road, const Vector& left_road, StepRule rule) {
   if (!has_side(setup.road.walls, side)) return kNoTruth;
   const bool nearest = rule == StepRule::kNearest && has_steps(setup, side, P_road);
   if (is_plane_at(setup, height_m) && !nearest) return distance_to_plane(setup, rock, side, P_road);
-  return distance_to_rock(rock, {rock.objects(), P_road}, P_road, ahead_road, side * left_road);
+  return distance_to_rock(rock, {rock.objects(), P_road}, P_road, along_road, side * left_road);
 }
 
 }  // namespace
@@ -91,20 +92,22 @@ TruthRow truth_of(const Setup& setup, const World& mean_rock, const MachinePose&
   const Matrix R_level = R_level_base(pose.roll_rad, pose.pitch_rad);
   const Matrix R_road_level = at.R_road_base * R_level.transpose();
   const Vector ahead_level = (R_level * forward_axis(m)).cwiseProduct(Vector(1.0, 1.0, 0.0)).normalized();
-  const Vector ahead_road = R_road_level * ahead_level;
-  const Vector left_road = R_road_level * Vector::UnitZ().cross(ahead_level);
-
   TruthRow row;
   row.value[0] = pose.roll_rad;
   row.value[1] = pose.pitch_rad;
   row.value[2] = yaw_by_walls(setup, pose, R_road_level, ahead_level);
+  // Sides are the road's: a machine that is turned far looks at one wall over its other side.
+  const double turn_rad = std::isnan(row.value[2]) ? 0.0 : row.value[2];
+  const Vector along_level = Eigen::AngleAxisd(turn_rad, Vector::UnitZ()) * ahead_level;
+  const Vector along_road = R_road_level * along_level;
+  const Vector left_road = R_road_level * Vector::UnitZ().cross(along_level);
   std::size_t quantity = 3;
   for (const int side : {1, -1}) {
     for (const double s : {m.s_front_m, m.s_back_m}) {
       const Vector P_base = s * forward_axis(m);
       const double height_m = pose.base_height_m + (R_level * P_base).z();
       const Vector P_road = at.origin_road + at.R_road_base * P_base;
-      row.value[quantity++] = wall_distance(setup, mean_rock, side, P_road, height_m, ahead_road, left_road, rule);
+      row.value[quantity++] = wall_distance(setup, mean_rock, side, P_road, height_m, along_road, left_road, rule);
     }
   }
   return row;

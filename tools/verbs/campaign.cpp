@@ -129,6 +129,7 @@ std::string trimmed(std::string name) {
 
 void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
+      ->type_name("SIZE")
       ->capture_default_str();
   verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")
       ->delimiter(',')

@@ -37,7 +37,8 @@ std::vector<std::filesystem::path> FrameOptions::files_read(const FrameSequence&
 }
 
 void add_input_options(CLI::App* verb, InputOptions* options) {
-  verb->add_option("-t,--topic", options->topic, "Topic of a bag, where it has several with clouds");
+  verb->add_option("-t,--topic", options->topic, "Topic of a bag, where it has several with clouds")
+      ->type_name("TOPIC");
   verb->add_option("--metadata", options->metadata,
                    "What an Ouster capture was recorded with; default: its name, .json")
       ->check(CLI::ExistingFile);

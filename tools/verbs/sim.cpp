@@ -77,6 +77,19 @@ sim::Setup resolve_setup(const SimOptions& options) {
   return setup;
 }
 
+// What the folder's settings begin with: the scene, and each size by which it differs from the scene's own, so that it
+// can be made again, or a little otherwise.
+std::string about_scene(const SimOptions& options, const sim::Setup& setup) {
+  std::string text = fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor, options.seed,
+                                 options.random ? ", random sizes" : "");
+  sim::Setup of_scene = sim::make_setup(options.scene, options.sensor, false, options.seed), as_is = setup;
+  for (const sim::Parameter& p : sim::parameters()) {
+    const double value = p.field(as_is);
+    if (value != p.field(of_scene)) text += fmt::format("\n#   --set {}={}", p.name, sim::parameter_text(p, value));
+  }
+  return text;
+}
+
 // A longer run into the same folder left frames that this run's truth knows nothing of.
 void remove_later_frames(const SimOptions& options, std::uint32_t i) {
   while (std::filesystem::remove(sim::frame_file(options.output, i))) ++i;
@@ -91,7 +104,7 @@ std::uint32_t write_frames(const SimOptions& options, const sim::Simulator& simu
   for (; i < options.frames && !InterruptWatch::is_interrupted(); ++i) {
     const sim::Frame frame = simulator.render(i);
     const std::filesystem::path file = sim::frame_file(options.output, i);
-    write_pcd_binary(file, frame.xyz_intensity.data(), frame.count());
+    write_pcd_binary(file, frame.xyz_intensity.data(), frame.count(), frame.stamp_ns);
     truth.push_back(simulator.truth(i));
     bar.advance(file.filename().string());
   }
@@ -126,9 +139,7 @@ int simulate(const SimOptions& options) {
   make_output_folder(options.output);
   std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
   write_whole_file(std::filesystem::path(options.output) / "pose_wall.yaml",
-                   sim::engine_settings(simulator.setup(),
-                                        fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor,
-                                                    options.seed, options.random ? ", random sizes" : "")));
+                   sim::engine_settings(simulator.setup(), about_scene(options, simulator.setup())));
   const std::uint32_t written = write_frames(options, simulator);
   if (!options.quiet)
     fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
