@@ -86,8 +86,10 @@ StepProfile profile_at(const WallScene& scene, const WallSurface& surface, const
   constexpr double kStep_m = 0.05;
   constexpr double kPerRoughness = 3.0;
   const double along_m = wall.along_level.dot(sample_level_m);
-  const double nearest_m = wall.fit.plane.signed_distance(sample_level_m) - kOff_m;
-  StepProfile profile(kStep_m + kPerRoughness * surface.patch.tau_m);
+  const double on_plane_m = kStep_m + kPerRoughness * surface.patch.tau_m;
+  // What lies nearer is the machine's; of a machine that touches the wall, the wall is not.
+  const double nearest_m = larger(wall.fit.plane.signed_distance(sample_level_m) - kOff_m, on_plane_m);
+  StepProfile profile(on_plane_m);
   const Plane across{wall.along_level, -along_m};
   const Slab beside(across, StepProfile::kHalf_m + kFloats_m);
   const Slab this_side(wall.fit.plane, kAnyDepth_m, nearest_m + kFloats_m);

@@ -56,6 +56,8 @@ const std::vector<AtPoint> kAtPoints = {
      {{"wall_z_max", "1.4"}}},
     {"smooth_arch_above_the_band", "arch", "os1-64", 0,
      {"arch_springing_m=1.2", "roughness_m=0", "base_height_m=1.8"}, {{"wall_z_max", "1.4"}}},
+    {"upright_wall_below_an_arch", "arch", "os1-64", 0,
+     {"arch_springing_m=1.35", "roughness_m=0", "base_height_m=2.2"}, {{"wall_z_max", "1.3"}}},
 };
 // clang-format on
 

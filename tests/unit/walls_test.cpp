@@ -302,6 +302,22 @@ TEST(Walls, WallsThatBeginWellAheadTellTheYawOnlyAsWellAsRoadsRunStraight) {
   }
 }
 
+TEST(Walls, AMachineThatNearlyTouchesAWallSeesItAllTheSame) {
+  for (const double flank_m : {2.3, 2.42, 2.46}) {
+    BandFixture band;
+    band.settings().lateral_offset_left = flank_m;
+    band.add_wall(2.5, kLongWall);
+    band.add_wall(-2.5, kLongWall);
+    const WallsResult r = band.walls();
+    ASSERT_TRUE(is_good(r.side[0])) << flank_m;
+    for (int end = 0; end < 2; ++end) {
+      EXPECT_NEAR(r.side[0].distance_m[end], 2.5 - flank_m, 0.01);
+      EXPECT_FALSE(r.side[0].extrapolated[end]) << flank_m;
+      EXPECT_LT(r.side[0].distance_bound_m[end], 0.05) << flank_m;
+    }
+  }
+}
+
 TEST(Walls, ASamplingPointInTheRockHasALevelThatReachesToItsOtherSign) {
   BandFixture band;
   band.settings().lateral_offset_left = 2.8;
