@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: KITTI files are described in place; endings decide the reader; folders and stamps come out as documented.
+// Proves: KITTI files are described in place; what a file begins with decides the reader, then its ending; folders and
+// stamps come out as documented.
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include "frames/input_list.hpp"
 #include "frames/kitti_reader.hpp"
 #include "frames/load_frame.hpp"
+#include "frames/pcd_writer.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -51,6 +53,38 @@ TEST(LoadFrame, EndingDecidesAndFaultsAreSaid) {
   EXPECT_EQ(load_refusal(folder.file("nofolder")), "not there: no such file or folder") << "not an unknown ending";
   std::filesystem::create_directories(folder.file("folder.ply"));
   EXPECT_EQ(load_refusal(folder.file("folder.ply")), "not a regular file");
+}
+
+TEST(LoadFrame, WhatAFileBeginsWithTellsMoreThanItsEnding) {
+  const TempFolder folder;
+  const std::string header =
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\n"
+      "TYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n1 2 3\n4 5 6\n";
+  const std::string padded = header + std::string(16 - header.size() % 16, '\n');
+  for (const char* name : {"a.bin", "a.ply", "a.txt", "a"}) {
+    EXPECT_EQ(load_frame(folder.write(name, padded)).cloud.width, 2U) << name;
+  }
+  EXPECT_EQ(load_frame(folder.write("b.pcd",
+                                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                                    "property float y\nproperty float z\nend_header\n1 2 3\n"))
+                .cloud.width,
+            1U);
+}
+
+// The format has none: others pass over a comment.
+TEST(LoadFrame, APcdMayCarryAStampInAComment) {
+  const TempFolder folder;
+  const float points[] = {1.0F, 2.0F, 3.0F, 0.5F};
+  const std::string file = folder.file("a.pcd");
+  write_pcd_binary(file, points, 1, 1'234'567'890'123'456'789);
+  const Frame frame = load_frame(file);
+  EXPECT_EQ(frame.cloud.width, 1U);
+  EXPECT_EQ(frame.stamp_ns.value_or(0), 1'234'567'890'123'456'789);
+  const std::string header =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n";
+  for (const char* comment : {"# stamp_ns\n", "# stamp_ns soon\n", "# stamp_ns 1 2\n", "# 12\n"}) {
+    EXPECT_FALSE(load_frame(folder.write("b.pcd", comment + header)).stamp_ns) << comment;
+  }
 }
 
 TEST(InputList, FoldersGiveTheirFramesInNameOrderAndFilesStay) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,6 +34,37 @@ class Outputs : public ::testing::Test {
   const std::string frames = folder.file("road/frames"), settings = folder.file("road/pose_wall.yaml"),
                     truth = folder.file("road/truth.csv");
 };
+
+// A replay goes by the stamps of its frames, also where these stand still or leap.
+TEST_F(Outputs, SimulatedFramesAreReplayedByTheirStamps) {
+  const std::string road = folder.file("leaps"), out = folder.file("out.csv");
+  ASSERT_EQ(command({"sim", "-q", "--scene", "stamp_leap", "--sensor", "vlp16", "-n", "12", "-o", road}).exit_status,
+            0);
+  ASSERT_EQ(command({"run", "-q", "-c", road + "/pose_wall.yaml", "-o", out, road + "/frames"}).exit_status, 0);
+  const auto stamps_of = [](const std::string& file) {
+    std::vector<std::string> stamps;
+    const CsvTable table = test::table_of(file);
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      stamps.push_back(table.cell(row, table.find_column("stamp_ns").value()));
+    return stamps;
+  };
+  EXPECT_EQ(stamps_of(out), stamps_of(road + "/truth.csv"));
+}
+
+// Drawn ones as well, so that a scene can be made again by its sizes.
+TEST_F(Outputs, TheSettingsOfASimulatedRoadNoteItsSizes) {
+  const std::string drawn = folder.file("drawn"), again = folder.file("again");
+  ASSERT_EQ(command({"sim", "-q", "--random", "--seed", "7", "--sensor", "vlp16", "-n", "1", "-o", drawn}).exit_status,
+            0);
+  std::vector<std::string> words = {"sim", "-q", "--seed", "7", "--sensor", "vlp16", "-n", "1", "-o", again};
+  std::istringstream lines(text_of(drawn + "/pose_wall.yaml"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("#   --set ", 0) == 0) words.insert(words.end(), {"--set", line.substr(10)});
+  }
+  ASSERT_GT(words.size(), 12U);
+  ASSERT_EQ(command(words).exit_status, 0);
+  EXPECT_EQ(text_of(again + "/truth.csv"), text_of(drawn + "/truth.csv"));
+}
 
 TEST_F(Outputs, SettingsAndTruthAreNotOverwritten) {
   const std::vector<std::vector<std::string>> calls = {

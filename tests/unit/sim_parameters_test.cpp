@@ -107,6 +107,27 @@ TEST(SimScenes, TheMachineStandsInNothing) {
   EXPECT_NO_THROW(checked(setup));
 }
 
+// By its place on the machine, whichever way that is turned; not of a wall that is not there.
+TEST(SimScenes, TheSensorIsNotInTheRock) {
+  SceneSetup setup;
+  setup.mount.mount_y_m = 2.4;
+  EXPECT_NO_THROW(checked(setup));
+  setup.mount.mount_y_m = 2.6;
+  EXPECT_THROW(checked(setup), std::invalid_argument);
+  setup.road.walls = kSideRight;
+  EXPECT_NO_THROW(checked(setup));
+  setup = SceneSetup{};
+  setup.mount.mount_x_m = 4.0;
+  EXPECT_NO_THROW(checked(setup));
+  setup.machine.turned_left_deg = 60.0;
+  EXPECT_THROW(checked(setup), std::invalid_argument);
+  setup = SceneSetup{};
+  setup.mount.mount_z_m = setup.road.height_m - setup.machine.base_height_m + 0.1;
+  EXPECT_THROW(checked(setup), std::invalid_argument);
+  setup.mount.mount_z_m = -setup.machine.base_height_m - 0.1;
+  EXPECT_THROW(checked(setup), std::invalid_argument);
+}
+
 TEST(SimScenes, ContradictionsAreNamed) {
   SceneSetup setup;
   setup.road.arch_springing_m = 1.5;

@@ -85,7 +85,9 @@ std::string about_scene(const SimOptions& options, const sim::Setup& setup) {
   sim::Setup of_scene = sim::make_setup(options.scene, options.sensor, false, options.seed), as_is = setup;
   for (const sim::Parameter& p : sim::parameters()) {
     const double value = p.field(as_is);
-    if (value != p.field(of_scene)) text += fmt::format("\n#   --set {}={}", p.name, sim::parameter_text(p, value));
+    if (value == p.field(of_scene)) continue;
+    const std::string in_full = *p.words != '\0' ? sim::parameter_text(p, value) : fmt::format("{}", value);
+    text += fmt::format("\n#   --set {}={}", p.name, in_full);
   }
   return text;
 }
