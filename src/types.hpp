@@ -100,7 +100,7 @@ struct WallResult {
   double yaw_sigma_rad = 0.0;
   double yaw_bias_rad_per_m = 0.0;                          // signed response to a constant range error
   double yaw_bound_rad = 0.0;                               // misfit
-  double yaw_to_rival_rad = 0.0;                            // where the rival is the wall, the road runs along it
+  double yaw_to_rival_rad = 0.0;                            // where its rival is the wall, or the road bends before it
   Eigen::Vector3d pivot_level_m = Eigen::Vector3d::Zero();  // turning about here changes the fit least
   double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};

@@ -17,10 +17,15 @@ bool StepProfile::lies_on(std::uint32_t slice, Way way) const {
   return slices_[slice].on * kOffPerOn > slices_[slice].off[way].count;
 }
 
+bool StepProfile::is_seen(std::uint32_t slice) const {
+  constexpr std::uint32_t kSeen = 2;  // one may be a stray
+  return slices_[slice].on >= kSeen;
+}
+
 double StepProfile::hole_m() const {
   std::uint32_t first = kCount / 2, last = kCount / 2;
-  while (first > 0 && slices_[first - 1].on == 0) --first;
-  while (last < kCount && slices_[last].on == 0) ++last;
+  while (first > 0 && !is_seen(first - 1)) --first;
+  while (last < kCount && !is_seen(last)) ++last;
   return first == 0 || last == kCount ? 2.0 * kHalf_m : (last - first) * kSlice_m;
 }
 

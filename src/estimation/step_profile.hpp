@@ -55,6 +55,7 @@ class StepProfile {
     Off off[2];
   };
 
+  bool is_seen(std::uint32_t slice) const;
   bool lies_on(std::uint32_t slice, Way way) const;
   double step(Way way) const;
 

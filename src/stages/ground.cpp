@@ -27,6 +27,7 @@ constexpr double kSmallArea_m2 = 5.0;
 constexpr double kSureArea_m2 = 10.0;
 constexpr double kEqualShare = 0.7;
 constexpr double kAcrossSpreadMin_m = 0.2;
+constexpr double kSteep_rad = 0.17;  // 10 degrees; a radius takes in part of a flank, which lies at 30 to 40
 // A floor this good needs no wider look: the wider, the less "local" the floor is.
 constexpr double kGoodEnough = 0.3;
 
@@ -47,17 +48,24 @@ void copy_within(const PointSet& open, double radius_m, PointSet* out) {
   });
 }
 
+// A machine stands about upright: where the best plane does not lie so, weaker ones may be the floor as well.
+double rival_share_of(const Plane& floor) {
+  constexpr double kShareOfSteep = 0.4;
+  return tilt_of_up(floor.n) > kSteep_rad ? kShareOfSteep : kRivalShareOfFloor;
+}
+
 // Rival floors nearly as good: the truth may be any, so the protection levels reach to the furthest. Where the floor
 // itself is small, what is seen through it may be no reflection but the floor.
 void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> candidates, FloorResult* out) {
   const RollPitch a = roll_pitch_of_up(best.plane.n);
+  const double share = rival_share_of(best.plane);
   double roll = 0.0, pitch = 0.0;
   for (const FloorCandidate& rival : candidates) {
-    if (&rival == &best || rival.evidence.score_m2 < kRivalShareOfFloor * best.evidence.score_m2) continue;
+    if (&rival == &best || rival.evidence.score_m2 < share * best.evidence.score_m2) continue;
     if (rival.ghost && best.evidence.area_m2 >= kSureArea_m2) continue;
     POSE_WALL_NOTE(trace::fate(rival.plane, POSE_WALL_TRACE_RIVAL));
-    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_RIVAL, rival.evidence.score_m2 / best.evidence.score_m2,
-                               kRivalShareOfFloor, false));
+    POSE_WALL_NOTE(
+        trace::gate(POSE_WALL_TRACE_FLOOR_RIVAL, rival.evidence.score_m2 / best.evidence.score_m2, share, false));
     const RollPitch b = roll_pitch_of_up(rival.plane.n);
     roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad));
     pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
@@ -117,7 +125,7 @@ FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, cons
       trace::gate(POSE_WALL_TRACE_FLOOR_POINTS, within.count, kFloorPointsMin, within.count >= kFloorPointsMin));
   if (within.count < kFloorPointsMin) return none;
   FloorCandidates found;
-  none.fit.iterations = find_candidates({within, cloud, sensor, last_floor}, s, axes, random, scratch, &found);
+  none.fit.iterations = find_candidates({within, cloud, sensor, last_floor, false}, s, axes, random, scratch, &found);
   const FloorCandidate* best = found.best();
   POSE_WALL_NOTE(note_floor_choice(found.all(), best));
   if (best == nullptr) return none;
@@ -177,7 +185,6 @@ void widen(const Settings& s, std::uint32_t claims, FloorResult* floor) {
 // steep, it may be a heap's flank as well, and so may its rivals: the levels reach to upright, of roll and of pitch, as
 // nothing tells which way the rivals lean.
 void reach_to_upright(FloorResult* floor) {
-  constexpr double kSteep_rad = 0.17;  // 10 degrees; a radius takes in part of a flank, which lies at 30 to 40
   if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
   const double tilt_rad = tilt_of_up(floor->fit.plane.n);
   if (!(tilt_rad > kSteep_rad)) return;

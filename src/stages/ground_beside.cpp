@@ -19,8 +19,8 @@ constexpr double kOneSide = 0.8;  // of the points
 // So well is the line known in which two floors meet.
 constexpr double kNearLine_m = 0.3;
 // A floor all over below another one that lies alike, a table's or a belt's: more than a kerb is high.
-constexpr double kLower_m = 0.5;
-constexpr double kAlike = 0.1;  // slope
+constexpr double kLower_m = 0.3;
+constexpr double kAlike = 0.3;  // slope
 constexpr std::uint32_t kPointsMin = 20;
 // The other plane was looked at in passing.
 constexpr double kStretch = 1.25;
@@ -31,7 +31,7 @@ struct Eighths {
   std::uint32_t count[8] = {}, total = 0;
 
   // By a hundredth of all points.
-  bool holds_any(std::uint32_t eighth) const { return count[eighth] * 100 >= total; }
+  bool holds_any(std::uint32_t eighth) const { return total > 0 && count[eighth] * 100 >= total; }
 };
 
 // Of those no further than this from the plane.
@@ -62,14 +62,19 @@ bool surround_machine(const Eighths& floor) {
   return true;
 }
 
-// Open points below the sensor and off the floor.
-void copy_left_over(const PointSet& open, const Plane& floor, double off_m, double below_sensor_m, PointSet* out) {
+// Open points off the floor and below the sensor: over the floor or, not as high as a roof, in base, as flat ground
+// lies high over a steep plane that is prolonged.
+void copy_left_over(const PointSet& open, const Plane& floor, double off_m, const Eigen::Vector3d& sensor_base_m,
+                    PointSet* out) {
+  constexpr float kBelowRoof = 1.6F;
   const FourDistances heights(floor);
-  const FourFloats off = all_four(static_cast<float>(off_m)), highest = all_four(static_cast<float>(below_sensor_m));
+  const FourFloats off = all_four(static_cast<float>(off_m));
+  const FourFloats highest = all_four(static_cast<float>(floor.signed_distance(sensor_base_m)));
+  const FourFloats sensor_z = all_four(static_cast<float>(sensor_base_m.z()));
   out->count = 0;
   for_each_four_points(open, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourFloats height = heights.of(x, y, z);
-    counts &= (magnitude_of(height) > off) & (height < highest);
+    counts &= (magnitude_of(height) > off) & ((height < highest) | ((z < sensor_z) & (height < kBelowRoof * highest)));
     if (!any_of(counts)) return;
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (counts[lane] != 0) out->add(x[lane], y[lane], z[lane], open.weight[k + lane]);
@@ -117,14 +122,21 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
   const Plane plane = floor->fit.plane;
   if (surround_machine(eighths_of(open, plane, s.ground_ransac_thresh))) return;
   const double off_m = kOffInThresholds * s.ground_ransac_thresh;
-  copy_left_over(open, plane, off_m, plane.signed_distance(sensor_base_m) - s.ground_height_min, &scratch->within_base);
+  copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
   if (left_over.count < kPointsMin) return;
   FloorCandidates found;
-  find_candidates({left_over, cloud_base, sensor_base_m, nullptr}, s, axes, random, scratch, &found);
+  POSE_WALL_NOTE(trace::attempt(POSE_WALL_TRACE_ATTEMPTS_MAX));  // of none of the radii
+  find_candidates({left_over, cloud_base, sensor_base_m, nullptr, true}, s, axes, random, scratch, &found);
+  POSE_WALL_NOTE(trace::attempt(0));
+  scratch->grid.mark(open, plane, s.ground_ransac_thresh);
   const RollPitch a = roll_pitch_of_up(plane.n);
   for (const FloorCandidate& other : found.all()) {
-    if (other.ghost || !may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;
+    if (other.ghost || is_reflection(open, plane, other.plane, s, sensor_base_m, scratch->grid)) continue;
+    if (!may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;
     const RollPitch b = roll_pitch_of_up(other.plane.n);
+    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BESIDE,
+                               larger(std::fabs(a.roll_rad - b.roll_rad), std::fabs(a.pitch_rad - b.pitch_rad)), 0.0,
+                               false));
     const auto reach_to = [](double apart_rad, double* bound_rad) {
       *bound_rad = larger(*bound_rad, kStretch * std::fabs(apart_rad) + kMargin_rad);
     };

@@ -74,10 +74,16 @@ void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShor
     const FloorEvidence evidence = scratch->grid.evidence(axes);
     if (evidence.area_m2 < kTellsNothing_m2) continue;
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
-    if (has_much_below(scratch->grid, refined.plane, in.cloud_base, s.ground_roi_radius_max, sensor, kBelowShareMax))
+    if (!in.are_left_over &&
+        has_much_below(scratch->grid, refined.plane, in.cloud_base, s.ground_roi_radius_max, sensor, kBelowShareMax))
       continue;
     out->item[out->count++] = {refined.plane, evidence, false};
   }
+}
+
+bool is_below(const Plane& above, const Plane& below, const Eigen::Vector3d& sensor_base_m) {
+  constexpr double kBelow_m = 0.1;
+  return below.signed_distance(sensor_base_m) > above.signed_distance(sensor_base_m) + kBelow_m;
 }
 
 // Planes below another one, seen through its open floor, are reflections in wet ground.
@@ -87,11 +93,10 @@ void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3
     if (above.evidence.area_m2 < kFloorAreaMin_m2) continue;
     bool marked = false;
     for (FloorCandidate& below : candidates) {
-      if (!(below.plane.signed_distance(sensor) > above.plane.signed_distance(sensor) + 0.1)) continue;
+      if (!is_below(above.plane, below.plane, sensor)) continue;
       if (!marked) scratch->grid.mark(within, above.plane, s.ground_ransac_thresh);
       marked = true;
-      below.ghost = below.ghost || share_seen_through(scratch->grid, above.plane, below.plane, within, sensor,
-                                                      s.ground_ransac_thresh) > kGhostShare;
+      below.ghost = below.ghost || is_reflection(within, above.plane, below.plane, s, sensor, scratch->grid);
     }
   }
 }
@@ -105,6 +110,12 @@ const FloorCandidate* FloorCandidates::best() const {
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
+}
+
+bool is_reflection(const PointSet& open_base, const Plane& above, const Plane& below, const Settings& settings,
+                   const Eigen::Vector3d& sensor_base_m, const FloorGrid& grid) {
+  return is_below(above, below, sensor_base_m) &&
+         share_seen_through(grid, above, below, open_base, sensor_base_m, settings.ground_ransac_thresh) > kGhostShare;
 }
 
 std::uint32_t find_candidates(const FloorSearch& in, const Settings& s, const Axes& axes, Random* random,

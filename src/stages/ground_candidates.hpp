@@ -37,7 +37,12 @@ struct FloorSearch {
   const BoundedPoints& cloud_base;  // all points
   const Eigen::Vector3d& sensor_base_m;
   const Plane* last_floor;  // hypothesis 0: scored like any other; nullptr if none
+  bool are_left_over;       // by a floor, much of which may lie below a plane through them
 };
+
+// Whether a plane is seen through the open floor of another one above it, which marks the grid.
+bool is_reflection(const PointSet& open_base, const Plane& above, const Plane& below, const Settings& settings,
+                   const Eigen::Vector3d& sensor_base_m, const FloorGrid& grid);
 
 // Returns how many hypotheses were scored.
 std::uint32_t find_candidates(const FloorSearch& in, const Settings& settings, const Axes& axes, Random* random,

@@ -68,24 +68,26 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, WallResult* out
   }
 }
 
-// How far the surface that is seen a little below a height or a little above it lies from the plane, whichever is
-// further.
-double offset_at_height(const WallScene& scene, const Plane& plane, double z_level_m) {
+// How far the surface that is seen a little below a height or a little above it, ahead or behind, lies from the plane,
+// whichever is furthest.
+double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along, double z_level_m) {
   constexpr double kWindow_m = 0.3;
   constexpr double kGate_m = 0.4;
   constexpr double kPointsMin = 10.0;
-  double sum[2] = {}, count[2] = {};
+  double sum[4] = {}, count[4] = {};
   for (const BoundedPoints* const points : {&scene.band_level, &scene.beyond_level}) {
     for_each_in(*points, Slab(plane, kGate_m), [&](std::uint32_t i, float r) {
       const double above_m = static_cast<double>(points->z[i]) - z_level_m;
       if (!(std::fabs(above_m) <= kWindow_m)) return;
-      sum[above_m > 0.0 ? 1 : 0] += static_cast<double>(r);
-      count[above_m > 0.0 ? 1 : 0] += 1.0;
+      const bool ahead = along.dot(points->at(i)) > 0.0;
+      const int part = (above_m > 0.0 ? 1 : 0) + (ahead ? 2 : 0);
+      sum[part] += static_cast<double>(r);
+      count[part] += 1.0;
     });
   }
   double offset_m = -1.0;
-  for (int half = 0; half < 2; ++half) {
-    if (count[half] >= kPointsMin) offset_m = larger(offset_m, std::fabs(sum[half] / count[half]));
+  for (int part = 0; part < 4; ++part) {
+    if (count[part] >= kPointsMin) offset_m = larger(offset_m, std::fabs(sum[part] / count[part]));
   }
   return offset_m >= 0.0 ? offset_m : kGate_m;
 }
@@ -97,7 +99,8 @@ bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double 
   const Heights& heights = surface.heights;
   const PatchFit& patch = surface.patch;
   return heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m ||
-         std::fabs(patch.curvature_v) > kCurvatureInSigmas * patch.curvature_v_sigma || z_level_m > scene.z_max_level_m;
+         z_level_m > scene.z_max_level_m || !(patch.curvature_v_sigma > 0.0) ||  // not known
+         !(std::fabs(patch.curvature_v) <= kCurvatureInSigmas * patch.curvature_v_sigma);
 }
 
 #ifdef POSE_WALL_TRACE
@@ -127,7 +130,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
                                !(bend > kBendMatters * scene.settings.alert_limit_distance)));
     if (bend > kBendMatters * scene.settings.alert_limit_distance) out->fit.reasons |= POSE_WALL_R_CURVED;
     const bool leaves_plane = sample.z() >= scene.z_min_level_m && may_leave_plane(scene, surface, sample.z());
-    const double offset_m = leaves_plane ? offset_at_height(scene, out->fit.plane, sample.z()) : 0.0;
+    const double offset_m = leaves_plane ? offset_at_height(scene, out->fit.plane, out->along_level, sample.z()) : 0.0;
     const double along_m = out->along_level.dot(sample);
     const AtSample seen = look_at_sample(scene, surface, grid, *out, sample, out->distance_m[end]);
     const double gap_m = grid.gap_to_solid_m(along_m);

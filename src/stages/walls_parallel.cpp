@@ -15,7 +15,8 @@ constexpr double kModelError_rad = 0.0035;
 
 // A doubtful wall must not turn a good one.
 bool can_share(const WallResult& wall) {
-  constexpr std::uint32_t kDoubtful = POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED;
+  constexpr std::uint32_t kDoubtful =
+      POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED | POSE_WALL_R_EXTRAPOLATED;
   return !wall.fit.refused && (wall.fit.reasons & kDoubtful) == 0;
 }
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "support/ground_fixture.hpp"
 
@@ -20,7 +21,8 @@ namespace {
 
 using test::GroundFixture;
 
-// Flat ground behind, and a ramp from a line ahead of the machine on, as seen by a sensor that looks far.
+// Flat ground behind, and a ramp from a line ahead of the machine on, between walls, as seen by a sensor that looks
+// far.
 struct Ramp {
   double from_m, slope_rad;
   double flat_from_m, flat_to_m;  // where the flat ground is seen
@@ -31,11 +33,15 @@ struct Ramp {
   FloorResult floor() const {
     GroundFixture g;
     test::Noise noise(3);
-    for (double x = flat_from_m; x <= ramp_to_m; x += 0.1) {
-      if (x > flat_to_m && x < from_m) continue;
-      for (double y = -2.0; y <= 2.0; y += 0.1) {
-        const double c = std::cos(heading_rad), s = std::sin(heading_rad);
-        g.add(c * x - s * y, s * x + c * y, height_at(x) + noise.normal(0.005));
+    const auto add = [&](double x, double y, double height) {
+      const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+      g.add(c * x - s * y, s * x + c * y, height);
+    };
+    for (double x = -14.0; x <= ramp_to_m; x += 0.1) {
+      const bool is_seen = (x >= flat_from_m && x <= flat_to_m) || x >= from_m;
+      for (double y = -2.0; y <= 2.0 && is_seen; y += 0.1) add(x, y, height_at(x) + noise.normal(0.005));
+      for (double h = 0.0; h <= 3.0; h += 0.1) {
+        for (const double y : {-2.5, 2.5}) add(x, y + noise.normal(0.005), height_at(x) + h);
       }
     }
     return g.floor();
@@ -46,31 +52,120 @@ bool is_ambiguous(const FloorResult& f) {
   return (f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) != 0;
 }
 
+// A ramp that falls may be refused instead; one that rises has nothing below it.
+bool is_refused_for_what_is_below(const FloorResult& f, double slope_rad) {
+  EXPECT_TRUE(slope_rad < 0.0 || !f.fit.refused);
+  return f.fit.refused;
+}
+
+// The level, not more: a bound that reaches further than to the flat floor and some would be of no use.
+void expect_reaches_upright(const FloorResult& f) {
+  const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
+  const double tilt_rad = tilt_of_up(f.fit.plane.n);
+  EXPECT_TRUE(is_ambiguous(f));
+  EXPECT_GE(f.roll_bound_rad, std::fabs(angles.roll_rad));
+  EXPECT_GE(f.pitch_bound_rad, std::fabs(angles.pitch_rad));
+  EXPECT_LE(std::hypot(f.roll_bound_rad, f.pitch_bound_rad), 2.5 * tilt_rad + 0.1);
+}
+
 TEST(GroundBeside, BeforeARampTheLevelsReachToTheFlatFloor) {
   for (const double slope_rad : {0.12, 0.2, -0.12, -0.2}) {
     for (const double heading_rad : {0.0, 0.8, 1.57, 3.0}) {
       SCOPED_TRACE(::testing::Message() << slope_rad << " seen from " << heading_rad);
       const FloorResult f = Ramp{2.5, slope_rad, -9.0, -5.5, 13.0, heading_rad}.floor();
-      if (f.fit.refused) {
-        EXPECT_LT(slope_rad, 0.0) << "a ramp that falls lies below the flat floor, which may be refused for it";
-        continue;
-      }
+      if (is_refused_for_what_is_below(f, slope_rad)) continue;
       ASSERT_GT(tilt_of_up(f.fit.plane.n), 0.1) << "the ramp shows more";
-      const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
-      EXPECT_TRUE(is_ambiguous(f));
-      EXPECT_GE(f.roll_bound_rad, std::fabs(angles.roll_rad));
-      EXPECT_GE(f.pitch_bound_rad, std::fabs(angles.pitch_rad));
+      expect_reaches_upright(f);
     }
   }
 }
 
-TEST(GroundBeside, OnTheRampTheFlatFloorBehindIsNone) {
-  for (const double slope_rad : {0.12, -0.12}) {
-    const FloorResult f = Ramp{-5.0, slope_rad, -9.0, -5.5}.floor();
-    ASSERT_TRUE(f.fit.found && !f.fit.refused);
-    EXPECT_NEAR(std::fabs(roll_pitch_of_up(f.fit.plane.n).pitch_rad), std::fabs(slope_rad), 0.01);
-    EXPECT_FALSE(is_ambiguous(f)) << slope_rad;
-    EXPECT_LT(std::max(f.roll_bound_rad, f.pitch_bound_rad), 0.03) << slope_rad;
+// Flat ground far behind lies high over the ramp that is prolonged, and where the ramp falls much lies below it.
+TEST(GroundBeside, AlsoWhereLittleOfTheFlatFloorIsSeenFarBehind) {
+  for (const double slope_rad : {0.16, 0.2, -0.09, -0.16}) {
+    for (const auto& [from_m, to_m] : {std::pair{-9.0, -7.0}, std::pair{-9.0, -8.0}, std::pair{-12.0, -10.5}}) {
+      SCOPED_TRACE(::testing::Message() << slope_rad << " flat from " << from_m << " to " << to_m);
+      const FloorResult f = Ramp{2.5, slope_rad, from_m, to_m}.floor();
+      if (is_refused_for_what_is_below(f, slope_rad)) continue;
+      ASSERT_GT(tilt_of_up(f.fit.plane.n), 0.05) << "the ramp shows more";
+      expect_reaches_upright(f);
+    }
+  }
+}
+
+// Levelled by no fit: which of two planes carries the machine, whatever a choice before would have said of them.
+struct TwoPlanes {
+  double other_slope_rad = 0.0, line_m = 0.0;  // the other one rises or falls from a line on, along x
+  double other_height_m = 0.0;                 // or lies higher or lower all over
+  double other_from_m = -9.0, other_to_m = -5.0;
+  double floor_from_m = 3.0, floor_to_m = 9.0;
+
+  double other_at(double x_m) const { return other_height_m + std::tan(other_slope_rad) * (x_m - line_m); }
+  FloorResult reached() const {
+    GroundFixture g;
+    test::Noise noise(3);
+    for (double x = floor_from_m; x <= floor_to_m; x += 0.1) {
+      for (double y = -2.0; y <= 2.0; y += 0.1) g.add(x, y, noise.normal(0.005));
+    }
+    for (double x = other_from_m; x <= other_to_m; x += 0.1) {
+      for (double y = -2.0; y <= 2.0; y += 0.1) g.add(x, y, other_at(x) + noise.normal(0.005));
+    }
+    return reach_to_what_is_beside(&g);
+  }
+
+  static FloorResult reach_to_what_is_beside(GroundFixture* g) {
+    const BoundedPoints& points = g->points().set();
+    test::Placed<GroundScratch> scratch(points.capacity());
+    scratch->grid.find_open(points, 15.0, 0.0, scratch->low, &scratch->open_base);
+    FloorResult floor;
+    floor.fit.plane = {Eigen::Vector3d::UnitZ(), test::kFloorBelow_m};
+    Random random(1);
+    reach_to_floors_beside(points, g->settings(), {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()},
+                           Eigen::Vector3d::Zero(), &random, scratch.get(), &floor);
+    return floor;
+  }
+};
+
+// Both ways round: the floor is seen ahead, the other one behind a line.
+TEST(GroundBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
+  for (const double slope_rad : {-0.12, 0.12}) {  // behind the line that is up, and down
+    SCOPED_TRACE(slope_rad);
+    const FloorResult on_other = TwoPlanes{slope_rad, 2.0}.reached(), on_floor = TwoPlanes{slope_rad, -3.0}.reached();
+    EXPECT_TRUE(is_ambiguous(on_other));
+    EXPECT_GE(on_other.pitch_bound_rad, 0.12 + 0.02) << "the other plane, and some for how well it is known";
+    EXPECT_LT(on_other.pitch_bound_rad, 0.25);
+    EXPECT_LT(on_other.roll_bound_rad, 0.05);
+    EXPECT_FALSE(is_ambiguous(on_floor));
+    EXPECT_EQ(on_floor.pitch_bound_rad, 0.0);
+  }
+}
+
+TEST(GroundBeside, APlaneAllOverBelowMayCarryTheMachineOneAboveMayNot) {
+  EXPECT_TRUE(is_ambiguous(TwoPlanes{0.05, 0.0, -0.8}.reached()));
+  EXPECT_FALSE(is_ambiguous(TwoPlanes{0.05, 0.0, 0.8}.reached()));
+  EXPECT_FALSE(is_ambiguous(TwoPlanes{0.0, 0.0, -0.2}.reached())) << "a kerb";
+}
+
+TEST(GroundBeside, OnAFloorThatIsSeenToBothSidesTheMachineStands) {
+  TwoPlanes planes{0.0, 0.0, -0.8, -14.0, -10.0};
+  EXPECT_TRUE(is_ambiguous(planes.reached()));
+  planes.floor_from_m = -4.5;
+  EXPECT_FALSE(is_ambiguous(planes.reached()));
+}
+
+// Seen through the floor, whichever side it is seen on.
+TEST(GroundBeside, AReflectionInTheFloorCarriesNothing) {
+  for (const bool is_reflected : {true, false}) {
+    GroundFixture g;
+    test::Noise noise(5);
+    for (double x = 3.0; x <= 9.0; x += 0.1) {
+      for (double y = -2.0; y <= 2.0; y += 0.1) g.add(x, y, noise.normal(0.005));
+    }
+    const double from_m = is_reflected ? 6.0 : -9.0;
+    for (double x = from_m; x <= from_m + 3.0; x += 0.1) {
+      for (double y = -1.0; y <= 1.0; y += 0.1) g.add(x, y, -1.2 + noise.normal(0.005));
+    }
+    EXPECT_EQ(is_ambiguous(TwoPlanes::reach_to_what_is_beside(&g)), !is_reflected);
   }
 }
 
@@ -80,23 +175,6 @@ TEST(GroundBeside, AFloorToAllSidesIsNotDoubtedForARampFurtherOn) {
   EXPECT_LT(tilt_of_up(f.fit.plane.n), 0.01);
   EXPECT_FALSE(is_ambiguous(f));
   EXPECT_LT(std::max(f.roll_bound_rad, f.pitch_bound_rad), 0.03);
-}
-
-// A belt beside the machine, as high as a table, that shows more than the floor beyond it.
-TEST(GroundBeside, AFloorBelowABeltIsInTheLevels) {
-  constexpr double kCrossFall = 0.03, kBelt_m = 0.8;
-  GroundFixture g;
-  test::Noise noise(5);
-  for (double x = -9.0; x <= 9.0; x += 0.1) {
-    for (double y = 1.0; y <= 2.5; y += 0.1) g.add(x, y, kBelt_m + noise.normal(0.005));
-    for (double y = -2.4; y <= -1.6 && std::fabs(x) > 5.0; y += 0.1) g.add(x, y, kCrossFall * y + noise.normal(0.005));
-  }
-  const FloorResult f = g.floor();
-  ASSERT_TRUE(f.fit.found);
-  if (f.fit.refused) return;  // better still
-  const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
-  const double roll_rad = roll_pitch_of_up(Eigen::Vector3d(0.0, -kCrossFall, 1.0).normalized()).roll_rad;
-  EXPECT_LE(std::fabs(angles.roll_rad - roll_rad), 5.0 * f.roll_sigma_rad + f.roll_bound_rad);
 }
 
 }  // namespace

@@ -141,10 +141,12 @@ struct Valley {
   double middle_half_m, left_slope_rad, right_slope_rad;
   bool across = false;
   double heading_rad = 0.0;
+  double pitch_rad = 0.0;  // of the machine on its middle
 
   FloorResult floor() const {
     // One radius: nothing but the rivals moves the bounds by much.
     GroundFixture g({{"ground_roi_radius", "6"}, {"ground_roi_radius_max", "6"}});
+    g.tilt(0.0, pitch_rad);
     test::Noise noise(2);
     for (double x = -8.0; x <= 8.0; x += 0.1) {
       for (double y = -8.0; y <= 8.0; y += 0.1) {
@@ -239,6 +241,18 @@ TEST(Ground, ASlopeOfAThirdOfTheFloorIsNoRival) {
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
     EXPECT_EQ(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
     EXPECT_LT(std::max(f.roll_bound_rad, f.pitch_bound_rad), 0.03);
+  }
+}
+
+// The machine stands about upright: less is needed to doubt a floor by which it does not.
+TEST(Ground, ASlopeOfLessThanHalfOfTheFloorIsARivalOfASteepOne) {
+  for (const double pitch_rad : {0.0, 0.25}) {
+    Valley valley{1.35, 0.0, 0.2};
+    valley.pitch_rad = pitch_rad;
+    const FloorResult f = valley.floor();
+    ASSERT_TRUE(f.fit.found && !f.fit.refused);
+    ASSERT_NEAR(tilt_of_up(f.fit.plane.n), pitch_rad, 0.02);
+    EXPECT_EQ((f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) != 0, pitch_rad > 0.17) << pitch_rad;
   }
 }
 

@@ -97,6 +97,12 @@ TEST(StepProfile, AHoleIsAsLongAsThePlaneIsSeenNowhereAroundThePlace) {
   EXPECT_EQ(seen_where([](double at) { return at < 0.2 || at > 0.8; }).hole_m(), 0.0) << "beside the place";
 }
 
+TEST(StepProfile, AStrayPointEndsNoHole) {
+  StepProfile profile = seen_where([](double at) { return at < -0.2; });
+  profile.add(0.3, 0.0);
+  EXPECT_EQ(profile.hole_m(), 2.0 * StepProfile::kHalf_m);
+}
+
 TEST(StepProfile, WhereThePlaneIsSeenToOneSideOnlyTheHoleHasNoEnd) {
   constexpr double kAll_m = 2.0 * StepProfile::kHalf_m;
   EXPECT_EQ(seen_where([](double at) { return at < -0.1; }).hole_m(), kAll_m);

@@ -77,6 +77,10 @@ constexpr GateWords kFloorWords[] = {
      "show more of the floor; ground_roi_radius_max lets it look further out"},
     {"floor_spread", "What is seen of it is a strip that spreads by {value} across; {limit} are needed.",
      "show more of the floor to the sides"},
+    {"floor_beside",
+     "It is seen to one side of the machine only, and other ground, that lies otherwise by {value}, to the other: the "
+     "machine may stand on that, and the protection levels reach to it.",
+     "a ramp, a belt or a table; show more of the floor around the machine"},
     {"floor_by_walls",
      "Both walls lean the same way about the road, which says that the floor may be off by {value}: a "
      "heap's flank, perhaps.",
@@ -153,8 +157,7 @@ constexpr GateWords kFitWords[] = {
      "s_front and s_back set the sampling points"},
     {"sample_hole",
      "Around its sampling point nothing is seen of the wall for {value} ({limit} is let pass), or it is seen to one "
-     "side "
-     "only: it may end or step there.",
+     "side only: it may end or step there.",
      "s_front and s_back set the sampling points"},
     {"sample_before",
      "The sampling point lies behind the wall's plane, in the rock: the distance tells how far, and has no sign.",

@@ -48,14 +48,14 @@ void demand_sensor_in_the_road(const Setup& setup) {
   const Mount& mount = setup.mount;
   const double turned = m.turned_left_deg * kRadPerDeg;
   const Vector forward = forward_axis(m), left = Vector::UnitZ().cross(forward);
-  const Vector mounted(mount.mount_x_m, mount.mount_y_m, mount.mount_z_m);
+  const Vector mounted = lidar_origin_base(mount);
   const double left_m =
       start_lateral_m(setup) + std::sin(turned) * mounted.dot(forward) + std::cos(turned) * mounted.dot(left);
   for (const int side : {1, -1}) {
     demand(!has_side(setup.road.walls, side) || side * left_m < 0.5 * setup.road.width_m,
            "the sensor is in the rock beside the road (mount_x_m, mount_y_m, lateral_m, width_m)");
   }
-  const double height_m = m.base_height_m + mount.mount_z_m;
+  const double height_m = m.base_height_m + mounted.z();
   demand(height_m > 0.0 && (setup.road.roof == 0.0 || height_m < setup.road.height_m),
          "the sensor is in the rock above or below the road (mount_z_m, base_height_m, height_m)");
 }
