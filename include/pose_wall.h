@@ -271,7 +271,9 @@ enum pose_wall_reason {
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
   POSE_WALL_R_FLOOR_THIN = 1 << 8,        /* its points lie nearly on one line, or cover too small an area */
   POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 9,   /* another level or slope (bench, pile, reflection, uneven ground)
-                                              explains the view nearly as well, or both walls lean against it */
+                                              explains the view nearly as well, the machine may stand on other ground
+                                              than what is seen of the floor (a ramp ahead), or both walls lean
+                                              against it */
   /* the walls */
   POSE_WALL_R_WALL_NOT_FOUND = 1 << 10,
   POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min, so dim that a gap would go unnoticed, or
@@ -286,7 +288,9 @@ enum pose_wall_reason {
   POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 17, /* beyond yaw_max_deg, where side and face become ambiguous */
   POSE_WALL_R_CROSS_ROAD = 1 << 18,       /* a better pair of walls runs across the machine than along it */
   POSE_WALL_R_CURVED = 1 << 19,           /* wall or floor bends significantly */
-  POSE_WALL_R_EXTRAPOLATED = 1 << 20,     /* no wall seen at the sampling point: the plane is prolonged to it */
+  POSE_WALL_R_EXTRAPOLATED = 1 << 20,     /* of a distance: no wall seen around the sampling point, to which the
+                                              plane is prolonged, or the wall steps there, or the point lies in the
+                                              rock. Of yaw: the walls are seen only well ahead or behind */
   /* the outcome */
   POSE_WALL_R_LEVEL_MISSING = 1 << 21, /* walls not searched: this frame has no floor to level by */
   POSE_WALL_R_ALERT_LIMIT = 1 << 22,   /* protection level above the alert limit */

@@ -11,7 +11,7 @@
 
 namespace pose_wall::tools {
 
-// Files of single frames carry no stamp. A file name (without ending) of 16 to 19 digits and nothing else is a stamp
+// Formats of single frames have no stamp. A file name (without ending) of 16 to 19 digits and nothing else is a stamp
 // in nanoseconds; any other name gives none.
 std::optional<std::int64_t> stamp_from_name(const std::filesystem::path& path);
 
