@@ -81,6 +81,15 @@ def option_faults(frame, *controller):
             yield f"{words}: status {done.returncode}, {done.stdout}{done.stderr}"
 
 
+def without_stamps(frames):
+    """The controller has a clock of its own: ten frames a second, as run has for frames that carry no stamps."""
+    for frame in frames:
+        lines = frame.read_bytes().split(b"\n", 2)
+        if not lines[1].startswith(b"# stamp_ns "):
+            sys.exit(f"{frame}: no stamp in its second line")
+        frame.write_bytes(lines[0] + b"\n" + lines[2])
+
+
 def second_as_kitti(frames):
     """The same points once more as a KITTI .bin: the simulator's .pcd have x y z intensity in float32, too."""
     raw = frames[1].read_bytes()
@@ -94,6 +103,7 @@ def main():
         folder = pathlib.Path(name)
         run(pose_wall, "sim", "--scene", "nominal", "--frames", FRAMES, "--output", folder)
         config, frames = folder / "pose_wall.yaml", sorted((folder / "frames").iterdir())
+        without_stamps(frames)
         second_as_kitti(frames)
         run(pose_wall, "run", "--config", config, "--output", folder / "run.csv", *frames)
         lines = run(*emulator, controller, "-c", config, "-o", folder / "images.bin", *frames).splitlines()

@@ -156,7 +156,9 @@ void draw_sampling_point(Svg& svg, const Viewport& view, const DrawnFrame& frame
 }  // namespace
 
 void draw_top_view(Svg& svg, const Box& box, const FrameScene& scene, const DrawnFrame& frame) {
-  draw_panel(svg, box, frame.has_yaw() ? "From above, road to the right; as this frame measured it" : "From above, machine's axis to the right");
+  draw_panel(svg, box,
+             frame.has_yaw() ? "From above, road to the right; as this frame measured it"
+                             : "From above, machine's axis to the right");
   const Viewport view = view_of(box, scene, frame);
   draw_grid(svg, box, view);
   svg.begin_clip({box.corner.x, box.corner.y + 28.0}, box.width, box.height - 50.0);
