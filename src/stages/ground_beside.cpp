@@ -42,7 +42,7 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m) {
   Eighths out;
   for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     counts &= magnitude_of(heights.of(x, y, z)) <= reach;
-    const FourInts which = ((x < none) & 4) | ((y < none) & 2) | ((magnitude_of(x) < magnitude_of(y)) & 1);
+    const FourInts which = counts & (((x < none) & 4) | ((y < none) & 2) | ((magnitude_of(x) < magnitude_of(y)) & 1));
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       out.count[kEighth[static_cast<std::uint32_t>(which[lane])]] += counts[lane] != 0 ? 1 : 0;
     }
