@@ -80,4 +80,21 @@ void for_each_four_points(const PointSet& points, const Visit& visit) {
   });
 }
 
+// In their order. which(x, y, z, counts): of the four that count, those to copy.
+template <typename Which>
+void copy_where(const PointSet& points, PointSet* out, const Which& which) {
+  out->count = 0;
+  for_each_four_points(points, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourTruths chosen = which(x, y, z, counts);
+    if (!any_of(~chosen)) {  // as most fours that have any
+      out->copy_four(out->count, points, k);
+      out->count += kFour;
+      return;
+    }
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (chosen[lane] != 0) out->add(x[lane], y[lane], z[lane], points.weight[k + lane]);
+    }
+  });
+}
+
 }  // namespace pose_wall

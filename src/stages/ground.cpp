@@ -31,20 +31,10 @@ constexpr double kSteep_rad = 0.17;  // 10 degrees; a radius takes in part of a 
 // A floor this good needs no wider look: the wider, the less "local" the floor is.
 constexpr double kGoodEnough = 0.3;
 
-// In their order.
 void copy_within(const PointSet& open, double radius_m, PointSet* out) {
   const FourFloats limit = all_four(static_cast<float>(radius_m * radius_m));
-  out->count = 0;
-  for_each_four_points(open, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    const FourTruths within = counts & (x * x + y * y <= limit);
-    if (!any_of(~within)) {  // as most fours that have any
-      out->copy_four(out->count, open, k);
-      out->count += kFour;
-      return;
-    }
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (within[lane] != 0) out->add(x[lane], y[lane], z[lane], open.weight[k + lane]);
-    }
+  copy_where(open, out, [limit](FourFloats x, FourFloats y, FourFloats, FourTruths counts) {
+    return counts & (x * x + y * y <= limit);
   });
 }
 

@@ -71,14 +71,10 @@ void copy_left_over(const PointSet& open, const Plane& floor, double off_m, cons
   const FourFloats off = all_four(static_cast<float>(off_m));
   const FourFloats highest = all_four(static_cast<float>(floor.signed_distance(sensor_base_m)));
   const FourFloats sensor_z = all_four(static_cast<float>(sensor_base_m.z()));
-  out->count = 0;
-  for_each_four_points(open, [&](std::uint32_t k, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+  copy_where(open, out, [&](FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourFloats height = heights.of(x, y, z);
-    counts &= (magnitude_of(height) > off) & ((height < highest) | ((z < sensor_z) & (height < kBelowRoof * highest)));
-    if (!any_of(counts)) return;
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (counts[lane] != 0) out->add(x[lane], y[lane], z[lane], open.weight[k + lane]);
-    }
+    return counts & (magnitude_of(height) > off) &
+           ((height < highest) | ((z < sensor_z) & (height < kBelowRoof * highest)));
   });
 }
 
