@@ -4,6 +4,7 @@
 #include "stages/ground_evidence.hpp"
 
 #include <cmath>
+#include <cstring>
 
 #include "estimation/near_plane.hpp"
 #include "estimation/normal_equations.hpp"
@@ -164,10 +165,10 @@ void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
   bounds_.x_max = ix > bounds_.x_max ? ix : bounds_.x_max;
   bounds_.y_min = iy < bounds_.y_min ? iy : bounds_.y_min;
   bounds_.y_max = iy > bounds_.y_max ? iy : bounds_.y_max;
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      if (inside(ix + dx, iy + dy)) near_marked_[index(ix + dx, iy + dy)] = 1;
-    }
+  const std::int32_t x_first = ix > 0 ? ix - 1 : 0, x_last = ix < kSide - 1 ? ix + 1 : ix;
+  const std::int32_t y_first = iy > 0 ? iy - 1 : 0, y_last = iy < kSide - 1 ? iy + 1 : iy;
+  for (std::int32_t y = y_first; y <= y_last; ++y) {
+    std::memset(&near_marked_[index(x_first, y)], 1, static_cast<std::size_t>(x_last - x_first) + 1);
   }
 }
 

@@ -185,11 +185,10 @@ void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallRe
 }
 
 // A wall that is seen only well ahead of the machine, or behind it: in between the road may bend.
-void extend_to_machine(WallResult* wall) {
+void extend_to_machine(double away_m, WallResult* wall) {
   constexpr double kAwayMax_m = 2.0;
   constexpr double kMayBend_rad = 0.44;  // 25 degrees
-  const double away_m = larger(wall->along_min_m, -wall->along_max_m);
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_AWAY, larger(away_m, 0.0), kAwayMax_m, !(away_m > kAwayMax_m)));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_AWAY, away_m, kAwayMax_m, !(away_m > kAwayMax_m)));
   if (!(away_m > kAwayMax_m)) return;
   wall->fit.reasons |= POSE_WALL_R_EXTRAPOLATED;
   wall->yaw_to_rival_rad = kMayBend_rad;
@@ -223,7 +222,7 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
   wall.along_max_m = chosen.evidence.along_max_m;
-  extend_to_machine(&wall);
+  extend_to_machine(chosen.evidence.away_m, &wall);
   if (choice.rival[side] != nullptr) reach_to_rival(scene, choice.rival[side]->plane, side, &wall);
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_SOLID_DOUBT, chosen.evidence.seen_through, kSeenThroughDoubt,
                              !(chosen.evidence.seen_through > kSeenThroughDoubt)));

@@ -42,7 +42,7 @@ double stands_out_at(const WallScene& scene, const WallGrid& grid, const WallRes
     if (!(r >= kOff_m && r <= to_machine_m - kOff_m) || !(std::fabs(beside_m) <= kWindow_m)) return;
     const double lateral_m = to_machine_m - r;
     const double away_m = std::sqrt(lateral_m * lateral_m + beside_m * beside_m);
-    if (away_m < distance_m && grid.gap_to_solid_m(along_m + beside_m) > 0.0) nearer.add(away_m);
+    if (away_m < distance_m && !grid.is_solid_at(along_m + beside_m)) nearer.add(away_m);
   });
   return nearer.count() >= kOtherPointsMin ? distance_m - nearer.at_rank(kOtherPointsMin) : 0.0;
 }
@@ -75,7 +75,7 @@ double steps_back_at(const WallScene& scene, const WallResult& wall, const Eigen
 // points in its nearer part only.
 bool solid_around(const WallGrid& grid, double along_m) {
   for (const double beside_m : {0.3, 0.75}) {
-    if (grid.gap_to_solid_m(along_m - beside_m) > 0.0 || grid.gap_to_solid_m(along_m + beside_m) > 0.0) return false;
+    if (!grid.is_solid_at(along_m - beside_m) || !grid.is_solid_at(along_m + beside_m)) return false;
   }
   return true;
 }

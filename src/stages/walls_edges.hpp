@@ -6,9 +6,8 @@
 #pragma once
 
 #include "containers/arena.hpp"
-#include "containers/span.hpp"
 #include "estimation/plane.hpp"
-#include "math/four_floats.hpp"
+#include "stages/walls_edge_places.hpp"
 #include "stages/walls_scene.hpp"
 
 namespace pose_wall {
@@ -26,62 +25,6 @@ struct WallEdges {
   // Behind it, through gaps and past its foot and top, another surface shows itself, parallel to it and as long: a wall
   // behind pipes and props that hide nearly all of it.
   bool layer_behind = false;
-};
-
-// Measured points by place, which is half a metre along the plane, on either side of the sensor.
-class EndPlaces {
- public:
-  static constexpr std::uint32_t kPlaces = 30;  // on either side
-
-  void clear() { *this = EndPlaces(); }
-  // Of four points. What lies too far away is counted where nobody looks.
-  static FourInts places_of(FourFloats along_m);
-  void add_on(std::int32_t place, float points) { on_[place] += static_cast<double>(points); }
-  void add_past(std::int32_t place, float points) { past_[place] += static_cast<double>(points); }
-  void add_just_behind(std::int32_t place, float points) { just_behind_[place] += static_cast<double>(points); }
-  bool both_are_looked_past() const { return is_looked_past(0) && is_looked_past(kPlaces); }
-
- private:
-  static constexpr std::uint32_t kElsewhere = 2 * kPlaces;
-  // Of the end whose places begin here.
-  bool is_looked_past(std::uint32_t begin) const;
-
-  double on_[kElsewhere + 1] = {}, past_[kElsewhere + 1] = {}, just_behind_[kElsewhere + 1] = {};
-};
-
-// Measured points by place and by the height at which their rays meet the plane, in steps from the lowest.
-class TopPlaces {
- public:
-  void lay_out(Arena& arena) { cell_ = arena.take<float>(kPlaces * kPlaceCells); }
-  void clear() { cell_.fill(0.0F); }
-  static constexpr std::int32_t kNoCell = -1;
-  // Of four points; height: 0 (lowest) to 1. What lies outside has no cell.
-  static FourInts cells_of(FourFloats along_m, FourFloats height, FourTruths is_past);
-  void add(std::int32_t cell, float points) { cell_[static_cast<std::uint32_t>(cell)] += points; }
-  bool is_looked_over() const;
-
- private:
-  static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;
-  static constexpr std::uint32_t kSteps = 32;
-  static constexpr std::uint32_t kPlaceCells = 2 * kSteps;  // on the plane, and past it
-  Span<float> cell_;
-};
-
-// Measured points behind a plane by how far behind it they lie, and over which places along it.
-class DepthsBehind {
- public:
-  void clear() { *this = DepthsBehind(); }
-  void add(double behind_m, double along_m, double points);
-  // on_plane: how many lie on the plane itself.
-  bool hold_a_layer(double on_plane) const;
-
- private:
-  static constexpr std::uint32_t kSteps = 20;
-  struct Step {
-    double points = 0.0;
-    std::uint64_t places = 0;  // a bit for each half metre
-  };
-  Step step_[kSteps];
 };
 
 struct EdgeScratch {

@@ -132,6 +132,10 @@ WallEvidence WallGrid::evidence() const {
     own_open_cells += open_rows;
     if (solid_rows < open_rows) continue;
     const double along = (static_cast<double>(column) - kColumns / 2) * kColumn_m;
+    // One alone may be a stray, or a stump.
+    const bool goes_on = columns > 0 && !(out.along_max_m < along);
+    const double away_m = larger(larger(along - kColumn_m, -along - kColumn_m), 0.0);
+    if (goes_on && away_m < out.away_m) out.away_m = away_m;
     if (columns == 0) out.along_min_m = along;
     out.along_max_m = along + kColumn_m;
     ++columns;
@@ -159,6 +163,11 @@ double WallGrid::gap_to_solid_m(double along_m) const {
     if (gap < nearest) nearest = gap;
   }
   return nearest;
+}
+
+bool WallGrid::is_solid_at(double along_m) const {
+  const double place = along_m * (1.0 / kColumn_m) + 0.5 * kColumns;
+  return place >= 0.0 && place < kColumns && column_is_solid(static_cast<std::uint32_t>(place));
 }
 
 FourTruths WallGrid::solid_at(FourFloats along_m, FourFloats z_level_m, FourTruths counts) const {

@@ -23,6 +23,7 @@ struct WallEvidence {
   double length_m = 0.0;      // solid columns along the road
   double along_min_m = 0.0;
   double along_max_m = 0.0;
+  double away_m = 1e3;        // along it, from the machine to the nearest two solid columns side by side
   std::uint32_t inliers = 0;  // measured points on the plane
 };
 
@@ -61,6 +62,7 @@ class WallGrid {
 
   // Distance along the road from a place to the nearest solid column; large where there is none.
   double gap_to_solid_m(double along_m) const;
+  bool is_solid_at(double along_m) const;
   // Of four points, of those that count, the ones where the plane is solid.
   FourTruths solid_at(FourFloats along_m, FourFloats z_level_m, FourTruths counts) const;
 

@@ -58,11 +58,22 @@ struct ColumnRow {
   SightColumn item[kColumns];
   std::uint32_t count = 0;
 
+  // How much would be silent by chance is only told where anything is silent.
   ColumnRow(const SightColumns& columns, std::uint32_t away, double brightness) {
+    if (look(columns, away, brightness, false)) look(columns, away, brightness, true);
+  }
+
+ private:
+  // Whether anything is silent.
+  bool look(const SightColumns& columns, std::uint32_t away, double brightness, bool with_chance) {
+    double silent = 0.0;
+    count = 0;
     for (std::uint32_t k = 0; k < kColumns; ++k) {
-      const SightColumn c = columns.at((away + k) % kColumns, brightness);
+      const SightColumn c = columns.at((away + k) % kColumns, brightness, with_chance);
       if (c.tally.cells > 0.0) item[count++] = c;
+      silent += c.tally.silent + c.tally.silent_tops;
     }
+    return silent > 0.0;
   }
 };
 
@@ -89,7 +100,7 @@ void for_each_run(const ColumnRow& row, Visit visit) {
   visit(run);
 }
 
-WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
+WallSight judge(const ColumnRow& row, const SightColumns& columns) {
   double solid_m = 0.0;
   int roads = 0;
   for_each_run(row, [&](const Run& run) {
@@ -107,6 +118,8 @@ WallSight judge(const ColumnRow& row, const SightColumns::Blindness& blind) {
   WallSight out;
   if (!(all.cells > 0.0)) return out;
   const double silent = all.silent / all.cells, by_chance = all.silent_by_chance / all.cells;
+  SightColumns::Blindness blind;  // what else is silent excuses only what is
+  if (silent > by_chance || all.silent_tops > 0.0) blind = columns.elsewhere();
   const double elsewhere = kBlindFactor * blind.cells;
   const double unexplained = silent - (by_chance > elsewhere ? by_chance : elsewhere);
   out.silent = unexplained > 0.0 ? unexplained : 0.0;
@@ -148,7 +161,7 @@ WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector
   const double brightness = columns.brightness();
   WallSight out;
   if (brightness >= kDimShare) {
-    out = judge(ColumnRow(columns, lines.column_away(), brightness), columns.elsewhere());
+    out = judge(ColumnRow(columns, lines.column_away(), brightness), columns);
   } else {
     out.dim = brightness >= 0.0;
   }

@@ -104,7 +104,7 @@ double SightColumns::brightness() const {
   return (bin + 1.0) / kBins;
 }
 
-SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
+SightColumn SightColumns::at(std::uint32_t column, double brightness, bool with_chance) const {
   constexpr double kLowest_m = -1e3;
   SightColumn out;
   if (!may_show(column)) return out;
@@ -114,7 +114,7 @@ SightColumn SightColumns::at(std::uint32_t column, double brightness) const {
     const SightLines::Crossing c = lines_.at(row, column);
     if (!c.near || c.z_level_m < scene_.z_min_level_m || c.z_level_m > scene_.z_max_level_m + kAboveBand_m) continue;
     const double mean = brightness * directions_.expected.at(row, column),
-                 by_chance = chance_below(kSilentShare * mean, mean);
+                 by_chance = with_chance ? chance_below(kSilentShare * mean, mean) : 0.0;
     const bool silent = is_silent(row, column, brightness), through = !silent && is_through(row, column);
     if (c.z_level_m > top_level_m) {
       top_level_m = c.z_level_m;

@@ -38,7 +38,7 @@ class SightColumns {
   double brightness() const;
 
   // No cells: it does not look at the plane.
-  SightColumn at(std::uint32_t column, double brightness) const;
+  SightColumn at(std::uint32_t column, double brightness, bool with_chance) const;
 
   // Shares of what is silent where the plane is not: a sensor may be blind here and there, look further up ahead than
   // aside, or spin about another axis than the expectation supposes. 1 where too little else is looked at to know.

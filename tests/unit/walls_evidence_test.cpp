@@ -85,6 +85,34 @@ TEST(WallGrid, GapsAreMeasuredToTheNearestSolidColumn) {
   EXPECT_GT(Marked(&empty)->gap_to_solid_m(0.0), 100.0);
 }
 
+TEST(WallGrid, IsSolidAtAPlaceWhereThereIsNoGap) {
+  BandFixture band;
+  band.add_wall(2.5, {-6.0, -2.0, 0.3, 2.4});
+  band.add_wall(2.5, {3.0, 6.0, 0.3, 2.4});
+  Marked grid(&band);
+  for (double along_m = -40.1; along_m < 40.0; along_m += 0.17) {
+    EXPECT_EQ(grid->is_solid_at(along_m), !(grid->gap_to_solid_m(along_m) > 0.0)) << along_m;
+  }
+}
+
+// What stands alone before a wall may be a stump, and a column a stray.
+TEST(WallGrid, AWallIsAsFarAwayAsItsNearestColumnsSideBySide) {
+  BandFixture around, ahead, behind, with_stump;
+  around.add_wall(2.5, {-4.0, 4.0, 0.3, 2.4});
+  ahead.add_wall(2.5, {3.0, 9.0, 0.3, 2.4});
+  behind.add_wall(2.5, {-9.0, -3.0, 0.3, 2.4});
+  with_stump.add_wall(2.5, {3.0, 9.0, 0.3, 2.4});
+  with_stump.add_wall(2.5, {0.1, 0.4, 0.3, 1.2});
+  EXPECT_EQ(Marked(&around).evidence().away_m, 0.0);
+  EXPECT_NEAR(Marked(&ahead).evidence().away_m, 3.0, 0.51);
+  EXPECT_NEAR(Marked(&behind).evidence().away_m, 3.0, 0.51);
+  const WallEvidence e = Marked(&with_stump).evidence();
+  EXPECT_LT(e.along_min_m, 0.5);
+  EXPECT_NEAR(e.away_m, 3.0, 0.51);
+  BandFixture nothing;
+  EXPECT_GT(Marked(&nothing).evidence().away_m, 100.0);
+}
+
 TEST(WallGrid, PointsFarOutsideTheGridDoNoHarm) {
   BandFixture band;
   band.add_wall(2.5, {-4.0, 4.0, 0.3, 2.4});

@@ -22,7 +22,7 @@ namespace {
 
 using Row = std::array<float, 5>;  // u, v, r, weight, bias
 
-constexpr double kWall_m = 2.5;
+constexpr double kPlane_y_m = 2.5;
 
 struct Sorted {
   test::BandFixture band;
@@ -32,11 +32,12 @@ struct Sorted {
 
   explicit Sorted(std::uint32_t count) {
     const WallScene scene = band.scene();
-    points->begin(scene, Plane{-Eigen::Vector3d::UnitY(), kWall_m}, Eigen::Vector3d::UnitX());
+    points->begin(scene, Plane{-Eigen::Vector3d::UnitY(), kPlane_y_m}, Eigen::Vector3d::UnitX());
     test::Noise noise(count);
     test::OwnedPoints cloud(count);
     for (std::uint32_t k = 0; k < count; ++k) {
-      cloud.add(noise.uniform(-12, 15), kWall_m + noise.normal(0.02), noise.uniform(-1, 1), static_cast<float>(k + 1));
+      cloud.add(noise.uniform(-12, 15), kPlane_y_m + noise.normal(0.02), noise.uniform(-1, 1),
+                static_cast<float>(k + 1));
     }
     points->add(cloud.set(), cloud.all());
     before = rows();

@@ -92,6 +92,13 @@ function(pose_wall_bare_flags target)
     -fno-exceptions -fno-rtti -fno-threadsafe-statics
     -fvisibility=hidden -fvisibility-inlines-hidden -ffunction-sections
     $<${pose_wall_quick}:-O3>
+    # 1.6 KiB less code on AArch64 and, by count, no more instructions: no copies of paths, one region for registers,
+    # nothing saved and restored piece by piece, nothing computed early on some paths for others, and on AArch64 nothing
+    # that only fills up to the next sixteen bytes.
+    $<$<AND:${pose_wall_quick},$<CXX_COMPILER_ID:GNU>>:-fno-split-paths -fira-region=one -fno-shrink-wrap-separate
+    -fno-tree-pre>
+    $<$<AND:${pose_wall_quick},$<CXX_COMPILER_ID:GNU>,$<BOOL:${POSE_WALL_AARCH64}>>:
+    -fno-align-functions -fno-align-loops -fno-align-jumps -fno-align-labels>
     # Nothing is ever thrown through the engine; debuggers have tables of their own.
     $<$<NOT:$<CONFIG:Debug>>:-fno-asynchronous-unwind-tables -fno-unwind-tables>
     # Clang makes a call of bcmp, which is no C, of a memcmp that asks for equality alone
