@@ -34,14 +34,15 @@ struct Eighths {
   bool holds_any(std::uint32_t eighth) const { return total > 0 && count[eighth] * 100 >= total; }
 };
 
-// Of those no further than this from the plane.
-Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m) {
+// Of those no further than this from the plane, and below the sensor: a steep plane that is prolonged meets the roof.
+Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m, double sensor_z_base_m) {
   constexpr std::uint8_t kEighth[] = {0, 1, 7, 6, 3, 2, 4, 5};  // by signs of x and y and which of them is larger
   const FourDistances heights(plane);
   const FourFloats reach = all_four(static_cast<float>(reach_m)), none{};
+  const auto highest = static_cast<float>(sensor_z_base_m);
   Eighths out;
   for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    counts &= magnitude_of(heights.of(x, y, z)) <= reach;
+    counts &= (magnitude_of(heights.of(x, y, z)) <= reach) & (z < highest);
     const FourInts which = counts & (((x < none) & 4) | ((y < none) & 2) | ((magnitude_of(x) < magnitude_of(y)) & 1));
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       out.count[kEighth[static_cast<std::uint32_t>(which[lane])]] += counts[lane] != 0 ? 1 : 0;
@@ -116,7 +117,7 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
                             FloorResult* floor) {
   const PointSet &open = scratch->open_base, &left_over = scratch->within_base;
   const Plane plane = floor->fit.plane;
-  if (surround_machine(eighths_of(open, plane, s.ground_ransac_thresh))) return;
+  if (surround_machine(eighths_of(open, plane, s.ground_ransac_thresh, sensor_base_m.z()))) return;
   const double off_m = kOffInThresholds * s.ground_ransac_thresh;
   copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
   if (left_over.count < kPointsMin) return;

@@ -126,6 +126,31 @@ struct TwoPlanes {
   }
 };
 
+// A steep plane that is prolonged behind the machine meets the roof there; that is no floor to stand on.
+TEST(GroundBeside, ARoofThatTheProlongedPlaneMeetsIsNoFloor) {
+  for (const bool has_roof : {false, true}) {
+    GroundFixture g;
+    test::Noise noise(3);
+    constexpr double kSlope = -0.25;                  // falls ahead
+    const double roof_m = 2.0 - test::kFloorBelow_m;  // so high above the base's origin
+    for (double y = -2.0; y <= 2.0; y += 0.1) {
+      for (double x = 2.0; x <= 9.0; x += 0.1) g.add(x, y, kSlope * (x - 2.0) + noise.normal(0.005));
+      for (double x = -6.0; x <= -4.0; x += 0.1) g.add(x, y, noise.normal(0.005));
+      for (double x = -12.0; x <= -3.0 && has_roof; x += 0.1) g.add(x, y, test::kFloorBelow_m + roof_m);
+    }
+    const BoundedPoints& points = g.points().set();
+    test::Placed<GroundScratch> scratch(points.capacity());
+    scratch->grid.find_open(points, 15.0, 0.0, scratch->low, &scratch->open_base);
+    FloorResult floor;
+    const Eigen::Vector3d n = Eigen::Vector3d(-kSlope, 0.0, 1.0).normalized();
+    floor.fit.plane = {n, -n.dot(Eigen::Vector3d(2.0, 0.0, -test::kFloorBelow_m))};
+    Random random(1);
+    reach_to_floors_beside(points, g.settings(), {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()},
+                           Eigen::Vector3d::Zero(), &random, scratch.get(), &floor);
+    EXPECT_TRUE(is_ambiguous(floor)) << (has_roof ? "below a roof" : "without");
+  }
+}
+
 // Both ways round: the floor is seen ahead, the other one behind a line.
 TEST(GroundBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
   for (const double slope_rad : {-0.12, 0.12}) {  // behind the line that is up, and down
