@@ -88,11 +88,7 @@ double most_area_across_m2(const WallScene& scene) {
 }
 
 bool may_stand_across(double pair_m2, const WallChoice& choice) {
-  if (!choice.any()) {
-    // Nothing to refuse; but `explain` says what stands across where nothing stands beside.
-    POSE_WALL_NOTE(return true);
-    return false;
-  }
+  if (!choice.any()) return true;  // what stands across may tell why
   const bool may = pair_m2 > choice.score_m2;
   POSE_WALL_NOTE(
       if (!may) trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair_m2 / choice.score_m2, 1.0, true));

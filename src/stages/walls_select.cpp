@@ -308,7 +308,9 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
 
 void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind, const Settings& settings,
                       WallChoice* choice) {
-  if (choice->any() && stands_across(*choice, ahead, behind, settings)) refuse_both(POSE_WALL_R_CROSS_ROAD, choice);
+  const bool across = choice->any() ? stands_across(*choice, ahead, behind, settings)
+                                    : best_pair(ahead, behind, settings.wall_parallel_cos).a != nullptr;
+  if (across) refuse_both(POSE_WALL_R_CROSS_ROAD, choice);
 }
 
 }  // namespace pose_wall

@@ -42,7 +42,8 @@ double angle_in_plan(const Plane& a, const Plane& b);
 WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const Settings& settings);
 
 // ahead and behind: the planes across the road. A pair of them that makes a better roadway than the sides do means
-// that the machine stands across, and that what looks like side walls are faces. Where a side is chosen.
+// that the machine stands across, and that what looks like side walls are faces. Where no side was chosen, any such
+// pair tells why.
 void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind, const Settings& settings,
                       WallChoice* choice);
 

@@ -155,6 +155,20 @@ TEST(WallSelect, ABetterRoadwayAcrossRefusesBoth) {
   EXPECT_NE(chosen.reasons[0] & POSE_WALL_R_CROSS_ROAD, 0U);
 }
 
+TEST(WallSelect, APairAcrossTellsWhyNothingStandsBeside) {
+  Choice c;
+  c.ahead = list({candidate(M_PI, 2.0, 30.0)});
+  const WallChoice by_one = c.choose();
+  EXPECT_EQ((by_one.reasons[0] | by_one.reasons[1]) & POSE_WALL_R_CROSS_ROAD, 0U);
+  c.behind = list({candidate(0.0, 2.0, 30.0)});
+  const WallChoice by_two = c.choose();
+  for (int side = 0; side < 2; ++side) {
+    EXPECT_TRUE(by_two.refused[side]);
+    EXPECT_NE(by_two.reasons[side] & POSE_WALL_R_WALL_NOT_FOUND, 0U);
+    EXPECT_NE(by_two.reasons[side] & POSE_WALL_R_CROSS_ROAD, 0U);
+  }
+}
+
 TEST(WallSelect, AFaceAloneRefusesNoPair) {
   Choice c;
   c.left = list({left_wall(2.5, 15.0)});
