@@ -77,7 +77,7 @@ enum pose_wall_status {
                                     into its block, or a bit fell over: see pose_wall_open */
   POSE_WALL_E_INDEX = -6,        /* index out of range */
   POSE_WALL_E_BUFFER_SMALL = -7, /* text does not fit the caller's buffer */
-  POSE_WALL_E_MEMENTO = -8,      /* not what pose_wall_save wrote, of another version, or damaged */
+  POSE_WALL_E_MEMENTO = -8,      /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
 
   /* configuration */
   POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
@@ -214,8 +214,8 @@ typedef struct pose_wall_cloud {
   uint32_t height;     /* rows */
   uint32_t point_step; /* bytes from point to point */
   uint32_t row_step;   /* bytes from row to row; 0: width x point_step */
-  int64_t stamp_ns;
-  pose_wall_field x; /* metres in the lidar frame; FLOAT32 or FLOAT64 */
+  int64_t stamp_ns;    /* nanoseconds, of any clock that runs on: ages, holding and smoothing go by it */
+  pose_wall_field x;   /* metres in the lidar frame; FLOAT32 or FLOAT64 */
   pose_wall_field y;
   pose_wall_field z;
   pose_wall_field intensity; /* any type; used only with intensity_weight > 0 */
@@ -260,12 +260,13 @@ enum pose_wall_reason {
   POSE_WALL_R_LEAF_GROWN = 1 << 1, /* of the frame: voxel leaf enlarged to stay within points_max, or still so since the
                                       last frames (a note, not a fault). Of a value: even voxels of 0.26 m were too
                                       many, and nothing is told from larger ones */
-  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp equals the last frame's: taken as the same frame again, values are held;
-                                       after the second such frame they expire */
+  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp less than 1 ms after the last frame's: taken as the same frame again,
+                                       values are held; after the second such frame they expire. Of every frame: the
+                                       stamps are no nanoseconds */
   POSE_WALL_R_STAMP_BACK =
       1 << 3, /* stamp older than the last frame's: what is held expires, smoothing starts afresh */
   POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
-  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of the last frame again: a frozen sensor */
+  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of one of the last four clouds again: a frozen sensor */
   /* the floor */
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
@@ -313,11 +314,14 @@ const char* pose_wall_state_name(uint32_t state);
 const char* pose_wall_quantity_name(uint32_t quantity);
 
 typedef struct pose_wall_value {
-  double value; /* what a controller acts on: smoothed, or held. NaN if never measured */
+  /* What a controller acts on: smoothed, or held; NaN if never measured. Smoothing is of first order, over
+   * temporal_smoothing_tau; a raw whose level is above the alert limit pulls the less, by alert limit / level. */
+  double value;
   double raw;   /* this frame's own measurement before smoothing; NaN if none */
   double sigma; /* standard deviation of raw: its random part, on rough rock too (held: of the last raw). Biases that
                    the engine can bound but not know (range bias, rival surfaces) are in protection_level only */
-  double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured */
+  double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured. While
+                              invalid it goes by stamps that may have jumped: nothing to rely on */
   double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
   double age_s;            /* since the frame it was measured in; 0 when measured in this one */
   uint32_t state;          /* pose_wall_state */
@@ -421,10 +425,11 @@ int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_resu
 
 /* All that an engine remembers from frame to frame, as bytes, so that any frame can be computed again: an engine of the
  * same version and config that loads what was saved before a frame gives the same bits for that frame. The same on
- * every machine. load checks its length, version and checksum, and takes nothing of what it refuses; it is trusted like
- * the config, since whoever writes it can make the engine believe a past. Neither touches what pose_wall_last_points
- * gives. save fails iff: NULL, engine not open, POSE_WALL_E_BUFFER_SMALL; load also with POSE_WALL_E_MEMENTO. Cost: no
- * more than copying. */
+ * every machine. load checks its length (a longer one is read as far as pose_wall_memento_bytes), version, config and
+ * checksum, and takes nothing of what it refuses: after a change of the config an engine begins anew. It is trusted
+ * like the config, since whoever writes it can make the engine believe a past. Neither touches what
+ * pose_wall_last_points gives. Fails iff: NULL, engine not open; save with POSE_WALL_E_BUFFER_SMALL; load with
+ * POSE_WALL_E_MEMENTO. Cost: no more than copying. */
 uint64_t pose_wall_memento_bytes(void);
 int32_t pose_wall_save(const pose_wall_engine* engine, void* memento, uint64_t bytes);
 int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes);

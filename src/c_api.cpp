@@ -212,17 +212,17 @@ POSE_WALL_EXPORT int32_t pose_wall_save(const pose_wall_engine* engine, void* me
   if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
   if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
   if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
-  pose_wall::save_memory(engine_of(engine)->memory(), memento);
+  pose_wall::save_memory(engine_of(engine)->memory(), engine_of(engine)->config_crc32(), memento);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes) {
   if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
   if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
-  if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
+  if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_MEMENTO;  // cut off
   pose_wall::Memory memory;
   std::memset(static_cast<void*>(&memory), 0, sizeof(memory));  // padding, too: see pose_wall_open
-  if (!pose_wall::load_memory(memento, &memory)) return POSE_WALL_E_MEMENTO;
+  if (!pose_wall::load_memory(memento, engine_of(engine)->config_crc32(), &memory)) return POSE_WALL_E_MEMENTO;
   engine_of(engine)->set_memory(memory);
   return POSE_WALL_OK;
 }

@@ -242,27 +242,26 @@ void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
 // The very same points under a new stamp: no LiDAR does that, its driver or network does. Under the old stamp it is
 // the same frame once more, and there is nothing new to measure.
 void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
-  const bool has_points = scratch_.cloud_base.count >= kPointsMin;
-  const bool repeated = memory_.frames > 0 && has_points && found->voxels.fingerprint == memory_.fingerprint;
-  memory_.repeats = repeated ? memory_.repeats + 1 : 0;
-  memory_.fingerprint = found->voxels.fingerprint;
-  const bool frozen = repeated && !timing.still;
+  Repeat repeat;
+  if (scratch_.cloud_base.count >= kPointsMin) {
+    repeat = memory_.seen.note(found->voxels.fingerprint, found->stamp_ns);
+    memory_.repeats = repeat.is_one ? memory_.repeats + 1 : 0;
+  }
+  const bool frozen = repeat.is_one && !timing.still;
+  const bool too_often = frozen && (memory_.repeats > settings_.frozen_frames || repeat.age_s < 0.0);
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_REPEATED, memory_.repeats, 0.0, !frozen));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FROZEN, memory_.repeats, settings_.frozen_frames,
-                             !frozen || memory_.repeats <= settings_.frozen_frames));
-  if (frozen) found->reasons |= POSE_WALL_R_FROZEN;
-  std::uint32_t reasons = timing.reasons;
-  if (frozen) reasons |= POSE_WALL_R_FROZEN;
-  const bool unmeasured = timing.still || (frozen && memory_.repeats > settings_.frozen_frames);
-  memory_.repeated_s = frozen ? memory_.repeated_s + (timing.dt_s > 0.0 ? timing.dt_s : 0.0) : 0.0;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_REPEATED, repeat.is_one ? memory_.repeats : 0, 0.0, !frozen));
+  POSE_WALL_NOTE(
+      trace::gate(POSE_WALL_TRACE_FROZEN, repeat.is_one ? memory_.repeats : 0, settings_.frozen_frames, !too_often));
+  const std::uint32_t reasons = timing.reasons | (frozen ? static_cast<std::uint32_t>(POSE_WALL_R_FROZEN) : 0U);
+  found->reasons |= reasons;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Measurement& m = found->measured.quantity[q];
     // The cloud is as old as its first copy, and the machine may have moved since.
-    m.protection += fastest(q, settings_) * memory_.repeated_s;
+    if (frozen) m.protection += fastest(q, settings_) * repeat.age_s;
     m.reasons |= reasons;
     m.weak = m.weak || frozen;
-    if (unmeasured) m.measured = false;
+    if (timing.still || too_often) m.measured = false;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "pose_wall.h"
 #include "report.hpp"
 #include "stages/ground.hpp"
+#include "stages/seen_clouds.hpp"
 #include "stages/temporal.hpp"
 #include "stages/walls.hpp"
 #include "types.hpp"
@@ -41,9 +42,8 @@ struct Memory {
   bool has_floor = false;
   bool has_wall[2] = {false, false};
   LeafMemory leaf;
-  std::uint64_t fingerprint = 0;
-  std::uint32_t repeats = 0;  // how often the last cloud has come again
-  double repeated_s = 0.0;    // and since when
+  SeenClouds seen;
+  std::uint32_t repeats = 0;  // so many clouds in a row came before; what holds no points does not count
   std::uint64_t frames = 0;
 };
 

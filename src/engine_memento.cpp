@@ -9,7 +9,7 @@ namespace pose_wall {
 namespace {
 
 // To be changed with what visit() walks over.
-constexpr std::uint64_t kVersion = 0x706F73652D6D0002ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D0003ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version, checksum
 
 // Every member is one word of eight bytes, least significant first.
@@ -108,7 +108,7 @@ void visit(Way* way, Plane* plane) {
 template <typename Way>
 void visit(Way* way, Track* t) {
   visit_all(way, &t->has_value, &t->value, &t->raw, &t->raw_protection, &t->sigma, &t->protection, &t->age_s,
-            &t->expired, &t->to_confirm);
+            &t->expired, &t->to_confirm, &t->doubted_frames);
   LastGood& good = t->good;
   visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.value_protection, &good.age_s);
 }
@@ -121,13 +121,15 @@ void visit(Way* way, Memory* m) {
   visit_all(way, &t.has_stamp, &t.still_frames, &t.stamp_ns, &t.last_dt_s, &t.dt_before_s);
   visit(way, &m->last_floor);
   for (Plane& wall : m->last_wall) visit(way, &wall);
-  visit_all(way, &m->has_floor, &m->has_wall[0], &m->has_wall[1], &m->leaf.begin_with, &m->leaf.voxels, &m->fingerprint,
-            &m->repeats, &m->repeated_s, &m->frames);
+  visit_all(way, &m->has_floor, &m->has_wall[0], &m->has_wall[1], &m->leaf.begin_with, &m->leaf.voxels, &m->repeats,
+            &m->frames);
+  for (SeenCloud& cloud : m->seen.cloud) visit_all(way, &cloud.fingerprint, &cloud.stamp_ns);
 }
 
-// FNV-1a: for accidents, not for attackers.
-std::uint64_t checksum(const unsigned char* bytes, std::uint64_t count) {
-  std::uint64_t sum = 0xCBF29CE484222325ULL;
+// FNV-1a: for accidents, not for attackers. Begun with the config's, so that what was measured by another config, with
+// its axes and extrinsic, is never held by this one.
+std::uint64_t checksum(std::uint32_t config_crc32, const unsigned char* bytes, std::uint64_t count) {
+  std::uint64_t sum = 0xCBF29CE484222325ULL ^ config_crc32;
   for (std::uint64_t i = 0; i < count; ++i) sum = (sum ^ bytes[i]) * 0x100000001B3ULL;
   return sum;
 }
@@ -145,19 +147,19 @@ std::uint64_t memento_bytes() {
   return 8 * kHeadWords + body_bytes();
 }
 
-void save_memory(const Memory& memory, void* to) {
+void save_memory(const Memory& memory, std::uint32_t config_crc32, void* to) {
   unsigned char* const bytes = static_cast<unsigned char*>(to);
   Memory copy = memory;
   Writer writer(bytes + 8 * kHeadWords);
   visit(&writer, &copy);
   put_word(kVersion, bytes);
-  put_word(checksum(bytes + 8 * kHeadWords, body_bytes()), bytes + 8);
+  put_word(checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes()), bytes + 8);
 }
 
-bool load_memory(const void* from, Memory* memory) {
+bool load_memory(const void* from, std::uint32_t config_crc32, Memory* memory) {
   const unsigned char* const bytes = static_cast<const unsigned char*>(from);
   if (word_at(bytes) != kVersion) return false;
-  if (word_at(bytes + 8) != checksum(bytes + 8 * kHeadWords, body_bytes())) return false;
+  if (word_at(bytes + 8) != checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes())) return false;
   Memory read;
   Reader reader(bytes + 8 * kHeadWords);
   visit(&reader, &read);

@@ -12,8 +12,8 @@
 namespace pose_wall {
 
 std::uint64_t memento_bytes();
-void save_memory(const Memory& memory, void* to);
-// False, and *memory unchanged, where `from` is damaged or of another version.
-bool load_memory(const void* from, Memory* memory);
+void save_memory(const Memory& memory, std::uint32_t config_crc32, void* to);
+// False, and *memory unchanged, where `from` is damaged, of another version or of another config.
+bool load_memory(const void* from, std::uint32_t config_crc32, Memory* memory);
 
 }  // namespace pose_wall

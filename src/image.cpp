@@ -74,7 +74,8 @@ Numbers numbers_of(const pose_wall_value& v, double scale) {
   if (!is_finite(v.value)) return n;
   n.value_scaled = nearest_integer(v.value * scale);
   n.value = static_cast<float>(within(v.value, kFloatMax));
-  if (!is_finite(v.protection_level) || v.protection_level < 0.0) return n;
+  // Of what is invalid the level may go by a clock that jumped.
+  if (v.state == POSE_WALL_INVALID || !is_finite(v.protection_level) || v.protection_level < 0.0) return n;
   const double rounded_scaled = std::fabs(v.value * scale - static_cast<double>(n.value_scaled));
   const double rounded = std::fabs(v.value - static_cast<double>(n.value));
   n.protection_scaled = integer_above(v.protection_level * scale + rounded_scaled);

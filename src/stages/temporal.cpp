@@ -15,6 +15,9 @@ namespace {
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::uint32_t kConfirmations = 3;
 constexpr std::uint32_t kStillFramesMax = 2;
+// No LiDAR is that quick: it is the same frame again, or the stamps are no nanoseconds, by which everything would be
+// held a thousand times too long.
+constexpr std::int64_t kStillBelow_ns = 1000000;
 
 // A level that is not a number must not be hidden by one that is.
 double larger_or_nan(double a, double b) {
@@ -39,6 +42,21 @@ void check_innovation(const Measurement& m, std::uint32_t quantity, const Settin
   const double from_last = m.protection + t->raw_protection + rate * t->age_s;
   const bool comes_again = t->has_value && t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
   t->to_confirm = comes_again ? t->to_confirm - 1 : kConfirmations;
+}
+
+// A rival wall that was seen a moment ago is not gone because this frame does not show it. A level that reached to one
+// falls once kConfirmations frames in a row have seen none; until then what is measured anew may be the rival. Not so
+// of floors: uneven ground shows another slope in one frame of five, and is right in the others.
+double level_in_doubt(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
+  if ((m.reasons & POSE_WALL_R_WALL_AMBIGUOUS) != 0) {
+    t->doubted_frames = kConfirmations;
+    return m.protection;
+  }
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_DOUBTED, t->doubted_frames, 0.0, t->doubted_frames == 0));
+  if (t->doubted_frames == 0) return m.protection;
+  --t->doubted_frames;
+  const double reach = std::fabs(m.raw - t->raw) + t->raw_protection + fastest(quantity, s) * t->age_s;
+  return larger_or_nan(m.protection, reach);
 }
 
 // Moves the smoothed value towards the raw one; true where the yaw limit held it back.
@@ -92,8 +110,10 @@ void keep_good(const Measurement& m, Track* t) {
   good.age_s = 0.0;
 }
 
-void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
+void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
+  const bool in_doubt = t->doubted_frames > 0;
+  m.protection = level_in_doubt(m, quantity, s, t);
   out->reasons = m.reasons;
   check_innovation(m, quantity, s, t);
   if (afresh) {
@@ -125,6 +145,7 @@ void set_measured(const Measurement& m, std::uint32_t quantity, bool afresh, con
   if (!within) out->reasons |= POSE_WALL_R_ALERT_LIMIT;
   const bool valid = within && !m.weak && t->to_confirm == 0;
   if (valid) keep_good(m, t);
+  if (!valid && in_doubt) out->reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
   out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->raw = m.raw;
   out->value = t->value;
@@ -145,7 +166,8 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   const double rate = fastest(quantity, s);
   const double last_level = t->protection + rate * t->age_s;
   const double good_level = t->good.value_protection + rate * t->good.age_s;
-  const bool hold_good = t->good.exists && good_level < last_level;
+  // A jump that nobody has confirmed yet may be one: the level of what came last reaches to both.
+  const bool hold_good = t->good.exists && t->to_confirm == 0 && good_level < last_level;
   out->value = hold_good ? t->good.value : t->value;
   out->age_s = hold_good ? t->good.age_s : t->age_s;
   out->protection_level = hold_good ? good_level : last_level;
@@ -196,8 +218,8 @@ FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const 
   t.dt_s = (static_cast<double>(stamp_ns) - static_cast<double>(state.stamp_ns)) * kNanosecond_s;
   const bool exact = t.dt_s > -1e6 && t.dt_s < 1e6;
   if (exact) t.dt_s = static_cast<double>(stamp_ns - state.stamp_ns) * kNanosecond_s;
-  t.still = stamp_ns == state.stamp_ns;
   t.back = stamp_ns < state.stamp_ns;
+  t.still = !t.back && exact && stamp_ns - state.stamp_ns < kStillBelow_ns;
   t.leap = t.dt_s > settings.stamp_gap_max;
   POSE_WALL_NOTE(note_timing(t, settings));
   if (t.still) t.reasons |= POSE_WALL_R_STAMP_STILL;
@@ -212,7 +234,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
   state->stamp_ns = stamp_ns;
   state->still_frames = timing.still ? state->still_frames + 1 : 0;
   const double elapsed_s = timing.still ? time_while_still(*state) : timing.dt_s;
-  if (!timing.leap && timing.dt_s > 0.0) {
+  if (!timing.leap && !timing.still && timing.dt_s > 0.0) {
     state->dt_before_s = state->last_dt_s;
     state->last_dt_s = timing.dt_s;
   }
@@ -225,7 +247,8 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
     // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
     // bound any more.
-    if (timing.back || state->still_frames > kStillFramesMax) t.expired = true;
+    const bool unknown = timing.still && !(elapsed_s > 0.0);
+    if (timing.back || unknown || state->still_frames > kStillFramesMax) t.expired = true;
     if (timing.back) t.good.exists = false;
     if (m.measured) {
       set_measured(m, q, !t.has_value || t.expired || timing.leap, settings, &t, &out);

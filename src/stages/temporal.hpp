@@ -35,6 +35,8 @@ struct Track {
   // After a jump the last good value stays in the protection level until the new one has come again and again; what was
   // refused before there was a good one must come again, too.
   std::uint32_t to_confirm = 0;
+  // For so many frames more a rival wall that was seen stays in the level.
+  std::uint32_t doubted_frames = 0;
 };
 
 struct TemporalState {

@@ -52,8 +52,9 @@ pose_wall_image image_of(const pose_wall_result& result) {
   return image;
 }
 
-pose_wall_image_distance distance_image(double value, double protection) {
+pose_wall_image_distance distance_image(double value, double protection, std::uint32_t state = POSE_WALL_VALID) {
   pose_wall_result r = some_result();
+  r.quantity[POSE_WALL_D_LF].state = state;
   r.quantity[POSE_WALL_D_LF].value = value;
   r.quantity[POSE_WALL_D_LF].protection_level = protection;
   return image_of(r).d_lf;
@@ -120,6 +121,8 @@ TEST(Image, NoNumberIsTheWorstNumber) {
     EXPECT_EQ(unbound.protection_m, 2147483648.0F);
   }
   EXPECT_EQ(distance_image(2.0, -1.0).protection_mm, POSE_WALL_IMAGE_NO_BOUND);
+  EXPECT_NE(distance_image(2.0, 0.1).protection_mm, POSE_WALL_IMAGE_NO_BOUND);
+  EXPECT_EQ(distance_image(2.0, 0.1, POSE_WALL_INVALID).protection_mm, POSE_WALL_IMAGE_NO_BOUND);
 }
 
 TEST(Image, WhatDoesNotFitSaturates) {

@@ -98,6 +98,24 @@ TEST(Memento, EveryFlippedBitIsFound) {
   EXPECT_EQ(load(&other, good), POSE_WALL_OK);
 }
 
+// Another axis, another extrinsic: what was measured by it is no value of this engine.
+TEST(Memento, OfAnotherConfigIsRefused) {
+  EngineUnderTest engine(small_config());
+  engine.process(cloud_of(room_points(1), 0));
+  const Memento good = save(&engine);
+  for (const test::KeyValue& change : {test::KeyValue{"forward_axis", "-X"}, test::KeyValue{"extrinsic_yaw", "0.1"},
+                                       test::KeyValue{"alert_limit_distance", "0.2"}}) {
+    pose_wall_config config = small_config();
+    ASSERT_EQ(pose_wall_config_set(&config, change.first, change.second), POSE_WALL_OK);
+    EngineUnderTest other(config);
+    const Memento fresh = save(&other);
+    EXPECT_EQ(load(&other, good), POSE_WALL_E_MEMENTO) << change.first;
+    EXPECT_EQ(save(&other), fresh);
+  }
+  EngineUnderTest same(small_config());
+  EXPECT_EQ(load(&same, good), POSE_WALL_OK);
+}
+
 TEST(Memento, WrongCallsChangeNothing) {
   EngineUnderTest engine(small_config());
   Memento memento = save(&engine), untouched(memento.size(), 0x5A);
@@ -105,7 +123,7 @@ TEST(Memento, WrongCallsChangeNothing) {
   EXPECT_EQ(pose_wall_save(nullptr, untouched.data(), untouched.size()), POSE_WALL_E_NULL);
   EXPECT_EQ(pose_wall_save(engine.get(), nullptr, 1 << 20), POSE_WALL_E_NULL);
   EXPECT_EQ(untouched, Memento(memento.size(), 0x5A));
-  EXPECT_EQ(pose_wall_load(engine.get(), memento.data(), memento.size() - 1), POSE_WALL_E_BUFFER_SMALL);
+  EXPECT_EQ(pose_wall_load(engine.get(), memento.data(), memento.size() - 1), POSE_WALL_E_MEMENTO);
   EXPECT_EQ(pose_wall_load(engine.get(), nullptr, 1 << 20), POSE_WALL_E_NULL);
   EXPECT_EQ(pose_wall_load(nullptr, memento.data(), memento.size()), POSE_WALL_E_NULL);
   AlignedBlock garbage(1 << 16, Dirt::kRandom);

@@ -256,8 +256,8 @@ void PrintTo(const Memento& m, std::ostream* out) {
 const Memento kMementos[] = {
     {"as_saved", POSE_WALL_OK, [](Bytes*) {}},
     {"with_more_behind", POSE_WALL_OK, [](Bytes* m) { m->push_back(7); }},
-    {"one_byte_short", POSE_WALL_E_BUFFER_SMALL, [](Bytes* m) { m->pop_back(); }},
-    {"of_no_bytes", POSE_WALL_E_BUFFER_SMALL, [](Bytes* m) { m->resize(0), m->reserve(1); }},
+    {"one_byte_short", POSE_WALL_E_MEMENTO, [](Bytes* m) { m->pop_back(); }},
+    {"of_no_bytes", POSE_WALL_E_MEMENTO, [](Bytes* m) { m->resize(0), m->reserve(1); }},
     {"all_zeros", POSE_WALL_E_MEMENTO, [](Bytes* m) { std::fill(m->begin(), m->end(), std::uint8_t{0}); }},
     {"all_ones", POSE_WALL_E_MEMENTO, [](Bytes* m) { std::fill(m->begin(), m->end(), std::uint8_t{0xFF}); }},
     {"of_another_version", POSE_WALL_E_MEMENTO, [](Bytes* m) { ++m->front(); }},

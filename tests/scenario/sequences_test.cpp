@@ -74,6 +74,35 @@ TEST(Sequences, AWallIsLostAndFoundAgain) {
   EXPECT_LE(frames_to_recover(frames, found + 1, POSE_WALL_D_LF), kRecoveryFrames);
 }
 
+// Copies of old clouds under new stamps, while the machine turns: nothing of them is valid, and what is told of them
+// holds of the machine as it stands now, whether empty frames come between or buffers come by turns.
+TEST(Sequences, OldCloudsAreNoticedWhateverComesBetween) {
+  constexpr std::uint32_t kFresh = 8, kAll = 40;
+  sim::SceneSetup setup = scene("clean");
+  setup.machine.turn_rate_dps = 2.0;
+  const sim::Simulator simulator(setup, 1);
+  std::vector<sim::Frame> fresh;
+  for (std::uint32_t i = 0; i < kFresh; ++i) fresh.push_back(simulator.render(i));
+  for (const std::uint32_t buffers : {1U, 2U, 3U, 4U}) {
+    for (const std::uint32_t empty_every : {0U, 2U, 5U}) {
+      SCOPED_TRACE(::testing::Message() << buffers << " buffers, empty every " << empty_every);
+      EngineUnderTest engine(config_for(setup));
+      for (std::uint32_t i = 0; i < kAll; ++i) {
+        const bool is_empty = i >= kFresh && empty_every > 0 && i % empty_every == 0;
+        const sim::Frame& frame = fresh[i < kFresh ? i : kFresh - 1 - i % buffers];
+        pose_wall_cloud cloud = is_empty ? cloud_of(Points(), 0) : cloud_of(frame);
+        const tools::TruthRow truth = simulator.truth(i);
+        cloud.stamp_ns = truth.stamp_ns;
+        const JudgedFrame judged{engine.process(cloud), truth};
+        expect_within_level(judged, i);
+        for (std::uint32_t q = 0; i >= kFresh && q < POSE_WALL_QUANTITIES; ++q) {
+          EXPECT_FALSE(judged.is(q, POSE_WALL_VALID)) << "frame " << i;
+        }
+      }
+    }
+  }
+}
+
 TEST(Sequences, AFrozenSensorIsNoticed) {
   sim::SceneSetup setup = scene("frozen");  // from 1 to 2 s
   const std::vector<JudgedFrame> frames = run_frames(setup, 1, 35);

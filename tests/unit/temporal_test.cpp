@@ -37,6 +37,17 @@ class Life {
     q.weak = weak;
     return frame(stamp_ms, m);
   }
+  // Another plane may be the wall: the level reaches to it.
+  pose_wall_value ambiguous(std::int64_t stamp_ms, double raw, double protection) {
+    Measurements m;
+    Measurement& q = m.quantity[quantity_];
+    q.measured = q.weak = true;
+    q.raw = raw;
+    q.sigma = 0.004;
+    q.protection = protection;
+    q.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
+    return frame(stamp_ms, m);
+  }
   pose_wall_value missing(std::int64_t stamp_ms) {
     Measurements m;
     m.quantity[quantity_].reasons = POSE_WALL_R_WALL_NOT_FOUND;
@@ -241,8 +252,16 @@ TEST(Temporal, HeldIsTheLastGoodValueNotTheWeakOneAfterIt) {
 TEST(Temporal, AClockThatStandsStillDoesNotHoldForEver) {
   Life life;
   life.measured(0, 2.0, 0.02);
-  EXPECT_EQ(life.missing(0).state, POSE_WALL_HELD);
-  EXPECT_EQ(life.missing(0).state, POSE_WALL_HELD);
+  life.measured(100, 2.0, 0.02);
+  EXPECT_EQ(life.missing(100).state, POSE_WALL_HELD);
+  EXPECT_EQ(life.missing(100).state, POSE_WALL_HELD);
+  EXPECT_EQ(life.missing(100).state, POSE_WALL_INVALID);
+}
+
+// Nobody knows how much time a frame takes.
+TEST(Temporal, AClockThatStandsStillFromTheFirstFrameHoldsNothing) {
+  Life life;
+  life.measured(0, 2.0, 0.02);
   EXPECT_EQ(life.missing(0).state, POSE_WALL_INVALID);
 }
 
@@ -273,6 +292,46 @@ TEST(Temporal, AJumpIsDoubtedUntilItHasComeAgain) {
   }
   EXPECT_GE(valid_after, 3);
   EXPECT_LE(valid_after, 15) << "recovery in a few good frames";
+}
+
+// Whether the jump was one is not known while nothing is seen: a hold forgets neither side of it.
+TEST(Temporal, AHoldAfterAJumpReachesToBothSides) {
+  Life life({{"hold_rate_distance", "0.2"}, {"alert_limit_distance", "1"}});
+  for (int i = 0; i < 10; ++i) life.measured(100 * i, 2.0);
+  double level = life.measured(1000, 2.3).protection_level;
+  for (int i = 1; i <= 3; ++i) {
+    const pose_wall_value held = life.missing(1000 + 100 * i);
+    ASSERT_EQ(held.state, POSE_WALL_HELD);
+    EXPECT_GT(held.protection_level, level) << "grows";
+    EXPECT_LE(std::fabs(held.value - 2.0), held.protection_level);
+    EXPECT_LE(std::fabs(held.value - 2.3), held.protection_level);
+    level = held.protection_level;
+  }
+}
+
+TEST(Temporal, ARivalStaysInTheLevelUntilThreeFramesShowNone) {
+  Life life;
+  for (int i = 0; i < 10; ++i) life.measured(100 * i, 2.0);
+  EXPECT_EQ(life.ambiguous(1000, 2.0, 0.6).state, POSE_WALL_DEGRADED);
+  for (int i = 1; i <= 3; ++i) {
+    const pose_wall_value v = life.measured(1000 + 100 * i, 2.0);
+    EXPECT_EQ(v.state, POSE_WALL_DEGRADED) << i;
+    EXPECT_GE(v.protection_level, 0.6) << i;
+    EXPECT_NE(v.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U) << i;
+  }
+  const pose_wall_value after = life.measured(1400, 2.0);
+  EXPECT_EQ(after.state, POSE_WALL_VALID);
+  EXPECT_EQ(after.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U);
+}
+
+TEST(Temporal, ARivalThatFlickersIsDoubtedThroughout) {
+  Life life;
+  for (int i = 0; i < 40; ++i) {
+    const bool seen = i % 3 == 0;
+    const pose_wall_value v = seen ? life.ambiguous(100 * i, 2.0, 0.6) : life.measured(100 * i, 2.0);
+    EXPECT_EQ(v.state, POSE_WALL_DEGRADED) << i;
+    EXPECT_GE(v.protection_level, 0.6) << i;
+  }
 }
 
 TEST(Temporal, AJumpThereAndBackIsNeverValidWhereItIsWrong) {

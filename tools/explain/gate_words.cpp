@@ -25,8 +25,9 @@ constexpr GateWords kFrameWords[] = {
     {"voxels_fit", "Even the largest voxels do not fit into points_max: points fill the air, or it is far too small.",
      "raise points_max; where dust or spray fills the air, wait"},
     {"points", "Only {value} voxels are left after the filters; {limit} are needed.", ""},
-    {"stamp_still", "Its stamp is that of the frame before, so it counts as the same frame again.",
-     "the driver's clock stands still"},
+    {"stamp_still",
+     "Its stamp is less than a millisecond after the frame before, so it counts as the same frame again.",
+     "the driver's clock stands still, or its stamps are no nanoseconds"},
     {"stamp_back",
      "Its stamp is {value} from the frame before: the clock jumped back, and nobody knows how old the "
      "held values are.",
@@ -225,6 +226,8 @@ constexpr GateWords kOutcomeWords[] = {
      "It jumped by {value} from the last good value; {limit} can be motion and errors ({key}). Both stay "
      "possible until it has come again.",
      "a faster machine needs a larger {key}"},
+    {"doubted", "A rival was seen a moment ago: for {value} frames more, this one among them, the level reaches to it.",
+     ""},
     {"confirmed", "Frames before it were refused and none was good yet: it has to come again, {value} more.", ""},
     {"level_smoothed", "Its protection level is {value}; {limit} is the alert limit ({key}).",
      "more of the surface in view, or a larger {key} if you can bear it"},

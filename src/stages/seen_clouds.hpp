@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Which of the last clouds come again, and since when they are known: what a driver or a network delivers anew is as
+// old as its first copy, whatever its stamp says.
+
+#pragma once
+
+#include <cstdint>
+
+namespace pose_wall {
+
+struct SeenCloud {
+  std::uint64_t fingerprint = 0;  // of its voxels; 0: none
+  std::int64_t stamp_ns = 0;      // of its first copy
+};
+
+struct Repeat {
+  bool is_one = false;
+  double age_s = 0.0;  // since the first copy; below 0 where the clock went back since then
+};
+
+// The last few that differ: drivers hand out a few buffers by turns. A recording that is played in a loop comes round
+// later than that.
+struct SeenClouds {
+  static constexpr std::uint32_t kCount = 4;
+
+  // A cloud that is new is remembered instead of the oldest.
+  Repeat note(std::uint64_t fingerprint, std::int64_t stamp_ns);
+
+  SeenCloud cloud[kCount];  // the newest first
+};
+
+}  // namespace pose_wall
