@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -72,7 +74,7 @@ class ConfigLoader {
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-      fault("{}: cannot be opened for reading", file);
+      fault("{}: cannot be opened for reading: {}", file, std::strerror(errno));
       return {};
     }
     try {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kCutShare = 0.6;
 constexpr double kGapSteps = 2.5;
+constexpr double kStillBelow_s = 1e-3;  // the engine takes it for the same frame again
 
 void count_frames(const Recording& recording, StampHealth& health) {
   std::vector<double> returns;
@@ -54,9 +55,9 @@ StampHealth look_at_stamps(const Recording& recording) {
   count_frames(recording, health);
   std::vector<double> ahead_s;
   for (const double step_s : steps_of(recording)) {
-    if (step_s == 0.0) ++health.still;
+    if (step_s >= 0.0 && step_s < kStillBelow_s) ++health.still;
     if (step_s < 0.0) ++health.back;
-    if (step_s > 0.0) ahead_s.push_back(step_s);
+    if (step_s >= kStillBelow_s) ahead_s.push_back(step_s);
   }
   if (ahead_s.empty()) return health;
   const double usual_s = median(ahead_s);

@@ -160,6 +160,12 @@ void doubt_mount(const Diagnosis& d, Verdict& v) {
     v.buts.push_back(
         fmt::format("the mounting's tilt is known within {:.1f} deg only", story.floor.tilt_level_rad * kDegPerRad));
   }
+  const bool place_told = d.proposal.is_told("extrinsic_x") || d.proposal.is_told("extrinsic_y");
+  if (!place_told) {
+    v.confirm.push_back(
+        "the sensor sits at base's origin: no frame tells otherwise, and the distances are measured from there "
+        "(extrinsic_x, extrinsic_y, extrinsic_z)");
+  }
   const double noise_m = story.noise.best_m();
   if (noise_m > kNoiseMax_m) v.buts.push_back(fmt::format("ranges scatter by {:.0f} mm", 1e3 * noise_m));
   for (const Change& change : d.proposal.changes()) {

@@ -30,6 +30,9 @@ struct Plan {
 };
 
 Plan make_plan(const std::vector<AsciiColumn>& columns) {
+  std::vector<std::string_view> names;
+  for (const AsciiColumn& column : columns) names.emplace_back(column.name);
+  require_coordinates(names);  // here, for what nobody knows is passed over
   Plan plan;
   plan.layout.big_endian = host_is_big_endian();
   for (const AsciiColumn& column : columns) {

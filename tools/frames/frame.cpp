@@ -4,7 +4,10 @@
 #include "frames/frame.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -24,12 +27,22 @@ const PointField* find_once(const std::vector<PointField>& fields, std::string_v
   return found;
 }
 
+[[noreturn]] void tell_missing(std::string_view name, const std::vector<std::string_view>& present) {
+  const auto is_capital = [name](std::string_view other) {
+    return other.size() == 1 && std::tolower(static_cast<unsigned char>(other.front())) == name.front();
+  };
+  const bool has_capital = std::any_of(present.begin(), present.end(), is_capital);
+  throw FrameError(fmt::format("field '{}' is missing; fields present: {}{}", name,
+                               present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
+                               has_capital ? " (x, y and z are written small)" : ""));
+}
+
 pose_wall_field required_coordinate(const std::vector<PointField>& fields, std::string_view name) {
   const PointField* field = find_once(fields, name);
   if (field == nullptr) {
-    std::string names;
-    for (const PointField& present : fields) names += fmt::format("{}{}", names.empty() ? "" : ", ", present.name);
-    throw FrameError(fmt::format("field '{}' is missing; fields present: {}", name, names.empty() ? "none" : names));
+    std::vector<std::string_view> names;
+    for (const PointField& present : fields) names.push_back(present.name);
+    tell_missing(name, names);
   }
   if (field->where.type != POSE_WALL_FIELD_FLOAT32 && field->where.type != POSE_WALL_FIELD_FLOAT64) {
     throw FrameError(fmt::format("field '{}' must be a float of 4 or 8 bytes", name));
@@ -51,6 +64,12 @@ pose_wall_field field_of(FieldRole role, const std::vector<PointField>& fields) 
 }
 
 }  // namespace
+
+void require_coordinates(const std::vector<std::string_view>& names) {
+  for (const std::string_view wanted : {"x", "y", "z"}) {
+    if (std::find(names.begin(), names.end(), wanted) == names.end()) tell_missing(wanted, names);
+  }
+}
 
 Frame describe_frame(Bytes bytes, const PointLayout& layout) {
   Frame frame;

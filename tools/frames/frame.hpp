@@ -61,6 +61,9 @@ struct PointLayout {
   std::vector<PointField> fields;
 };
 
+// Throws FrameError, with all the names there are, unless x, y and z are among them.
+void require_coordinates(const std::vector<std::string_view>& names);
+
 // Takes the bytes over and describes them. Throws FrameError when x, y or z is missing, appears twice or is no float.
 Frame describe_frame(Bytes bytes, const PointLayout& layout);
 

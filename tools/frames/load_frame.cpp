@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <ios>
 #include <string_view>
@@ -60,7 +62,7 @@ Bytes read_bytes(const std::filesystem::path& path) {
     throw FrameError(fmt::format("{} bytes; a frame file of at most {} bytes is read", size, kFileBytesMax));
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FrameError("cannot be opened for reading");
+  if (!file) throw FrameError(fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
   Bytes bytes(static_cast<std::size_t>(size));
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uintmax_t>(file.gcount()) != size) {

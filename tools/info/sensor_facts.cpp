@@ -18,6 +18,7 @@ namespace {
 constexpr double kElevationBinsPerDeg = 20.0;
 constexpr double kRangeMin_m = 1.0;  // nearer, offsets between lasers and origin bend the rings
 constexpr std::size_t kRingsByElevationMax = 128;
+constexpr std::size_t kMid360PointsMax = 40000;  // two frames of a tenth of a second
 
 struct Directions {
   std::vector<std::size_t> elevations =
@@ -74,11 +75,15 @@ void find_rings(const Frame& frame, const Directions& directions, SensorFacts& f
   facts.rings_by = told.count == 0 && facts.rings > 0 ? "elevations" : told.by;
 }
 
-std::string guess_of(const SensorFacts& facts) {
+std::string guess_of(const SensorFacts& facts, const Directions& directions) {
   const double view_deg = facts.elevation_max_deg - facts.elevation_min_deg;
   const bool all_round = facts.azimuth_span_deg > 300.0;
   if (!all_round) return facts.azimuth_span_deg > 200.0 ? "wide, not all round" : "looks one way, not all round";
-  if (facts.rings == 0) return "all round without rings (as a Mid-360: config/mid360.yaml), tilted, or thinned";
+  if (facts.rings == 0) {
+    const bool as_mid360 = view_deg > 40.0 && view_deg < 66.0 && directions.count < kMid360PointsMax;
+    return as_mid360 ? "all round without rings, as a Mid-360: config/mid360.yaml"
+                     : "all round; rings cannot be told apart: tilted, thinned or filtered, or it has none";
+  }
   if (facts.rings == 1) return "one ring: a planar scanner, which sees no floor";
   if (facts.rings <= 16 && view_deg <= 35.0) return "spinning, as a VLP-16: config/vlp16.yaml";
   if (facts.rings >= 64 && view_deg <= 50.0) return "spinning, as an OS1-64: config/os1-64.yaml";
@@ -96,7 +101,7 @@ SensorFacts sensor_facts(const Frame& frame) {
   facts.azimuth_span_deg =
       static_cast<double>(std::count(directions.azimuths.begin(), directions.azimuths.end(), true));
   find_rings(frame, directions, facts);
-  facts.guess = guess_of(facts);
+  facts.guess = guess_of(facts, directions);
   return facts;
 }
 

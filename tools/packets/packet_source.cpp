@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -78,7 +80,7 @@ class ScanWalk {
 
 std::string text_of_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FrameError(fmt::format("{}: cannot be opened for reading", path.string()));
+  if (!file) throw FrameError(fmt::format("{}: cannot be opened for reading: {}", path.string(), std::strerror(errno)));
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

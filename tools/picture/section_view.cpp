@@ -41,7 +41,7 @@ void draw_floor(Svg& svg, const Viewport& view, const FrameScene& scene, const D
 }
 
 void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const pose_wall_plane& plane, Range band_up_m,
-               std::string_view colour) {
+               std::string_view colour, double label_above_px) {
   const DrawnPlane wall = frame.wall(plane);
   if (!wall.found) return;
   const auto at = [&](double up_m) { return view(-wall.left_at(0.0, up_m), up_m); };
@@ -51,7 +51,7 @@ void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const po
   const Pixel top = at(band_up_m.high);
   const bool left = wall.left_at(0.0, 0.0) > 0.0;
   const double lean_deg = std::round(plane.lean_rad * kDegPerRad * 10.0) / 10.0 + 0.0;  // + 0.0: never "-0.0"
-  svg.text({top.x + (left ? 12.0 : -12.0), top.y - 8.0}, fmt::format("lean {:+.1f}°", lean_deg),
+  svg.text({top.x + (left ? 12.0 : -12.0), top.y - label_above_px}, fmt::format("lean {:+.1f}°", lean_deg),
            {colour, 12.5, left ? Anchor::kStart : Anchor::kEnd, true, kPanel});
 }
 
@@ -88,8 +88,9 @@ void draw_section(Svg& svg, const Box& box, const FrameScene& scene, const Drawn
   svg.begin_clip({box.corner.x, box.corner.y + 30.0}, box.width, box.height - 34.0);
   draw_points_across(svg, view, scene, frame, kSlab_m);
   draw_floor(svg, view, scene, frame);
-  draw_wall(svg, view, frame, scene.result->left, band, kLeft);
-  draw_wall(svg, view, frame, scene.result->right, band, kRight);
+  // One above the other: between the walls of a narrow road there is no room for both beside each other.
+  draw_wall(svg, view, frame, scene.result->left, band, kLeft, 26.0);
+  draw_wall(svg, view, frame, scene.result->right, band, kRight, 8.0);
   draw_machine(svg, view, scene, frame);
   svg.end_clip();
   scale_bar(svg, view, {box.right() - 20.0, box.bottom() - 16.0}, kInk);

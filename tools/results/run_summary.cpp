@@ -51,6 +51,7 @@ void RunSummary::add(const FrameOutcome& outcome) {
     ++quantities_[q].states[std::min<std::uint32_t>(value.state, POSE_WALL_VALID)];
     if (value.state == POSE_WALL_INVALID) continue;
     quantities_[q].values.push_back(value.value);
+    if (std::isfinite(value.raw)) quantities_[q].raws.push_back(value.raw);
     quantities_[q].protection_levels.push_back(value.protection_level);
   }
   const std::uint32_t reasons = all_reasons(*outcome.result);
@@ -66,7 +67,7 @@ std::string RunSummary::text(double wall_s) const {
 }
 
 std::string RunSummary::quantities_text() const {
-  TextTable table({"", "valid", "degraded", "held", "invalid", "median", "protection level"});
+  TextTable table({"", "valid", "degraded", "held", "invalid", "median", "of raw", "protection level"});
   const std::size_t measured = frames_ - unreadable_;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const Quantity& quantity = quantities_[q];
@@ -74,7 +75,7 @@ std::string RunSummary::quantities_text() const {
         {pose_wall_quantity_name(static_cast<std::uint32_t>(q)), percent(quantity.states[POSE_WALL_VALID], measured),
          percent(quantity.states[POSE_WALL_DEGRADED], measured), percent(quantity.states[POSE_WALL_HELD], measured),
          percent(quantity.states[POSE_WALL_INVALID], measured), amount(q, quantile(quantity.values, 0.5)),
-         amount(q, quantile(quantity.protection_levels, 0.5))});
+         amount(q, quantile(quantity.raws, 0.5)), amount(q, quantile(quantity.protection_levels, 0.5))});
   }
   return table.text();
 }

@@ -28,7 +28,8 @@ class RunSummary {
  private:
   struct Quantity {
     std::array<std::size_t, 4> states{};  // by pose_wall_state
-    std::vector<double> values;           // of frames in which it was not invalid
+    std::vector<double> values;           // smoothed or held, of frames in which it was not invalid
+    std::vector<double> raws;             // of frames in which it was measured
     std::vector<double> protection_levels;
   };
 

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -53,7 +55,7 @@ auto in_file(const std::string& file, Step step) {
 CsvTable read_table(const std::string& file) {
   return in_file(file, [&file] {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw CsvError("cannot be opened for reading");
+    if (!stream) throw CsvError(fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
     return CsvTable::parse(stream);
   });
 }

@@ -15,8 +15,8 @@ namespace {
 // Accepts what is inside, so that "nan" is refused.
 std::string rate_fault(const std::string& word) {
   const std::optional<double> rate_hz = parse_number<double>(word);
-  if (rate_hz && *rate_hz >= 0.001 && *rate_hz <= 1e6) return "";
-  return fmt::format("'{}' is refused; a number from 0.001 to 1000000 is allowed", word);
+  if (rate_hz && *rate_hz >= 0.001 && *rate_hz <= 1e3) return "";
+  return fmt::format("'{}' is refused; a number from 0.001 to 1000 is allowed", word);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ void add_frame_options(CLI::App* verb, FrameOptions* options) {
       ->allow_extra_args(false);
   verb->add_option("-r,--rate", options->rate_hz, "Frames per second, for frames without stamps")
       ->capture_default_str()
-      ->check(rate_fault, "0.001 to 1000000");
+      ->check(rate_fault, "0.001 to 1000");
   verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
 }
 

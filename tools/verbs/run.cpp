@@ -110,6 +110,7 @@ int run(const RunOptions& options) {
   std::optional<AnnotatedFolder> annotated = annotated_folder(options);
   if (nothing_to_read(inputs) && std::filesystem::exists(options.output)) {
     for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
+    for (const auto& file : inputs.files()) fmt::print(stderr, "pose_wall run: {}: not there\n", file.string());
     fmt::print(stderr, "pose_wall run: there is no input; {} is left as it was\n", options.output);
     return kExitUnreadable;
   }
