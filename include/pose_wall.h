@@ -283,8 +283,9 @@ enum pose_wall_reason {
   POSE_WALL_R_WALL_LEANS = 1 << 13,        /* leans more than wall_lean_max_deg */
   POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* rays pass it or nothing answers where it should be solid, over its top or
                                               past both of its ends: pipes, props, conveyor, vehicle, curtain */
-  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well, or it
-                                               is grooved along its length like pipes one above the other */
+  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well, or did in
+                                               one of the three frames before; or it is grooved along its length like
+                                               pipes one above the other */
   POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 16,
   POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 17, /* beyond yaw_max_deg, where side and face become ambiguous */
   POSE_WALL_R_CROSS_ROAD = 1 << 18,       /* a better pair of walls runs across the machine than along it */
