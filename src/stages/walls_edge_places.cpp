@@ -9,9 +9,11 @@ namespace pose_wall {
 namespace {
 
 constexpr double kPlace_m = EndPlaces::kPlace_m;
-// So many points up to this far behind the plane, within so many places of its end, are its own bend.
+// So many points just behind the plane, within so many places of its end, are its own bend.
 constexpr std::uint32_t kBendPlaces = 4;
 constexpr double kBendMin = 4.0;
+// What comes over the top is so many times that of the plane at such heights, and from places so far apart: a hollow at
+// the shoulder, where roof has come down, is looked into at one place.
 constexpr double kOverRatio = 3.0;
 constexpr double kOverSpan_m = 1.5;
 
@@ -99,8 +101,8 @@ bool TopPlaces::is_looked_over() const {
       past_above += static_cast<double>(past[step]);
       on_below -= static_cast<double>(on[step]);
       past_below -= static_cast<double>(past[step]);
-      if (!(on_below > EndPlaces::kOnMin && on_below > past_below))
-        continue;  // an opening, or nothing is seen of it here
+      // An opening, or nothing is seen of it here.
+      if (!(on_below > EndPlaces::kOnMin && on_below > past_below)) continue;
       Above& a = above[step];
       a.on += on_above;
       a.past += past_above;

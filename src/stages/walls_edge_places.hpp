@@ -42,9 +42,7 @@ class EndPlaces {
 // Measured points by place and by the height at which their rays meet the plane, in steps from the lowest.
 class TopPlaces {
  public:
-  // So many points have come over the top, so many times those of the plane at such heights, and from places so far
-  // apart: a hollow at the shoulder, where roof has come down, is looked into at one place.
-  static constexpr double kOverMin = 4.0;
+  static constexpr double kOverMin = 4.0;  // fewer have not come over the top
 
   void lay_out(Arena& arena) { cell_ = arena.take<float>(kPlaces * kPlaceCells); }
   void clear() { cell_.fill(0.0F); }

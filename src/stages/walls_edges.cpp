@@ -10,7 +10,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kBend_m = 0.5;
+constexpr double kBend_m = 0.5;  // so far behind the plane lies what may be its own bend
 // The top is looked for in the wall band and this much above it.
 constexpr double kAboveBand_m = 1.0;
 // Conveyors, pipes and vehicles end in the lower part of the wall band (1.7 m by default). On simulated walls even a
