@@ -6,56 +6,23 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "containers/even_share.hpp"
 #include "estimation/near_plane.hpp"
 #include "math/elementary.hpp"
 #include "math/larger.hpp"
 #include "stages/walls_across.hpp"
-#include "stages/walls_edges.hpp"
+#include "stages/walls_candidates.hpp"
+#include "stages/walls_doubts.hpp"
 #include "stages/walls_measure.hpp"
 #include "stages/walls_notes.hpp"
-#include "stages/walls_select.hpp"
-#include "stages/walls_sight.hpp"
 
 namespace pose_wall {
 namespace {
 
-constexpr double kSeenThroughMax = 0.5;
 constexpr double kSeenThroughDoubt = 0.25;
 constexpr double kOnWallInThresholds = 3.0;
-constexpr double kRivalStretch = 1.05;
-constexpr double kRivalMargin_m = 0.03;
-constexpr double kSilentMax = 0.025;
-constexpr double kOpenDoubt = 0.01;
-constexpr double kOpenMax = 0.1;
-// What passes through small gaps ends right behind them, on whatever is there, and what is hardly seen may be anything:
-// the wall may be this far behind.
-constexpr double kMayBeBehind_m = 2.0;
-constexpr double kToplessMax = 0.08;
 constexpr double kExplainedMin = 0.3;
 
-std::uint32_t faults_of(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
-  std::uint32_t faults = 0;
-  if (!(evidence.inliers >= s.wall_inlier_min)) faults |= POSE_WALL_R_WALL_FEW_INLIERS;
-  if (!(evidence.length_m >= s.wall_length_min)) faults |= POSE_WALL_R_WALL_SHORT;
-  if (!(evidence.seen_through <= kSeenThroughMax)) faults |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  if (!(std::fabs(lean_of(plane)) <= radians(s.wall_lean_max_deg))) faults |= POSE_WALL_R_WALL_LEANS;
-  return faults;
-}
-
 #ifdef POSE_WALL_TRACE
-// As faults_of() asks.
-void note_faults(const Plane& plane, const WallEvidence& evidence, const Settings& s) {
-  const double lean_rad = std::fabs(lean_of(plane));
-  trace::gate(POSE_WALL_TRACE_WALL_INLIERS, evidence.inliers, s.wall_inlier_min, evidence.inliers >= s.wall_inlier_min);
-  trace::gate(POSE_WALL_TRACE_WALL_LENGTH, evidence.length_m, s.wall_length_min,
-              evidence.length_m >= s.wall_length_min);
-  trace::gate(POSE_WALL_TRACE_WALL_SOLID, evidence.seen_through, kSeenThroughMax,
-              evidence.seen_through <= kSeenThroughMax);
-  trace::gate(POSE_WALL_TRACE_WALL_LEAN, lean_rad, radians(s.wall_lean_max_deg),
-              lean_rad <= radians(s.wall_lean_max_deg));
-}
-
 void note_fitted(const Plane& plane, const WallEvidence& evidence, const Settings& s, bool stayed) {
   note_faults(plane, evidence, s);
   trace::gate(POSE_WALL_TRACE_FIT_STAYED, stayed);
@@ -76,82 +43,7 @@ void note_explained(double share, bool explained) {
   trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_EXPLAINED, share, kExplainedMin, explained);
 }
 
-void note_sight(const WallSight& sight, const WallEdges& edges, bool grooved) {
-  trace::gate(POSE_WALL_TRACE_WALL_BRIGHT, !sight.dim);
-  trace::gate(POSE_WALL_TRACE_WALL_TOP_SEEN, !edges.top_unseen);
-  trace::gate(POSE_WALL_TRACE_WALL_OPEN_DOUBT, sight.open, kOpenDoubt, !(sight.open > kOpenDoubt));
-  trace::gate(POSE_WALL_TRACE_WALL_GROOVES, !grooved);
-  trace::gate(POSE_WALL_TRACE_WALL_SILENT, sight.silent, kSilentMax, sight.silent <= kSilentMax);
-  trace::gate(POSE_WALL_TRACE_WALL_OPEN, sight.open, kOpenMax, sight.open <= kOpenMax);
-  trace::gate(POSE_WALL_TRACE_WALL_TOPLESS, sight.topless, kToplessMax, sight.topless <= kToplessMax);
-  trace::gate(POSE_WALL_TRACE_WALL_ISLAND, !edges.island);
-  trace::gate(POSE_WALL_TRACE_WALL_LOW, !edges.low);
-  trace::gate(POSE_WALL_TRACE_WALL_LAYER, !edges.layer_behind);
-}
 #endif
-
-// One side after the other, so that blocks of points lie on one.
-void thin_out(const WallScene& scene, BoundedPoints* thin_level) {
-  const PointSet& band = scene.band_level;
-  thin_level->count = 0;
-  for (const bool left : {true, false}) {
-    for_even_share(band.count, kThinMost, [&](std::uint32_t i) {
-      const Eigen::Vector3d p = band.at(i);
-      if ((scene.left_level.dot(p) > 0.0) == left) thin_level->set(thin_level->count++, p, band.weight[i]);
-    });
-  }
-  thin_level->bound();
-}
-
-bool holds_one_like(const WallCandidates& list, const SameWall& same, const Plane& plane) {
-  bool holds = false;
-  for (std::uint32_t i = 0; i < list.count; ++i) holds = holds || same(list.item[i].plane, plane);
-  POSE_WALL_NOTE(if (holds) trace::fate(plane, POSE_WALL_TRACE_REPEATS));
-  return holds;
-}
-
-// Refines the short list, merges what became alike, and weighs what is left.
-void weigh(const WallScene& scene, const SideView& view, WallSearch* search, WallsScratch* scratch,
-           WallCandidates* out) {
-  const SameWall same{view}, surely_same{view, 0.5 * SameWall::kApart_m};
-  const WallLimits limits(radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi);
-  const auto refine = [&](RefineWidth width, Plane* plane) {
-    const double thresh_m = scene.settings.wall_ransac_thresh;
-    const bool holds = refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, width, &scratch->fit, plane);
-    POSE_WALL_NOTE(if (holds) note_refined_wall(
-        *plane, width == RefineWidth::kWide ? POSE_WALL_TRACE_UNSUPPORTED : POSE_WALL_TRACE_OUT_OF_RANGE));
-    return holds;
-  };
-  POSE_WALL_NOTE(trace::subject(subject_of(scene, view)));
-  out->count = 0;
-  for (std::uint32_t k = 0; k < search->list().count(); ++k) {
-    Plane plane = search->list()[k].plane;
-    POSE_WALL_NOTE(note_drawn_wall(plane));
-    if (!refine(RefineWidth::kWide, &plane)) continue;
-    // What is this near one that is there already would come still nearer.
-    if (holds_one_like(*out, surely_same, plane)) continue;
-    if (!refine(RefineWidth::kNarrow, &plane)) continue;
-    if (!may_be_wall(plane, view, limits) || holds_one_like(*out, same, plane)) continue;
-    mark_wall(scene, plane, along_of(plane, view.along_level), MarkWidth::kThreshold, &scratch->grid);
-    const WallEvidence evidence = scratch->grid.evidence();
-    out->item[out->count++] = {plane, evidence, faults_of(plane, evidence, scene.settings)};
-    POSE_WALL_NOTE(note_weighed_wall(out->item[out->count - 1]));
-  }
-}
-
-void draw(const WallScene& scene, const SideView& view, const Plane* last, Random* random, WallSearch* search) {
-  search->begin(scene.band_level, view, scene.settings, random);
-  if (last != nullptr) search->offer(*last);
-  search->draw();
-}
-
-// Each side of a direction gets the other's.
-void exchange_directions(WallSearch (&search)[2]) {
-  for (int side = 0; side < 2; ++side) {
-    WallShortlist& other = search[1 - side].list();
-    if (other.count() > 0) search[side].offer_offsets(other[0].plane.n);
-  }
-}
 
 // Nothing is reported of a machine that stands across the road.
 void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* scratch, WallChoice* choice) {
@@ -160,59 +52,16 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView ends[2] = {{l, f}, {l, -f}};
   WallCandidates ahead, behind;
-  draw(scene, ends[0], nullptr, random, &scratch->search[0]);
-  weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);
+  draw_walls(scene, ends[0], nullptr, random, &scratch->search[0]);
+  weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
   // With the most that could be behind, what is ahead may still be too little.
   const WallCandidate* const best = strongest(ahead);
   if (!is_behind_to_be_drawn(best != nullptr ? best->evidence.score_m2 : 0.0, most_m2, *choice)) return;
-  draw(scene, ends[1], nullptr, random, &scratch->search[1]);
+  draw_walls(scene, ends[1], nullptr, random, &scratch->search[1]);
   exchange_directions(scratch->search);
-  weigh(scene, ends[0], &scratch->search[0], scratch, &ahead);
-  weigh(scene, ends[1], &scratch->search[1], scratch, &behind);
+  weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
+  weigh_walls(scene, ends[1], &scratch->search[1], scratch, &behind);
   refuse_if_across(ahead, behind, scene.settings, choice);
-}
-
-// The truth may be the rival: the protection levels reach to it.
-void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallResult* wall) {
-  const double yaw = yaw_of(along_of(rival, scene.forward_level), scene.forward_level);
-  wall->yaw_to_rival_rad = larger(wall->yaw_to_rival_rad, std::fabs(yaw - wall->yaw_rad));
-  for (int end = 0; end < 2; ++end) {
-    const double distance = distance_at(rival, scene.sample_level_m[side][end]);
-    // The rival was looked at in passing: it is not known to the centimetre.
-    wall->distance_bound_m[end] += kRivalStretch * std::fabs(distance - wall->distance_m[end]) + kRivalMargin_m;
-  }
-  wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
-}
-
-// A wall that is seen only well ahead of the machine, or behind it: in between the road may bend.
-void extend_to_machine(double away_m, WallResult* wall) {
-  constexpr double kAwayMax_m = 2.0;
-  constexpr double kMayBend_rad = 0.44;  // 25 degrees
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_AWAY, away_m, kAwayMax_m, !(away_m > kAwayMax_m)));
-  if (!(away_m > kAwayMax_m)) return;
-  wall->fit.reasons |= POSE_WALL_R_EXTRAPOLATED;
-  wall->yaw_to_rival_rad = kMayBend_rad;
-}
-
-// Near the sensor, what passes for a wall and is none gives itself away.
-void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, WallResult* wall) {
-  const Plane& plane = wall->fit.plane;
-  const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
-  const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
-  const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
-  const bool little_seen = sight.dim || edges.top_unseen, shows_behind = sight.open > kOpenDoubt || edges.layer_behind;
-  POSE_WALL_NOTE(note_sight(sight, edges, grooved));
-  if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
-  if (shows_behind) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  if (grooved) wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
-  if (little_seen || shows_behind || grooved) {
-    const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
-    for (double& bound : wall->distance_bound_m) bound += behind_m;
-  }
-  const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
-  if (whole && !edges.island && !edges.low) return;
-  wall->fit.refused = true;
-  wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
 }
 
 WallResult measure(const WallScene& scene, const WallChoice& choice, int side, WallsScratch* scratch) {
@@ -251,66 +100,6 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
                              std::fabs(wall.yaw_rad) <= radians(scene.settings.yaw_max_deg)));
   if (wall.fit.found) look_closely(scene, surface.grooved, scratch, &wall);
   return wall;
-}
-
-// How far what is seen on the other side of the road runs apart from a wall that stands alone: what was chosen there
-// and was no wall after all, what its fit came to, and whatever else could be a wall by itself, be it much weaker.
-// Radians.
-double apart_from_other_side(const WallCandidate& wall, const WallCandidate* chosen, const WallResult& fitted,
-                             const WallCandidates& seen, const Settings& s) {
-  constexpr double kWeakestShare = 0.1;
-  double apart = chosen != nullptr ? angle_in_plan(wall.plane, chosen->plane) : 0.0;
-  if (fitted.fit.found) apart = larger(apart, angle_in_plan(wall.plane, fitted.fit.plane));
-  for (std::uint32_t i = 0; i < seen.count; ++i) {
-    const WallCandidate& c = seen.item[i];
-    // Few points are no excuse: they are enough to doubt which way the road runs.
-    const std::uint32_t faults = c.faults & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
-    if (faults != 0 || !(c.evidence.length_m >= s.wall_alone_length_min)) continue;
-    if (!(c.evidence.score_m2 >= kWeakestShare * wall.evidence.score_m2)) continue;
-    apart = larger(apart, angle_in_plan(wall.plane, c.plane));
-  }
-  return apart;
-}
-
-// What is left of a pair of which the other one was no wall after all must be as long as a wall that stands alone.
-void doubt_what_is_left(const WallCandidate& left, const Settings& s, WallResult* out) {
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEFT_ALONE, left.evidence.length_m, s.wall_alone_length_min,
-                             left.evidence.length_m >= s.wall_alone_length_min));
-  if (left.evidence.length_m >= s.wall_alone_length_min) return;
-  out->fit.refused = true;
-  out->fit.reasons |= POSE_WALL_R_WALL_SHORT;
-}
-
-// A wall that stands alone tells the road's direction only as well as the other side does not speak against it.
-void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCandidates (&beside)[2],
-                       WallsResult* out) {
-  for (int side = 0; side < 2; ++side) {
-    const int other = 1 - side;
-    if (choice.side[side] == nullptr || !out->side[other].fit.refused) continue;
-    const WallCandidate& wall = *choice.side[side];
-    POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
-    const double apart = apart_from_other_side(wall, choice.side[other], out->side[other], beside[other], s);
-    POSE_WALL_NOTE(
-        trace::gate(POSE_WALL_TRACE_ALONE_APART, apart, WallResult::kApart_rad, apart <= WallResult::kApart_rad));
-    out->side[side].reach_to_other_side(apart);
-    if (choice.side[other] != nullptr) doubt_what_is_left(wall, s, &out->side[side]);
-  }
-}
-
-// Two walls vouch for each other as far as they run alike. One that is too short to stand alone, beside one that runs
-// otherwise, may be a boulder.
-void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, WallResult (*walls)[2]) {
-  constexpr double kUnlike_rad = 0.14;  // 8 degrees: walls of one road rarely differ by four
-  if (choice.side[0] == nullptr || choice.side[1] == nullptr) return;
-  const double apart = angle_in_plan((*walls)[0].fit.plane, (*walls)[1].fit.plane);
-  for (int side = 0; side < 2; ++side) {
-    if (choice.side[side]->evidence.length_m >= s.wall_alone_length_min) continue;
-    POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_SHORT_APART, apart, kUnlike_rad,
-                                  !(apart > kUnlike_rad)));
-    if (!(apart > kUnlike_rad)) continue;
-    (*walls)[side].fit.reasons |= POSE_WALL_R_WALLS_NOT_PARALLEL;
-    for (double& bound : (*walls)[side].distance_bound_m) bound += kMayBeBehind_m;
-  }
 }
 
 // Both sides lean the same way about the road: one out, the other in. Each wall may lean by itself, but where both do
@@ -353,23 +142,14 @@ double explained_share(const WallScene& scene, const WallChoice& choice) {
 
 }  // namespace
 
-void WallsScratch::lay_out(Arena& arena, std::uint32_t points_max) {
-  for (WallSearch& s : search) s.lay_out(arena, points_max);
-  thin_level.lay_out(arena, kThinMost);
-  grid.lay_out(arena);
-  fit.lay_out(arena, points_max);
-  sight.lay_out(arena, points_max);
-  edges.lay_out(arena);
-}
-
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView sides[2] = {{f, l}, {f, -l}};
   thin_out(scene, &scratch->thin_level);
   WallCandidates beside[2];
-  for (int side = 0; side < 2; ++side) draw(scene, sides[side], last[side], random, &scratch->search[side]);
+  for (int side = 0; side < 2; ++side) draw_walls(scene, sides[side], last[side], random, &scratch->search[side]);
   exchange_directions(scratch->search);
-  for (int side = 0; side < 2; ++side) weigh(scene, sides[side], &scratch->search[side], scratch, &beside[side]);
+  for (int side = 0; side < 2; ++side) weigh_walls(scene, sides[side], &scratch->search[side], scratch, &beside[side]);
   // Before the same searches look ahead and behind.
   const std::uint32_t scored[2] = {scratch->search[0].scored(), scratch->search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
@@ -391,7 +171,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
       out.side[side].fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND;
     }
   }
-  doubt_those_alone(scene.settings, choice, beside, &out);
+  doubt_those_alone(scene.settings, choice, beside, &out.side);
   doubt_short_ones_apart(scene.settings, choice, &out.side);
   return out;
 }

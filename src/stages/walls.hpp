@@ -6,26 +6,10 @@
 #pragma once
 
 #include "math/random.hpp"
-#include "stages/walls_edges.hpp"
-#include "stages/walls_search.hpp"
-#include "stages/walls_sight.hpp"
-#include "stages/walls_surface.hpp"
+#include "stages/walls_scratch.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
-
-constexpr std::uint32_t kThinMost = 4096;
-
-struct WallsScratch {
-  WallSearch search[2];
-  BoundedPoints thin_level;  // a part of the band, enough to refine hypotheses
-  WallGrid grid;
-  WallFitScratch fit;
-  SightScratch sight;
-  EdgeScratch edges;
-
-  void lay_out(Arena& arena, std::uint32_t points_max);
-};
 
 struct WallsResult {
   WallResult side[2];  // left, right
