@@ -68,6 +68,11 @@ struct PlaneFit {
   std::uint32_t inliers = 0;
   std::uint32_t iterations = 0;
   double rms_m = 0.0;
+
+  void refuse(std::uint32_t why) {
+    refused = true;
+    reasons |= why;
+  }
 };
 
 struct FloorResult {

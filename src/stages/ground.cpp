@@ -67,9 +67,7 @@ void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> cand
 
 void gate(const Settings& s, const Eigen::Vector3d& sensor, const FloorCandidate& best, FloorResult* out) {
   const auto refuse_unless = [&](bool holds, std::uint32_t reason) {
-    if (holds) return;
-    out->fit.refused = true;
-    out->fit.reasons |= reason;
+    if (!holds) out->fit.refuse(reason);
   };
   // The fit may have wandered off on a few points of something else.
   const bool stayed = may_be_floor(out->fit.plane, FloorLimits(s), sensor) && same_floor(out->fit.plane, best.plane);
@@ -107,8 +105,7 @@ FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, cons
   const double radius_m = look.radius_m;
   const PointSet& within = look.within_base;
   FloorResult none;
-  none.fit.refused = true;
-  none.fit.reasons = POSE_WALL_R_FLOOR_NOT_FOUND;
+  none.fit.refuse(POSE_WALL_R_FLOOR_NOT_FOUND);
   none.roi_radius_m = radius_m;
   none.candidates = within.count;
   POSE_WALL_NOTE(

@@ -207,8 +207,7 @@ FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings&
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_FIT, uneven.solved));
   if (!uneven.solved) {
-    out.fit.refused = true;
-    out.fit.reasons |= POSE_WALL_R_FLOOR_THIN;
+    out.fit.refuse(POSE_WALL_R_FLOOR_THIN);
     return out;
   }
   PlaneOver over = irls.over;

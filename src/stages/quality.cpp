@@ -176,8 +176,7 @@ void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
     if (blocked.fit.found && !blocked.fit.refused) {
       other.reach_to_other_side(std::fabs(blocked.yaw_rad - other.yaw_rad));
     }
-    blocked.fit.refused = true;
-    blocked.fit.reasons |= POSE_WALL_R_WALL_TOO_NEAR;
+    blocked.fit.refuse(POSE_WALL_R_WALL_TOO_NEAR);
   }
 }
 

@@ -64,7 +64,9 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   refuse_if_across(ahead, behind, scene.settings, choice);
 }
 
-WallResult measure(const WallScene& scene, const WallChoice& choice, int side, WallsScratch* scratch) {
+WallResult measure(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
+                   WallsScratch* scratch) {
+  const Settings& s = scene.settings;
   const WallCandidate& chosen = *choice.side[side];
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
   WallResult wall = measure_wall(scene, surface, side, scratch->grid);
@@ -76,29 +78,20 @@ WallResult measure(const WallScene& scene, const WallChoice& choice, int side, W
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_SOLID_DOUBT, chosen.evidence.seen_through, kSeenThroughDoubt,
                              !(chosen.evidence.seen_through > kSeenThroughDoubt)));
   if (chosen.evidence.seen_through > kSeenThroughDoubt) wall.fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FIT_INLIERS, wall.fit.inliers, scene.settings.wall_inlier_min,
-                             wall.fit.inliers >= scene.settings.wall_inlier_min));
-  if (!(wall.fit.inliers >= scene.settings.wall_inlier_min)) {
-    wall.fit.refused = true;
-    wall.fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
-  }
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FIT_INLIERS, wall.fit.inliers, s.wall_inlier_min,
+                             wall.fit.inliers >= s.wall_inlier_min));
+  if (!(wall.fit.inliers >= s.wall_inlier_min)) wall.fit.refuse(POSE_WALL_R_WALL_FEW_INLIERS);
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_YAW, std::fabs(wall.yaw_rad), radians(s.yaw_max_deg),
+                             std::fabs(wall.yaw_rad) <= radians(s.yaw_max_deg)));
+  if (!(std::fabs(wall.yaw_rad) <= radians(s.yaw_max_deg))) wall.fit.refuse(POSE_WALL_R_YAW_OUT_OF_RANGE);
+  if (!wall.fit.found) return wall;
   // The fit may have wandered off, or shrunk to what is no wall any more.
-  const SideView view{scene.forward_level, side == 0 ? scene.left_level : Eigen::Vector3d(-scene.left_level)};
-  const std::uint32_t faults =
-      wall.fit.found ? faults_of(wall.fit.plane, scratch->grid.evidence(), scene.settings) : 0U;
-  POSE_WALL_NOTE(if (wall.fit.found) note_fitted(wall.fit.plane, scratch->grid.evidence(), scene.settings,
-                                                 faults == 0 && SameWall{view}(wall.fit.plane, chosen.plane)));
-  if (wall.fit.found && (faults != 0 || !SameWall{view}(wall.fit.plane, chosen.plane))) {
-    wall.fit.refused = true;
-    wall.fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND | faults;
-  }
-  if (!(std::fabs(wall.yaw_rad) <= radians(scene.settings.yaw_max_deg))) {
-    wall.fit.refused = true;
-    wall.fit.reasons |= POSE_WALL_R_YAW_OUT_OF_RANGE;
-  }
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_YAW, std::fabs(wall.yaw_rad), radians(scene.settings.yaw_max_deg),
-                             std::fabs(wall.yaw_rad) <= radians(scene.settings.yaw_max_deg)));
-  if (wall.fit.found) look_closely(scene, surface.grooved, scratch, &wall);
+  const WallEvidence fitted = scratch->grid.evidence();
+  const std::uint32_t faults = faults_of(wall.fit.plane, fitted, s);
+  const bool stayed = faults == 0 && SameWall{view}(wall.fit.plane, chosen.plane);
+  POSE_WALL_NOTE(note_fitted(wall.fit.plane, fitted, s, stayed));
+  if (!stayed) wall.fit.refuse(POSE_WALL_R_WALL_NOT_FOUND | faults);
+  look_closely(scene, surface.grooved, scratch, &wall);
   return wall;
 }
 
@@ -162,14 +155,11 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   out.tilt_level_rad = tilt_by_walls(scene, beside);
   for (int side = 0; side < 2; ++side) {
     POSE_WALL_NOTE(note_side(choice, beside, side, scene.settings));
-    if (choice.side[side] != nullptr) out.side[side] = measure(scene, choice, side, scratch);
+    if (choice.side[side] != nullptr) out.side[side] = measure(scene, sides[side], choice, side, scratch);
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.refused = out.side[side].fit.refused || choice.refused[side];
     out.side[side].fit.reasons |= choice.reasons[side];
-    if (!explained) {
-      out.side[side].fit.refused = true;
-      out.side[side].fit.reasons |= POSE_WALL_R_WALL_NOT_FOUND;
-    }
+    if (!explained) out.side[side].fit.refuse(POSE_WALL_R_WALL_NOT_FOUND);
   }
   doubt_those_alone(scene.settings, choice, beside, &out.side);
   doubt_short_ones_apart(scene.settings, choice, &out.side);

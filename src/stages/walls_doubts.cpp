@@ -62,8 +62,7 @@ void doubt_what_is_left(const WallCandidate& left, const Settings& s, WallResult
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEFT_ALONE, left.evidence.length_m, s.wall_alone_length_min,
                              left.evidence.length_m >= s.wall_alone_length_min));
   if (left.evidence.length_m >= s.wall_alone_length_min) return;
-  out->fit.refused = true;
-  out->fit.reasons |= POSE_WALL_R_WALL_SHORT;
+  out->fit.refuse(POSE_WALL_R_WALL_SHORT);
 }
 
 }  // namespace
@@ -104,8 +103,7 @@ void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, W
   }
   const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
   if (whole && !edges.island && !edges.low) return;
-  wall->fit.refused = true;
-  wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
+  wall->fit.refuse(POSE_WALL_R_WALL_SEEN_THROUGH);
 }
 
 void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCandidates (&beside)[2],

@@ -77,13 +77,14 @@ FourInts WallGrid::Rows::cells_of(FourFloats along_m, FourFloats z_level_m) cons
 void WallGrid::mark_points(const BoundedPoints& points, Rays rays, FourMarks* marks) {
   const FourInts one = all_four_ints(1), through = all_four_ints(static_cast<std::int32_t>(kCells));
   const FourInts in_none = through + through;
-  FourFloats measured{};
+  FourFloats measured{}, passed{};
   for_each_four_about(points, marks->slab(), [&](std::uint32_t i, FourTruths counts) {
     if (!marks->look_at(load_four(&points.x[i]), load_four(&points.y[i]), load_four(&points.z[i]), counts)) return;
     const FourFloats weights = load_four(&points.weight[i]), none{};
     measured += marks->hits ? weights : none;
     const FourInts cell = rows_.cells_of(marks->along_m, marks->z_level_m);
     const FourTruths tells = (marks->hits | marks->passes) & (cell >= FourInts{});
+    passed += marks->passes & tells ? weights : none;
     const FourInts counter = tells ? (marks->hits ? cell : cell + through) : in_none;
     const FourInts by = rays == Rays::kOneAPoint ? one : cut_off(tells ? weights : none);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
@@ -91,6 +92,7 @@ void WallGrid::mark_points(const BoundedPoints& points, Rays rays, FourMarks* ma
     }
   });
   inliers_ += sum_of_lanes(measured);
+  passed_ += sum_of_lanes(passed);
 }
 
 WallGrid::Rows WallGrid::rows_of(const WallScene& scene) {
@@ -101,7 +103,7 @@ WallGrid::Rows WallGrid::rows_of(const WallScene& scene) {
 
 void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach) {
   counters_.fill(0);
-  inliers_ = 0.0;
+  inliers_ = passed_ = 0.0;
   rows_ = rows_of(scene);
   FourMarks in_band(scene, wall, along_level, reach);
   mark_points(scene.band_level, Rays::kOneAPoint, &in_band);
@@ -141,6 +143,7 @@ WallEvidence WallGrid::evidence() const {
     ++columns;
   }
   out.inliers = static_cast<std::uint32_t>(inliers_);
+  if (inliers_ > 0.0) out.stopped = inliers_ / (inliers_ + passed_);
   out.length_m = static_cast<double>(columns) * kColumn_m;
   out.area_m2 = static_cast<double>(solid_cells) * kColumn_m * rows_.height_m;
   if (solid_cells > 0) {

@@ -25,6 +25,7 @@ struct WallEvidence {
   double along_max_m = 0.0;
   double away_m = 1e3;        // along it, from the machine to the nearest two solid columns side by side
   std::uint32_t inliers = 0;  // measured points on the plane
+  double stopped = 0.0;       // share of the returns at or behind it that came from it, wherever it may have gaps, 0..1
 };
 
 // A plane cut into cells along the road and up. A cell is solid when points lie on the plane there, and seen through
@@ -83,7 +84,7 @@ class WallGrid {
   Span<std::uint16_t> counters_;  // hits of each cell, what passes through each, and whatever lies in none
   std::uint8_t solid_rows_[kColumns] = {}, open_rows_[kColumns] = {};
   Rows rows_;
-  double inliers_ = 0.0;  // measured points
+  double inliers_ = 0.0, passed_ = 0.0;  // measured points on it, and behind it
 };
 
 }  // namespace pose_wall

@@ -151,8 +151,7 @@ WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int 
   const PatchFit& patch = surface.patch;
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_FIT, patch.solved));
   if (!patch.solved) {
-    out.fit.refused = true;
-    out.fit.reasons = POSE_WALL_R_WALL_SHORT;
+    out.fit.refuse(POSE_WALL_R_WALL_SHORT);
     return out;
   }
   out.fit.found = true;

@@ -14,6 +14,7 @@ namespace {
 constexpr double kRivalShare = 0.5;
 constexpr double kBehindShare = 0.3;
 constexpr double kGoesOnShare = 0.05;
+constexpr double kStopsShare = 0.1;
 // A lone wall is solid over at least this share of its span; a boulder and a far spot in line with it are not.
 constexpr double kFilledShare = 0.5;
 constexpr double kParallelScale_rad = 0.07;  // 4 degrees: walls of one road rarely differ by more
@@ -127,8 +128,17 @@ bool goes_on_before(const WallCandidate& rival, const WallCandidate& chosen) {
          past_ends_m(rival.evidence, chosen.evidence) >= kPastEndsMin_m;
 }
 
+// What stands before what was chosen and stops nearly all that comes to it is no row of props, however little of it is
+// solid: rather the wall, with ghosts behind it that a wet or shining face throws, or a mesh. Rays tell, not cells: few
+// that lie far apart fill as many cells as many that lie close.
+bool stops_before(const WallCandidate& rival, const WallCandidate& chosen) {
+  constexpr double kStopsMin = 0.75;
+  return rival.evidence.stopped >= kStopsMin && lies_behind(chosen.plane, rival.plane);
+}
+
 double rival_share(const WallCandidate& rival, const WallCandidate& chosen) {
   if (goes_on_behind(rival, chosen) || goes_on_before(rival, chosen)) return kGoesOnShare;
+  if (stops_before(rival, chosen)) return kStopsShare;
   return lies_behind(rival.plane, chosen.plane) ? kBehindShare : kRivalShare;
 }
 
@@ -227,15 +237,13 @@ bool stands_across(const WallChoice& sides, const WallCandidates& ahead, const W
                    const Settings& s) {
   const bool alone = sides.side[0] == nullptr || sides.side[1] == nullptr;
   const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
-  const auto across = [&](const WallCandidates& list) {
-    WallCandidates out;
+  const auto across = [&](WallCandidates list) {
     for (std::uint32_t i = 0; i < list.count; ++i) {
-      if (!(std::fabs(list.item[i].plane.n.dot(side.n)) < kAcrossCos)) continue;
-      out.item[out.count] = list.item[i];
-      if (alone) out.item[out.count].faults &= ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
-      ++out.count;
+      WallCandidate& c = list.item[i];
+      if (alone) c.faults &= ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
+      if (!(std::fabs(c.plane.n.dot(side.n)) < kAcrossCos)) c.faults |= POSE_WALL_R_WALL_NOT_FOUND;
     }
-    return out;
+    return list;
   };
   const WallCandidates a = across(ahead), b = across(behind);
   POSE_WALL_NOTE(const double pair = best_pair(a, b, s.wall_parallel_cos).score);

@@ -80,6 +80,16 @@ void noise(Points* points, double sigma_m) {
   }
 }
 
+// Some of what comes back from the left wall comes by way of another face: a wall more, this far behind.
+void throw_ghosts(Points* points, std::uint32_t percent, float behind_m) {
+  std::mt19937 random(6);
+  for (Point& p : *points) {
+    if (p[1] < 2.4F || random() % 100 >= percent) continue;
+    const float factor = 1.0F + behind_m / p[1];
+    for (float& c : p) c *= factor;
+  }
+}
+
 const PointCase kPointCases[] = {
     {"nan_everywhere", "H", true, [](auto* p) { all(p, kNan); }},
     {"nan_in_x", "H", true, [](auto* p) { axis(p, 0, kNan); }},
@@ -173,6 +183,8 @@ const PointCase kPointCases[] = {
        for (std::size_t i = 0; i < p->size(); i += 10) some.push_back((*p)[i]);
        *p = some;
      }},
+    {"ghosts_of_a_tenth_of_a_wall", "...DD..", true, [](auto* p) { throw_ghosts(p, 10, 1.5F); }},
+    {"ghosts_of_a_fifth_of_a_wall", "...DD..", true, [](auto* p) { throw_ghosts(p, 20, 1.5F); }},
     {"noise_of_half_a_metre", "x", true, [](auto* p) { noise(p, 0.5); }},
     {"noise_of_10_cm", ".", true, [](auto* p) { noise(p, 0.1); }},
     {"moved_by_100_m", "H", true,

@@ -69,6 +69,23 @@ TEST(WallGrid, APipeIsSeenThrough) {
   EXPECT_LT(pipe.score_m2, 0.2 * wall.score_m2);
 }
 
+TEST(WallGrid, WhatStopsIsToldByRaysWhateverCellsTheyFill) {
+  const auto stopped = [](int copies_before, double behind_from_m, double behind_to_m, float beyond) {
+    BandFixture band;
+    for (int copy = 0; copy < copies_before; ++copy) band.add_wall(2.0, {-4.0, 4.0, 0.3, 2.4});
+    if (behind_to_m > behind_from_m) band.add_wall(4.0, {behind_from_m, behind_to_m, 0.3, 2.4});
+    if (beyond > 0.0F) band.beyond().add(2.4, 4.0, 1.4, beyond);
+    return Marked(&band, 2.0).evidence().stopped;
+  };
+  EXPECT_EQ(stopped(1, 0.0, 0.0, 0.0F), 1.0);
+  EXPECT_NEAR(stopped(1, -4.0, 4.0, 0.0F), 0.5, 0.01);
+  EXPECT_NEAR(stopped(3, -4.0, 4.0, 0.0F), 0.75, 0.01);
+  const double before = stopped(1, -2.0, 2.0, 0.0F);
+  EXPECT_NEAR(before, 2.0 / 3.0, 0.01);
+  EXPECT_LT(stopped(1, -2.0, 2.0, 500.0F), before - 0.01) << "what lies outside the band has passed it, too";
+  EXPECT_EQ(stopped(0, -4.0, 4.0, 0.0F), 0.0);
+}
+
 TEST(WallGrid, GapsAreMeasuredToTheNearestSolidColumn) {
   BandFixture band;
   band.add_wall(2.5, {-6.0, -2.0, 0.3, 2.4});

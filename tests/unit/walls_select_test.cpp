@@ -214,6 +214,26 @@ TEST(WallSelect, AWallThatGoesOnBesideWhatItsOpeningShowsIsARival) {
   }
 }
 
+// Ghosts of a wall, thrown by a wet or shining face, lie behind it in as many cells as there are of them.
+TEST(WallSelect, WhatStandsBeforeAWallAndStopsNearlyAllIsARivalHoweverSmall) {
+  struct Case {
+    double at_m, score_m2, stopped, turned_rad;
+    bool is_rival;
+  };
+  for (const Case& near :
+       {Case{1.0, 3.0, 0.9, 0.0, true}, Case{1.0, 3.0, 0.6, 0.0, false}, Case{1.0, 1.5, 0.9, 0.0, false},
+        Case{1.0, 3.0, 0.9, 0.2, false}, Case{2.4, 3.0, 0.9, 0.0, false}, Case{4.0, 3.0, 0.9, 0.0, false}}) {
+    Choice c;
+    c.left = list({left_wall(2.5, 20.0), left_wall(near.at_m, near.score_m2, near.turned_rad)});
+    c.left.item[1].evidence.stopped = near.stopped;
+    c.right = list({right_wall(2.5, 20.0)});
+    const WallChoice chosen = c.choose();
+    EXPECT_EQ(chosen.side[0], &c.left.item[0]);
+    EXPECT_EQ(chosen.rival[0], near.is_rival ? &c.left.item[1] : nullptr)
+        << near.at_m << " " << near.score_m2 << " " << near.stopped << " " << near.turned_rad;
+  }
+}
+
 TEST(WallSelect, NothingAnywhere) {
   const WallChoice chosen = Choice().choose();
   for (int side = 0; side < 2; ++side) {
