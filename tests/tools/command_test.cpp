@@ -116,5 +116,16 @@ TEST(EvalVerb, ResultsOfRunCanBeCompared) {
   EXPECT_EQ(command({"eval", truth, truth}).exit_status, 1) << "the truth has no roll_raw";
 }
 
+TEST(EvalVerb, SaysThatRowsWithTheSameNumberHaveOtherStamps) {
+  const TempFolder folder;
+  folder.write("f/a.bin", kitti_point(1));
+  ASSERT_EQ(command({"run", "-q", "-o", folder.file("o.csv"), folder.file("f")}).exit_status, 0);
+  const std::string truth = folder.write("truth.csv", "frame,stamp_ns,roll\n0,17,0\n");
+  const Ran ran = command({"eval", folder.file("o.csv"), truth, "--json"});
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "matched by frame, but in 1 of 1 pair the stamps differ")) << ran.errors;
+  EXPECT_TRUE(contains(ran.printed, "\"other_stamps\": 1")) << ran.printed;
+}
+
 }  // namespace
 }  // namespace pose_wall::tools
