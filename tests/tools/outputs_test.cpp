@@ -114,6 +114,22 @@ TEST_F(Outputs, ALinkStaysALinkAndADeviceADevice) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST_F(Outputs, AHyphenIsStandardOutputAndNoFile) {
+  const Ran rows = command({"run", "-q", "-c", settings, "-o", "-", frames});
+  EXPECT_EQ(rows.exit_status, 0) << rows.errors;
+  EXPECT_EQ(rows.printed.rfind("frame,source,stamp_ns,", 0), 0U) << rows.printed;
+  const std::vector<std::vector<std::string>> calls = {{"report", "-q", "-c", settings, "-o", "-", frames},
+                                                       {"explain", "-q", "-n", "0", "-p", "-", frames},
+                                                       {"doctor", "-q", "-o", "-", frames},
+                                                       {"sim", "-q", "-n", "1", "-o", "-"}};
+  for (const std::vector<std::string>& call : calls) {
+    const Ran ran = command(call);
+    EXPECT_EQ(ran.exit_status, 2) << call[0];
+    EXPECT_TRUE(contains(ran.errors, " -: this is not written to standard output")) << ran.errors;
+  }
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
 TEST(DemoOutputs, WhatIsInTheWayIsNamed) {
   const TempFolder folder;
   const auto demo_in = [](const std::string& output) {
