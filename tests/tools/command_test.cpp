@@ -87,7 +87,15 @@ TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
       {{"run", "--output", good, good}, "this is an input"},
       {{"run", "--outptu", "x", good}, "did you mean '--output'"},
       {{"rum", good}, "did you mean 'run'"},
+      {{"run", "--metadata", good, good}, "no input is a capture of packets"},
+      {{"explain", "--frame", "0", "--picture", folder.file("why.png"), good}, "a file ending in .svg is allowed"},
       {{"check-config", "--set", "range_min=9", "--set", "range_max=2"}, "range_min"},
+      {{"check-config", "--keys", folder.file("none.yaml")}, "neither FILE nor --set"},
+      {{"check-config", "--keys", "--set", "range_min=1"}, "neither FILE nor --set"},
+      {{"sim", "--seed", "-1", "--output", folder.file("road")}, "--seed: '-1' is refused; a whole number from 0"},
+      {{"demo", "--seed", "-1", "--output", folder.file("road")}, "--seed: '-1' is refused"},
+      {{"campaign", "--seed", "-1", "--output", folder.file("road")}, "--seed: '-1' is refused"},
+      {{"campaign", "--events", "-1", "--output", folder.file("road")}, "--events: '-1' is refused"},
   };
   for (const auto& [words, part] : cases) {
     const Ran ran = command(words);
@@ -97,6 +105,22 @@ TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
   EXPECT_EQ(table_of(folder.write("kept.csv", "a\n1\n")).rows(), 1U);
   EXPECT_EQ(command({"run", "-q", "-o", folder.file("kept.csv"), "--set", "range_min=x", good}).exit_status, 2);
   EXPECT_EQ(table_of(folder.file("kept.csv")).rows(), 1U) << "a refused config must not empty an older result";
+}
+
+TEST(Verbs, AFolderWithoutFramesIsAnInputThatCannotBeRead) {
+  const TempFolder folder;
+  folder.write("f/notes.txt", "");
+  const std::string empty = folder.file("f"), out = folder.file("out");
+  const std::vector<std::vector<std::string>> calls = {{"run", "-o", out, empty},
+                                                       {"doctor", empty},
+                                                       {"info", empty},
+                                                       {"explain", "--frame", "0", empty},
+                                                       {"report", "-o", out, empty}};
+  for (const std::vector<std::string>& call : calls) {
+    const Ran ran = command(call);
+    EXPECT_EQ(ran.exit_status, 1) << call[0];
+    EXPECT_TRUE(contains(ran.errors, empty + ": no frame in this folder")) << ran.errors;
+  }
 }
 
 TEST(EvalVerb, ResultsOfRunCanBeCompared) {

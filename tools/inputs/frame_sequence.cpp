@@ -22,6 +22,9 @@ FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const In
   if (!options.topic.empty() && !bag_seen_ && errors_.empty()) {
     throw std::invalid_argument(fmt::format("--topic {}: no input is a bag", options.topic));
   }
+  if (!options.metadata.empty() && !capture_seen_ && errors_.empty()) {
+    throw std::invalid_argument(fmt::format("--metadata {}: no input is a capture of packets", options.metadata));
+  }
 }
 
 void FrameSequence::add(const std::string& argument, const InputOptions& options) {
@@ -30,6 +33,7 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
     if (is_packet_capture(argument)) {
       sources_.push_back(open_packet_capture(argument, options.metadata));
       files_.emplace_back(argument);
+      capture_seen_ = true;
       return;
     }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);

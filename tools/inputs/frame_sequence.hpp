@@ -49,6 +49,7 @@ class FrameSequence {
   std::vector<std::string> errors_;
   std::size_t current_ = 0;
   bool bag_seen_ = false;
+  bool capture_seen_ = false;
 };
 
 }  // namespace pose_wall::tools

@@ -25,6 +25,7 @@
 #include "terminal/progress_bar.hpp"
 #include "truth/row_pairs.hpp"
 #include "truth/truth_csv.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
 #include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
@@ -111,7 +112,7 @@ int report_frames(const ReportOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall report: {}\n", error);
-  if (inputs.frames() == 0) throw std::invalid_argument("no frame to report on");
+  if (inputs.frames() == 0) throw std::runtime_error("no frame to report on");
   const std::vector<TruthRow> truth = options.truth.empty() ? std::vector<TruthRow>() : read_truth_csv(options.truth);
   std::vector<std::filesystem::path> read = options.frames.files_read(inputs);
   if (!options.truth.empty()) read.emplace_back(options.truth);
@@ -169,9 +170,11 @@ void add_report(CLI::App& app, int& exit_code) {
       "above and in section, summary and verdict, in English and Chinese. Of long recordings it keeps the points of\n"
       "some 400 frames and of those in which a state changes. Ctrl-C ends it early; the page then shows what was "
       "read.\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are shown), 2 bad usage or config, 130 "
+      "Exit status: 0 done, 1 an input could not be read (the others are shown) or the page not written, 2 bad usage "
+      "or config, 130 "
       "interrupted.");
-  verb->callback([options, &exit_code] { exit_code = report_frames(*options); });
+  verb->callback(
+      [options, &exit_code] { exit_code = done_or_complaint("report", [&] { return report_frames(*options); }); });
 }
 
 }  // namespace pose_wall::tools

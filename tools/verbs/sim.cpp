@@ -27,6 +27,7 @@
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
 #include "verbs/complaint.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
@@ -163,7 +164,8 @@ void add_sim(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1000000));
   verb->add_option("-r,--rate", options->rate_hz, "Frames per second; the same as --set rate_hz");
   verb->add_option("--seed", options->seed, "Of rock, noise and --random: the same seed gives the same bits")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole_number());
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the scene; may be repeated")->allow_extra_args(false);
   verb->add_flag("--random", options->random, "Draw the sizes from the scene's ranges, by the seed");
   verb->add_flag("--list", options->list, "Print scenes, sensors and keys");
