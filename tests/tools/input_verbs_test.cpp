@@ -184,7 +184,7 @@ TEST(Rosbag2Folder, FaultsOfItsMetadataAreSaid) {
   EXPECT_TRUE(contains(said("  relative_file_paths: [gone.mcap]\n"), "gone.mcap: no such file"));
   EXPECT_TRUE(contains(said("  relative_file_paths: []\n"), "names no file"));
   EXPECT_TRUE(contains(said("  compression_mode: FILE\n  relative_file_paths: [a.db3]\n"), "compression_mode FILE"));
-  EXPECT_TRUE(contains(said("  relative_file_paths: [a\n"), "metadata.yaml: line"));
+  EXPECT_TRUE(contains(said("  relative_file_paths: [a\n"), "metadata.yaml:3: "));
 }
 
 }  // namespace

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -47,6 +49,12 @@ struct CampaignOptions {
 
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
 void check_settings(const campaign::EngineChoice& engine) {
+  std::error_code ignored;
+  const std::string& file = engine.config_file;
+  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
+    throw std::invalid_argument(
+        fmt::format("--config {}: not a regular file; every run reads it anew, and a pipe is read once", file));
+  }
   load_config(engine.config_file, engine.settings);
 }
 
