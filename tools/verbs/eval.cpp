@@ -9,12 +9,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "angles.hpp"
@@ -54,8 +56,13 @@ auto in_file(const std::string& file, Step step) {
 
 CsvTable read_table(const std::string& file) {
   return in_file(file, [&file] {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) throw CsvError("this is a folder; a table of CSV is allowed");
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw CsvError(fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+    if (!stream) {
+      throw CsvError(fmt::format("cannot be opened for reading: {}{}", std::strerror(errno),
+                                 file == "-" ? "; standard input is /dev/stdin" : ""));
+    }
     return CsvTable::parse(stream);
   });
 }
