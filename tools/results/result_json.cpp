@@ -65,7 +65,7 @@ Json times_json(const FrameOutcome& outcome) {
     }
   }
   const auto if_read = [&outcome](double ms) { return outcome.result ? Json(ms) : Json(); };
-  return {{"load", outcome.load_ms},
+  return {{"load", if_read(outcome.load_ms)},
           {"engine", if_read(outcome.total_ms)},
           {"engine_processor", if_read(outcome.processor_ms)},
           {"stages", stages}};
