@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <vector>
 
@@ -70,7 +71,11 @@ TEST(RunVerb, UnreadableFramesKeepTheirRowAndTheOthersAreProcessed) {
   EXPECT_EQ(table.cell(0, status), "unreadable");
   EXPECT_NE(table.cell(1, status), "unreadable");
   EXPECT_EQ(table.cell(2, status), "unreadable");
-  EXPECT_EQ(table.cell(0, *table.find_column("roll_state")), "");
+  const std::vector<std::string> filled = {"frame", "source", "stamp_ns", "status", "reason", "error"};
+  for (const std::string& name : table.head()) {
+    const bool is_filled = std::find(filled.begin(), filled.end(), name) != filled.end();
+    EXPECT_EQ(!table.cell(0, *table.find_column(name)).empty(), is_filled) << name;
+  }
   EXPECT_EQ(table.cell(1, *table.find_column("frame")), "1");
 }
 
@@ -138,6 +143,14 @@ TEST(EvalVerb, ResultsOfRunCanBeCompared) {
   EXPECT_TRUE(contains(bound.errors, "--frames needs --config")) << bound.errors;
   EXPECT_EQ(command({"eval", folder.file("none.csv"), truth}).exit_status, 1);
   EXPECT_EQ(command({"eval", truth, truth}).exit_status, 1) << "the truth has no roll_raw";
+  ASSERT_EQ(command({"run", "-q", "--format", "json", "-o", folder.file("o.jsonl"), folder.file("f")}).exit_status, 0);
+  const std::pair<std::string, const char*> cases[] = {
+      {folder.file("o.jsonl"), "line 1: this is JSON"}, {folder.path(), "this is a folder"}, {"-", "is /dev/stdin"}};
+  for (const auto& [file, part] : cases) {
+    const Ran refused = command({"eval", file, truth});
+    EXPECT_EQ(refused.exit_status, 1) << file;
+    EXPECT_TRUE(contains(refused.errors, file + ": ") && contains(refused.errors, part)) << refused.errors;
+  }
 }
 
 TEST(EvalVerb, SaysThatRowsWithTheSameNumberHaveOtherStamps) {

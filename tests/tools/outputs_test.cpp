@@ -94,6 +94,17 @@ TEST_F(Outputs, SimLeavesAFolderOfOthersAlone) {
   EXPECT_EQ(command({"sim", "--sensor", "vlp16", "-n", "1", "-q", "-o", folder.file("road")}).exit_status, 0);
 }
 
+TEST_F(Outputs, SimSaysHowManyFramesOfItsLongerRunItRemoved) {
+  const auto simulate = [this](const char* count) {
+    return command({"sim", "--sensor", "vlp16", "-n", count, "-o", folder.file("road")});
+  };
+  EXPECT_FALSE(contains(simulate("4").errors, "removed"));
+  const Ran ran = simulate("2");
+  EXPECT_EQ(ran.exit_status, 0);
+  EXPECT_TRUE(contains(ran.errors, "road: 2 frames of an earlier, longer run removed\n")) << ran.errors;
+  EXPECT_FALSE(std::filesystem::exists(frames + "/000002.pcd"));
+}
+
 TEST_F(Outputs, AMistypedInputLeavesTheResultsOfTheLastRun) {
   const std::string results = folder.write("keep.csv", "the last run\n");
   const Ran ran = command({"run", "-q", "-o", results, folder.file("road/framez")});
