@@ -99,6 +99,9 @@ TEST(InfoVerb, SaysWhatIsInside) {
     EXPECT_TRUE(contains(json, part)) << part << "\n" << json;
   }
   printed({"info", folder.file("none.mcap")}, 1);
+  const std::string frame = folder.write("a.bin", std::string(16, '\0'));
+  EXPECT_TRUE(contains(printed({"info", "--topic", "/rear/points", bag, frame}, 0), "a.bin")) << "one is the bag";
+  EXPECT_EQ(printed({"info", "--topic", "/rear/points", frame, frame}, 2), "") << "none is";
 }
 
 #if POSE_WALL_HAS_SQLITE
