@@ -84,7 +84,7 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
     const FrameOutcome outcome = runner.run(std::move(*frame), look);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
     summary.add(outcome);
-    const std::string fault = outputs.write(outcome);
+    std::string fault = outputs.write(outcome);
     if (!fault.empty()) return fault;
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
