@@ -135,6 +135,14 @@ TEST(Campaign, BlanksBesideTheCommasOfNamesDoNotMatter) {
   EXPECT_NE(wrong.errors.find("'partail'; did you mean 'partial'?"), std::string::npos) << wrong.errors;
 }
 
+// Every run would read it, and find it empty.
+TEST(Campaign, SettingsThatCanBeReadOnceOnlyAreRefused) {
+  const TempFolder folder;
+  const Ran ran = test::command({"campaign", "-q", "-c", "/dev/null", "-o", folder.file("card")});
+  EXPECT_EQ(ran.exit_status, 2);
+  EXPECT_TRUE(test::contains(ran.errors, "--config /dev/null: not a regular file")) << ran.errors;
+}
+
 TEST(Campaign, AFileInTheWayOfTheFolderIsNamed) {
   const TempFolder folder;
   const std::string file = folder.write("mine.txt", "precious");

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <vector>
 
@@ -70,7 +71,11 @@ TEST(RunVerb, UnreadableFramesKeepTheirRowAndTheOthersAreProcessed) {
   EXPECT_EQ(table.cell(0, status), "unreadable");
   EXPECT_NE(table.cell(1, status), "unreadable");
   EXPECT_EQ(table.cell(2, status), "unreadable");
-  EXPECT_EQ(table.cell(0, *table.find_column("roll_state")), "");
+  const std::vector<std::string> filled = {"frame", "source", "stamp_ns", "status", "reason", "error"};
+  for (const std::string& name : table.head()) {
+    const bool is_filled = std::find(filled.begin(), filled.end(), name) != filled.end();
+    EXPECT_EQ(!table.cell(0, *table.find_column(name)).empty(), is_filled) << name;
+  }
   EXPECT_EQ(table.cell(1, *table.find_column("frame")), "1");
 }
 
@@ -87,7 +92,15 @@ TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
       {{"run", "--output", good, good}, "this is an input"},
       {{"run", "--outptu", "x", good}, "did you mean '--output'"},
       {{"rum", good}, "did you mean 'run'"},
+      {{"run", "--metadata", good, good}, "no input is a capture of packets"},
+      {{"explain", "--frame", "0", "--picture", folder.file("why.png"), good}, "a file ending in .svg is allowed"},
       {{"check-config", "--set", "range_min=9", "--set", "range_max=2"}, "range_min"},
+      {{"check-config", "--keys", folder.file("none.yaml")}, "neither FILE nor --set"},
+      {{"check-config", "--keys", "--set", "range_min=1"}, "neither FILE nor --set"},
+      {{"sim", "--seed", "-1", "--output", folder.file("road")}, "--seed: '-1' is refused; a whole number from 0"},
+      {{"demo", "--seed", "-1", "--output", folder.file("road")}, "--seed: '-1' is refused"},
+      {{"campaign", "--seed", "-1", "--output", folder.file("road")}, "--seed: '-1' is refused"},
+      {{"campaign", "--events", "-1", "--output", folder.file("road")}, "--events: '-1' is refused"},
   };
   for (const auto& [words, part] : cases) {
     const Ran ran = command(words);
@@ -97,6 +110,22 @@ TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
   EXPECT_EQ(table_of(folder.write("kept.csv", "a\n1\n")).rows(), 1U);
   EXPECT_EQ(command({"run", "-q", "-o", folder.file("kept.csv"), "--set", "range_min=x", good}).exit_status, 2);
   EXPECT_EQ(table_of(folder.file("kept.csv")).rows(), 1U) << "a refused config must not empty an older result";
+}
+
+TEST(Verbs, AFolderWithoutFramesIsAnInputThatCannotBeRead) {
+  const TempFolder folder;
+  folder.write("f/notes.txt", "");
+  const std::string empty = folder.file("f"), out = folder.file("out");
+  const std::vector<std::vector<std::string>> calls = {{"run", "-o", out, empty},
+                                                       {"doctor", empty},
+                                                       {"info", empty},
+                                                       {"explain", "--frame", "0", empty},
+                                                       {"report", "-o", out, empty}};
+  for (const std::vector<std::string>& call : calls) {
+    const Ran ran = command(call);
+    EXPECT_EQ(ran.exit_status, 1) << call[0];
+    EXPECT_TRUE(contains(ran.errors, empty + ": no frame in this folder")) << ran.errors;
+  }
 }
 
 TEST(EvalVerb, ResultsOfRunCanBeCompared) {
@@ -114,6 +143,25 @@ TEST(EvalVerb, ResultsOfRunCanBeCompared) {
   EXPECT_TRUE(contains(bound.errors, "--frames needs --config")) << bound.errors;
   EXPECT_EQ(command({"eval", folder.file("none.csv"), truth}).exit_status, 1);
   EXPECT_EQ(command({"eval", truth, truth}).exit_status, 1) << "the truth has no roll_raw";
+  ASSERT_EQ(command({"run", "-q", "--format", "json", "-o", folder.file("o.jsonl"), folder.file("f")}).exit_status, 0);
+  const std::pair<std::string, const char*> cases[] = {
+      {folder.file("o.jsonl"), "line 1: this is JSON"}, {folder.path(), "this is a folder"}, {"-", "is /dev/stdin"}};
+  for (const auto& [file, part] : cases) {
+    const Ran refused = command({"eval", file, truth});
+    EXPECT_EQ(refused.exit_status, 1) << file;
+    EXPECT_TRUE(contains(refused.errors, file + ": ") && contains(refused.errors, part)) << refused.errors;
+  }
+}
+
+TEST(EvalVerb, SaysThatRowsWithTheSameNumberHaveOtherStamps) {
+  const TempFolder folder;
+  folder.write("f/a.bin", kitti_point(1));
+  ASSERT_EQ(command({"run", "-q", "-o", folder.file("o.csv"), folder.file("f")}).exit_status, 0);
+  const std::string truth = folder.write("truth.csv", "frame,stamp_ns,roll\n0,17,0\n");
+  const Ran ran = command({"eval", folder.file("o.csv"), truth, "--json"});
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "matched by frame, but in 1 of 1 pair the stamps differ")) << ran.errors;
+  EXPECT_TRUE(contains(ran.printed, "\"other_stamps\": 1")) << ran.printed;
 }
 
 }  // namespace

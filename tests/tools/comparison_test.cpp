@@ -85,6 +85,35 @@ TEST(CompareWithTruth, MatchesByFrameAndWrapsAngles) {
   EXPECT_NEAR(roll.raw().bias, 6.28 - 2 * kPi, 1e-9);
 }
 
+// The third frame of the truth measured alone is frame 0 of its results.
+TEST(CompareWithTruth, MatchesAPartOfTheFramesByTheirStamps) {
+  const CsvTable results = table(std::string(kHead) + "0,25,1.02,1.02,0.01,0.1,valid\n");
+  const CsvTable truth = table("frame,stamp_ns,roll\n0,5,0\n1,15,0.5\n2,25,1\n");
+  const Comparison comparison = compare_with_truth(results, truth, {0.02, 0.1});
+  EXPECT_EQ(comparison.matched_by, "stamp_ns");
+  EXPECT_EQ(comparison.matched, 1U);
+  EXPECT_EQ(comparison.truth_rows_alone, 2U);
+  EXPECT_EQ(comparison.other_stamps, 0U);
+  EXPECT_NEAR(comparison.quantities.at(0).statistics.raw().bias, 0.02, 1e-9);
+}
+
+TEST(CompareWithTruth, StampsThatTellNothingApartAreLeftForNumbersAndDifferencesAreCounted) {
+  const std::string rows = "0,5,1,1,1,1,valid\n1,5,1,1,1,1,valid\n2,9,1,1,1,1,valid\n";
+  const CsvTable standing = table(kHead + rows);
+  const Comparison same = compare_with_truth(standing, table("frame,stamp_ns,roll\n0,5,0\n1,5,0\n2,9,0\n"), {1, 1});
+  EXPECT_EQ(same.matched_by, "frame");
+  EXPECT_EQ(same.other_stamps, 0U);
+  // A part of a recording whose stamps stand still: nothing tells which, but the stamps tell that it is one.
+  const Comparison part = compare_with_truth(standing, table("frame,stamp_ns,roll\n0,1,0\n1,5,0\n2,5,0\n"), {1, 1});
+  EXPECT_EQ(part.matched_by, "frame");
+  EXPECT_EQ(part.other_stamps, 2U);
+  // Frames without stamps have those of --rate: none is in the truth.
+  const Comparison none = compare_with_truth(table(std::string(kHead) + "0,0,1,1,1,1,valid\n"),
+                                             table("frame,stamp_ns,roll\n0,1700,0\n1,1800,0\n"), {1, 1});
+  EXPECT_EQ(none.matched_by, "frame");
+  EXPECT_EQ(none.other_stamps, 1U);
+}
+
 TEST(CompareWithTruth, TablesThatDoNotFitAreRefused) {
   const std::string row = "0,0,1,1,1,1,valid\n";
   const CsvTable good = table(kHead + row);

@@ -97,6 +97,30 @@ TEST(InputList, FoldersGiveTheirFramesInNameOrderAndFilesStay) {
   EXPECT_TRUE(inputs.errors.empty());
 }
 
+TEST(InputList, ALinkThatLeadsNowhereIsAFrameThatCannotBeRead) {
+  const TempFolder folder;
+  folder.write("f/1.pcd", "");
+  std::filesystem::create_directories(folder.file("f/folder.pcd"));
+  std::filesystem::create_symlink(folder.file("gone.pcd"), folder.file("f/2.pcd"));
+  const FrameInputs inputs = collect_inputs({folder.file("f")});
+  ASSERT_EQ(inputs.files.size(), 2U);
+  EXPECT_EQ(inputs.files[1].filename(), "2.pcd");
+  EXPECT_EQ(load_refusal(inputs.files[1]),
+            "not there: it is a link to " + folder.file("gone.pcd") + ", which leads to no file");
+}
+
+TEST(InputList, AFolderThatHoldsWhatIsMeantNamesIt) {
+  const TempFolder folder;
+  const auto error = [&folder](const char* name) { return collect_inputs({folder.file(name)}).errors.at(0); };
+  folder.write("road/frames/1.pcd", "");
+  EXPECT_NE(error("road").find("; did you mean '" + folder.file("road/frames") + "'?"), std::string::npos);
+  for (const char* name : {"captures/b.pcap", "captures/a.pcapng", "captures/a.json"}) folder.write(name, "");
+  const std::string named = "; bags and captures are named themselves: " + folder.file("captures/a.pcapng");
+  EXPECT_NE(error("captures").find(named), std::string::npos);
+  folder.write("bare/frames/notes.txt", "");
+  EXPECT_EQ(error("bare").find("mean"), std::string::npos);
+}
+
 TEST(InputList, AnEmptyFolderIsAnErrorThatNamesTheEndings) {
   const TempFolder folder;
   folder.write("notes.txt", "");

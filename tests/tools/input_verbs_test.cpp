@@ -99,6 +99,9 @@ TEST(InfoVerb, SaysWhatIsInside) {
     EXPECT_TRUE(contains(json, part)) << part << "\n" << json;
   }
   printed({"info", folder.file("none.mcap")}, 1);
+  const std::string frame = folder.write("a.bin", std::string(16, '\0'));
+  EXPECT_TRUE(contains(printed({"info", "--topic", "/rear/points", bag, frame}, 0), "a.bin")) << "one is the bag";
+  EXPECT_EQ(printed({"info", "--topic", "/rear/points", frame, frame}, 2), "") << "none is";
 }
 
 #if POSE_WALL_HAS_SQLITE
@@ -184,7 +187,7 @@ TEST(Rosbag2Folder, FaultsOfItsMetadataAreSaid) {
   EXPECT_TRUE(contains(said("  relative_file_paths: [gone.mcap]\n"), "gone.mcap: no such file"));
   EXPECT_TRUE(contains(said("  relative_file_paths: []\n"), "names no file"));
   EXPECT_TRUE(contains(said("  compression_mode: FILE\n  relative_file_paths: [a.db3]\n"), "compression_mode FILE"));
-  EXPECT_TRUE(contains(said("  relative_file_paths: [a\n"), "metadata.yaml: line"));
+  EXPECT_TRUE(contains(said("  relative_file_paths: [a\n"), "metadata.yaml:3: "));
 }
 
 }  // namespace

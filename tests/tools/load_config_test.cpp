@@ -7,6 +7,9 @@
 #include "config_file/load_config.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
 
 #include "config_file/key_table.hpp"
 #include "config_file/resolved_frames.hpp"
@@ -88,16 +91,11 @@ TEST(LoadConfig, AnUpsideDownSensorIsSentToTheExtrinsic) {
 
 TEST(LoadConfig, FilesThatAreNoConfig) {
   const std::pair<const char*, const char*> cases[] = {
-      {"a: [1\n", "not YAML"},
-      {"- 1\n- 2\n", "'key: value'"},
-      {"just words\n", "'key: value'"},
-      {"a:\n  b: 3\n", "line 2: a: one value is expected"},
-      {"a: [[1]]\n", "nothing nested"},
-      {"a: &x 1\nb: *x\n", "aliases"},
-      {"a: 1\n---\nb: 2\n", "second document"},
-      {"[1, 2]: 3\n", "a key is expected"},
-      {"a: \"x\\0y\"\n", "zero byte"},
-      {"\x01\x02\x03", "not YAML"},
+      {"a: [1\n", "c.yaml:2: not YAML"},        {"- 1\n- 2\n", "'key: value'"},
+      {"just words\n", "'key: value'"},         {"a:\n  b: 3\n", "c.yaml:2: a: one value is expected"},
+      {"a: [[1]]\n", "nothing nested"},         {"a: &x 1\nb: *x\n", "aliases"},
+      {"a: 1\n---\nb: 2\n", "second document"}, {"[1, 2]: 3\n", "a key is expected"},
+      {"a: \"x\\0y\"\n", "zero byte"},          {"\x01\x02\x03", "not YAML"},
   };
   for (const auto& [yaml, part] : cases) {
     const std::string message = refusal_of_text(yaml);
@@ -107,6 +105,24 @@ TEST(LoadConfig, FilesThatAreNoConfig) {
   EXPECT_TRUE(contains(refusal_of(folder.file("missing.yaml"), {}), "No such file"));
   EXPECT_TRUE(contains(refusal_of(folder.path(), {}), "Is a directory"));
   EXPECT_TRUE(contains(refusal_of(folder.write("big.yaml", std::string(2000000, '#')), {}), "at most"));
+}
+
+// As a shell's <(...) gives it.
+TEST(LoadConfig, APipeIsReadLikeAFile) {
+  const auto piped = [](const std::string& yaml) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(pipe(ends.data()), 0);
+    EXPECT_EQ(write(ends[1], yaml.data(), yaml.size()), static_cast<ssize_t>(yaml.size()));
+    close(ends[1]);
+    const std::string refusal = refusal_of("/dev/fd/" + std::to_string(ends[0]), {});
+    close(ends[0]);
+    return refusal;
+  };
+  EXPECT_EQ(piped("range_min: 0.5\n"), "");
+  EXPECT_TRUE(contains(piped("range_min: 50\n"), ":1: range_min: '50' is refused"));
+  EXPECT_EQ(refusal_of("/dev/null", {}), "");
+  EXPECT_TRUE(contains(refusal_of("/dev/zero", {}), "at most 1048576 bytes; this has more"));
+  EXPECT_TRUE(contains(refusal_of("-", {}), "standard input is /dev/stdin"));
 }
 
 TEST(ResolvedFrames, LeftIsUpCrossForwardForAllFourAxes) {

@@ -94,6 +94,17 @@ TEST_F(Outputs, SimLeavesAFolderOfOthersAlone) {
   EXPECT_EQ(command({"sim", "--sensor", "vlp16", "-n", "1", "-q", "-o", folder.file("road")}).exit_status, 0);
 }
 
+TEST_F(Outputs, SimSaysHowManyFramesOfItsLongerRunItRemoved) {
+  const auto simulate = [this](const char* count) {
+    return command({"sim", "--sensor", "vlp16", "-n", count, "-o", folder.file("road")});
+  };
+  EXPECT_FALSE(contains(simulate("4").errors, "removed"));
+  const Ran ran = simulate("2");
+  EXPECT_EQ(ran.exit_status, 0);
+  EXPECT_TRUE(contains(ran.errors, "road: 2 frames of an earlier, longer run removed\n")) << ran.errors;
+  EXPECT_FALSE(std::filesystem::exists(frames + "/000002.pcd"));
+}
+
 TEST_F(Outputs, AMistypedInputLeavesTheResultsOfTheLastRun) {
   const std::string results = folder.write("keep.csv", "the last run\n");
   const Ran ran = command({"run", "-q", "-o", results, folder.file("road/framez")});
@@ -112,6 +123,22 @@ TEST_F(Outputs, ALinkStaysALinkAndADeviceADevice) {
   EXPECT_EQ(ran.exit_status, 2);
   EXPECT_TRUE(contains(ran.errors, "this is a device; a file is allowed")) << ran.errors;
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(Outputs, AHyphenIsStandardOutputAndNoFile) {
+  const Ran rows = command({"run", "-q", "-c", settings, "-o", "-", frames});
+  EXPECT_EQ(rows.exit_status, 0) << rows.errors;
+  EXPECT_EQ(rows.printed.rfind("frame,source,stamp_ns,", 0), 0U) << rows.printed;
+  const std::vector<std::vector<std::string>> calls = {{"report", "-q", "-c", settings, "-o", "-", frames},
+                                                       {"explain", "-q", "-n", "0", "-p", "-", frames},
+                                                       {"doctor", "-q", "-o", "-", frames},
+                                                       {"sim", "-q", "-n", "1", "-o", "-"}};
+  for (const std::vector<std::string>& call : calls) {
+    const Ran ran = command(call);
+    EXPECT_EQ(ran.exit_status, 2) << call[0];
+    EXPECT_TRUE(contains(ran.errors, " -: this is not written to standard output")) << ran.errors;
+  }
+  EXPECT_FALSE(std::filesystem::exists("-"));
 }
 
 TEST(DemoOutputs, WhatIsInTheWayIsNamed) {

@@ -152,7 +152,7 @@ TEST(PcdReader, HeadersThatDoNotFitAreRefusedWithTheirFault) {
   const std::string body = xyz(1, 2, 3);
   const BadHeader cases[] = {
       {"no header", "hello", "no DATA line"},
-      {"empty file", "", "no DATA line"},
+      {"empty file", "", "no PCD header: the file is empty"},
       {"x missing", header("a y z", "4 4 4", "F F F", "1 1 1", "1", "binary") + body, "'x' is missing"},
       {"X large", header("X Y Z", "4 4 4", "F F F", "1 1 1", "1", "ascii") + "1 2 3\n",
        "'x' is missing; fields present: X, Y, Z (x, y and z are written small)"},

@@ -72,7 +72,7 @@ TEST(PlyReader, ListsInElementsBeforeTheVerticesArePassedOver) {
 TEST(PlyReader, BadFilesAreRefusedWithTheirFault) {
   const std::string little = vertex_header("binary_little_endian");
   const std::pair<std::string, const char*> cases[] = {
-      {"", "not 'ply'"},
+      {"", "no PLY header: the file is empty"},
       {"plyx\n", "not 'ply'"},
       {"ply\nformat ascii 1.0\n", "no end_header"},
       {"ply\nend_header\n", "format is missing"},

@@ -118,6 +118,27 @@ TEST(ReportVerb, HoldsTheNumbersThatRunWrites) {
   EXPECT_GT(column<std::uint8_t>(data, "point_label").size(), 1000U);
 }
 
+TEST(ReportVerb, ShowsAPartOfTheFramesWithTheirOwnTruth) {
+  const Road road("3");
+  const std::string frames = road.folder.file("road/frames"), out = road.folder.file("out.html");
+  const auto report = [&](const std::string& truth) {
+    return command({"report", "-q", "-o", out, "--truth", truth, frames + "/000002.pcd"});
+  };
+  const std::string head = "frame,stamp_ns,roll,pitch,yaw,d_lf,d_lb,d_rf,d_rb\n";
+  const CsvTable simulated = table_of(road.folder.file("road/truth.csv"));
+  const std::string stamp_ns = simulated.cell(2, *simulated.find_column("stamp_ns"));
+  const std::string rows = "0,1,0,0,0,2,2,2,2\n1,2,0,0,0,2,2,2,2\n2," + stamp_ns + ",0.25,0,0,2,2,2,2\n";
+  const Ran ran = report(road.folder.write("t.csv", head + rows));
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_EQ(ran.errors, "");
+  EXPECT_EQ(column<float>(road.data(), "truth").at(0), 0.25F);
+  const Ran other = report(road.folder.write("t.csv", head + "0,7,0.5,0,0,2,2,2,2\n"));
+  EXPECT_TRUE(contains(other.errors, "in 1 of 1 pair the stamps differ")) << other.errors;
+  EXPECT_EQ(column<float>(road.data(), "truth").at(0), 0.5F);
+  EXPECT_TRUE(contains(report(road.folder.write("t.csv", head + "5,7,0,0,0,2,2,2,2\n")).errors, "no row of it is of"));
+  EXPECT_TRUE(contains(report(road.folder.write("t.csv", head + rows + rows)).errors, "frame 0 appears twice"));
+}
+
 TEST(ReportVerb, IsOneFileThatAsksForNothing) {
   const Road road("1");
   ASSERT_EQ(road.report().exit_status, 0);

@@ -73,6 +73,8 @@ TEST(Csv, BadTablesNameLineAndColumn) {
   EXPECT_EQ(refusal_of("# comment\n"), "no line with column names");
   EXPECT_EQ(refusal_of("a,b\n1,2\n3\n"), "line 3: 1 cells, the head has 2 columns");
   EXPECT_EQ(refusal_of("a,a\n1,2\n"), "column 'a' appears twice");
+  EXPECT_EQ(refusal_of("{\"reasons\":[],\"reasons\":[]}\n"),
+            "line 1: this is JSON; a table of CSV is allowed, as run writes it without --format json");
   EXPECT_EQ(refusal_of("a\n\"1\n2\n"), "line 2: a quote is not closed");
   EXPECT_EQ(refusal_of("a\nseven\n"), "line 2, column a: 'seven' is not a number");
 }

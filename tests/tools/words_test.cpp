@@ -145,6 +145,11 @@ TEST(Words, QuietVerbsSayWhatTheyDoOfIt) {
   EXPECT_GE(quiet, 6U) << "run, sim, demo, report, campaign, replay-box";
 }
 
+TEST(Words, WhatIsSaidToNameTheScenesDoes) {
+  EXPECT_TRUE(contains(command({"demo", "--help"}).printed, "pose_wall sim --list names them"));
+  EXPECT_TRUE(contains(command({"sim", "--list"}).printed, "steel_sets"));
+}
+
 TEST(Words, AQuietDemoSaysNothing) {
   const TempFolder folder;
   const Ran quiet = command({"demo", "-q", "-n", "1", "--sensor", "vlp16", "-o", folder.file("out")});

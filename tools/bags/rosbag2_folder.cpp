@@ -59,7 +59,7 @@ class MetadataParser {
   yaml_event_type_t next(std::string& word) {
     yaml_event_t event;
     if (yaml_parser_parse(&parser_, &event) == 0) {
-      throw FrameError(fmt::format("metadata.yaml: line {}: {}", parser_.problem_mark.line + 1,
+      throw FrameError(fmt::format("metadata.yaml:{}: {}", parser_.problem_mark.line + 1,
                                    parser_.problem != nullptr ? parser_.problem : "cannot be read"));
     }
     const yaml_event_type_t type = event.type;

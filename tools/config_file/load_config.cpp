@@ -9,7 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <string>
 #include <system_error>
 
 #include "config_file/key_table.hpp"
@@ -20,7 +20,7 @@ namespace pose_wall::tools {
 namespace {
 
 // Far above any real config; keeps a wrong path (a recording) from being read whole.
-constexpr std::uintmax_t kFileBytesMax = 1024 * 1024;
+constexpr std::size_t kFileBytesMax = 1024 * 1024;
 
 class ConfigLoader {
  public:
@@ -62,25 +62,29 @@ class ConfigLoader {
 
  private:
   std::vector<YamlEntry> entries_of(const std::string& file) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (error) {
-      fault("{}: {}", file, error.message());
-      return {};
-    }
-    if (size > kFileBytesMax) {
-      fault("{}: {} bytes; a config file has at most {}", file, size, kFileBytesMax);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) {
+      fault("{}: Is a directory; a file is allowed", file);
       return {};
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-      fault("{}: cannot be opened for reading: {}", file, std::strerror(errno));
+      fault("{}: cannot be opened for reading: {}{}", file, std::strerror(errno),
+            file == "-" ? "; standard input is /dev/stdin" : "");
+      return {};
+    }
+    // A pipe has no size: one byte more than is allowed tells.
+    std::string text(kFileBytesMax + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kFileBytesMax) {
+      fault("{}: a config file has at most {} bytes; this has more", file, kFileBytesMax);
       return {};
     }
     try {
-      return parse_yaml_entries({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});
+      return parse_yaml_entries(text);
     } catch (const YamlError& problem) {
-      fault("{}: {}", file, problem.what());
+      fault("{}:{}: {}", file, problem.line(), problem.what());
       return {};
     }
   }

@@ -30,7 +30,7 @@ class EventStream {
     yaml_event_delete(&event_);
     if (yaml_parser_parse(&parser_, &event_) == 0) {
       const char* problem = parser_.problem != nullptr ? parser_.problem : "cannot be read";
-      throw YamlError(fmt::format("line {}: not YAML: {}", parser_.problem_mark.line + 1, problem));
+      throw YamlError(parser_.problem_mark.line + 1, fmt::format("not YAML: {}", problem));
     }
     return event_.type;
   }
@@ -41,7 +41,7 @@ class EventStream {
     const auto& scalar = event_.data.scalar;
     std::string text(reinterpret_cast<const char*>(scalar.value), scalar.length);
     if (text.find('\0') != std::string::npos) {
-      throw YamlError(fmt::format("line {}: a zero byte is not allowed in a value", line()));
+      throw YamlError(line(), "a zero byte is not allowed in a value");
     }
     return text;
   }
@@ -55,8 +55,7 @@ std::string read_sequence(EventStream& events, const std::string& key) {
   std::string joined;
   for (yaml_event_type_t type = events.next(); type != YAML_SEQUENCE_END_EVENT; type = events.next()) {
     if (type != YAML_SCALAR_EVENT) {
-      throw YamlError(
-          fmt::format("line {}: {}: a list of numbers is allowed here, nothing nested", events.line(), key));
+      throw YamlError(events.line(), key + ": a list of numbers is allowed here, nothing nested");
     }
     joined += (joined.empty() ? "" : " ") + events.scalar();
   }
@@ -76,9 +75,9 @@ YamlEntry read_entry(EventStream& events) {
       entry.value = read_sequence(events, entry.key);
       break;
     case YAML_ALIAS_EVENT:
-      throw YamlError(fmt::format("line {}: {}: aliases (*name) are not supported", events.line(), entry.key));
+      throw YamlError(events.line(), entry.key + ": aliases (*name) are not supported");
     default:
-      throw YamlError(fmt::format("line {}: {}: one value is expected; keys are not nested", events.line(), entry.key));
+      throw YamlError(events.line(), entry.key + ": one value is expected; keys are not nested");
   }
   return entry;
 }
@@ -92,17 +91,17 @@ std::vector<YamlEntry> parse_yaml_entries(const std::string& text) {
   if (events.next() == YAML_STREAM_END_EVENT) return entries;  // no document at all
   const yaml_event_type_t root = events.next();
   if (root != YAML_MAPPING_START_EVENT) {
-    throw YamlError(fmt::format("line {}: lines of the form 'key: value' are expected", events.line()));
+    throw YamlError(events.line(), "lines of the form 'key: value' are expected");
   }
   for (yaml_event_type_t type = events.next(); type != YAML_MAPPING_END_EVENT; type = events.next()) {
     if (type != YAML_SCALAR_EVENT) {
-      throw YamlError(fmt::format("line {}: a key is expected here", events.line()));
+      throw YamlError(events.line(), "a key is expected here");
     }
     entries.push_back(read_entry(events));
   }
   events.next();  // end of the document
   if (events.next() != YAML_STREAM_END_EVENT) {
-    throw YamlError(fmt::format("line {}: a second document; one is allowed", events.line()));
+    throw YamlError(events.line(), "a second document; one is allowed");
   }
   return entries;
 }

@@ -20,10 +20,15 @@ struct YamlEntry {
   std::size_t line = 0;  // of the key, from 1
 };
 
-// The message names the line, not the file.
+// The message names neither line nor file.
 class YamlError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  YamlError(std::size_t line, const std::string& what) : std::runtime_error(what), line_(line) {}
+
+  std::size_t line() const { return line_; }  // from 1
+
+ private:
+  std::size_t line_;
 };
 
 // One document, a mapping of names to scalars or flat sequences; an empty file has no entries. Throws YamlError.

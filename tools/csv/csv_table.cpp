@@ -72,6 +72,10 @@ CsvTable CsvTable::parse(std::istream& stream) {
     ++line_number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || (table.head_.empty() && line.front() == '#')) continue;
+    if (table.head_.empty() && line.front() == '{') {
+      throw CsvError(fmt::format(
+          "line {}: this is JSON; a table of CSV is allowed, as run writes it without --format json", line_number));
+    }
     const std::size_t first_line = line_number;
     std::vector<std::string> cells = split_record(line, stream, line_number);
     if (table.head_.empty()) {

@@ -32,7 +32,8 @@ class CsvError : public std::runtime_error {
 // A table with a head. Lines that start with '#' before the head are comments; empty lines do not count.
 class CsvTable {
  public:
-  // Throws CsvError when there is no head, a name appears twice in it, or a row has another number of cells.
+  // Throws CsvError when there is no head, a name appears twice in it, a row has another number of cells, or it
+  // is JSON.
   static CsvTable parse(std::istream& stream);
 
   std::size_t rows() const { return cells_.size(); }

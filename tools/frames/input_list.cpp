@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <system_error>
 
 #include "frames/load_frame.hpp"
@@ -15,23 +17,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What is no frame and has many.
+constexpr std::array<std::string_view, 5> kRecordingEndings = {".pcap", ".pcapng", ".bag", ".mcap", ".db3"};
+
+// Whatever is called like a frame and is no folder: load_frame says of a link that leads nowhere what is wrong with it.
+std::vector<fs::path> frames_in(const fs::path& folder, std::error_code& error) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    std::error_code ignored;
+    if (has_frame_ending(entry.path()) && !entry.is_directory(ignored)) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); });
+  return files;
+}
+
+// What is likely meant by a folder without frames: the folder of frames in it, as `sim` makes it, or a recording.
+std::string what_is_meant(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path inner = folder / "frames";
+  if (!frames_in(inner, ignored).empty()) return fmt::format("; did you mean '{}'?", inner.string());
+  std::vector<std::string> recordings;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path ending = entry.path().extension();
+    if (std::find(kRecordingEndings.begin(), kRecordingEndings.end(), ending) == kRecordingEndings.end()) continue;
+    recordings.push_back(entry.path().string());
+  }
+  if (recordings.empty()) return "";
+  return fmt::format("; bags and captures are named themselves: {}",
+                     *std::min_element(recordings.begin(), recordings.end()));
+}
+
 void add_folder(const fs::path& folder, FrameInputs& inputs) {
   std::error_code error;
-  fs::directory_iterator entries(folder, error);
+  const std::vector<fs::path> files = frames_in(folder, error);
   if (error) {
     inputs.errors.push_back(fmt::format("{}: {}", folder.string(), error.message()));
     return;
   }
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : entries) {
-    std::error_code ignored;
-    if (has_frame_ending(entry.path()) && entry.is_regular_file(ignored)) files.push_back(entry.path());
-  }
   if (files.empty()) {
-    inputs.errors.push_back(fmt::format("{}: no frame in this folder; files ending in {} are looked for",
-                                        folder.string(), frame_endings_text()));
+    inputs.errors.push_back(fmt::format("{}: no frame in this folder; files ending in {} are looked for{}",
+                                        folder.string(), frame_endings_text(), what_is_meant(folder)));
   }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); });
   inputs.files.insert(inputs.files.end(), files.begin(), files.end());
 }
 

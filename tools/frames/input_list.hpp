@@ -17,8 +17,8 @@ struct FrameInputs {
 };
 
 // A file stays as it is, existing or not: load_frame says what is wrong with it. A folder gives its frame files (not
-// those of folders inside it) in plain byte order of their names, so that 10.pcd comes before 9.pcd; files with other
-// endings are passed over.
+// those of folders inside it) in plain byte order of their names, so that 10.pcd comes before 9.pcd; links that lead
+// nowhere are among them; files with other endings are passed over.
 FrameInputs collect_inputs(const std::vector<std::string>& arguments);
 
 }  // namespace pose_wall::tools

@@ -83,7 +83,11 @@ bool has_frame_ending(const std::filesystem::path& path) {
 
 Frame load_frame(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw FrameError("not there: no such file or folder");
+  if (!std::filesystem::exists(path, error)) {
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);  // empty where it is no link
+    if (target.empty()) throw FrameError("not there: no such file or folder");
+    throw FrameError(fmt::format("not there: it is a link to {}, which leads to no file", target.string()));
+  }
   Bytes bytes = read_bytes(path);
   if (const Reader read = reader_by_content(bytes)) return read(std::move(bytes));
   const Format* format = find_format(path);

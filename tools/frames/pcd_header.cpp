@@ -57,6 +57,7 @@ RawHeader read_entries(const Bytes& bytes) {
       return raw;
     }
   }
+  if (bytes.empty()) throw FrameError("no PCD header: the file is empty");
   throw FrameError(
       fmt::format("no PCD header: no DATA line within the first {} bytes", std::min(kHeaderBytesMax, bytes.size())));
 }

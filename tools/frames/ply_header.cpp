@@ -97,6 +97,7 @@ bool parse_line(std::string_view line, PlyHeader& header, bool& has_format) {
 }  // namespace
 
 PlyHeader parse_ply_header(const Bytes& bytes) {
+  if (bytes.empty()) throw FrameError("no PLY header: the file is empty");
   TextCursor cursor(as_text(bytes).substr(0, kHeaderBytesMax));
   if (cursor.next_line() != std::string_view("ply")) throw FrameError("no PLY header: the first line is not 'ply'");
   PlyHeader header;

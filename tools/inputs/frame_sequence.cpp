@@ -19,8 +19,12 @@ namespace pose_wall::tools {
 
 FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const InputOptions& options) {
   for (const std::string& argument : arguments) add(argument, options);
-  if (!options.topic.empty() && !bag_seen_ && errors_.empty()) {
+  if (options.of_others || !errors_.empty()) return;
+  if (!options.topic.empty() && !bag_seen_) {
     throw std::invalid_argument(fmt::format("--topic {}: no input is a bag", options.topic));
+  }
+  if (!options.metadata.empty() && !capture_seen_) {
+    throw std::invalid_argument(fmt::format("--metadata {}: no input is a capture of packets", options.metadata));
   }
 }
 
@@ -30,6 +34,7 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
     if (is_packet_capture(argument)) {
       sources_.push_back(open_packet_capture(argument, options.metadata));
       files_.emplace_back(argument);
+      capture_seen_ = true;
       return;
     }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);

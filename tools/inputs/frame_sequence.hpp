@@ -21,6 +21,7 @@ struct InputOptions {
   std::string topic;           // of bags; empty: the only one with clouds
   bool fullest_topic = false;  // where `topic` is empty and several topics have clouds: take the one with most messages
   std::string metadata;        // of captures of packets; empty: the file of the same name with the ending .json
+  bool of_others = false;      // topic and metadata may be meant for inputs that are opened elsewhere
 };
 
 class FrameSequence {
@@ -49,6 +50,7 @@ class FrameSequence {
   std::vector<std::string> errors_;
   std::size_t current_ = 0;
   bool bag_seen_ = false;
+  bool capture_seen_ = false;
 };
 
 }  // namespace pose_wall::tools

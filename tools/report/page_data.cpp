@@ -69,7 +69,7 @@ void PageData::add_point(const picture::Drawn& p, std::uint8_t label) {
   point_label_.add(label);
 }
 
-void PageData::add(const FrameOutcome& outcome, const TruthRow* truth) {
+void PageData::add(const FrameOutcome& outcome) {
   sources_.push_back(outcome.source);
   errors_.push_back(outcome.error);
   // What stays of a frame that could not be read: nothing of it is known.
@@ -77,7 +77,6 @@ void PageData::add(const FrameOutcome& outcome, const TruthRow* truth) {
   for (pose_wall_value& value : result.quantity) value = {kNone, kNone, kNone, kNone, kNone, kNone, kUnreadable, 0};
   if (outcome.result) result = *outcome.result;
   add_values(result);
-  for (std::size_t q = 0; q < kTruthQuantities; ++q) truth_.add(truth != nullptr ? truth->value[q] : kNone);
   stamp_s_.add(1e-9 * static_cast<double>(outcome.stamp_ns));
   engine_ms_.add(outcome.result ? outcome.total_ms : kNone);
   confidence_.add(result.confidence);
@@ -89,6 +88,12 @@ void PageData::add(const FrameOutcome& outcome, const TruthRow* truth) {
        {result.points_in, result.dropped_not_finite, result.dropped_zero, result.dropped_near, result.dropped_far,
         result.dropped_body, result.voxels, result.outliers, result.ground_candidates, result.wall_points}) {
     counts_.add(count);
+  }
+}
+
+void PageData::add_truth(const std::vector<const TruthRow*>& truth) {
+  for (const TruthRow* row : truth) {
+    for (std::size_t q = 0; q < kTruthQuantities; ++q) truth_.add(row != nullptr ? row->value[q] : kNone);
   }
 }
 

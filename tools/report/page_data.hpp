@@ -28,8 +28,9 @@ class PageData {
 
   // While the engine still has the frame's points: keeps them if the frame is one whose cloud is shown.
   void look(const pose_wall_cloud& cloud, const pose_wall_points& points, const pose_wall_result& result);
-  // truth: nullptr where there is none for this frame.
-  void add(const FrameOutcome& outcome, const TruthRow* truth);
+  void add(const FrameOutcome& outcome);
+  // Once, after the last frame. Of each: nullptr where there is none.
+  void add_truth(const std::vector<const TruthRow*>& truth);
 
   std::size_t frames() const { return sources_.size(); }
   std::size_t clouds() const { return cloud_frame_.size(); }

@@ -144,8 +144,8 @@ std::vector<std::string> result_cells(const FrameOutcome& outcome) {
   for (const Column& column : result_columns()) {
     cells.push_back(outcome.result ? column.cell(*outcome.result) : std::string{});
   }
-  cells.insert(cells.end(),
-               {csv_number(outcome.load_ms), outcome.result ? csv_number(outcome.processor_ms) : "", outcome.error});
+  cells.insert(cells.end(), {outcome.result ? csv_number(outcome.load_ms) : "",
+                             outcome.result ? csv_number(outcome.processor_ms) : "", outcome.error});
   return cells;
 }
 

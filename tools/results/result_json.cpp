@@ -4,6 +4,7 @@
 #include "results/result_json.hpp"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "quantities.hpp"
 #include "results/json_words.hpp"
@@ -32,7 +33,7 @@ Json values_json(const pose_wall_result& r) {
 }
 
 Json plane_json(const pose_wall_plane& p) {
-  const auto if_found = [&p](Json value) { return p.found != 0 ? value : Json(); };
+  const auto if_found = [&p](Json value) { return p.found != 0 ? std::move(value) : Json(); };
   return {{"found", p.found != 0},
           {"distance_m", if_found(p.d_m)},
           {"rms_m", if_found(p.rms_m)},
@@ -65,7 +66,7 @@ Json times_json(const FrameOutcome& outcome) {
     }
   }
   const auto if_read = [&outcome](double ms) { return outcome.result ? Json(ms) : Json(); };
-  return {{"load", outcome.load_ms},
+  return {{"load", if_read(outcome.load_ms)},
           {"engine", if_read(outcome.total_ms)},
           {"engine_processor", if_read(outcome.processor_ms)},
           {"stages", stages}};

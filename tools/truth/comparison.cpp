@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <map>
 #include <optional>
 
 #include "quantities.hpp"
+#include "truth/row_pairs.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -31,22 +31,16 @@ ResultColumns result_columns(const CsvTable& results, const std::string& name) {
   return {column(""), column("_raw"), column("_sigma"), column("_pl"), column("_state")};
 }
 
-std::string common_row_key(const CsvTable& results, const CsvTable& truth) {
-  for (const char* key : {"frame", "stamp_ns"}) {
-    if (results.find_column(key) && truth.find_column(key)) return key;
-  }
-  throw CsvError("rows cannot be matched: results and truth need a column 'frame' or 'stamp_ns' in common");
+RowKeys::Column cells_of(const CsvTable& table, const char* name) {
+  const std::optional<std::size_t> column = table.find_column(name);
+  if (!column) return std::nullopt;
+  std::vector<std::string> cells;
+  for (std::size_t row = 0; row < table.rows(); ++row) cells.push_back(table.cell(row, *column));
+  return cells;
 }
 
-std::map<std::string, std::size_t> rows_by(const CsvTable& table, const char* which, const std::string& key) {
-  const std::size_t column = required_column(table, which, key);
-  std::map<std::string, std::size_t> rows;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (!rows.emplace(table.cell(row, column), row).second) {
-      throw CsvError(fmt::format("the {} have {} {} twice", which, key, table.cell(row, column)));
-    }
-  }
-  return rows;
+RowKeys keys_of(const CsvTable& table) {
+  return {cells_of(table, "frame"), cells_of(table, "stamp_ns")};
 }
 
 // A row of a frame that could not be read has no state; it counts as not measured.
@@ -64,21 +58,17 @@ Measured measured_at(const CsvTable& results, std::size_t row, const ResultColum
 }
 
 void match_rows(const CsvTable& results, const CsvTable& truth, Comparison& comparison) {
-  comparison.matched_by = common_row_key(results, truth);
-  const auto result_rows = rows_by(results, "results", comparison.matched_by);
-  const auto truth_rows = rows_by(truth, "truth rows", comparison.matched_by);
-  auto& pairs = comparison.rows;
-  for (const auto& [key, row] : result_rows) {
-    const auto same = truth_rows.find(key);
-    if (same != truth_rows.end()) pairs.emplace_back(row, same->second);
+  RowPairs pairs = pair_rows(keys_of(results), keys_of(truth));
+  if (pairs.rows.empty()) {
+    throw CsvError(fmt::format("no row in common: {} result rows and {} truth rows share no {}", results.rows(),
+                               truth.rows(), pairs.by));
   }
-  comparison.matched = pairs.size();
-  comparison.result_rows_alone = result_rows.size() - pairs.size();
-  comparison.truth_rows_alone = truth_rows.size() - pairs.size();
-  if (pairs.empty()) {
-    throw CsvError(fmt::format("no row in common: {} result rows and {} truth rows share no {}", result_rows.size(),
-                               truth_rows.size(), comparison.matched_by));
-  }
+  comparison.matched_by = pairs.by;
+  comparison.matched = pairs.rows.size();
+  comparison.other_stamps = pairs.other_stamps;
+  comparison.result_rows_alone = results.rows() - pairs.rows.size();
+  comparison.truth_rows_alone = truth.rows() - pairs.rows.size();
+  comparison.rows = std::move(pairs.rows);
 }
 
 }  // namespace

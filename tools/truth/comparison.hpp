@@ -26,16 +26,17 @@ struct QuantityComparison {
 };
 
 struct Comparison {
-  std::string matched_by;  // "frame" or "stamp_ns"
+  std::string matched_by;  // "stamp_ns" or "frame"
   std::size_t matched = 0;
+  std::size_t other_stamps = 0;  // of those matched by frame: are they of the same frame at all?
   std::size_t result_rows_alone = 0;
   std::size_t truth_rows_alone = 0;
   std::vector<std::pair<std::size_t, std::size_t>> rows;  // of results and of truth that belong together
   std::vector<QuantityComparison> quantities;             // those that the truth has
 };
 
-// Rows belong together by `frame`, or by `stamp_ns` when either table has no `frame`. Throws CsvError for missing
-// columns, a row number that appears twice, or tables that share no row.
+// Rows belong together as pair_rows says. Throws CsvError for missing columns, a row number that appears twice, or
+// tables that share no row.
 Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, const AlertLimits& limits);
 
 }  // namespace pose_wall::tools

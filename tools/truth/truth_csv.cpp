@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -39,8 +40,10 @@ std::vector<TruthRow> rows_of(const CsvTable& table) {
   const std::size_t frame = column_of(table, "frame");
   const std::size_t stamp = column_of(table, "stamp_ns");
   std::vector<TruthRow> rows(table.rows());
+  std::set<std::uint64_t> seen;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].frame = integer_of<std::uint64_t>(table.cell(i, frame), "frame");
+    if (!seen.insert(rows[i].frame).second) throw CsvError(fmt::format("frame {} appears twice", rows[i].frame));
     rows[i].stamp_ns = integer_of<std::int64_t>(table.cell(i, stamp), "stamp_ns");
     for (std::size_t q = 0; q < kTruthQuantities; ++q) rows[i].value[q] = table.number(i, column_of(table, kNames[q]));
   }

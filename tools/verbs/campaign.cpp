@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -47,6 +49,12 @@ struct CampaignOptions {
 
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
 void check_settings(const campaign::EngineChoice& engine) {
+  std::error_code ignored;
+  const std::string& file = engine.config_file;
+  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
+    throw std::invalid_argument(
+        fmt::format("--config {}: not a regular file; every run reads it anew, and a pipe is read once", file));
+  }
   load_config(engine.config_file, engine.settings);
 }
 
@@ -141,10 +149,13 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--draws", plan.draws, "Draws per scene and sensor, instead of the size's")
       ->check(CLI::Range(1, 1000000));
   verb.add_option("--first-draw", plan.first_draw, "Number of the first draw: with --draws 1, one run again")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole_number());
   verb.add_option("-n,--frames", plan.frames, "Frames per draw, instead of what size and scene ask for")
       ->check(CLI::Range(1, 1000000));
-  verb.add_option("--seed", plan.seed, "The same seed gives the same draws")->capture_default_str();
+  verb.add_option("--seed", plan.seed, "The same seed gives the same draws")
+      ->capture_default_str()
+      ->check(whole_number());
 }
 
 }  // namespace
@@ -160,7 +171,9 @@ void add_campaign(CLI::App& app, int& exit_code) {
                    "Settings; what scene and sensor ask for comes over them");
   verb->add_option("-s,--set", options->engine.settings, "KEY=VALUE over all settings; may be repeated")
       ->allow_extra_args(false);
-  verb->add_option("--events", options->events, "How many of the worst events the card lists")->capture_default_str();
+  verb->add_option("--events", options->events, "How many of the worst events the card lists")
+      ->capture_default_str()
+      ->check(whole_number());
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
   verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records, and run nothing");
   verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,10 @@ void print_keys() {
 
 int check_config(const CheckConfigOptions& options) {
   if (options.keys) {
+    if (!options.file.empty() || !options.settings.empty()) {
+      throw std::invalid_argument(
+          "--keys prints the manual of all keys, whatever their values: neither FILE nor --set can go with it");
+    }
     print_keys();
     return kExitDone;
   }

@@ -21,6 +21,7 @@
 #include "terminal/counted.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
@@ -95,12 +96,15 @@ void add_demo(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("demo", "Simulate a roadway, measure in it, draw a picture");
   verb->add_option(
       "--scene", options->demo.scene,
-      "Scene of the simulator (pose_wall sim --help names them); default: a heading with the machine at work");
-  verb->add_option("--sensor", options->demo.sensor, "Sensor model of the simulator")->capture_default_str();
+      "Scene of the simulator (pose_wall sim --list names them); default: a heading with the machine at work");
+  verb->add_option("--sensor", options->demo.sensor, "Sensor model of the simulator, named there as well")
+      ->capture_default_str();
   verb->add_option("-n,--frames", options->frames, "How many frames")
       ->capture_default_str()
       ->check(CLI::Range(1u, 100000u));
-  verb->add_option("--seed", options->demo.seed, "Another number: other rock, other noise")->capture_default_str();
+  verb->add_option("--seed", options->demo.seed, "Another number: other rock, other noise")
+      ->capture_default_str()
+      ->check(whole_number());
   verb->add_option("-c,--config", options->demo.config_file, "Settings of the engine, as config/pose_wall.yaml");
   verb->add_option("-s,--set", options->demo.settings, "Setting of the engine, KEY=VALUE; may be repeated")
       ->allow_extra_args(false);

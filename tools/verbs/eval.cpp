@@ -9,12 +9,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "angles.hpp"
@@ -54,8 +56,13 @@ auto in_file(const std::string& file, Step step) {
 
 CsvTable read_table(const std::string& file) {
   return in_file(file, [&file] {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) throw CsvError("this is a folder; a table of CSV is allowed");
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw CsvError(fmt::format("cannot be opened for reading: {}", std::strerror(errno)));
+    if (!stream) {
+      throw CsvError(fmt::format("cannot be opened for reading: {}{}", std::strerror(errno),
+                                 file == "-" ? "; standard input is /dev/stdin" : ""));
+    }
     return CsvTable::parse(stream);
   });
 }
@@ -139,6 +146,7 @@ Json json_points(const Efficiency& efficiency) {
 void print_json(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
   Json page = {{"matched_by", comparison.matched_by},
                {"matched", comparison.matched},
+               {"other_stamps", comparison.other_stamps},
                {"result_rows_alone", comparison.result_rows_alone},
                {"truth_rows_alone", comparison.truth_rows_alone}};
   for (const QuantityComparison& quantity : comparison.quantities) {
@@ -175,6 +183,15 @@ void demand_settings_for_bound(const EvalOptions& options) {
       "frames; config/pose_wall.yaml holds the defaults)");
 }
 
+// Rows with the same number may be of two runs; only their stamps can tell.
+void tell_other_stamps(const EvalOptions& options, const Comparison& comparison) {
+  if (comparison.other_stamps == 0) return;
+  fmt::print(stderr,
+             "pose_wall eval: {} against {}: matched by frame, but in {} of {} the stamps differ; where the frames of "
+             "RESULT are not the first ones of TRUTH, in its order, these errors mean nothing\n",
+             options.results, options.truth, comparison.other_stamps, counted(comparison.matched, "pair"));
+}
+
 int eval(const EvalOptions& options) {
   demand_settings_for_bound(options);
   const LoadedConfig loaded = load_config(options.config_file, options.settings);
@@ -183,6 +200,7 @@ int eval(const EvalOptions& options) {
   const CsvTable truth = read_table(options.truth);
   const Comparison comparison = in_file(fmt::format("{} against {}", options.results, options.truth),
                                         [&] { return compare_with_truth(results, truth, limits); });
+  tell_other_stamps(options, comparison);
   const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
   options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
   return kExitDone;
@@ -221,6 +239,8 @@ void add_eval(CLI::App& app, int& exit_code) {
       "Examples:\n  pose_wall eval out.csv truth.csv\n"
       "  pose_wall eval out.csv clean/truth.csv -c clean/pose_wall.yaml --frames clean/frames --range-noise 0.012\n"
       "the second on a road of `pose_wall sim --scene clean`.\n"
+      "Rows belong together by stamp_ns where it tells the rows of either table apart and some are in both, by frame "
+      "else.\n"
       "raw: this frame's own measurement. value: what a controller acts on, held values included.\n"
       "> protection: errors beyond the stated protection level. mean z²: 1 when the stated sigma is true.\n"
       "CRB: Cramer-Rao bound on a clean road (flat floor, flat upright walls, noise along the ray), root mean square "

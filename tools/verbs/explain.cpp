@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -28,6 +29,7 @@
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
@@ -50,7 +52,7 @@ struct Explained {
 
 void expect_frame(std::uint64_t frame, std::size_t frames) {
   if (frame < frames) return;
-  if (frames == 0) throw std::invalid_argument("no frame to explain");
+  if (frames == 0) throw std::runtime_error("no frame to explain");
   throw std::invalid_argument(fmt::format("--frame {}: there {} {}, 0 to {}", frame, frames == 1 ? "is" : "are",
                                           counted(frames, "frame"), frames - 1));
 }
@@ -108,6 +110,13 @@ void print_text(const ExplainOptions& options, const LoadedConfig& loaded, const
   if (notes.dropped() > 0) fmt::print("{} left out for lack of room.\n", counted(notes.dropped(), "note"));
 }
 
+// It is SVG whatever the file is called.
+void expect_svg(const std::string& picture) {
+  if (picture.empty() || std::filesystem::path(picture).extension() == ".svg") return;
+  throw std::invalid_argument(
+      fmt::format("--picture {}: the picture is written as SVG; a file ending in .svg is allowed", picture));
+}
+
 int explain_frame(const ExplainOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
@@ -115,6 +124,7 @@ int explain_frame(const ExplainOptions& options) {
   expect_frame(options.frame, inputs.frames());
   std::optional<OutputFile> picture;
   if (!options.picture.empty()) picture.emplace(options.picture, options.frames.files_read(inputs), "--picture");
+  expect_svg(options.picture);
   const std::optional<Explained> explained = run_to_frame(options, loaded, inputs);
   if (!explained) return kExitInterrupted;
   if (!explained->outcome.result) {
@@ -143,12 +153,7 @@ void add_explain(CLI::App& app, int& exit_code) {
   add_frame_options(verb, &options->frames);
   verb->add_option("-n,--frame", options->frame, "Which frame, counted from 0 as in the CSV of run")
       ->required()
-      ->check(
-          [](const std::string& word) {
-            const bool is_number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
-            return is_number ? "" : fmt::format("'{}' is refused; a whole number from 0 is allowed", word);
-          },
-          "0 and more");
+      ->check(whole_number());
   verb->add_option("-p,--picture", options->picture, "SVG file for a picture of the frame");
   verb->add_flag("-j,--json", options->json, "Everything as one JSON object instead");
   verb->footer(

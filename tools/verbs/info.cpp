@@ -33,8 +33,16 @@ struct Looked {
   bool complete = false;
 };
 
+// Each input is looked at by itself; topic and metadata have to be of one of them, not of each.
+void expect_use(const InfoOptions& options) {
+  const bool has_words = !options.input.topic.empty() || !options.input.metadata.empty();
+  if (has_words && options.inputs.size() > 1) FrameSequence(options.inputs, options.input);
+}
+
 Looked look_at(const std::string& input, const InfoOptions& options) {
-  FrameSequence frames({input}, options.input);
+  InputOptions of_this = options.input;
+  of_this.of_others = options.inputs.size() > 1;
+  FrameSequence frames({input}, of_this);
   for (const std::string& error : frames.errors()) fmt::print(stderr, "pose_wall info: {}\n", error);
   if (!frames.errors().empty()) return {};
   InputFacts facts;
@@ -52,6 +60,7 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
 }
 
 int info(const InfoOptions& options) {
+  expect_use(options);
   const InterruptWatch watch;
   int exit_code = kExitDone;
   std::string pages;

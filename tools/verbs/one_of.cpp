@@ -20,4 +20,12 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   return CLI::Validator(fault, fmt::format("{{{}}}", fmt::join(words, ",")), "");
 }
 
+CLI::Validator whole_number() {
+  const auto fault = [](const std::string& word) -> std::string {
+    const bool is_number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
+    return is_number ? "" : fmt::format("'{}' is refused; a whole number from 0 is allowed", word);
+  };
+  return CLI::Validator(fault, "0 and more", "");
+}
+
 }  // namespace pose_wall::tools

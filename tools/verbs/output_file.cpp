@@ -15,6 +15,9 @@ namespace pose_wall::tools {
 
 OutputFile::OutputFile(const std::string& path, const std::vector<std::filesystem::path>& inputs, const char* option)
     : path_(path) {
+  if (path == "-") {
+    throw std::invalid_argument(fmt::format("{} -: this is not written to standard output; a file is allowed", option));
+  }
   std::error_code ignored;
   // Taking the place of a link would leave what it points to as it was; taking that of a device would end the device.
   if (std::filesystem::is_symlink(path_, ignored) && std::filesystem::exists(path_, ignored)) {

@@ -22,6 +22,10 @@ std::filesystem::path existing_part(std::filesystem::path path) {
 }  // namespace
 
 void make_output_folder(const std::string& path, std::string_view option) {
+  if (path == "-") {
+    throw std::invalid_argument(
+        fmt::format("{} -: this is not written to standard output; a folder is allowed", option));
+  }
   std::error_code error;
   const std::filesystem::path there = existing_part(path);
   if (!there.empty() && std::filesystem::exists(there, error) && !std::filesystem::is_directory(there, error)) {

@@ -8,8 +8,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -25,7 +23,9 @@
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
+#include "truth/row_pairs.hpp"
 #include "truth/truth_csv.hpp"
+#include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
 #include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
@@ -43,20 +43,13 @@ struct ReportOptions {
   std::size_t points_max = 1'200'000;
 };
 
-std::map<std::uint64_t, TruthRow> truth_by_frame(const std::string& file) {
-  std::map<std::uint64_t, TruthRow> rows;
-  if (file.empty()) return rows;
-  for (const TruthRow& row : read_truth_csv(file)) rows[row.frame] = row;
-  return rows;
-}
-
 struct Shown {
   RunSummary summary;
+  RowKeys keys{std::vector<std::string>(), std::vector<std::string>()};
   bool complete = true;
 };
 
 Shown process_frames(const ReportOptions& options, FrameSequence& inputs, FrameRunner& runner, report::PageData& data) {
-  const auto truth = truth_by_frame(options.truth);
   const InterruptWatch watch;
   ProgressBar bar(inputs.frames(), !options.frames.quiet && is_terminal(2));
   Shown shown;
@@ -70,11 +63,41 @@ Shown process_frames(const ReportOptions& options, FrameSequence& inputs, FrameR
         [&data](const auto& cloud, const auto& points, const auto& result) { data.look(cloud, points, result); });
     if (!outcome.result) bar.print_above(fmt::format("pose_wall report: {}: {}", outcome.source, outcome.error));
     shown.summary.add(outcome);
-    const auto row = truth.find(outcome.frame);
-    data.add(outcome, row == truth.end() ? nullptr : &row->second);
+    shown.keys.frame->push_back(std::to_string(outcome.frame));
+    shown.keys.stamp_ns->push_back(std::to_string(outcome.stamp_ns));
+    data.add(outcome);
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
   return shown;
+}
+
+RowKeys keys_of(const std::vector<TruthRow>& truth) {
+  std::vector<std::string> frames, stamps_ns;
+  for (const TruthRow& row : truth) {
+    frames.push_back(std::to_string(row.frame));
+    stamps_ns.push_back(std::to_string(row.stamp_ns));
+  }
+  return {frames, stamps_ns};
+}
+
+// The truth of each frame that was read. Which rows are meant hangs on the stamps of all of them.
+void add_truth(const ReportOptions& options, const std::vector<TruthRow>& truth, const Shown& shown,
+               report::PageData* data) {
+  std::vector<const TruthRow*> of_frames(data->frames(), nullptr);
+  const RowPairs pairs = pair_rows(shown.keys, keys_of(truth));
+  for (const auto& [frame, row] : pairs.rows) of_frames[frame] = &truth[row];
+  data->add_truth(of_frames);
+  if (options.truth.empty()) return;
+  if (pairs.rows.empty()) {
+    fmt::print(stderr, "pose_wall report: --truth {}: no row of it is of these frames, by stamp_ns or frame\n",
+               options.truth);
+  }
+  if (pairs.other_stamps > 0) {
+    fmt::print(stderr,
+               "pose_wall report: --truth {}: matched by frame, but in {} of {} the stamps differ; where the frames "
+               "are not the first ones of the truth, in its order, the errors shown mean nothing\n",
+               options.truth, pairs.other_stamps, counted(pairs.rows.size(), "pair"));
+  }
 }
 
 std::string title_of(const ReportOptions& options) {
@@ -89,7 +112,8 @@ int report_frames(const ReportOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall report: {}\n", error);
-  if (inputs.frames() == 0) throw std::invalid_argument("no frame to report on");
+  if (inputs.frames() == 0) throw std::runtime_error("no frame to report on");
+  const std::vector<TruthRow> truth = options.truth.empty() ? std::vector<TruthRow>() : read_truth_csv(options.truth);
   std::vector<std::filesystem::path> read = options.frames.files_read(inputs);
   if (!options.truth.empty()) read.emplace_back(options.truth);
   OutputFile output(options.output, read);
@@ -102,6 +126,7 @@ int report_frames(const ReportOptions& options) {
     fmt::print(stderr, "pose_wall report: no frame could be read; {} is not written\n", options.output);
     return kExitUnreadable;
   }
+  add_truth(options, truth, shown, &data);
   const std::string page =
       report::page({title_of(options), options.language, options.truth, shown.complete, inputs.frames()}, loaded, data);
   output.write(page);
@@ -125,7 +150,10 @@ void add_report(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("report", "Measure frames and write a page to look at them in a browser");
   add_frame_options(verb, &options->frames);
   verb->add_option("-o,--output", options->output, "The page")->capture_default_str();
-  verb->add_option("--truth", options->truth, "truth.csv of pose_wall sim; its frame numbers count the inputs from 0")
+  verb->add_option(
+          "--truth", options->truth,
+          "truth.csv of pose_wall sim: each frame has the row of its stamp, or where stamps do not tell, of its "
+          "number among the inputs, from 0")
       ->check(CLI::ExistingFile);
   verb->add_option("--title", options->title, "Heading; default: the name of the first input");
   verb->add_option("--language", options->language, "The page opens in: en or zh; it has a button for the other")
@@ -142,9 +170,11 @@ void add_report(CLI::App& app, int& exit_code) {
       "above and in section, summary and verdict, in English and Chinese. Of long recordings it keeps the points of\n"
       "some 400 frames and of those in which a state changes. Ctrl-C ends it early; the page then shows what was "
       "read.\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are shown), 2 bad usage or config, 130 "
+      "Exit status: 0 done, 1 an input could not be read (the others are shown) or the page not written, 2 bad usage "
+      "or config, 130 "
       "interrupted.");
-  verb->callback([options, &exit_code] { exit_code = report_frames(*options); });
+  verb->callback(
+      [options, &exit_code] { exit_code = done_or_complaint("report", [&] { return report_frames(*options); }); });
 }
 
 }  // namespace pose_wall::tools

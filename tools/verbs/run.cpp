@@ -84,7 +84,7 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
     const FrameOutcome outcome = runner.run(std::move(*frame), look);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
     summary.add(outcome);
-    const std::string fault = outputs.write(outcome);
+    std::string fault = outputs.write(outcome);
     if (!fault.empty()) return fault;
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
@@ -136,7 +136,7 @@ void add_run(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = app.add_subcommand("run", "Measure attitude and wall distances in frames of a LiDAR");
   add_frame_options(verb, &options->frames);
-  verb->add_option("-o,--output", options->output, "File for the results; default: standard output");
+  verb->add_option("-o,--output", options->output, "File for the results; default, and -: standard output");
   verb->add_option("--format", options->format, "Results as CSV, or as JSON: one object per line and frame")
       ->capture_default_str()
       ->check(one_of({"csv", "json"}));
@@ -154,7 +154,10 @@ void add_run(CLI::App& app, int& exit_code) {
       "A file name of 16 to 19 digits is the frame's stamp in nanoseconds; other frames are 1/rate apart.\n"
       "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n130 "
       "interrupted by Ctrl-C: what is written is whole rows and whole files.");
-  verb->callback([options, &exit_code] { exit_code = run(*options); });
+  verb->callback([options, &exit_code] {
+    if (options->output == "-") options->output.clear();
+    exit_code = run(*options);
+  });
 }
 
 }  // namespace pose_wall::tools

@@ -27,6 +27,7 @@
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
 #include "verbs/complaint.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
@@ -93,12 +94,20 @@ std::string about_scene(const SimOptions& options, const sim::Setup& setup) {
 }
 
 // A longer run into the same folder left frames that this run's truth knows nothing of.
-void remove_later_frames(const SimOptions& options, std::uint32_t i) {
+std::uint32_t remove_later_frames(const SimOptions& options, std::uint32_t first) {
+  std::uint32_t i = first;
   while (std::filesystem::remove(sim::frame_file(options.output, i))) ++i;
+  return i - first;
 }
 
-// How many: Ctrl-C ends it after the frame at work. Those that are there have their truth.
-std::uint32_t write_frames(const SimOptions& options, const sim::Simulator& simulator) {
+// How many frames there are, and how many of a longer run there were.
+struct Written {
+  std::uint32_t frames = 0;
+  std::uint32_t removed = 0;
+};
+
+// Ctrl-C ends it after the frame at work. Those that are there have their truth.
+Written write_frames(const SimOptions& options, const sim::Simulator& simulator) {
   const InterruptWatch watch;
   ProgressBar bar(options.frames, !options.quiet && is_terminal(2));
   std::vector<TruthRow> truth;
@@ -110,9 +119,9 @@ std::uint32_t write_frames(const SimOptions& options, const sim::Simulator& simu
     truth.push_back(simulator.truth(i));
     bar.advance(file.filename().string());
   }
-  remove_later_frames(options, i);
+  const std::uint32_t removed = remove_later_frames(options, i);
   write_truth_csv(std::filesystem::path(options.output) / "truth.csv", truth);
-  return i;
+  return {i, removed};
 }
 
 // Frames and settings that others made are not for overwriting. Those of an earlier run are.
@@ -142,9 +151,11 @@ int simulate(const SimOptions& options) {
   std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
   write_whole_file(std::filesystem::path(options.output) / "pose_wall.yaml",
                    sim::engine_settings(simulator.setup(), about_scene(options, simulator.setup())));
-  const std::uint32_t written = write_frames(options, simulator);
+  const auto [written, removed] = write_frames(options, simulator);
   if (!options.quiet)
     fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
+  if (!options.quiet && removed > 0)
+    fmt::print(stderr, "{}: {} of an earlier, longer run removed\n", options.output, counted(removed, "frame"));
   if (written == options.frames) return kExitDone;
   fmt::print(stderr, "interrupted: {} of {} written, with their truth\n", written,
              counted(options.frames, "frame is", "frames are"));
@@ -163,7 +174,8 @@ void add_sim(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1000000));
   verb->add_option("-r,--rate", options->rate_hz, "Frames per second; the same as --set rate_hz");
   verb->add_option("--seed", options->seed, "Of rock, noise and --random: the same seed gives the same bits")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole_number());
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the scene; may be repeated")->allow_extra_args(false);
   verb->add_flag("--random", options->random, "Draw the sizes from the scene's ranges, by the seed");
   verb->add_flag("--list", options->list, "Print scenes, sensors and keys");
