@@ -19,7 +19,6 @@ namespace pose_wall {
 namespace {
 
 constexpr double kSeenThroughDoubt = 0.25;
-constexpr double kOnWallInThresholds = 3.0;
 constexpr double kExplainedMin = 0.3;
 
 #ifdef POSE_WALL_TRACE
@@ -42,7 +41,6 @@ void note_side(const WallChoice& choice, const WallCandidates (&beside)[2], int 
 void note_explained(double share, bool explained) {
   trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_EXPLAINED, share, kExplainedMin, explained);
 }
-
 #endif
 
 // Nothing is reported of a machine that stands across the road.
@@ -122,7 +120,7 @@ Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&bes
 double explained_share(const WallScene& scene, const WallChoice& choice) {
   const auto slab = [&](const WallCandidate* wall) {
     if (wall == nullptr) return Slab::empty();
-    return Slab(wall->plane, kOnWallInThresholds * scene.settings.wall_ransac_thresh);
+    return Slab(wall->plane, on_wall_m(scene.settings));
   };
   const Slab left = slab(choice.side[0]), right = slab(choice.side[1]);
   const PointSet& band = scene.band_level;

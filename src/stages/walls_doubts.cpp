@@ -12,7 +12,6 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kOnWallInThresholds = 3.0;
 constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
 constexpr double kSilentMax = 0.025;
@@ -89,9 +88,8 @@ void extend_to_machine(double away_m, WallResult* wall) {
 
 void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, WallResult* wall) {
   const Plane& plane = wall->fit.plane;
-  const double reach_m = kOnWallInThresholds * scene.settings.wall_ransac_thresh;
   const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
-  const WallEdges edges = look_past(scene, plane, wall->along_level, reach_m, &scratch->edges);
+  const WallEdges edges = look_past(scene, plane, wall->along_level, on_wall_m(scene.settings), &scratch->edges);
   const bool little_seen = sight.dim || edges.top_unseen, shows_behind = sight.open > kOpenDoubt || edges.layer_behind;
   POSE_WALL_NOTE(note_sight(sight, edges, grooved));
   if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;

@@ -41,6 +41,12 @@ WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyon
                      const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
                      const LevelResult& level, const Axes& axes, const Extrinsic& extrinsic);
 
+// What lies this near to a wall's plane, to either side, is the wall.
+inline double on_wall_m(const Settings& settings) {
+  constexpr double kInThresholds = 3.0;
+  return kInThresholds * settings.wall_ransac_thresh;
+}
+
 // Share of the way from the sensor, sensor_inside_m before a plane, to a point behind it (signed distance r_m < 0) at
 // which the ray passes the plane.
 inline double way_to_plane(double sensor_inside_m, double r_m) {
