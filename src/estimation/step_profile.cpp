@@ -3,6 +3,10 @@
 
 #include "estimation/step_profile.hpp"
 
+#include <cmath>
+
+#include "math/bits.hpp"
+
 namespace pose_wall {
 namespace {
 
@@ -11,7 +15,35 @@ constexpr std::uint32_t kRunMin = 6;  // slices
 constexpr std::uint32_t kPointsMin = 10;
 constexpr std::uint32_t kOffPerOn = 8;  // at an edge, a voxel may hold points of both
 
+// 64 of 0.05, from 58 degrees below the horizontal to as much above it.
+std::uint64_t elevation_bit(double elevation) {
+  const double bit = 20.0 * elevation + 32.0;
+  return bit >= 0.0 && bit < 64.0 ? std::uint64_t{1} << static_cast<std::uint32_t>(bit) : 0U;
+}
+
 }  // namespace
+
+void StepProfile::add(double beside_m, double residual_m, double elevation) {
+  const double place = (beside_m + kHalf_m) * (1.0 / kSlice_m);
+  if (!(place >= 0.0 && place < kCount)) return;
+  const auto slice = static_cast<std::uint32_t>(place), part = slice / (kCount / kParts);
+  Slice& at = slices_[slice];
+  const std::uint64_t bit = elevation_bit(elevation);
+  elevations_ |= bit;
+  const double off_m = std::fabs(residual_m);
+  if (!(off_m >= step_m_)) {
+    ++at.on;
+    ++on_[part];
+    return;
+  }
+  at.off[residual_m > 0.0 ? kStepsOut : kStepsBack].add(off_m);
+  const double depth = residual_m * (1.0 / kDepth_m);
+  if (depth >= kHides && depth < kDepths) {
+    Before& before = before_[static_cast<std::uint32_t>(depth)][part];
+    before.elevations |= bit;
+    ++before.count;
+  }
+}
 
 bool StepProfile::lies_on(std::uint32_t slice, Way way) const {
   return slices_[slice].on * kOffPerOn > slices_[slice].off[way].count;
@@ -35,7 +67,7 @@ double StepProfile::step(Way way) const {
   for (std::uint32_t k = 0; k < kCount; ++k) {
     if (lies_on(k, way)) continue;
     std::uint32_t first = kCount, last = 0;
-    Off total;
+    Off total{};
     for (; k < kCount && !lies_on(k, way); ++k) {
       const Off& off = slices_[k].off[way];
       if (off.count == 0) continue;
@@ -46,6 +78,27 @@ double StepProfile::step(Way way) const {
     }
     const bool at_place = first < kPlace + kNear && last + 1 + kNear > kPlace;
     if (total.count >= kPointsMin && at_place && last + 1 - first >= kRunMin) return total.sum_m / total.count;
+  }
+  return 0.0;
+}
+
+// By what lies in two steps of depth: dust takes all elevations, too, but is no surface, nor as dense.
+bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
+  constexpr std::uint32_t kOnPerBefore = 2;
+  const Before &far = before_[depth][part], &near = before_[depth + 1][part];
+  const int seen = bits_in(elevations_);
+  return has_bits(far.elevations | near.elevations, seen - seen / 4) &&
+         kOnPerBefore * (far.count + near.count) >= on_[part];
+}
+
+// By how much what hides the plane around the place lies before it, at most.
+double StepProfile::hides_m() const {
+  constexpr std::uint32_t kPartsMin = 3;
+  for (std::uint32_t depth = kDepths; depth-- > kHides;) {
+    std::uint32_t first = kParts / 2, last = kParts / 2;
+    while (first > 0 && hides_plane(depth, first - 1)) --first;
+    while (last < kParts && hides_plane(depth, last)) ++last;
+    if (last - first >= kPartsMin) return (depth + 2) * kDepth_m;
   }
   return 0.0;
 }

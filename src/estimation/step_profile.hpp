@@ -2,11 +2,12 @@
 // Copyright (c) 2026 the pose_wall authors
 //
 // Whether a surface steps out of its plane for a while at one place: its points in slices of five centimetres along the
-// road. A slice is off the plane where next to nothing lies on it, from top to bottom.
+// road. A slice is off the plane where next to nothing lies on it, from top to bottom. A sensor that looks past what
+// stands before the plane sees the plane behind it as well; that hides it where it takes whatever elevations are seen
+// there.
 
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 namespace pose_wall {
@@ -18,24 +19,16 @@ class StepProfile {
   // step_m: points closer to the plane are on it.
   explicit StepProfile(double step_m) : step_m_(step_m) {}
 
-  // beside_m: along the road from the place; residual_m > 0 before the plane.
-  void add(double beside_m, double residual_m) {
-    const double slice = (beside_m + kHalf_m) * (1.0 / kSlice_m);
-    if (!(slice >= 0.0 && slice < kCount)) return;
-    Slice& at = slices_[static_cast<std::uint32_t>(slice)];
-    const double off_m = std::fabs(residual_m);
-    if (!(off_m >= step_m_)) {
-      ++at.on;
-      return;
-    }
-    Off& off = at.off[residual_m > 0.0 ? kStepsOut : kStepsBack];
-    ++off.count;
-    off.sum_m += off_m;
-  }
+  // beside_m: along the road from the place; residual_m > 0 before the plane; elevation: of the ray, as a tangent.
+  void add(double beside_m, double residual_m, double elevation);
 
   // By how much the surface lies before or behind the plane at the place, on average over the step; 0 where it lies on
-  // the plane, or off it for less than 0.3 m: that is a post or a gap between two.
-  double before_m() const { return step(kStepsOut); }
+  // the plane, or off it for less than 0.3 m, 0.6 m where the plane is seen behind it: that is a post or a gap between
+  // two.
+  double before_m() const {
+    const double step_m = step(kStepsOut);
+    return step_m == 0.0 ? hides_m() : step_m;
+  }
   double behind_m() const { return step(kStepsBack); }
 
   // Length around the place within which nothing lies on the plane; all of it where that is so to one of its ends.
@@ -44,23 +37,39 @@ class StepProfile {
  private:
   static constexpr double kSlice_m = 0.05;
   static constexpr std::uint32_t kCount = 40;
+  static constexpr double kDepth_m = 0.15;
+  static constexpr std::uint32_t kHides = 3, kDepths = 27;  // from 0.45 m on: pipes along a wall lie closer to it
+  static constexpr std::uint32_t kParts = 10;  // of four slices: a sparse sensor's points lie some centimetres apart
   enum Way : std::uint32_t { kStepsOut, kStepsBack };
 
   struct Off {
-    std::uint32_t count = 0;
-    double sum_m = 0.0;
+    std::uint32_t count;
+    double sum_m;
+    void add(double off_m) {
+      ++count;
+      sum_m += off_m;
+    }
   };
   struct Slice {
-    std::uint32_t on = 0;
+    std::uint32_t on;
     Off off[2];
+  };
+  struct Before {
+    std::uint64_t elevations;
+    std::uint32_t count;
   };
 
   bool is_seen(std::uint32_t slice) const;
   bool lies_on(std::uint32_t slice, Way way) const;
   double step(Way way) const;
+  bool hides_plane(std::uint32_t depth, std::uint32_t part) const;
+  double hides_m() const;
 
   double step_m_;
-  Slice slices_[kCount];
+  Slice slices_[kCount] = {};
+  std::uint64_t elevations_ = 0;   // a bit for each
+  std::uint32_t on_[kParts] = {};  // points
+  Before before_[kDepths + 1][kParts] = {};
 };
 
 }  // namespace pose_wall

@@ -18,8 +18,8 @@ struct AtSample {
   double hole_m = 0.0;       // length around it in which nothing is seen of the plane
 };
 
-// wall: its plane and direction are set. distance_m: the plane's, at the sampling point.
+// wall: its plane and direction are set.
 AtSample look_at_sample(const WallScene& scene, const WallSurface& surface, const WallGrid& grid,
-                        const WallResult& wall, const Eigen::Vector3d& sample_level_m, double distance_m);
+                        const WallResult& wall, const Eigen::Vector3d& sample_level_m);
 
 }  // namespace pose_wall

@@ -132,7 +132,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const bool leaves_plane = sample.z() >= scene.z_min_level_m && may_leave_plane(scene, surface, sample.z());
     const double offset_m = leaves_plane ? offset_at_height(scene, out->fit.plane, out->along_level, sample.z()) : 0.0;
     const double along_m = out->along_level.dot(sample);
-    const AtSample seen = look_at_sample(scene, surface, grid, *out, sample, out->distance_m[end]);
+    const AtSample seen = look_at_sample(scene, surface, grid, *out, sample);
     const double gap_m = grid.gap_to_solid_m(along_m);
     const bool unseen = gap_m > kExtrapolated_m || seen.hole_m > kHoleMax_m;
     // A distance has no sign: of a point in the rock it looks like one before it.

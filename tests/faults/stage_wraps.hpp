@@ -238,8 +238,8 @@ POSE_WALL_WRAP(WallSight, LOOK_AT, look_at,
 
 POSE_WALL_WRAP(AtSample, LOOK_AT_SAMPLE, look_at_sample,
                (const WallScene& scene, const WallSurface& surface, const WallGrid& grid, const WallResult& wall,
-                const Eigen::Vector3d& sample_m, double distance_m)) {
-  AtSample r = look_at_sample_for_real(scene, surface, grid, wall, sample_m, distance_m);
+                const Eigen::Vector3d& sample_m)) {
+  AtSample r = look_at_sample_for_real(scene, surface, grid, wall, sample_m);
   if (fails(Fault::kSampleInterrupted)) r = {true, 1.0};
   if (fails(Fault::kSampleNan)) r.bound_m = kNan;
   return r;

@@ -3,13 +3,15 @@
 
 // Proves: a surface that steps out of its plane or back at a place is seen to, as far as it does, wherever the step
 // begins within half a metre, also where only few points lie in a slice or none in some; posts, a pipe from end to end,
-// noise and a step beside the place are none. How long a hole around the place is, and that one without an end is the
-// longest. Does not prove what a step is.
+// noise and a step beside the place are none. What takes all elevations before the plane stands out though the plane is
+// seen behind it; what is lower, narrower or has gaps does not. How long a hole around the place is, and that one
+// without an end is the longest. Does not prove what a step is.
 
 #include "estimation/step_profile.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "support/rock.hpp"
@@ -21,13 +23,18 @@ constexpr double kStep_m = 0.05;
 
 using Surface = std::function<double(double beside, double height)>;
 
+// From a sensor 1 m high, 2 m away.
+double elevation_of(double height) {
+  return (height - 1.0) / 2.0;
+}
+
 StepProfile profile_of(const Surface& surface, double apart_m = 0.02, double noise_m = 0.012) {
   test::Noise noise(7);
   StepProfile profile(kStep_m);
   for (double beside = -1.5; beside < 1.5; beside += apart_m) {
     for (double height = 0.3; height < 2.2; height += 0.1) {
       profile.add(beside + noise.uniform(-0.5 * apart_m, 0.5 * apart_m),
-                  surface(beside, height) + noise.normal(noise_m));
+                  surface(beside, height) + noise.normal(noise_m), elevation_of(height));
     }
   }
   return profile;
@@ -77,11 +84,58 @@ TEST(StepProfile, PipesBeforeAWallThatIsSeenAboveThemAreNone) {
   EXPECT_EQ(profile_of([](double, double height) { return height < 1.5 ? 0.3 : 0.0; }).before_m(), 0.0);
 }
 
+// A plane that is seen everywhere, and something by_m before it where `takes` says so.
+StepProfile past(const std::function<bool(double beside, double height)>& takes, double by_m) {
+  StepProfile profile = profile_of(step(0.0, 0.0, 0.0));
+  for (double beside = -1.5; beside < 1.5; beside += 0.02) {
+    for (double height = 0.3; height < 2.2; height += 0.05) {
+      if (takes(beside, height)) profile.add(beside, by_m, elevation_of(height));
+    }
+  }
+  return profile;
+}
+
+TEST(StepProfile, WhatTakesAllElevationsStandsOutThoughThePlaneIsSeenBehindIt) {
+  for (const double by_m : {0.5, 1.5, 3.5}) {
+    for (const double from_m : {-0.85, -0.45, -0.05}) {
+      const auto piece = [from_m](double beside, double) { return beside > from_m && beside < from_m + 0.9; };
+      EXPECT_GE(past(piece, by_m).before_m(), by_m) << from_m;
+      EXPECT_LE(past(piece, by_m).before_m(), by_m + 0.3) << from_m;
+      EXPECT_EQ(past(piece, by_m).behind_m(), 0.0);
+    }
+  }
+  EXPECT_GE(past([](double, double) { return true; }, 1.0).before_m(), 1.0) << "from end to end";
+  EXPECT_GE(past([](double, double height) { return height < 2.0; }, 1.0).before_m(), 1.0) << "all but a little";
+}
+
+TEST(StepProfile, WhatThePlaneIsSeenOverOrBesideHidesNothing) {
+  const auto piece = [](double beside) { return std::fabs(beside) < 0.5; };
+  EXPECT_EQ(past([&](double beside, double height) { return piece(beside) && height < 1.4; }, 1.0).before_m(), 0.0)
+      << "low";
+  EXPECT_EQ(past([&](double beside, double height) { return piece(beside) && height > 1.0; }, 1.0).before_m(), 0.0)
+      << "hung";
+  EXPECT_EQ(past([](double, double height) { return std::fmod(height, 0.5) < 0.25; }, 0.5).before_m(), 0.0) << "pipes";
+  EXPECT_EQ(past([](double beside, double) { return std::fabs(beside) < 0.15; }, 1.0).before_m(), 0.0) << "a post";
+  EXPECT_EQ(past([](double beside, double) { return beside > 0.2; }, 1.0).before_m(), 0.0) << "beside the place";
+  EXPECT_EQ(past([&](double beside, double) { return piece(beside); }, 0.3).before_m(), 0.0) << "as near as pipes are";
+  StepProfile dust = profile_of(step(0.0, 0.0, 0.0), 0.01);
+  test::Noise noise(3);
+  for (int k = 0; k < 2000; ++k) {
+    dust.add(noise.uniform(-1.0, 1.0), noise.uniform(0.1, 4.0), elevation_of(noise.uniform(0.3, 2.2)));
+  }
+  EXPECT_EQ(dust.before_m(), 0.0) << "dust";
+  StepProfile thin = profile_of(step(0.0, 0.0, 0.0), 0.002);
+  for (double height = 0.3; height < 2.2; height += 0.02) {
+    for (double beside = -1.0; beside < 1.0; beside += 0.1) thin.add(beside, 1.0, elevation_of(height));
+  }
+  EXPECT_EQ(thin.before_m(), 0.0) << "a curtain of drops";
+}
+
 // seen: where the plane is, along the road.
 StepProfile seen_where(const std::function<bool(double)>& seen) {
   StepProfile profile(kStep_m);
   for (double beside = -1.2; beside < 1.2; beside += 0.02) {
-    if (seen(beside)) profile.add(beside, 0.01);
+    if (seen(beside)) profile.add(beside, 0.01, 0.0);
   }
   return profile;
 }
@@ -99,7 +153,7 @@ TEST(StepProfile, AHoleIsAsLongAsThePlaneIsSeenNowhereAroundThePlace) {
 
 TEST(StepProfile, AStrayPointEndsNoHole) {
   StepProfile profile = seen_where([](double at) { return at < -0.2; });
-  profile.add(0.3, 0.0);
+  profile.add(0.3, 0.0, 0.0);
   EXPECT_EQ(profile.hole_m(), 2.0 * StepProfile::kHalf_m);
 }
 
@@ -115,9 +169,9 @@ TEST(StepProfile, WithoutPointsThereIsNone) {
   const StepProfile nothing(kStep_m);
   EXPECT_EQ(nothing.before_m(), 0.0);
   StepProfile few(kStep_m);
-  for (int k = 0; k < 9; ++k) few.add(-0.25 + 0.06 * k, 0.2);
+  for (int k = 0; k < 9; ++k) few.add(-0.25 + 0.06 * k, 0.2, 0.0);
   EXPECT_EQ(few.before_m(), 0.0);
-  few.add(0.3, 0.2);
+  few.add(0.3, 0.2, 0.0);
   EXPECT_NEAR(few.before_m(), 0.2, 1e-12);
 }
 
