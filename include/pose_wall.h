@@ -119,7 +119,7 @@ enum pose_wall_key_type {
   POSE_WALL_KEY_INTEGER = 2, /* one whole number */
   POSE_WALL_KEY_CHOICE = 3,  /* one of `choices` (words separated by '|') */
   POSE_WALL_KEY_TEXT = 4,    /* up to POSE_WALL_TEXT_MAX - 1 bytes */
-  POSE_WALL_KEY_BOX = 5      /* six numbers: x_min x_max y_min y_max z_min z_max; empty text: no box */
+  POSE_WALL_KEY_BOX = 5      /* six numbers: x_min x_max y_min y_max z_min z_max; empty text or "[]": no box */
 };
 
 /* What the table knows of a key. All pointers are static storage. */
@@ -139,8 +139,9 @@ typedef struct pose_wall_key_info {
 /* Fills every key with its default. Fails iff: NULL. */
 int32_t pose_wall_config_init(pose_wall_config* config);
 
-/* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"; numbers of a box
- * are separated by spaces or commas, brackets around them are allowed). On failure the config is unchanged.
+/* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"). The numbers of a
+ * box are separated by spaces, one comma or both; a pair of brackets may be around them. On failure the config is
+ * unchanged.
  * Fails iff: NULL, not initialised, key unknown, value of the wrong type, out of range, text too long. */
 int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value);
 
