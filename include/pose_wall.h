@@ -325,9 +325,9 @@ typedef struct pose_wall_value {
   double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured. While
                               invalid it goes by stamps that may have jumped: nothing to rely on */
   double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
-  double age_s;            /* since the frame it was measured in; 0 when measured in this one */
-  uint32_t state;          /* pose_wall_state */
-  uint32_t reasons;        /* pose_wall_reason bits */
+  double age_s;     /* since the frame it was measured in, by the stamps; 0 when measured in this one, or never */
+  uint32_t state;   /* pose_wall_state */
+  uint32_t reasons; /* pose_wall_reason bits */
 } pose_wall_value;
 
 /* A fitted plane n . p + d = 0 of this frame. */
@@ -363,7 +363,7 @@ typedef struct pose_wall_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_result) before the call */
   uint32_t frame_reasons;
   int64_t stamp_ns;     /* the frame's */
-  uint64_t frame_index; /* counts processed frames from 0 */
+  uint64_t frame_index; /* counts processed frames from 0; of pose_wall_age: the last one's, UINT64_MAX before any */
   double confidence;    /* the smallest of the seven */
   pose_wall_value quantity[POSE_WALL_QUANTITIES];
   pose_wall_plane floor;
@@ -419,10 +419,10 @@ int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud
 /* What the seven quantities are at stamp_ns when no frame has come since the last: held and aged by the rules of a
  * frame that measures nothing, then invalid, with POSE_WALL_R_NO_FRAME. For the time in which a sensor is silent;
  * stamp_ns is in the clock of the frames' stamps, and at or before the last frame's nothing ages. frame_index is the
- * last frame's (0 before the first), there are no planes and no counts. Set result->struct_size first. Fails iff: NULL,
- * engine not open, struct_size. It changes one thing only: what it told invalid stays so until it is measured again,
- * even where the next frame's stamp would say that less time has passed. The next frame is smoothed over its own time
- * since the last one. */
+ * last frame's (UINT64_MAX before the first), there are no planes and no counts. Set result->struct_size first. Fails
+ * iff: NULL, engine not open, struct_size. It changes one thing only: what it told invalid stays so until it is
+ * measured again, even where the next frame's stamp would say that less time has passed. The next frame is smoothed
+ * over its own time since the last one. */
 int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result);
 
 /* All that an engine remembers from frame to frame, as bytes, so that any frame can be computed again: an engine of the
@@ -472,8 +472,9 @@ int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* 
  * CRC   CRC-32 of IEEE 802.3 (polynomial 04C11DB7 reflected, begun and ended with FFFFFFFF; "123456789" gives CBF43926)
  * over all struct_size bytes but the four of crc32. It finds damage, not intent.
  *
- * SEQUENCE   frame_index + 1: a new frame changes it, and an image whose sequence stands still is an old one. It begins
- * anew with pose_wall_open and pose_wall_reset.
+ * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it, and an image
+ * whose sequence stands still is an old one; what pose_wall_age tells has that of the last frame. It begins anew with
+ * pose_wall_open and pose_wall_reset.
  *
  * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
 
@@ -512,7 +513,7 @@ typedef struct pose_wall_image {
   uint32_t struct_size;     /* bytes: POSE_WALL_IMAGE_BYTES */
   uint32_t version;         /* POSE_WALL_IMAGE_VERSION */
   uint32_t crc32;           /* CRC-32 of every byte but its own four */
-  uint32_t sequence;        /* frames since the engine was opened or reset; differs from frame to frame */
+  uint32_t sequence;        /* frames since the engine was opened or reset: 0 before the first */
   uint32_t config_crc32;    /* pose_wall_config_crc() of the engine's config */
   uint32_t library_version; /* major * 65536 + minor * 256 + patch */
   uint32_t stamp_low;       /* the frame's stamp_ns, bits 0 to 31 */

@@ -101,7 +101,7 @@ typedef struct pose_wall_publication {
   uint32_t thinning;      /* of every so many returns one was used; 1: all. Above 1 no state is better than degraded */
   uint32_t held_thinning; /* the largest thinning of the frames that held values of this result come from; 1: none */
   uint64_t index;         /* counts publications from 0, over all starts */
-  uint64_t frame;         /* counts pushes from 0, over all starts; of a silence: the last frame that was worked */
+  uint64_t frame;         /* counts pushes from 0, over all starts; of a silence: the last worked, 0 before any */
   int64_t received_ns;    /* runtime's clock, at the start of that frame's push; before the first frame, of start */
   int64_t published_ns;   /* runtime's clock */
   pose_wall_result
