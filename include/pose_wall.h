@@ -247,8 +247,8 @@ enum pose_wall_quantity {
 };
 
 enum pose_wall_state {
-  POSE_WALL_INVALID = 0,  /* never measured, or held until its protection level passed the alert limit or hold_max was
-                             over; the last value stays readable, confidence 0 */
+  POSE_WALL_INVALID = 0,  /* never measured, or held until it expired (POSE_WALL_R_HOLD_EXPIRED); the last value stays
+                             readable, confidence 0 */
   POSE_WALL_HELD = 1,     /* not measured in this frame: the last good value, with a growing protection level */
   POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: the protection level says how much */
   POSE_WALL_VALID = 3     /* measured in this frame, every gate passed, protection level within the alert limit */
@@ -261,9 +261,12 @@ enum pose_wall_reason {
   POSE_WALL_R_LEAF_GROWN = 1 << 1, /* of the frame: voxel leaf enlarged to stay within points_max, or still so since the
                                       last frames (a note, not a fault). Of a value: even voxels of 0.26 m were too
                                       many, and nothing is told from larger ones */
-  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp less than 1 ms after the last frame's: taken as the same frame again,
-                                       values are held; after the second such frame they expire. Of every frame: the
-                                       stamps are no nanoseconds */
+  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp less than 1 ms after the last frame's: taken as the same frame again, and
+                                       nothing is measured. What is held ages as if the longer of the last two periods
+                                       had passed (at the first such frame also what the last one fell short of it), and
+                                       expires at the third in a row; at the first where no period is known, for no
+                                       stamp has gone on by 1 ms to stamp_gap_max yet. Of every frame: the stamps are
+                                       no nanoseconds */
   POSE_WALL_R_STAMP_BACK =
       1 << 3, /* stamp older than the last frame's: what is held expires, smoothing starts afresh */
   POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
@@ -300,7 +303,8 @@ enum pose_wall_reason {
   POSE_WALL_R_INNOVATION = 1 << 23,    /* jumped further from the last value than the machine can move, or was refused
                                           and never good before: waits to be confirmed by three more frames */
   POSE_WALL_R_RATE_LIMITED = 1 << 24,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
-  POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held value's protection level passed the alert limit, or hold_max passed */
+  POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held until its protection level passed the alert limit or its age hold_max, or
+                                          until stamps that jumped back or stood still no longer told its age */
   POSE_WALL_R_WALL_TOO_NEAR = 1 << 26, /* returns nearer than range_min block the view to this side */
   POSE_WALL_R_NEVER_MEASURED = 1 << 27,
   /* between frames */
@@ -325,9 +329,11 @@ typedef struct pose_wall_value {
   double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured. While
                               invalid it goes by stamps that may have jumped: nothing to rely on */
   double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
-  double age_s;     /* since the frame it was measured in, by the stamps; 0 when measured in this one, or never */
-  uint32_t state;   /* pose_wall_state */
-  uint32_t reasons; /* pose_wall_reason bits */
+  double age_s;            /* since the frame it was measured in, by the stamps (which stand still: see
+                                     POSE_WALL_R_STAMP_STILL; that went back: not grown); 0 when measured in this one, or
+                                     never */
+  uint32_t state;          /* pose_wall_state */
+  uint32_t reasons;        /* pose_wall_reason bits */
 } pose_wall_value;
 
 /* A fitted plane n . p + d = 0 of this frame. */
