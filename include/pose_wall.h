@@ -76,7 +76,7 @@ enum pose_wall_status {
   POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine, or somebody wrote
                                     into its block, or a bit fell over: see pose_wall_open */
   POSE_WALL_E_INDEX = -6,        /* index out of range */
-  POSE_WALL_E_BUFFER_SMALL = -7, /* text does not fit the caller's buffer */
+  POSE_WALL_E_BUFFER_SMALL = -7, /* text or memento does not fit the caller's buffer */
   POSE_WALL_E_MEMENTO = -8,      /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
 
   /* configuration */
