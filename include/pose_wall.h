@@ -81,9 +81,15 @@ enum pose_wall_status {
 
   /* configuration */
   POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
-  POSE_WALL_E_VALUE_TYPE = -21,  /* value cannot be read as the key's type, or is not one of its choices */
-  POSE_WALL_E_VALUE_RANGE = -22, /* value outside the key's range, or not finite */
-  POSE_WALL_E_CONFIG_RULE = -23, /* two keys contradict each other; see pose_wall_config_check() */
+  POSE_WALL_E_VALUE_TYPE = -21,  /* value cannot be read as the key's type, or is not one of its choices. The texts
+                                    "nan" and "inf" are no numbers; 2.5 is no integer; the function is for keys of
+                                    another type */
+  POSE_WALL_E_VALUE_RANGE = -22, /* value outside the key's range, or not finite: a double that is NaN or infinite, a
+                                    text beyond any double ("1e999"); of a box also where a minimum is not below its
+                                    maximum */
+  POSE_WALL_E_CONFIG_RULE = -23, /* two keys contradict each other, or a member of the config was written past the
+                                    functions and holds what its key does not take (NaN, too); see
+                                    pose_wall_config_check() */
   POSE_WALL_E_TEXT_LONG = -24,   /* text value longer than POSE_WALL_TEXT_MAX - 1 */
 
   /* clouds */
@@ -161,7 +167,8 @@ int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* ke
 uint32_t pose_wall_config_key_count(void);
 int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info);
 
-/* A rule over several keys that does not hold: which keys, and what is asked of them. Static storage. */
+/* A rule over several keys that does not hold, or a key whose member holds what it does not take: which keys, and what
+ * is asked of them. Static storage. */
 typedef struct pose_wall_rule_fault {
   const char* key;
   const char* other_key; /* or "" */

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "support/clouds.hpp"
@@ -96,6 +97,41 @@ TEST(AbiRefusals, ReadingWhatIsNoConfigAndKeysThatAreNone) {
   EXPECT_EQ(number, 7.0);
   EXPECT_EQ(box[0], 7.0);
   EXPECT_STREQ(text, "seven");
+}
+
+// What is no number in which way, as the header tells the three statuses apart.
+TEST(AbiRefusals, WhatIsNoNumberOrOutOfRange) {
+  pose_wall_config config = config_with();
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const char* text : {"nan", "NaN", "inf", "-inf", "infinity", ""}) {
+    EXPECT_EQ(unchanged_by(&config, [&] { return pose_wall_config_set(&config, "range_max", text); }),
+              POSE_WALL_E_VALUE_TYPE)
+        << text;
+  }
+  for (const char* text : {"1e999", "-1e999", "201", "0"}) {
+    EXPECT_EQ(unchanged_by(&config, [&] { return pose_wall_config_set(&config, "range_max", text); }),
+              POSE_WALL_E_VALUE_RANGE)
+        << text;
+  }
+  for (const double number : {nan, infinity, -infinity, 201.0}) {
+    EXPECT_EQ(unchanged_by(&config, [&] { return pose_wall_config_set_number(&config, "range_max", number); }),
+              POSE_WALL_E_VALUE_RANGE)
+        << number;
+  }
+  EXPECT_EQ(pose_wall_config_set(&config, "points_max", "6000.5"), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set_number(&config, "points_max", 6000.5), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set_number(&config, "forward_axis", 1), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set_number(&config, "body_box_1", 1), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set(&config, "body_box_1", "1 0 0 1 0 1"), POSE_WALL_E_VALUE_RANGE);
+  for (double& member : config.number) {
+    pose_wall_rule_fault fault{};
+    const double before = member;
+    member = nan;
+    const std::int32_t status = pose_wall_config_check(&config, &fault);
+    EXPECT_TRUE(status == POSE_WALL_OK || (status == POSE_WALL_E_CONFIG_RULE && fault.key != nullptr));
+    if (&member == config.number) EXPECT_EQ(status, POSE_WALL_E_CONFIG_RULE);
+    member = before;
+  }
 }
 
 TEST(AbiRefusals, CloudsOfNoDataAreLeftAlone) {
