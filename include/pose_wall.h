@@ -88,8 +88,8 @@ enum pose_wall_status {
                                     text beyond any double ("1e999"); of a box also where a minimum is not below its
                                     maximum */
   POSE_WALL_E_CONFIG_RULE = -23, /* two keys contradict each other, or a member of the config was written past the
-                                    functions and holds what its key does not take (NaN, too); see
-                                    pose_wall_config_check() */
+                                    functions and holds a number out of its key's range (NaN, too), no choice, or a
+                                    text without an end; see pose_wall_config_check() */
   POSE_WALL_E_TEXT_LONG = -24,   /* text value longer than POSE_WALL_TEXT_MAX - 1 */
 
   /* clouds */
@@ -148,22 +148,28 @@ int32_t pose_wall_config_init(pose_wall_config* config);
 /* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"). The numbers of a
  * box are separated by spaces, one comma or both; a pair of brackets may be around them. On failure the config is
  * unchanged.
- * Fails iff: NULL, not initialised, key unknown, value of the wrong type, out of range, text too long. */
+ * Fails iff: NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_KEY_UNKNOWN, POSE_WALL_E_VALUE_TYPE,
+ * POSE_WALL_E_VALUE_RANGE, POSE_WALL_E_TEXT_LONG. */
 int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value);
 
-/* The same for a key of one number or integer. */
+/* The same for a key of one number or integer. Fails iff: NULL, not initialised, key unknown, a key of another type or
+ * a fraction for an integer (POSE_WALL_E_VALUE_TYPE), POSE_WALL_E_VALUE_RANGE. */
 int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value);
 
-/* Reads a key of one number or integer. */
+/* Reads a key of one number or integer. As the two below it writes on success only, and fails iff: NULL, not
+ * initialised, key unknown, a key of another type (POSE_WALL_E_VALUE_TYPE). */
 int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value);
 
 /* Reads a box into value[6]. All zero: no box. */
 int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key, double value[6]);
 
-/* Reads a text or choice key into buffer, with its closing zero. Fails also iff it does not fit. */
+/* Reads a text or choice key into buffer, with its closing zero. Fails also iff it does not fit
+ * (POSE_WALL_E_BUFFER_SMALL), or the config's member was written past the functions and is no choice
+ * (POSE_WALL_E_VALUE_TYPE). */
 int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer, uint64_t bytes);
 
-/* The table, for help texts and checks: count, and row by index in data-flow order. */
+/* The table, for help texts and checks: count, and row by index in data-flow order. Fails iff: NULL,
+ * POSE_WALL_E_INDEX. */
 uint32_t pose_wall_config_key_count(void);
 int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info);
 
@@ -175,8 +181,9 @@ typedef struct pose_wall_rule_fault {
   const char* rule;      /* "range_min must be smaller than range_max" */
 } pose_wall_rule_fault;
 
-/* Checks the rules over several keys. Returns POSE_WALL_OK or POSE_WALL_E_CONFIG_RULE with the first broken rule in
- * *fault (fault may be NULL). pose_wall_memory_needed and pose_wall_open check by the same rules. */
+/* Checks every member and the rules over several keys. Fails iff: config NULL, not initialised,
+ * POSE_WALL_E_CONFIG_RULE; only then is the first fault written to *fault (fault may be NULL). pose_wall_memory_needed
+ * and pose_wall_open check by the same rules. */
 int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault);
 
 /* CRC-32 of all settings, for a controller to see that the engine runs with the settings it was approved with. Two
@@ -405,28 +412,30 @@ typedef struct pose_wall_result {
 
 typedef struct pose_wall_engine pose_wall_engine;
 
-/* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails as
- * pose_wall_config_check, and for NULL. */
+/* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails iff: NULL, not
+ * initialised, POSE_WALL_E_CONFIG_RULE. */
 int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
 
 /* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
- * The config is copied. Fails iff: NULL, broken rule, block too small or misaligned. *engine is set only on success.
+ * The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_CONFIG_RULE,
+ * block misaligned or too small. *engine is set only on success.
  * There is nothing to close. Cost: none to speak of; the block is cleared as it is used.
  * Settings, memory and pointers in the block carry a sum, which every call checks: where a single word of them was
  * changed from outside, the engine is refused from then on (POSE_WALL_E_ENGINE) until it is opened again. */
 int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes, pose_wall_engine** engine);
 
-/* Forgets all that was measured, as if just opened. */
+/* Forgets all that was measured, as if just opened. Fails iff: NULL, engine not open. */
 int32_t pose_wall_reset(pose_wall_engine* engine);
 
 /* Gives the engine a clock for stage_ns: a function that returns monotonic nanoseconds. NULL takes it away. The
- * engine's results never depend on it. */
+ * engine's results never depend on it. Fails iff: engine NULL or not open. */
 typedef int64_t (*pose_wall_clock)(void* user);
 int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user);
 
 /* One frame in, one result out. Set result->struct_size = sizeof *result first. A malformed cloud description is
  * refused with a status and leaves engine and result unchanged; a cloud of garbage points is processed, and the result
- * says what could not be measured. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
+ * says what could not be measured. Fails iff: NULL, engine not open, struct_size of cloud or result,
+ * POSE_WALL_E_CLOUD_*. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
 int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud, pose_wall_result* result);
 
 /* What the seven quantities are at stamp_ns when no frame has come since the last: held and aged by the rules of a
@@ -443,8 +452,8 @@ int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_resu
  * every machine. load checks its length (a longer one is read as far as pose_wall_memento_bytes), version, config and
  * checksum, and takes nothing of what it refuses: after a change of the config an engine begins anew. It is trusted
  * like the config, since whoever writes it can make the engine believe a past. Neither touches what
- * pose_wall_last_points gives. Fails iff: NULL, engine not open; save with POSE_WALL_E_BUFFER_SMALL; load with
- * POSE_WALL_E_MEMENTO. Cost: no more than copying. */
+ * pose_wall_last_points gives. Fails iff: NULL, engine not open; save also with POSE_WALL_E_BUFFER_SMALL, load also
+ * with POSE_WALL_E_MEMENTO. Cost: no more than copying. */
 uint64_t pose_wall_memento_bytes(void);
 int32_t pose_wall_save(const pose_wall_engine* engine, void* memento, uint64_t bytes);
 int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes);
@@ -457,7 +466,7 @@ enum pose_wall_label {
 };
 
 /* The voxel centroids of the last processed frame, base frame, with what became of them: for pictures and logs.
- * Pointers into the block, valid until the next call on this engine. */
+ * Pointers into the block, valid until the next call on this engine. Fails iff: NULL, engine not open. */
 typedef struct pose_wall_points {
   const float* x_base_m;
   const float* y_base_m;
@@ -546,11 +555,12 @@ typedef struct pose_wall_image {
 /* Up to here. */
 
 /* Writes the whole image of a result that this engine gave. Set image->struct_size = sizeof *image and
- * result->struct_size first. Fails iff: NULL, engine not open, a struct_size of another version; the image is then
- * unchanged. Cost: some thousand simple operations. */
+ * result->struct_size first. Fails iff: NULL, engine not open (POSE_WALL_E_ENGINE), a struct_size of another version;
+ * the image is then unchanged. Cost: some thousand simple operations. */
 int32_t pose_wall_image_fill(const pose_wall_engine* engine, const pose_wall_result* result, pose_wall_image* image);
 
-/* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, other version or size, CRC. */
+/* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, POSE_WALL_E_IMAGE_VERSION,
+ * POSE_WALL_E_IMAGE_CRC. */
 int32_t pose_wall_image_check(const pose_wall_image* image);
 
 #ifdef __cplusplus

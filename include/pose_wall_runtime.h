@@ -172,40 +172,43 @@ int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config, const po
                                         uint64_t* bytes);
 
 /* Places a runtime in block, which may hold anything, must be aligned to POSE_WALL_BLOCK_ALIGNMENT, stays the caller's
- * and must not move. Starts no thread. Fails as memory_needed, and for a block too small or misaligned. */
+ * and must not move. Starts no thread. Fails as memory_needed, and for a block misaligned or too small. *runtime is set
+ * only on success. */
 int32_t pose_wall_runtime_open(const pose_wall_config* config, const pose_wall_runtime_options* options, void* block,
                                uint64_t block_bytes, pose_wall_runtime** runtime);
 
 /* Starts the threads, with an engine that remembers nothing and a black box from its beginning (what the sink wrote
  * before is overwritten, its header at once: give each start a file of its own, or a restart after an incident takes
- * the incident's). Counters go on. Returns when the worker runs. Fails iff: not open, not stopped, called back,
+ * the incident's). Counters go on. Returns when the worker runs. Fails iff: NULL, not open, not stopped, called back,
  * POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_E_ENGINE (the block was changed by others, the config in it too: open it anew);
  * then it is stopped. */
 int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
 
-/* Waits until every frame is worked, every tick looked at and every record written, or the runtime stops
- * (POSE_WALL_RUNTIME_E_STATE). For tests and for work offline: a frame that is pushed meanwhile is waited for as well.
- */
+/* Waits until every frame is worked, every tick looked at and every record written. For tests and for work offline: a
+ * frame that is pushed meanwhile is waited for as well. Fails iff: NULL, not open, called back, not running or stopped
+ * meanwhile (POSE_WALL_RUNTIME_E_STATE). */
 int32_t pose_wall_runtime_wait_idle(pose_wall_runtime* runtime);
 
-/* Asks the worker to end after what it is at; push is refused from now on. Returns at once. Fails iff: not running. */
+/* Asks the worker to end after what it is at; push is refused from now on. Returns at once. Fails iff: NULL, not
+ * open, not running. */
 int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime);
 
 /* Ends the threads and waits for them: for the frame in work, the callback, and the records that wait for the sink.
- * Frames that wait are dropped and counted. Stopped already: nothing happens. Fails iff: not open, called back. */
+ * Frames that wait are dropped and counted. Stopped already: nothing happens. Fails iff: NULL, not open,
+ * called back. */
 int32_t pose_wall_runtime_stop(pose_wall_runtime* runtime);
 
-/* After this the block is the caller's again. Fails iff: not open, not stopped, a push, wait_idle or stop still inside.
- * Of the other calls none may be made meanwhile. */
+/* After this the block is the caller's again. Fails iff: NULL, not open, called back, not stopped, or a push, wait_idle
+ * or stop is still inside (POSE_WALL_RUNTIME_E_STATE). Of the other calls none may be made meanwhile. */
 int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
 
 /* ---------------------------------------------------------------------------------------------- frames and results */
 
 /* Checks the cloud, copies what the engine reads of it, and queues it. Points that are not finite or exactly zero are
  * left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused is counted as
- * pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running,
- * another thread inside push, struct_size or a description that pose_wall_cloud_check refuses,
- * POSE_WALL_RUNTIME_E_LARGE. */
+ * pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running or
+ * stopped before the copy was done (which is counted), another thread inside push, struct_size or a description that
+ * pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
 int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
 
 /* The newest publication. No lock, no wait: one copy, repeated only if three newer ones were published meanwhile. Set

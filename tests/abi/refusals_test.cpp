@@ -171,6 +171,13 @@ TEST(AbiRefusals, BrokenConfigsOpenNothing) {
   std::uint64_t bytes = 7;
   EXPECT_EQ(pose_wall_memory_needed(&broken, &bytes), POSE_WALL_E_CONFIG_RULE);
   EXPECT_EQ(pose_wall_open(&broken, block.data(), 1U << 30, &engine), POSE_WALL_E_CONFIG_RULE);
+  pose_wall_rule_fault fault{"untouched", "", ""};
+  EXPECT_EQ(pose_wall_config_check(&uninitialised, &fault), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_STREQ(fault.key, "untouched");
+  EXPECT_EQ(pose_wall_config_check(&broken, &fault), POSE_WALL_E_CONFIG_RULE);
+  EXPECT_STREQ(fault.key, "s_front");
+  EXPECT_EQ(pose_wall_config_set(&uninitialised, "range_max", "9"), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_config_set_number(&uninitialised, "range_max", 9), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(pose_wall_memory_needed(&uninitialised, &bytes), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(pose_wall_open(&uninitialised, block.data(), 1U << 30, &engine), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(bytes, 7U);
