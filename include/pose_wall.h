@@ -168,8 +168,13 @@ int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key
  * (POSE_WALL_E_VALUE_TYPE). */
 int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer, uint64_t bytes);
 
-/* The table, for help texts and checks: count, and row by index in data-flow order. Fails iff: NULL,
- * POSE_WALL_E_INDEX. */
+/* The table, for help texts and checks: count, and row by index in data-flow order, which may be another in another
+ * build. Fails iff: NULL, POSE_WALL_E_INDEX. A key's row by its name, unit and range with it:
+ *
+ *     pose_wall_key_info info;
+ *     uint32_t i = 0;
+ *     while (pose_wall_config_key(i, &info) == POSE_WALL_OK && strcmp(info.name, "range_max") != 0) ++i;
+ *     if (i < pose_wall_config_key_count()) printf("%s: %g to %g\n", info.unit, info.minimum, info.maximum); */
 uint32_t pose_wall_config_key_count(void);
 int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info);
 
