@@ -368,7 +368,8 @@ typedef struct pose_wall_plane {
   uint32_t found; /* 0: of the other members only iterations and reasons are set. 1: a plane was fitted; whether it was
                      used, the states of the quantities tell */
   uint32_t inliers;    /* measured points on the plane: each voxel counts the points it stands for */
-  uint32_t iterations; /* hypotheses scored */
+  uint32_t iterations; /* hypotheses scored, the last frame's plane among them. floor: up to ground_iterations, in the
+                          look that it is told from. walls: up to wall_iterations, and four more along the other wall */
   uint32_t reasons;
 } pose_wall_plane;
 

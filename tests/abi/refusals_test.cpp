@@ -238,6 +238,17 @@ TEST(AbiCalls, AResultIsBuiltAfresh) {
   EXPECT_EQ(std::memcmp(&clean, &dirty, sizeof clean), 0);
 }
 
+TEST(AbiCalls, HypothesesStayWithinTheirCaps) {
+  EngineUnderTest engine(config_with({{"ground_iterations", "60"}, {"wall_iterations", "50"}}));
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    const pose_wall_result r = engine.process(cloud_of(room_points(frame), 100000000LL * frame));
+    EXPECT_EQ(r.floor.iterations, 60U);
+    EXPECT_LE(r.left.iterations, 54U);
+    EXPECT_LE(r.right.iterations, 54U);
+    EXPECT_GT(r.left.iterations, 50U) << "along the other wall";
+  }
+}
+
 TEST(AbiCalls, MemoryHangsOnPointsMaxOnly) {
   const auto needed = [](const pose_wall_config& config) {
     std::uint64_t bytes = 0;
