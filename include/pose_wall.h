@@ -289,7 +289,10 @@ enum pose_wall_reason {
   POSE_WALL_R_STAMP_BACK =
       1 << 3, /* stamp older than the last frame's: what is held expires, smoothing starts afresh */
   POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
-  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of one of the last four clouds again: a frozen sensor */
+  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of one of the last four clouds again, under a new stamp: a frozen
+                                      sensor. Degraded, with a level that grows with the age of the first copy; held
+                                      after frozen_frames repeats in a row (under an old stamp they count, too), or
+                                      where the clock went back since the first copy */
   /* the floor */
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
@@ -348,9 +351,9 @@ typedef struct pose_wall_value {
   double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured. While
                               invalid it goes by stamps that may have jumped: nothing to rely on */
   double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
-  double age_s;            /* since the frame it was measured in, by the stamps (which stand still: see
-                                     POSE_WALL_R_STAMP_STILL; that went back: not grown); 0 when measured in this one, or
-                                     never */
+  double age_s;            /* since the frame it was measured in, by the stamps (under ones that stand still: see
+                              POSE_WALL_R_STAMP_STILL; under one that went back it does not grow); 0 when measured in
+                              this one, or never */
   uint32_t state;          /* pose_wall_state */
   uint32_t reasons;        /* pose_wall_reason bits */
 } pose_wall_value;

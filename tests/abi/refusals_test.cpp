@@ -129,7 +129,7 @@ TEST(AbiRefusals, WhatIsNoNumberOrOutOfRange) {
     member = nan;
     const std::int32_t status = pose_wall_config_check(&config, &fault);
     EXPECT_TRUE(status == POSE_WALL_OK || (status == POSE_WALL_E_CONFIG_RULE && fault.key != nullptr));
-    if (&member == config.number) EXPECT_EQ(status, POSE_WALL_E_CONFIG_RULE);
+    EXPECT_TRUE(&member != config.number || status == POSE_WALL_E_CONFIG_RULE);
     member = before;
   }
 }
@@ -246,6 +246,24 @@ TEST(AbiCalls, HypothesesStayWithinTheirCaps) {
     EXPECT_LE(r.left.iterations, 54U);
     EXPECT_LE(r.right.iterations, 54U);
     EXPECT_GT(r.left.iterations, 50U) << "along the other wall";
+  }
+}
+
+// Repeats under an old stamp are no frozen sensor, but they count when the next one has a new stamp.
+TEST(AbiCalls, RepeatsUnderOldStampsCountForFrozenFrames) {
+  const Points last = room_points(1);
+  for (const int still : {0, 1, 2}) {
+    EngineUnderTest engine(config_with({{"frozen_frames", "2"}}));
+    engine.process(cloud_of(room_points(0), 0));
+    engine.process(cloud_of(last, 100000000));
+    for (int i = 0; i < still; ++i) {
+      EXPECT_EQ(engine.process(cloud_of(last, 100000000)).frame_reasons & POSE_WALL_R_FROZEN, 0U);
+    }
+    const pose_wall_result r = engine.process(cloud_of(last, 200000000));
+    EXPECT_NE(r.frame_reasons & POSE_WALL_R_FROZEN, 0U);
+    EXPECT_EQ(r.quantity[POSE_WALL_ROLL].state,
+              static_cast<std::uint32_t>(still < 2 ? POSE_WALL_DEGRADED : POSE_WALL_HELD))
+        << still;
   }
 }
 
