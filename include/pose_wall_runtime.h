@@ -46,11 +46,13 @@
  * watchdog_ns.
  *
  * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
- * when the frames that are worked lie further apart than frame_period_max_ns, points are left out: every second return,
- * then three of four, and so on. No threshold is ever loosened. Because gaps in a wall may go unnoticed in a thinned
- * cloud (pose_wall.h, pose_wall_cloud), nothing from one is ever published as better than degraded, and `thinning` says
- * so; where a held value comes from one, `held_thinning` says so. The region is never narrowed: a cropped cloud looks
- * full of holes. What was dropped shows in `frame`, which counts pushes.
+ * when three frames in a row took longer than frame_period_max_ns to work, and some were dropped meanwhile, points are
+ * left out: every second return, then three of four, and so on; they come back when twenty in a row took less than
+ * three eighths of it. What the callback takes does not count: a slow one costs frames, never points. No threshold is
+ * ever loosened. Because gaps in a wall may go unnoticed in a thinned cloud (pose_wall.h, pose_wall_cloud), nothing
+ * from one is ever published as better than degraded, and `thinning` says so; where a held value comes from one,
+ * `held_thinning` says so. The region is never narrowed: a cropped cloud looks full of holes. What was dropped shows in
+ * `frame`, which counts pushes.
  *
  * ERRORS. POSE_WALL_OK or a negative status, of pose_wall.h or of this header. A refused call changes nothing but the
  * counters.
@@ -76,12 +78,12 @@ uint32_t pose_wall_runtime_abi_version(void);
 
 /* Beside those of pose_wall.h. Pinned by a test and never reused. */
 enum pose_wall_runtime_status {
-  POSE_WALL_RUNTIME_E_OPTION = -100,  /* an option out of its range, or `reserved` not zero */
-  POSE_WALL_RUNTIME_E_HANDLE = -101,  /* not an open runtime */
-  POSE_WALL_RUNTIME_E_STATE = -102,   /* not in this state: not running, or not stopped */
-  POSE_WALL_RUNTIME_E_THREAD = -103,  /* not from the callback or the sink: it would wait for itself */
-  POSE_WALL_RUNTIME_E_BUSY = -104,    /* another thread is inside push */
-  POSE_WALL_RUNTIME_E_LARGE = -105,   /* more points than cloud_points_max, or wider than point_bytes_max */
+  POSE_WALL_RUNTIME_E_OPTION = -100, /* an option out of its range, or `reserved` not zero: options_check tells which */
+  POSE_WALL_RUNTIME_E_HANDLE = -101, /* not an open runtime */
+  POSE_WALL_RUNTIME_E_STATE = -102,  /* not in this state: not running, or not stopped */
+  POSE_WALL_RUNTIME_E_THREAD = -103, /* not from the callback or the sink: it would wait for itself */
+  POSE_WALL_RUNTIME_E_BUSY = -104,   /* another thread is inside push */
+  POSE_WALL_RUNTIME_E_LARGE = -105,  /* more points than cloud_points_max, or wider than point_bytes_max */
   POSE_WALL_RUNTIME_E_NOTHING = -106, /* nothing published since start */
   POSE_WALL_RUNTIME_E_SYSTEM = -107   /* the system refused a thread, or what `required` asks for */
 };
@@ -145,9 +147,9 @@ typedef struct pose_wall_runtime_options {
   uint32_t required;         /* of pose_wall_runtime_wish: what start must be granted; the rest is only reported */
   uint32_t reserved;         /* 0 */
   int64_t
-      frame_period_max_ns;   /* 100 ms: frames are dropped, not thinned, as long as worked ones are no further apart */
-  int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published, frames that old are not */
-  int64_t watchdog_every_ns; /* 100 ms: and again so often, until a frame comes */
+      frame_period_max_ns; /* 100 ms; 1 ms to 1 h: frames are dropped, not thinned, while none takes longer to work */
+  int64_t watchdog_ns;     /* 300 ms; 1 ns to 1 h, 0: never. Silence that long is published, frames that old are not */
+  int64_t watchdog_every_ns; /* 100 ms; 1 ms to 1 h: and again so often, until a frame comes */
   pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once, also
                                 under the lock: it must not call the runtime. With a clock of the caller's nothing but
                                 pose_wall_runtime_tick wakes the worker for the watchdog */
@@ -156,11 +158,19 @@ typedef struct pose_wall_runtime_options {
   void* callback_user;
   pose_wall_runtime_sink sink; /* or NULL: no black box */
   void* sink_user;
-  uint64_t box_bytes; /* of the ring file; at least what one whole record needs */
+  uint64_t
+      box_bytes; /* 0; of the ring file. With a sink at least what the header and one whole record need: 4224 bytes,
+                    pose_wall_memento_bytes(), sizeof(pose_wall_result) and, with box_clouds, cloud_points_max x
+                    point_bytes_max, the last three rounded up to multiples of 64. Used in multiples of 64 */
 } pose_wall_runtime_options;
 
 /* Fills every option with its default (the figure in its comment). Fails iff: NULL. */
 int32_t pose_wall_runtime_options_init(pose_wall_runtime_options* options);
+
+/* Whether memory_needed and open take these options. Fails iff: options NULL, struct_size, POSE_WALL_RUNTIME_E_OPTION;
+ * only then *option is the name of the first member that is out of its range ("watchdog_ns"; static storage; option may
+ * be NULL). */
+int32_t pose_wall_runtime_options_check(const pose_wall_runtime_options* options, const char** option);
 
 /* ---------------------------------------------------------------------------------------------- life */
 
