@@ -76,14 +76,20 @@ enum pose_wall_status {
   POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine, or somebody wrote
                                     into its block, or a bit fell over: see pose_wall_open */
   POSE_WALL_E_INDEX = -6,        /* index out of range */
-  POSE_WALL_E_BUFFER_SMALL = -7, /* text does not fit the caller's buffer */
+  POSE_WALL_E_BUFFER_SMALL = -7, /* text or memento does not fit the caller's buffer */
   POSE_WALL_E_MEMENTO = -8,      /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
 
   /* configuration */
   POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
-  POSE_WALL_E_VALUE_TYPE = -21,  /* value cannot be read as the key's type, or is not one of its choices */
-  POSE_WALL_E_VALUE_RANGE = -22, /* value outside the key's range, or not finite */
-  POSE_WALL_E_CONFIG_RULE = -23, /* two keys contradict each other; see pose_wall_config_check() */
+  POSE_WALL_E_VALUE_TYPE = -21,  /* value cannot be read as the key's type, or is not one of its choices. The texts
+                                    "nan" and "inf" are no numbers; 2.5 is no integer; the function is for keys of
+                                    another type */
+  POSE_WALL_E_VALUE_RANGE = -22, /* value outside the key's range, or not finite: a double that is NaN or infinite, a
+                                    text beyond any double ("1e999"); of a box also where a minimum is not below its
+                                    maximum */
+  POSE_WALL_E_CONFIG_RULE = -23, /* two keys contradict each other, or a member of the config was written past the
+                                    functions and holds a number out of its key's range (NaN, too), no choice, or a
+                                    text without an end; see pose_wall_config_check() */
   POSE_WALL_E_TEXT_LONG = -24,   /* text value longer than POSE_WALL_TEXT_MAX - 1 */
 
   /* clouds */
@@ -119,7 +125,7 @@ enum pose_wall_key_type {
   POSE_WALL_KEY_INTEGER = 2, /* one whole number */
   POSE_WALL_KEY_CHOICE = 3,  /* one of `choices` (words separated by '|') */
   POSE_WALL_KEY_TEXT = 4,    /* up to POSE_WALL_TEXT_MAX - 1 bytes */
-  POSE_WALL_KEY_BOX = 5      /* six numbers: x_min x_max y_min y_max z_min z_max; empty text: no box */
+  POSE_WALL_KEY_BOX = 5      /* six numbers: x_min x_max y_min y_max z_min z_max; empty text or "[]": no box */
 };
 
 /* What the table knows of a key. All pointers are static storage. */
@@ -139,36 +145,50 @@ typedef struct pose_wall_key_info {
 /* Fills every key with its default. Fails iff: NULL. */
 int32_t pose_wall_config_init(pose_wall_config* config);
 
-/* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"; numbers of a box
- * are separated by spaces or commas, brackets around them are allowed). On failure the config is unchanged.
- * Fails iff: NULL, not initialised, key unknown, value of the wrong type, out of range, text too long. */
+/* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"). The numbers of a
+ * box are separated by spaces, one comma or both; a pair of brackets may be around them. On failure the config is
+ * unchanged.
+ * Fails iff: NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_KEY_UNKNOWN, POSE_WALL_E_VALUE_TYPE,
+ * POSE_WALL_E_VALUE_RANGE, POSE_WALL_E_TEXT_LONG. */
 int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value);
 
-/* The same for a key of one number or integer. */
+/* The same for a key of one number or integer. Fails iff: NULL, not initialised, key unknown, a key of another type or
+ * a fraction for an integer (POSE_WALL_E_VALUE_TYPE), POSE_WALL_E_VALUE_RANGE. */
 int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value);
 
-/* Reads a key of one number or integer. */
+/* Reads a key of one number or integer. As the two below it writes on success only, and fails iff: NULL, not
+ * initialised, key unknown, a key of another type (POSE_WALL_E_VALUE_TYPE). */
 int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value);
 
 /* Reads a box into value[6]. All zero: no box. */
 int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key, double value[6]);
 
-/* Reads a text or choice key into buffer, with its closing zero. Fails also iff it does not fit. */
+/* Reads a text or choice key into buffer, with its closing zero. Fails also iff it does not fit
+ * (POSE_WALL_E_BUFFER_SMALL), or the config's member was written past the functions and is no choice
+ * (POSE_WALL_E_VALUE_TYPE). */
 int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer, uint64_t bytes);
 
-/* The table, for help texts and checks: count, and row by index in data-flow order. */
+/* The table, for help texts and checks: count, and row by index in data-flow order, which may be another in another
+ * build. Fails iff: NULL, POSE_WALL_E_INDEX. A key's row by its name, unit and range with it:
+ *
+ *     pose_wall_key_info info;
+ *     uint32_t i = 0;
+ *     while (pose_wall_config_key(i, &info) == POSE_WALL_OK && strcmp(info.name, "range_max") != 0) ++i;
+ *     if (i < pose_wall_config_key_count()) printf("%s: %g to %g\n", info.unit, info.minimum, info.maximum); */
 uint32_t pose_wall_config_key_count(void);
 int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info);
 
-/* A rule over several keys that does not hold: which keys, and what is asked of them. Static storage. */
+/* A rule over several keys that does not hold, or a key whose member holds what it does not take: which keys, and what
+ * is asked of them. Static storage. */
 typedef struct pose_wall_rule_fault {
   const char* key;
   const char* other_key; /* or "" */
   const char* rule;      /* "range_min must be smaller than range_max" */
 } pose_wall_rule_fault;
 
-/* Checks the rules over several keys. Returns POSE_WALL_OK or POSE_WALL_E_CONFIG_RULE with the first broken rule in
- * *fault (fault may be NULL). pose_wall_memory_needed and pose_wall_open check by the same rules. */
+/* Checks every member and the rules over several keys. Fails iff: config NULL, not initialised,
+ * POSE_WALL_E_CONFIG_RULE; only then is the first fault written to *fault (fault may be NULL). pose_wall_memory_needed
+ * and pose_wall_open check by the same rules. */
 int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault);
 
 /* CRC-32 of all settings, for a controller to see that the engine runs with the settings it was approved with. Two
@@ -246,8 +266,8 @@ enum pose_wall_quantity {
 };
 
 enum pose_wall_state {
-  POSE_WALL_INVALID = 0,  /* never measured, or held until its protection level passed the alert limit or hold_max was
-                             over; the last value stays readable, confidence 0 */
+  POSE_WALL_INVALID = 0,  /* never measured, or held until it expired (POSE_WALL_R_HOLD_EXPIRED); the last value stays
+                             readable, confidence 0 */
   POSE_WALL_HELD = 1,     /* not measured in this frame: the last good value, with a growing protection level */
   POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: the protection level says how much */
   POSE_WALL_VALID = 3     /* measured in this frame, every gate passed, protection level within the alert limit */
@@ -260,13 +280,19 @@ enum pose_wall_reason {
   POSE_WALL_R_LEAF_GROWN = 1 << 1, /* of the frame: voxel leaf enlarged to stay within points_max, or still so since the
                                       last frames (a note, not a fault). Of a value: even voxels of 0.26 m were too
                                       many, and nothing is told from larger ones */
-  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp less than 1 ms after the last frame's: taken as the same frame again,
-                                       values are held; after the second such frame they expire. Of every frame: the
-                                       stamps are no nanoseconds */
+  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp less than 1 ms after the last frame's: taken as the same frame again, and
+                                       nothing is measured. What is held ages as if the longer of the last two periods
+                                       had passed (at the first such frame also what the last one fell short of it), and
+                                       expires at the third in a row; at the first where no period is known, for no
+                                       stamp has gone on by 1 ms to stamp_gap_max yet. Of every frame: the stamps are
+                                       no nanoseconds */
   POSE_WALL_R_STAMP_BACK =
       1 << 3, /* stamp older than the last frame's: what is held expires, smoothing starts afresh */
   POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
-  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of one of the last four clouds again: a frozen sensor */
+  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of one of the last four clouds again, under a new stamp: a frozen
+                                      sensor. Degraded, with a level that grows with the age of the first copy; held
+                                      after frozen_frames repeats in a row (under an old stamp they count, too), or
+                                      where the clock went back since the first copy */
   /* the floor */
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
@@ -299,7 +325,8 @@ enum pose_wall_reason {
   POSE_WALL_R_INNOVATION = 1 << 23,    /* jumped further from the last value than the machine can move, or was refused
                                           and never good before: waits to be confirmed by three more frames */
   POSE_WALL_R_RATE_LIMITED = 1 << 24,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
-  POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held value's protection level passed the alert limit, or hold_max passed */
+  POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held until its protection level passed the alert limit or its age hold_max, or
+                                          until stamps that jumped back or stood still no longer told its age */
   POSE_WALL_R_WALL_TOO_NEAR = 1 << 26, /* returns nearer than range_min block the view to this side */
   POSE_WALL_R_NEVER_MEASURED = 1 << 27,
   /* between frames */
@@ -324,7 +351,9 @@ typedef struct pose_wall_value {
   double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured. While
                               invalid it goes by stamps that may have jumped: nothing to rely on */
   double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
-  double age_s;            /* since the frame it was measured in; 0 when measured in this one */
+  double age_s;            /* since the frame it was measured in, by the stamps (under ones that stand still: see
+                              POSE_WALL_R_STAMP_STILL; under one that went back it does not grow); 0 when measured in
+                              this one, or never */
   uint32_t state;          /* pose_wall_state */
   uint32_t reasons;        /* pose_wall_reason bits */
 } pose_wall_value;
@@ -342,7 +371,8 @@ typedef struct pose_wall_plane {
   uint32_t found; /* 0: of the other members only iterations and reasons are set. 1: a plane was fitted; whether it was
                      used, the states of the quantities tell */
   uint32_t inliers;    /* measured points on the plane: each voxel counts the points it stands for */
-  uint32_t iterations; /* hypotheses scored */
+  uint32_t iterations; /* hypotheses scored, the last frame's plane among them. floor: up to ground_iterations, in the
+                          look that it is told from. walls: up to wall_iterations, and four more along the other wall */
   uint32_t reasons;
 } pose_wall_plane;
 
@@ -362,7 +392,7 @@ typedef struct pose_wall_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_result) before the call */
   uint32_t frame_reasons;
   int64_t stamp_ns;     /* the frame's */
-  uint64_t frame_index; /* counts processed frames from 0 */
+  uint64_t frame_index; /* counts processed frames from 0; of pose_wall_age: the last one's, UINT64_MAX before any */
   double confidence;    /* the smallest of the seven */
   pose_wall_value quantity[POSE_WALL_QUANTITIES];
   pose_wall_plane floor;
@@ -391,37 +421,39 @@ typedef struct pose_wall_result {
 
 typedef struct pose_wall_engine pose_wall_engine;
 
-/* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails as
- * pose_wall_config_check, and for NULL. */
+/* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails iff: NULL, not
+ * initialised, POSE_WALL_E_CONFIG_RULE. */
 int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
 
 /* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
- * The config is copied. Fails iff: NULL, broken rule, block too small or misaligned. *engine is set only on success.
+ * The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_CONFIG_RULE,
+ * block misaligned or too small. *engine is set only on success.
  * There is nothing to close. Cost: none to speak of; the block is cleared as it is used.
  * Settings, memory and pointers in the block carry a sum, which every call checks: where a single word of them was
  * changed from outside, the engine is refused from then on (POSE_WALL_E_ENGINE) until it is opened again. */
 int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes, pose_wall_engine** engine);
 
-/* Forgets all that was measured, as if just opened. */
+/* Forgets all that was measured, as if just opened. Fails iff: NULL, engine not open. */
 int32_t pose_wall_reset(pose_wall_engine* engine);
 
 /* Gives the engine a clock for stage_ns: a function that returns monotonic nanoseconds. NULL takes it away. The
- * engine's results never depend on it. */
+ * engine's results never depend on it. Fails iff: engine NULL or not open. */
 typedef int64_t (*pose_wall_clock)(void* user);
 int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user);
 
 /* One frame in, one result out. Set result->struct_size = sizeof *result first. A malformed cloud description is
  * refused with a status and leaves engine and result unchanged; a cloud of garbage points is processed, and the result
- * says what could not be measured. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
+ * says what could not be measured. Fails iff: NULL, engine not open, struct_size of cloud or result,
+ * POSE_WALL_E_CLOUD_*. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
 int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud, pose_wall_result* result);
 
 /* What the seven quantities are at stamp_ns when no frame has come since the last: held and aged by the rules of a
  * frame that measures nothing, then invalid, with POSE_WALL_R_NO_FRAME. For the time in which a sensor is silent;
  * stamp_ns is in the clock of the frames' stamps, and at or before the last frame's nothing ages. frame_index is the
- * last frame's (0 before the first), there are no planes and no counts. Set result->struct_size first. Fails iff: NULL,
- * engine not open, struct_size. It changes one thing only: what it told invalid stays so until it is measured again,
- * even where the next frame's stamp would say that less time has passed. The next frame is smoothed over its own time
- * since the last one. */
+ * last frame's (UINT64_MAX before the first), there are no planes and no counts. Set result->struct_size first. Fails
+ * iff: NULL, engine not open, struct_size. It changes one thing only: what it told invalid stays so until it is
+ * measured again, even where the next frame's stamp would say that less time has passed. The next frame is smoothed
+ * over its own time since the last one. */
 int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result);
 
 /* All that an engine remembers from frame to frame, as bytes, so that any frame can be computed again: an engine of the
@@ -429,8 +461,8 @@ int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_resu
  * every machine. load checks its length (a longer one is read as far as pose_wall_memento_bytes), version, config and
  * checksum, and takes nothing of what it refuses: after a change of the config an engine begins anew. It is trusted
  * like the config, since whoever writes it can make the engine believe a past. Neither touches what
- * pose_wall_last_points gives. Fails iff: NULL, engine not open; save with POSE_WALL_E_BUFFER_SMALL; load with
- * POSE_WALL_E_MEMENTO. Cost: no more than copying. */
+ * pose_wall_last_points gives. Fails iff: NULL, engine not open; save also with POSE_WALL_E_BUFFER_SMALL, load also
+ * with POSE_WALL_E_MEMENTO. Cost: no more than copying. */
 uint64_t pose_wall_memento_bytes(void);
 int32_t pose_wall_save(const pose_wall_engine* engine, void* memento, uint64_t bytes);
 int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes);
@@ -443,7 +475,7 @@ enum pose_wall_label {
 };
 
 /* The voxel centroids of the last processed frame, base frame, with what became of them: for pictures and logs.
- * Pointers into the block, valid until the next call on this engine. */
+ * Pointers into the block, valid until the next call on this engine. Fails iff: NULL, engine not open. */
 typedef struct pose_wall_points {
   const float* x_base_m;
   const float* y_base_m;
@@ -471,8 +503,9 @@ int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* 
  * CRC   CRC-32 of IEEE 802.3 (polynomial 04C11DB7 reflected, begun and ended with FFFFFFFF; "123456789" gives CBF43926)
  * over all struct_size bytes but the four of crc32. It finds damage, not intent.
  *
- * SEQUENCE   frame_index + 1: a new frame changes it, and an image whose sequence stands still is an old one. It begins
- * anew with pose_wall_open and pose_wall_reset.
+ * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it, and an image
+ * whose sequence stands still is an old one; what pose_wall_age tells has that of the last frame. It begins anew with
+ * pose_wall_open and pose_wall_reset.
  *
  * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
 
@@ -511,7 +544,7 @@ typedef struct pose_wall_image {
   uint32_t struct_size;     /* bytes: POSE_WALL_IMAGE_BYTES */
   uint32_t version;         /* POSE_WALL_IMAGE_VERSION */
   uint32_t crc32;           /* CRC-32 of every byte but its own four */
-  uint32_t sequence;        /* frames since the engine was opened or reset; differs from frame to frame */
+  uint32_t sequence;        /* frames since the engine was opened or reset: 0 before the first */
   uint32_t config_crc32;    /* pose_wall_config_crc() of the engine's config */
   uint32_t library_version; /* major * 65536 + minor * 256 + patch */
   uint32_t stamp_low;       /* the frame's stamp_ns, bits 0 to 31 */
@@ -531,11 +564,12 @@ typedef struct pose_wall_image {
 /* Up to here. */
 
 /* Writes the whole image of a result that this engine gave. Set image->struct_size = sizeof *image and
- * result->struct_size first. Fails iff: NULL, engine not open, a struct_size of another version; the image is then
- * unchanged. Cost: some thousand simple operations. */
+ * result->struct_size first. Fails iff: NULL, engine not open (POSE_WALL_E_ENGINE), a struct_size of another version;
+ * the image is then unchanged. Cost: some thousand simple operations. */
 int32_t pose_wall_image_fill(const pose_wall_engine* engine, const pose_wall_result* result, pose_wall_image* image);
 
-/* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, other version or size, CRC. */
+/* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, POSE_WALL_E_IMAGE_VERSION,
+ * POSE_WALL_E_IMAGE_CRC. */
 int32_t pose_wall_image_check(const pose_wall_image* image);
 
 #ifdef __cplusplus

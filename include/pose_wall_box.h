@@ -133,7 +133,8 @@ int32_t pose_wall_box_next(const void* bytes, uint64_t count, uint64_t* offset, 
 
 /* Computes a record again, on an engine that was opened with the box's config: loads the memento, does what was done,
  * and gives the result as the runtime published it (stage_ns apart: there is no clock). Set result->struct_size first.
- * Fails as pose_wall_load and pose_wall_process, iff NULL, or with POSE_WALL_BOX_E_EMPTY, _RUN or _KIND. */
+ * Fails iff: NULL, POSE_WALL_BOX_E_EMPTY, _RUN or _KIND, as pose_wall_load, and as pose_wall_process or pose_wall_age:
+ * for these two the engine has loaded the memento already. */
 int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine, pose_wall_result* result);
 
 #ifdef __cplusplus

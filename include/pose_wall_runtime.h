@@ -46,11 +46,13 @@
  * watchdog_ns.
  *
  * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
- * when the frames that are worked lie further apart than frame_period_max_ns, points are left out: every second return,
- * then three of four, and so on. No threshold is ever loosened. Because gaps in a wall may go unnoticed in a thinned
- * cloud (pose_wall.h, pose_wall_cloud), nothing from one is ever published as better than degraded, and `thinning` says
- * so; where a held value comes from one, `held_thinning` says so. The region is never narrowed: a cropped cloud looks
- * full of holes. What was dropped shows in `frame`, which counts pushes.
+ * when three frames in a row took longer than frame_period_max_ns to work, and some were dropped meanwhile, points are
+ * left out: every second return, then three of four, and so on; they come back when twenty in a row took less than
+ * three eighths of it. What the callback takes does not count: a slow one costs frames, never points. No threshold is
+ * ever loosened. Because gaps in a wall may go unnoticed in a thinned cloud (pose_wall.h, pose_wall_cloud), nothing
+ * from one is ever published as better than degraded, and `thinning` says so; where a held value comes from one,
+ * `held_thinning` says so. The region is never narrowed: a cropped cloud looks full of holes. What was dropped shows in
+ * `frame`, which counts pushes.
  *
  * ERRORS. POSE_WALL_OK or a negative status, of pose_wall.h or of this header. A refused call changes nothing but the
  * counters.
@@ -76,12 +78,12 @@ uint32_t pose_wall_runtime_abi_version(void);
 
 /* Beside those of pose_wall.h. Pinned by a test and never reused. */
 enum pose_wall_runtime_status {
-  POSE_WALL_RUNTIME_E_OPTION = -100,  /* an option out of its range, or `reserved` not zero */
-  POSE_WALL_RUNTIME_E_HANDLE = -101,  /* not an open runtime */
-  POSE_WALL_RUNTIME_E_STATE = -102,   /* not in this state: not running, or not stopped */
-  POSE_WALL_RUNTIME_E_THREAD = -103,  /* not from the callback or the sink: it would wait for itself */
-  POSE_WALL_RUNTIME_E_BUSY = -104,    /* another thread is inside push */
-  POSE_WALL_RUNTIME_E_LARGE = -105,   /* more points than cloud_points_max, or wider than point_bytes_max */
+  POSE_WALL_RUNTIME_E_OPTION = -100, /* an option out of its range, or `reserved` not zero: options_check tells which */
+  POSE_WALL_RUNTIME_E_HANDLE = -101, /* not an open runtime */
+  POSE_WALL_RUNTIME_E_STATE = -102,  /* not in this state: not running, or not stopped */
+  POSE_WALL_RUNTIME_E_THREAD = -103, /* not from the callback or the sink: it would wait for itself */
+  POSE_WALL_RUNTIME_E_BUSY = -104,   /* another thread is inside push */
+  POSE_WALL_RUNTIME_E_LARGE = -105,  /* more points than cloud_points_max, or wider than point_bytes_max */
   POSE_WALL_RUNTIME_E_NOTHING = -106, /* nothing published since start */
   POSE_WALL_RUNTIME_E_SYSTEM = -107   /* the system refused a thread, or what `required` asks for */
 };
@@ -101,7 +103,7 @@ typedef struct pose_wall_publication {
   uint32_t thinning;      /* of every so many returns one was used; 1: all. Above 1 no state is better than degraded */
   uint32_t held_thinning; /* the largest thinning of the frames that held values of this result come from; 1: none */
   uint64_t index;         /* counts publications from 0, over all starts */
-  uint64_t frame;         /* counts pushes from 0, over all starts; of a silence: the last frame that was worked */
+  uint64_t frame;         /* counts pushes from 0, over all starts; of a silence: the last worked, 0 before any */
   int64_t received_ns;    /* runtime's clock, at the start of that frame's push; before the first frame, of start */
   int64_t published_ns;   /* runtime's clock */
   pose_wall_result
@@ -145,9 +147,9 @@ typedef struct pose_wall_runtime_options {
   uint32_t required;         /* of pose_wall_runtime_wish: what start must be granted; the rest is only reported */
   uint32_t reserved;         /* 0 */
   int64_t
-      frame_period_max_ns;   /* 100 ms: frames are dropped, not thinned, as long as worked ones are no further apart */
-  int64_t watchdog_ns;       /* 300 ms; 0: never. Silence that long is published, frames that old are not */
-  int64_t watchdog_every_ns; /* 100 ms: and again so often, until a frame comes */
+      frame_period_max_ns; /* 100 ms; 1 ms to 1 h: frames are dropped, not thinned, while none takes longer to work */
+  int64_t watchdog_ns;     /* 300 ms; 1 ns to 1 h, 0: never. Silence that long is published, frames that old are not */
+  int64_t watchdog_every_ns; /* 100 ms; 1 ms to 1 h: and again so often, until a frame comes */
   pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once, also
                                 under the lock: it must not call the runtime. With a clock of the caller's nothing but
                                 pose_wall_runtime_tick wakes the worker for the watchdog */
@@ -156,11 +158,19 @@ typedef struct pose_wall_runtime_options {
   void* callback_user;
   pose_wall_runtime_sink sink; /* or NULL: no black box */
   void* sink_user;
-  uint64_t box_bytes; /* of the ring file; at least what one whole record needs */
+  uint64_t
+      box_bytes; /* 0; of the ring file. With a sink at least what the header and one whole record need: 4224 bytes,
+                    pose_wall_memento_bytes(), sizeof(pose_wall_result) and, with box_clouds, cloud_points_max x
+                    point_bytes_max, the last three rounded up to multiples of 64. Used in multiples of 64 */
 } pose_wall_runtime_options;
 
 /* Fills every option with its default (the figure in its comment). Fails iff: NULL. */
 int32_t pose_wall_runtime_options_init(pose_wall_runtime_options* options);
+
+/* Whether memory_needed and open take these options. Fails iff: options NULL, struct_size, POSE_WALL_RUNTIME_E_OPTION;
+ * only then *option is the name of the first member that is out of its range ("watchdog_ns"; static storage; option may
+ * be NULL). */
+int32_t pose_wall_runtime_options_check(const pose_wall_runtime_options* options, const char** option);
 
 /* ---------------------------------------------------------------------------------------------- life */
 
@@ -172,40 +182,43 @@ int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config, const po
                                         uint64_t* bytes);
 
 /* Places a runtime in block, which may hold anything, must be aligned to POSE_WALL_BLOCK_ALIGNMENT, stays the caller's
- * and must not move. Starts no thread. Fails as memory_needed, and for a block too small or misaligned. */
+ * and must not move. Starts no thread. Fails as memory_needed, and for a block misaligned or too small. *runtime is set
+ * only on success. */
 int32_t pose_wall_runtime_open(const pose_wall_config* config, const pose_wall_runtime_options* options, void* block,
                                uint64_t block_bytes, pose_wall_runtime** runtime);
 
 /* Starts the threads, with an engine that remembers nothing and a black box from its beginning (what the sink wrote
  * before is overwritten, its header at once: give each start a file of its own, or a restart after an incident takes
- * the incident's). Counters go on. Returns when the worker runs. Fails iff: not open, not stopped, called back,
+ * the incident's). Counters go on. Returns when the worker runs. Fails iff: NULL, not open, not stopped, called back,
  * POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_E_ENGINE (the block was changed by others, the config in it too: open it anew);
  * then it is stopped. */
 int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
 
-/* Waits until every frame is worked, every tick looked at and every record written, or the runtime stops
- * (POSE_WALL_RUNTIME_E_STATE). For tests and for work offline: a frame that is pushed meanwhile is waited for as well.
- */
+/* Waits until every frame is worked, every tick looked at and every record written. For tests and for work offline: a
+ * frame that is pushed meanwhile is waited for as well. Fails iff: NULL, not open, called back, not running or stopped
+ * meanwhile (POSE_WALL_RUNTIME_E_STATE). */
 int32_t pose_wall_runtime_wait_idle(pose_wall_runtime* runtime);
 
-/* Asks the worker to end after what it is at; push is refused from now on. Returns at once. Fails iff: not running. */
+/* Asks the worker to end after what it is at; push is refused from now on. Returns at once. Fails iff: NULL, not
+ * open, not running. */
 int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime);
 
 /* Ends the threads and waits for them: for the frame in work, the callback, and the records that wait for the sink.
- * Frames that wait are dropped and counted. Stopped already: nothing happens. Fails iff: not open, called back. */
+ * Frames that wait are dropped and counted. Stopped already: nothing happens. Fails iff: NULL, not open,
+ * called back. */
 int32_t pose_wall_runtime_stop(pose_wall_runtime* runtime);
 
-/* After this the block is the caller's again. Fails iff: not open, not stopped, a push, wait_idle or stop still inside.
- * Of the other calls none may be made meanwhile. */
+/* After this the block is the caller's again. Fails iff: NULL, not open, called back, not stopped, or a push, wait_idle
+ * or stop is still inside (POSE_WALL_RUNTIME_E_STATE). Of the other calls none may be made meanwhile. */
 int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
 
 /* ---------------------------------------------------------------------------------------------- frames and results */
 
 /* Checks the cloud, copies what the engine reads of it, and queues it. Points that are not finite or exactly zero are
  * left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused is counted as
- * pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running,
- * another thread inside push, struct_size or a description that pose_wall_cloud_check refuses,
- * POSE_WALL_RUNTIME_E_LARGE. */
+ * pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running or
+ * stopped before the copy was done (which is counted), another thread inside push, struct_size or a description that
+ * pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
 int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
 
 /* The newest publication. No lock, no wait: one copy, repeated only if three newer ones were published meanwhile. Set

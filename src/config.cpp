@@ -82,11 +82,14 @@ bool is_initialised(const pose_wall_config& config) {
   return config.struct_size == sizeof(pose_wall_config) && config.layout == kLayout;
 }
 
-const Row* find_row(const char* key) {
+std::int32_t find_row(const pose_wall_config& config, const char* key, const Row** found) {
+  if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
   for (const Row& row : kRows) {
-    if (std::strcmp(row.info.name, key) == 0) return &row;
+    if (std::strcmp(row.info.name, key) != 0) continue;
+    *found = &row;
+    return POSE_WALL_OK;
   }
-  return nullptr;
+  return POSE_WALL_E_KEY_UNKNOWN;
 }
 
 // Length of the choice that starts at `choice`.
@@ -145,23 +148,33 @@ std::int32_t set_choice(pose_wall_config* config, const Row& row, const char* va
   }
 }
 
-void skip_separators(const char** cursor) {
-  while (**cursor == ' ' || **cursor == '\t' || **cursor == ',' || **cursor == '[' || **cursor == ']') ++*cursor;
+// Six numbers with spaces, one comma or both between them, in brackets or not; or nothing. Returns how many there were,
+// more than six where it is anything else.
+std::uint32_t read_box(const char* at, double (*numbers)[kNumbersOfBox]) {
+  constexpr std::uint32_t kNoBox = kNumbersOfBox + 1;
+  skip_spaces(&at);
+  const bool bracket = *at == '[';
+  if (bracket) ++at;
+  std::uint32_t count = 0;
+  for (skip_spaces(&at); count < kNumbersOfBox && read_number(&at, &(*numbers)[count]); ++count) {
+    const char* const behind = at;
+    skip_spaces(&at);
+    if (count + 1 == kNumbersOfBox) continue;
+    if (*at == ',') ++at;
+    if (at == behind) return kNoBox;
+    skip_spaces(&at);
+  }
+  if (bracket && *at++ != ']') return kNoBox;
+  skip_spaces(&at);
+  return *at == '\0' ? count : kNoBox;
 }
 
 std::int32_t set_box(pose_wall_config* config, const Row& row, const char* value) {
   double numbers[kNumbersOfBox] = {};
-  const char* at = value;
-  skip_separators(&at);
-  std::uint32_t count = 0;
-  for (; *at != '\0'; ++count) {
-    if (count == kNumbersOfBox || !read_number(&at, &numbers[count])) return POSE_WALL_E_VALUE_TYPE;
-    if (!in_range(row, numbers[count])) return POSE_WALL_E_VALUE_RANGE;
-    skip_separators(&at);
-  }
+  const std::uint32_t count = read_box(value, &numbers);
   if (count != 0 && count != kNumbersOfBox) return POSE_WALL_E_VALUE_TYPE;
-  for (std::uint32_t i = 0; i + 1 < kNumbersOfBox; i += 2) {
-    if (count != 0 && !(numbers[i] < numbers[i + 1])) return POSE_WALL_E_VALUE_RANGE;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!in_range(row, numbers[i]) || (i % 2 == 1 && !(numbers[i - 1] < numbers[i]))) return POSE_WALL_E_VALUE_RANGE;
   }
   std::memcpy(&config->number[row.slot], numbers, sizeof(numbers));
   return POSE_WALL_OK;
@@ -313,9 +326,9 @@ std::int32_t config_init(pose_wall_config* config) {
 }
 
 std::int32_t config_set(pose_wall_config* config, const char* key, const char* value) {
-  if (!is_initialised(*config)) return POSE_WALL_E_STRUCT_SIZE;
-  const Row* row = find_row(key);
-  if (row == nullptr) return POSE_WALL_E_KEY_UNKNOWN;
+  const Row* row = nullptr;
+  const std::int32_t status = find_row(*config, key, &row);
+  if (status != POSE_WALL_OK) return status;
   switch (row->info.type) {
     case POSE_WALL_KEY_TEXT:
       return set_text(config, *row, value);
@@ -331,34 +344,34 @@ std::int32_t config_set(pose_wall_config* config, const char* key, const char* v
 }
 
 std::int32_t config_set_number(pose_wall_config* config, const char* key, double value) {
-  if (!is_initialised(*config)) return POSE_WALL_E_STRUCT_SIZE;
-  const Row* row = find_row(key);
-  if (row == nullptr) return POSE_WALL_E_KEY_UNKNOWN;
+  const Row* row = nullptr;
+  const std::int32_t status = find_row(*config, key, &row);
+  if (status != POSE_WALL_OK) return status;
   return is_one_number(*row) ? set_number(config, *row, value) : POSE_WALL_E_VALUE_TYPE;
 }
 
 std::int32_t config_get_number(const pose_wall_config& config, const char* key, double* value) {
-  if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
-  const Row* row = find_row(key);
-  if (row == nullptr) return POSE_WALL_E_KEY_UNKNOWN;
+  const Row* row = nullptr;
+  const std::int32_t status = find_row(config, key, &row);
+  if (status != POSE_WALL_OK) return status;
   if (!is_one_number(*row)) return POSE_WALL_E_VALUE_TYPE;
   *value = config.number[row->slot];
   return POSE_WALL_OK;
 }
 
 std::int32_t config_get_box(const pose_wall_config& config, const char* key, double* value) {
-  if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
-  const Row* row = find_row(key);
-  if (row == nullptr) return POSE_WALL_E_KEY_UNKNOWN;
+  const Row* row = nullptr;
+  const std::int32_t status = find_row(config, key, &row);
+  if (status != POSE_WALL_OK) return status;
   if (row->info.type != POSE_WALL_KEY_BOX) return POSE_WALL_E_VALUE_TYPE;
   std::memcpy(value, &config.number[row->slot], kNumbersOfBox * sizeof(double));
   return POSE_WALL_OK;
 }
 
 std::int32_t config_get_text(const pose_wall_config& config, const char* key, char* buffer, std::uint64_t bytes) {
-  if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
-  const Row* row = find_row(key);
-  if (row == nullptr) return POSE_WALL_E_KEY_UNKNOWN;
+  const Row* row = nullptr;
+  const std::int32_t status = find_row(config, key, &row);
+  if (status != POSE_WALL_OK) return status;
   const char* text = nullptr;
   std::size_t length = 0;
   if (row->info.type == POSE_WALL_KEY_TEXT) {

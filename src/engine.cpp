@@ -284,7 +284,7 @@ void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {
   age_values(elapsed_s, nothing.reasons, settings_, &memory_.temporal, &result->quantity);
   seal();
   report_findings(nothing, result);
-  result->frame_index = memory_.frames > 0 ? memory_.frames - 1 : 0;
+  result->frame_index = memory_.frames - 1;  // before the first frame all ones: no frame's number
   result->confidence = least_confidence(*result);
 }
 

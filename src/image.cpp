@@ -55,13 +55,21 @@ std::uint32_t milliseconds_above(double seconds) {
   return milliseconds >= 0.0 && milliseconds < kUnsignedMax ? static_cast<std::uint32_t>(milliseconds) : 0xFFFFFFFFU;
 }
 
-// What angles and distances have in common, in the order of the members of both.
-struct Numbers {
+// What angles and distances have in common: member by member both of them.
+struct Entry {
   std::int32_t value_scaled = POSE_WALL_IMAGE_NO_VALUE;
   std::int32_t protection_scaled = POSE_WALL_IMAGE_NO_BOUND;
   float value = kNoValue;
   float protection = kNoBound;
+  std::uint32_t age_ms = 0xFFFFFFFFU;
+  std::uint32_t state = POSE_WALL_INVALID;
+  std::uint32_t reasons = 0;
 };
+static_assert(sizeof(Entry) == sizeof(pose_wall_image_angle) && sizeof(Entry) == sizeof(pose_wall_image_distance) &&
+                  offsetof(pose_wall_image, d_rb) - offsetof(pose_wall_image, roll) == POSE_WALL_D_RB * sizeof(Entry) &&
+                  offsetof(Entry, age_ms) == offsetof(pose_wall_image_angle, age_ms) &&
+                  offsetof(Entry, age_ms) == offsetof(pose_wall_image_distance, age_ms),
+              "the seven lie one behind the other");
 
 // What is no state is none to act on.
 std::uint32_t known_state(std::uint32_t state) {
@@ -69,11 +77,14 @@ std::uint32_t known_state(std::uint32_t state) {
 }
 
 // A bound past what the type can tell is none.
-Numbers numbers_of(const pose_wall_value& v, double scale) {
-  Numbers n;
+Entry entry_of(const pose_wall_value& v, double scale) {
+  Entry n;
+  n.state = known_state(v.state);
+  n.reasons = v.reasons;
   if (!is_finite(v.value)) return n;
   n.value_scaled = nearest_integer(v.value * scale);
   n.value = static_cast<float>(within(v.value, kFloatMax));
+  n.age_ms = milliseconds_above(v.age_s);
   // Of what is invalid the level may go by a clock that jumped.
   if (v.state == POSE_WALL_INVALID || !is_finite(v.protection_level) || v.protection_level < 0.0) return n;
   const double rounded_scaled = std::fabs(v.value * scale - static_cast<double>(n.value_scaled));
@@ -81,18 +92,6 @@ Numbers numbers_of(const pose_wall_value& v, double scale) {
   n.protection_scaled = integer_above(v.protection_level * scale + rounded_scaled);
   if (v.protection_level + rounded <= kFloatMax) n.protection = float_above(v.protection_level + rounded);
   return n;
-}
-
-pose_wall_image_angle angle_of(const pose_wall_value& v) {
-  const Numbers n = numbers_of(v, kMilliDegreesPerRadian);
-  return {n.value_scaled, n.protection_scaled, n.value, n.protection, milliseconds_above(v.age_s), known_state(v.state),
-          v.reasons};
-}
-
-pose_wall_image_distance distance_of(const pose_wall_value& v) {
-  const Numbers n = numbers_of(v, kMillimetresPerMetre);
-  return {n.value_scaled, n.protection_scaled, n.value, n.protection, milliseconds_above(v.age_s), known_state(v.state),
-          v.reasons};
 }
 
 std::uint32_t crc_of(const pose_wall_image& image) {
@@ -129,13 +128,12 @@ void fill_head(const pose_wall_result& result, std::uint32_t config_crc32, pose_
 
 void fill_image(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image) {
   fill_head(result, config_crc32, image);
-  image->roll = angle_of(result.quantity[POSE_WALL_ROLL]);
-  image->pitch = angle_of(result.quantity[POSE_WALL_PITCH]);
-  image->yaw = angle_of(result.quantity[POSE_WALL_YAW]);
-  image->d_lf = distance_of(result.quantity[POSE_WALL_D_LF]);
-  image->d_lb = distance_of(result.quantity[POSE_WALL_D_LB]);
-  image->d_rf = distance_of(result.quantity[POSE_WALL_D_RF]);
-  image->d_rb = distance_of(result.quantity[POSE_WALL_D_RB]);
+  unsigned char* to = reinterpret_cast<unsigned char*>(image) + offsetof(pose_wall_image, roll);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q, to += sizeof(Entry)) {
+    const Entry entry =
+        entry_of(result.quantity[q], q <= POSE_WALL_YAW ? kMilliDegreesPerRadian : kMillimetresPerMetre);
+    std::memcpy(to, &entry, sizeof(entry));
+  }
   image->crc32 = crc_of(*image);
 }
 

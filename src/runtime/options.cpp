@@ -6,7 +6,6 @@
 #include "box_layout.hpp"
 #include "box_writer.hpp"
 #include "frame_slot.hpp"
-#include "status.hpp"
 
 namespace pose_wall::runtime {
 namespace {
@@ -24,26 +23,10 @@ bool is_thinning(std::uint32_t n) {
   return within(n, 1U, 16U) && (n & (n - 1)) == 0;
 }
 
-bool counts_are_good(const pose_wall_runtime_options& o) {
-  return within(o.queue_frames, 1U, 64U) && within(o.cloud_points_max, 1U, 1U << 26) &&
-         within(o.point_bytes_max, 12U, 32U) && is_thinning(o.thinning_max) && o.box_clouds <= 1 &&
-         within(o.box_backlog, 1U, 64U) && o.reserved == 0;
-}
-
-bool wishes_are_good(const pose_wall_runtime_options& o) {
-  return within(o.worker_priority, 0, 99) && within(o.worker_cpu, -1, 1023) && o.lock_memory <= 1 &&
-         (o.required & ~kWishes) == 0;
-}
-
-bool times_are_good(const pose_wall_runtime_options& o) {
-  return within(o.frame_period_max_ns, kMillisecond_ns, kHour_ns) && within<std::int64_t>(o.watchdog_ns, 0, kHour_ns) &&
-         within(o.watchdog_every_ns, kMillisecond_ns, kHour_ns);
-}
-
-bool box_is_good(const pose_wall_runtime_options& o) {
+bool box_is_large_enough(const pose_wall_runtime_options& o) {
   if (o.sink == nullptr) return true;
   const std::uint64_t cloud = o.box_clouds != 0 ? cloud_bytes_max(o) : 0;
-  return machine_is_little_endian() && o.box_bytes >= BoxWriter::box_bytes_min(cloud);
+  return o.box_bytes >= BoxWriter::box_bytes_min(cloud);
 }
 
 }  // namespace
@@ -63,11 +46,36 @@ void set_defaults(pose_wall_runtime_options* options) {
   options->watchdog_every_ns = 100 * kMillisecond_ns;
 }
 
-std::int32_t check_options(const pose_wall_runtime_options& options) {
-  if (options.struct_size != sizeof(options)) return POSE_WALL_E_STRUCT_SIZE;
-  const bool good =
-      counts_are_good(options) && wishes_are_good(options) && times_are_good(options) && box_is_good(options);
-  return ok_if(good, POSE_WALL_RUNTIME_E_OPTION);
+std::int32_t check_options(const pose_wall_runtime_options& o, const char** option) {
+  if (o.struct_size != sizeof(o)) return POSE_WALL_E_STRUCT_SIZE;
+  // In the order of the members.
+  const struct {
+    bool good;
+    const char* name;
+  } checked[] = {
+      {within(o.queue_frames, 1U, 64U), "queue_frames"},
+      {within(o.cloud_points_max, 1U, 1U << 26), "cloud_points_max"},
+      {within(o.point_bytes_max, 12U, 32U), "point_bytes_max"},
+      {is_thinning(o.thinning_max), "thinning_max"},
+      {o.box_clouds <= 1, "box_clouds"},
+      {within(o.box_backlog, 1U, 64U), "box_backlog"},
+      {within(o.worker_priority, 0, 99), "worker_priority"},
+      {within(o.worker_cpu, -1, 1023), "worker_cpu"},
+      {o.lock_memory <= 1, "lock_memory"},
+      {(o.required & ~kWishes) == 0, "required"},
+      {o.reserved == 0, "reserved"},
+      {within(o.frame_period_max_ns, kMillisecond_ns, kHour_ns), "frame_period_max_ns"},
+      {within<std::int64_t>(o.watchdog_ns, 0, kHour_ns), "watchdog_ns"},
+      {within(o.watchdog_every_ns, kMillisecond_ns, kHour_ns), "watchdog_every_ns"},
+      {o.sink == nullptr || machine_is_little_endian(), "sink"},
+      {box_is_large_enough(o), "box_bytes"},
+  };
+  for (const auto& row : checked) {
+    if (row.good) continue;
+    if (option != nullptr) *option = row.name;
+    return POSE_WALL_RUNTIME_E_OPTION;
+  }
+  return POSE_WALL_OK;
 }
 
 std::uint32_t slots_of(const pose_wall_runtime_options& o) {

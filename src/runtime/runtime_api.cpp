@@ -37,7 +37,7 @@ int32_t check(const pose_wall_runtime* handle) {
 // The engine's own need, once all else was found good.
 int32_t engine_bytes(const pose_wall_config* config, const pose_wall_runtime_options* options, uint64_t* bytes) {
   if (config == nullptr || options == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = pose_wall::runtime::check_options(*options);
+  const int32_t status = pose_wall::runtime::check_options(*options, nullptr);
   return status == POSE_WALL_OK ? pose_wall_memory_needed(config, bytes) : status;
 }
 
@@ -53,6 +53,11 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init(pose_wall_runtime_option
   if (options == nullptr) return POSE_WALL_E_NULL;
   pose_wall::runtime::set_defaults(options);
   return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_runtime_options_check(const pose_wall_runtime_options* options,
+                                                         const char** option) {
+  return options != nullptr ? pose_wall::runtime::check_options(*options, option) : POSE_WALL_E_NULL;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config,

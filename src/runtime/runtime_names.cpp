@@ -12,7 +12,7 @@ extern "C" {
 POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
   switch (status) {
     case POSE_WALL_RUNTIME_E_OPTION:
-      return "an option is out of its range, or reserved is not zero";
+      return "an option is out of its range, or reserved is not zero: pose_wall_runtime_options_check() tells which";
     case POSE_WALL_RUNTIME_E_HANDLE:
       return "not an open runtime";
     case POSE_WALL_RUNTIME_E_STATE:

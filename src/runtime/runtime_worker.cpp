@@ -19,6 +19,7 @@ constexpr std::int64_t kMinute_ns = 60000000000;
 void tell_nothing(std::int64_t stamp_ns, pose_wall_result* result) {
   result->stamp_ns = stamp_ns;
   result->frame_reasons = POSE_WALL_R_NO_FRAME;
+  result->frame_index = UINT64_MAX;
   for (pose_wall_value& v : result->quantity) {
     v.value = v.raw = v.sigma = v.protection_level = __builtin_nan("");
     v.reasons = POSE_WALL_R_NO_FRAME | POSE_WALL_R_NEVER_MEASURED;

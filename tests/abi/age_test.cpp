@@ -83,7 +83,9 @@ TEST(Age, WhatWasToldInvalidIsNotHeldAgain) {
 
 TEST(Age, BeforeTheFirstFrameNothingIsKnown) {
   EngineUnderTest engine(small_config());
-  for (const pose_wall_value& v : age(&engine, 5).quantity) {
+  const pose_wall_result aged = age(&engine, 5);
+  EXPECT_EQ(aged.frame_index, std::numeric_limits<std::uint64_t>::max()) << "not that of the first frame";
+  for (const pose_wall_value& v : aged.quantity) {
     EXPECT_EQ(v.state, POSE_WALL_INVALID);
     EXPECT_EQ(v.reasons, POSE_WALL_R_NEVER_MEASURED | POSE_WALL_R_NO_FRAME);
     EXPECT_TRUE(std::isnan(v.value) && std::isnan(v.raw) && std::isnan(v.sigma) && std::isnan(v.protection_level));

@@ -115,10 +115,12 @@ TEST(Image, NoNumberIsTheWorstNumber) {
     EXPECT_EQ(none.value_m, -2147483648.0F);
     EXPECT_EQ(none.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
     EXPECT_EQ(none.protection_m, 2147483648.0F);
+    EXPECT_EQ(none.age_ms, 0xFFFFFFFFU) << "what is not there is not fresh";
     const pose_wall_image_distance unbound = distance_image(2.0, nothing);
     EXPECT_EQ(unbound.value_mm, 2000);
     EXPECT_EQ(unbound.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
     EXPECT_EQ(unbound.protection_m, 2147483648.0F);
+    EXPECT_EQ(unbound.age_ms, 101U);
   }
   EXPECT_EQ(distance_image(2.0, -1.0).protection_mm, POSE_WALL_IMAGE_NO_BOUND);
   EXPECT_NE(distance_image(2.0, 0.1).protection_mm, POSE_WALL_IMAGE_NO_BOUND);
@@ -169,12 +171,38 @@ TEST(Image, OfFramesOfAnEngine) {
     EXPECT_EQ(image.sequence, frame);
     EXPECT_EQ(image.verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
     EXPECT_EQ(image.d_lf.value_mm, POSE_WALL_IMAGE_NO_VALUE);
+    EXPECT_EQ(image.d_lf.age_ms, 0xFFFFFFFFU);
     EXPECT_EQ(image.frame_reasons, result.frame_reasons);
   }
   std::uint32_t crc = 0;
   const pose_wall_config config = small_config();
   ASSERT_EQ(pose_wall_config_crc(&config, &crc), POSE_WALL_OK);
   EXPECT_EQ(image.config_crc32, crc);
+}
+
+// A reader waits for another sequence: the first frame must differ from what was told before it.
+TEST(Image, TheSequenceTellsTheFirstFrameFromNone) {
+  EngineUnderTest engine(small_config());
+  const auto sequence_of = [&engine](const pose_wall_result& result) {
+    pose_wall_image image;
+    image.struct_size = sizeof image;
+    EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+    return image.sequence;
+  };
+  pose_wall_cloud cloud;
+  pose_wall_result aged{};
+  aged.struct_size = sizeof aged;
+  for (int open = 0; open < 2; ++open) {
+    ASSERT_EQ(pose_wall_age(engine.get(), 0, &aged), POSE_WALL_OK);
+    EXPECT_EQ(sequence_of(aged), 0U);
+    for (std::uint32_t frame = 1; frame <= 2; ++frame) {
+      ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, frame * 100000000LL), POSE_WALL_OK);
+      EXPECT_EQ(sequence_of(engine.process(cloud)), frame);
+      ASSERT_EQ(pose_wall_age(engine.get(), frame * 100000000LL, &aged), POSE_WALL_OK);
+      EXPECT_EQ(sequence_of(aged), frame) << "silence is no news";
+    }
+    ASSERT_EQ(pose_wall_reset(engine.get()), POSE_WALL_OK);
+  }
 }
 
 TEST(Image, RefusedCallsChangeNothing) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "support/clouds.hpp"
@@ -98,6 +99,41 @@ TEST(AbiRefusals, ReadingWhatIsNoConfigAndKeysThatAreNone) {
   EXPECT_STREQ(text, "seven");
 }
 
+// What is no number in which way, as the header tells the three statuses apart.
+TEST(AbiRefusals, WhatIsNoNumberOrOutOfRange) {
+  pose_wall_config config = config_with();
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const char* text : {"nan", "NaN", "inf", "-inf", "infinity", ""}) {
+    EXPECT_EQ(unchanged_by(&config, [&] { return pose_wall_config_set(&config, "range_max", text); }),
+              POSE_WALL_E_VALUE_TYPE)
+        << text;
+  }
+  for (const char* text : {"1e999", "-1e999", "201", "0"}) {
+    EXPECT_EQ(unchanged_by(&config, [&] { return pose_wall_config_set(&config, "range_max", text); }),
+              POSE_WALL_E_VALUE_RANGE)
+        << text;
+  }
+  for (const double number : {nan, infinity, -infinity, 201.0}) {
+    EXPECT_EQ(unchanged_by(&config, [&] { return pose_wall_config_set_number(&config, "range_max", number); }),
+              POSE_WALL_E_VALUE_RANGE)
+        << number;
+  }
+  EXPECT_EQ(pose_wall_config_set(&config, "points_max", "6000.5"), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set_number(&config, "points_max", 6000.5), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set_number(&config, "forward_axis", 1), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set_number(&config, "body_box_1", 1), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_set(&config, "body_box_1", "1 0 0 1 0 1"), POSE_WALL_E_VALUE_RANGE);
+  for (double& member : config.number) {
+    pose_wall_rule_fault fault{};
+    const double before = member;
+    member = nan;
+    const std::int32_t status = pose_wall_config_check(&config, &fault);
+    EXPECT_TRUE(status == POSE_WALL_OK || (status == POSE_WALL_E_CONFIG_RULE && fault.key != nullptr));
+    EXPECT_TRUE(&member != config.number || status == POSE_WALL_E_CONFIG_RULE);
+    member = before;
+  }
+}
+
 TEST(AbiRefusals, CloudsOfNoDataAreLeftAlone) {
   pose_wall_cloud cloud;
   std::memset(&cloud, 0x5A, sizeof cloud);
@@ -135,6 +171,13 @@ TEST(AbiRefusals, BrokenConfigsOpenNothing) {
   std::uint64_t bytes = 7;
   EXPECT_EQ(pose_wall_memory_needed(&broken, &bytes), POSE_WALL_E_CONFIG_RULE);
   EXPECT_EQ(pose_wall_open(&broken, block.data(), 1U << 30, &engine), POSE_WALL_E_CONFIG_RULE);
+  pose_wall_rule_fault fault{"untouched", "", ""};
+  EXPECT_EQ(pose_wall_config_check(&uninitialised, &fault), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_STREQ(fault.key, "untouched");
+  EXPECT_EQ(pose_wall_config_check(&broken, &fault), POSE_WALL_E_CONFIG_RULE);
+  EXPECT_STREQ(fault.key, "s_front");
+  EXPECT_EQ(pose_wall_config_set(&uninitialised, "range_max", "9"), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_config_set_number(&uninitialised, "range_max", 9), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(pose_wall_memory_needed(&uninitialised, &bytes), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(pose_wall_open(&uninitialised, block.data(), 1U << 30, &engine), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(bytes, 7U);
@@ -193,6 +236,35 @@ TEST(AbiCalls, AResultIsBuiltAfresh) {
   ASSERT_EQ(pose_wall_process(a.get(), &cloud, &clean), POSE_WALL_OK);
   ASSERT_EQ(pose_wall_process(b.get(), &cloud, &dirty), POSE_WALL_OK);
   EXPECT_EQ(std::memcmp(&clean, &dirty, sizeof clean), 0);
+}
+
+TEST(AbiCalls, HypothesesStayWithinTheirCaps) {
+  EngineUnderTest engine(config_with({{"ground_iterations", "60"}, {"wall_iterations", "50"}}));
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    const pose_wall_result r = engine.process(cloud_of(room_points(frame), 100000000LL * frame));
+    EXPECT_EQ(r.floor.iterations, 60U);
+    EXPECT_LE(r.left.iterations, 54U);
+    EXPECT_LE(r.right.iterations, 54U);
+    EXPECT_GT(r.left.iterations, 50U) << "along the other wall";
+  }
+}
+
+// Repeats under an old stamp are no frozen sensor, but they count when the next one has a new stamp.
+TEST(AbiCalls, RepeatsUnderOldStampsCountForFrozenFrames) {
+  const Points last = room_points(1);
+  for (const int still : {0, 1, 2}) {
+    EngineUnderTest engine(config_with({{"frozen_frames", "2"}}));
+    engine.process(cloud_of(room_points(0), 0));
+    engine.process(cloud_of(last, 100000000));
+    for (int i = 0; i < still; ++i) {
+      EXPECT_EQ(engine.process(cloud_of(last, 100000000)).frame_reasons & POSE_WALL_R_FROZEN, 0U);
+    }
+    const pose_wall_result r = engine.process(cloud_of(last, 200000000));
+    EXPECT_NE(r.frame_reasons & POSE_WALL_R_FROZEN, 0U);
+    EXPECT_EQ(r.quantity[POSE_WALL_ROLL].state,
+              static_cast<std::uint32_t>(still < 2 ? POSE_WALL_DEGRADED : POSE_WALL_HELD))
+        << still;
+  }
 }
 
 TEST(AbiCalls, MemoryHangsOnPointsMaxOnly) {

@@ -15,10 +15,10 @@ quietly() {
   "$@" > "$work/log" 2>&1 || { cat "$work/log"; echo "failed: $*"; exit 1; }
 }
 
-by_cmake() { # name source cpp
+by_cmake() { # name source cpp library
   # Whoever has no Eigen must be served, too.
   quietly "$cmake" -S "$consumer" -B "$work/$1" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DEXAMPLE="$2" -DCPP="$3" \
-    -DCMAKE_TOOLCHAIN_FILE="$toolchain" -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" \
+    -DLIBRARY="$4" -DCMAKE_TOOLCHAIN_FILE="$toolchain" -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" \
     -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
   grep -q "^pose_wall_DIR:PATH=$prefix/" "$work/$1/CMakeCache.txt" || { echo "another pose_wall was found"; exit 1; }
   quietly "$cmake" --build "$work/$1"
@@ -32,15 +32,23 @@ case " $flags " in
   *) echo "pkg-config points elsewhere: $flags"; exit 1 ;;
 esac
 
-by_cmake c "$source/tools/example.c" OFF
-by_cmake cpp "$consumer/consumer.cpp" ON
+by_cmake c "$source/tools/example.c" OFF pose_wall
+by_cmake cpp "$consumer/consumer.cpp" ON pose_wall
 mkdir "$work/pc"
 # shellcheck disable=SC2086  # words
 quietly "$cc" -std=c99 "$source/tools/example.c" $flags -o "$work/pc/c"
 # shellcheck disable=SC2086
 quietly "$cxx" -std=c++17 "$consumer/consumer.cpp" $flags -o "$work/pc/cpp"
 
-for program in c/consumer cpp/consumer pc/c pc/cpp; do
+programs="c/consumer cpp/consumer pc/c pc/cpp"
+if [ -e "$prefix/lib/libpose_wall_runtime.a" ]; then
+  by_cmake runtime "$consumer/runtime.c" OFF pose_wall_runtime
+  # shellcheck disable=SC2046  # words
+  quietly "$cc" -std=c99 "$consumer/runtime.c" $(pkg-config --cflags --libs pose_wall_runtime) -o "$work/pc/runtime"
+  programs="$programs runtime/consumer pc/runtime"
+fi
+
+for program in $programs; do
   "$@" "$work/$program" > "$work/output" || { cat "$work/output"; echo "$program failed"; exit 1; }
   mv "$work/output" "$work/$program.txt"
 done

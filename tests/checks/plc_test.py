@@ -163,6 +163,12 @@ class FunctionBlock(unittest.TestCase):
         self.cycles(20, [0] * len(WORDS))
         self.expect("version", True, 0)
 
+    def test_silence_before_the_first_frame(self):
+        self.cycles(200, image_words(0))
+        self.expect("silent", True, 0)
+        self.frames(1)  # and the first frame counts at once
+        self.expect("none", False, -1500)
+
     def test_good_images(self):
         self.frames()
         self.expect("none", False, -1500)

@@ -324,6 +324,7 @@ TEST(RuntimeFaults, BitsFallOverInItsEngineAndItsConfig) {
     const pose_wall_publication p = runtime.latest();
     EXPECT_EQ(states_of(p.result), "IIIIIII") << i;
     EXPECT_EQ(broken_contract(p.result, limits_of(config)), "") << i;
+    EXPECT_EQ(p.result.frame_index, UINT64_MAX) << i;
   }
   EXPECT_EQ(runtime.statistics().dropped[POSE_WALL_RUNTIME_DROP_ENGINE], 3U);
   ASSERT_EQ(pose_wall_runtime_stop(runtime.get()), POSE_WALL_OK);

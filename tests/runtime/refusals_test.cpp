@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -54,19 +55,51 @@ TEST(RuntimeAbi, EveryStatusAndDropHasAText) {
 TEST(RuntimeRefusals, OptionsOutOfRange) {
   const pose_wall_config config = small_config();
   using Change = std::function<void(pose_wall_runtime_options*)>;
+  // In pairs, but for the last.
+  const char* const names[] = {"queue_frames",
+                               "cloud_points_max",
+                               "point_bytes_max",
+                               "thinning_max",
+                               "thinning_max box_clouds",
+                               "box_backlog",
+                               "worker_priority",
+                               "worker_cpu",
+                               "lock_memory required",
+                               "reserved frame_period_max_ns",
+                               "watchdog_ns watchdog_every_ns",
+                               "box_bytes watchdog_ns",
+                               "frame_period_max_ns",
+                               "watchdog_every_ns"};
+  constexpr std::int64_t kHour_ns = 3600000 * kMs;
   const Change wrong[] = {
-      [](auto* o) { o->queue_frames = 0; },     [](auto* o) { o->queue_frames = 65; },
-      [](auto* o) { o->cloud_points_max = 0; }, [](auto* o) { o->cloud_points_max = (1U << 26) + 1; },
-      [](auto* o) { o->point_bytes_max = 11; }, [](auto* o) { o->point_bytes_max = 33; },
-      [](auto* o) { o->thinning_max = 0; },     [](auto* o) { o->thinning_max = 3; },
-      [](auto* o) { o->thinning_max = 32; },    [](auto* o) { o->box_clouds = 2; },
-      [](auto* o) { o->box_backlog = 0; },      [](auto* o) { o->box_backlog = 65; },
-      [](auto* o) { o->worker_priority = -1; }, [](auto* o) { o->worker_priority = 100; },
-      [](auto* o) { o->worker_cpu = -2; },      [](auto* o) { o->worker_cpu = 1024; },
-      [](auto* o) { o->lock_memory = 2; },      [](auto* o) { o->required = 8; },
-      [](auto* o) { o->reserved = 1; },         [](auto* o) { o->frame_period_max_ns = 0; },
-      [](auto* o) { o->watchdog_ns = -1; },     [](auto* o) { o->watchdog_every_ns = 0; },
-      [](auto* o) { o->sink = sink; },          [](auto* o) { o->watchdog_ns = INT64_MAX; },
+      [](auto* o) { o->queue_frames = 0; },
+      [](auto* o) { o->queue_frames = 65; },
+      [](auto* o) { o->cloud_points_max = 0; },
+      [](auto* o) { o->cloud_points_max = (1U << 26) + 1; },
+      [](auto* o) { o->point_bytes_max = 11; },
+      [](auto* o) { o->point_bytes_max = 33; },
+      [](auto* o) { o->thinning_max = 0; },
+      [](auto* o) { o->thinning_max = 3; },
+      [](auto* o) { o->thinning_max = 32; },
+      [](auto* o) { o->box_clouds = 2; },
+      [](auto* o) { o->box_backlog = 0; },
+      [](auto* o) { o->box_backlog = 65; },
+      [](auto* o) { o->worker_priority = -1; },
+      [](auto* o) { o->worker_priority = 100; },
+      [](auto* o) { o->worker_cpu = -2; },
+      [](auto* o) { o->worker_cpu = 1024; },
+      [](auto* o) { o->lock_memory = 2; },
+      [](auto* o) { o->required = 8; },
+      [](auto* o) { o->reserved = 1; },
+      [](auto* o) { o->frame_period_max_ns = 0; },
+      [](auto* o) { o->watchdog_ns = -1; },
+      [](auto* o) { o->watchdog_every_ns = 0; },
+      [](auto* o) { o->sink = sink; },
+      [](auto* o) { o->watchdog_ns = kHour_ns + 1; },
+      [](auto* o) { o->frame_period_max_ns = kMs - 1; },
+      [](auto* o) { o->frame_period_max_ns = kHour_ns + 1; },
+      [](auto* o) { o->watchdog_every_ns = kMs - 1; },
+      [](auto* o) { o->watchdog_every_ns = kHour_ns + 1; },
   };
   std::size_t number = 0;
   for (const Change& change : wrong) {
@@ -74,11 +107,51 @@ TEST(RuntimeRefusals, OptionsOutOfRange) {
     pose_wall_runtime_options_init(&options);
     std::uint64_t bytes = 7;
     ASSERT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_OK);
+    const char* option = "untouched";
+    EXPECT_EQ(pose_wall_runtime_options_check(&options, &option), POSE_WALL_OK);
+    EXPECT_STREQ(option, "untouched");
     bytes = 7;
     change(&options);
     EXPECT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_RUNTIME_E_OPTION) << number;
     EXPECT_EQ(bytes, 7U);
+    EXPECT_EQ(pose_wall_runtime_options_check(&options, nullptr), POSE_WALL_RUNTIME_E_OPTION);
+    EXPECT_EQ(pose_wall_runtime_options_check(&options, &option), POSE_WALL_RUNTIME_E_OPTION);
+    EXPECT_NE(std::string(names[number / 2]).find(option), std::string::npos) << number << ": " << option;
     ++number;
+  }
+  EXPECT_EQ(number, 2 * std::size(names));
+  EXPECT_EQ(pose_wall_runtime_options_check(nullptr, nullptr), POSE_WALL_E_NULL);
+  pose_wall_runtime_options old{};
+  EXPECT_EQ(pose_wall_runtime_options_check(&old, nullptr), POSE_WALL_E_STRUCT_SIZE);
+}
+
+TEST(RuntimeRefusals, OptionsAtTheirLimits) {
+  const auto accepted = [](const std::function<void(pose_wall_runtime_options*)>& change) {
+    pose_wall_runtime_options options;
+    pose_wall_runtime_options_init(&options);
+    change(&options);
+    return pose_wall_runtime_options_check(&options, nullptr) == POSE_WALL_OK;
+  };
+  for (const std::int64_t ns : {kMs, 3600000 * kMs}) {
+    EXPECT_TRUE(accepted([&](auto* o) { o->frame_period_max_ns = o->watchdog_ns = o->watchdog_every_ns = ns; }));
+  }
+  EXPECT_TRUE(accepted([](auto* o) { o->watchdog_ns = 0; }));
+  EXPECT_TRUE(accepted([](auto* o) { o->watchdog_ns = 1; }));
+  // The smallest black box, as the header says.
+  const auto up = [](std::uint64_t bytes) { return (bytes + 63) / 64 * 64; };
+  for (const std::uint32_t clouds : {0U, 1U}) {
+    const std::uint64_t least =
+        4224 + up(pose_wall_memento_bytes()) + up(sizeof(pose_wall_result)) + (clouds != 0 ? up(101 * 13) : 0);
+    for (const std::uint64_t less : {0U, 1U}) {
+      EXPECT_EQ(accepted([&](pose_wall_runtime_options* o) {
+                  o->sink = sink;
+                  o->box_clouds = clouds;
+                  o->cloud_points_max = 101;
+                  o->point_bytes_max = 13;
+                  o->box_bytes = least - less;
+                }),
+                less == 0);
+    }
   }
 }
 

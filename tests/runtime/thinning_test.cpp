@@ -54,6 +54,21 @@ TEST(RuntimeThinning, OffUnlessAllowed) {
   EXPECT_EQ(runtime.latest().result.points_in, room_points(1).size());
 }
 
+// A slow reader is no reason to see less.
+TEST(RuntimeThinning, TheCallbacksTimeCostsFramesAndNoPoints) {
+  RuntimeUnderTest runtime([](pose_wall_runtime_options* o) {
+    o->thinning_max = 16;
+    o->watchdog_ns = 0;
+  });
+  runtime.in_callback = [&runtime] { runtime.clock.advance(500 * kMs); };
+  runtime.start();
+  overload(&runtime, 6, true);
+  const pose_wall_runtime_statistics s = runtime.statistics();
+  EXPECT_GT(s.dropped[POSE_WALL_RUNTIME_DROP_OVERTAKEN], 0U);
+  EXPECT_GE(s.callback.p50_ns, 500 * kMs);
+  EXPECT_EQ(s.thinning_worst, 1U);
+}
+
 TEST(RuntimeThinning, FramesGoFirstThenPointsAndItIsSaid) {
   RuntimeUnderTest runtime([](pose_wall_runtime_options* o) {
     o->thinning_max = 2;

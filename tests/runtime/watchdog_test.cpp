@@ -194,6 +194,7 @@ TEST(RuntimeWatchdog, SpeaksBeforeTheFirstFrameToo) {
   p = runtime.latest();
   EXPECT_EQ(p.cause, POSE_WALL_RUNTIME_SILENCE);
   EXPECT_NE(p.result.quantity[0].reasons & POSE_WALL_R_NEVER_MEASURED, 0U);
+  EXPECT_EQ(p.result.frame_index, UINT64_MAX) << "of no frame yet";
 }
 
 TEST(RuntimeWatchdog, ARefusedFrameBreaksNoSilence) {

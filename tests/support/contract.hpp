@@ -204,7 +204,7 @@ class ContractWatch {
   // After pose_wall_age.
   std::string aged(const pose_wall_result& r) {
     std::string broken = broken_contract(r, limits_);
-    if (broken.empty() && r.frame_index != (frames_ > 0 ? frames_ - 1 : 0)) broken = "frame_index is not the last";
+    if (broken.empty() && r.frame_index != frames_ - 1) broken = "frame_index is not the last";
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES && broken.empty(); ++q) {
       if (is_live(r.quantity[q])) broken = "measured without a frame";
       if (r.quantity[q].state == POSE_WALL_INVALID) told_[q].gave_up = true;

@@ -44,7 +44,7 @@ struct Noted {
   }
 };
 
-constexpr std::size_t kFrame = 0, kLeft = 2, kRight = 3;
+constexpr std::size_t kFrame = 0, kFloor = 1, kLeft = 2, kRight = 3;
 
 TEST(Sentences, AShortWallIsToldWithBothLengthsAndTheKey) {
   Noted noted;
@@ -75,6 +75,30 @@ TEST(Sentences, ADoubtIsNoRefusalAndIsNotToldTwice) {
   noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_OPEN, 0.2, 0.1, false);
   EXPECT_EQ(noted.paragraph(kLeft).verdict, Verdict::kRefused);
   EXPECT_EQ(noted.paragraph(kLeft).sentences.size(), 1U);
+}
+
+TEST(Sentences, OfManyRivalsTheStrongestIsToldOnce) {
+  for (const std::uint32_t gate : {POSE_WALL_TRACE_FLOOR_RIVAL, POSE_WALL_TRACE_WALL_RIVAL}) {
+    const bool floor = gate == POSE_WALL_TRACE_FLOOR_RIVAL;
+    const std::uint32_t subject = floor ? POSE_WALL_TRACE_FLOOR : POSE_WALL_TRACE_LEFT;
+    Noted noted;
+    noted.note(subject, gate, 0.692, 0.5, false);
+    const auto told = [&] { return noted.paragraph(floor ? kFloor : kLeft).sentences; };
+    ASSERT_EQ(told().size(), 1U);
+    EXPECT_TRUE(contains(told()[0], "69.2 %") && !contains(told()[0], "further")) << told()[0];
+    noted.note(subject, gate, 0.892, 0.5, false);
+    ASSERT_EQ(told().size(), 1U);
+    EXPECT_TRUE(contains(told()[0], "89.2 %") && contains(told()[0], "with 1 further plane.")) << told()[0];
+    noted.note(subject, gate, 0.583, 0.5, false);
+    noted.note(subject, gate, 0.892, 0.5, false);
+    ASSERT_EQ(told().size(), 1U) << "also where two are as strong";
+    EXPECT_TRUE(contains(told()[0], "89.2 %") && contains(told()[0], "with 3 further planes.")) << told()[0];
+  }
+}
+
+TEST(Sentences, WhatTwoGatesAskForIsToldOnce) {
+  const Explanation explanation{{{POSE_WALL_TRACE_FLOOR, Verdict::kRefused, {"No."}, {"a; b c", "d; b c", "a"}}}, {}};
+  EXPECT_TRUE(contains(sentences_text(explanation), "To look at: a; b c; d.\n")) << sentences_text(explanation);
 }
 
 TEST(Sentences, PointsThatAreDroppedNameTheirLimit) {

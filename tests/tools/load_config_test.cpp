@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstring>
 
 #include "config_file/key_table.hpp"
 #include "config_file/resolved_frames.hpp"
@@ -55,6 +56,23 @@ TEST(LoadConfig, PlusSignsAndListsReachTheEngineAsText) {
   EXPECT_EQ(loaded.origin("s_front"), file + ":3");
   EXPECT_EQ(loaded.origin("s_back"), "--set");
   EXPECT_EQ(loaded.origin("voxel_leaf"), "default");
+}
+
+TEST(LoadConfig, WhatCheckConfigPrintsIsTakenAgain) {
+  const TempFolder folder;
+  std::vector<std::string> settings = {"body_box_1=-1 1.5 -1 1 -1 1"};
+  const LoadedConfig loaded = load_config("", settings);
+  std::string file;
+  for (const pose_wall_key_info& key : config_keys()) {
+    const std::string value = config_written_text(*loaded.config.get(), key);
+    EXPECT_FALSE(value.empty()) << key.name;
+    file += std::string(key.name) + ": " + value + "\n";
+    settings.push_back(std::string(key.name) + "=" + value);
+  }
+  EXPECT_NE(file.find("body_box_2: []\n"), std::string::npos);
+  for (const LoadedConfig& again : {load_config(folder.write("c.yaml", file), {}), load_config("", settings)}) {
+    EXPECT_EQ(std::memcmp(again.config.get(), loaded.config.get(), sizeof(pose_wall_config)), 0);
+  }
 }
 
 TEST(LoadConfig, EmptyFilesAndNoFileGiveTheDefaults) {

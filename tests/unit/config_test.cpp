@@ -163,18 +163,26 @@ TEST(Config, ChoicesTakeTheirWordsOnly) {
 
 TEST(Config, BoxesTakeSixNumbersInOrder) {
   const double expected[6] = {-2.3, 2.3, -0.6, 0.6, -1.5, 0.4};
-  for (const char* text :
-       {"-2.3 2.3 -0.6 0.6 -1.5 0.4", "[-2.3, 2.3, -0.6, 0.6, -1.5, 0.4]", " -2.3,2.3,-.6,.6,-1.5,.4 "}) {
+  for (const char* text : {"-2.3 2.3 -0.6 0.6 -1.5 0.4", "[-2.3, 2.3, -0.6, 0.6, -1.5, 0.4]",
+                           " -2.3,2.3,-.6,.6,-1.5,.4 ", " [ -2.3 , 2.3\t-0.6,0.6  -1.5 , 0.4 ] "}) {
     pose_wall_config config = test::config_with();
     ASSERT_EQ(config_set(&config, "body_box_2", text), POSE_WALL_OK) << text;
     double box[6];
     ASSERT_EQ(config_get_box(config, "body_box_2", box), POSE_WALL_OK);
     EXPECT_EQ(std::memcmp(box, expected, sizeof box), 0) << text;
-    ASSERT_EQ(config_set(&config, "body_box_2", ""), POSE_WALL_OK) << "empty takes the box away";
-    ASSERT_EQ(config_get_box(config, "body_box_2", box), POSE_WALL_OK);
-    for (const double number : box) EXPECT_EQ(number, 0.0);
+    for (const char* nothing : {"", " ", "[]", " [ ] "}) {
+      pose_wall_config without = config;
+      ASSERT_EQ(config_set(&without, "body_box_2", nothing), POSE_WALL_OK) << "takes the box away: " << nothing;
+      ASSERT_EQ(config_get_box(without, "body_box_2", box), POSE_WALL_OK);
+      for (const double number : box) EXPECT_EQ(number, 0.0);
+    }
   }
-  for (const char* wrong : {"1", "1 2 3 4 5", "1 2 3 4 5 6 7", "a b c d e f", "1 2 3 4 5 x", "1;2;3;4;5;6"}) {
+  for (const char* wrong : {"1", "1 2 3 4 5", "1 2 3 4 5 6 7", "a b c d e f", "1 2 3 4 5 x", "1;2;3;4;5;6", "none"}) {
+    EXPECT_EQ(refused_set("body_box_1", wrong), POSE_WALL_E_VALUE_TYPE) << wrong;
+  }
+  for (const char* wrong : {"0,,1,0,1,0,1", "0,1,,0,1,0,1", "0 , , 1 0 1 0 1", ",0,1,0,1,0,1", "0,1,0,1,0,1,", ",",
+                            "[,]", "[0 1 0 1 0 1", "0 1 0 1 0 1]", "[0 1 0 1 0 1]]", "[[0 1 0 1 0 1]]",
+                            "[0 1 0][1 0 1]", "[0 1 0 1 0 1] 2", "[", "]", "][", "-2-1 0 1 0 1", "0 1 0 1 0+1"}) {
     EXPECT_EQ(refused_set("body_box_1", wrong), POSE_WALL_E_VALUE_TYPE) << wrong;
   }
   for (const char* wrong : {"2 1 0 1 0 1", "0 0 0 1 0 1", "0 1 0 1 0 1e9", "-99 1 0 1 0 1"}) {

@@ -397,7 +397,13 @@ TEST(TemporalStamps, StandingStillAgesByTheUsualPeriod) {
   EXPECT_NEAR(life.missing(400).age_s, 0.6, kRoundingS);
   Life first;
   first.measured(0, 2.0);
-  EXPECT_EQ(first.missing(0).age_s, 0.0) << "no period is known yet";
+  const pose_wall_value unknown = first.missing(0);
+  EXPECT_EQ(unknown.age_s, 0.0) << "no period is known yet";
+  EXPECT_NE(unknown.reasons & POSE_WALL_R_HOLD_EXPIRED, 0U);
+  Life leapt;  // further than stamp_gap_max: that is no period
+  leapt.measured(0, 2.0);
+  leapt.measured(2000, 2.0);
+  EXPECT_EQ(leapt.missing(2000).state, POSE_WALL_INVALID);
 }
 
 // The clock stops within the second period: two have gone by when the same stamp comes again.

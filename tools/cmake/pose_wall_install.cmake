@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# cmake --install: headers, archive, package config, pkg-config file, bill of materials, what a controller needs; and
-# the command where it is built. find_package(pose_wall) gives pose_wall::pose_wall. Components: development, command.
+# cmake --install: headers, archives, package config, pkg-config files, bill of materials, what a controller needs; and
+# the command where it is built. find_package(pose_wall) gives pose_wall::pose_wall, and pose_wall::pose_wall_runtime
+# where that is built. Components: development, command.
 include(CMakePackageConfigHelpers)
 include(pose_wall_sbom)
 
@@ -27,8 +28,10 @@ install(FILES ${PROJECT_BINARY_DIR}/pose_wall-config-version.cmake DESTINATION $
 # A relative path, whatever the prefix: with an absolute CMAKE_INSTALL_LIBDIR the package cannot be moved anyway.
 file(RELATIVE_PATH pose_wall_prefix_from_pc /prefix/${pose_wall_pc_dir} /prefix)
 string(REGEX REPLACE "/$" "" pose_wall_prefix_from_pc "${pose_wall_prefix_from_pc}")
-configure_file(${CMAKE_CURRENT_LIST_DIR}/pose_wall.pc.in ${PROJECT_BINARY_DIR}/pose_wall.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/pose_wall.pc DESTINATION ${pose_wall_pc_dir} COMPONENT development)
+foreach(archive IN LISTS pose_wall_archives)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${archive}.pc.in ${PROJECT_BINARY_DIR}/${archive}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${archive}.pc DESTINATION ${pose_wall_pc_dir} COMPONENT development)
+endforeach()
 
 set(pose_wall_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libpose-wall-dev)
 pose_wall_sbom(pose_wall ${PROJECT_BINARY_DIR}/pose_wall.spdx.json)

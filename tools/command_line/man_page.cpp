@@ -84,10 +84,9 @@ std::string keys_section() {
   std::string text, group;
   for (const pose_wall_key_info& key : config_keys()) {
     if (group != key.group) text += ".SS " + roff_text(group = key.group) + "\n";
-    const std::string value = config_value_text(*defaults.get(), key);
     text += ".TP\n" + bold(key.name) + "\n" +
-            roff_text(fmt::format("Default {}; allowed: {}. {}", value.empty() ? "none" : value, allowed_text(key),
-                                  key.help)) +
+            roff_text(fmt::format("Default {}; allowed: {}. {}", config_written_text(*defaults.get(), key),
+                                  allowed_text(key), key.help)) +
             "\n";
   }
   return text;

@@ -57,7 +57,7 @@ std::string allowed_text(const pose_wall_key_info& key) {
     case POSE_WALL_KEY_INTEGER:
       return fmt::format("a whole number from {:.0f} to {:.0f}{}", key.minimum, key.maximum, with_unit(key));
     case POSE_WALL_KEY_BOX:
-      return fmt::format("x_min x_max y_min y_max z_min z_max, each from {:g} to {:g}{} and min < max, or empty",
+      return fmt::format("x_min x_max y_min y_max z_min z_max, each from {:g} to {:g}{} and min < max, or []",
                          key.minimum, key.maximum, with_unit(key));
     case POSE_WALL_KEY_CHOICE: {
       std::string choices = key.choices;
@@ -81,6 +81,12 @@ std::string config_value_text(const pose_wall_config& config, const pose_wall_ke
   double value = 0.0;
   pose_wall_config_get_number(&config, key.name, &value);
   return fmt::format("{:.9g}", value);
+}
+
+std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key) {
+  const std::string value = config_value_text(config, key);
+  if (!value.empty()) return value;
+  return key.type == POSE_WALL_KEY_BOX ? "[]" : "''";
 }
 
 }  // namespace pose_wall::tools

@@ -26,4 +26,7 @@ std::string allowed_text(const pose_wall_key_info& key);
 // The present value as it would be written in pose_wall.yaml.
 std::string config_value_text(const pose_wall_config& config, const pose_wall_key_info& key);
 
+// The same where people read it: nothing as it is written, too, in a file or behind --set ("[]": no box).
+std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key);
+
 }  // namespace pose_wall::tools

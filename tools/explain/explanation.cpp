@@ -60,10 +60,28 @@ bool is_said_already(const Note& note, const std::vector<Note>& refusals) {
   return note.is(POSE_WALL_TRACE_WALL_SOLID_DOUBT) && find(refusals, POSE_WALL_TRACE_WALL_SOLID) != nullptr;
 }
 
+bool is_rival(const Note& note) {
+  return note.is(POSE_WALL_TRACE_FLOOR_RIVAL) || note.is(POSE_WALL_TRACE_WALL_RIVAL);
+}
+
+// Every rival is asked by itself: the strongest is told, the others are counted. Empty for those.
+std::string rival_sentence(const Note& rival, const std::vector<Note>& notes) {
+  std::size_t others = 0;
+  const Note* strongest = &rival;
+  for (const Note& n : notes) {
+    if (n.gate.gate != rival.gate.gate || &n == &rival) continue;
+    ++others;
+    if (n.gate.value > strongest->gate.value) strongest = &n;
+  }
+  if (strongest != &rival) return "";
+  if (others == 0) return sentence_of(rival);
+  return fmt::format("{} So it is with {} further plane{}.", sentence_of(rival), others, others == 1 ? "" : "s");
+}
+
 void tell(const std::vector<Note>& notes, const std::vector<Note>& refusals, Paragraph* out) {
   for (const Note& note : notes) {
     if (is_said_already(note, refusals)) continue;
-    add_once(out->sentences, sentence_of(note));
+    add_once(out->sentences, is_rival(note) ? rival_sentence(note, notes) : sentence_of(note));
     add_once(out->helps, help_of(note));
   }
 }

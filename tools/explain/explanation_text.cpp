@@ -68,6 +68,19 @@ std::string coloured_rows(const std::string& table, const std::vector<Note>& not
   return out;
 }
 
+// Several gates may ask for the same: each clause once.
+std::string to_look_at(const std::vector<std::string>& helps) {
+  std::vector<std::string> clauses;
+  for (const std::string& help : helps) {
+    for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 2) {
+      end = help.find("; ", at);
+      const std::string clause = help.substr(at, end == std::string::npos ? end : end - at);
+      if (std::find(clauses.begin(), clauses.end(), clause) == clauses.end()) clauses.push_back(clause);
+    }
+  }
+  return fmt::format("To look at: {}.", fmt::join(clauses, "; "));
+}
+
 }  // namespace
 
 std::string sentences_text(const Explanation& explanation) {
@@ -76,7 +89,7 @@ std::string sentences_text(const Explanation& explanation) {
     out += fmt::format("{}: {}\n{}", capital(subject_name(p.subject)), verdict_name(p.verdict),
                        wrapped(fmt::format("{}", fmt::join(p.sentences, " ")), kIndent, kWidth));
     if (!p.helps.empty()) {
-      out += wrapped(fmt::format("To look at: {}.", fmt::join(p.helps, "; ")), kIndent, kWidth);
+      out += wrapped(to_look_at(p.helps), kIndent, kWidth);
     }
     out += "\n";
   }

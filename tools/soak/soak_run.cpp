@@ -63,6 +63,10 @@ class Soak {
       options.sink_user = sink_.get();
       options.box_bytes = plan.box_mb << 20;
     }
+    const char* option = "";
+    if (pose_wall_runtime_options_check(&options, &option) == POSE_WALL_RUNTIME_E_OPTION) {
+      throw std::runtime_error(std::string("the runtime's option ") + option + " is out of its range");
+    }
     need(pose_wall_runtime_memory_needed(&plan.config, &options, &outcome_.bytes));
     block_.resize(outcome_.bytes / sizeof(Line) + 1);
     need(pose_wall_runtime_open(&plan.config, &options, block_.data(), block_.size() * sizeof(Line), &runtime_));

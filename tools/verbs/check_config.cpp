@@ -40,8 +40,8 @@ std::string range_text(const pose_wall_key_info& key) {
 void print_values(const LoadedConfig& loaded) {
   TextTable table({"key", "value", "unit", "allowed", "from"});
   for (const pose_wall_key_info& key : config_keys()) {
-    const std::string value = config_value_text(*loaded.config.get(), key);
-    table.add_row({key.name, value.empty() ? "(none)" : value, key.unit, range_text(key), loaded.origin(key.name)});
+    table.add_row(
+        {key.name, config_written_text(*loaded.config.get(), key), key.unit, range_text(key), loaded.origin(key.name)});
   }
   fmt::print("{}", table.text(5));
 }
@@ -71,9 +71,8 @@ void print_keys() {
       group = key.group;
       fmt::print("\n{}\n", group);
     }
-    const std::string value = config_value_text(*defaults.get(), key);
-    fmt::print("  {}\n{}default {}; allowed: {}\n{}", key.name, kManualIndent, value.empty() ? "none" : value,
-               allowed_text(key), wrapped(key.help, 4, 100));
+    fmt::print("  {}\n{}default {}; allowed: {}\n{}", key.name, kManualIndent,
+               config_written_text(*defaults.get(), key), allowed_text(key), wrapped(key.help, 4, 100));
   }
 }
 
