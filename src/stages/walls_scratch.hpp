@@ -27,7 +27,7 @@ struct WallsScratch {
     thin_level.lay_out(arena, kThinMost);
     grid.lay_out(arena);
     fit.lay_out(arena, points_max);
-    sight.lay_out(arena, points_max);
+    sight.lay_out(arena);
     edges.lay_out(arena);
   }
 };

@@ -34,16 +34,31 @@ FourInts points_of(FourFloats weights) {
   return rounded > one ? rounded : one;
 }
 
+FourTurns to_lidar(const Extrinsic& extrinsic) {
+  return FourTurns(extrinsic.R_base_lidar.transpose(), -(extrinsic.R_base_lidar.transpose() * extrinsic.sensor_base_m));
+}
+
+// Of those that count: what is read behind the last point may be anything.
+FourInts cells_of(const FourTurns& to_lidar, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+  const FourPlaces ray = to_lidar(x, y, z);
+  const FourFloats none{}, rx = counts ? ray.x : none, ry = counts ? ray.y : none, rz = counts ? ray.z : none;
+  return DirectionGrid::cells_of(rx, ry, rz, rx * rx + ry * ry + rz * rz);
+}
+
 // Sorts what has passed through the plane by direction; returns how deep behind it most of that ends.
 double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, SightScratch* scratch) {
   const double inside_m = wall.signed_distance(scene.sensor_level_m);
   const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
+  const FourTurns turns = to_lidar(scene.extrinsic);
   Distances depths;
   scratch->behind_lidar.copy(scene.returns_lidar.too_far);
   for_each_in(scene.cloud_base, Slab(wall_base, kAnyDepth_m, -behind_m), [&](std::uint32_t i, float distance_m) {
     const double r = static_cast<double>(distance_m);
-    scratch->behind_lidar.add(scratch->direction_of[i],
-                              static_cast<std::uint32_t>(points_of(all_four(scene.cloud_base.weight[i]))[0]));
+    const PointSet& cloud = scene.cloud_base;
+    const FourInts cells =
+        cells_of(turns, all_four(cloud.x[i]), all_four(cloud.y[i]), all_four(cloud.z[i]), first_of_four(kFour));
+    scratch->behind_lidar.add(static_cast<std::uint32_t>(cells[0]),
+                              static_cast<std::uint32_t>(points_of(all_four(cloud.weight[i]))[0]));
     const Eigen::Vector3d ray = scene.cloud_base.at(i) - scene.extrinsic.sensor_base_m;
     const double to_plane = way_to_plane(inside_m, r);
     const double z_level_m = scene.sensor_level_m.z() + to_plane * scene.R_level_base.row(2).dot(ray);
@@ -133,19 +148,20 @@ WallSight judge(const ColumnRow& row, const SightColumns& columns) {
 }  // namespace
 
 void note_directions(const WallScene& scene, SightScratch* scratch) {
-  const FourTurns to_lidar(scene.extrinsic.R_base_lidar.transpose(),
-                           -(scene.extrinsic.R_base_lidar.transpose() * scene.extrinsic.sensor_base_m));
   scratch->expected.look_at(scene.returns_lidar.all);
   scratch->seen.look_at(scene.returns_lidar.all, scratch->expected);
+  scratch->kept_is_told = false;
+}
+
+void tell_kept(const WallScene& scene, SightScratch* scratch) {
+  if (scratch->kept_is_told) return;
+  scratch->kept_is_told = true;
   scratch->kept_lidar.clear();
+  const FourTurns turns = to_lidar(scene.extrinsic);
   for_each_four_points(
       scene.cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-        // What is read behind the last point may be anything: of zero it is some cell, and it stands for no point.
-        const FourPlaces ray = to_lidar(x, y, z);
-        const FourFloats none{}, rx = counts ? ray.x : none, ry = counts ? ray.y : none, rz = counts ? ray.z : none;
-        const FourInts cells = DirectionGrid::cells_of(rx, ry, rz, rx * rx + ry * ry + rz * rz);
-        const FourInts points = points_of(counts ? load_four(&scene.cloud_base.weight[i]) : none) & counts;
-        store_four(shorts_of(cells), &scratch->direction_of[i]);
+        const FourInts cells = cells_of(turns, x, y, z, counts);
+        const FourInts points = points_of(counts ? load_four(&scene.cloud_base.weight[i]) : FourFloats{}) & counts;
         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
           scratch->kept_lidar.add(static_cast<std::uint32_t>(cells[lane]), static_cast<std::uint32_t>(points[lane]));
         }
@@ -157,7 +173,7 @@ WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector
   if (!(wall.signed_distance(scene.sensor_level_m) > 0.0)) return {};
   const double depth_m = mark_behind(scene, wall, behind_m, scratch);
   const SightLines lines(scene, wall, along_level);
-  const SightColumns columns(scene, *scratch, lines);
+  const SightColumns columns(scene, scratch, lines);
   const double brightness = columns.brightness();
   WallSight out;
   if (brightness >= kDimShare) {

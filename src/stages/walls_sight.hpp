@@ -31,21 +31,23 @@ struct WallSight {
 };
 
 struct SightScratch {
-  Span<std::uint16_t> direction_of;  // each point of the cloud: its cell in a grid of directions
-  DirectionGrid kept_lidar;          // points that are left after the filters
-  DirectionGrid behind_lidar;        // of these and of what is too far, what has passed through the plane
+  DirectionGrid kept_lidar;    // points that are left after the filters; once tell_kept() was called
+  DirectionGrid behind_lidar;  // of these and of what is too far, what has passed through the plane
   ExpectedReturns expected;
   SeenColumns seen;
+  bool kept_is_told = false;
 
-  void lay_out(Arena& arena, std::uint32_t points_max) {
-    direction_of = arena.take<std::uint16_t>(points_max + kFour);
+  void lay_out(Arena& arena) {
     kept_lidar.lay_out(arena);
     behind_lidar.lay_out(arena);
   }
 };
 
-// Once a frame, before any plane is looked at: sorts the cloud's points by direction, and tells what is to be expected.
+// Once a frame, before any plane is looked at: tells what is to be expected of directions.
 void note_directions(const WallScene& scene, SightScratch* scratch);
+
+// What was kept by direction, at the first call after note_directions(): few frames ask for it.
+void tell_kept(const WallScene& scene, SightScratch* scratch);
 
 // behind_m: returns this far behind the plane have passed through it.
 WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double behind_m,

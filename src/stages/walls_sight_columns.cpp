@@ -70,6 +70,8 @@ bool SightColumns::is_silent(std::uint32_t row, std::uint32_t column, double bri
 }
 
 bool SightColumns::is_through(std::uint32_t row, std::uint32_t column) const {
+  if (directions_.behind_lidar.count(row, column) == 0) return false;
+  tell_kept(scene_, &directions_);
   const std::uint32_t all = directions_.kept_lidar.count(row, column) + scene_.returns_lidar.too_far.count(row, column);
   return directions_.behind_lidar.count(row, column) > kThroughShare * all;
 }

@@ -29,9 +29,10 @@ struct SightColumn {
 
 class SightColumns {
  public:
-  // directions: noted by note_directions(), and what has passed through the plane.
-  SightColumns(const WallScene& scene, const SightScratch& directions, const SightLines& lines)
-      : scene_(scene), directions_(directions), lines_(lines) {}
+  // directions: noted by note_directions(), and what has passed through the plane; what was kept is told when asked
+  // for.
+  SightColumns(const WallScene& scene, SightScratch* directions, const SightLines& lines)
+      : scene_(scene), directions_(*directions), lines_(lines) {}
 
   // How much of the expected comes back where the plane is seen best, 0..1; negative where too little of it is looked
   // at. A wet wall answers less than a dry one, but all over.
@@ -63,7 +64,7 @@ class SightColumns {
   bool in_band(const SightLines::Crossing& crossing) const;
 
   const WallScene& scene_;
-  const SightScratch& directions_;
+  SightScratch& directions_;
   const SightLines& lines_;
 };
 

@@ -55,7 +55,7 @@ RayScene road() {
 
 WallSight sight_of(BandFixture* band, double plane_y_m) {
   const WallScene scene = band->scene();
-  test::Placed<SightScratch> scratch(scene.cloud_base.count);
+  test::Placed<SightScratch> scratch;
   note_directions(scene, scratch.get());
   return look_at(scene, Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kBehind_m,
                  scratch.get());
@@ -112,6 +112,29 @@ TEST(WallSight, ASolidWallHasNoFault) {
       SCOPED_TRACE(::testing::Message() << y_m << " m, " << lidar.elevation_max_deg);
       expect_solid(look(road().add(side_panel(y_m, kEverywhere, kFull)), y_m, lidar));
     }
+  }
+}
+
+TEST(WallSight, WhatWasKeptIsOnlyToldWhereThePlaneWasPassed) {
+  for (const bool passed : {false, true}) {
+    BandFixture band;
+    RayScene scene = road();
+    passed ? add_pipes(2.0, false, &scene) : (void)scene.add(side_panel(2.0, kEverywhere, kFull));
+    scene.scan(kOs1, &band);
+    const WallScene walls = band.scene();
+    test::Placed<SightScratch> scratch;
+    note_directions(walls, scratch.get());
+    EXPECT_FALSE(scratch->kept_is_told);
+    look_at(walls, Plane{Eigen::Vector3d(0, -1, 0), 2.0}, Eigen::Vector3d::UnitX(), kBehind_m, scratch.get());
+    EXPECT_EQ(scratch->kept_is_told, passed);
+    tell_kept(walls, scratch.get());
+    std::uint32_t kept = 0;
+    for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
+      for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
+        kept += scratch->kept_lidar.count(row, column);
+      }
+    }
+    EXPECT_EQ(kept, walls.cloud_base.count) << "each point once, whoever asks how often";
   }
 }
 
