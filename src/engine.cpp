@@ -142,7 +142,7 @@ std::uint64_t Engine::sum() const {
 }
 
 void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
-  place_scratch();
+  place(&scratch_);
   FrameFindings found;
   found.stamp_ns = cloud.stamp_ns;
   // Each frame draws the same numbers, so that a frame's result does not hang on how many came before it.
@@ -172,10 +172,18 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
 }
 
 // Anew in every frame: a pointer that was changed since the last one would be believed, too.
-void Engine::place_scratch() {
-  Arena arena(this);
+void Engine::place(Scratch* scratch) const {
+  Arena arena(const_cast<Engine*>(this));  // of memory that its owner gave to be written to
   arena.take<Engine>(1);
-  scratch_.lay_out(arena, settings_.points_max);
+  scratch->lay_out(arena, settings_.points_max);
+}
+
+pose_wall_points Engine::points() const {
+  Scratch scratch;
+  place(&scratch);
+  scratch.cloud_base.count = points_.count;
+  label_points(scratch.cloud_base, labelled_by_, settings_, scratch.marks);
+  return points_;
 }
 
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
@@ -196,7 +204,7 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
     return;
   }
   found->floor = find_floor(scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m,
-                            memory_.has_floor ? &memory_.last_floor : nullptr, random, &scratch_.ground);
+                            memory_.last.has_floor ? &memory_.last.floor_base : nullptr, random, &scratch_.ground);
 }
 
 void Engine::level_and_cut(FrameFindings* found) {
@@ -218,8 +226,9 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   }
   const WallScene scene = wall_scene(scratch_.band_level, scratch_.beyond_level, scratch_.cloud_base,
                                      scratch_.returns_lidar, settings_, found->level, axes_, extrinsic_);
-  const Plane* const last[2] = {memory_.has_wall[0] ? &memory_.last_wall[0] : nullptr,
-                                memory_.has_wall[1] ? &memory_.last_wall[1] : nullptr};
+  const Surfaces& before = memory_.last;
+  const Plane* const last[2] = {before.has_wall[0] ? &before.wall_level[0] : nullptr,
+                                before.has_wall[1] ? &before.wall_level[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);
   doubt_level(found->walls.tilt_level_rad, found->level, &found->floor);
   refuse_blocked_sides(found->voxels.counts, &found->walls.side);
@@ -235,7 +244,6 @@ void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
   report_findings(*found, result);
   result->frame_index = memory_.frames++;
   result->confidence = least_confidence(*result);
-  label_points(scratch_.cloud_base, found->floor, found->level, found->walls.side, settings_, scratch_.marks);
   remember(*found);
 }
 
@@ -267,12 +275,13 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
 
 void Engine::remember(const FrameFindings& found) {
   memory_.leaf = found.voxels.leaf;
-  memory_.has_floor = !found.floor.fit.refused;
-  memory_.last_floor = found.floor.fit.plane;
+  memory_.last.has_floor = !found.floor.fit.refused;
+  memory_.last.floor_base = found.floor.fit.plane;
   for (int side = 0; side < 2; ++side) {
-    memory_.has_wall[side] = !found.walls.side[side].fit.refused;
-    memory_.last_wall[side] = found.walls.side[side].fit.plane;
+    memory_.last.has_wall[side] = !found.walls.side[side].fit.refused;
+    memory_.last.wall_level[side] = found.walls.side[side].fit.plane;
   }
+  labelled_by_ = memory_.last;
 }
 
 void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {

@@ -23,7 +23,7 @@ namespace pose_wall {
 // row is read with it, and masked.
 struct Scratch {
   VoxelGrid grid;
-  Span<std::uint8_t> marks;  // per point, and for a four behind the last: keep flags, later labels
+  Span<std::uint8_t> marks;  // per point, and for a four behind the last: keep flags, labels once they are asked for
   ReturnsByDirection returns_lidar;
   BoundedPoints cloud_base;
   BoundedPoints band_level;
@@ -37,10 +37,7 @@ struct Scratch {
 // What one frame leaves for the next.
 struct Memory {
   TemporalState temporal;
-  Plane last_floor;
-  Plane last_wall[2];
-  bool has_floor = false;
-  bool has_wall[2] = {false, false};
+  Surfaces last;
   LeafMemory leaf;
   SeenClouds seen;
   std::uint32_t repeats = 0;  // so many clouds in a row came before; what holds no points does not count
@@ -68,7 +65,8 @@ class Engine {
   void process(const pose_wall_cloud& cloud, pose_wall_result* result);
   // What the seven are at a time without a frame.
   void age(std::int64_t stamp_ns, pose_wall_result* result);
-  const pose_wall_points& points() const { return points_; }
+  // With labels: telling them is left to whoever asks.
+  pose_wall_points points() const;
   std::uint32_t config_crc32() const { return config_crc32_; }
   const Memory& memory() const { return memory_; }
   void set_memory(const Memory& memory);
@@ -79,7 +77,7 @@ class Engine {
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;
 
-  void place_scratch();
+  void place(Scratch* scratch) const;
   void find_floor_if_any(Random* random, FrameFindings* found);
   void level_and_cut(FrameFindings* found);
   void find_walls_if_level(Random* random, FrameFindings* found);
@@ -103,6 +101,7 @@ class Engine {
   void* clock_user_ = nullptr;
   Memory memory_;
   pose_wall_points points_{};
+  Surfaces labelled_by_;  // what the points are labelled by
   Scratch scratch_;
 };
 

@@ -119,10 +119,10 @@ void visit(Way* way, Memory* m) {
   for (Track& track : m->temporal.track) visit(way, &track);
   TemporalState& t = m->temporal;
   visit_all(way, &t.has_stamp, &t.still_frames, &t.stamp_ns, &t.last_dt_s, &t.dt_before_s);
-  visit(way, &m->last_floor);
-  for (Plane& wall : m->last_wall) visit(way, &wall);
-  visit_all(way, &m->has_floor, &m->has_wall[0], &m->has_wall[1], &m->leaf.begin_with, &m->leaf.voxels, &m->repeats,
-            &m->frames);
+  visit(way, &m->last.floor_base);
+  for (Plane& wall : m->last.wall_level) visit(way, &wall);
+  visit_all(way, &m->last.has_floor, &m->last.has_wall[0], &m->last.has_wall[1], &m->leaf.begin_with, &m->leaf.voxels,
+            &m->repeats, &m->frames);
   for (SeenCloud& cloud : m->seen.cloud) visit_all(way, &cloud.fingerprint, &cloud.stamp_ns);
 }
 

@@ -75,6 +75,14 @@ struct PlaneFit {
   }
 };
 
+// The planes that a frame stands by: what was refused is none.
+struct Surfaces {
+  Plane floor_base;
+  Plane wall_level[2];  // left, right
+  bool has_floor = false;
+  bool has_wall[2] = {false, false};
+};
+
 struct FloorResult {
   PlaneFit fit;
   double roll_sigma_rad = 0.0;

@@ -3,31 +3,30 @@
 
 #include "stages/labels.hpp"
 
-#include "estimation/near_plane.hpp"
-#include "math/four_floats.hpp"
+#include <cmath>
+
+#include "math/rotation.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall {
 
-void label_points(const PointSet& cloud_base, const FloorResult& floor, const LevelResult& level,
-                  const WallResult (&walls)[2], const Settings& settings, Span<std::uint8_t> labels) {
-  const auto slab = [&](const PlaneFit& wall) {
-    if (wall.refused || floor.fit.refused) return Slab::empty();
-    return Slab(Plane{level.R_level_base.transpose() * wall.plane.n, wall.plane.d}, settings.wall_ransac_thresh);
-  };
-  const Slab left = slab(walls[0].fit), right = slab(walls[1].fit);
-  const FourDistances heights(floor.fit.plane);
-  const auto floor_reach_m = floor.fit.refused ? -1.0F : static_cast<float>(settings.ground_ransac_thresh);
-  const auto z_min = static_cast<float>(settings.wall_z_min), z_max = static_cast<float>(settings.wall_z_max);
-  for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths) {
-    const FourFloats height = heights.of(x, y, z);
-    const FourTruths in_band = (height >= z_min) & (height <= z_max);
-    FourInts four =
-        in_band & left.holds(x, y, z) ? all_four_ints(POSE_WALL_LABEL_LEFT) : all_four_ints(POSE_WALL_LABEL_OTHER);
-    four = in_band & right.holds(x, y, z) ? all_four_ints(POSE_WALL_LABEL_RIGHT) : four;
-    four = magnitude_of(height) <= floor_reach_m ? all_four_ints(POSE_WALL_LABEL_FLOOR) : four;
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) labels[i + lane] = static_cast<std::uint8_t>(four[lane]);
-  });
+void label_points(const PointSet& cloud_base, const Surfaces& found, const Settings& settings,
+                  Span<std::uint8_t> labels) {
+  const Eigen::Matrix3d R_level_base = level_rotation(found.floor_base.n);
+  for (std::uint32_t i = 0; i < cloud_base.count; ++i) {
+    const Eigen::Vector3d p_base = cloud_base.at(i), p_level = R_level_base * p_base;
+    const double height_m = found.floor_base.signed_distance(p_base);
+    std::uint8_t label = POSE_WALL_LABEL_OTHER;
+    for (int side = 0; side < 2; ++side) {
+      const double away_m = std::fabs(found.wall_level[side].signed_distance(p_level));
+      if (found.has_wall[side] && away_m <= settings.wall_ransac_thresh) {
+        label = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
+      }
+    }
+    if (!(height_m >= settings.wall_z_min && height_m <= settings.wall_z_max)) label = POSE_WALL_LABEL_OTHER;
+    if (std::fabs(height_m) <= settings.ground_ransac_thresh) label = POSE_WALL_LABEL_FLOOR;
+    labels[i] = found.has_floor ? label : std::uint8_t{POSE_WALL_LABEL_OTHER};
+  }
 }
 
 }  // namespace pose_wall

@@ -13,9 +13,8 @@
 namespace pose_wall {
 
 // Writes a POSE_WALL_LABEL_ for each point: the floor's and the walls' by ground_ransac_thresh and wall_ransac_thresh,
-// the walls' within the wall band; nothing lies on what was refused, or on walls where the floor was. labels has room
-// for a four behind the last point, and is written that far.
-void label_points(const PointSet& cloud_base, const FloorResult& floor, const LevelResult& level,
-                  const WallResult (&walls)[2], const Settings& settings, Span<std::uint8_t> labels);
+// the walls' within the wall band; nothing lies on what was not found, or on walls where the floor was not.
+void label_points(const PointSet& cloud_base, const Surfaces& found, const Settings& settings,
+                  Span<std::uint8_t> labels);
 
 }  // namespace pose_wall

@@ -34,41 +34,36 @@ const Seen kSeen[] = {
 };
 constexpr std::uint32_t kCount = sizeof(kSeen) / sizeof(kSeen[0]);
 
-struct Found {
-  FloorResult floor;
-  LevelResult level;
-  WallResult walls[2];
+Surfaces all() {
+  Surfaces found;
+  found.floor_base = {Eigen::Vector3d::UnitZ(), kFloorBelow_m};
+  found.wall_level[0] = {-Eigen::Vector3d::UnitY(), 2.5};
+  found.wall_level[1] = {Eigen::Vector3d::UnitY(), 2.0};
+  found.has_floor = found.has_wall[0] = found.has_wall[1] = true;
+  return found;
+}
 
-  Found() {
-    floor.fit.plane = {Eigen::Vector3d::UnitZ(), kFloorBelow_m};
-    level.R_level_base = Eigen::Matrix3d::Identity();
-    walls[0].fit.plane = {-Eigen::Vector3d::UnitY(), 2.5};
-    walls[1].fit.plane = {Eigen::Vector3d::UnitY(), 2.0};
-  }
-};
-
-std::vector<std::uint8_t> labels_of(const Found& found, std::uint32_t count,
+std::vector<std::uint8_t> labels_of(const Surfaces& found, std::uint32_t count,
                                     const Eigen::Matrix3d& R_base_level = Eigen::Matrix3d::Identity()) {
   test::OwnedPoints points(kCount);
   for (std::uint32_t i = 0; i < count; ++i) points.add(R_base_level * kSeen[i].at);
-  std::vector<std::uint8_t> labels(count + kFour, 0xEE);
-  label_points(points.set(), found.floor, found.level, found.walls, test::settings_with(),
+  std::vector<std::uint8_t> labels(count, 0xEE);
+  label_points(points.set(), found, test::settings_with(),
                Span<std::uint8_t>(labels.data(), static_cast<std::uint32_t>(labels.size())));
-  labels.resize(count);
   return labels;
 }
 
 TEST(Labels, EachPointHasItsSurfaces) {
   for (std::uint32_t count = 0; count <= kCount; ++count) {
-    const std::vector<std::uint8_t> labels = labels_of(Found(), count);
+    const std::vector<std::uint8_t> labels = labels_of(all(), count);
     for (std::uint32_t i = 0; i < count; ++i) EXPECT_EQ(labels[i], kSeen[i].label) << i << " of " << count;
   }
 }
 
 TEST(Labels, NothingLiesOnAWallThatWasRefused) {
   for (int side = 0; side < 2; ++side) {
-    Found found;
-    found.walls[side].fit.refused = true;
+    Surfaces found = all();
+    found.has_wall[side] = false;
     const std::uint8_t of_side = side == 0 ? POSE_WALL_LABEL_LEFT : POSE_WALL_LABEL_RIGHT;
     const std::vector<std::uint8_t> labels = labels_of(found, kCount);
     for (std::uint32_t i = 0; i < kCount; ++i) {
@@ -81,17 +76,16 @@ TEST(Labels, NothingLiesOnAWallThatWasRefused) {
 // Heights count from the floor, of a machine that stands askew, and walls are planes of the levelled frame.
 TEST(Labels, AMachineThatStandsAskewSeesTheSame) {
   const Eigen::Matrix3d R_base_level = level_rotation(Eigen::Vector3d(-0.1, 0.14, 0.98).normalized()).transpose();
-  Found found;
-  found.level.R_level_base = R_base_level.transpose();
-  found.floor.fit.plane.n = R_base_level * Eigen::Vector3d::UnitZ();
+  Surfaces found = all();
+  found.floor_base.n = R_base_level * Eigen::Vector3d::UnitZ();
   const std::vector<std::uint8_t> labels = labels_of(found, kCount, R_base_level);
   for (std::uint32_t i = 0; i < kCount; ++i) EXPECT_EQ(labels[i], kSeen[i].label) << i;
 }
 
 // Without a floor nothing is known of heights, so of walls neither.
 TEST(Labels, NothingLiesAnywhereWhereTheFloorWasRefused) {
-  Found found;
-  found.floor.fit.refused = true;
+  Surfaces found = all();
+  found.has_floor = false;
   for (const std::uint8_t label : labels_of(found, kCount)) EXPECT_EQ(label, POSE_WALL_LABEL_OTHER);
 }
 
