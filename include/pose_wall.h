@@ -476,7 +476,7 @@ enum pose_wall_label {
 
 /* The voxel centroids of the last processed frame, base frame, with what became of them: for pictures and logs.
  * Pointers into the block, valid until the next call on this engine. Cost: labels are told by this call, into the
- * block, at some 50 instructions a centroid; frames pay nothing for them. Fails iff: NULL, engine not open. */
+ * block, at some 150 instructions a centroid; frames pay nothing for them. Fails iff: NULL, engine not open. */
 typedef struct pose_wall_points {
   const float* x_base_m;
   const float* y_base_m;
