@@ -26,14 +26,13 @@ std::uint64_t elevation_bit(double elevation) {
 void StepProfile::add(double beside_m, double residual_m, double elevation) {
   const double place = (beside_m + kHalf_m) * (1.0 / kSlice_m);
   if (!(place >= 0.0 && place < kCount)) return;
-  const auto slice = static_cast<std::uint32_t>(place), part = slice / (kCount / kParts);
+  const auto slice = static_cast<std::uint32_t>(place), part = slice / kSlicesPerPart;
   Slice& at = slices_[slice];
   const std::uint64_t bit = elevation_bit(elevation);
   elevations_ |= bit;
   const double off_m = std::fabs(residual_m);
   if (!(off_m >= step_m_)) {
     ++at.on;
-    ++on_[part];
     return;
   }
   at.off[residual_m > 0.0 ? kStepsOut : kStepsBack].add(off_m);
@@ -67,7 +66,7 @@ double StepProfile::step(Way way) const {
   for (std::uint32_t k = 0; k < kCount; ++k) {
     if (lies_on(k, way)) continue;
     std::uint32_t first = kCount, last = 0;
-    Off total{};
+    Off total;
     for (; k < kCount && !lies_on(k, way); ++k) {
       const Off& off = slices_[k].off[way];
       if (off.count == 0) continue;
@@ -86,9 +85,10 @@ double StepProfile::step(Way way) const {
 bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
   constexpr std::uint32_t kOnPerBefore = 2;
   const Before &far = before_[depth][part], &near = before_[depth + 1][part];
+  std::uint32_t on = 0;
+  for (std::uint32_t k = 0; k < kSlicesPerPart; ++k) on += slices_[part * kSlicesPerPart + k].on;
   const int seen = bits_in(elevations_);
-  return has_bits(far.elevations | near.elevations, seen - seen / 4) &&
-         kOnPerBefore * (far.count + near.count) >= on_[part];
+  return has_bits(far.elevations | near.elevations, seen - seen / 4) && kOnPerBefore * (far.count + near.count) >= on;
 }
 
 // By how much what hides the plane around the place lies before it, at most.

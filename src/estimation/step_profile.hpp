@@ -39,24 +39,26 @@ class StepProfile {
   static constexpr std::uint32_t kCount = 40;
   static constexpr double kDepth_m = 0.15;
   static constexpr std::uint32_t kHides = 3, kDepths = 27;  // from 0.45 m on: pipes along a wall lie closer to it
-  static constexpr std::uint32_t kParts = 10;  // of four slices: a sparse sensor's points lie some centimetres apart
+  static constexpr std::uint32_t kParts = 10,
+                                 kSlicesPerPart =
+                                     kCount / kParts;  // a sparse sensor's points lie some centimetres apart
   enum Way : std::uint32_t { kStepsOut, kStepsBack };
 
   struct Off {
-    std::uint32_t count;
-    double sum_m;
+    std::uint32_t count = 0;
+    double sum_m = 0.0;
     void add(double off_m) {
       ++count;
       sum_m += off_m;
     }
   };
   struct Slice {
-    std::uint32_t on;
+    std::uint32_t on = 0;
     Off off[2];
   };
   struct Before {
-    std::uint64_t elevations;
-    std::uint32_t count;
+    std::uint64_t elevations = 0;
+    std::uint32_t count = 0;
   };
 
   bool is_seen(std::uint32_t slice) const;
@@ -66,10 +68,9 @@ class StepProfile {
   double hides_m() const;
 
   double step_m_;
-  Slice slices_[kCount] = {};
-  std::uint64_t elevations_ = 0;   // a bit for each
-  std::uint32_t on_[kParts] = {};  // points
-  Before before_[kDepths + 1][kParts] = {};
+  Slice slices_[kCount];
+  std::uint64_t elevations_ = 0;  // a bit for each
+  Before before_[kDepths + 1][kParts];
 };
 
 }  // namespace pose_wall

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <initializer_list>
 #include <random>
 
@@ -70,12 +71,17 @@ Points recorded_points(const pose_wall_cloud& cloud) {
 
 class CorridorVlp16LeftWall : public RealFrames {
  protected:
-  static constexpr long kFirst = 9, kLast = 21;
-
-  // The frame as it was recorded, and a value of it. NaN where there is none.
-  static Points frame(long i) {
-    return recorded_points(
-        tools::load_frame(data_folder() / "corridor_vlp16" / ((i < 10 ? "0" : "") + std::to_string(i) + ".pcd")).cloud);
+  // visit(points, left wall, result): of each frame as it was recorded.
+  template <typename Visit>
+  void for_each_frame(const Visit& visit) const {
+    const std::filesystem::path folder = data_folder() / "corridor_vlp16";
+    const Reference reference(folder / "reference.csv");
+    for (long i = 9; i <= 21; ++i) {
+      SCOPED_TRACE(testing::Message() << "frame " << i);
+      const Points recorded =
+          recorded_points(tools::load_frame(folder / ((i < 10 ? "0" : "") + std::to_string(i) + ".pcd")).cloud);
+      visit(recorded, left_wall(reference, i), result(recorded));
+    }
   }
   pose_wall_result result(const Points& points) const {
     return EngineUnderTest(*loaded_.config.get()).process(cloud_of(points, 0));
@@ -101,43 +107,36 @@ class CorridorVlp16LeftWall : public RealFrames {
 };
 
 TEST_F(CorridorVlp16LeftWall, ItsGhostsAreNeverAWallWithoutDoubt) {
-  const Reference reference(data_folder() / "corridor_vlp16" / "reference.csv");
   int compared = 0;
-  for (long i = kFirst; i <= kLast; ++i) {
-    const Points recorded = frame(i);
-    const pose_wall_result before = result(recorded);
+  for_each_frame([&](const Points& recorded, const LeftWall& wall, const pose_wall_result& before) {
     for (const std::uint32_t percent : {5U, 8U, 10U, 15U, 20U}) {
-      SCOPED_TRACE(testing::Message() << "frame " << i << ", " << percent << " %");
+      SCOPED_TRACE(testing::Message() << percent << " %");
       Points points = recorded;
       std::mt19937 random(7);
-      ASSERT_GT(throw_behind(
-                    left_wall(reference, i), 1.5, [&](double) { return random() % 100 < percent; }, &points),
-                40U * percent);
+      const auto by_chance = [&](double) { return random() % 100 < percent; };
+      ASSERT_GT(throw_behind(wall, 1.5, by_chance, &points), 40U * percent);
       compared += expect_no_wrong_one(before, result(points), {POSE_WALL_D_LF, POSE_WALL_D_LB});
     }
-  }
+  });
   EXPECT_GE(compared, 100);
 }
 
 TEST_F(CorridorVlp16LeftWall, ItsPillarsAreNeverSeenThrough) {
-  const Reference reference(data_folder() / "corridor_vlp16" / "reference.csv");
   int compared = 0;
-  for (long i = kFirst; i <= kLast; ++i) {
-    const Points recorded = frame(i);
-    const pose_wall_result before = result(recorded);
+  for_each_frame([&](const Points& recorded, const LeftWall& wall, const pose_wall_result& before) {
     for (const double apart_m : {3.0, 5.0}) {
       for (const double open : {0.5, 0.6, 0.7}) {
-        SCOPED_TRACE(testing::Message() << "frame " << i << ", every " << apart_m << " m, open " << open);
+        SCOPED_TRACE(testing::Message() << "every " << apart_m << " m, open " << open);
         Points points = recorded;
         const auto in_gap = [&](double along_m) {
           const double places = (along_m - kAhead_m) / apart_m;
           return std::fabs(places - std::round(places)) > 0.5 * (1.0 - open);
         };
-        ASSERT_GT(throw_behind(left_wall(reference, i), 1.5, in_gap, &points), 500U);
+        ASSERT_GT(throw_behind(wall, 1.5, in_gap, &points), 500U);
         compared += expect_no_wrong_one(before, result(points), {POSE_WALL_D_LF});
       }
     }
-  }
+  });
   EXPECT_GE(compared, 60);
 }
 
