@@ -106,10 +106,10 @@ std::uint32_t crc_of(const pose_wall_image& image) {
   return crc.value();
 }
 
-void fill_head(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image) {
+void fill_head(const pose_wall_result& result, pose_wall_image* image) {
   image->version = POSE_WALL_IMAGE_VERSION;
   image->sequence = static_cast<std::uint32_t>(result.frame_index + 1);
-  image->config_crc32 = config_crc32;
+  image->config_crc32 = result.config_crc32;
   image->library_version = POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH;
   const std::uint64_t stamp = static_cast<std::uint64_t>(result.stamp_ns);
   image->stamp_low = static_cast<std::uint32_t>(stamp & 0xFFFFFFFFU);
@@ -126,8 +126,8 @@ void fill_head(const pose_wall_result& result, std::uint32_t config_crc32, pose_
 
 }  // namespace
 
-void fill_image(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image) {
-  fill_head(result, config_crc32, image);
+void fill_image(const pose_wall_result& result, pose_wall_image* image) {
+  fill_head(result, image);
   unsigned char* to = reinterpret_cast<unsigned char*>(image) + offsetof(pose_wall_image, roll);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q, to += sizeof(Entry)) {
     const Entry entry =

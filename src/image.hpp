@@ -12,7 +12,7 @@
 namespace pose_wall {
 
 // Everything but struct_size and crc32 is written, then crc32.
-void fill_image(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image);
+void fill_image(const pose_wall_result& result, pose_wall_image* image);
 
 // POSE_WALL_OK, or what is wrong with it.
 std::int32_t check_image(const pose_wall_image& image);

@@ -133,6 +133,9 @@ std::int32_t check_header(const unsigned char* header, std::uint64_t count) {
   return ok_if(same, POSE_WALL_BOX_E_VERSION);
 }
 
+// The record's stamps are of the memento's clock.
+constexpr pose_wall_moment kSameClock = {sizeof(pose_wall_moment), POSE_WALL_MOMENT_SAME_CLOCK, {}, 0, 0};
+
 }  // namespace
 }  // namespace pose_wall::runtime
 
@@ -174,7 +177,7 @@ POSE_WALL_EXPORT int32_t pose_wall_box_compute(const pose_wall_box_record* recor
   const bool silence = record->kind == POSE_WALL_BOX_SILENCE;
   if (!silence && record->kind != POSE_WALL_BOX_FRAME) return POSE_WALL_BOX_E_KIND;
   if (record->memento == nullptr || (record->points == nullptr && !silence)) return POSE_WALL_BOX_E_EMPTY;
-  int32_t status = pose_wall_load(engine, record->memento, pose_wall_memento_bytes());
+  int32_t status = pose_wall_load(engine, &kSameClock, record->memento, pose_wall_memento_bytes());
   if (status != POSE_WALL_OK) return status;
   if (silence) return pose_wall_age(engine, record->stamp_ns, result);
   const pose_wall_cloud cloud = cloud_of(*record);

@@ -158,7 +158,7 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
 // What the record cannot be computed from must not look as if it could.
 void Runtime::save_memento(FrameSlot* slot) {
   const std::uint64_t bytes = pose_wall_memento_bytes();
-  if (slot->memento == nullptr || pose_wall_save(engine_, slot->memento, bytes) == POSE_WALL_OK) return;
+  if (slot->memento == nullptr || pose_wall_save(engine_, nullptr, slot->memento, bytes) == POSE_WALL_OK) return;
   std::memset(slot->memento, 0, static_cast<std::size_t>(bytes));
 }
 

@@ -47,7 +47,7 @@ pose_wall_image image_of(const pose_wall_result& result) {
   pose_wall_image image;
   std::memset(&image, 0x5A, sizeof image);
   image.struct_size = sizeof image;
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_OK);
   EXPECT_EQ(pose_wall_image_check(&image), POSE_WALL_OK);
   return image;
 }
@@ -167,7 +167,7 @@ TEST(Image, OfFramesOfAnEngine) {
   for (std::uint32_t frame = 1; frame <= 3; ++frame) {
     ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, frame * 100000000LL), POSE_WALL_OK);
     const pose_wall_result result = engine.process(cloud);
-    ASSERT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+    ASSERT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_OK);
     EXPECT_EQ(image.sequence, frame);
     EXPECT_EQ(image.verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
     EXPECT_EQ(image.d_lf.value_mm, POSE_WALL_IMAGE_NO_VALUE);
@@ -186,7 +186,7 @@ TEST(Image, TheSequenceTellsTheFirstFrameFromNone) {
   const auto sequence_of = [&engine](const pose_wall_result& result) {
     pose_wall_image image;
     image.struct_size = sizeof image;
-    EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+    EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_OK);
     return image.sequence;
   };
   pose_wall_cloud cloud;
@@ -211,14 +211,14 @@ TEST(Image, RefusedCallsChangeNothing) {
   pose_wall_image image, before;
   std::memset(&image, 0x5A, sizeof image);
   before = image;
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_E_STRUCT_SIZE);
-  EXPECT_EQ(pose_wall_image_fill(nullptr, &result, &image), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), nullptr, &image), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image_fill(nullptr, &image), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image_fill(&result, nullptr), POSE_WALL_E_NULL);
   EXPECT_EQ(std::memcmp(&image, &before, sizeof image), 0);
   before.struct_size = image.struct_size = sizeof image;
   result.struct_size = 8;
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(std::memcmp(&image, &before, sizeof image), 0);
 }
 

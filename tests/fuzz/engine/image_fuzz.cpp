@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (pose_wall_value& v : result.quantity) v.state %= POSE_WALL_VALID + 1U;
   pose_wall_image image;
   image.struct_size = sizeof image;
-  require_ok(pose_wall_image_fill(engine, &result, &image), "fill");
+  require_ok(pose_wall_image_fill(&result, &image), "fill");
   require_ok(pose_wall_image_check(&image), "check");
   for (const pose_wall_image_angle* a : {&image.roll, &image.pitch, &image.yaw}) {
     require_numbers(*a, a->value_rad, a->protection_rad);
