@@ -13,7 +13,7 @@
 
 namespace pose_wall {
 
-// The sizes of one struct: under the ABI before, in the first header of this ABI, and in this one.
+// The sizes of one struct: under the ABI before (0: there was none), in the first header of this ABI, and in this one.
 struct StructSizes {
   std::uint32_t before, first, now;
 };
@@ -23,7 +23,7 @@ constexpr std::uint32_t kStructMost = 1U << 16U;
 
 constexpr std::int32_t check_struct_size(std::uint32_t size, const StructSizes& sizes) {
   if (size >= sizes.first && size <= sizes.now) return POSE_WALL_OK;
-  if (size == sizes.before) return POSE_WALL_E_ABI;
+  if (size == sizes.before && size != 0) return POSE_WALL_E_ABI;
   return size > sizes.now && size <= kStructMost ? POSE_WALL_E_STRUCT_NEWER : POSE_WALL_E_STRUCT_SIZE;
 }
 

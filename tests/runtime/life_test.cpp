@@ -258,7 +258,9 @@ class Reader {
     const std::uint64_t told_before = told_->count;
     pose_wall_publication p{};
     p.struct_size = sizeof p;
-    if (pose_wall_runtime_latest(runtime_->get(), &p) != POSE_WALL_OK) return;
+    const std::int32_t status = pose_wall_runtime_latest(runtime_->get(), &p);
+    broken_ += status == POSE_WALL_OK || p.result.confidence == 0.0 ? 0U : 1U;
+    if (status != POSE_WALL_OK) return;
     const pose_wall_runtime_statistics s = runtime_->statistics();
     // Readers have it before the callback has: what was called back with already is never newer than what is read.
     broken_ += p.index + 1 >= told_before ? 0U : 1U;
