@@ -135,8 +135,8 @@ typedef struct pose_wall_publication {
   int64_t activity_since_ns; /* runtime's clock, rounded down to a multiple of 8 ns: since when the worker is at it */
   uint32_t activity;         /* pose_wall_runtime_activity, when this was asked for */
   uint32_t reserved[5];      /* 0 */
-  pose_wall_result
-      result; /* points that push leaves out for they hold no return are counted in it as the engine does */
+  pose_wall_result result;   /* points that push leaves out for they hold no return are counted in it as the engine
+                                does. Both grow at their ends; its struct_size says how much of it was written */
 } pose_wall_publication;
 
 /* Called on the worker's thread after `latest` holds the same. What it takes, the next frame waits for. The pointer is
@@ -189,9 +189,9 @@ typedef struct pose_wall_runtime_options {
   pose_wall_runtime_sink sink; /* or NULL: no black box */
   void* sink_user;
   uint64_t box_bytes;  /* 0; of the ring file. With a sink at least what the header and one whole record need: 4224
-                          bytes,  sizeof(pose_wall_inputs), pose_wall_memento_bytes(), sizeof(pose_wall_result) and, with
-                          box_clouds,  cloud_points_max x point_bytes_max, these four rounded up to multiples of 64. Used
-                          in multiples of  64 */
+                          bytes, sizeof(pose_wall_inputs), pose_wall_memento_bytes(), sizeof(pose_wall_result) and, with
+                          box_clouds, cloud_points_max x point_bytes_max, these four rounded up to multiples of 64. Used
+                          in multiples of 64 */
   uint64_t reserved_2; /* 0. It tells these options from those of ABI 2 by their size */
 } pose_wall_runtime_options;
 
