@@ -204,7 +204,8 @@ void take_up(const Memory& memory, const pose_wall_moment& then, const pose_wall
   const double by_wall_s = (static_cast<double>(now.wall_ns) - static_cast<double>(then.wall_ns)) * kNanosecond_s;
   const double before_save_s =
       (static_cast<double>(then.stamp_ns) - static_cast<double>(memory.temporal.stamp_ns)) * kNanosecond_s;
-  const bool dated = (both & POSE_WALL_MOMENT_WALL) != 0 && by_wall_s >= 0.0 && before_save_s >= 0.0;
+  const bool went_back = now.wall_ns < then.wall_ns || then.stamp_ns < memory.temporal.stamp_ns;
+  const bool dated = (both & POSE_WALL_MOMENT_WALL) != 0 && !went_back;
   engine->set_memory_of_other_clock(memory, dated ? by_wall_s + before_save_s : -1.0, now.stamp_ns);
 }
 

@@ -215,12 +215,13 @@ TEST(AbiRefusals, AResultThatWasNotInitialisedIsLeftAlone) {
   const Points points = road_grid();
   const pose_wall_cloud cloud = cloud_of(points, 0);
   pose_wall_result result;
-  for (const std::uint32_t size : {std::uint32_t{0}, static_cast<std::uint32_t>(sizeof result) - 1,
-                                   static_cast<std::uint32_t>(sizeof result) + 8}) {
+  constexpr std::uint32_t kNow = sizeof result;
+  for (const auto& [size, status] :
+       {std::pair(0U, POSE_WALL_E_STRUCT_SIZE), std::pair(0x5A5A5A5AU, POSE_WALL_E_STRUCT_SIZE),
+        std::pair(kNow - 1, POSE_WALL_E_STRUCT_SIZE), std::pair(kNow + 8, POSE_WALL_E_STRUCT_NEWER)}) {
     std::memset(&result, 0x5A, sizeof result);
     result.struct_size = size;
-    EXPECT_EQ(unchanged_by(&result, [&] { return pose_wall_process(engine.get(), &cloud, &result); }),
-              POSE_WALL_E_STRUCT_SIZE);
+    EXPECT_EQ(unchanged_by(&result, [&] { return pose_wall_process(engine.get(), &cloud, &result); }), status);
   }
 }
 

@@ -54,7 +54,16 @@ static int cloud_layout(void) {
   MEMBER(pose_wall_cloud, z);
   MEMBER(pose_wall_cloud, intensity);
   MEMBER(pose_wall_cloud, time);
-  return padded + struct_end("pose_wall_cloud", sizeof(pose_wall_cloud));
+  MEMBER(pose_wall_cloud, inputs);
+  padded += struct_end("pose_wall_cloud", sizeof(pose_wall_cloud));
+  MEMBER(pose_wall_inputs, struct_size);
+  MEMBER(pose_wall_inputs, given);
+  MEMBER(pose_wall_inputs, speed_m_s);
+  MEMBER(pose_wall_inputs, speed_sigma_m_s);
+  MEMBER(pose_wall_inputs, turn_rate_rad_s);
+  MEMBER(pose_wall_inputs, turn_rate_sigma_rad_s);
+  MEMBER(pose_wall_inputs, body_box);
+  return padded + struct_end("pose_wall_inputs", sizeof(pose_wall_inputs));
 }
 
 static int value_layout(void) {
@@ -62,10 +71,15 @@ static int value_layout(void) {
   MEMBER(pose_wall_value, raw);
   MEMBER(pose_wall_value, sigma);
   MEMBER(pose_wall_value, protection_level);
+  MEMBER(pose_wall_value, raw_protection_level);
   MEMBER(pose_wall_value, confidence);
   MEMBER(pose_wall_value, age_s);
+  MEMBER(pose_wall_value, part);
   MEMBER(pose_wall_value, state);
   MEMBER(pose_wall_value, reasons);
+  MEMBER(pose_wall_value, raw_state);
+  MEMBER(pose_wall_value, cause);
+  MEMBER(pose_wall_value, reserved);
   return struct_end("pose_wall_value", sizeof(pose_wall_value));
 }
 
@@ -87,6 +101,12 @@ static int plane_layout(void) {
 static int result_layout(void) {
   MEMBER(pose_wall_result, struct_size);
   MEMBER(pose_wall_result, frame_reasons);
+  MEMBER(pose_wall_result, mark);
+  MEMBER(pose_wall_result, config_crc32);
+  MEMBER(pose_wall_result, source_id);
+  MEMBER(pose_wall_result, positive_means);
+  MEMBER(pose_wall_result, publication);
+  MEMBER(pose_wall_result, work);
   MEMBER(pose_wall_result, stamp_ns);
   MEMBER(pose_wall_result, frame_index);
   MEMBER(pose_wall_result, confidence);
@@ -134,7 +154,13 @@ static int pointers_layout(void) {
   MEMBER(pose_wall_points, label);
   MEMBER(pose_wall_points, count);
   MEMBER(pose_wall_points, reserved);
-  return padded + struct_end("pose_wall_points", sizeof(pose_wall_points));
+  padded += struct_end("pose_wall_points", sizeof(pose_wall_points));
+  MEMBER(pose_wall_moment, struct_size);
+  MEMBER(pose_wall_moment, known);
+  MEMBER(pose_wall_moment, boot_id);
+  MEMBER(pose_wall_moment, wall_ns);
+  MEMBER(pose_wall_moment, stamp_ns);
+  return padded + struct_end("pose_wall_moment", sizeof(pose_wall_moment));
 }
 
 static int image_layout(void) {

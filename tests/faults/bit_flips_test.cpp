@@ -43,7 +43,7 @@ class OpenBlock {
  private:
   static std::uint64_t needed(const pose_wall_config& config) {
     std::uint64_t bytes = 0;
-    pose_wall_memory_needed(&config, &bytes);
+    (void)pose_wall_memory_needed(&config, &bytes);
     return bytes;
   }
 
@@ -110,7 +110,7 @@ TEST(BitFlips, EveryCallRefusesADamagedEngineUntilItIsOpenedAgain) {
   EXPECT_EQ(pose_wall_save(e, nullptr, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
   EXPECT_EQ(pose_wall_load(e, &pose_wall::test::kSameClock, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
   EXPECT_EQ(pose_wall_last_points(e, &points), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_RESULT);
   block.open();
   const pose_wall_result fresh = block.processed(1);
   EXPECT_EQ(fresh.frame_index, 0U);

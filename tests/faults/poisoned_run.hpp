@@ -32,7 +32,7 @@ struct Sequence {
       stamps_ns.push_back(frame.stamp_ns);
       truths.push_back(simulator.truth(i));
       std::vector<unsigned char> memento(pose_wall_memento_bytes());
-      pose_wall_save(engine.get(), nullptr, memento.data(), memento.size());
+      (void)pose_wall_save(engine.get(), nullptr, memento.data(), memento.size());
       mementos.push_back(memento);
       results.push_back(engine.process(cloud_of(frames[i], stamps_ns[i])));
       states.push_back(states_of(results[i]));
