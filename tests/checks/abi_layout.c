@@ -178,6 +178,10 @@ static int publication_layout(void) {
   MEMBER(pose_wall_publication, frame);
   MEMBER(pose_wall_publication, received_ns);
   MEMBER(pose_wall_publication, published_ns);
+  MEMBER(pose_wall_publication, age_ns);
+  MEMBER(pose_wall_publication, activity_since_ns);
+  MEMBER(pose_wall_publication, activity);
+  MEMBER(pose_wall_publication, reserved);
   MEMBER(pose_wall_publication, result);
   return struct_end("pose_wall_publication", sizeof(pose_wall_publication));
 }
@@ -205,6 +209,7 @@ static int runtime_options_layout(void) {
   MEMBER(pose_wall_runtime_options, sink);
   MEMBER(pose_wall_runtime_options, sink_user);
   MEMBER(pose_wall_runtime_options, box_bytes);
+  MEMBER(pose_wall_runtime_options, reserved_2);
   return struct_end("pose_wall_runtime_options", sizeof(pose_wall_runtime_options));
 }
 
@@ -232,6 +237,9 @@ static int runtime_statistics_layout(void) {
   MEMBER(pose_wall_runtime_statistics, thinned);
   MEMBER(pose_wall_runtime_statistics, thinning);
   MEMBER(pose_wall_runtime_statistics, thinning_worst);
+  MEMBER(pose_wall_runtime_statistics, activity);
+  MEMBER(pose_wall_runtime_statistics, reserved);
+  MEMBER(pose_wall_runtime_statistics, activity_since_ns);
   MEMBER(pose_wall_runtime_statistics, newest_age_ns);
   MEMBER(pose_wall_runtime_statistics, box_written);
   MEMBER(pose_wall_runtime_statistics, box_lost);
@@ -268,6 +276,7 @@ static int box_record_layout(void) {
   MEMBER(pose_wall_box_record, memento);
   MEMBER(pose_wall_box_record, result);
   MEMBER(pose_wall_box_record, points);
+  MEMBER(pose_wall_box_record, inputs);
   MEMBER(pose_wall_box_record, x);
   MEMBER(pose_wall_box_record, y);
   MEMBER(pose_wall_box_record, z);
