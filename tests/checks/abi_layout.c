@@ -166,7 +166,13 @@ static int pointers_layout(void) {
 static int image_layout(void) {
   int padded = 0;
 #include "image_members.def"
-  return padded;
+  MEMBER(pose_wall_image_source, struct_size);
+  MEMBER(pose_wall_image_source, cause);
+  MEMBER(pose_wall_image_source, thinning);
+  MEMBER(pose_wall_image_source, held_thinning);
+  MEMBER(pose_wall_image_source, publication);
+  MEMBER(pose_wall_image_source, latency_ns);
+  return padded + struct_end("pose_wall_image_source", sizeof(pose_wall_image_source));
 }
 
 static int publication_layout(void) {
