@@ -3,6 +3,7 @@
 
 #include "box_writer.hpp"
 
+#include <cstddef>
 #include <cstring>
 #include <initializer_list>
 
@@ -72,7 +73,7 @@ bool BoxWriter::begin(const pose_wall_config& config, std::uint16_t run) {
 }
 
 void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
-  std::memset(body, 0, body_without_cloud());
+  std::memset(body, 0, static_cast<std::size_t>(body_without_cloud()));
   const pose_wall_cloud& c = slot.cloud;
   put<std::uint64_t>(fnv1a(c.data, c.data_bytes), body + kAtDigest);
   put<std::uint32_t>(c.width, body + kAtPoints);
@@ -87,7 +88,7 @@ void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
     put<std::uint32_t>(field.type, to + 4);
     to += 8;
   }
-  std::memcpy(body + kDescriptionBytes, slot.memento, pose_wall_memento_bytes());
+  std::memcpy(body + kDescriptionBytes, slot.memento, static_cast<std::size_t>(pose_wall_memento_bytes()));
   std::memcpy(body + kDescriptionBytes + memento_room(), &slot.publication.result, sizeof(pose_wall_result));
 }
 
