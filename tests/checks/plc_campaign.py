@@ -36,7 +36,7 @@ LACKING = {
     "rates that make sense": ("diRate < 0 OR diRate > POSE_WALL_RATE_MAX OR", ""),
     "a level that is told larger": ("IF xGood AND diLevel > diTakenLevel + diGrown THEN", "IF FALSE THEN"),
     "rises at the start": ("diMissing := diRises;", "diMissing := 0;"),
-    "a second image after a silence": ("diMissing := 2;", ""),
+    "rises after a silence": ("OR (xLate AND stArrived.sequence > udiSequence) THEN", "THEN"),
     "xSafeState": ("xSafeState := NOT xRelease;", "xSafeState := FALSE;"),
     "what the machine needs": ("xRelease := dwNeeded <> 16#00000000 AND", "xRelease :="),
     "the start values": ("xSafeState : BOOL := TRUE;", "xSafeState : BOOL;"),

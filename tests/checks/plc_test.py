@@ -282,7 +282,7 @@ class FunctionBlock(Block):
         self.cycles(400, self.words())
         self.assertFalse(self.block["xAlive"])
         self.expect("silent", None)
-        self.frames(2)
+        self.frames(3)
         self.expect("starting", None)
         self.frames(1)
         self.expect("none", -1500)
@@ -307,10 +307,10 @@ class FunctionBlock(Block):
         self.assertEqual(self.block["udiVerdict"], STATE["valid"])
         self.assertEqual(self.block["diByteOrder"], 1)
 
-    def test_the_first_image_after_a_silence_may_have_waited(self):
+    def test_images_after_a_silence_may_have_waited(self):
         self.start()
         self.cycles(400, self.words())
-        self.frames(1)
+        self.frames(3)
         self.expect("starting", None)
         self.frames(1)
         self.expect("none", -1500)
