@@ -25,6 +25,7 @@ struct seen {
 
 struct told {
   uint64_t released, usable, cycles, starts;
+  uint64_t digest; /* of all outputs: another compiler's block must give the same */
 };
 
 static const ST_PoseWallValue* value_of(const FB_PoseWall* b, int q) {
@@ -115,7 +116,11 @@ static void judge(const struct world* w, const FB_PoseWall* b, const struct seen
   for (int q = 0; q < 7; ++q) {
     judge_value(w, b, s, q);
     if ((b->dwNeeded >> q & 1u) != 0 && !value_of(b, q)->xUsable) all = 0;
-    t->usable += value_of(b, q)->xUsable;
+    const ST_PoseWallValue* v = value_of(b, q);
+    const uint32_t outputs[] = {v->xUsable, v->xHeld, (uint32_t)v->diValue, (uint32_t)v->diLevel,
+                                (uint32_t)v->diAge_ms};
+    for (int i = 0; i < 5; ++i) t->digest = (t->digest ^ outputs[i]) * 0x100000001B3ULL;
+    t->usable += v->xUsable;
   }
   if (b->xRelease != all || b->xSafeState == b->xRelease)
     complain(w, 7, "released otherwise than its values are", &b->stYaw);
@@ -173,9 +178,10 @@ int main(int argc, char** argv) {
     look_at_bus(&w, &block, &seen);
     judge(&w, &block, &seen, &told);
   }
-  printf("%llu cycles, %llu starts: released in %.1f %%, values usable in %.1f %%\n", (unsigned long long)told.cycles,
-         (unsigned long long)told.starts, 100.0 * (double)told.released / (double)told.cycles,
-         100.0 * (double)told.usable / (7.0 * (double)told.cycles));
+  printf("%llu cycles, %llu starts: released in %.1f %%, values usable in %.1f %%, outputs %016llX\n",
+         (unsigned long long)told.cycles, (unsigned long long)told.starts,
+         100.0 * (double)told.released / (double)told.cycles, 100.0 * (double)told.usable / (7.0 * (double)told.cycles),
+         (unsigned long long)told.digest);
   /* A block that never releases would pass, too. */
   return told.released * 5 < told.cycles;
 }
