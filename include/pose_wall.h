@@ -607,34 +607,44 @@ POSE_WALL_CHECKED int32_t pose_wall_last_points(const pose_wall_engine* engine, 
 
 /* ---------------------------------------------------------------------------------------------- process image */
 
-/* A result for a controller: 60 words of 4 bytes each, without gaps; small enough for one PROFINET submodule or one
- * Modbus read (120 registers). tools/plc has the structured text for it, and a function block that uses it.
+/* A result for a controller, in words of 4 bytes without gaps; small enough for one PROFINET submodule or one Modbus
+ * read (125 registers). tools/plc has the structured text for it, and a function block that uses it.
  *
- * NUMBERS   scaled integers (0.001 deg, mm) beside floats (rad, m), never NaN or infinite: those stop some controllers.
- * What does not fit saturates at +-2147483647. No value: POSE_WALL_IMAGE_NO_VALUE in both. No protection level:
- * POSE_WALL_IMAGE_NO_BOUND in both, the worst there is. A protection level is rounded up, by as much as its value was
- * rounded, too: |value - truth| <= protection holds for each pair of numbers as they stand. An age that is not known or
- * does not fit is 4294967295.
+ * IMAGES   image 2 (pose_wall_image2, 62 words, 124 registers) is for new controllers. Image 1 (pose_wall_image, 60
+ * words, 120 registers) stays as it is, for those that read it. Both hold the same seven quantities.
+ *
+ * NUMBERS   scaled integers (0.001 deg, mm); image 1 has floats (rad, m) beside them, never NaN or infinite: those stop
+ * some controllers. What does not fit saturates at +-2147483647. No value: POSE_WALL_IMAGE_NO_VALUE. No protection
+ * level: POSE_WALL_IMAGE_NO_BOUND, the worst there is. A float has the same numbers for them. A protection level is
+ * rounded up, by as much as its value was rounded, too: |value - truth| <= protection holds for each pair of numbers as
+ * they stand. An age that is not known or does not fit is 4294967295.
  *
  * BYTES   each word is in the host's order. The CRC is over the bytes as laid out low byte first, whatever the host: a
  * controller of the other order swaps the four bytes of every word, and nothing else.
  *
- * CRC   CRC-32 of IEEE 802.3 (polynomial 04C11DB7 reflected, begun and ended with FFFFFFFF; "123456789" gives CBF43926)
- * over all struct_size bytes but the four of crc32. It finds damage, not intent.
+ * CRC   over all struct_size bytes but its own four, begun and ended with FFFFFFFF, bits reflected. Image 1: CRC-32 of
+ * IEEE 802.3 (polynomial 04C11DB7; "123456789" gives CBF43926). Image 2: CRC-32C (Castagnoli, polynomial 1EDC6F41;
+ * "123456789" gives E3069283). Frames of Ethernet, and so of EtherCAT and PROFINET, carry the polynomial of image 1:
+ * damage that such a frame's sum does not find, an image's of the same polynomial is less likely to find, too. The
+ * distances of both are told by Koopman, 32-Bit Cyclic Redundancy Codes for Internet Applications, DSN 2002. Either
+ * finds damage, not intent.
  *
- * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it, and an image
- * whose sequence stands still is an old one; what pose_wall_age tells has that of the last frame. It begins anew with
- * pose_wall_open and pose_wall_reset.
+ * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it; where it
+ * stands still, the values are old ones. What pose_wall_age tells has the sequence of the last frame. It begins anew
+ * with pose_wall_open and pose_wall_reset. PUBLICATION (image 2) changes with what pose_wall_age tells, too: where it
+ * stands still, nobody publishes.
  *
  * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
 
 #define POSE_WALL_IMAGE_VERSION 1
+#define POSE_WALL_IMAGE2_VERSION 2
 #define POSE_WALL_IMAGE_NO_VALUE (-2147483647 - 1)
 #define POSE_WALL_IMAGE_NO_BOUND 2147483647
 
 /* From here on written by tools/plc/generate.py from tools/plc/image.def. */
 
 #define POSE_WALL_IMAGE_BYTES 240
+#define POSE_WALL_IMAGE2_BYTES 248
 
 /* One of the three angles. 28 bytes. */
 typedef struct pose_wall_image_angle {
@@ -680,6 +690,55 @@ typedef struct pose_wall_image {
   pose_wall_image_distance d_rb; /* right wall at s_back */
 } pose_wall_image;
 
+/* One of the three angles of image 2. 28 bytes. */
+typedef struct pose_wall_image2_angle {
+  int32_t value_mdeg;      /* 0.001 deg: what a controller acts on */
+  int32_t protection_mdeg; /* 0.001 deg: protection level, rounded up */
+  uint32_t age_ms;         /* ms: since it was measured, rounded up */
+  uint32_t state;          /* pose_wall_state */
+  uint32_t reasons;        /* pose_wall_reason */
+  uint32_t cause;          /* pose_wall_part: what the level is mostly made of; 7: no level */
+  uint32_t positive_means; /* pose_wall_sense: what a positive value means to the driver */
+} pose_wall_image2_angle;
+
+/* One of the four distances of image 2. 24 bytes. */
+typedef struct pose_wall_image2_distance {
+  int32_t value_mm;      /* mm: what a controller acts on */
+  int32_t protection_mm; /* mm: protection level, rounded up */
+  uint32_t age_ms;       /* ms: since it was measured, rounded up */
+  uint32_t state;        /* pose_wall_state */
+  uint32_t reasons;      /* pose_wall_reason */
+  uint32_t cause;        /* pose_wall_part: what the level is mostly made of; 7: no level */
+} pose_wall_image2_distance;
+
+/* One publication for a controller. 248 bytes. */
+typedef struct pose_wall_image2 {
+  uint32_t struct_size;     /* bytes: POSE_WALL_IMAGE2_BYTES */
+  uint32_t version;         /* POSE_WALL_IMAGE2_VERSION */
+  uint32_t crc32c;          /* CRC-32C of every byte but its own four */
+  uint32_t sequence;        /* frames since the engine was opened or reset: 0 before the first */
+  uint32_t publication;     /* changes with every publication, of a frame or of silence */
+  uint32_t config_crc32;    /* pose_wall_config_crc() of the engine's config */
+  uint32_t library_version; /* major * 65536 + minor * 256 + patch */
+  uint32_t stamp_low;       /* the frame's stamp_ns, bits 0 to 31 */
+  uint32_t stamp_high;      /* and bits 32 to 63 */
+  uint32_t source_id;       /* which sensor or engine of several, of the config */
+  uint32_t latency_ms;      /* ms: from reception to publication, rounded up; 4294967295: not known */
+  uint32_t thinning;        /* of every so many returns one was used; 0: not known */
+  uint32_t held_thinning;   /* the largest thinning of what held values come from; 0: not known */
+  uint32_t told_by;         /* 1: a frame, 2: silence, 0: not known */
+  uint32_t verdict;         /* the worst of the seven states, pose_wall_state */
+  uint32_t valid;           /* bit q set: quantity q is valid, q as in pose_wall_quantity */
+  uint32_t frame_reasons;   /* pose_wall_reason of the frame */
+  pose_wall_image2_angle roll;
+  pose_wall_image2_angle pitch;
+  pose_wall_image2_angle yaw;
+  pose_wall_image2_distance d_lf; /* left wall at s_front */
+  pose_wall_image2_distance d_lb; /* left wall at s_back */
+  pose_wall_image2_distance d_rf; /* right wall at s_front */
+  pose_wall_image2_distance d_rb; /* right wall at s_back */
+} pose_wall_image2;
+
 /* Up to here. */
 
 /* Writes the whole image of a result, whichever engine gave it; the config's CRC is the result's. Set
@@ -691,6 +750,25 @@ POSE_WALL_CHECKED int32_t pose_wall_image_fill(const pose_wall_result* result, p
 /* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, POSE_WALL_E_IMAGE_VERSION,
  * POSE_WALL_E_IMAGE_CRC. */
 POSE_WALL_CHECKED int32_t pose_wall_image_check(const pose_wall_image* image);
+
+/* What a runtime knows of a publication, and no result. */
+typedef struct pose_wall_image_source {
+  uint32_t struct_size;   /* sizeof(pose_wall_image_source) */
+  uint32_t cause;         /* 1: a frame, 2: silence, as in pose_wall_runtime_cause; 0: not known */
+  uint32_t thinning;      /* as in pose_wall_publication; 0: not known */
+  uint32_t held_thinning; /* as in pose_wall_publication; 0: not known */
+  uint64_t publication;   /* another number for every publication; the image takes its low 32 bits */
+  int64_t latency_ns;     /* from reception to publication; negative: not known */
+} pose_wall_image_source;
+
+/* As pose_wall_image_fill, for image 2. source may be NULL: publication is then the result's own, and the rest reads as
+ * not known. Fails iff: result or image NULL, a struct_size of another version, POSE_WALL_E_RESULT; the image is then
+ * unchanged. */
+POSE_WALL_CHECKED int32_t pose_wall_image2_fill(const pose_wall_result* result, const pose_wall_image_source* source,
+                                                pose_wall_image2* image);
+
+/* POSE_WALL_OK for an image as pose_wall_image2_fill left it. Fails as pose_wall_image_check. */
+POSE_WALL_CHECKED int32_t pose_wall_image2_check(const pose_wall_image2* image);
 
 #ifdef __cplusplus
 }

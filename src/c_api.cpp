@@ -74,6 +74,16 @@ std::int32_t check_whole_cloud(const pose_wall_cloud& cloud) {
   return status == POSE_WALL_OK ? check_inputs(cloud.inputs) : status;
 }
 
+// The whole result in *whole, or why there is no image of it.
+std::int32_t image_status(const pose_wall_result& result, std::uint32_t image_size, std::size_t known_size,
+                          pose_wall_result* whole) {
+  const std::int32_t status = pose_wall::check_struct_size(result.struct_size, pose_wall::kResultSizes);
+  if (status != POSE_WALL_OK) return status;
+  if (image_size != known_size) return POSE_WALL_E_STRUCT_SIZE;
+  *whole = pose_wall::read_struct<pose_wall_result>(&result, result.struct_size);
+  return whole->mark == pose_wall::mark_of(*whole) ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_RESULT;
+}
+
 bool is_aligned(const void* block) {
   return reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT == 0;
 }
@@ -308,16 +318,32 @@ POSE_WALL_EXPORT int32_t pose_wall_last_points(const pose_wall_engine* engine, p
 
 POSE_WALL_EXPORT int32_t pose_wall_image_fill(const pose_wall_result* result, pose_wall_image* image) {
   if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
-  const std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
+  pose_wall_result whole;
+  const std::int32_t status = image_status(*result, image->struct_size, sizeof(*image), &whole);
+  if (status == POSE_WALL_OK) pose_wall::fill_image(whole, image);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_image2_fill(const pose_wall_result* result, const pose_wall_image_source* source,
+                                               pose_wall_image2* image) {
+  if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_result whole;
+  std::int32_t status = image_status(*result, image->struct_size, sizeof(*image), &whole);
+  if (status == POSE_WALL_OK && source != nullptr) {
+    status = pose_wall::check_struct_size(source->struct_size, pose_wall::kSourceSizes);
+  }
   if (status != POSE_WALL_OK) return status;
-  if (image->struct_size != sizeof(*image)) return POSE_WALL_E_STRUCT_SIZE;
-  const auto whole = pose_wall::read_struct<pose_wall_result>(result, result->struct_size);
-  if (whole.mark != pose_wall::mark_of(whole)) return POSE_WALL_E_RESULT;
-  pose_wall::fill_image(whole, image);
+  const auto told = source == nullptr ? pose_wall::source_of(whole)
+                                      : pose_wall::read_struct<pose_wall_image_source>(source, source->struct_size);
+  pose_wall::fill_image(whole, told, image);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image_check(const pose_wall_image* image) {
+  return image != nullptr ? pose_wall::check_image(*image) : POSE_WALL_E_NULL;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_image2_check(const pose_wall_image2* image) {
   return image != nullptr ? pose_wall::check_image(*image) : POSE_WALL_E_NULL;
 }
 

@@ -10,8 +10,8 @@ namespace pose_wall {
 void VoxelGrid::lay_out(Arena& arena, std::uint32_t capacity) {
   hash_.lay_out(arena, capacity);
   sums_ = arena.take<Sums>(capacity);
-  order_ = arena.take<std::uint32_t>(capacity + 1);
-  spare_ = arena.take<std::uint32_t>(capacity + 1);
+  order_ = hash_.first_side();
+  spare_ = hash_.second_side();
   histogram_ = arena.take<std::uint32_t>(kRadixSize);
 }
 

@@ -63,7 +63,7 @@ class VoxelGrid {
   };
 
   // Writes the centroids in the order of their cells' keys, or in that in which the cells came. out must have room for
-  // count(), and rows that go on for a four: whole fours are written.
+  // count(), and rows that go on for a four: whole fours are written. No point is put in any more until begin().
   void extract(PointSet* out);
   void extract_as_they_came(PointSet* out);
 
@@ -74,6 +74,8 @@ class VoxelGrid {
   double leaf_m() const { return leaf_m_; }
 
   std::uint32_t count() const { return hash_.count(); }
+  // What cells that share the hash's slots have cost since begin(), in steps of about ten instructions.
+  std::uint64_t crowding() const { return hash_.links(); }
   // Of all cells and their sums, as they were at the last extract(): equal clouds give equal numbers, others different
   // ones.
   std::uint64_t fingerprint() const { return fingerprint_; }
@@ -89,8 +91,8 @@ class VoxelGrid {
 
   VoxelHash hash_;
   Span<Sums> sums_;
-  Span<std::uint32_t> order_, spare_;
-  Span<std::uint32_t> sorted_;  // one of the two, in the end
+  Span<std::uint32_t> order_, spare_;  // on top of the hash's tree: nothing is put in once they are written
+  Span<std::uint32_t> sorted_;         // one of the two, in the end
   Span<std::uint32_t> histogram_;
   float steps_per_m_ = 1.0F, origin_step_ = 0.0F;
   double leaf_m_ = 1.0;

@@ -3,6 +3,7 @@
 
 #include "box_writer.hpp"
 
+#include <cstddef>
 #include <cstring>
 #include <initializer_list>
 
@@ -73,7 +74,7 @@ bool BoxWriter::begin(const pose_wall_config& config, std::uint16_t run) {
 }
 
 void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
-  std::memset(body, 0, body_without_cloud());
+  std::memset(body, 0, static_cast<std::size_t>(body_without_cloud()));
   const pose_wall_cloud& c = slot.cloud;
   put<std::uint64_t>(fnv1a(c.data, c.data_bytes), body + kAtDigest);
   put<std::uint32_t>(c.width, body + kAtPoints);
@@ -89,7 +90,7 @@ void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
     to += 8;
   }
   if (c.inputs != nullptr) std::memcpy(body + kAtInputs, c.inputs, sizeof(pose_wall_inputs));
-  std::memcpy(body + kAtMemento, slot.memento, pose_wall_memento_bytes());
+  std::memcpy(body + kAtMemento, slot.memento, static_cast<std::size_t>(pose_wall_memento_bytes()));
   std::memcpy(body + at_result(), &slot.publication.result, sizeof(pose_wall_result));
 }
 

@@ -6,6 +6,8 @@
 #include <errno.h>  // NOLINT(modernize-deprecated-headers): POSIX names
 #include <sys/mman.h>
 
+#include <cstddef>
+
 #include "checksums.hpp"
 #include "options.hpp"
 #include "runtime.hpp"
@@ -171,7 +173,7 @@ int Runtime::start_recorder() {
 
 int Runtime::lock_memory() {
   Unlocked unlocked(&lock_);  // it may take long, and a push that is refused must not wait for it
-  return mlock(this, block_bytes_) == 0 ? 0 : errno;
+  return mlock(this, static_cast<std::size_t>(block_bytes_)) == 0 ? 0 : errno;
 }
 
 // Under the lock, which the new threads wait for.
@@ -285,7 +287,7 @@ std::int32_t Runtime::close() {
   }
   changed_.close();
   lock_.close();
-  if (options_.lock_memory != 0) munlock(this, block_bytes_);
+  if (options_.lock_memory != 0) munlock(this, static_cast<std::size_t>(block_bytes_));
   return POSE_WALL_OK;
 }
 

@@ -307,5 +307,14 @@ TEST(Memory, IsWhatTheReadmeSays) {
   }
 }
 
+// 2^26 points of 128 bytes are 2^33 bytes: 0 with pointers of 32 bits, where reading would begin again at the start.
+TEST(AbiRefusals, CloudsBeyondWhatPointersReach) {
+  static const float one[3] = {};
+  pose_wall_cloud cloud;
+  ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, one, 1U << 26, 128, 0), POSE_WALL_OK);
+  const std::int32_t status = sizeof(void*) == 4 ? POSE_WALL_E_CLOUD_SIZE : POSE_WALL_OK;
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), status);
+}
+
 }  // namespace
 }  // namespace pose_wall::test

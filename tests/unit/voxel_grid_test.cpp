@@ -310,5 +310,59 @@ TEST(VoxelGrid, MorePointsThanACellCounts) {
   EXPECT_NEAR(out->z[0], 0.75F, 1e-3F);
 }
 
+// Middles of cells of 0.25 m whose keys begin at three neighbouring slots of the table for so many.
+std::vector<Xyz> points_of_few_slots(std::uint32_t capacity) {
+  constexpr double kLeaf_m = 0.25;
+  constexpr std::int32_t kReach = 100, kOrigin = 1365;  // cells; the first cell of a grid that reaches 200 m
+  std::uint32_t bits = 1;
+  while ((1U << bits) < 2 * capacity) ++bits;
+  std::vector<Xyz> points;
+  for (std::int32_t x = -kReach; x < kReach; ++x) {
+    for (std::int32_t y = -kReach; y < kReach; ++y) {
+      for (std::int32_t z = -4; z < 12 && points.size() < capacity; ++z) {
+        const std::uint64_t key = test::key_of(x + kOrigin, y + kOrigin, z + kOrigin);
+        if (((key * 0x9E3779B97F4A7C15ULL) >> (64 - bits)) / 3 != 100) continue;
+        points.push_back({(x + 0.5) * kLeaf_m, (y + 0.5) * kLeaf_m, (z + 0.5) * kLeaf_m});
+      }
+    }
+  }
+  return points;
+}
+
+// Cells that crowd in one table and in another do not give the same centroids, in the same order.
+TEST(VoxelGrid, CrowdingChangesNothing) {
+  constexpr std::uint32_t kRoom = 500;
+  std::vector<Xyz> points = points_of_few_slots(kRoom);
+  ASSERT_EQ(points.size(), kRoom);
+  std::shuffle(points.begin(), points.end(), std::mt19937(3));
+  const std::vector<Xyz> once = points;
+  for (const Xyz& p : once) points.push_back({p[0] + 0.03, p[1] - 0.05, p[2] + 0.07});
+  const auto gridded_in = [&](std::uint32_t capacity, bool in_order, VoxelGrid* grid) {
+    test::Placed<PointSet> out(capacity);
+    grid->begin(0.25, kReach_m);
+    for (const Xyz& p : points) EXPECT_TRUE(add(grid, p));
+    in_order ? grid->extract(out.get()) : grid->extract_as_they_came(out.get());
+    std::vector<std::array<float, 4>> centroids;
+    for (std::uint32_t i = 0; i < out->count; ++i) {
+      centroids.push_back({out->x[i], out->y[i], out->z[i], out->weight[i]});
+    }
+    return centroids;
+  };
+  constexpr std::uint32_t kMuchRoom = 400000;
+  test::Placed<VoxelGrid> crowded(kRoom), wide(kMuchRoom);
+  for (const bool in_order : {true, false}) {
+    const auto here = gridded_in(kRoom, in_order, crowded.get()), there = gridded_in(kMuchRoom, in_order, wide.get());
+    ASSERT_EQ(here.size(), kRoom);
+    EXPECT_EQ(here, there);
+    EXPECT_EQ(crowded->fingerprint(), wide->fingerprint());
+    EXPECT_GT(crowded->crowding(), 3 * kRoom) << "or they do not crowd";
+    EXPECT_LT(wide->crowding(), kRoom / 10);
+  }
+  const auto as_they_came = gridded_in(kRoom, false, crowded.get());
+  for (std::uint32_t i = 0; i < kRoom; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(as_they_came[i][k], once[i][k], 0.125);
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall

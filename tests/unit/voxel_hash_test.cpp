@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: keys keep their indices through crowding, collisions and clears, and a full table says so.
+// Proves: keys keep their indices through crowding, collisions and clears, and a full table says so. What a key costs
+// has a bound that no choice of keys can stretch.
 
 #include "containers/voxel_hash.hpp"
 
@@ -84,6 +85,101 @@ TEST(VoxelHash, KeysOfAPlaneDoNotPileUp) {
     }
   }
   EXPECT_LE(*std::max_element(home.begin(), home.end()), 8);
+}
+
+constexpr std::uint64_t kMultiplier = 0x9E3779B97F4A7C15ULL;
+
+// A number times this is the multiplier's share undone: products choose keys. By Newton, each step doubles the bits.
+std::uint64_t inverse_of_multiplier() {
+  std::uint64_t inverse = kMultiplier;
+  for (int step = 0; step < 6; ++step) inverse *= 2 - kMultiplier * inverse;
+  return inverse;
+}
+
+// Keys that all begin at the same slot, in whatever table, as their products begin with the same bits.
+std::vector<std::uint64_t> keys_of_one_slot(std::size_t count, std::uint32_t seed) {
+  const std::uint64_t inverse = inverse_of_multiplier();
+  std::mt19937_64 random(seed);
+  std::vector<std::uint64_t> keys;
+  for (std::size_t i = 0; i < count; ++i) keys.push_back((0x1234567ULL << 36 | random() >> 28) * inverse);
+  return keys;
+}
+
+TEST(VoxelHash, KeysOfOneSlotKeepTheirIndices) {
+  constexpr std::uint32_t kRoom = 2000;
+  test::Placed<VoxelHash> hash(kRoom);
+  std::mt19937 random(2);
+  for (std::uint32_t frame = 0; frame < 5; ++frame) {
+    hash->clear();
+    const std::vector<std::uint64_t> keys = keys_of_one_slot(kRoom + 50, frame);
+    std::unordered_map<std::uint64_t, std::uint32_t> expected;
+    VoxelHash::Filling filling(hash.get());
+    for (int i = 0; i < 20000; ++i) {
+      const std::uint64_t key = keys[random() % keys.size()];
+      const auto known = expected.find(key);
+      const std::uint32_t index = filling.insert(key);
+      if (known != expected.end()) {
+        ASSERT_EQ(index, known->second);
+      } else if (expected.size() == kRoom) {
+        ASSERT_EQ(index, VoxelHash::kFull);
+      } else {
+        ASSERT_EQ(index, expected.size());
+        expected[key] = index;
+      }
+    }
+    ASSERT_EQ(expected.size(), kRoom);
+    for (const auto& [key, index] : expected) ASSERT_EQ(hash->key(index), key);
+  }
+}
+
+// A table that probes until it finds room looks at half of all keys for each of these.
+TEST(VoxelHash, AKeyCostsNoMoreThanItsBits) {
+  constexpr std::uint32_t kRoom = 60000;
+  test::Placed<VoxelHash> hash(kRoom);
+  hash->clear();
+  const std::vector<std::uint64_t> keys = keys_of_one_slot(kRoom, 7);
+  {
+    VoxelHash::Filling filling(hash.get());
+    for (std::uint32_t i = 0; i < kRoom; ++i) ASSERT_EQ(filling.insert(keys[i]), i);
+  }
+  EXPECT_GT(hash->links(), kRoom) << "or they do not crowd";
+  EXPECT_LT(hash->links(), 2ULL * 64 * kRoom);
+  const std::uint64_t before = hash->links();
+  VoxelHash::Filling filling(hash.get());
+  for (std::uint32_t i = 0; i < kRoom; ++i) ASSERT_EQ(filling.insert(keys[i]), i);
+  EXPECT_LT(hash->links() - before, 64ULL * kRoom);
+}
+
+// As deep as a tree can be made: each key parts from the last at the next bit.
+TEST(VoxelHash, TheDeepestTreeIsAsDeepAsAKeyHasBits) {
+  test::Placed<VoxelHash> hash(64U);
+  hash->clear();
+  const std::vector<std::uint64_t> crowd = keys_of_one_slot(VoxelHash::kProbesMost, 3);
+  for (const std::uint64_t key : crowd) insert(hash.get(), key);
+  ASSERT_EQ(hash->links(), 0U) << "they have their slots";
+  const std::uint64_t inverse = inverse_of_multiplier();
+  std::vector<std::uint64_t> keys;  // as alike as keys of one slot can be: chosen by their products' low bits
+  for (std::uint64_t k = 0; keys.size() < 50; ++k) keys.push_back((0x1234567ULL << 36 | k) * inverse);
+  std::sort(keys.begin(), keys.end());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) ASSERT_EQ(insert(hash.get(), keys[i]), crowd.size() + i);
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    const std::uint64_t before = hash->links();
+    ASSERT_EQ(insert(hash.get(), keys[i]), crowd.size() + i);
+    ASSERT_LE(hash->links() - before, 63U);
+  }
+}
+
+// Few slots are crowded, most are not.
+TEST(VoxelHash, CrowdedAndOthersSideBySide) {
+  test::Placed<VoxelHash> hash(4000U);
+  hash->clear();
+  std::vector<std::uint64_t> keys = keys_of_one_slot(1000, 4);
+  for (std::int32_t k = 0; k < 3000; ++k) keys.push_back(test::key_of(1000 + k % 50, 900 + k / 50, 1000));
+  std::shuffle(keys.begin(), keys.end(), std::mt19937(5));
+  VoxelHash::Filling filling(hash.get());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) ASSERT_EQ(filling.insert(keys[i]), i);
+  EXPECT_EQ(filling.insert(test::key_of(1, 1, 1)), VoxelHash::kFull);
+  for (std::uint32_t i = 0; i < keys.size(); ++i) ASSERT_EQ(filling.insert(keys[i]), i);
 }
 
 }  // namespace
