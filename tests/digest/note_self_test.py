@@ -17,7 +17,7 @@ DIGEST = re.compile(r"(kSelfTestDigest = 0x)[0-9A-F]{16}(ULL)")
 
 def report_of(command):
     done = subprocess.run([*command, "--self-test"], capture_output=True, text=True, check=False)
-    report = dict(line.split() for line in done.stdout.splitlines())
+    report = dict(line.split() for line in done.stdout.splitlines() if len(line.split()) == 2)
     if "digest_found" not in report:
         sys.exit(f"{' '.join(command)}: no report of a self test\n{done.stdout}{done.stderr}")
     return report
