@@ -330,9 +330,12 @@ enum pose_wall_reason {
   POSE_WALL_R_WALL_TOO_NEAR = 1 << 26, /* returns nearer than range_min block the view to this side */
   POSE_WALL_R_NEVER_MEASURED = 1 << 27,
   /* between frames */
-  POSE_WALL_R_NO_FRAME = 1 << 28 /* told by pose_wall_age: no frame has come since */
+  POSE_WALL_R_NO_FRAME = 1 << 28, /* told by pose_wall_age: no frame has come since */
+  /* the frame's time */
+  POSE_WALL_R_WORK_LIMIT = 1 << 29 /* the frame would have taken more steps than work_max: floor or walls were not
+                                      finished, and are refused */
 };
-#define POSE_WALL_REASON_COUNT 29
+#define POSE_WALL_REASON_COUNT 30
 
 /* Short lower-case names for logs and CSV, static storage: "wall_short", "valid", "d_lf". */
 const char* pose_wall_reason_name(uint32_t bit_index);

@@ -94,7 +94,8 @@ TEST(AbiNumbers, Reasons) {
                          POSE_WALL_R_HOLD_EXPIRED,
                          POSE_WALL_R_WALL_TOO_NEAR,
                          POSE_WALL_R_NEVER_MEASURED,
-                         POSE_WALL_R_NO_FRAME};
+                         POSE_WALL_R_NO_FRAME,
+                         POSE_WALL_R_WORK_LIMIT};
   ASSERT_LE(sizeof reasons / sizeof reasons[0], static_cast<std::size_t>(POSE_WALL_REASON_COUNT));
   for (std::size_t bit = 0; bit < sizeof reasons / sizeof reasons[0]; ++bit) EXPECT_EQ(reasons[bit], 1 << bit);
 }
