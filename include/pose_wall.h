@@ -29,13 +29,16 @@
  *          roll is the driver's pitch and pitch the driver's roll. Distances are >= 0.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
  * MEMORY   only the caller's block, and less than 32 kB of stack. No call here allocates, blocks, prints, reads a clock
- * or throws. THREADS  one engine belongs to one thread at a time; different engines are independent. There are no
- * globals. TIME     every loop over live data has a cap from the config: the worst case is bounded by points_max, the
- * two iteration caps and the size of the incoming cloud. ERRORS   every call that can fail returns a status:
- * POSE_WALL_OK (0) or a negative pose_wall_status. A refused call changes nothing. "I was called wrongly" is a status;
- * "I looked and could not measure" is not an error: the call returns POSE_WALL_OK and the states and reasons in the
- * result tell it. FLOATS   IEEE 754 without fast-math; the same version and input give the same bits, on x86-64 and
- * AArch64, by GCC and Clang, whatever the block held before.
+ * or throws. THREADS  one engine belongs to one thread at a time; different engines are independent. A call that finds
+ * another one inside its engine is refused (POSE_WALL_E_BUSY). There are no globals. STRUCTS  every struct that begins
+ * with struct_size grows at its end only. A library takes structs of any earlier header of its ABI: it reads what is
+ * missing as zero and writes no further than struct_size. It refuses a later one's (POSE_WALL_E_STRUCT_NEWER). TIME
+ * every loop over live data has a cap from the config: the worst case is bounded by points_max, the two iteration caps
+ * and the size of the incoming cloud. ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a
+ * negative pose_wall_status. A refused call changes nothing. "I was called wrongly" is a status; "I looked and could
+ * not measure" is not an error: the call returns POSE_WALL_OK and the states and reasons in the result tell it. FLOATS
+ * IEEE 754 without fast-math; the same version and input give the same bits, on x86-64 and AArch64, by GCC and Clang,
+ * whatever the block held before.
  */
 
 #ifndef POSE_WALL_H
@@ -51,13 +54,26 @@ extern "C" {
 /* ---------------------------------------------------------------------------------------------- versions */
 
 #define POSE_WALL_VERSION_MAJOR 0
-#define POSE_WALL_VERSION_MINOR 1
+#define POSE_WALL_VERSION_MINOR 2
 #define POSE_WALL_VERSION_PATCH 0
 
 /* Raised when a struct or function of this header changes incompatibly. */
-#define POSE_WALL_ABI_VERSION 1
+#define POSE_WALL_ABI_VERSION 2
 
-/* "0.1.0"; static storage. */
+/* Marks calls that can fail while a program runs. A compiler that can warns where their status is thrown away; where
+ * that is meant, write (void) in C++ and assign it in C. */
+#if defined(__cplusplus)
+#if __cplusplus >= 201703L
+#define POSE_WALL_CHECKED [[nodiscard]]
+#endif
+#elif defined(__GNUC__)
+#define POSE_WALL_CHECKED __attribute__((warn_unused_result))
+#endif
+#ifndef POSE_WALL_CHECKED
+#define POSE_WALL_CHECKED
+#endif
+
+/* "0.2.0"; static storage. */
 const char* pose_wall_version(void);
 /* POSE_WALL_ABI_VERSION of the library that is linked; compare it with the header's. */
 uint32_t pose_wall_abi_version(void);
@@ -69,15 +85,19 @@ enum pose_wall_status {
   POSE_WALL_OK = 0,
 
   /* wrong calls */
-  POSE_WALL_E_NULL = -1,         /* a required pointer is NULL */
-  POSE_WALL_E_STRUCT_SIZE = -2,  /* struct_size unknown: set it to sizeof, or call the init function */
-  POSE_WALL_E_BLOCK_SMALL = -3,  /* block smaller than pose_wall_memory_needed() says */
-  POSE_WALL_E_BLOCK_ALIGN = -4,  /* block not aligned to POSE_WALL_BLOCK_ALIGNMENT */
-  POSE_WALL_E_ENGINE = -5,       /* engine pointer does not point to an open engine, or somebody wrote
-                                    into its block, or a bit fell over: see pose_wall_open */
-  POSE_WALL_E_INDEX = -6,        /* index out of range */
-  POSE_WALL_E_BUFFER_SMALL = -7, /* text or memento does not fit the caller's buffer */
-  POSE_WALL_E_MEMENTO = -8,      /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
+  POSE_WALL_E_NULL = -1,          /* a required pointer is NULL */
+  POSE_WALL_E_STRUCT_SIZE = -2,   /* struct_size unknown: set it to sizeof, or call the init function */
+  POSE_WALL_E_BLOCK_SMALL = -3,   /* block smaller than pose_wall_memory_needed() says */
+  POSE_WALL_E_BLOCK_ALIGN = -4,   /* block not aligned to POSE_WALL_BLOCK_ALIGNMENT */
+  POSE_WALL_E_ENGINE = -5,        /* engine pointer does not point to an open engine, or somebody wrote
+                                     into its block, or a bit fell over: see pose_wall_open */
+  POSE_WALL_E_INDEX = -6,         /* index out of range */
+  POSE_WALL_E_BUFFER_SMALL = -7,  /* text or memento does not fit the caller's buffer */
+  POSE_WALL_E_MEMENTO = -8,       /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
+  POSE_WALL_E_BUSY = -9,          /* another call is inside this engine, or inside the one that lives in this block */
+  POSE_WALL_E_ABI = -10,          /* the program was built against the header of ABI 1: build it anew */
+  POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer pose_wall.h than the library that is linked */
+  POSE_WALL_E_INPUT = -12, /* pose_wall_inputs or pose_wall_moment: an unknown bit, or a member out of its range */
 
   /* configuration */
   POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
@@ -99,7 +119,8 @@ enum pose_wall_status {
 
   /* process images */
   POSE_WALL_E_IMAGE_VERSION = -60, /* an image of another version or size */
-  POSE_WALL_E_IMAGE_CRC = -61      /* its CRC is not that of its bytes: damaged, torn, or never filled */
+  POSE_WALL_E_IMAGE_CRC = -61,     /* its CRC is not that of its bytes: damaged, torn, or never filled */
+  POSE_WALL_E_RESULT = -62         /* a result that no engine made: blank, or its head was changed */
 };
 
 /* One English sentence, static storage; "unknown status" for anything else. */
@@ -143,18 +164,21 @@ typedef struct pose_wall_key_info {
 } pose_wall_key_info;
 
 /* Fills every key with its default. Fails iff: NULL. */
+int32_t pose_wall_config_init_2(pose_wall_config* config);
+/* What a program built against ABI 1 calls first: writes nothing, and always gives POSE_WALL_E_ABI. */
 int32_t pose_wall_config_init(pose_wall_config* config);
+#define pose_wall_config_init pose_wall_config_init_2
 
 /* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"). The numbers of a
  * box are separated by spaces, one comma or both; a pair of brackets may be around them. On failure the config is
  * unchanged.
  * Fails iff: NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_KEY_UNKNOWN, POSE_WALL_E_VALUE_TYPE,
  * POSE_WALL_E_VALUE_RANGE, POSE_WALL_E_TEXT_LONG. */
-int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value);
+POSE_WALL_CHECKED int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value);
 
 /* The same for a key of one number or integer. Fails iff: NULL, not initialised, key unknown, a key of another type or
  * a fraction for an integer (POSE_WALL_E_VALUE_TYPE), POSE_WALL_E_VALUE_RANGE. */
-int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value);
+POSE_WALL_CHECKED int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value);
 
 /* Reads a key of one number or integer. As the two below it writes on success only, and fails iff: NULL, not
  * initialised, key unknown, a key of another type (POSE_WALL_E_VALUE_TYPE). */
@@ -189,7 +213,7 @@ typedef struct pose_wall_rule_fault {
 /* Checks every member and the rules over several keys. Fails iff: config NULL, not initialised,
  * POSE_WALL_E_CONFIG_RULE; only then is the first fault written to *fault (fault may be NULL). pose_wall_memory_needed
  * and pose_wall_open check by the same rules. */
-int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault);
+POSE_WALL_CHECKED int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault);
 
 /* CRC-32 of all settings, for a controller to see that the engine runs with the settings it was approved with. Two
  * builds whose tables of keys differ give different numbers for the same file. Fails iff: NULL, not initialised. */
@@ -238,9 +262,33 @@ typedef struct pose_wall_cloud {
   pose_wall_field x;   /* metres in the lidar frame; FLOAT32 or FLOAT64 */
   pose_wall_field y;
   pose_wall_field z;
-  pose_wall_field intensity; /* any type; used only with intensity_weight > 0 */
-  pose_wall_field time;      /* reserved: not read by this version */
+  pose_wall_field intensity;             /* any type; used only with intensity_weight > 0 */
+  pose_wall_field time;                  /* reserved: not read by this version */
+  const struct pose_wall_inputs* inputs; /* what the machine knows of itself in this frame, or NULL */
 } pose_wall_cloud;
+
+/* Bits of pose_wall_inputs.given. */
+enum pose_wall_input {
+  POSE_WALL_INPUT_STANDING = 1, /* the machine has not moved since the last frame. Its boom may have */
+  POSE_WALL_INPUT_SPEED = 2,    /* speed_m_s and its sigma */
+  POSE_WALL_INPUT_TURN_RATE = 4 /* turn_rate_rad_s and its sigma */
+};
+#define POSE_WALL_INPUT_BOXES 4
+
+/* What the machine knows of itself since the last frame. All of it is optional, and none is believed against what is
+ * measured: inputs that contradict each other or the measurements are left out of the frame (POSE_WALL_R_PRIOR).
+ * Where they are used, held values age by them, and not by hold_rate_angle and hold_rate_distance: while the machine
+ * stands still nothing ages; a held yaw turns with turn_rate_rad_s; what is uncertain grows by five sigma. */
+typedef struct pose_wall_inputs {
+  uint32_t struct_size;                      /* sizeof(pose_wall_inputs) */
+  uint32_t given;                            /* pose_wall_input bits; of the members below the others are not read */
+  double speed_m_s;                          /* along forward_axis, negative backwards; -50 to 50 */
+  double speed_sigma_m_s;                    /* its standard deviation; above 0, to 50 */
+  double turn_rate_rad_s;                    /* about +Z of base, positive to the left; -10 to 10 */
+  double turn_rate_sigma_rad_s;              /* its standard deviation; above 0, to 10 */
+  double body_box[POSE_WALL_INPUT_BOXES][6]; /* beside the config's: where the boom is in this frame, in base, as
+                                                body_box_1: x_min x_max y_min y_max z_min z_max. All zero: none */
+} pose_wall_inputs;
 
 /* Describes `count` points of three consecutive native floats each, `point_step` bytes apart. Fails iff: cloud NULL,
  * or data NULL with count > 0. */
@@ -249,7 +297,7 @@ int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t
 
 /* Whether pose_wall_process would take this cloud: looks at the description only, at no point. Fails as it does: NULL,
  * struct_size, POSE_WALL_E_CLOUD_*. */
-int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud);
+POSE_WALL_CHECKED int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud);
 
 /* ---------------------------------------------------------------------------------------------- result */
 
@@ -331,11 +379,13 @@ enum pose_wall_reason {
   POSE_WALL_R_NEVER_MEASURED = 1 << 27,
   /* between frames */
   POSE_WALL_R_NO_FRAME = 1 << 28, /* told by pose_wall_age: no frame has come since */
-  /* the frame's time */
-  POSE_WALL_R_WORK_LIMIT = 1 << 29 /* the frame would have taken more steps than work_max: floor or walls were not
-                                      finished, and are refused */
+  /* limits and inputs */
+  POSE_WALL_R_WORK_LIMIT = 1 << 29, /* the frame would have taken more steps than work_max: what was not
+                                       finished is refused */
+  POSE_WALL_R_PRIOR = 1 << 30 /* the frame's inputs (pose_wall_inputs) were not used: they contradict each other or
+                                 what was measured */
 };
-#define POSE_WALL_REASON_COUNT 30
+#define POSE_WALL_REASON_COUNT 31
 
 /* Short lower-case names for logs and CSV, static storage: "wall_short", "valid", "d_lf". */
 const char* pose_wall_reason_name(uint32_t bit_index);
@@ -344,21 +394,42 @@ const char* pose_wall_reason_text(uint32_t bit_index);
 const char* pose_wall_state_name(uint32_t state);
 const char* pose_wall_quantity_name(uint32_t quantity);
 
+/* What a protection level is made of; index of pose_wall_value.part. */
+enum pose_wall_part {
+  POSE_WALL_PART_RANDOM = 0,        /* protection_factor standard deviations of the fit */
+  POSE_WALL_PART_RANGE_BIAS = 1,    /* range_bias_max, as far as it reaches this quantity */
+  POSE_WALL_PART_BEND = 2,          /* the surface is no plane: bends, waves, ribs, walls that are not parallel */
+  POSE_WALL_PART_RIVAL = 3,         /* another surface may be the floor or the wall, in this frame or a moment ago */
+  POSE_WALL_PART_EXTRAPOLATION = 4, /* the wall is not seen where the distance is asked for */
+  POSE_WALL_PART_LAG = 5,           /* value is not raw: smoothing */
+  POSE_WALL_PART_AGE = 6,           /* time since it was measured, or since a frozen cloud's first copy */
+  POSE_WALL_PARTS = 7
+};
+/* "random", "range_bias"; static storage. */
+const char* pose_wall_part_name(uint32_t part);
+
 typedef struct pose_wall_value {
-  /* What a controller acts on: smoothed, or held; NaN if never measured. Smoothing is of first order, over
-   * temporal_smoothing_tau; a raw whose level is above the alert limit pulls the less, by alert limit / level. */
+  /* What a controller acts on: smoothed, or held; NaN if never measured. Smoothing is of second order over
+   * temporal_smoothing_tau: it follows a steady turn without lag. It departs from raw by at most a quarter of raw's
+   * level. */
   double value;
   double raw;   /* this frame's own measurement before smoothing; NaN if none */
   double sigma; /* standard deviation of raw: its random part, on rough rock too (held: of the last raw). Biases that
-                   the engine can bound but not know (range bias, rival surfaces) are in protection_level only */
-  double protection_level; /* |value - truth| and |raw - truth| stay within it; NaN if never measured. While
-                              invalid it goes by stamps that may have jumped: nothing to rely on */
-  double confidence;       /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
-  double age_s;            /* since the frame it was measured in, by the stamps (under ones that stand still: see
-                              POSE_WALL_R_STAMP_STILL; under one that went back it does not grow); 0 when measured in
-                              this one, or never */
-  uint32_t state;          /* pose_wall_state */
-  uint32_t reasons;        /* pose_wall_reason bits */
+                   the engine can bound but not know (range bias, rival surfaces) are in the levels only */
+  double protection_level;     /* |value - truth| stays within it; NaN if never measured. While invalid it goes by
+                                  stamps that may have jumped: nothing to rely on */
+  double raw_protection_level; /* |raw - truth| stays within it; NaN if nothing was measured */
+  double confidence; /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
+  double age_s;      /* since the frame it was measured in, by the stamps (under ones that stand still: see
+                        POSE_WALL_R_STAMP_STILL; under one that went back it does not grow); 0 when measured
+                        in this one, or never */
+  double part[POSE_WALL_PARTS]; /* of protection_level: they add up to it. Without lag, and without age unless the
+                                   sensor is frozen, they add up to raw_protection_level */
+  uint32_t state;               /* pose_wall_state */
+  uint32_t reasons;             /* pose_wall_reason bits */
+  uint32_t raw_state;           /* of raw by itself: valid, degraded, or invalid where nothing was measured */
+  uint32_t cause;               /* pose_wall_part: the largest; POSE_WALL_PARTS where there is no level */
+  uint32_t reserved[2];         /* 0 */
 } pose_wall_value;
 
 /* A fitted plane n . p + d = 0 of this frame. */
@@ -391,10 +462,28 @@ enum pose_wall_stage {
 };
 const char* pose_wall_stage_name(uint32_t stage);
 
+/* What a positive angle means to somebody who sits in the machine and looks along forward_axis. */
+enum pose_wall_sense {
+  POSE_WALL_SENSE_UNKNOWN = 0,
+  POSE_WALL_SENSE_RIGHT_DOWN = 1,
+  POSE_WALL_SENSE_LEFT_DOWN = 2,
+  POSE_WALL_SENSE_NOSE_DOWN = 3,
+  POSE_WALL_SENSE_NOSE_UP = 4,
+  POSE_WALL_SENSE_TURNED_RIGHT = 5 /* the machine points to the right of the road: yaw, always */
+};
+/* "right side down"; static storage. */
+const char* pose_wall_sense_name(uint32_t sense);
+
 typedef struct pose_wall_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_result) before the call */
   uint32_t frame_reasons;
-  int64_t stamp_ns;     /* the frame's */
+  uint32_t mark;              /* the engine's: tells a result from memory that no engine wrote */
+  uint32_t config_crc32;      /* pose_wall_config_crc() of the engine's config */
+  uint32_t source_id;         /* of the config: which sensor or engine of several */
+  uint32_t positive_means[3]; /* pose_wall_sense of roll, pitch and yaw, by forward_axis */
+  uint64_t publication;       /* counts the results of this engine from 1, those of pose_wall_age too */
+  uint64_t work;              /* units of work that the frame took, see work_max; the same on every machine */
+  int64_t stamp_ns;           /* the frame's */
   uint64_t frame_index; /* counts processed frames from 0; of pose_wall_age: the last one's, UINT64_MAX before any */
   double confidence;    /* the smallest of the seven */
   pose_wall_value quantity[POSE_WALL_QUANTITIES];
@@ -426,7 +515,7 @@ typedef struct pose_wall_engine pose_wall_engine;
 
 /* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails iff: NULL, not
  * initialised, POSE_WALL_E_CONFIG_RULE. */
-int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
+POSE_WALL_CHECKED int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
 
 /* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
  * The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_CONFIG_RULE,
@@ -434,10 +523,11 @@ int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes)
  * There is nothing to close. Cost: none to speak of; the block is cleared as it is used.
  * Settings, memory and pointers in the block carry a sum, which every call checks: where a single word of them was
  * changed from outside, the engine is refused from then on (POSE_WALL_E_ENGINE) until it is opened again. */
-int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes, pose_wall_engine** engine);
+POSE_WALL_CHECKED int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes,
+                                         pose_wall_engine** engine);
 
 /* Forgets all that was measured, as if just opened. Fails iff: NULL, engine not open. */
-int32_t pose_wall_reset(pose_wall_engine* engine);
+POSE_WALL_CHECKED int32_t pose_wall_reset(pose_wall_engine* engine);
 
 /* Gives the engine a clock for stage_ns: a function that returns monotonic nanoseconds. NULL takes it away. The
  * engine's results never depend on it. Fails iff: engine NULL or not open. */
@@ -448,7 +538,8 @@ int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, voi
  * refused with a status and leaves engine and result unchanged; a cloud of garbage points is processed, and the result
  * says what could not be measured. Fails iff: NULL, engine not open, struct_size of cloud or result,
  * POSE_WALL_E_CLOUD_*. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
-int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud, pose_wall_result* result);
+POSE_WALL_CHECKED int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud,
+                                            pose_wall_result* result);
 
 /* What the seven quantities are at stamp_ns when no frame has come since the last: held and aged by the rules of a
  * frame that measures nothing, then invalid, with POSE_WALL_R_NO_FRAME. For the time in which a sensor is silent;
@@ -457,18 +548,43 @@ int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud
  * iff: NULL, engine not open, struct_size. It changes one thing only: what it told invalid stays so until it is
  * measured again, even where the next frame's stamp would say that less time has passed. The next frame is smoothed
  * over its own time since the last one. */
-int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result);
+POSE_WALL_CHECKED int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result);
+
+/* When a memento is saved or loaded, as far as the caller can tell: without it nobody knows how old its values are. */
+enum pose_wall_moment_known {
+  POSE_WALL_MOMENT_BOOT = 1, /* boot_id and stamp_ns: within one boot the stamps' clock runs on */
+  POSE_WALL_MOMENT_WALL = 2, /* wall_ns and stamp_ns: a clock that goes on while the machine is off */
+  POSE_WALL_MOMENT_SAME_CLOCK =
+      4 /* load only: the caller vouches that the stamps go on in the clock of the saved ones */
+};
+typedef struct pose_wall_moment {
+  uint32_t struct_size; /* sizeof(pose_wall_moment) */
+  uint32_t known;       /* pose_wall_moment_known bits */
+  uint8_t boot_id[16];  /* another one after each start of the machine: /proc/sys/kernel/random/boot_id, or a number
+                           drawn at start */
+  int64_t wall_ns;      /* nanoseconds since any fixed date */
+  int64_t stamp_ns;     /* now, in the clock of the clouds' stamps */
+} pose_wall_moment;
 
 /* All that an engine remembers from frame to frame, as bytes, so that any frame can be computed again: an engine of the
  * same version and config that loads what was saved before a frame gives the same bits for that frame. The same on
  * every machine. load checks its length (a longer one is read as far as pose_wall_memento_bytes), version, config and
  * checksum, and takes nothing of what it refuses: after a change of the config an engine begins anew. It is trusted
  * like the config, since whoever writes it can make the engine believe a past. Neither touches what
- * pose_wall_last_points gives. Fails iff: NULL, engine not open; save also with POSE_WALL_E_BUFFER_SMALL, load also
- * with POSE_WALL_E_MEMENTO. Cost: no more than copying. */
+ * pose_wall_last_points gives.
+ *
+ * AGE  values are held on only where load can date them: in the same boot (POSE_WALL_MOMENT_BOOT at both times, the
+ * same boot_id), by the wall clock (POSE_WALL_MOMENT_WALL at both times, and it did not go back), or on the caller's
+ * word (POSE_WALL_MOMENT_SAME_CLOCK). By the wall clock they age by what passed on it, and stamps go on from the
+ * moment's stamp_ns. Otherwise, and with now NULL, all values have expired; leaf, planes and repeats are still known.
+ *
+ * Fails iff: engine or memento NULL, engine not open, moment's struct_size or an unknown bit in it (POSE_WALL_E_INPUT);
+ * save also with POSE_WALL_E_BUFFER_SMALL, load also with POSE_WALL_E_MEMENTO. Cost: no more than copying. */
 uint64_t pose_wall_memento_bytes(void);
-int32_t pose_wall_save(const pose_wall_engine* engine, void* memento, uint64_t bytes);
-int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes);
+POSE_WALL_CHECKED int32_t pose_wall_save(const pose_wall_engine* engine, const pose_wall_moment* now, void* memento,
+                                         uint64_t bytes);
+POSE_WALL_CHECKED int32_t pose_wall_load(pose_wall_engine* engine, const pose_wall_moment* now, const void* memento,
+                                         uint64_t bytes);
 
 enum pose_wall_label {
   POSE_WALL_LABEL_OTHER = 0,
@@ -488,38 +604,48 @@ typedef struct pose_wall_points {
   uint32_t count;
   uint32_t reserved;
 } pose_wall_points;
-int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points);
+POSE_WALL_CHECKED int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points);
 
 /* ---------------------------------------------------------------------------------------------- process image */
 
-/* A result for a controller: 60 words of 4 bytes each, without gaps; small enough for one PROFINET submodule or one
- * Modbus read (120 registers). tools/plc has the structured text for it, and a function block that uses it.
+/* A result for a controller, in words of 4 bytes without gaps; small enough for one PROFINET submodule or one Modbus
+ * read (125 registers). tools/plc has the structured text for it, and a function block that uses it.
  *
- * NUMBERS   scaled integers (0.001 deg, mm) beside floats (rad, m), never NaN or infinite: those stop some controllers.
- * What does not fit saturates at +-2147483647. No value: POSE_WALL_IMAGE_NO_VALUE in both. No protection level:
- * POSE_WALL_IMAGE_NO_BOUND in both, the worst there is. A protection level is rounded up, by as much as its value was
- * rounded, too: |value - truth| <= protection holds for each pair of numbers as they stand. An age that is not known or
- * does not fit is 4294967295.
+ * IMAGES   image 2 (pose_wall_image2, 62 words, 124 registers) is for new controllers. Image 1 (pose_wall_image, 60
+ * words, 120 registers) stays as it is, for those that read it. Both hold the same seven quantities.
+ *
+ * NUMBERS   scaled integers (0.001 deg, mm); image 1 has floats (rad, m) beside them, never NaN or infinite: those stop
+ * some controllers. What does not fit saturates at +-2147483647. No value: POSE_WALL_IMAGE_NO_VALUE. No protection
+ * level: POSE_WALL_IMAGE_NO_BOUND, the worst there is. A float has the same numbers for them. A protection level is
+ * rounded up, by as much as its value was rounded, too: |value - truth| <= protection holds for each pair of numbers as
+ * they stand. An age that is not known or does not fit is 4294967295.
  *
  * BYTES   each word is in the host's order. The CRC is over the bytes as laid out low byte first, whatever the host: a
  * controller of the other order swaps the four bytes of every word, and nothing else.
  *
- * CRC   CRC-32 of IEEE 802.3 (polynomial 04C11DB7 reflected, begun and ended with FFFFFFFF; "123456789" gives CBF43926)
- * over all struct_size bytes but the four of crc32. It finds damage, not intent.
+ * CRC   over all struct_size bytes but its own four, begun and ended with FFFFFFFF, bits reflected. Image 1: CRC-32 of
+ * IEEE 802.3 (polynomial 04C11DB7; "123456789" gives CBF43926). Image 2: CRC-32C (Castagnoli, polynomial 1EDC6F41;
+ * "123456789" gives E3069283). Frames of Ethernet, and so of EtherCAT and PROFINET, carry the polynomial of image 1:
+ * damage that such a frame's sum does not find, an image's of the same polynomial is less likely to find, too. The
+ * distances of both are told by Koopman, 32-Bit Cyclic Redundancy Codes for Internet Applications, DSN 2002. Either
+ * finds damage, not intent.
  *
- * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it, and an image
- * whose sequence stands still is an old one; what pose_wall_age tells has that of the last frame. It begins anew with
- * pose_wall_open and pose_wall_reset.
+ * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it; where it
+ * stands still, the values are old ones. What pose_wall_age tells has the sequence of the last frame. It begins anew
+ * with pose_wall_open and pose_wall_reset. PUBLICATION (image 2) changes with what pose_wall_age tells, too: where it
+ * stands still, nobody publishes.
  *
  * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
 
 #define POSE_WALL_IMAGE_VERSION 1
+#define POSE_WALL_IMAGE2_VERSION 2
 #define POSE_WALL_IMAGE_NO_VALUE (-2147483647 - 1)
 #define POSE_WALL_IMAGE_NO_BOUND 2147483647
 
 /* From here on written by tools/plc/generate.py from tools/plc/image.def. */
 
 #define POSE_WALL_IMAGE_BYTES 240
+#define POSE_WALL_IMAGE2_BYTES 248
 
 /* One of the three angles. 28 bytes. */
 typedef struct pose_wall_image_angle {
@@ -565,16 +691,85 @@ typedef struct pose_wall_image {
   pose_wall_image_distance d_rb; /* right wall at s_back */
 } pose_wall_image;
 
+/* One of the three angles of image 2. 28 bytes. */
+typedef struct pose_wall_image2_angle {
+  int32_t value_mdeg;      /* 0.001 deg: what a controller acts on */
+  int32_t protection_mdeg; /* 0.001 deg: protection level, rounded up */
+  uint32_t age_ms;         /* ms: since it was measured, rounded up */
+  uint32_t state;          /* pose_wall_state */
+  uint32_t reasons;        /* pose_wall_reason */
+  uint32_t cause;          /* pose_wall_part: what the level is mostly made of; 7: no level */
+  uint32_t positive_means; /* pose_wall_sense: what a positive value means to the driver */
+} pose_wall_image2_angle;
+
+/* One of the four distances of image 2. 24 bytes. */
+typedef struct pose_wall_image2_distance {
+  int32_t value_mm;      /* mm: what a controller acts on */
+  int32_t protection_mm; /* mm: protection level, rounded up */
+  uint32_t age_ms;       /* ms: since it was measured, rounded up */
+  uint32_t state;        /* pose_wall_state */
+  uint32_t reasons;      /* pose_wall_reason */
+  uint32_t cause;        /* pose_wall_part: what the level is mostly made of; 7: no level */
+} pose_wall_image2_distance;
+
+/* One publication for a controller. 248 bytes. */
+typedef struct pose_wall_image2 {
+  uint32_t struct_size;     /* bytes: POSE_WALL_IMAGE2_BYTES */
+  uint32_t version;         /* POSE_WALL_IMAGE2_VERSION */
+  uint32_t crc32c;          /* CRC-32C of every byte but its own four */
+  uint32_t sequence;        /* frames since the engine was opened or reset: 0 before the first */
+  uint32_t publication;     /* changes with every publication, of a frame or of silence */
+  uint32_t config_crc32;    /* pose_wall_config_crc() of the engine's config */
+  uint32_t library_version; /* major * 65536 + minor * 256 + patch */
+  uint32_t stamp_low;       /* the frame's stamp_ns, bits 0 to 31 */
+  uint32_t stamp_high;      /* and bits 32 to 63 */
+  uint32_t source_id;       /* which sensor or engine of several, of the config */
+  uint32_t latency_ms;      /* ms: from reception to publication, rounded up; 4294967295: not known */
+  uint32_t thinning;        /* of every so many returns one was used; 0: not known */
+  uint32_t held_thinning;   /* the largest thinning of what held values come from; 0: not known */
+  uint32_t told_by;         /* 1: a frame, 2: silence, 0: not known */
+  uint32_t verdict;         /* the worst of the seven states, pose_wall_state */
+  uint32_t valid;           /* bit q set: quantity q is valid, q as in pose_wall_quantity */
+  uint32_t frame_reasons;   /* pose_wall_reason of the frame */
+  pose_wall_image2_angle roll;
+  pose_wall_image2_angle pitch;
+  pose_wall_image2_angle yaw;
+  pose_wall_image2_distance d_lf; /* left wall at s_front */
+  pose_wall_image2_distance d_lb; /* left wall at s_back */
+  pose_wall_image2_distance d_rf; /* right wall at s_front */
+  pose_wall_image2_distance d_rb; /* right wall at s_back */
+} pose_wall_image2;
+
 /* Up to here. */
 
-/* Writes the whole image of a result that this engine gave. Set image->struct_size = sizeof *image and
- * result->struct_size first. Fails iff: NULL, engine not open (POSE_WALL_E_ENGINE), a struct_size of another version;
- * the image is then unchanged. Cost: some thousand simple operations. */
-int32_t pose_wall_image_fill(const pose_wall_engine* engine, const pose_wall_result* result, pose_wall_image* image);
+/* Writes the whole image of a result, whichever engine gave it; the config's CRC is the result's. Set
+ * image->struct_size = sizeof *image and result->struct_size first. Fails iff: NULL, a struct_size of another version,
+ * a result that no engine made (POSE_WALL_E_RESULT); the image is then unchanged. Cost: some thousand simple
+ * operations. */
+POSE_WALL_CHECKED int32_t pose_wall_image_fill(const pose_wall_result* result, pose_wall_image* image);
 
 /* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, POSE_WALL_E_IMAGE_VERSION,
  * POSE_WALL_E_IMAGE_CRC. */
-int32_t pose_wall_image_check(const pose_wall_image* image);
+POSE_WALL_CHECKED int32_t pose_wall_image_check(const pose_wall_image* image);
+
+/* What a runtime knows of a publication, and no result. */
+typedef struct pose_wall_image_source {
+  uint32_t struct_size;   /* sizeof(pose_wall_image_source) */
+  uint32_t cause;         /* 1: a frame, 2: silence, as in pose_wall_runtime_cause; 0: not known */
+  uint32_t thinning;      /* as in pose_wall_publication; 0: not known */
+  uint32_t held_thinning; /* as in pose_wall_publication; 0: not known */
+  uint64_t publication;   /* another number for every publication; the image takes its low 32 bits */
+  int64_t latency_ns;     /* from reception to publication; negative: not known */
+} pose_wall_image_source;
+
+/* As pose_wall_image_fill, for image 2. source may be NULL: publication is then the result's own, and the rest reads as
+ * not known. Fails iff: result or image NULL, a struct_size of another version, POSE_WALL_E_RESULT; the image is then
+ * unchanged. */
+POSE_WALL_CHECKED int32_t pose_wall_image2_fill(const pose_wall_result* result, const pose_wall_image_source* source,
+                                                pose_wall_image2* image);
+
+/* POSE_WALL_OK for an image as pose_wall_image2_fill left it. Fails as pose_wall_image_check. */
+POSE_WALL_CHECKED int32_t pose_wall_image2_check(const pose_wall_image2* image);
 
 #ifdef __cplusplus
 }

@@ -61,6 +61,12 @@ inline pose_wall_image make_image() noexcept {
   return image;
 }
 
+inline pose_wall_image2 make_image2() noexcept {
+  pose_wall_image2 image{};
+  image.struct_size = sizeof image;
+  return image;
+}
+
 // Owns the block that the engine lives in. Moving keeps the block where it is; a moved-from engine is not open.
 class Engine {
  public:
@@ -89,8 +95,13 @@ class Engine {
     return pose_wall_process(engine_, &cloud, &result);
   }
   int32_t age(int64_t stamp_ns, pose_wall_result& result) noexcept { return pose_wall_age(engine_, stamp_ns, &result); }
-  int32_t fill_image(const pose_wall_result& result, pose_wall_image& image) const noexcept {
-    return pose_wall_image_fill(engine_, &result, &image);
+  // The image of a result, whichever engine gave it.
+  static int32_t fill_image(const pose_wall_result& result, pose_wall_image& image) noexcept {
+    return pose_wall_image_fill(&result, &image);
+  }
+  static int32_t fill_image(const pose_wall_result& result, pose_wall_image2& image,
+                            const pose_wall_image_source* source = nullptr) noexcept {
+    return pose_wall_image2_fill(&result, source, &image);
   }
   int32_t reset() noexcept { return pose_wall_reset(engine_); }
   int32_t set_clock(pose_wall_clock clock, void* user = nullptr) noexcept {

@@ -16,6 +16,7 @@
  *      32  u32      pose_wall_memento_bytes()       36  u32  POSE_WALL_ABI_VERSION
  *      40  24 bytes pose_wall_version(), zeros behind
  *      64           the config, as in memory; zeros behind
+ *    4080  u32      sizeof(pose_wall_inputs)
  *    4084  u32      number of the run: the start that wrote this header. 0: written before there was one
  *    4088  u32      pose_wall_config_crc() of the config; 0 likewise
  *    4092  u32      CRC-32 of bytes 0 to 4091
@@ -35,9 +36,9 @@
  *               8 u32 points    12 u32 bytes of a point    16 u32 big_endian    20 u32 left out: not finite
  *              24 u32 left out: zero                28  u32 CRC-32 of the config, as in its header
  *              32  x, y, z, intensity: u32 offset, u32 type each
- *     128       memento before the event, zeros up to the next multiple of 64
- *               result as published, zeros up to the next multiple of 64
- *               the cloud's points, zeros up to the end of the record
+ *     128       inputs of the frame, a pose_wall_inputs as in memory; all zero: none. Zeros up to the next multiple of
+ * 64 memento before the event, zeros up to the next multiple of 64 result as published, zeros up to the next multiple
+ * of 64 the cloud's points, zeros up to the end of the record
  *
  * The head is written last, so a record that was cut off by a crash has none, or an old one whose body's CRC (at 52) no
  * longer holds. A loss of power is another matter: what the sink did not bring onto the disk by then is lost, in parts
@@ -64,16 +65,17 @@
 extern "C" {
 #endif
 
-#define POSE_WALL_BOX_VERSION 1
+#define POSE_WALL_BOX_VERSION 2
 #define POSE_WALL_BOX_HEADER_BYTES 4096
 
+/* Up to POSE_WALL_RUNTIME_ABI_VERSION 2 these were -80 to -85, which pose_wall.h has taken since. */
 enum pose_wall_box_status {
-  POSE_WALL_BOX_E_FORMAT = -80,  /* no black box, or its header is damaged */
-  POSE_WALL_BOX_E_VERSION = -81, /* of a build whose structs differ from this one's */
-  POSE_WALL_BOX_E_END = -82,     /* no further record */
-  POSE_WALL_BOX_E_EMPTY = -83,   /* the record holds a digest only: nothing to compute */
-  POSE_WALL_BOX_E_RUN = -84,     /* the record is POSE_WALL_BOX_OTHER_RUN */
-  POSE_WALL_BOX_E_KIND = -85     /* the record is of no pose_wall_box_kind */
+  POSE_WALL_BOX_E_FORMAT = -90,  /* no black box, or its header is damaged */
+  POSE_WALL_BOX_E_VERSION = -91, /* of a build whose structs differ from this one's */
+  POSE_WALL_BOX_E_END = -92,     /* no further record */
+  POSE_WALL_BOX_E_EMPTY = -93,   /* the record holds a digest only: nothing to compute */
+  POSE_WALL_BOX_E_RUN = -94,     /* the record is POSE_WALL_BOX_OTHER_RUN */
+  POSE_WALL_BOX_E_KIND = -95     /* the record is of no pose_wall_box_kind */
 };
 
 enum pose_wall_box_kind {
@@ -98,7 +100,7 @@ typedef struct pose_wall_box_info {
 } pose_wall_box_info;
 
 /* Reads the header. Fails iff: NULL, POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION; *info is then unchanged. */
-int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info);
+POSE_WALL_CHECKED int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info);
 
 /* One record. The pointers point into the caller's bytes. */
 typedef struct pose_wall_box_record {
@@ -111,6 +113,7 @@ typedef struct pose_wall_box_record {
   const void* memento;
   const void* result; /* a pose_wall_result; copy it out, it may be misaligned for the machine */
   const void* points; /* NULL: the digest only */
+  const void* inputs; /* a pose_wall_inputs, may be misaligned, too; NULL: none were given */
   pose_wall_field x, y, z, intensity;
   uint32_t kind;    /* pose_wall_box_kind */
   uint32_t damaged; /* pose_wall_box_damage */
@@ -129,13 +132,15 @@ typedef struct pose_wall_box_record {
  * OVERLAPPED, when the disk lost parts of what was written, or somebody forged it: they are found from
  * record->offset + 64 on, at the price of reading these bytes again, which forged ones can make the caller do for every
  * 64 bytes. At the end POSE_WALL_BOX_E_END, with passed_over set. Fails else iff: NULL. */
-int32_t pose_wall_box_next(const void* bytes, uint64_t count, uint64_t* offset, pose_wall_box_record* record);
+POSE_WALL_CHECKED int32_t pose_wall_box_next(const void* bytes, uint64_t count, uint64_t* offset,
+                                             pose_wall_box_record* record);
 
-/* Computes a record again, on an engine that was opened with the box's config: loads the memento, does what was done,
- * and gives the result as the runtime published it (stage_ns apart: there is no clock). Set result->struct_size first.
- * Fails iff: NULL, POSE_WALL_BOX_E_EMPTY, _RUN or _KIND, as pose_wall_load, and as pose_wall_process or pose_wall_age:
- * for these two the engine has loaded the memento already. */
-int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine, pose_wall_result* result);
+/* Computes a record again, on an engine that was opened with the box's config: loads the memento, does what was done
+ * with the inputs that were given, and gives the result as the runtime published it (stage_ns apart: there is no
+ * clock). Set result->struct_size first. Fails iff: NULL, POSE_WALL_BOX_E_EMPTY, _RUN or _KIND, as pose_wall_load, and
+ * as pose_wall_process or pose_wall_age: for these two the engine has loaded the memento already. */
+POSE_WALL_CHECKED int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine,
+                                                pose_wall_result* result);
 
 #ifdef __cplusplus
 }

@@ -13,14 +13,15 @@
  *     pose_wall_runtime_open(&config, &options, block, bytes, &runtime);     all the memory there is
  *     pose_wall_runtime_start(runtime);
  *     for every frame: pose_wall_runtime_push(runtime, &cloud);              returns before the frame is worked
- *     elsewhere:       pose_wall_runtime_latest(runtime, &publication);      never waits
+ *     elsewhere:       pose_wall_runtime_latest(runtime, &publication);      never waits, refuses what is stale
+ *     for a controller: pose_wall_runtime_image(runtime, &image);            likewise
  *     pose_wall_runtime_stop(runtime);
  *     pose_wall_runtime_close(runtime);                                      then free the block
  *
- * THREADS. push: any thread, one at a time. latest: any thread, any number of them, without a lock. statistics_now,
- * tick, request_stop: any thread, the callback too. start, stop, wait_idle, close: any thread but the callback's and
- * the sink's (POSE_WALL_RUNTIME_E_THREAD). The callback runs on the worker's thread, the sink on the recorder's. None
- * of these is for signal handlers.
+ * THREADS. push: any thread, one at a time. latest, image: any thread, any number of them, without a lock.
+ * statistics_now, tick, request_stop: any thread, the callback too. start, stop, wait_idle, close, load: any thread but
+ * the callback's and the sink's (POSE_WALL_RUNTIME_E_THREAD). save: the callback, or any thread while it is stopped.
+ * The callback runs on the worker's thread, the sink on the recorder's. None of these is for signal handlers.
  *
  * STATES. stopped (after open, and after stop) -> start -> running -> request_stop or stop -> stopping -> stop ->
  * stopped. stop comes back from any state and may be called twice, and by two threads at once.
@@ -29,7 +30,7 @@
  * time pushed = processed + in_work + waiting + filling + the sum of dropped[].
  *
  * MEMORY. The caller's block and the threads' stacks (of the system's default size). Nothing is allocated after start.
- * A cloud is copied in push; the caller may reuse it when push returns.
+ * A cloud is copied in push, with its inputs; the caller may reuse both when push returns.
  *
  * TIME. push costs one pass over the cloud, in the caller's thread, and two short locks that no thread holds while it
  * works, calls back or writes. The worker never waits for a disk.
@@ -39,11 +40,18 @@
  * dropped, for it would look fresh, and one that was worked that late is not told as a frame: silence tells what it
  * measured, with its age (both: drop `late`). While a frame waits, silence is not told twice in a row. A clock that
  * goes back by more than watchdog_ns counts as silence of which nobody knows how long it is: an hour is taken, and all
- * is invalid. A worker that hangs (in the callback) cannot publish: who acts on `latest` must compare received_ns with
- * a clock of its own. How old a frame is when it is pushed, the runtime cannot know: drain what a socket has gathered,
- * and push the newest. Values are held for as long as their levels stay within the alert limits: by default 1 degree at
- * 0.05 rad/s and 0.10 m at 0.2 m/s, a third to half a second after a good frame, which is hardly longer than
- * watchdog_ns.
+ * is invalid. How old a frame is when it is pushed, the runtime cannot know: drain what a socket has gathered, and push
+ * the newest. Values are held for as long as their levels stay within the alert limits: by default 1 degree at 0.05
+ * rad/s and 0.10 m at 0.2 m/s, a third to half a second after a good frame, which is hardly longer than watchdog_ns.
+ *
+ * FRESHNESS. A worker that hangs, in the engine, in the callback or in the caller's clock, cannot tell silence. So
+ * `latest` and `image` look at the runtime's clock themselves, in the thread that calls them. A frame is stale when it
+ * was received watchdog_ns ago, silence when it was published watchdog_ns ago, and both when the clock stands more than
+ * watchdog_ns before that time. What is stale is refused (POSE_WALL_RUNTIME_E_STALE). It is written all the same, with
+ * every value invalid, so that nobody acts on it who forgets the status. `activity` says what the worker is at, and
+ * since when: a callback that hangs is told from an engine that does. A healthy worker tells silence in time, so
+ * watchdog_every_ns must be below watchdog_ns, or silence becomes stale between two of its tellings. With watchdog_ns 0
+ * nothing is ever stale: then compare age_ns. A clock that stands still makes everything look fresh.
  *
  * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
  * when three frames in a row took longer than frame_period_max_ns to work, and some were dropped meanwhile, points are
@@ -71,7 +79,7 @@ extern "C" {
 #endif
 
 /* Raised when a struct or function of this header changes incompatibly. */
-#define POSE_WALL_RUNTIME_ABI_VERSION 2
+#define POSE_WALL_RUNTIME_ABI_VERSION 3
 uint32_t pose_wall_runtime_abi_version(void);
 
 /* ---------------------------------------------------------------------------------------------- status */
@@ -85,7 +93,8 @@ enum pose_wall_runtime_status {
   POSE_WALL_RUNTIME_E_BUSY = -104,   /* another thread is inside push */
   POSE_WALL_RUNTIME_E_LARGE = -105,  /* more points than cloud_points_max, or wider than point_bytes_max */
   POSE_WALL_RUNTIME_E_NOTHING = -106, /* nothing published since start */
-  POSE_WALL_RUNTIME_E_SYSTEM = -107   /* the system refused a thread, or what `required` asks for */
+  POSE_WALL_RUNTIME_E_SYSTEM = -107,  /* the system refused a thread, or what `required` asks for */
+  POSE_WALL_RUNTIME_E_STALE = -108    /* what was published last is watchdog_ns old: see FRESHNESS */
 };
 /* One English sentence, static storage; for every status of pose_wall.h too. */
 const char* pose_wall_runtime_status_text(int32_t status);
@@ -97,17 +106,37 @@ enum pose_wall_runtime_cause {
   POSE_WALL_RUNTIME_SILENCE = 2 /* the newest worked frame is older than watchdog_ns: aged values, R_NO_FRAME */
 };
 
+/* What the worker is at. One that stays at the same for longer than a frame takes is stuck there. */
+enum pose_wall_runtime_activity {
+  POSE_WALL_RUNTIME_AT_NOTHING = 0,  /* there is no worker: stopped */
+  POSE_WALL_RUNTIME_AT_WAIT = 1,     /* waits for a frame, a tick or the watchdog's time */
+  POSE_WALL_RUNTIME_AT_CHOICE = 2,   /* takes the lock, reads the clock, chooses what comes next */
+  POSE_WALL_RUNTIME_AT_FRAME = 3,    /* measures a frame: in the engine, or in the clock that it reads meanwhile */
+  POSE_WALL_RUNTIME_AT_SILENCE = 4,  /* tells silence: likewise in the engine or in the clock */
+  POSE_WALL_RUNTIME_AT_CALLBACK = 5, /* in the callback */
+  POSE_WALL_RUNTIME_ACTIVITIES = 6
+};
+/* "frame"; static storage. */
+const char* pose_wall_runtime_activity_name(uint32_t activity);
+
 typedef struct pose_wall_publication {
   uint32_t struct_size;   /* set by the caller of pose_wall_runtime_latest to sizeof */
-  uint32_t cause;         /* pose_wall_runtime_cause */
+  uint32_t cause;         /* pose_wall_runtime_cause; 0: nothing was published, see pose_wall_runtime_latest */
   uint32_t thinning;      /* of every so many returns one was used; 1: all. Above 1 no state is better than degraded */
   uint32_t held_thinning; /* the largest thinning of the frames that held values of this result come from; 1: none */
   uint64_t index;         /* counts publications from 0, over all starts */
   uint64_t frame;         /* counts pushes from 0, over all starts; of a silence: the last worked, 0 before any */
-  int64_t received_ns;    /* runtime's clock, at the start of that frame's push; before the first frame, of start */
+  int64_t received_ns;    /* runtime's clock, at the start of that frame's push; before the first frame, of start, or of
+                             the load before it */
   int64_t published_ns;   /* runtime's clock */
-  pose_wall_result
-      result; /* points that push leaves out for they hold no return are counted in it as the engine does */
+  int64_t age_ns;         /* now minus received_ns, by the runtime's clock when this was asked for; in the callback,
+                             when it was published. Never negative: 0 where the clock went back by no more than
+                             watchdog_ns, INT64_MAX where by more, and where nothing was published */
+  int64_t activity_since_ns; /* runtime's clock, rounded down to a multiple of 8 ns: since when the worker is at it */
+  uint32_t activity;         /* pose_wall_runtime_activity, when this was asked for */
+  uint32_t reserved[5];      /* 0 */
+  pose_wall_result result;   /* points that push leaves out for they hold no return are counted in it as the engine
+                                does. Both grow at their ends; its struct_size says how much of it was written */
 } pose_wall_publication;
 
 /* Called on the worker's thread after `latest` holds the same. What it takes, the next frame waits for. The pointer is
@@ -147,9 +176,10 @@ typedef struct pose_wall_runtime_options {
   uint32_t required;         /* of pose_wall_runtime_wish: what start must be granted; the rest is only reported */
   uint32_t reserved;         /* 0 */
   int64_t
-      frame_period_max_ns; /* 100 ms; 1 ms to 1 h: frames are dropped, not thinned, while none takes longer to work */
-  int64_t watchdog_ns;     /* 300 ms; 1 ns to 1 h, 0: never. Silence that long is published, frames that old are not */
-  int64_t watchdog_every_ns; /* 100 ms; 1 ms to 1 h: and again so often, until a frame comes */
+      frame_period_max_ns;   /* 100 ms; 1 ms to 1 h: frames are dropped, not thinned, while none takes longer to work */
+  int64_t watchdog_ns;       /* 300 ms; 1 ns to 1 h, 0: never. Silence that long is published, frames that old are not,
+                                and what was published so long ago is refused: see FRESHNESS */
+  int64_t watchdog_every_ns; /* 100 ms; 1 ms to 1 h: and again so often, until a frame comes. Below watchdog_ns */
   pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once, also
                                 under the lock: it must not call the runtime. With a clock of the caller's nothing but
                                 pose_wall_runtime_tick wakes the worker for the watchdog */
@@ -158,19 +188,24 @@ typedef struct pose_wall_runtime_options {
   void* callback_user;
   pose_wall_runtime_sink sink; /* or NULL: no black box */
   void* sink_user;
-  uint64_t
-      box_bytes; /* 0; of the ring file. With a sink at least what the header and one whole record need: 4224 bytes,
-                    pose_wall_memento_bytes(), sizeof(pose_wall_result) and, with box_clouds, cloud_points_max x
-                    point_bytes_max, the last three rounded up to multiples of 64. Used in multiples of 64 */
+  uint64_t box_bytes;  /* 0; of the ring file. With a sink at least what the header and one whole record need: 4224
+                          bytes, sizeof(pose_wall_inputs), pose_wall_memento_bytes(), sizeof(pose_wall_result) and, with
+                          box_clouds, cloud_points_max x point_bytes_max, these four rounded up to multiples of 64. Used
+                          in multiples of 64 */
+  uint64_t reserved_2; /* 0. It tells these options from those of ABI 2 by their size */
 } pose_wall_runtime_options;
 
 /* Fills every option with its default (the figure in its comment). Fails iff: NULL. */
+int32_t pose_wall_runtime_options_init_3(pose_wall_runtime_options* options);
+/* What a program built against ABI 2 calls first: writes nothing, and always gives POSE_WALL_E_ABI. */
 int32_t pose_wall_runtime_options_init(pose_wall_runtime_options* options);
+#define pose_wall_runtime_options_init pose_wall_runtime_options_init_3
 
-/* Whether memory_needed and open take these options. Fails iff: options NULL, struct_size, POSE_WALL_RUNTIME_E_OPTION;
- * only then *option is the name of the first member that is out of its range ("watchdog_ns"; static storage; option may
- * be NULL). */
-int32_t pose_wall_runtime_options_check(const pose_wall_runtime_options* options, const char** option);
+/* Whether memory_needed and open take these options. Fails iff: options NULL, struct_size (as in pose_wall.h, STRUCTS:
+ * POSE_WALL_E_STRUCT_SIZE, _ABI or _STRUCT_NEWER; so in all calls below), POSE_WALL_RUNTIME_E_OPTION; only then *option
+ * is the name of the first member that is out of its range ("watchdog_ns"; static storage; option may be NULL). */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_options_check(const pose_wall_runtime_options* options,
+                                                          const char** option);
 
 /* ---------------------------------------------------------------------------------------------- life */
 
@@ -178,21 +213,23 @@ typedef struct pose_wall_runtime pose_wall_runtime;
 
 /* Bytes of the block: the engine's, and (queue_frames + 2, with a sink + box_backlog) frames of cloud_points_max x
  * point_bytes_max bytes. Fails iff: NULL, struct_size, an option, the config (as pose_wall_memory_needed). */
-int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config, const pose_wall_runtime_options* options,
-                                        uint64_t* bytes);
+POSE_WALL_CHECKED int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config,
+                                                          const pose_wall_runtime_options* options, uint64_t* bytes);
 
 /* Places a runtime in block, which may hold anything, must be aligned to POSE_WALL_BLOCK_ALIGNMENT, stays the caller's
- * and must not move. Starts no thread. Fails as memory_needed, and for a block misaligned or too small. *runtime is set
- * only on success. */
-int32_t pose_wall_runtime_open(const pose_wall_config* config, const pose_wall_runtime_options* options, void* block,
-                               uint64_t block_bytes, pose_wall_runtime** runtime);
+ * and must not move. Starts no thread. Fails as memory_needed, for a block misaligned or too small, and for one in
+ * which a runtime was started and not stopped (POSE_WALL_E_BUSY; a block that outlives its process, in shared memory,
+ * must be cleared if that died meanwhile). *runtime is set only on success. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_open(const pose_wall_config* config,
+                                                 const pose_wall_runtime_options* options, void* block,
+                                                 uint64_t block_bytes, pose_wall_runtime** runtime);
 
-/* Starts the threads, with an engine that remembers nothing and a black box from its beginning (what the sink wrote
- * before is overwritten, its header at once: give each start a file of its own, or a restart after an incident takes
- * the incident's). Counters go on. Returns when the worker runs. Fails iff: NULL, not open, not stopped, called back,
- * POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_E_ENGINE (the block was changed by others, the config in it too: open it anew);
- * then it is stopped. */
-int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
+/* Starts the threads, with an engine that remembers nothing but what was loaded since the last start, and a black box
+ * from its beginning (what the sink wrote before is overwritten, its header at once: give each start a file of its own,
+ * or a restart after an incident takes the incident's). Counters go on. Returns when the worker runs. Fails iff: NULL,
+ * not open, not stopped, called back, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_E_ENGINE (the block was changed by others,
+ * the config in it too: open it anew); then it is stopped. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
 
 /* Waits until every frame is worked, every tick looked at and every record written. For tests and for work offline: a
  * frame that is pushed meanwhile is waited for as well. Fails iff: NULL, not open, called back, not running or stopped
@@ -206,25 +243,50 @@ int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime);
 /* Ends the threads and waits for them: for the frame in work, the callback, and the records that wait for the sink.
  * Frames that wait are dropped and counted. Stopped already: nothing happens. Fails iff: NULL, not open,
  * called back. */
-int32_t pose_wall_runtime_stop(pose_wall_runtime* runtime);
+POSE_WALL_CHECKED int32_t pose_wall_runtime_stop(pose_wall_runtime* runtime);
 
 /* After this the block is the caller's again. Fails iff: NULL, not open, called back, not stopped, or a push, wait_idle
  * or stop is still inside (POSE_WALL_RUNTIME_E_STATE). Of the other calls none may be made meanwhile. */
-int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
+POSE_WALL_CHECKED int32_t pose_wall_runtime_close(pose_wall_runtime* runtime);
+
+/* What the engine remembers, as pose_wall_save gives it, for a start after a loss of power: from the callback, where
+ * the publication that was called back with is in it, or while the runtime is stopped. Fails iff: NULL, not open,
+ * POSE_WALL_RUNTIME_E_STATE (running, and not from the callback), and as pose_wall_save. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_save(pose_wall_runtime* runtime, const pose_wall_moment* now, void* memento,
+                                                 uint64_t bytes);
+
+/* Gives the next start, and it alone, what was saved, as old as pose_wall_load takes it to be. Silence before the first
+ * frame holds it on from the moment's stamp_ns, which must be that of now, with POSE_WALL_MOMENT_SAME_CLOCK too. What
+ * is held of it tells thinning_max as its held_thinning, for nobody knows. Fails iff: NULL, not open, called back, not
+ * stopped (POSE_WALL_RUNTIME_E_STATE), and as pose_wall_load: then the next start remembers what it would have without
+ * this call. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_load(pose_wall_runtime* runtime, const pose_wall_moment* now,
+                                                 const void* memento, uint64_t bytes);
 
 /* ---------------------------------------------------------------------------------------------- frames and results */
 
-/* Checks the cloud, copies what the engine reads of it, and queues it. Points that are not finite or exactly zero are
- * left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused is counted as
- * pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running or
- * stopped before the copy was done (which is counted), another thread inside push, struct_size or a description that
- * pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
-int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
+/* Checks the cloud and its inputs, copies what the engine reads of them, and queues it. Points that are not finite or
+ * exactly zero are left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused
+ * is counted as pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not
+ * running or stopped before the copy was done (which is counted), another thread inside push, struct_size or a
+ * description that pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
 
-/* The newest publication. No lock, no wait: one copy, repeated only if three newer ones were published meanwhile. Set
- * publication->struct_size first. Fails iff: NULL, not open, struct_size, not running, POSE_WALL_RUNTIME_E_NOTHING,
- * POSE_WALL_E_ENGINE (it was changed by others since; the next publication will be sound). */
-int32_t pose_wall_runtime_latest(const pose_wall_runtime* runtime, pose_wall_publication* publication);
+/* The newest publication, with its age and what the worker is at. No lock, no wait: one look at the clock and one copy,
+ * repeated only if three newer ones were published meanwhile. Set publication->struct_size first. Fails iff: NULL, not
+ * open, struct_size, and with the following, which write *publication all the same, with every value invalid:
+ * POSE_WALL_RUNTIME_E_STALE (the newest one, aged until now: confidence 0, no raw values, no planes, no counts, levels
+ * without a bound, POSE_WALL_R_NO_FRAME), and, as of an engine before its first frame, with cause 0: not running,
+ * POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_E_ENGINE (it was changed by others since; the next publication will be sound).
+ */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_latest(const pose_wall_runtime* runtime,
+                                                   pose_wall_publication* publication);
+
+/* The image of the newest publication for a controller, as pose_wall_image_fill makes it of the result. Set
+ * image->struct_size first. Fails as pose_wall_runtime_latest does. Where that writes a publication this writes an
+ * image, with a true CRC: what is stale, what was damaged and what is not there gives one with every value and the
+ * verdict invalid. So it may be passed on whatever the status, as long as struct_size and handle are good. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_image(const pose_wall_runtime* runtime, pose_wall_image* image);
 
 /* Has the worker look at its clock. Fails iff: NULL, not open, not running. */
 int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime);
@@ -276,6 +338,9 @@ typedef struct pose_wall_runtime_statistics {
   uint64_t thinned;  /* of those processed: thinned */
   uint32_t thinning; /* of the next push */
   uint32_t thinning_worst;
+  uint32_t activity;         /* pose_wall_runtime_activity, now */
+  uint32_t reserved;         /* 0 */
+  int64_t activity_since_ns; /* as in pose_wall_publication */
   int64_t newest_age_ns; /* now minus received_ns of the newest worked frame; -1: not known (none yet, or the clock went
                             back) */
   uint64_t box_written;  /* records */

@@ -12,6 +12,7 @@
 #include "names.hpp"
 #include "pose_wall.h"
 #include "stages/voxel_cloud_reader.hpp"
+#include "struct_versions.hpp"
 
 #define POSE_WALL_TEXT_OF(number) POSE_WALL_TEXT_OF_(number)
 #define POSE_WALL_TEXT_OF_(number) #number
@@ -31,6 +32,56 @@ Engine* engine_of(pose_wall_engine* handle) {
 }
 const Engine* engine_of(const pose_wall_engine* handle) {
   return reinterpret_cast<const Engine*>(handle);
+}
+
+// One call inside an engine, as long as this lives.
+class Inside {
+ public:
+  explicit Inside(const pose_wall_engine* handle) : engine_(engine_of(handle)), status_(engine_->enter()) {}
+  ~Inside() {
+    if (status_ == POSE_WALL_OK) engine_->leave();
+  }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+
+  std::int32_t status() const { return status_; }
+
+ private:
+  const Engine* engine_;
+  std::int32_t status_;
+};
+
+std::int32_t check_inputs(const pose_wall_inputs* inputs) {
+  constexpr std::uint32_t kKnown = POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE;
+  if (inputs == nullptr) return POSE_WALL_OK;
+  const std::int32_t status = pose_wall::check_struct_size(inputs->struct_size, pose_wall::kInputsSizes);
+  if (status != POSE_WALL_OK) return status;
+  return (inputs->given & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_INPUT;
+}
+
+std::int32_t check_moment(const pose_wall_moment* moment) {
+  constexpr std::uint32_t kKnown = POSE_WALL_MOMENT_BOOT | POSE_WALL_MOMENT_WALL | POSE_WALL_MOMENT_SAME_CLOCK;
+  if (moment == nullptr) return POSE_WALL_OK;
+  const std::int32_t status = pose_wall::check_struct_size(moment->struct_size, pose_wall::kMomentSizes);
+  if (status != POSE_WALL_OK) return status;
+  return (moment->known & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_INPUT;
+}
+
+// Struct size, description, inputs: all that is wrong with a cloud before a point is looked at.
+std::int32_t check_whole_cloud(const pose_wall_cloud& cloud) {
+  std::int32_t status = pose_wall::check_struct_size(cloud.struct_size, pose_wall::kCloudSizes);
+  if (status == POSE_WALL_OK) status = pose_wall::check_cloud(cloud);
+  return status == POSE_WALL_OK ? check_inputs(cloud.inputs) : status;
+}
+
+// The whole result in *whole, or why there is no image of it.
+std::int32_t image_status(const pose_wall_result& result, std::uint32_t image_size, std::size_t known_size,
+                          pose_wall_result* whole) {
+  const std::int32_t status = pose_wall::check_struct_size(result.struct_size, pose_wall::kResultSizes);
+  if (status != POSE_WALL_OK) return status;
+  if (image_size != known_size) return POSE_WALL_E_STRUCT_SIZE;
+  *whole = pose_wall::read_struct<pose_wall_result>(&result, result.struct_size);
+  return whole->mark == pose_wall::mark_of(*whole) ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_RESULT;
 }
 
 bool is_aligned(const void* block) {
@@ -68,8 +119,19 @@ POSE_WALL_EXPORT const char* pose_wall_quantity_name(uint32_t quantity) {
 POSE_WALL_EXPORT const char* pose_wall_stage_name(uint32_t stage) {
   return pose_wall::stage_name(stage);
 }
+POSE_WALL_EXPORT const char* pose_wall_part_name(uint32_t part) {
+  return pose_wall::part_name(part);
+}
+POSE_WALL_EXPORT const char* pose_wall_sense_name(uint32_t sense) {
+  return pose_wall::sense_name(sense);
+}
 
-POSE_WALL_EXPORT int32_t pose_wall_config_init(pose_wall_config* config) {
+#undef pose_wall_config_init
+POSE_WALL_EXPORT int32_t pose_wall_config_init(pose_wall_config* /*config*/) {
+  return POSE_WALL_E_ABI;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_init_2(pose_wall_config* config) {
   return config != nullptr ? pose_wall::config_init(config) : POSE_WALL_E_NULL;
 }
 
@@ -136,7 +198,7 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const voi
 
 POSE_WALL_EXPORT int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud) {
   if (cloud == nullptr) return POSE_WALL_E_NULL;
-  return cloud->struct_size == sizeof(*cloud) ? pose_wall::check_cloud(*cloud) : POSE_WALL_E_STRUCT_SIZE;
+  return check_whole_cloud(*cloud);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes) {
@@ -155,6 +217,7 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   if (status != POSE_WALL_OK) return status;
   if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
+  if (Engine::is_inside(block)) return POSE_WALL_E_BUSY;
   const pose_wall::Settings settings = pose_wall::read_settings(*config);
   // Its sum is over padding, too: whatever that holds, but nothing that nobody wrote.
   std::memset(block, 0, sizeof(Engine));
@@ -169,38 +232,44 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
 
 POSE_WALL_EXPORT int32_t pose_wall_reset(pose_wall_engine* engine) {
   if (engine == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
-  engine_of(engine)->reset();
-  return POSE_WALL_OK;
+  const Inside inside(engine);
+  if (inside.status() == POSE_WALL_OK) engine_of(engine)->reset();
+  return inside.status();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user) {
   if (engine == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
-  engine_of(engine)->set_clock(clock, user);
-  return POSE_WALL_OK;
+  const Inside inside(engine);
+  if (inside.status() == POSE_WALL_OK) engine_of(engine)->set_clock(clock, user);
+  return inside.status();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud,
                                            pose_wall_result* result) {
   if (engine == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
-  if (cloud->struct_size != sizeof(*cloud) || result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
-  const int32_t status = pose_wall::check_cloud(*cloud);
+  const Inside inside(engine);
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
+  if (status == POSE_WALL_OK) status = check_whole_cloud(*cloud);
   if (status != POSE_WALL_OK) return status;
-  *result = pose_wall_result{};
-  result->struct_size = sizeof(*result);
-  engine_of(engine)->process(*cloud, result);
+  const auto whole_cloud = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
+  pose_wall_result whole{};
+  whole.struct_size = sizeof(whole);
+  engine_of(engine)->process(whole_cloud, &whole);
+  pose_wall::write_struct(whole, result->struct_size, result);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result) {
   if (engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
-  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
-  *result = pose_wall_result{};
-  result->struct_size = sizeof(*result);
-  engine_of(engine)->age(stamp_ns, result);
+  const Inside inside(engine);
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  const std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
+  if (status != POSE_WALL_OK) return status;
+  pose_wall_result whole{};
+  whole.struct_size = sizeof(whole);
+  engine_of(engine)->age(stamp_ns, &whole);
+  pose_wall::write_struct(whole, result->struct_size, result);
   return POSE_WALL_OK;
 }
 
@@ -208,42 +277,73 @@ POSE_WALL_EXPORT uint64_t pose_wall_memento_bytes(void) {
   return pose_wall::memento_bytes();
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_save(const pose_wall_engine* engine, void* memento, uint64_t bytes) {
+POSE_WALL_EXPORT int32_t pose_wall_save(const pose_wall_engine* engine, const pose_wall_moment* now, void* memento,
+                                        uint64_t bytes) {
   if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  const Inside inside(engine);
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  const std::int32_t status = check_moment(now);
+  if (status != POSE_WALL_OK) return status;
   if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
-  pose_wall::save_memory(engine_of(engine)->memory(), engine_of(engine)->config_crc32(), memento);
+  const pose_wall_moment moment =
+      now != nullptr ? pose_wall::read_struct<pose_wall_moment>(now, now->struct_size) : pose_wall_moment{};
+  pose_wall::save_memory(engine_of(engine)->memory(), moment, engine_of(engine)->config_crc32(), memento);
   return POSE_WALL_OK;
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const void* memento, uint64_t bytes) {
+POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const pose_wall_moment* now, const void* memento,
+                                        uint64_t bytes) {
   if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
+  const Inside inside(engine);
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  const std::int32_t status = check_moment(now);
+  if (status != POSE_WALL_OK) return status;
   if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_MEMENTO;  // cut off
   pose_wall::Memory memory;
   std::memset(static_cast<void*>(&memory), 0, sizeof(memory));  // padding, too: see pose_wall_open
-  if (!pose_wall::load_memory(memento, engine_of(engine)->config_crc32(), &memory)) return POSE_WALL_E_MEMENTO;
-  engine_of(engine)->set_memory(memory);
+  pose_wall_moment then{};
+  if (!pose_wall::load_memory(memento, engine_of(engine)->config_crc32(), &then, &memory)) return POSE_WALL_E_MEMENTO;
+  const pose_wall_moment moment =
+      now != nullptr ? pose_wall::read_struct<pose_wall_moment>(now, now->struct_size) : pose_wall_moment{};
+  pose_wall::take_up(memory, then, moment, engine_of(engine));
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points) {
   if (engine == nullptr || points == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
-  *points = engine_of(engine)->points();
-  return POSE_WALL_OK;
+  const Inside inside(engine);
+  if (inside.status() == POSE_WALL_OK) *points = engine_of(engine)->points();
+  return inside.status();
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_image_fill(const pose_wall_engine* engine, const pose_wall_result* result,
-                                              pose_wall_image* image) {
-  if (engine == nullptr || result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
-  if (!engine_of(engine)->is_open()) return POSE_WALL_E_ENGINE;
-  if (result->struct_size != sizeof(*result) || image->struct_size != sizeof(*image)) return POSE_WALL_E_STRUCT_SIZE;
-  pose_wall::fill_image(*result, engine_of(engine)->config_crc32(), image);
+POSE_WALL_EXPORT int32_t pose_wall_image_fill(const pose_wall_result* result, pose_wall_image* image) {
+  if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_result whole;
+  const std::int32_t status = image_status(*result, image->struct_size, sizeof(*image), &whole);
+  if (status == POSE_WALL_OK) pose_wall::fill_image(whole, image);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_image2_fill(const pose_wall_result* result, const pose_wall_image_source* source,
+                                               pose_wall_image2* image) {
+  if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_result whole;
+  std::int32_t status = image_status(*result, image->struct_size, sizeof(*image), &whole);
+  if (status == POSE_WALL_OK && source != nullptr) {
+    status = pose_wall::check_struct_size(source->struct_size, pose_wall::kSourceSizes);
+  }
+  if (status != POSE_WALL_OK) return status;
+  const auto told = source == nullptr ? pose_wall::source_of(whole)
+                                      : pose_wall::read_struct<pose_wall_image_source>(source, source->struct_size);
+  pose_wall::fill_image(whole, told, image);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image_check(const pose_wall_image* image) {
+  return image != nullptr ? pose_wall::check_image(*image) : POSE_WALL_E_NULL;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_image2_check(const pose_wall_image2* image) {
   return image != nullptr ? pose_wall::check_image(*image) : POSE_WALL_E_NULL;
 }
 

@@ -17,10 +17,22 @@ struct Box {
 
   // A box without volume holds nothing; that is how "no box" is stored.
   bool holds_something() const { return x_max > x_min && y_max > y_min && z_max > z_min; }
+  // Whether one that came with a frame can be used.
+  bool is_sound() const {
+    constexpr double kMost_m = 1000.0;
+    return is_within(x_min, x_max, kMost_m) && is_within(y_min, y_max, kMost_m) && is_within(z_min, z_max, kMost_m);
+  }
   bool contains(double x, double y, double z) const {
     return x >= x_min && x <= x_max && y >= y_min && y <= y_max && z >= z_min && z <= z_max;
   }
+
+ private:
+  static bool is_within(double low, double high, double most) { return low >= -most && low <= high && high <= most; }
 };
+
+inline Box box_of(const double (&edges_m)[6]) {
+  return {edges_m[0], edges_m[1], edges_m[2], edges_m[3], edges_m[4], edges_m[5]};
+}
 
 struct Settings {
 #define POSE_WALL_TEXT(name, group, text, help)

@@ -60,8 +60,8 @@ void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level
                                 !(tilt_level_rad.squaredNorm() > 0.0)));
   if (!(tilt_level_rad.squaredNorm() > 0.0)) return;
   const Eigen::Vector3d tilt_base_rad = level.R_level_base.transpose() * tilt_level_rad;
-  floor->roll_bound_rad += std::fabs(tilt_base_rad.x());
-  floor->pitch_bound_rad += std::fabs(tilt_base_rad.y());
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.x());
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.y());
   floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
 }
 
@@ -128,12 +128,42 @@ void Engine::set_clock(pose_wall_clock clock, void* user) {
   seal();
 }
 
-bool Engine::is_open() const {
-  return magic_ == kMagic && self_ == this && seal_ == sum();
+// Magic and place are written by open() alone, so that two calls at once may read them.
+std::int32_t Engine::enter() const {
+  if (magic_ != kMagic || self_ != this) return POSE_WALL_E_ENGINE;
+  std::uint64_t inside = kNobodyInside;
+  if (!__atomic_compare_exchange_n(&inside_, &inside, kOneInside, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED)) {
+    return inside == kOneInside ? POSE_WALL_E_BUSY : POSE_WALL_E_ENGINE;
+  }
+  if (is_whole()) return POSE_WALL_OK;
+  leave();
+  return POSE_WALL_E_ENGINE;
+}
+
+void Engine::leave() const {
+  __atomic_store_n(&inside_, kNobodyInside, __ATOMIC_RELEASE);
+}
+
+#if defined(__clang__)
+__attribute__((no_sanitize("memory")))  // a block may hold what nobody has written
+#endif
+bool Engine::is_inside(const void* block) {
+  const Engine* const there = static_cast<const Engine*>(block);
+  return there->magic_ == kMagic && there->self_ == there &&
+         __atomic_load_n(&there->inside_, __ATOMIC_RELAXED) == kOneInside;
 }
 
 void Engine::set_memory(const Memory& memory) {
   memory_ = memory;
+  seal();
+}
+
+// A cloud that was seen before is as much older as all the rest. Where nobody knows how old, it is forgotten.
+void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns) {
+  memory_ = memory;
+  rebase(elapsed_s, stamp_ns, settings_, &memory_.temporal);
+  memory_.seen = SeenClouds{};
+  memory_.repeats = 0;
   seal();
 }
 
@@ -143,7 +173,7 @@ std::uint64_t Engine::sum() const {
                 "the scratch is the last member, and whole words stand before it");
   const unsigned char* const bytes = reinterpret_cast<const unsigned char*>(this);
   std::uint64_t sum = 0xCBF29CE484222325ULL;
-  for (std::size_t at = sizeof(seal_); at < guarded_bytes(); at += sizeof(std::uint64_t)) {
+  for (std::size_t at = sizeof(seal_) + sizeof(inside_); at < guarded_bytes(); at += sizeof(std::uint64_t)) {
     std::uint64_t word;
     std::memcpy(&word, bytes + at, sizeof(word));
     sum = (sum ^ word) * 0x100000001B3ULL;
@@ -181,7 +211,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   const std::uint32_t of_fits = found.floor.fit.reasons | found.walls.side[0].fit.reasons | found.walls.side[1].fit.reasons;
   found.reasons |= of_fits & POSE_WALL_R_WORK_LIMIT;
   stage_done(POSE_WALL_STAGE_WALLS);
-  conclude(&found, result);
+  conclude(cloud.inputs, &found, result);
   stage_done(POSE_WALL_STAGE_OUTPUT);
 
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) result->stage_ns[stage] = at[stage + 1] - at[stage];
@@ -260,16 +290,42 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   share_direction(scene, &found->walls.side);
 }
 
-void Engine::conclude(FrameFindings* found, pose_wall_result* result) {
+// By the inputs where they are sound and nothing that was measured speaks against them.
+MotionRates Engine::motion_rates(const pose_wall_inputs* inputs, const FrameTiming& timing,
+                                 FrameFindings* found) const {
+  const MotionRates by_config = rates_by_config(settings_);
+  if (inputs == nullptr) return by_config;
+  MotionRates rates = by_config;
+  bool sound = rates_by_inputs(*inputs, settings_, &rates);
+  for (const auto& edges_m : inputs->body_box) sound = box_of(edges_m).is_sound() && sound;
+  sound = sound && !contradict(rates, found->measured, timing, memory_.temporal);
+  POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_INPUTS, sound));
+  if (sound) return rates;
+  found->reasons |= POSE_WALL_R_PRIOR;
+  return by_config;
+}
+
+void Engine::conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result) {
   const FrameTiming timing = time_frame(memory_.temporal, found->stamp_ns, settings_);
   found->reasons |= timing.reasons;
   found->measured = measure_quantities(found->floor, found->level, found->walls.side, settings_);
   doubt_repeats(timing, found);
-  smooth_and_hold(found->measured, timing, found->stamp_ns, settings_, &memory_.temporal, &result->quantity);
+  const MotionRates rates = motion_rates(inputs, timing, found);
+  smooth_and_hold(found->measured, timing, found->stamp_ns, rates, settings_, &memory_.temporal, &result->quantity);
   report_findings(*found, result);
   result->frame_index = memory_.frames++;
-  result->confidence = least_confidence(*result);
+  finish(result);
   remember(*found);
+}
+
+void Engine::finish(pose_wall_result* result) {
+  result->confidence = least_confidence(*result);
+  result->config_crc32 = config_crc32_;
+  result->source_id = settings_.source_id;
+  set_senses(settings_.forward_axis, &result->positive_means);
+  result->publication = ++memory_.publications;
+  result->mark = mark_of(*result);
 }
 
 // The very same points under a new stamp: no LiDAR does that, its driver or network does. Under the old stamp it is
@@ -288,10 +344,11 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
       trace::gate(POSE_WALL_TRACE_FROZEN, repeat.is_one ? memory_.repeats : 0, settings_.frozen_frames, !too_often));
   const std::uint32_t reasons = timing.reasons | (frozen ? static_cast<std::uint32_t>(POSE_WALL_R_FROZEN) : 0U);
   found->reasons |= reasons;
+  const MotionRates fastest = rates_by_config(settings_);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Measurement& m = found->measured.quantity[q];
     // The cloud is as old as its first copy, and the machine may have moved since.
-    if (frozen) m.protection += fastest(q, settings_) * repeat.age_s;
+    if (frozen) m.level[POSE_WALL_PART_AGE] += fastest.growth[q] * repeat.age_s;
     m.reasons |= reasons;
     m.weak = m.weak || frozen;
     if (timing.still || too_often) m.measured = false;
@@ -316,10 +373,10 @@ void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {
   // A leap, or a stamp from before the last frame, is that frame's matter when it comes.
   const double elapsed_s = time_frame(memory_.temporal, stamp_ns, settings_).dt_s;
   age_values(elapsed_s, nothing.reasons, settings_, &memory_.temporal, &result->quantity);
-  seal();
   report_findings(nothing, result);
   result->frame_index = memory_.frames - 1;  // before the first frame all ones: no frame's number
-  result->confidence = least_confidence(*result);
+  finish(result);
+  seal();
 }
 
 }  // namespace pose_wall

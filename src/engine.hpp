@@ -42,6 +42,7 @@ struct Memory {
   SeenClouds seen;
   std::uint32_t repeats = 0;  // so many clouds in a row came before; what holds no points does not count
   std::uint64_t frames = 0;
+  std::uint64_t publications = 0;  // results, those of age() too
 };
 
 // Where everything lies in the caller's block:
@@ -60,8 +61,12 @@ class Engine {
   void open(const Settings& settings, std::uint32_t config_crc32);
   void reset();
   void set_clock(pose_wall_clock clock, void* user);
-  // And nobody else has written to it since its last call.
-  bool is_open() const;
+  // One call at a time: POSE_WALL_OK lets it in, and then leave() must follow. POSE_WALL_E_BUSY: another one is inside.
+  // POSE_WALL_E_ENGINE: not open, or somebody else has written to it since its last call.
+  std::int32_t enter() const;
+  void leave() const;
+  // Whether a call is inside an engine in this block, which may hold anything.
+  static bool is_inside(const void* block);
   void process(const pose_wall_cloud& cloud, pose_wall_result* result);
   // What the seven are at a time without a frame.
   void age(std::int64_t stamp_ns, pose_wall_result* result);
@@ -69,28 +74,37 @@ class Engine {
   pose_wall_points points() const;
   std::uint32_t config_crc32() const { return config_crc32_; }
   const Memory& memory() const { return memory_; }
+  // elapsed_s: since memory's stamp, in a clock that has begun anew; not a number: nobody knows.
   void set_memory(const Memory& memory);
+  void set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns);
 
   // From the start of the block: what the sum guards. The rest may hold anything between two calls.
   static std::uint64_t guarded_bytes() { return sizeof(Engine) - sizeof(Scratch); }
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;
+  // Far apart in bits: one that falls over is no call that is inside.
+  static constexpr std::uint64_t kNobodyInside = 0x6964CC33A55A6C65ULL;
+  static constexpr std::uint64_t kOneInside = 0x96813C5A5AA5939AULL;
 
   void place(Scratch* scratch) const;
   void find_floor_if_any(Random* random, FrameFindings* found);
   void level_and_cut(FrameFindings* found);
   void find_walls_if_level(Random* random, FrameFindings* found);
-  void conclude(FrameFindings* found, pose_wall_result* result);
+  void conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result);
   void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
+  MotionRates motion_rates(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found) const;
+  void finish(pose_wall_result* result);
   void remember(const FrameFindings& found);
   std::int64_t now() const { return clock_ != nullptr ? clock_(clock_user_) : 0; }
   std::uint64_t sum() const;
+  bool is_whole() const { return seal_ == sum(); }
   void seal() { seal_ = sum(); }
 
   // The sum of all that follows, but for the scratch. Settings and memory are believed as they stand: a bit that falls
   // over in them between two calls would be told as a value.
   std::uint64_t seal_ = 0;
+  mutable std::uint64_t inside_ = kNobodyInside;  // outside of the sum: calls that are refused look at it, too
   std::uint64_t magic_ = 0;
   const Engine* self_ = nullptr;
   std::uint32_t config_crc32_ = 0;

@@ -9,7 +9,7 @@ namespace pose_wall {
 namespace {
 
 // To be changed with what visit() walks over.
-constexpr std::uint64_t kVersion = 0x706F73652D6D0003ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D0004ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version, checksum
 
 // Every member is one word of eight bytes, least significant first.
@@ -106,11 +106,26 @@ void visit(Way* way, Plane* plane) {
 }
 
 template <typename Way>
+void visit(Way* way, LevelParts* level) {
+  for (double& part : level->of) visit(way, &part);
+}
+
+template <typename Way>
 void visit(Way* way, Track* t) {
-  visit_all(way, &t->has_value, &t->value, &t->raw, &t->raw_protection, &t->sigma, &t->protection, &t->age_s,
-            &t->expired, &t->to_confirm, &t->doubted_frames);
+  visit_all(way, &t->has_value, &t->value, &t->rate, &t->raw, &t->raw_protection, &t->sigma, &t->level, &t->grown,
+            &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
   LastGood& good = t->good;
-  visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.value_protection, &good.age_s);
+  visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.level, &good.grown, &good.age_s);
+}
+
+// What tells when it was saved.
+template <typename Way>
+void visit(Way* way, pose_wall_moment* moment) {
+  std::uint64_t halves[2];
+  static_assert(sizeof(halves) == sizeof(moment->boot_id), "two words");
+  std::memcpy(halves, moment->boot_id, sizeof(halves));
+  visit_all(way, &moment->known, &halves[0], &halves[1], &moment->wall_ns, &moment->stamp_ns);
+  std::memcpy(moment->boot_id, halves, sizeof(halves));
 }
 
 // The one walk over the memory, whichever way.
@@ -122,7 +137,7 @@ void visit(Way* way, Memory* m) {
   visit(way, &m->last.floor_base);
   for (Plane& wall : m->last.wall_level) visit(way, &wall);
   visit_all(way, &m->last.has_floor, &m->last.has_wall[0], &m->last.has_wall[1], &m->leaf.begin_with, &m->leaf.voxels,
-            &m->repeats, &m->frames);
+            &m->repeats, &m->frames, &m->publications);
   for (SeenCloud& cloud : m->seen.cloud) visit_all(way, &cloud.fingerprint, &cloud.stamp_ns);
 }
 
@@ -135,8 +150,10 @@ std::uint64_t checksum(std::uint32_t config_crc32, const unsigned char* bytes, s
 }
 
 std::uint64_t body_bytes() {
+  pose_wall_moment any_moment{};
   Memory any;
   Counter counter;
+  visit(&counter, &any_moment);
   visit(&counter, &any);
   return 8 * counter.words();
 }
@@ -147,26 +164,49 @@ std::uint64_t memento_bytes() {
   return 8 * kHeadWords + body_bytes();
 }
 
-void save_memory(const Memory& memory, std::uint32_t config_crc32, void* to) {
+void save_memory(const Memory& memory, const pose_wall_moment& now, std::uint32_t config_crc32, void* to) {
   unsigned char* const bytes = static_cast<unsigned char*>(to);
+  pose_wall_moment moment = now;
   Memory copy = memory;
   Writer writer(bytes + 8 * kHeadWords);
+  visit(&writer, &moment);
   visit(&writer, &copy);
   put_word(kVersion, bytes);
   put_word(checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes()), bytes + 8);
 }
 
-bool load_memory(const void* from, std::uint32_t config_crc32, Memory* memory) {
+bool load_memory(const void* from, std::uint32_t config_crc32, pose_wall_moment* then, Memory* memory) {
   const unsigned char* const bytes = static_cast<const unsigned char*>(from);
   if (word_at(bytes) != kVersion) return false;
   if (word_at(bytes + 8) != checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes())) return false;
+  pose_wall_moment read_moment{};
   Memory read;
   Reader reader(bytes + 8 * kHeadWords);
+  visit(&reader, &read_moment);
   visit(&reader, &read);
   if (!reader.good()) return false;
   Reader again(bytes + 8 * kHeadWords);  // a copy would bring padding along that nobody wrote
+  visit(&again, then);
   visit(&again, memory);
   return true;
+}
+
+void take_up(const Memory& memory, const pose_wall_moment& then, const pose_wall_moment& now, Engine* engine) {
+  const std::uint32_t both = then.known & now.known;
+  const bool same_boot =
+      (both & POSE_WALL_MOMENT_BOOT) != 0 && std::memcmp(then.boot_id, now.boot_id, sizeof(now.boot_id)) == 0;
+  if (same_boot || (now.known & POSE_WALL_MOMENT_SAME_CLOCK) != 0) {
+    engine->set_memory(memory);
+    return;
+  }
+  constexpr double kNanosecond_s = 1e-9;
+  // In floating point: the difference of two arbitrary stamps need not fit an int64.
+  const double by_wall_s = (static_cast<double>(now.wall_ns) - static_cast<double>(then.wall_ns)) * kNanosecond_s;
+  const double before_save_s =
+      (static_cast<double>(then.stamp_ns) - static_cast<double>(memory.temporal.stamp_ns)) * kNanosecond_s;
+  const bool went_back = now.wall_ns < then.wall_ns || then.stamp_ns < memory.temporal.stamp_ns;
+  const bool dated = (both & POSE_WALL_MOMENT_WALL) != 0 && !went_back;
+  engine->set_memory_of_other_clock(memory, dated ? by_wall_s + before_save_s : -1.0, now.stamp_ns);
 }
 
 }  // namespace pose_wall

@@ -12,8 +12,10 @@
 namespace pose_wall {
 
 std::uint64_t memento_bytes();
-void save_memory(const Memory& memory, std::uint32_t config_crc32, void* to);
-// False, and *memory unchanged, where `from` is damaged, of another version or of another config.
-bool load_memory(const void* from, std::uint32_t config_crc32, Memory* memory);
+void save_memory(const Memory& memory, const pose_wall_moment& now, std::uint32_t config_crc32, void* to);
+// False, and *then and *memory unchanged, where `from` is damaged, of another version or of another config.
+bool load_memory(const void* from, std::uint32_t config_crc32, pose_wall_moment* then, Memory* memory);
+// Gives it to an engine, as old as the two moments tell.
+void take_up(const Memory& memory, const pose_wall_moment& then, const pose_wall_moment& now, Engine* engine);
 
 }  // namespace pose_wall

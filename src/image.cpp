@@ -16,6 +16,7 @@ namespace {
 constexpr double kMilliDegreesPerRadian = 180000.0 / 3.14159265358979323846;
 constexpr double kMillimetresPerMetre = 1000.0;
 constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kIntegerMax = 2147483647.0;
 constexpr double kUnsignedMax = 4294967295.0;
 // The floats of "no value" and "no bound". A float that is known stays within +-kFloatMax.
@@ -23,7 +24,12 @@ constexpr float kNoValue = -2147483648.0F;
 constexpr float kNoBound = 2147483648.0F;
 constexpr double kFloatMax = 2147483520.0;  // the last float before 2^31
 
-static_assert(sizeof(pose_wall_image) == POSE_WALL_IMAGE_BYTES && POSE_WALL_IMAGE_BYTES % 4 == 0,
+// Both images have it there.
+constexpr std::size_t kCrcWord = offsetof(pose_wall_image, crc32) / sizeof(std::uint32_t);
+
+static_assert(sizeof(pose_wall_image) == POSE_WALL_IMAGE_BYTES && POSE_WALL_IMAGE_BYTES % 4 == 0 &&
+                  sizeof(pose_wall_image2) == POSE_WALL_IMAGE2_BYTES && POSE_WALL_IMAGE2_BYTES % 4 == 0 &&
+                  offsetof(pose_wall_image2, crc32c) == offsetof(pose_wall_image, crc32),
               "image.def and the compiler disagree");
 
 double within(double value, double limit) {
@@ -94,22 +100,36 @@ Entry entry_of(const pose_wall_value& v, double scale) {
   return n;
 }
 
-std::uint32_t crc_of(const pose_wall_image& image) {
-  constexpr std::size_t kWords = sizeof(image) / sizeof(std::uint32_t);
-  constexpr std::size_t kCrcWord = offsetof(pose_wall_image, crc32) / sizeof(std::uint32_t);
-  std::uint32_t words[kWords];
-  std::memcpy(words, &image, sizeof(words));
-  Crc32 crc;
-  for (std::size_t i = 0; i < kWords; ++i) {
-    if (i != kCrcWord) crc.add_word(words[i]);
+// What image 2 has of each. The last member is of angles only.
+struct Entry2 {
+  std::int32_t value_scaled, protection_scaled;
+  std::uint32_t age_ms, state, reasons, cause, positive_means;
+};
+static_assert(sizeof(Entry2) == sizeof(pose_wall_image2_angle) &&
+                  offsetof(Entry2, positive_means) == sizeof(pose_wall_image2_distance) &&
+                  offsetof(pose_wall_image2, d_rb) - offsetof(pose_wall_image2, roll) ==
+                      3 * sizeof(pose_wall_image2_angle) + 3 * sizeof(pose_wall_image2_distance),
+              "the seven lie one behind the other");
+
+std::uint32_t crc_of(const void* image, std::size_t bytes, std::uint32_t polynomial) {
+  const auto* from = static_cast<const unsigned char*>(image);
+  Crc32 crc(polynomial);
+  for (std::size_t i = 0; i < bytes / sizeof(std::uint32_t); ++i) {
+    std::uint32_t word;
+    std::memcpy(&word, from + i * sizeof(word), sizeof(word));
+    if (i != kCrcWord) crc.add_word(word);
   }
   return crc.value();
 }
 
-void fill_head(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image) {
-  image->version = POSE_WALL_IMAGE_VERSION;
+double scale_of(std::uint32_t quantity) {
+  return quantity <= POSE_WALL_YAW ? kMilliDegreesPerRadian : kMillimetresPerMetre;
+}
+
+template <typename Image>
+void fill_head(const pose_wall_result& result, Image* image) {
   image->sequence = static_cast<std::uint32_t>(result.frame_index + 1);
-  image->config_crc32 = config_crc32;
+  image->config_crc32 = result.config_crc32;
   image->library_version = POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH;
   const std::uint64_t stamp = static_cast<std::uint64_t>(result.stamp_ns);
   image->stamp_low = static_cast<std::uint32_t>(stamp & 0xFFFFFFFFU);
@@ -126,20 +146,55 @@ void fill_head(const pose_wall_result& result, std::uint32_t config_crc32, pose_
 
 }  // namespace
 
-void fill_image(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image) {
-  fill_head(result, config_crc32, image);
+void fill_image(const pose_wall_result& result, pose_wall_image* image) {
+  image->version = POSE_WALL_IMAGE_VERSION;
+  fill_head(result, image);
   unsigned char* to = reinterpret_cast<unsigned char*>(image) + offsetof(pose_wall_image, roll);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q, to += sizeof(Entry)) {
-    const Entry entry =
-        entry_of(result.quantity[q], q <= POSE_WALL_YAW ? kMilliDegreesPerRadian : kMillimetresPerMetre);
+    const Entry entry = entry_of(result.quantity[q], scale_of(q));
     std::memcpy(to, &entry, sizeof(entry));
   }
-  image->crc32 = crc_of(*image);
+  image->crc32 = crc_of(image, sizeof(*image), kCrcIeee);
+}
+
+pose_wall_image_source source_of(const pose_wall_result& result) {
+  return {sizeof(pose_wall_image_source), 0, 0, 0, result.publication, -1};
+}
+
+void fill_image(const pose_wall_result& result, const pose_wall_image_source& source, pose_wall_image2* image) {
+  image->version = POSE_WALL_IMAGE2_VERSION;
+  fill_head(result, image);
+  image->publication = static_cast<std::uint32_t>(source.publication);
+  image->source_id = result.source_id;
+  image->latency_ms = source.latency_ns >= 0
+                          ? milliseconds_above(static_cast<double>(source.latency_ns) / kNanosecondsPerSecond)
+                          : 0xFFFFFFFFU;
+  image->thinning = source.thinning;
+  image->held_thinning = source.held_thinning;
+  image->told_by = source.cause;
+  unsigned char* to = reinterpret_cast<unsigned char*>(image) + offsetof(pose_wall_image2, roll);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const bool angle = q <= POSE_WALL_YAW;
+    const Entry e = entry_of(result.quantity[q], scale_of(q));
+    const bool bound = e.protection_scaled != POSE_WALL_IMAGE_NO_BOUND && result.quantity[q].cause < POSE_WALL_PARTS;
+    const std::uint32_t cause = bound ? result.quantity[q].cause : std::uint32_t{POSE_WALL_PARTS};
+    const Entry2 entry = {
+        e.value_scaled, e.protection_scaled, e.age_ms, e.state, e.reasons, cause, angle ? result.positive_means[q] : 0};
+    const std::size_t bytes = angle ? sizeof(pose_wall_image2_angle) : sizeof(pose_wall_image2_distance);
+    std::memcpy(to, &entry, bytes);
+    to += bytes;
+  }
+  image->crc32c = crc_of(image, sizeof(*image), kCrcCastagnoli);
 }
 
 std::int32_t check_image(const pose_wall_image& image) {
   if (image.struct_size != sizeof(image) || image.version != POSE_WALL_IMAGE_VERSION) return POSE_WALL_E_IMAGE_VERSION;
-  return image.crc32 == crc_of(image) ? POSE_WALL_OK : POSE_WALL_E_IMAGE_CRC;
+  return image.crc32 == crc_of(&image, sizeof(image), kCrcIeee) ? POSE_WALL_OK : POSE_WALL_E_IMAGE_CRC;
+}
+
+std::int32_t check_image(const pose_wall_image2& image) {
+  if (image.struct_size != sizeof(image) || image.version != POSE_WALL_IMAGE2_VERSION) return POSE_WALL_E_IMAGE_VERSION;
+  return image.crc32c == crc_of(&image, sizeof(image), kCrcCastagnoli) ? POSE_WALL_OK : POSE_WALL_E_IMAGE_CRC;
 }
 
 }  // namespace pose_wall

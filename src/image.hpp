@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// From a result to the process image of a controller.
+// From a result to the process images of a controller.
 
 #pragma once
 
@@ -11,10 +11,15 @@
 
 namespace pose_wall {
 
-// Everything but struct_size and crc32 is written, then crc32.
-void fill_image(const pose_wall_result& result, std::uint32_t config_crc32, pose_wall_image* image);
+// Everything but struct_size and the CRC is written, then the CRC.
+void fill_image(const pose_wall_result& result, pose_wall_image* image);
+void fill_image(const pose_wall_result& result, const pose_wall_image_source& source, pose_wall_image2* image);
+
+// What a result alone tells of where it comes from.
+pose_wall_image_source source_of(const pose_wall_result& result);
 
 // POSE_WALL_OK, or what is wrong with it.
 std::int32_t check_image(const pose_wall_image& image);
+std::int32_t check_image(const pose_wall_image2& image);
 
 }  // namespace pose_wall

@@ -35,6 +35,15 @@ constexpr char kStageNames[] =
 #include "names.def"
     "unknown";
 
+constexpr char kPartNames[] =
+#define PART(part, name) name "\0"
+#include "names.def"
+    "unknown";
+constexpr char kSenseNames[] =
+#define SENSE(sense, name) name "\0"
+#include "names.def"
+    "unknown";
+
 constexpr std::int8_t kStatuses[] = {
 #define STATUS(number, text) number,
 #include "names.def"
@@ -53,6 +62,15 @@ constexpr std::int64_t kQuantities[] = {
 };
 constexpr std::int64_t kStages[] = {
 #define STAGE(stage, name) stage,
+#include "names.def"
+};
+
+constexpr std::int64_t kParts[] = {
+#define PART(part, name) part,
+#include "names.def"
+};
+constexpr std::int64_t kSenses[] = {
+#define SENSE(sense, name) sense,
 #include "names.def"
 };
 
@@ -80,6 +98,9 @@ static_assert(bits_in_order() && rows_of(kReasonBits) == POSE_WALL_REASON_COUNT,
 static_assert(in_order(kStates) && rows_of(kStates) == POSE_WALL_VALID + 1, "states by their numbers");
 static_assert(in_order(kQuantities) && rows_of(kQuantities) == POSE_WALL_QUANTITIES, "quantities by their numbers");
 static_assert(in_order(kStages) && rows_of(kStages) == POSE_WALL_STAGES, "stages by their numbers");
+
+static_assert(in_order(kParts) && rows_of(kParts) == POSE_WALL_PARTS, "parts by their numbers");
+static_assert(in_order(kSenses) && rows_of(kSenses) == POSE_WALL_SENSE_TURNED_RIGHT + 1, "senses by their numbers");
 
 const char* text_of(const char* texts, std::uint32_t rows, std::uint32_t row) {
   for (std::uint32_t left = row < rows ? row : rows; left > 0; --left) {
@@ -115,6 +136,14 @@ const char* quantity_name(std::uint32_t quantity) {
 
 const char* stage_name(std::uint32_t stage) {
   return text_of(kStageNames, rows_of(kStages), stage);
+}
+
+const char* part_name(std::uint32_t part) {
+  return text_of(kPartNames, rows_of(kParts), part);
+}
+
+const char* sense_name(std::uint32_t sense) {
+  return text_of(kSenseNames, rows_of(kSenses), sense);
 }
 
 }  // namespace pose_wall

@@ -15,5 +15,7 @@ const char* reason_text(std::uint32_t bit_index);
 const char* state_name(std::uint32_t state);
 const char* quantity_name(std::uint32_t quantity);
 const char* stage_name(std::uint32_t stage);
+const char* part_name(std::uint32_t part);
+const char* sense_name(std::uint32_t sense);
 
 }  // namespace pose_wall

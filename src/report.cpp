@@ -43,9 +43,32 @@ void report_counts(const FrameFindings& found, pose_wall_result* result) {
   result->ground_candidates = found.floor.candidates;
   result->wall_points = found.wall_points;
   result->voxel_leaf_m = found.voxels.leaf_m;
+  result->work = found.work;
 }
 
 }  // namespace
+
+void set_senses(std::int32_t forward_choice, std::uint32_t (*positive_means)[3]) {
+  // In the order of the key's choices: +X, -X, +Y, -Y. Positive roll takes the side at -Y down, positive pitch the one
+  // at +X.
+  constexpr std::uint8_t kMeans[4][2] = {{POSE_WALL_SENSE_RIGHT_DOWN, POSE_WALL_SENSE_NOSE_DOWN},
+                                         {POSE_WALL_SENSE_LEFT_DOWN, POSE_WALL_SENSE_NOSE_UP},
+                                         {POSE_WALL_SENSE_NOSE_UP, POSE_WALL_SENSE_RIGHT_DOWN},
+                                         {POSE_WALL_SENSE_NOSE_DOWN, POSE_WALL_SENSE_LEFT_DOWN}};
+  (*positive_means)[0] = kMeans[forward_choice][0];
+  (*positive_means)[1] = kMeans[forward_choice][1];
+  (*positive_means)[2] = POSE_WALL_SENSE_TURNED_RIGHT;
+}
+
+std::uint32_t mark_of(const pose_wall_result& r) {
+  std::uint64_t sum = 0x506F736557616C6CULL;
+  for (const std::uint64_t word :
+       {std::uint64_t{r.config_crc32}, r.publication, static_cast<std::uint64_t>(r.stamp_ns), r.frame_index}) {
+    sum = (sum ^ word) * 0x100000001B3ULL;
+    sum ^= sum >> 29U;
+  }
+  return static_cast<std::uint32_t>(sum >> 32U);
+}
 
 void report_findings(const FrameFindings& found, pose_wall_result* result) {
   result->stamp_ns = found.stamp_ns;

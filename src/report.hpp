@@ -26,6 +26,12 @@ struct FrameFindings {
 };
 
 // Fills all but quantity, stage_ns and frame_index.
+// What positive roll, pitch and yaw mean to the driver.
+void set_senses(std::int32_t forward_choice, std::uint32_t (*positive_means)[3]);
+
+// Of the head of a result: what an engine wrote carries it. It tells results from other memory, and is no signature.
+std::uint32_t mark_of(const pose_wall_result& result);
+
 void report_findings(const FrameFindings& found, pose_wall_result* result);
 
 }  // namespace pose_wall

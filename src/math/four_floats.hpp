@@ -11,6 +11,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__arm__) && defined(__ARM_NEON) && defined(__clang__)
+#error "ARMv7's NEON takes numbers near zero for zero and Clang computes with it: please build by GCC or without NEON"
+#endif
+
 namespace pose_wall {
 
 using FourFloats = float __attribute__((vector_size(16)));

@@ -19,9 +19,9 @@ constexpr char kBoxMagic[8] = {'P', 'W', 'A', 'L', 'L', 'B', 'O', 'X'};
 
 // The header.
 constexpr std::uint32_t kAtVersion = 8, kAtHeaderBytes = 12, kAtBoxBytes = 16, kAtConfigBytes = 24, kAtResultBytes = 28,
-                        kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtHeaderRun = 4084,
-                        kAtHeaderConfigCrc = 4088, kAtHeaderCrc = 4092, kLibraryBytes = 24;
-static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtHeaderRun, "the config fits the header");
+                        kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtInputsBytes = 4080,
+                        kAtHeaderRun = 4084, kAtHeaderConfigCrc = 4088, kAtHeaderCrc = 4092, kLibraryBytes = 24;
+static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtInputsBytes, "the config fits the header");
 
 // The head of a record.
 constexpr std::uint32_t kAtSync = 0, kAtKind = 4, kAtRecordBytes = 8, kAtSequence = 16, kAtReceived = 24, kAtStamp = 32,
@@ -41,10 +41,17 @@ constexpr std::uint64_t aligned(std::uint64_t bytes) {
 inline std::uint64_t memento_room() {
   return aligned(pose_wall_memento_bytes());
 }
+constexpr std::uint64_t kInputsRoom = aligned(sizeof(pose_wall_inputs));
 constexpr std::uint64_t kResultRoom = aligned(sizeof(pose_wall_result));
 
+// Behind the cloud's description.
+constexpr std::uint64_t kAtInputs = kDescriptionBytes, kAtMemento = kAtInputs + kInputsRoom;
+inline std::uint64_t at_result() {
+  return kAtMemento + memento_room();
+}
+
 inline std::uint64_t body_without_cloud() {
-  return kDescriptionBytes + memento_room() + kResultRoom;
+  return at_result() + kResultRoom;
 }
 
 // The machines that record are little-endian; pose_wall_runtime_open refuses a sink on others.

@@ -52,8 +52,10 @@ void read_body(const unsigned char* head, pose_wall_box_record* record) {
   record->y = field_at(description, 1);
   record->z = field_at(description, 2);
   record->intensity = field_at(description, 3);
-  record->memento = description + kDescriptionBytes;
-  record->result = description + kDescriptionBytes + memento_room();
+  const unsigned char* const inputs = description + kAtInputs;
+  record->inputs = get<std::uint32_t>(inputs) != 0 ? inputs : nullptr;
+  record->memento = description + kAtMemento;
+  record->result = description + at_result();
   const bool with_points = get<std::uint64_t>(head + kAtCloudBytes) > 0 || record->point_count == 0;
   record->points = with_points ? description + body_without_cloud() : nullptr;
 }
@@ -129,9 +131,13 @@ std::int32_t check_header(const unsigned char* header, std::uint64_t count) {
                     get<std::uint32_t>(header + kAtConfigBytes) == sizeof(pose_wall_config) &&
                     get<std::uint32_t>(header + kAtResultBytes) == sizeof(pose_wall_result) &&
                     get<std::uint32_t>(header + kAtMementoBytes) == pose_wall_memento_bytes() &&
+                    get<std::uint32_t>(header + kAtInputsBytes) == sizeof(pose_wall_inputs) &&
                     get<std::uint32_t>(header + kAtAbi) == POSE_WALL_ABI_VERSION;
   return ok_if(same, POSE_WALL_BOX_E_VERSION);
 }
+
+// The record's stamps are of the memento's clock.
+constexpr pose_wall_moment kSameClock = {sizeof(pose_wall_moment), POSE_WALL_MOMENT_SAME_CLOCK, {}, 0, 0};
 
 }  // namespace
 }  // namespace pose_wall::runtime
@@ -174,10 +180,15 @@ POSE_WALL_EXPORT int32_t pose_wall_box_compute(const pose_wall_box_record* recor
   const bool silence = record->kind == POSE_WALL_BOX_SILENCE;
   if (!silence && record->kind != POSE_WALL_BOX_FRAME) return POSE_WALL_BOX_E_KIND;
   if (record->memento == nullptr || (record->points == nullptr && !silence)) return POSE_WALL_BOX_E_EMPTY;
-  int32_t status = pose_wall_load(engine, record->memento, pose_wall_memento_bytes());
+  int32_t status = pose_wall_load(engine, &kSameClock, record->memento, pose_wall_memento_bytes());
   if (status != POSE_WALL_OK) return status;
   if (silence) return pose_wall_age(engine, record->stamp_ns, result);
-  const pose_wall_cloud cloud = cloud_of(*record);
+  pose_wall_cloud cloud = cloud_of(*record);
+  pose_wall_inputs inputs;
+  if (record->inputs != nullptr) {
+    std::memcpy(&inputs, record->inputs, sizeof(inputs));
+    cloud.inputs = &inputs;
+  }
   status = pose_wall_process(engine, &cloud, result);
   if (status == POSE_WALL_OK) {
     finish_result(record->left_out_not_finite, record->left_out_zero, record->thinning, result);

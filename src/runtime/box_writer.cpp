@@ -3,6 +3,7 @@
 
 #include "box_writer.hpp"
 
+#include <cstddef>
 #include <cstring>
 #include <initializer_list>
 
@@ -55,6 +56,7 @@ bool BoxWriter::begin(const pose_wall_config& config, std::uint16_t run) {
   put<std::uint32_t>(sizeof(pose_wall_result), header + kAtResultBytes);
   put<std::uint32_t>(static_cast<std::uint32_t>(pose_wall_memento_bytes()), header + kAtMementoBytes);
   put<std::uint32_t>(POSE_WALL_ABI_VERSION, header + kAtAbi);
+  put<std::uint32_t>(sizeof(pose_wall_inputs), header + kAtInputsBytes);
   const char* const version = pose_wall_version();
   for (std::uint32_t i = 0; i + 1 < kLibraryBytes && version[i] != '\0'; ++i) {
     header[kAtLibrary + i] = static_cast<unsigned char>(version[i]);
@@ -72,7 +74,7 @@ bool BoxWriter::begin(const pose_wall_config& config, std::uint16_t run) {
 }
 
 void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
-  std::memset(body, 0, body_without_cloud());
+  std::memset(body, 0, static_cast<std::size_t>(body_without_cloud()));
   const pose_wall_cloud& c = slot.cloud;
   put<std::uint64_t>(fnv1a(c.data, c.data_bytes), body + kAtDigest);
   put<std::uint32_t>(c.width, body + kAtPoints);
@@ -87,8 +89,9 @@ void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
     put<std::uint32_t>(field.type, to + 4);
     to += 8;
   }
-  std::memcpy(body + kDescriptionBytes, slot.memento, pose_wall_memento_bytes());
-  std::memcpy(body + kDescriptionBytes + memento_room(), &slot.publication.result, sizeof(pose_wall_result));
+  if (c.inputs != nullptr) std::memcpy(body + kAtInputs, c.inputs, sizeof(pose_wall_inputs));
+  std::memcpy(body + kAtMemento, slot.memento, static_cast<std::size_t>(pose_wall_memento_bytes()));
+  std::memcpy(body + at_result(), &slot.publication.result, sizeof(pose_wall_result));
 }
 
 void BoxWriter::fill_head(const FrameSlot& slot, std::uint64_t record_bytes, std::uint64_t cloud_bytes,

@@ -20,6 +20,7 @@ inline void finish_result(std::uint32_t left_out_not_finite, std::uint32_t left_
   // The engine cannot know that returns were left out; a gap in a wall may have gone unnoticed.
   for (pose_wall_value& v : result->quantity) {
     if (v.state == POSE_WALL_VALID) v.state = POSE_WALL_DEGRADED;
+    if (v.raw_state == POSE_WALL_VALID) v.raw_state = POSE_WALL_DEGRADED;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "../struct_sizes.hpp"
 #include "overload.hpp"
 
 namespace pose_wall::runtime {
@@ -136,6 +137,9 @@ void copy_frame(const pose_wall_cloud& cloud, bool with_intensity, std::uint32_t
   slot->left_out_zero = zero;
   slot->cloud =
       packed(copier, packed_bytes(cloud, with_intensity), slot->points, static_cast<std::uint64_t>(to - slot->points));
+  if (cloud.inputs == nullptr) return;
+  slot->inputs = read_struct<pose_wall_inputs>(cloud.inputs, cloud.inputs->struct_size);
+  slot->cloud.inputs = &slot->inputs;
 }
 
 }  // namespace pose_wall::runtime

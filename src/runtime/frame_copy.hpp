@@ -15,8 +15,9 @@ namespace pose_wall::runtime {
 // Bytes of a point as it would be copied.
 std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity);
 
-// The cloud's description was checked, and its points fit slot->points. Sets cloud and left_out_* of the slot. With
-// intensity every point is kept but for thinning: no-returns count in the mean that brightness is measured against.
+// The cloud's description was checked, and its points fit slot->points. Sets cloud, inputs and left_out_* of the slot.
+// With intensity every point is kept but for thinning: no-returns count in the mean that brightness is measured
+// against.
 void copy_frame(const pose_wall_cloud& cloud, bool with_intensity, std::uint32_t thinning, FrameSlot* slot);
 
 }  // namespace pose_wall::runtime

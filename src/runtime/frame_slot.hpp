@@ -16,6 +16,7 @@ struct FrameSlot {
   unsigned char* points = nullptr;  // packed, as `cloud` says
   unsigned char* memento = nullptr;
   pose_wall_cloud cloud{};
+  pose_wall_inputs inputs{};  // where `cloud` points to them
   std::uint32_t left_out_not_finite = 0;
   std::uint32_t left_out_zero = 0;
   std::uint32_t kind = 0;      // pose_wall_box_kind

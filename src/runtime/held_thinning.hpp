@@ -31,6 +31,10 @@ class HeldThinning {
   }
 
   void forget() { *this = HeldThinning(); }
+  // Of a past that nobody knows: at worst.
+  void assume(std::uint32_t thinning) {
+    for (std::uint32_t& past : past_) past = thinning;
+  }
 
  private:
   std::uint32_t past_[POSE_WALL_QUANTITIES] = {1, 1, 1, 1, 1, 1, 1};

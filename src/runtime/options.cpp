@@ -6,6 +6,7 @@
 #include "box_layout.hpp"
 #include "box_writer.hpp"
 #include "frame_slot.hpp"
+#include "struct_versions.hpp"
 
 namespace pose_wall::runtime {
 namespace {
@@ -46,8 +47,12 @@ void set_defaults(pose_wall_runtime_options* options) {
   options->watchdog_every_ns = 100 * kMillisecond_ns;
 }
 
-std::int32_t check_options(const pose_wall_runtime_options& o, const char** option) {
-  if (o.struct_size != sizeof(o)) return POSE_WALL_E_STRUCT_SIZE;
+std::int32_t read_options(const pose_wall_runtime_options& options, const char** option,
+                          pose_wall_runtime_options* whole) {
+  const std::int32_t status = check_struct_size(options.struct_size, kOptionsSizes);
+  if (status != POSE_WALL_OK) return status;
+  *whole = read_struct<pose_wall_runtime_options>(&options, options.struct_size);
+  const pose_wall_runtime_options& o = *whole;
   // In the order of the members.
   const struct {
     bool good;
@@ -69,6 +74,7 @@ std::int32_t check_options(const pose_wall_runtime_options& o, const char** opti
       {within(o.watchdog_every_ns, kMillisecond_ns, kHour_ns), "watchdog_every_ns"},
       {o.sink == nullptr || machine_is_little_endian(), "sink"},
       {box_is_large_enough(o), "box_bytes"},
+      {o.reserved_2 == 0, "reserved_2"},
   };
   for (const auto& row : checked) {
     if (row.good) continue;

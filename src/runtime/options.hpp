@@ -13,9 +13,10 @@ namespace pose_wall::runtime {
 
 void set_defaults(pose_wall_runtime_options* options);
 
-// POSE_WALL_OK, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_RUNTIME_E_OPTION, then with the option's name where it is asked
-// for.
-std::int32_t check_options(const pose_wall_runtime_options& options, const char** option);
+// The caller's, of whichever version: POSE_WALL_OK, or what is wrong with their struct_size, or
+// POSE_WALL_RUNTIME_E_OPTION, then with the option's name where it is asked for. *whole: as this version reads them.
+std::int32_t read_options(const pose_wall_runtime_options& options, const char** option,
+                          pose_wall_runtime_options* whole);
 
 std::uint32_t slots_of(const pose_wall_runtime_options& options);
 std::uint64_t cloud_bytes_max(const pose_wall_runtime_options& options);

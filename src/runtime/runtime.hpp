@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "activity.hpp"
 #include "block_walk.hpp"
 #include "box_writer.hpp"
 #include "frame_slot.hpp"
@@ -50,6 +51,8 @@ class Runtime {
                                Runtime* runtime);
   std::int32_t open(std::uint64_t block_bytes);
   bool is_open() const { return magic_ == kMagic && self_ == this; }
+  // Whether a runtime that was started and not stopped lives in a block that may hold anything.
+  static bool is_started_in(const void* block);
 
   std::int32_t start();
   std::int32_t wait_idle();
@@ -57,12 +60,17 @@ class Runtime {
   std::int32_t stop();
   std::int32_t close();
   std::int32_t push(const pose_wall_cloud& cloud);
+  std::int32_t save(const pose_wall_moment* now, void* memento, std::uint64_t bytes);
+  std::int32_t load(const pose_wall_moment* now, const void* memento, std::uint64_t bytes);
+  // *publication is written whatever comes of it.
   std::int32_t latest(pose_wall_publication* publication) const;
+  std::int32_t image(pose_wall_image* image) const;
   std::int32_t tick();
   void statistics(pose_wall_runtime_statistics* out);
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D72756EULL;
+  static constexpr std::uint64_t kStarted = 0x5AC3A53C695A96E1ULL;
 
   std::int64_t now() const { return options_.clock != nullptr ? options_.clock(options_.clock_user) : monotonic_ns(); }
   bool own_thread_calls() const;
@@ -70,6 +78,7 @@ class Runtime {
 
   // runtime_life.cpp
   std::int32_t open_engine();
+  std::int32_t forget();
   void replace_damaged_engine();
   int start_recorder();
   int lock_memory();
@@ -80,6 +89,11 @@ class Runtime {
   // runtime_push.cpp
   std::int32_t refusal(const pose_wall_cloud& cloud, pose_wall_runtime_drop* why) const;
   std::int32_t queue(FrameSlot* slot, std::uint64_t epoch);
+
+  // runtime_latest.cpp
+  pose_wall_publication nothing() const;
+  std::int32_t judge(pose_wall_publication* publication) const;
+  void tell_activity(pose_wall_publication* publication) const;
 
   // runtime_worker.cpp
   static void* run_worker(void* runtime);
@@ -101,6 +115,7 @@ class Runtime {
 
   std::atomic<std::uint64_t> magic_{0};
   const Runtime* self_ = nullptr;
+  std::atomic<std::uint64_t> started_{0};  // kStarted until it is stopped again
   std::uint64_t block_bytes_ = 0;
   pose_wall_config config_;
   std::uint32_t config_crc32_ = 0;  // of the config as it was opened with
@@ -109,6 +124,7 @@ class Runtime {
   pose_wall_engine* engine_ = nullptr;
   void* engine_block_ = nullptr;
   std::uint64_t engine_bytes_ = 0;
+  pose_wall_result blank_{};  // what the engine tells before any frame
   BoxWriter box_;
   std::uint32_t run_seed_ = 0;  // another one in every process that writes into the same file, but for chance
 
@@ -131,6 +147,8 @@ class Runtime {
   std::uint32_t thinning_ = 1;
   std::int64_t newest_received_ns_ = 0;
   bool has_newest_ = false;
+  bool loaded_ = false;  // since the last start
+  std::int64_t loaded_ns_ = 0;
   Counters counters_;
 
   // Of the worker alone.
@@ -138,11 +156,12 @@ class Runtime {
   Watchdog watchdog_;
   HeldThinning held_thinning_;
   std::uint64_t events_ = 0, publications_ = 0, last_frame_ = 0;
-  std::int64_t last_stamp_ns_ = 0, silence_recorded_ns_ = 0;
+  std::int64_t last_stamp_ns_ = 0, silence_recorded_ns_ = 0, looked_ns_ = 0;
   pose_wall_publication publication_{};
 
   // Without a lock.
   std::atomic<std::uint32_t> running_{0};
+  Activity activity_;
   LatestValue<pose_wall_publication> latest_;
   Times times_;
 };

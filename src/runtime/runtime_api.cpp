@@ -11,6 +11,7 @@
 #include "runtime.hpp"
 #include "runtime_export.hpp"
 #include "status.hpp"
+#include "struct_versions.hpp"
 
 using pose_wall::runtime::ok_if;
 using pose_wall::runtime::Runtime;
@@ -34,10 +35,11 @@ int32_t check(const pose_wall_runtime* handle) {
   return ok_if(runtime_of(handle)->is_open(), POSE_WALL_RUNTIME_E_HANDLE);
 }
 
-// The engine's own need, once all else was found good.
-int32_t engine_bytes(const pose_wall_config* config, const pose_wall_runtime_options* options, uint64_t* bytes) {
+// The engine's own need, once all else was found good; and the options as this version reads them.
+int32_t engine_bytes(const pose_wall_config* config, const pose_wall_runtime_options* options,
+                     pose_wall_runtime_options* whole, uint64_t* bytes) {
   if (config == nullptr || options == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = pose_wall::runtime::check_options(*options, nullptr);
+  const int32_t status = pose_wall::runtime::read_options(*options, nullptr, whole);
   return status == POSE_WALL_OK ? pose_wall_memory_needed(config, bytes) : status;
 }
 
@@ -49,7 +51,12 @@ POSE_WALL_EXPORT uint32_t pose_wall_runtime_abi_version(void) {
   return POSE_WALL_RUNTIME_ABI_VERSION;
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init(pose_wall_runtime_options* options) {
+#undef pose_wall_runtime_options_init
+POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init(pose_wall_runtime_options* /*options*/) {
+  return POSE_WALL_E_ABI;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init_3(pose_wall_runtime_options* options) {
   if (options == nullptr) return POSE_WALL_E_NULL;
   pose_wall::runtime::set_defaults(options);
   return POSE_WALL_OK;
@@ -57,15 +64,17 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init(pose_wall_runtime_option
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_options_check(const pose_wall_runtime_options* options,
                                                          const char** option) {
-  return options != nullptr ? pose_wall::runtime::check_options(*options, option) : POSE_WALL_E_NULL;
+  pose_wall_runtime_options whole;
+  return options != nullptr ? pose_wall::runtime::read_options(*options, option, &whole) : POSE_WALL_E_NULL;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config,
                                                          const pose_wall_runtime_options* options, uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
   uint64_t of_engine = 0;
-  const int32_t status = engine_bytes(config, options, &of_engine);
-  if (status == POSE_WALL_OK) *bytes = Runtime::lay_out(nullptr, of_engine, *options, nullptr);
+  pose_wall_runtime_options whole;
+  const int32_t status = engine_bytes(config, options, &whole, &of_engine);
+  if (status == POSE_WALL_OK) *bytes = Runtime::lay_out(nullptr, of_engine, whole, nullptr);
   return status;
 }
 
@@ -74,13 +83,15 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_open(const pose_wall_config* config,
                                                 uint64_t block_bytes, pose_wall_runtime** runtime) {
   if (block == nullptr || runtime == nullptr) return POSE_WALL_E_NULL;
   uint64_t of_engine = 0;
-  int32_t status = engine_bytes(config, options, &of_engine);
+  pose_wall_runtime_options whole;
+  int32_t status = engine_bytes(config, options, &whole, &of_engine);
   if (status != POSE_WALL_OK) return status;
   if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
-  const uint64_t needed = Runtime::lay_out(nullptr, of_engine, *options, nullptr);
+  const uint64_t needed = Runtime::lay_out(nullptr, of_engine, whole, nullptr);
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
-  Runtime* const placed = new (block) Runtime(*config, *options);
-  Runtime::lay_out(block, of_engine, *options, placed);
+  if (Runtime::is_started_in(block)) return POSE_WALL_E_BUSY;
+  Runtime* const placed = new (block) Runtime(*config, whole);
+  Runtime::lay_out(block, of_engine, whole, placed);
   status = placed->open(needed);
   if (status == POSE_WALL_OK) *runtime = reinterpret_cast<pose_wall_runtime*>(placed);
   return status;
@@ -111,6 +122,20 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_close(pose_wall_runtime* runtime) {
   return status == POSE_WALL_OK ? runtime_of(runtime)->close() : status;
 }
 
+POSE_WALL_EXPORT int32_t pose_wall_runtime_save(pose_wall_runtime* runtime, const pose_wall_moment* now, void* memento,
+                                                uint64_t bytes) {
+  if (memento == nullptr) return POSE_WALL_E_NULL;
+  const int32_t status = check(runtime);
+  return status == POSE_WALL_OK ? runtime_of(runtime)->save(now, memento, bytes) : status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_runtime_load(pose_wall_runtime* runtime, const pose_wall_moment* now,
+                                                const void* memento, uint64_t bytes) {
+  if (memento == nullptr) return POSE_WALL_E_NULL;
+  const int32_t status = check(runtime);
+  return status == POSE_WALL_OK ? runtime_of(runtime)->load(now, memento, bytes) : status;
+}
+
 POSE_WALL_EXPORT int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud) {
   if (cloud == nullptr) return POSE_WALL_E_NULL;
   const int32_t status = check(runtime);
@@ -120,10 +145,20 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, cons
 POSE_WALL_EXPORT int32_t pose_wall_runtime_latest(const pose_wall_runtime* runtime,
                                                   pose_wall_publication* publication) {
   if (publication == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
+  int32_t status = check(runtime);
+  const uint32_t size = publication->struct_size;
+  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(size, pose_wall::runtime::kPublicationSizes);
   if (status != POSE_WALL_OK) return status;
-  if (publication->struct_size != sizeof(*publication)) return POSE_WALL_E_STRUCT_SIZE;
-  return runtime_of(runtime)->latest(publication);
+  pose_wall_publication whole;
+  status = runtime_of(runtime)->latest(&whole);
+  pose_wall::runtime::write_publication(whole, size, publication);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_runtime_image(const pose_wall_runtime* runtime, pose_wall_image* image) {
+  if (image == nullptr) return POSE_WALL_E_NULL;
+  const int32_t status = check(runtime);
+  return status == POSE_WALL_OK ? runtime_of(runtime)->image(image) : status;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime) {
@@ -134,10 +169,13 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime) {
 POSE_WALL_EXPORT int32_t pose_wall_runtime_statistics_now(const pose_wall_runtime* runtime,
                                                           pose_wall_runtime_statistics* statistics) {
   if (statistics == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
+  int32_t status = check(runtime);
+  const uint32_t size = statistics->struct_size;
+  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(size, pose_wall::runtime::kStatisticsSizes);
   if (status != POSE_WALL_OK) return status;
-  if (statistics->struct_size != sizeof(*statistics)) return POSE_WALL_E_STRUCT_SIZE;
-  runtime_of(runtime)->statistics(statistics);
+  pose_wall_runtime_statistics whole;
+  runtime_of(runtime)->statistics(&whole);
+  pose_wall::write_struct(whole, size, statistics);
   return POSE_WALL_OK;
 }
 

@@ -6,6 +6,8 @@
 #include <errno.h>  // NOLINT(modernize-deprecated-headers): POSIX names
 #include <sys/mman.h>
 
+#include <cstddef>
+
 #include "checksums.hpp"
 #include "options.hpp"
 #include "runtime.hpp"
@@ -59,8 +61,19 @@ void Runtime::replace_damaged_engine() {
   if (pose_wall_config_crc(&config_, &crc32) == POSE_WALL_OK && crc32 == config_crc32_) open_engine();
 }
 
+#if defined(__clang__)
+__attribute__((no_sanitize("memory")))  // a block may hold what nobody has written
+#endif
+bool Runtime::is_started_in(const void* block) {
+  const Runtime* const there = static_cast<const Runtime*>(block);
+  return there->magic_.load(std::memory_order_relaxed) == kMagic && there->self_ == there &&
+         there->started_.load(std::memory_order_relaxed) == kStarted;
+}
+
 std::int32_t Runtime::open(std::uint64_t block_bytes) {
-  const std::int32_t status = open_engine();
+  std::int32_t status = open_engine();
+  blank_.struct_size = sizeof(blank_);
+  if (status == POSE_WALL_OK) status = pose_wall_age(engine_, 0, &blank_);
   if (status != POSE_WALL_OK) return status;
   pose_wall_config_crc(&config_, &config_crc32_);
   // Not the caller's clock: it may stand at the same time after every start. The monotonic one begins anew with the
@@ -84,23 +97,54 @@ bool Runtime::own_thread_calls() const {
          (has_recorder_ && pthread_equal(caller, recorder_) != 0);
 }
 
-std::int32_t Runtime::start() {
+// All but what was loaded for the start that comes.
+std::int32_t Runtime::forget() {
+  replace_damaged_engine();
+  pose_wall_points any;
+  const std::int32_t status = loaded_ ? pose_wall_last_points(engine_, &any) : pose_wall_reset(engine_);
+  if (status != POSE_WALL_OK || loaded_) return status;
+  held_thinning_.forget();
+  last_stamp_ns_ = 0;
+  return POSE_WALL_OK;
+}
+
+std::int32_t Runtime::save(const pose_wall_moment* now, void* memento, std::uint64_t bytes) {
+  Locked locked(&lock_);
+  // In the callback the engine has nothing to do; while stopped the lock keeps a start out.
+  const bool in_callback = has_worker_ && pthread_equal(pthread_self(), worker_) != 0;
+  if (!in_callback && state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
+  return pose_wall_save(engine_, now, memento, bytes);
+}
+
+std::int32_t Runtime::load(const pose_wall_moment* now, const void* memento, std::uint64_t bytes) {
   Locked locked(&lock_);
   if (own_thread_calls()) return POSE_WALL_RUNTIME_E_THREAD;
   if (state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
   replace_damaged_engine();
-  const std::int32_t reset = pose_wall_reset(engine_);
-  if (reset != POSE_WALL_OK) return reset;
+  const std::int32_t status = pose_wall_load(engine_, now, memento, bytes);
+  if (status != POSE_WALL_OK) return status;
+  loaded_ = true;
+  loaded_ns_ = this->now();
+  last_stamp_ns_ = now != nullptr ? now->stamp_ns : 0;
+  held_thinning_.assume(options_.thinning_max);
+  return POSE_WALL_OK;
+}
+
+std::int32_t Runtime::start() {
+  Locked locked(&lock_);
+  if (own_thread_calls()) return POSE_WALL_RUNTIME_E_THREAD;
+  if (state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
+  const std::int32_t ready = forget();
+  if (ready != POSE_WALL_OK) return ready;
   state_ = POSE_WALL_RUNTIME_STARTING;
+  started_.store(kStarted, std::memory_order_relaxed);
   ++epoch_;
   latest_.clear();
-  held_thinning_.forget();
   publication_ = pose_wall_publication{};
   overload_ = Overload(options_.thinning_max, options_.frame_period_max_ns);
   thinning_ = 1;
   has_newest_ = worker_ready_ = recorder_may_end_ = dropped_since_ = false;
   events_ = 0;
-  last_stamp_ns_ = 0;
   const std::int32_t status = start_threads();
   if (status != POSE_WALL_OK) {
     state_ = POSE_WALL_RUNTIME_STOPPING;
@@ -129,7 +173,7 @@ int Runtime::start_recorder() {
 
 int Runtime::lock_memory() {
   Unlocked unlocked(&lock_);  // it may take long, and a push that is refused must not wait for it
-  return mlock(this, block_bytes_) == 0 ? 0 : errno;
+  return mlock(this, static_cast<std::size_t>(block_bytes_)) == 0 ? 0 : errno;
 }
 
 // Under the lock, which the new threads wait for.
@@ -170,7 +214,9 @@ void Runtime::end_threads() {
     Unlocked unlocked(&lock_);
     pthread_join(recorder_, nullptr);
   }
-  has_recorder_ = joining_ = false;
+  has_recorder_ = joining_ = loaded_ = false;
+  activity_.note(POSE_WALL_RUNTIME_AT_NOTHING, now());
+  started_.store(0, std::memory_order_relaxed);
   state_ = POSE_WALL_RUNTIME_STOPPED;
   changed_.wake_all();
 }
@@ -241,7 +287,7 @@ std::int32_t Runtime::close() {
   }
   changed_.close();
   lock_.close();
-  if (options_.lock_memory != 0) munlock(this, block_bytes_);
+  if (options_.lock_memory != 0) munlock(this, static_cast<std::size_t>(block_bytes_));
   return POSE_WALL_OK;
 }
 

@@ -27,6 +27,8 @@ POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
       return "nothing was published since the start";
     case POSE_WALL_RUNTIME_E_SYSTEM:
       return "the system refused a thread, or what the options require; see the *_error statistics";
+    case POSE_WALL_RUNTIME_E_STALE:
+      return "what was published last is as old as watchdog_ns: `activity` tells what the worker is at";
     case POSE_WALL_BOX_E_FORMAT:
       return "no black box, or its header is damaged";
     case POSE_WALL_BOX_E_VERSION:
@@ -41,6 +43,25 @@ POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
       return "the record is of a kind that this build does not know";
     default:
       return pose_wall_status_text(status);
+  }
+}
+
+POSE_WALL_EXPORT const char* pose_wall_runtime_activity_name(uint32_t activity) {
+  switch (activity) {
+    case POSE_WALL_RUNTIME_AT_NOTHING:
+      return "nothing";
+    case POSE_WALL_RUNTIME_AT_WAIT:
+      return "wait";
+    case POSE_WALL_RUNTIME_AT_CHOICE:
+      return "choice";
+    case POSE_WALL_RUNTIME_AT_FRAME:
+      return "frame";
+    case POSE_WALL_RUNTIME_AT_SILENCE:
+      return "silence";
+    case POSE_WALL_RUNTIME_AT_CALLBACK:
+      return "callback";
+    default:
+      return "unknown";
   }
 }
 

@@ -5,22 +5,8 @@
 
 #include "runtime.hpp"
 #include "saturated.hpp"
-#include "status.hpp"
 
 namespace pose_wall::runtime {
-
-std::int32_t Runtime::latest(pose_wall_publication* publication) const {
-  if (running_.load(std::memory_order_acquire) == 0) return POSE_WALL_RUNTIME_E_STATE;
-  switch (latest_.load(publication)) {
-    case LatestStatus::kNothing:
-      return POSE_WALL_RUNTIME_E_NOTHING;
-    case LatestStatus::kDamaged:
-      return POSE_WALL_E_ENGINE;
-    case LatestStatus::kThere:
-      break;
-  }
-  return POSE_WALL_OK;
-}
 
 void Runtime::statistics(pose_wall_runtime_statistics* out) {
   pose_wall_runtime_statistics s{};
@@ -42,6 +28,9 @@ void Runtime::statistics(pose_wall_runtime_statistics* out) {
     s.thinned = c.thinned;
     s.thinning = thinning_;
     s.thinning_worst = c.thinning_worst;
+    const Activity::Told told = activity_.now();
+    s.activity = told.activity;
+    s.activity_since_ns = told.since_ns;
     s.newest_age_ns = has_newest_ && age_ns >= 0 ? age_ns : -1;
     s.box_written = c.box_written;
     s.box_lost = c.box_lost;

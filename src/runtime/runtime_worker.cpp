@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "finish_result.hpp"
+#include "freshness.hpp"
 #include "pose_wall_box.h"
 #include "runtime.hpp"
 #include "saturated.hpp"
@@ -14,18 +15,6 @@ namespace pose_wall::runtime {
 namespace {
 
 constexpr std::int64_t kMinute_ns = 60000000000;
-
-// Without an engine: nothing is known, and that is what is told.
-void tell_nothing(std::int64_t stamp_ns, pose_wall_result* result) {
-  result->stamp_ns = stamp_ns;
-  result->frame_reasons = POSE_WALL_R_NO_FRAME;
-  result->frame_index = UINT64_MAX;
-  for (pose_wall_value& v : result->quantity) {
-    v.value = v.raw = v.sigma = v.protection_level = __builtin_nan("");
-    v.reasons = POSE_WALL_R_NO_FRAME | POSE_WALL_R_NEVER_MEASURED;
-  }
-  for (int k = 0; k < 9; k += 4) result->R_level_base[k] = 1.0;
-}
 
 bool same_states(const pose_wall_result& a, const pose_wall_result& b) {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -46,7 +35,9 @@ void* Runtime::run_worker(void* runtime) {
 void Runtime::take_wishes() {
   const int priority_error = options_.worker_priority > 0 ? set_priority(options_.worker_priority) : 0;
   const int affinity_error = options_.worker_cpu >= 0 ? set_processor(options_.worker_cpu) : 0;
-  watchdog_.feed(now());
+  looked_ns_ = loaded_ ? loaded_ns_ : now();
+  watchdog_.feed(looked_ns_);
+  activity_.note(POSE_WALL_RUNTIME_AT_CHOICE, looked_ns_);
   Locked locked(&lock_);
   counters_.priority_error = priority_error;
   counters_.affinity_error = affinity_error;
@@ -59,7 +50,9 @@ void Runtime::work() {
   while (state_ != POSE_WALL_RUNTIME_STOPPING) {
     look_ = false;
     // Silence goes first: where frames are worked late, the newest that is known is old all the same.
-    const bool silent = watchdog_.is_due(now(), !waiting_.empty());
+    activity_.note(POSE_WALL_RUNTIME_AT_CHOICE, looked_ns_);
+    looked_ns_ = now();
+    const bool silent = watchdog_.is_due(looked_ns_, !waiting_.empty());
     const bool has_frame = !silent && !waiting_.empty();
     if (has_frame && drop_if_late()) continue;
     if (!silent && !has_frame) {
@@ -87,6 +80,7 @@ bool Runtime::drop_if_late() {
 }
 
 void Runtime::wait_for_work() {
+  activity_.note(POSE_WALL_RUNTIME_AT_WAIT, looked_ns_);
   if (watchdog_.is_on() && options_.clock == nullptr) {
     changed_.wait_until(&lock_, watchdog_.wake_ns(now()));
   } else {
@@ -133,7 +127,8 @@ void Runtime::work_frame(FrameSlot* slot) {
 
 std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   pose_wall_publication& p = slot->publication;
-  const std::int64_t begin_ns = now();
+  const std::int64_t begin_ns = looked_ns_;
+  activity_.note(POSE_WALL_RUNTIME_AT_FRAME, begin_ns);
   save_memento(slot);
   p.result.struct_size = sizeof(p.result);
   const std::int32_t status = pose_wall_process(engine_, &slot->cloud, &p.result);
@@ -148,7 +143,8 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   last_frame_ = p.frame;
   last_stamp_ns_ = p.result.stamp_ns;
   watchdog_.feed(p.received_ns);
-  *work_ns = difference(now(), begin_ns);
+  looked_ns_ = now();
+  *work_ns = difference(looked_ns_, begin_ns);
   times_.wait.add(difference(begin_ns, p.received_ns));
   times_.work.add(*work_ns);
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) times_.stage[stage].add(p.result.stage_ns[stage]);
@@ -158,7 +154,7 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
 // What the record cannot be computed from must not look as if it could.
 void Runtime::save_memento(FrameSlot* slot) {
   const std::uint64_t bytes = pose_wall_memento_bytes();
-  if (slot->memento == nullptr || pose_wall_save(engine_, slot->memento, bytes) == POSE_WALL_OK) return;
+  if (slot->memento == nullptr || pose_wall_save(engine_, nullptr, slot->memento, bytes) == POSE_WALL_OK) return;
   std::memset(slot->memento, 0, static_cast<std::size_t>(bytes));
 }
 
@@ -167,6 +163,8 @@ void Runtime::tell_silence(FrameSlot* slot) {
   {
     Unlocked unlocked(&lock_);
     const std::int64_t now_ns = now();
+    looked_ns_ = now_ns;
+    activity_.note(POSE_WALL_RUNTIME_AT_SILENCE, now_ns);
     slot->cloud = pose_wall_cloud{};
     slot->left_out_not_finite = slot->left_out_zero = 0;
     slot->kind = POSE_WALL_BOX_SILENCE;
@@ -180,7 +178,8 @@ void Runtime::tell_silence(FrameSlot* slot) {
     save_memento(slot);
     p.result.struct_size = sizeof(p.result);
     const std::int64_t stamp_ns = sum(last_stamp_ns_, watchdog_.speak(now_ns));
-    if (pose_wall_age(engine_, stamp_ns, &p.result) != POSE_WALL_OK) tell_nothing(stamp_ns, &p.result);
+    // Without an engine nothing is known, and that is what is told.
+    if (pose_wall_age(engine_, stamp_ns, &p.result) != POSE_WALL_OK) p.result = blank_;
     p.held_thinning = held_thinning_.note(p.result, 1);
     // A sensor that is dead for hours must not push the hour before out of the black box.
     says_more = publication_.cause != POSE_WALL_RUNTIME_SILENCE || !same_states(p.result, publication_.result) ||
@@ -196,7 +195,8 @@ void Runtime::tell_silence(FrameSlot* slot) {
 void Runtime::publish(pose_wall_publication* p) {
   p->struct_size = sizeof(*p);
   p->index = publications_++;
-  p->published_ns = now();
+  p->published_ns = looked_ns_ = now();
+  p->age_ns = Freshness(*p, p->published_ns, options_.watchdog_ns).age_ns();
   latest_.store(*p);
   publication_ = *p;
 }
@@ -212,8 +212,12 @@ void Runtime::conclude(FrameSlot* slot, bool is_recorded) {
   if (options_.callback == nullptr) return;
   Unlocked unlocked(&lock_);
   const std::int64_t begin_ns = now();
+  activity_.note(POSE_WALL_RUNTIME_AT_CALLBACK, begin_ns);
+  tell_activity(&publication_);
   options_.callback(options_.callback_user, &publication_);
-  times_.callback.add(difference(now(), begin_ns));
+  activity_.note(POSE_WALL_RUNTIME_AT_CHOICE, begin_ns);
+  looked_ns_ = now();
+  times_.callback.add(difference(looked_ns_, begin_ns));
 }
 
 // To the recorder, if it keeps up: the worker waits for no disk.

@@ -63,8 +63,8 @@ void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> cand
     pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
     out->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
   }
-  out->roll_bound_rad += roll;
-  out->pitch_bound_rad += pitch;
+  out->roll_bound_rad[POSE_WALL_PART_RIVAL] += roll;
+  out->pitch_bound_rad[POSE_WALL_PART_RIVAL] += pitch;
 }
 
 void gate(const Settings& s, const Eigen::Vector3d& sensor, const FloorCandidate& best, FloorResult* out) {
@@ -141,7 +141,7 @@ Levels levels_of(const FloorResult& f, const Settings& s) {
   constexpr double kNone_rad = 1e9;
   if (f.fit.refused) return {kNone_rad, kNone_rad};
   const double k = protection_factor(s.protection_factor, f.dof);
-  return {k * f.roll_sigma_rad + f.roll_bound_rad, k * f.pitch_sigma_rad + f.pitch_bound_rad};
+  return {k * f.roll_sigma_rad + f.roll_bound_rad.sum(), k * f.pitch_sigma_rad + f.pitch_bound_rad.sum()};
 }
 
 // Within another radius the floor looks otherwise: the levels reach to that too, and beyond, for the other is not the
@@ -153,11 +153,12 @@ void reach_to_other(const FloorResult& other, const Settings& s, FloorResult* fl
   const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
   const Levels levels = levels_of(*floor, s);
   // What was refused has no level of its own, but its bound tells of its rivals.
-  const double roll = kBeyond * std::fabs(a.roll_rad - b.roll_rad) + (other.fit.refused ? other.roll_bound_rad : 0.0);
+  const double roll =
+      kBeyond * std::fabs(a.roll_rad - b.roll_rad) + (other.fit.refused ? other.roll_bound_rad.sum() : 0.0);
   const double pitch =
-      kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + (other.fit.refused ? other.pitch_bound_rad : 0.0);
-  floor->roll_bound_rad += larger(0.0, roll - levels.roll_rad);
-  floor->pitch_bound_rad += larger(0.0, pitch - levels.pitch_rad);
+      kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + (other.fit.refused ? other.pitch_bound_rad.sum() : 0.0);
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, roll - levels.roll_rad);
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, pitch - levels.pitch_rad);
 }
 
 // Who chooses the smallest of several claims chooses a claim that is too small, the more so the more there are.
@@ -166,8 +167,8 @@ void widen(const Settings& s, std::uint32_t claims, FloorResult* floor) {
   if (floor->fit.refused) return;
   const double curse = kPerOtherClaim * static_cast<double>(claims - 1);
   const Levels levels = levels_of(*floor, s);
-  floor->roll_bound_rad += curse * levels.roll_rad;
-  floor->pitch_bound_rad += curse * levels.pitch_rad;
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += curse * levels.roll_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += curse * levels.pitch_rad;
 }
 
 // The machine stands on its floor, and about upright. Where more than one plane may be that floor and this one is
@@ -177,8 +178,8 @@ void reach_to_upright(FloorResult* floor) {
   if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
   const double tilt_rad = tilt_of_up(floor->fit.plane.n);
   if (!(tilt_rad > kSteep_rad)) return;
-  floor->roll_bound_rad += tilt_rad;
-  floor->pitch_bound_rad += tilt_rad;
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += tilt_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += tilt_rad;
 }
 
 }  // namespace

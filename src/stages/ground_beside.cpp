@@ -136,8 +136,8 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
     POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BESIDE,
                                larger(std::fabs(a.roll_rad - b.roll_rad), std::fabs(a.pitch_rad - b.pitch_rad)), 0.0,
                                false));
-    const auto reach_to = [](double apart_rad, double* bound_rad) {
-      *bound_rad = larger(*bound_rad, kStretch * std::fabs(apart_rad) + kMargin_rad);
+    const auto reach_to = [](double apart_rad, LevelParts* bound_rad) {
+      bound_rad->reach(kStretch * std::fabs(apart_rad) + kMargin_rad, POSE_WALL_PART_RIVAL);
     };
     reach_to(a.roll_rad - b.roll_rad, &floor->roll_bound_rad);
     reach_to(a.pitch_rad - b.pitch_rad, &floor->pitch_bound_rad);

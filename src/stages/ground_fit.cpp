@@ -164,16 +164,18 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   const auto not_a_plane = [&](const Eigen::Vector3d& of) {
     return std::fabs(of.dot(here)) + reach_of_halves(patches, uneven.correction, of);
   };
-  out->roll_bound_rad = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response)) + not_a_plane(roll);
-  out->pitch_bound_rad = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response)) + not_a_plane(pitch);
+  out->roll_bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response));
+  out->pitch_bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response));
+  out->roll_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(roll);
+  out->pitch_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
   out->dof = uneven.dof;
   // A floor that bends one way all along has a mean plane that is well known, and is not the one under the machine.
   const auto level = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
     return protection_factor(s.protection_factor, dof) * std::sqrt(of.dot(covariance * of));
   };
-  const auto reach_to_patches = [&](const Eigen::Vector3d& of, double* bound) {
+  const auto reach_to_patches = [&](const Eigen::Vector3d& of, LevelParts* bound) {
     const double more = level(bend.covariance, bend.dof, of) - level(uneven.covariance, uneven.dof, of);
-    if (more > 0.0) *bound += more;
+    if (more > 0.0) (*bound)[POSE_WALL_PART_BEND] += more;
   };
   reach_to_patches(roll, &out->roll_bound_rad);
   reach_to_patches(pitch, &out->pitch_bound_rad);

@@ -38,13 +38,14 @@ double predictive(double sigma, double dof) {
   return dof > kDofMin ? sigma * std::sqrt(dof / (dof - 2.0)) : sigma * std::sqrt(kDofMin / (kDofMin - 2.0));
 }
 
-Measurement measurement(double raw, double sigma, double bound, double dof, const Settings& s) {
+Measurement measurement(double raw, double sigma, const LevelParts& bound, double dof, const Settings& s) {
   Measurement m;
   m.raw = raw;
   m.sigma = predictive(sigma, dof);
-  m.protection = protection_factor(s.protection_factor, dof) * sigma + bound;
+  m.level = bound;
+  m.level[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_factor, dof) * sigma;
   // What has no bound is no measurement.
-  m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.protection);
+  m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.level.sum());
   if (!m.measured) m.reasons = POSE_WALL_R_ALERT_LIMIT;
   return m;
 }
@@ -68,8 +69,10 @@ void measure_distances(const WallResult& wall, const Settings& s, Measurement* f
   for (int end = 0; end < 2; ++end) {
     Measurement& m = *ends[end];
     if (!wall.fit.refused) {
-      m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m),
-                      wall.distance_bound_m[end] + kLayerFactor * wall.layer_sigma_m, wall.dof, s);
+      LevelParts bound = wall.distance_bound_m[end];
+      bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m;
+      m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m), bound,
+                      wall.dof, s);
       m.sigma = with_floor(m.sigma, wall.layer_sigma_m);
       if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
     }
@@ -86,12 +89,16 @@ double tilt_to_yaw(const WallResult& wall, const LevelResult& level) {
   return std::fabs(lean) + std::fabs(up) / std::sqrt(1.0 - up * up);
 }
 
-double yaw_bound_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
-  return wall.yaw_bound_rad + larger(floor.roll_bound_rad, floor.pitch_bound_rad) * tilt_to_yaw(wall, level);
+// Of a wall's own bound, and of the floor's larger one.
+LevelParts yaw_bound_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
+  const bool by_roll = floor.roll_bound_rad.sum() > floor.pitch_bound_rad.sum();
+  LevelParts bound = wall.yaw_bound_rad;
+  bound.add(by_roll ? floor.roll_bound_rad : floor.pitch_bound_rad, tilt_to_yaw(wall, level));
+  return bound;
 }
 
 // Adds what the floor's tilt turns into yaw: one error, whatever the number of walls.
-Measurement yaw_measurement(double raw, double walls_variance, double bound, double dof, double tilt_share,
+Measurement yaw_measurement(double raw, double walls_variance, const LevelParts& bound, double dof, double tilt_share,
                             const FloorResult& floor, const Settings& s) {
   const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_share;
   const double variance = walls_variance + tilt * tilt;
@@ -102,8 +109,9 @@ Measurement yaw_measurement(double raw, double walls_variance, double bound, dou
 }
 
 Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const LevelResult& level, const Settings& s) {
-  const double bias = s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
-  const double bound = yaw_bound_of(wall, floor, level) + wall.yaw_to_rival_rad + bias;
+  LevelParts bound = yaw_bound_of(wall, floor, level);
+  bound[POSE_WALL_PART_RIVAL] += wall.yaw_to_rival_rad;
+  bound[POSE_WALL_PART_RANGE_BIAS] += s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
   return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound, wall.dof_slope,
                          tilt_to_yaw(wall, level), floor, s);
 }
@@ -121,16 +129,17 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   const double w[2] = {1.0 / (variance[0] * information), 1.0 / (variance[1] * information)};
   const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
   const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
-  double bound = s.range_bias_max * std::fabs(bias);
-  bound += w[0] * yaw_bound_of(walls[0], floor, level) + w[1] * yaw_bound_of(walls[1], floor, level);
+  LevelParts bound;
+  bound[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(bias);
+  for (int side = 0; side < 2; ++side) bound.add(yaw_bound_of(walls[side], floor, level), w[side]);
   // Where a road bends ahead, both walls may be those behind the bend: the other one does not vouch for either.
-  bound += larger(walls[0].yaw_to_rival_rad, walls[1].yaw_to_rival_rad);
+  bound[POSE_WALL_PART_RIVAL] += larger(walls[0].yaw_to_rival_rad, walls[1].yaw_to_rival_rad);
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double apart_in_sigmas = (difference - biased_apart) / std::sqrt(variance[0] + variance[1]);
   const bool splayed = apart_in_sigmas > kSplayInSigmas;
   // The road's own direction lies between the walls'; the mean may lie at either.
-  if (splayed) bound += larger(w[0], w[1]) * difference;
+  if (splayed) bound[POSE_WALL_PART_BEND] += larger(w[0], w[1]) * difference;
   const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
   const double dof = 1.0 / (w[0] * w[0] / walls[0].dof_slope + w[1] * w[1] / walls[1].dof_slope);
@@ -191,10 +200,10 @@ Measurements measure_quantities(const FloorResult& floor, const LevelResult& lev
   out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;
   out.left_right_yaw_difference_rad = walls[0].yaw_rad - walls[1].yaw_rad;
   for (std::uint32_t i = 0; i < POSE_WALL_QUANTITIES; ++i) {
-    POSE_WALL_NOTE(if ((q[i].reasons & POSE_WALL_R_ALERT_LIMIT) != 0 || q[i].measured)
-                       trace::gate_of(POSE_WALL_TRACE_QUANTITY + i, POSE_WALL_TRACE_LEVEL_RAW, q[i].protection,
-                                      alert_limit(i, settings), q[i].protection <= alert_limit(i, settings)));
-    if (q[i].measured && !(q[i].protection <= alert_limit(i, settings))) q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
+    const double protection = q[i].level.sum(), limit = alert_limit(i, settings);
+    POSE_WALL_NOTE(if ((q[i].reasons & POSE_WALL_R_ALERT_LIMIT) != 0 || q[i].measured) trace::gate_of(
+        POSE_WALL_TRACE_QUANTITY + i, POSE_WALL_TRACE_LEVEL_RAW, protection, limit, protection <= limit));
+    if (q[i].measured && !(protection <= limit)) q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
   }
   return out;
 }

@@ -24,22 +24,17 @@ double larger_or_nan(double a, double b) {
   return !(a <= b) ? a : b;
 }
 
-// First-order low pass by backward Euler: exact in the mean for any dt, and free of exp().
-double gain(double dt_s, double tau_s) {
-  return dt_s >= 0.0 && tau_s > 0.0 ? dt_s / (tau_s + dt_s) : 1.0;
-}
-
 // A jump from the last good value further than machine and errors allow: either this value or that one is wrong. Both
 // stay possible until the new one has come again kConfirmations times. And where there was no good value yet and frames
 // were refused, the first that is not is one of several looks at the same thing, and the others said no.
-void check_innovation(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
-  const double rate = fastest(quantity, s);
-  const double from_good = m.protection + t->good.raw_protection + rate * t->good.age_s;
+void check_innovation(const Measurement& m, Track* t) {
+  const double level = m.level.sum();
+  const double from_good = level + t->good.raw_protection + t->good.grown;
   if (t->good.exists ? std::fabs(m.raw - t->good.raw) <= from_good : t->to_confirm == 0) {
     t->to_confirm = 0;
     return;
   }
-  const double from_last = m.protection + t->raw_protection + rate * t->age_s;
+  const double from_last = level + t->raw_protection + t->grown;
   const bool comes_again = t->has_value && t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
   t->to_confirm = comes_again ? t->to_confirm - 1 : kConfirmations;
 }
@@ -47,30 +42,67 @@ void check_innovation(const Measurement& m, std::uint32_t quantity, const Settin
 // A rival wall that was seen a moment ago is not gone because this frame does not show it. A level that reached to one
 // falls once kConfirmations frames in a row have seen none; until then what is measured anew may be the rival. Not so
 // of floors: uneven ground shows another slope in one frame of five, and is right in the others.
-double level_in_doubt(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
-  if ((m.reasons & POSE_WALL_R_WALL_AMBIGUOUS) != 0) {
+void keep_doubts(Track* t, Measurement* m) {
+  if ((m->reasons & POSE_WALL_R_WALL_AMBIGUOUS) != 0) {
     t->doubted_frames = kConfirmations;
-    return m.protection;
+    return;
   }
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_DOUBTED, t->doubted_frames, 0.0, t->doubted_frames == 0));
-  if (t->doubted_frames == 0) return m.protection;
+  if (t->doubted_frames == 0) return;
   --t->doubted_frames;
-  const double reach = std::fabs(m.raw - t->raw) + t->raw_protection + fastest(quantity, s) * t->age_s;
-  return larger_or_nan(m.protection, reach);
+  m->level.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown, POSE_WALL_PART_RIVAL);
 }
 
-// Moves the smoothed value towards the raw one; true where the yaw limit held it back.
+// Until a jump is confirmed the last good value may be the right one; where there was none, the level is no better than
+// what would do harm.
+void reach_to_last_good(std::uint32_t quantity, const Settings& s, const Track& t, Measurement* m) {
+  m->reasons |= POSE_WALL_R_INNOVATION;
+  if (t.good.exists) {
+    m->level.reach(std::fabs(m->raw - t.good.raw) + t.good.raw_protection + t.good.grown, POSE_WALL_PART_RIVAL);
+  } else {
+    m->level[POSE_WALL_PART_RIVAL] += alert_limit(quantity, s);
+  }
+}
+
+// How far smoothing may take the value from raw: a quarter of its level, and not so far that it is no longer valid.
+double lag_most(double level, double alert) {
+  constexpr double kShare = 0.25;
+  constexpr double kOfRoom = 0.99;  // the parts' sum is rounded
+  const double share = kShare * level, room = kOfRoom * (alert - level);
+  return room > 0.0 && room < share ? room : share;
+}
+
+double clamped(double x, double centre, double reach) {
+  if (x > centre + reach) return centre + reach;
+  return x < centre - reach ? centre - reach : x;
+}
+
+// Where a steady change would have taken the value, corrected by what was measured: the g-h filter whose memory fades
+// as fast for the value as for its rate, so that it neither lags in a steady turn nor swings (Benedict and Bordner
+// 1962; Brookner 1998, eq. 1.2-16: g = 1 - theta^2, h = (1 - theta)^2).
+double smoothed(double raw, double trust, double tau_s, Track* t) {
+  const double dt_s = t->age_s;
+  const bool filters = dt_s > 0.0 && tau_s > 0.0;
+  const double theta = filters ? tau_s / (tau_s + dt_s) : 0.0;
+  const double predicted = t->value + t->rate * dt_s;
+  const double off = trust * (raw - predicted);
+  t->rate = filters ? t->rate + (1.0 - theta) * (1.0 - theta) * off / dt_s : 0.0;
+  return filters ? predicted + (1.0 - theta * theta) * off : raw;
+}
+
+// Moves the smoothed value; true where the yaw limit held it back. A value that follows its raw is better than one that
+// is smooth: the limit acts only within lag_most().
 bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
-  const double alert = alert_limit(quantity, s);
-  const double trust = m.protection > alert ? alert / m.protection : 1.0;  // a weak measurement pulls less
-  double change = trust * gain(t->age_s, s.temporal_smoothing_tau) * (m.raw - t->value);
+  const double alert = alert_limit(quantity, s), level = m.level.sum(), before = t->value;
+  const double trust = level > alert ? alert / level : 1.0;  // a weak measurement pulls less
+  const double free = smoothed(m.raw, trust, s.temporal_smoothing_tau, t);
   const double limit = radians(s.yaw_rate_limit_deg);
+  const bool limited = quantity == POSE_WALL_YAW && std::fabs(free - before) > limit;
   POSE_WALL_NOTE(if (quantity == POSE_WALL_YAW)
-                     trace::gate(POSE_WALL_TRACE_RATE, std::fabs(change), limit, !(std::fabs(change) > limit)));
-  const bool limited = quantity == POSE_WALL_YAW && std::fabs(change) > limit;
-  if (limited) change = change > 0.0 ? limit : -limit;
-  t->value += change;
-  return limited;
+                     trace::gate(POSE_WALL_TRACE_RATE, std::fabs(free - before), limit, !limited));
+  const double wished = limited ? clamped(free, before, limit) : free;
+  t->value = clamped(wished, m.raw, lag_most(level, alert));
+  return limited && t->value == wished;
 }
 
 #ifdef POSE_WALL_TRACE
@@ -81,12 +113,12 @@ void note_timing(const FrameTiming& t, const Settings& s) {
   trace::gate(POSE_WALL_TRACE_STAMP_LEAP, t.dt_s, s.stamp_gap_max, !t.leap);
 }
 
-void note_innovation(const Measurement& m, std::uint32_t quantity, const Settings& s, const Track& t) {
+void note_innovation(const Measurement& m, const Track& t) {
   if (!t.good.exists) {
     trace::gate(POSE_WALL_TRACE_CONFIRMED, t.to_confirm, 0.0, t.to_confirm == 0);
     return;
   }
-  const double reach = m.protection + t.good.raw_protection + fastest(quantity, s) * t.good.age_s;
+  const double reach = m.level.sum() + t.good.raw_protection + t.good.grown;
   trace::gate(POSE_WALL_TRACE_INNOVATION, std::fabs(m.raw - t.good.raw), reach, t.to_confirm == 0);
 }
 
@@ -104,73 +136,76 @@ void keep_good(const Measurement& m, Track* t) {
   LastGood& good = t->good;
   good.exists = true;
   good.raw = m.raw;
-  good.raw_protection = m.protection;
+  good.raw_protection = m.level.sum();
   good.value = t->value;
-  good.value_protection = t->protection;
+  good.level = t->level;
+  good.grown = 0.0;
   good.age_s = 0.0;
+}
+
+void tell_level(const LevelParts& level, pose_wall_value* out) {
+  out->protection_level = level.sum();
+  out->cause = POSE_WALL_PART_RANDOM;
+  for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) {
+    out->part[part] = level.of[part];
+    if (level.of[part] > level.of[out->cause]) out->cause = part;
+  }
 }
 
 void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
   const bool in_doubt = t->doubted_frames > 0;
-  m.protection = level_in_doubt(m, quantity, s, t);
-  out->reasons = m.reasons;
-  check_innovation(m, quantity, s, t);
+  keep_doubts(t, &m);
+  check_innovation(m, t);
+  POSE_WALL_NOTE(note_innovation(m, *t));
+  const double seen_protection = m.level.sum();
+  if (t->to_confirm > 0) reach_to_last_good(quantity, s, *t, &m);
   if (afresh) {
     t->value = m.raw;
+    t->rate = 0.0;
   } else if (follow(m, quantity, s, t)) {
-    out->reasons |= POSE_WALL_R_RATE_LIMITED;
+    m.reasons |= POSE_WALL_R_RATE_LIMITED;
   }
   t->has_value = true;
   t->expired = false;
   t->raw = m.raw;
   t->sigma = m.sigma;
-  t->raw_protection = m.protection;
-  t->age_s = 0.0;
+  t->raw_protection = seen_protection;
+  t->age_s = t->grown = 0.0;
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
-  t->protection = m.protection + std::fabs(t->value - m.raw);
-  POSE_WALL_NOTE(note_innovation(m, quantity, s, *t));
-  if (t->to_confirm > 0) {
-    if (t->good.exists) {
-      const double reach = t->good.raw_protection + fastest(quantity, s) * t->good.age_s;
-      const double away = larger_or_nan(std::fabs(t->value - t->good.raw), std::fabs(m.raw - t->good.raw));
-      t->protection = larger_or_nan(t->protection, away + reach);
-    } else {
-      t->protection += alert_limit(quantity, s);  // no better than what would do harm
-    }
-    out->reasons |= POSE_WALL_R_INNOVATION;
-  }
-  const bool within = t->protection <= alert_limit(quantity, s);
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL_SMOOTHED, t->protection, alert_limit(quantity, s), within));
-  if (!within) out->reasons |= POSE_WALL_R_ALERT_LIMIT;
-  const bool valid = within && !m.weak && t->to_confirm == 0;
+  t->level = m.level;
+  t->level[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
+  const double alert = alert_limit(quantity, s), level = t->level.sum();
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL_SMOOTHED, level, alert, level <= alert));
+  if (!(level <= alert)) m.reasons |= POSE_WALL_R_ALERT_LIMIT;
+  const bool valid = level <= alert && !m.weak && t->to_confirm == 0;
   if (valid) keep_good(m, t);
-  if (!valid && in_doubt) out->reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
-  out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
+  if (!valid && in_doubt) m.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
+  out->state = out->raw_state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
+  out->reasons = m.reasons;
   out->raw = m.raw;
   out->value = t->value;
-  out->protection_level = t->protection;
+  out->raw_protection_level = m.level.sum();
+  tell_level(t->level, out);
 }
 
 // What is held is the last good value where there is one: a weak frame since then does not replace it.
 void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t, pose_wall_value* out) {
   out->reasons = m.reasons;
-  out->raw = not_a_number();
   if (!t->good.exists) t->to_confirm = kConfirmations;
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_EVER, t->has_value));
   if (!t->has_value) {
     out->reasons |= POSE_WALL_R_NEVER_MEASURED;
-    out->state = POSE_WALL_INVALID;
     return;
   }
-  const double rate = fastest(quantity, s);
-  const double last_level = t->protection + rate * t->age_s;
-  const double good_level = t->good.value_protection + rate * t->good.age_s;
+  LevelParts last_level = t->level, good_level = t->good.level;
+  last_level[POSE_WALL_PART_AGE] += t->grown;
+  good_level[POSE_WALL_PART_AGE] += t->good.grown;
   // A jump that nobody has confirmed yet may be one: the level of what came last reaches to both.
-  const bool hold_good = t->good.exists && t->to_confirm == 0 && good_level < last_level;
+  const bool hold_good = t->good.exists && t->to_confirm == 0 && good_level.sum() < last_level.sum();
   out->value = hold_good ? t->good.value : t->value;
   out->age_s = hold_good ? t->good.age_s : t->age_s;
-  out->protection_level = hold_good ? good_level : last_level;
+  tell_level(hold_good ? good_level : last_level, out);
   const bool within = out->protection_level <= alert_limit(quantity, s) && out->age_s <= s.hold_max;
   POSE_WALL_NOTE(note_held(*out, quantity, s, *t));
   t->expired = t->expired || !within;
@@ -188,14 +223,22 @@ double time_while_still(const TemporalState& state) {
 
 pose_wall_value blank() {
   pose_wall_value v{};
-  v.value = v.raw = v.sigma = v.protection_level = not_a_number();
+  v.value = v.raw = v.sigma = v.protection_level = v.raw_protection_level = not_a_number();
+  for (double& part : v.part) part = not_a_number();
+  v.cause = POSE_WALL_PARTS;
   return v;
 }
 
-void pass_time(double elapsed_s, Track* t) {
+void pass_time(double elapsed_s, double growth_per_s, double carry_per_s, Track* t) {
   if (!(elapsed_s > 0.0)) return;
   t->age_s += elapsed_s;
   t->good.age_s += elapsed_s;
+  t->grown += growth_per_s * elapsed_s;
+  t->good.grown += growth_per_s * elapsed_s;
+  if (carry_per_s == 0.0) return;
+  const double carried = carry_per_s * elapsed_s;
+  for (double* number : {&t->value, &t->raw, &t->good.value, &t->good.raw}) *number += carried;
+  t->rate = 0.0;  // the value has been moved
 }
 
 void set_confidence(const Track& t, std::uint32_t quantity, const Settings& s, pose_wall_value* out) {
@@ -205,10 +248,6 @@ void set_confidence(const Track& t, std::uint32_t quantity, const Settings& s, p
 }
 
 }  // namespace
-
-double fastest(std::uint32_t quantity, const Settings& s) {
-  return quantity <= POSE_WALL_YAW ? s.hold_rate_angle : s.hold_rate_distance;
-}
 
 FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const Settings& settings) {
   FrameTiming t;
@@ -228,12 +267,31 @@ FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const 
   return t;
 }
 
+double elapsed_of(const TemporalState& state, const FrameTiming& timing) {
+  return timing.still ? time_while_still(state) : timing.dt_s;
+}
+
+bool contradict(const MotionRates& rates, const Measurements& measured, const FrameTiming& timing,
+                const TemporalState& state) {
+  if (timing.leap || timing.back || timing.still) return false;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const Track& t = state.track[q];
+    const Measurement& m = measured.quantity[q];
+    if (!m.measured || !t.has_value || t.expired) continue;
+    const double expected = t.raw + rates.carry[q] * timing.dt_s;
+    const double reach = m.level.sum() + t.raw_protection + t.grown + rates.growth[q] * timing.dt_s;
+    if (!(std::fabs(m.raw - expected) <= reach)) return true;
+  }
+  return false;
+}
+
 void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
-                     const Settings& settings, TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
+                     const MotionRates& rates, const Settings& settings, TemporalState* state,
+                     pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
   state->has_stamp = true;
   state->stamp_ns = stamp_ns;
   state->still_frames = timing.still ? state->still_frames + 1 : 0;
-  const double elapsed_s = timing.still ? time_while_still(*state) : timing.dt_s;
+  const double elapsed_s = elapsed_of(*state, timing);
   if (!timing.leap && !timing.still && timing.dt_s > 0.0) {
     state->dt_before_s = state->last_dt_s;
     state->last_dt_s = timing.dt_s;
@@ -243,7 +301,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     const Measurement& m = measured.quantity[q];
     pose_wall_value& out = (*values)[q];
     out = blank();
-    pass_time(elapsed_s, &t);
+    pass_time(elapsed_s, rates.growth[q], rates.carry[q], &t);
     POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
     // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
     // bound any more.
@@ -261,6 +319,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
 
 void age_values(double elapsed_s, std::uint32_t reasons, const Settings& settings, TemporalState* state,
                 pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
+  const MotionRates rates = rates_by_config(settings);
   Measurement nothing;
   nothing.reasons = reasons;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -268,11 +327,26 @@ void age_values(double elapsed_s, std::uint32_t reasons, const Settings& setting
     Track aged = state->track[q];
     pose_wall_value& out = (*values)[q];
     out = blank();
-    pass_time(elapsed_s, &aged);
+    pass_time(elapsed_s, rates.growth[q], rates.carry[q], &aged);
     set_held(nothing, q, settings, &aged, &out);
     set_confidence(aged, q, settings, &out);
     state->track[q].expired = aged.expired;
   }
+}
+
+void rebase(double elapsed_s, std::int64_t stamp_ns, const Settings& settings, TemporalState* state) {
+  const MotionRates rates = rates_by_config(settings);
+  const bool dated = elapsed_s >= 0.0;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    Track& t = state->track[q];
+    pass_time(elapsed_s, rates.growth[q], rates.carry[q], &t);
+    if (dated) continue;
+    t.expired = true;
+    t.good.exists = false;
+  }
+  state->has_stamp = dated && state->has_stamp;
+  state->stamp_ns = stamp_ns;
+  state->still_frames = 0;
 }
 
 }  // namespace pose_wall

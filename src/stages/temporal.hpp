@@ -7,6 +7,7 @@
 
 #include "config.hpp"
 #include "pose_wall.h"
+#include "stages/temporal_motion.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
@@ -17,7 +18,8 @@ struct LastGood {
   double raw = 0.0;
   double raw_protection = 0.0;
   double value = 0.0;  // smoothed
-  double value_protection = 0.0;
+  LevelParts level;    // of value
+  double grown = 0.0;  // what the machine may have moved since, and nobody knows
   double age_s = 0.0;
 };
 
@@ -25,12 +27,14 @@ struct LastGood {
 struct Track {
   bool has_value = false;
   double value = 0.0;  // smoothed
+  double rate = 0.0;   // of value, per second
   double raw = 0.0;    // of the last frame it was measured in
   double raw_protection = 0.0;
   double sigma = 0.0;
-  double protection = 0.0;  // of value in that frame
-  double age_s = 0.0;       // since that frame
-  bool expired = false;     // held for too long, or the clock jumped: the filter starts afresh
+  LevelParts level;      // of value in that frame
+  double grown = 0.0;    // what the machine may have moved since that frame, and nobody knows
+  double age_s = 0.0;    // since that frame
+  bool expired = false;  // held for too long, or the clock jumped: the filter starts afresh
   LastGood good;
   // After a jump the last good value stays in the protection level until the new one has come again and again; what was
   // refused before there was a good one must come again, too.
@@ -49,19 +53,28 @@ struct TemporalState {
   double dt_before_s = 0.0;  // the one before the last
 };
 
-// Greatest change per second of one of the seven quantities, by the config.
-double fastest(std::uint32_t quantity, const Settings& settings);
-
 // Places the frame in time. Does not change the state.
 FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const Settings& settings);
 
+// Since the last frame: what its timing says, or as long as the last periods where its stamp stands still.
+double elapsed_of(const TemporalState& state, const FrameTiming& timing);
+
+// Whether a quantity was measured further from where these rates allow it than both levels bridge.
+bool contradict(const MotionRates& rates, const Measurements& measured, const FrameTiming& timing,
+                const TemporalState& state);
+
 // Takes the frame's measurements into the state and fills values, one per quantity.
 void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
-                     const Settings& settings, TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES]);
+                     const MotionRates& rates, const Settings& settings, TemporalState* state,
+                     pose_wall_value (*values)[POSE_WALL_QUANTITIES]);
 
 // What a frame that measures nothing would give, elapsed_s after the last one. Of it only this is kept: what has
 // expired stays so.
 void age_values(double elapsed_s, std::uint32_t reasons, const Settings& settings, TemporalState* state,
                 pose_wall_value (*values)[POSE_WALL_QUANTITIES]);
+
+// The stamps' clock was another one when the state was kept: elapsed_s before stamp_ns of the new one, or nobody knows
+// how long ago, where it is negative. What cannot be dated is not held.
+void rebase(double elapsed_s, std::int64_t stamp_ns, const Settings& settings, TemporalState* state);
 
 }  // namespace pose_wall

@@ -74,6 +74,7 @@ class Pass {
     for (const Box* box : {&settings.body_box_1, &settings.body_box_2, &settings.body_box_3, &settings.body_box_4}) {
       if (box->holds_something()) boxes_[box_count_++] = *box;
     }
+    if (cloud.inputs != nullptr) take_boxes(*cloud.inputs);
     const Eigen::Vector3d x_base = Eigen::Vector3d::UnitX(), y_base = Eigen::Vector3d::UnitY();
     quadrants_ = {quadrant_of(axes, x_base), quadrant_of(axes, y_base), quadrant_of(axes, -x_base),
                   quadrant_of(axes, -y_base)};
@@ -140,6 +141,13 @@ class Pass {
       std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
       std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
       std::memcpy(&block->z_lidar[k], z + at, sizeof(float));
+    }
+  }
+
+  void take_boxes(const pose_wall_inputs& inputs) {
+    for (const auto& edges_m : inputs.body_box) {
+      const Box box = box_of(edges_m);
+      if (box.is_sound() && box.holds_something()) boxes_[box_count_++] = box;
     }
   }
 
@@ -260,7 +268,7 @@ class Pass {
   const pose_wall_cloud& cloud_;
   FourTurns to_base_;
   float range_min2_, range_max2_;
-  Box boxes_[4] = {};
+  Box boxes_[4 + POSE_WALL_INPUT_BOXES] = {};
   std::uint32_t box_count_ = 0;
   struct {
     std::int32_t with_x, with_y, against_x, against_y;  // base's axes

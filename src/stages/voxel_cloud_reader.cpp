@@ -3,6 +3,7 @@
 
 #include "stages/voxel_cloud_reader.hpp"
 
+#include <cstdint>
 #include <cstring>
 
 namespace pose_wall {
@@ -122,7 +123,9 @@ std::int32_t check_cloud(const pose_wall_cloud& cloud) {
   if (packed_row > cloud.data_bytes) return POSE_WALL_E_CLOUD_SIZE;
   const std::uint64_t rows_before = cloud.height - 1U;
   if (rows_before != 0 && row_step > (cloud.data_bytes - packed_row) / rows_before) return POSE_WALL_E_CLOUD_SIZE;
-  return POSE_WALL_OK;
+  // No object is larger; with pointers of 32 bits a walk over such a cloud would begin at its start again.
+  constexpr std::uint64_t kObjectBytesMax = PTRDIFF_MAX;
+  return packed_row + rows_before * row_step <= kObjectBytesMax ? POSE_WALL_OK : POSE_WALL_E_CLOUD_SIZE;
 }
 
 }  // namespace pose_wall

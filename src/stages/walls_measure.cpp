@@ -59,13 +59,11 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, WallResult* out
   const bool rock = patch.tau_m >= kRockFrom_m;
   out->yaw_sigma_rad *= surface.strips != nullptr ? kStripsStretch : (rock ? kRockStretch : 1.0);
   out->yaw_bias_rad_per_m = -sign * patch.bias_response[1] / upright;
-  out->yaw_bound_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_BEND, out->yaw_bound_rad,
-                             kBendMatters * radians(scene.settings.alert_limit_angle_deg),
-                             !(out->yaw_bound_rad > kBendMatters * radians(scene.settings.alert_limit_angle_deg))));
-  if (out->yaw_bound_rad > kBendMatters * radians(scene.settings.alert_limit_angle_deg)) {
-    out->fit.reasons |= POSE_WALL_R_CURVED;
-  }
+  const double bend_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
+  const double bend_max_rad = kBendMatters * radians(scene.settings.alert_limit_angle_deg);
+  out->yaw_bound_rad[POSE_WALL_PART_BEND] = bend_rad;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_BEND, bend_rad, bend_max_rad, !(bend_rad > bend_max_rad)));
+  if (bend_rad > bend_max_rad) out->fit.reasons |= POSE_WALL_R_CURVED;
 }
 
 // How far the surface that is seen a little below a height or a little above it, ahead or behind, lies from the plane,
@@ -139,8 +137,11 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const bool in_rock = out->fit.plane.signed_distance(sample) < 0.0;
     out->extrapolated[end] = seen.interrupted || unseen || in_rock;
     POSE_WALL_NOTE(note_sample(scene.settings, POSE_WALL_D_LF + 2 * side + end, offset_m, gap_m, in_rock, seen));
-    out->distance_bound_m[end] = scene.settings.range_bias_max * std::fabs(bias) + bend + offset_m + seen.bound_m +
-                                 (unseen ? kMayStep_m : 0.0) + (in_rock ? 2.0 * out->distance_m[end] : 0.0);
+    LevelParts& bound = out->distance_bound_m[end];
+    bound[POSE_WALL_PART_RANGE_BIAS] = scene.settings.range_bias_max * std::fabs(bias);
+    bound[POSE_WALL_PART_BEND] = bend + offset_m;
+    bound[POSE_WALL_PART_EXTRAPOLATION] =
+        seen.bound_m + (unseen ? kMayStep_m : 0.0) + (in_rock ? 2.0 * out->distance_m[end] : 0.0);
   }
 }
 

@@ -43,7 +43,7 @@ void turn(const WallScene& scene, int side, double angle_rad, WallResult* wall) 
   for (int end = 0; end < 2; ++end) {
     const double before = wall->distance_m[end];
     wall->distance_m[end] = distance_at(wall->fit.plane, scene.sample_level_m[side][end]);
-    wall->distance_bound_m[end] += std::fabs(wall->distance_m[end] - before);
+    wall->distance_bound_m[end][POSE_WALL_PART_BEND] += std::fabs(wall->distance_m[end] - before);
   }
 }
 

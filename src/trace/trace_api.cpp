@@ -32,11 +32,14 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "gates.def is in another order than pose_wall_trace.h");
 
+// The frame's stamp is of the memento's clock: it is computed again.
+constexpr pose_wall_moment kSameClock = {sizeof(pose_wall_moment), POSE_WALL_MOMENT_SAME_CLOCK, {}, 0, 0};
+
 std::int32_t open(const pose_wall_config* config, const void* memento, std::uint64_t memento_bytes, void* block,
                   std::uint64_t block_bytes, pose_wall_engine** engine) {
   const std::int32_t status = pose_wall_open(config, block, block_bytes, engine);
   if (status != POSE_WALL_OK || memento == nullptr) return status;
-  return pose_wall_load(*engine, memento, memento_bytes);
+  return pose_wall_load(*engine, &kSameClock, memento, memento_bytes);
 }
 
 }  // namespace

@@ -25,12 +25,23 @@ pose_wall_config small_config() {
   return config_with({{"points_max", "5000"}});
 }
 
-// A result as an engine could have given it: 1.2345 deg and 2.3456 m, everywhere valid.
+// A frame of no points: its head is an engine's, so that there are images of it.
+pose_wall_result empty_frame(std::uint64_t frame_index, std::int64_t stamp_ns) {
+  EngineUnderTest engine(config_with({{"points_max", "5000"}, {"source_id", "7"}, {"forward_axis", "-X"}}));
+  pose_wall_cloud cloud;
+  for (std::uint64_t i = 0; i < frame_index; ++i) {
+    const std::int64_t before_ns = static_cast<std::int64_t>(frame_index - i) * 100000000;
+    EXPECT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, stamp_ns - before_ns), POSE_WALL_OK);
+    engine.process(cloud);
+  }
+  EXPECT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, stamp_ns), POSE_WALL_OK);
+  return engine.process(cloud);
+}
+
+// What an engine could have measured: 1.2345 deg and 2.3456 m, everywhere valid.
 pose_wall_result some_result() {
-  pose_wall_result r{};
-  r.struct_size = sizeof r;
-  r.frame_index = 41;
-  r.stamp_ns = -2;
+  static const pose_wall_result frame = empty_frame(41, -2);
+  pose_wall_result r = frame;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const bool angle = q <= POSE_WALL_YAW;
     r.quantity[q].value = angle ? 1.2345 * kDegree : 2.3456;
@@ -38,17 +49,26 @@ pose_wall_result some_result() {
     r.quantity[q].age_s = 0.1001;
     r.quantity[q].state = POSE_WALL_VALID;
     r.quantity[q].reasons = 1U << q;
+    r.quantity[q].cause = q;
   }
   return r;
 }
 
 pose_wall_image image_of(const pose_wall_result& result) {
-  static EngineUnderTest engine(small_config());
   pose_wall_image image;
   std::memset(&image, 0x5A, sizeof image);
   image.struct_size = sizeof image;
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_OK);
   EXPECT_EQ(pose_wall_image_check(&image), POSE_WALL_OK);
+  return image;
+}
+
+pose_wall_image2 image2_of(const pose_wall_result& result, const pose_wall_image_source* source = nullptr) {
+  pose_wall_image2 image;
+  std::memset(&image, 0x5A, sizeof image);
+  image.struct_size = sizeof image;
+  EXPECT_EQ(pose_wall_image2_fill(&result, source, &image), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_image2_check(&image), POSE_WALL_OK);
   return image;
 }
 
@@ -144,19 +164,24 @@ TEST(Image, WhatDoesNotFitSaturates) {
   }
 }
 
-TEST(Image, DamageToAnyBitIsFound) {
-  const pose_wall_image good = image_of(some_result());
+template <typename Image>
+void expect_every_bit_counts(const Image& good, std::int32_t (*check)(const Image*)) {
   for (std::size_t bit = 0; bit < 8 * sizeof good; ++bit) {
-    pose_wall_image damaged;
+    Image damaged;
     unsigned char bytes[sizeof good];
     std::memcpy(bytes, &good, sizeof good);
     bytes[bit / 8] = static_cast<unsigned char>(bytes[bit / 8] ^ (1U << bit % 8));
     std::memcpy(&damaged, bytes, sizeof damaged);
-    EXPECT_EQ(pose_wall_image_check(&damaged), bit < 64 ? POSE_WALL_E_IMAGE_VERSION : POSE_WALL_E_IMAGE_CRC) << bit;
+    EXPECT_EQ(check(&damaged), bit < 64 ? POSE_WALL_E_IMAGE_VERSION : POSE_WALL_E_IMAGE_CRC) << bit;
   }
-  const pose_wall_image zeros{};
-  EXPECT_EQ(pose_wall_image_check(&zeros), POSE_WALL_E_IMAGE_VERSION);
-  EXPECT_EQ(pose_wall_image_check(nullptr), POSE_WALL_E_NULL);
+  const Image zeros{};
+  EXPECT_EQ(check(&zeros), POSE_WALL_E_IMAGE_VERSION);
+  EXPECT_EQ(check(nullptr), POSE_WALL_E_NULL);
+}
+
+TEST(Image, DamageToAnyBitIsFound) {
+  expect_every_bit_counts(image_of(some_result()), pose_wall_image_check);
+  expect_every_bit_counts(image2_of(some_result()), pose_wall_image2_check);
 }
 
 TEST(Image, OfFramesOfAnEngine) {
@@ -167,7 +192,7 @@ TEST(Image, OfFramesOfAnEngine) {
   for (std::uint32_t frame = 1; frame <= 3; ++frame) {
     ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, frame * 100000000LL), POSE_WALL_OK);
     const pose_wall_result result = engine.process(cloud);
-    ASSERT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+    ASSERT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_OK);
     EXPECT_EQ(image.sequence, frame);
     EXPECT_EQ(image.verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
     EXPECT_EQ(image.d_lf.value_mm, POSE_WALL_IMAGE_NO_VALUE);
@@ -186,7 +211,7 @@ TEST(Image, TheSequenceTellsTheFirstFrameFromNone) {
   const auto sequence_of = [&engine](const pose_wall_result& result) {
     pose_wall_image image;
     image.struct_size = sizeof image;
-    EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_OK);
+    EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_OK);
     return image.sequence;
   };
   pose_wall_cloud cloud;
@@ -206,19 +231,149 @@ TEST(Image, TheSequenceTellsTheFirstFrameFromNone) {
 }
 
 TEST(Image, RefusedCallsChangeNothing) {
-  EngineUnderTest engine(small_config());
   pose_wall_result result = some_result();
   pose_wall_image image, before;
   std::memset(&image, 0x5A, sizeof image);
   before = image;
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_E_STRUCT_SIZE);
-  EXPECT_EQ(pose_wall_image_fill(nullptr, &result, &image), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), nullptr, &image), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_image_fill(nullptr, &image), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image_fill(&result, nullptr), POSE_WALL_E_NULL);
   EXPECT_EQ(std::memcmp(&image, &before, sizeof image), 0);
   before.struct_size = image.struct_size = sizeof image;
   result.struct_size = 8;
-  EXPECT_EQ(pose_wall_image_fill(engine.get(), &result, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(std::memcmp(&image, &before, sizeof image), 0);
+}
+
+TEST(Image2, HoldsWhatImage1Holds) {
+  pose_wall_result r = some_result();
+  r.quantity[POSE_WALL_D_RF].state = POSE_WALL_HELD;
+  r.quantity[POSE_WALL_PITCH].protection_level = kNaN;
+  const pose_wall_image one = image_of(r);
+  const pose_wall_image2 two = image2_of(r);
+  EXPECT_EQ(two.version, 2U);
+  EXPECT_EQ(two.sequence, one.sequence);
+  EXPECT_EQ(two.config_crc32, one.config_crc32);
+  EXPECT_EQ(two.library_version, one.library_version);
+  EXPECT_EQ(two.stamp_low, one.stamp_low);
+  EXPECT_EQ(two.stamp_high, one.stamp_high);
+  EXPECT_EQ(two.verdict, one.verdict);
+  EXPECT_EQ(two.valid, one.valid);
+  EXPECT_EQ(two.frame_reasons, one.frame_reasons);
+  const auto expect_same = [](const auto& a, const auto& b) {
+    EXPECT_EQ(a.age_ms, b.age_ms);
+    EXPECT_EQ(a.state, b.state);
+    EXPECT_EQ(a.reasons, b.reasons);
+  };
+  expect_same(one.pitch, two.pitch);
+  expect_same(one.d_rf, two.d_rf);
+  EXPECT_EQ(two.pitch.value_mdeg, one.pitch.value_mdeg);
+  EXPECT_EQ(two.pitch.protection_mdeg, POSE_WALL_IMAGE_NO_BOUND);
+  EXPECT_EQ(two.d_rf.value_mm, one.d_rf.value_mm);
+  EXPECT_EQ(two.d_rf.protection_mm, one.d_rf.protection_mm);
+  EXPECT_EQ(two.d_rb.value_mm, 2346);
+}
+
+TEST(Image2, TellsCausesAndSigns) {
+  pose_wall_result r = some_result();
+  r.quantity[POSE_WALL_D_LF].state = POSE_WALL_INVALID;
+  r.quantity[POSE_WALL_D_LB].cause = 99;
+  const pose_wall_image2 image = image2_of(r);
+  EXPECT_EQ(image.roll.cause, std::uint32_t{POSE_WALL_PART_RANDOM});
+  EXPECT_EQ(image.yaw.cause, std::uint32_t{POSE_WALL_PART_BEND});
+  EXPECT_EQ(image.d_rb.cause, std::uint32_t{POSE_WALL_PART_AGE});
+  EXPECT_EQ(image.d_lf.cause, std::uint32_t{POSE_WALL_PARTS}) << "no level, no cause";
+  EXPECT_EQ(image.d_lb.cause, std::uint32_t{POSE_WALL_PARTS}) << "an unknown one is none";
+  // The engine of some_result looks along -X.
+  EXPECT_EQ(image.roll.positive_means, std::uint32_t{POSE_WALL_SENSE_LEFT_DOWN});
+  EXPECT_EQ(image.pitch.positive_means, std::uint32_t{POSE_WALL_SENSE_NOSE_UP});
+  EXPECT_EQ(image.yaw.positive_means, std::uint32_t{POSE_WALL_SENSE_TURNED_RIGHT});
+}
+
+TEST(Image2, TellsWhereItComesFrom) {
+  const pose_wall_result r = some_result();
+  const pose_wall_image2 alone = image2_of(r);
+  EXPECT_EQ(alone.source_id, 7U);
+  EXPECT_EQ(alone.publication, 42U);
+  EXPECT_EQ(alone.latency_ms, 0xFFFFFFFFU);
+  EXPECT_EQ(alone.thinning, 0U);
+  EXPECT_EQ(alone.held_thinning, 0U);
+  EXPECT_EQ(alone.told_by, 0U);
+  pose_wall_image_source source = {sizeof(pose_wall_image_source), 2, 3, 4, 0x500000006ULL, 20000001};
+  const pose_wall_image2 told = image2_of(r, &source);
+  EXPECT_EQ(told.publication, 6U);
+  EXPECT_EQ(told.latency_ms, 21U) << "rounded up";
+  EXPECT_EQ(told.thinning, 3U);
+  EXPECT_EQ(told.held_thinning, 4U);
+  EXPECT_EQ(told.told_by, 2U);
+  EXPECT_EQ(told.source_id, 7U);
+  source.latency_ns = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(image2_of(r, &source).latency_ms, 0xFFFFFFFFU) << "what does not fit is not known";
+  source.latency_ns = 0;
+  EXPECT_EQ(image2_of(r, &source).latency_ms, 0U);
+}
+
+// A reader sees by it that silence is told: image 1 does not change then.
+TEST(Image2, ThePublicationChangesWithSilence) {
+  EngineUnderTest engine(small_config());
+  pose_wall_cloud cloud;
+  ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, nullptr, 0, 12, 0), POSE_WALL_OK);
+  const pose_wall_image2 frame = image2_of(engine.process(cloud));
+  pose_wall_result aged{};
+  aged.struct_size = sizeof aged;
+  ASSERT_EQ(pose_wall_age(engine.get(), 100000000, &aged), POSE_WALL_OK);
+  const pose_wall_image2 silence = image2_of(aged);
+  EXPECT_EQ(silence.sequence, frame.sequence);
+  EXPECT_EQ(silence.publication, frame.publication + 1);
+}
+
+// By bits, and over "123456789" the sum that is published for CRC-32C.
+std::uint32_t castagnoli(const unsigned char* bytes, std::size_t count, std::size_t left_out) {
+  std::uint32_t crc = 0xFFFFFFFFU;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i / 4 == left_out) continue;
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1U ^ ((crc & 1U) != 0 ? 0x82F63B78U : 0U);
+  }
+  return ~crc;
+}
+
+TEST(Image2, ItsSumIsNotTheFieldbuss) {
+  const unsigned char digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+  ASSERT_EQ(castagnoli(digits, sizeof digits, sizeof digits), 0xE3069283U);
+  const pose_wall_image2 image = image2_of(some_result());
+  unsigned char bytes[sizeof image];
+  std::memcpy(bytes, &image, sizeof image);
+  EXPECT_EQ(image.crc32c, castagnoli(bytes, sizeof bytes, 2));
+}
+
+TEST(Image2, FitsOneModbusRead) {
+  EXPECT_LE(sizeof(pose_wall_image2) / 2, 125U);
+}
+
+TEST(Image2, RefusedCallsChangeNothing) {
+  pose_wall_result result = some_result();
+  pose_wall_image_source source = {sizeof(pose_wall_image_source), 1, 1, 1, 1, 1};
+  pose_wall_image2 image, before;
+  std::memset(&image, 0x5A, sizeof image);
+  before = image;
+  EXPECT_EQ(pose_wall_image2_fill(&result, &source, &image), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_image2_fill(nullptr, &source, &image), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_image2_fill(&result, &source, nullptr), POSE_WALL_E_NULL);
+  before.struct_size = image.struct_size = sizeof image;
+  source.struct_size = 0;
+  EXPECT_EQ(pose_wall_image2_fill(&result, &source, &image), POSE_WALL_E_STRUCT_SIZE);
+  source.struct_size = sizeof source + 8;
+  EXPECT_EQ(pose_wall_image2_fill(&result, &source, &image), POSE_WALL_E_STRUCT_NEWER);
+  source.struct_size = sizeof source;
+  result.publication += 1;
+  EXPECT_EQ(pose_wall_image2_fill(&result, &source, &image), POSE_WALL_E_RESULT) << "its head was changed";
+  pose_wall_result blank{};
+  blank.struct_size = sizeof blank;
+  EXPECT_EQ(pose_wall_image2_fill(&blank, &source, &image), POSE_WALL_E_RESULT);
+  pose_wall_image image1;
+  image1.struct_size = sizeof image1;
+  EXPECT_EQ(pose_wall_image_fill(&blank, &image1), POSE_WALL_E_RESULT);
   EXPECT_EQ(std::memcmp(&image, &before, sizeof image), 0);
 }
 

@@ -11,6 +11,7 @@
 
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
+#include "support/moments.hpp"
 #include "support/room.hpp"
 
 namespace pose_wall::test {
@@ -20,12 +21,12 @@ using Memento = std::vector<unsigned char>;
 
 Memento save(EngineUnderTest* engine) {
   Memento memento(pose_wall_memento_bytes());
-  EXPECT_EQ(pose_wall_save(engine->get(), memento.data(), memento.size()), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_save(engine->get(), nullptr, memento.data(), memento.size()), POSE_WALL_OK);
   return memento;
 }
 
 std::int32_t load(EngineUnderTest* engine, const Memento& memento) {
-  return pose_wall_load(engine->get(), memento.data(), memento.size());
+  return pose_wall_load(engine->get(), &pose_wall::test::kSameClock, memento.data(), memento.size());
 }
 
 // Frames, gaps, a frozen sensor, stamps that stand still, jump back and leap.
@@ -119,17 +120,18 @@ TEST(Memento, OfAnotherConfigIsRefused) {
 TEST(Memento, WrongCallsChangeNothing) {
   EngineUnderTest engine(small_config());
   Memento memento = save(&engine), untouched(memento.size(), 0x5A);
-  EXPECT_EQ(pose_wall_save(engine.get(), untouched.data(), untouched.size() - 1), POSE_WALL_E_BUFFER_SMALL);
-  EXPECT_EQ(pose_wall_save(nullptr, untouched.data(), untouched.size()), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_save(engine.get(), nullptr, 1 << 20), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_save(engine.get(), nullptr, untouched.data(), untouched.size() - 1), POSE_WALL_E_BUFFER_SMALL);
+  EXPECT_EQ(pose_wall_save(nullptr, nullptr, untouched.data(), untouched.size()), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_save(engine.get(), nullptr, nullptr, 1 << 20), POSE_WALL_E_NULL);
   EXPECT_EQ(untouched, Memento(memento.size(), 0x5A));
-  EXPECT_EQ(pose_wall_load(engine.get(), memento.data(), memento.size() - 1), POSE_WALL_E_MEMENTO);
-  EXPECT_EQ(pose_wall_load(engine.get(), nullptr, 1 << 20), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_load(nullptr, memento.data(), memento.size()), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_load(engine.get(), &pose_wall::test::kSameClock, memento.data(), memento.size() - 1),
+            POSE_WALL_E_MEMENTO);
+  EXPECT_EQ(pose_wall_load(engine.get(), &pose_wall::test::kSameClock, nullptr, 1 << 20), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_load(nullptr, &pose_wall::test::kSameClock, memento.data(), memento.size()), POSE_WALL_E_NULL);
   AlignedBlock garbage(1 << 16, Dirt::kRandom);
   pose_wall_engine* const none = static_cast<pose_wall_engine*>(garbage.data());
-  EXPECT_EQ(pose_wall_load(none, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_save(none, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_load(none, &pose_wall::test::kSameClock, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_save(none, nullptr, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
 }
 
 }  // namespace

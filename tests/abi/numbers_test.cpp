@@ -14,7 +14,7 @@
 namespace {
 
 TEST(AbiNumbers, Versions) {
-  EXPECT_EQ(POSE_WALL_ABI_VERSION, 1);
+  EXPECT_EQ(POSE_WALL_ABI_VERSION, 2);
   EXPECT_EQ(pose_wall_abi_version(), static_cast<std::uint32_t>(POSE_WALL_ABI_VERSION));
   EXPECT_EQ(std::to_string(POSE_WALL_VERSION_MAJOR) + "." + std::to_string(POSE_WALL_VERSION_MINOR) + "." +
                 std::to_string(POSE_WALL_VERSION_PATCH),
@@ -31,6 +31,10 @@ TEST(AbiNumbers, Status) {
   EXPECT_EQ(POSE_WALL_E_INDEX, -6);
   EXPECT_EQ(POSE_WALL_E_BUFFER_SMALL, -7);
   EXPECT_EQ(POSE_WALL_E_MEMENTO, -8);
+  EXPECT_EQ(POSE_WALL_E_BUSY, -9);
+  EXPECT_EQ(POSE_WALL_E_ABI, -10);
+  EXPECT_EQ(POSE_WALL_E_STRUCT_NEWER, -11);
+  EXPECT_EQ(POSE_WALL_E_INPUT, -12);
   EXPECT_EQ(POSE_WALL_E_KEY_UNKNOWN, -20);
   EXPECT_EQ(POSE_WALL_E_VALUE_TYPE, -21);
   EXPECT_EQ(POSE_WALL_E_VALUE_RANGE, -22);
@@ -41,6 +45,7 @@ TEST(AbiNumbers, Status) {
   EXPECT_EQ(POSE_WALL_E_CLOUD_SIZE, -42);
   EXPECT_EQ(POSE_WALL_E_IMAGE_VERSION, -60);
   EXPECT_EQ(POSE_WALL_E_IMAGE_CRC, -61);
+  EXPECT_EQ(POSE_WALL_E_RESULT, -62);
 }
 
 TEST(AbiNumbers, KindsAndOrders) {
@@ -61,6 +66,19 @@ TEST(AbiNumbers, KindsAndOrders) {
   const int stages[] = {POSE_WALL_STAGE_VOXEL, POSE_WALL_STAGE_OUTLIERS, POSE_WALL_STAGE_GROUND, POSE_WALL_STAGE_BAND,
                         POSE_WALL_STAGE_WALLS, POSE_WALL_STAGE_OUTPUT,   POSE_WALL_STAGES};
   for (int i = 0; i < 7; ++i) EXPECT_EQ(stages[i], i);
+  const int parts[] = {
+      POSE_WALL_PART_RANDOM,        POSE_WALL_PART_RANGE_BIAS, POSE_WALL_PART_BEND, POSE_WALL_PART_RIVAL,
+      POSE_WALL_PART_EXTRAPOLATION, POSE_WALL_PART_LAG,        POSE_WALL_PART_AGE,  POSE_WALL_PARTS};
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(parts[i], i);
+  const int senses[] = {POSE_WALL_SENSE_UNKNOWN,   POSE_WALL_SENSE_RIGHT_DOWN, POSE_WALL_SENSE_LEFT_DOWN,
+                        POSE_WALL_SENSE_NOSE_DOWN, POSE_WALL_SENSE_NOSE_UP,    POSE_WALL_SENSE_TURNED_RIGHT};
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(senses[i], i);
+  EXPECT_EQ(POSE_WALL_INPUT_STANDING, 1);
+  EXPECT_EQ(POSE_WALL_INPUT_SPEED, 2);
+  EXPECT_EQ(POSE_WALL_INPUT_TURN_RATE, 4);
+  EXPECT_EQ(POSE_WALL_MOMENT_BOOT, 1);
+  EXPECT_EQ(POSE_WALL_MOMENT_WALL, 2);
+  EXPECT_EQ(POSE_WALL_MOMENT_SAME_CLOCK, 4);
   const int labels[] = {POSE_WALL_LABEL_OTHER, POSE_WALL_LABEL_FLOOR, POSE_WALL_LABEL_LEFT, POSE_WALL_LABEL_RIGHT};
   for (int i = 0; i < 4; ++i) EXPECT_EQ(labels[i], i);
 }
@@ -95,7 +113,8 @@ TEST(AbiNumbers, Reasons) {
                          POSE_WALL_R_WALL_TOO_NEAR,
                          POSE_WALL_R_NEVER_MEASURED,
                          POSE_WALL_R_NO_FRAME,
-                         POSE_WALL_R_WORK_LIMIT};
+                         POSE_WALL_R_WORK_LIMIT,
+                         POSE_WALL_R_PRIOR};
   ASSERT_LE(sizeof reasons / sizeof reasons[0], static_cast<std::size_t>(POSE_WALL_REASON_COUNT));
   for (std::size_t bit = 0; bit < sizeof reasons / sizeof reasons[0]; ++bit) EXPECT_EQ(reasons[bit], 1 << bit);
 }

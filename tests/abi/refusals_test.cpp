@@ -215,12 +215,13 @@ TEST(AbiRefusals, AResultThatWasNotInitialisedIsLeftAlone) {
   const Points points = road_grid();
   const pose_wall_cloud cloud = cloud_of(points, 0);
   pose_wall_result result;
-  for (const std::uint32_t size : {std::uint32_t{0}, static_cast<std::uint32_t>(sizeof result) - 1,
-                                   static_cast<std::uint32_t>(sizeof result) + 8}) {
+  constexpr std::uint32_t kNow = sizeof result;
+  for (const auto& [size, status] :
+       {std::pair(0U, POSE_WALL_E_STRUCT_SIZE), std::pair(0x5A5A5A5AU, POSE_WALL_E_STRUCT_SIZE),
+        std::pair(kNow - 1, POSE_WALL_E_STRUCT_SIZE), std::pair(kNow + 8, POSE_WALL_E_STRUCT_NEWER)}) {
     std::memset(&result, 0x5A, sizeof result);
     result.struct_size = size;
-    EXPECT_EQ(unchanged_by(&result, [&] { return pose_wall_process(engine.get(), &cloud, &result); }),
-              POSE_WALL_E_STRUCT_SIZE);
+    EXPECT_EQ(unchanged_by(&result, [&] { return pose_wall_process(engine.get(), &cloud, &result); }), status);
   }
 }
 
@@ -304,6 +305,15 @@ TEST(Memory, IsWhatTheReadmeSays) {
     ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
     EXPECT_NEAR(static_cast<double>(bytes) / (1 << 20), row.mebibytes, 0.03 * row.mebibytes) << row.points_max;
   }
+}
+
+// 2^26 points of 128 bytes are 2^33 bytes: 0 with pointers of 32 bits, where reading would begin again at the start.
+TEST(AbiRefusals, CloudsBeyondWhatPointersReach) {
+  static const float one[3] = {};
+  pose_wall_cloud cloud;
+  ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, one, 1U << 26, 128, 0), POSE_WALL_OK);
+  const std::int32_t status = sizeof(void*) == 4 ? POSE_WALL_E_CLOUD_SIZE : POSE_WALL_OK;
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), status);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright (c) 2026 the pose_wall authors */
 
-/* Prints where every member of the public structs lies, in C99. check_abi.cmake compares it with abi_layout.txt, on
- * every machine the same file; a struct whose members do not fill it (implicit padding) ends with status 1. */
+/* Prints where every member of the public structs lies, in C99. check_abi.cmake compares it with abi_layout.txt, or
+ * with abi_layout_armv7.txt where pointers have 32 bits. A struct whose members do not fill it (implicit padding) ends
+ * with status 1. Only a struct with pointers may have gaps, and only where these have 32 bits: nothing ever compares or
+ * sums its bytes. */
 
 #include <stdio.h>
 
@@ -23,6 +25,10 @@ static int struct_end(const char* name, size_t bytes) {
   const int padded = filled != bytes;
   filled = 0;
   return padded;
+}
+
+static int struct_with_pointers_end(const char* name, size_t bytes) {
+  return struct_end(name, bytes) && sizeof(void*) == 8;
 }
 
 #define MEMBER(type, name) member(#name, offsetof(type, name), sizeof(((type*)0)->name))
@@ -54,7 +60,16 @@ static int cloud_layout(void) {
   MEMBER(pose_wall_cloud, z);
   MEMBER(pose_wall_cloud, intensity);
   MEMBER(pose_wall_cloud, time);
-  return padded + struct_end("pose_wall_cloud", sizeof(pose_wall_cloud));
+  MEMBER(pose_wall_cloud, inputs);
+  padded += struct_with_pointers_end("pose_wall_cloud", sizeof(pose_wall_cloud));
+  MEMBER(pose_wall_inputs, struct_size);
+  MEMBER(pose_wall_inputs, given);
+  MEMBER(pose_wall_inputs, speed_m_s);
+  MEMBER(pose_wall_inputs, speed_sigma_m_s);
+  MEMBER(pose_wall_inputs, turn_rate_rad_s);
+  MEMBER(pose_wall_inputs, turn_rate_sigma_rad_s);
+  MEMBER(pose_wall_inputs, body_box);
+  return padded + struct_end("pose_wall_inputs", sizeof(pose_wall_inputs));
 }
 
 static int value_layout(void) {
@@ -62,10 +77,15 @@ static int value_layout(void) {
   MEMBER(pose_wall_value, raw);
   MEMBER(pose_wall_value, sigma);
   MEMBER(pose_wall_value, protection_level);
+  MEMBER(pose_wall_value, raw_protection_level);
   MEMBER(pose_wall_value, confidence);
   MEMBER(pose_wall_value, age_s);
+  MEMBER(pose_wall_value, part);
   MEMBER(pose_wall_value, state);
   MEMBER(pose_wall_value, reasons);
+  MEMBER(pose_wall_value, raw_state);
+  MEMBER(pose_wall_value, cause);
+  MEMBER(pose_wall_value, reserved);
   return struct_end("pose_wall_value", sizeof(pose_wall_value));
 }
 
@@ -87,6 +107,12 @@ static int plane_layout(void) {
 static int result_layout(void) {
   MEMBER(pose_wall_result, struct_size);
   MEMBER(pose_wall_result, frame_reasons);
+  MEMBER(pose_wall_result, mark);
+  MEMBER(pose_wall_result, config_crc32);
+  MEMBER(pose_wall_result, source_id);
+  MEMBER(pose_wall_result, positive_means);
+  MEMBER(pose_wall_result, publication);
+  MEMBER(pose_wall_result, work);
   MEMBER(pose_wall_result, stamp_ns);
   MEMBER(pose_wall_result, frame_index);
   MEMBER(pose_wall_result, confidence);
@@ -134,13 +160,25 @@ static int pointers_layout(void) {
   MEMBER(pose_wall_points, label);
   MEMBER(pose_wall_points, count);
   MEMBER(pose_wall_points, reserved);
-  return padded + struct_end("pose_wall_points", sizeof(pose_wall_points));
+  padded += struct_end("pose_wall_points", sizeof(pose_wall_points));
+  MEMBER(pose_wall_moment, struct_size);
+  MEMBER(pose_wall_moment, known);
+  MEMBER(pose_wall_moment, boot_id);
+  MEMBER(pose_wall_moment, wall_ns);
+  MEMBER(pose_wall_moment, stamp_ns);
+  return padded + struct_end("pose_wall_moment", sizeof(pose_wall_moment));
 }
 
 static int image_layout(void) {
   int padded = 0;
 #include "image_members.def"
-  return padded;
+  MEMBER(pose_wall_image_source, struct_size);
+  MEMBER(pose_wall_image_source, cause);
+  MEMBER(pose_wall_image_source, thinning);
+  MEMBER(pose_wall_image_source, held_thinning);
+  MEMBER(pose_wall_image_source, publication);
+  MEMBER(pose_wall_image_source, latency_ns);
+  return padded + struct_end("pose_wall_image_source", sizeof(pose_wall_image_source));
 }
 
 static int publication_layout(void) {
@@ -152,6 +190,10 @@ static int publication_layout(void) {
   MEMBER(pose_wall_publication, frame);
   MEMBER(pose_wall_publication, received_ns);
   MEMBER(pose_wall_publication, published_ns);
+  MEMBER(pose_wall_publication, age_ns);
+  MEMBER(pose_wall_publication, activity_since_ns);
+  MEMBER(pose_wall_publication, activity);
+  MEMBER(pose_wall_publication, reserved);
   MEMBER(pose_wall_publication, result);
   return struct_end("pose_wall_publication", sizeof(pose_wall_publication));
 }
@@ -179,6 +221,7 @@ static int runtime_options_layout(void) {
   MEMBER(pose_wall_runtime_options, sink);
   MEMBER(pose_wall_runtime_options, sink_user);
   MEMBER(pose_wall_runtime_options, box_bytes);
+  MEMBER(pose_wall_runtime_options, reserved_2);
   return struct_end("pose_wall_runtime_options", sizeof(pose_wall_runtime_options));
 }
 
@@ -206,6 +249,9 @@ static int runtime_statistics_layout(void) {
   MEMBER(pose_wall_runtime_statistics, thinned);
   MEMBER(pose_wall_runtime_statistics, thinning);
   MEMBER(pose_wall_runtime_statistics, thinning_worst);
+  MEMBER(pose_wall_runtime_statistics, activity);
+  MEMBER(pose_wall_runtime_statistics, reserved);
+  MEMBER(pose_wall_runtime_statistics, activity_since_ns);
   MEMBER(pose_wall_runtime_statistics, newest_age_ns);
   MEMBER(pose_wall_runtime_statistics, box_written);
   MEMBER(pose_wall_runtime_statistics, box_lost);
@@ -242,6 +288,7 @@ static int box_record_layout(void) {
   MEMBER(pose_wall_box_record, memento);
   MEMBER(pose_wall_box_record, result);
   MEMBER(pose_wall_box_record, points);
+  MEMBER(pose_wall_box_record, inputs);
   MEMBER(pose_wall_box_record, x);
   MEMBER(pose_wall_box_record, y);
   MEMBER(pose_wall_box_record, z);
@@ -254,7 +301,7 @@ static int box_record_layout(void) {
   MEMBER(pose_wall_box_record, big_endian);
   MEMBER(pose_wall_box_record, left_out_not_finite);
   MEMBER(pose_wall_box_record, left_out_zero);
-  return struct_end("pose_wall_box_record", sizeof(pose_wall_box_record));
+  return struct_with_pointers_end("pose_wall_box_record", sizeof(pose_wall_box_record));
 }
 
 int main(void) {

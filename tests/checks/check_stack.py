@@ -4,9 +4,9 @@
 """The most stack that any function of the C ABI can need, from the call graph: no recursion, no frame of unknown size,
 and at most so many bytes.
 
-    check_stack.py FOLDER LIMIT [README.md]      FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
+    check_stack.py FOLDER LIMIT [README.md ROW]  FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
 
-README.md: what its table of archives says of aarch64's stack has to be so.
+README.md: what its table of archives says of this machine's stack has to be so.
 
 What the engine asks of the C library (memcpy, memset, sqrt) is counted as LIBRARY bytes each; the caller's own clock is
 not counted.
@@ -54,12 +54,12 @@ def deepest(function, sizes, calls, known, path):
     return known[function]
 
 
-def differs_from(readme, worst):
-    """In words; README's row of aarch64 ends with the stack in KiB."""
+def differs_from(readme, row_name, worst):
+    """In words; README's row of a machine ends with the stack in KiB."""
     text = pathlib.Path(readme).read_text(encoding="utf-8")
-    row = re.search(r"^\| aarch64 \|.*\| ([0-9.]+) KiB \|$", text, re.MULTILINE)
+    row = re.search(rf"^\| {re.escape(row_name)} \|.*\| ([0-9.]+) KiB \|$", text, re.MULTILINE)
     if row is None:
-        return [f"{readme}: no row '| aarch64 | ... | N KiB |' to compare with"]
+        return [f"{readme}: no row '| {row_name} | ... | N KiB |' to compare with"]
     noted, found = float(row[1]), worst / 1024
     if abs(found - noted) <= TOLERANCE * noted:
         return []
@@ -67,7 +67,7 @@ def differs_from(readme, worst):
 
 
 def main():
-    if len(sys.argv) not in (3, 4):
+    if len(sys.argv) not in (3, 5):
         raise SystemExit(__doc__)
     limit = int(sys.argv[2])
     sizes, calls, faults = read(sys.argv[1])
@@ -81,8 +81,8 @@ def main():
     print(f"{worst:7d} bytes at most, of {limit}; {len(roots)} functions looked at")
     if worst > limit:
         faults.append(f"{worst} bytes of stack are more than {limit}")
-    if len(sys.argv) == 4:
-        faults += differs_from(sys.argv[3], worst)
+    if len(sys.argv) == 5:
+        faults += differs_from(sys.argv[3], sys.argv[4], worst)
     for fault in faults:
         print(fault)
     raise SystemExit(1 if faults else 0)

@@ -159,11 +159,12 @@ class Stack(BrokenProject):
     def test_readme(self):
         self.graph("a", [("pose_wall_open", "512 bytes (static)")], [])
         self.write("README.md", "| aarch64 | 1 KiB | 0.5 KiB |\n")
-        self.passes(*self.check(), self.root / "README.md")
+        self.passes(*self.check(), self.root / "README.md", "aarch64")
+        self.fails("no row '| armv7", *self.check(), self.root / "README.md", "armv7")
         self.write("README.md", "| aarch64 | 1 KiB | 0.8 KiB |\n")
-        self.fails("README.md says 0.8 KiB of stack; it is 0.5", *self.check(), self.root / "README.md")
+        self.fails("README.md says 0.8 KiB of stack; it is 0.5", *self.check(), self.root / "README.md", "aarch64")
         self.write("README.md", "")
-        self.fails("no row", *self.check(), self.root / "README.md")
+        self.fails("no row", *self.check(), self.root / "README.md", "aarch64")
 
     def test_recursion(self):
         sizes = [("pose_wall_open", "1 bytes (static)"), ("b", "1 bytes (static)")]

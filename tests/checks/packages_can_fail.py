@@ -172,6 +172,9 @@ class Presets(BrokenProject):
         status, text = self.run_check(*self.packages("arm64-clang"))
         self.assertEqual(status, 0)
         self.assertLessEqual({"cmake", "clang", "g++-aarch64-linux-gnu", "libgtest-dev"}, set(text.split()))
+        status, text = self.run_check(*self.packages("armhf"))
+        self.assertEqual(status, 0)
+        self.assertLessEqual({"g++-arm-linux-gnueabihf", "qemu-user-static", "libgtest-dev"}, set(text.split()))
 
     def test_refused(self):
         self.fails("there is no preset 'arm'", self.SOURCE / "tools/test.sh", "arm")

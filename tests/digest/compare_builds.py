@@ -8,7 +8,7 @@ all give the same digests: of the roadways, as digests.txt notes them, and of re
 
 OUTPUT is a folder for the builds. FILE.xyz is what real_frames.sh makes of a recording. Recordings are compared between
 builds, so at least two have to read them; the one without an operating system reads no files. Needs clang,
-g++-aarch64-linux-gnu, qemu-user-static. All builds: some ten minutes on two cores.
+g++-aarch64-linux-gnu, g++-arm-linux-gnueabihf, qemu-user-static. All builds: some twelve minutes on two cores.
 """
 
 import argparse
@@ -24,10 +24,12 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 GCC, CLANG = ([f"-DCMAKE_C_COMPILER={c}", f"-DCMAKE_CXX_COMPILER={cpp}"]
               for c, cpp in (("gcc", "g++"), ("clang", "clang++")))
-ARM_GCC, ARM_CLANG, BARE = ([f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/toolchains/{name}.cmake"] for name in (
-    "aarch64-linux-gnu", "aarch64-linux-gnu-clang", "aarch64-none-elf"))
+ARM_GCC, ARM_CLANG, BARE, ARMV7_GCC = ([f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/toolchains/{name}.cmake"] for name in (
+    "aarch64-linux-gnu", "aarch64-linux-gnu-clang", "aarch64-none-elf",
+    "arm-linux-gnueabihf"))
 ON_ARM = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu"]
 ON_A53 = ON_ARM + ["-cpu", "cortex-a53"]
+ON_A8 = ["qemu-arm-static", "-L", "/usr/arm-linux-gnueabihf", "-cpu", "cortex-a8"]
 
 # Name, how to configure, flags, how to run; AVX2 and FMA are there for the taking on a haswell.
 BUILDS = [
@@ -45,6 +47,8 @@ BUILDS = [
     ("aarch64-clang-O2", ARM_CLANG, "-O2", ON_A53),
     ("aarch64-clang-O3", ARM_CLANG, "-O3", ON_A53),
     ("aarch64-none-elf-clang-Os", BARE, "-Os", ["qemu-aarch64-static", "-cpu", "cortex-a53"]),
+    ("armv7-gcc-O3", ARMV7_GCC, "-O3", ON_A8),
+    ("armv7-gcc-O2-neon", ARMV7_GCC, "-O2 -mfpu=neon", ON_A8),
 ]
 
 

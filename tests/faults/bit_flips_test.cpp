@@ -13,6 +13,7 @@
 
 #include "engine.hpp"
 #include "fault_room.hpp"
+#include "support/moments.hpp"
 
 namespace pose_wall::test {
 namespace {
@@ -42,7 +43,7 @@ class OpenBlock {
  private:
   static std::uint64_t needed(const pose_wall_config& config) {
     std::uint64_t bytes = 0;
-    pose_wall_memory_needed(&config, &bytes);
+    (void)pose_wall_memory_needed(&config, &bytes);
     return bytes;
   }
 
@@ -106,10 +107,10 @@ TEST(BitFlips, EveryCallRefusesADamagedEngineUntilItIsOpenedAgain) {
   EXPECT_EQ(pose_wall_age(e, 0, &result), POSE_WALL_E_ENGINE);
   EXPECT_EQ(pose_wall_reset(e), POSE_WALL_E_ENGINE);
   EXPECT_EQ(pose_wall_set_clock(e, nullptr, nullptr), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_save(e, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_load(e, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_save(e, nullptr, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_load(e, &pose_wall::test::kSameClock, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
   EXPECT_EQ(pose_wall_last_points(e, &points), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_image_fill(e, &result, &image), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_E_RESULT);
   block.open();
   const pose_wall_result fresh = block.processed(1);
   EXPECT_EQ(fresh.frame_index, 0U);

@@ -44,13 +44,14 @@ void PrintTo(const DescriptionCase& c, std::ostream* out) {
 }
 
 constexpr std::int32_t kOk = POSE_WALL_OK, kField = POSE_WALL_E_CLOUD_FIELD, kStep = POSE_WALL_E_CLOUD_STEP;
-constexpr std::int32_t kSize = POSE_WALL_E_CLOUD_SIZE, kStruct = POSE_WALL_E_STRUCT_SIZE;
+constexpr std::int32_t kSize = POSE_WALL_E_CLOUD_SIZE, kStruct = POSE_WALL_E_STRUCT_SIZE,
+                       kNewer = POSE_WALL_E_STRUCT_NEWER;
 constexpr std::uint32_t kMost = 0xFFFFFFFF;
 
 const DescriptionCase kDescriptions[] = {
     {"struct_size_0", kStruct, "", [](auto* d) { d->cloud.struct_size = 0; }},
     {"struct_size_one_less", kStruct, "", [](auto* d) { --d->cloud.struct_size; }},
-    {"struct_size_8_more", kStruct, "", [](auto* d) { d->cloud.struct_size += 8; }},
+    {"struct_size_8_more", kNewer, "", [](auto* d) { d->cloud.struct_size += 8; }},
     {"struct_size_most", kStruct, "", [](auto* d) { d->cloud.struct_size = kMost; }},
 
     {"data_null", POSE_WALL_E_NULL, "", [](auto* d) { d->cloud.data = nullptr; }},

@@ -13,6 +13,7 @@
 
 #include "fault_room.hpp"
 #include "support/garbage.hpp"
+#include "support/moments.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::test {
@@ -31,7 +32,7 @@ struct Sequence {
       stamps_ns.push_back(frame.stamp_ns);
       truths.push_back(simulator.truth(i));
       std::vector<unsigned char> memento(pose_wall_memento_bytes());
-      pose_wall_save(engine.get(), memento.data(), memento.size());
+      (void)pose_wall_save(engine.get(), nullptr, memento.data(), memento.size());
       mementos.push_back(memento);
       results.push_back(engine.process(cloud_of(frames[i], stamps_ns[i])));
       states.push_back(states_of(results[i]));
@@ -122,7 +123,8 @@ class PoisonedRun {
   explicit PoisonedRun(std::uint32_t first)
       : s_(sequence()), engine_(s_.config), watch_(s_.config), frame_(first), random_(first) {
     const std::vector<unsigned char>& memento = s_.mementos[first];
-    EXPECT_EQ(pose_wall_load(engine_.get(), memento.data(), memento.size()), POSE_WALL_OK);
+    EXPECT_EQ(pose_wall_load(engine_.get(), &pose_wall::test::kSameClock, memento.data(), memento.size()),
+              POSE_WALL_OK);
     for (std::uint32_t i = 0; i < first; ++i) EXPECT_EQ(watch_.processed(s_.results[i]), "");
   }
 

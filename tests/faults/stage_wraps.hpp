@@ -94,7 +94,10 @@ POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor,
     r = FloorResult{};
     refuse(&r.fit, POSE_WALL_R_FLOOR_NOT_FOUND);
   }
-  if (fails(Fault::kFloorNan)) r.roll_sigma_rad = r.pitch_sigma_rad = r.roll_bound_rad = r.pitch_bound_rad = kNan;
+  if (fails(Fault::kFloorNan)) {
+    r.roll_sigma_rad = r.pitch_sigma_rad = kNan;
+    r.roll_bound_rad[POSE_WALL_PART_BEND] = r.pitch_bound_rad[POSE_WALL_PART_BEND] = kNan;
+  }
   return r;
 }
 
@@ -292,9 +295,10 @@ POSE_WALL_WRAP(FrameTiming, TIME_FRAME, timing,
 }
 
 POSE_WALL_WRAP(void, SMOOTH_AND_HOLD, smoothing,
-               (const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns, const Settings& s,
-                TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES])) {
-  if (!fails(Fault::kSmoothingSilent)) smoothing_for_real(measured, timing, stamp_ns, s, state, values);
+               (const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
+                const MotionRates& rates, const Settings& s, TemporalState* state,
+                pose_wall_value (*values)[POSE_WALL_QUANTITIES])) {
+  if (!fails(Fault::kSmoothingSilent)) smoothing_for_real(measured, timing, stamp_ns, rates, s, state, values);
 }
 
 POSE_WALL_WRAP(void, REPORT_FINDINGS, report, (const FrameFindings& found, pose_wall_result* result)) {

@@ -34,6 +34,7 @@ inline void mend_sizes(unsigned char* box) {
   put<std::uint32_t>(sizeof(pose_wall_result), box + kAtResultBytes);
   put<std::uint32_t>(static_cast<std::uint32_t>(pose_wall_memento_bytes()), box + kAtMementoBytes);
   put<std::uint32_t>(POSE_WALL_ABI_VERSION, box + kAtAbi);
+  put<std::uint32_t>(sizeof(pose_wall_inputs), box + kAtInputsBytes);
 }
 
 inline void mend_memento(unsigned char* memento) {
@@ -46,12 +47,15 @@ inline void mend_memento(unsigned char* memento) {
 inline void mend_record(const unsigned char* header, unsigned char* head, std::uint64_t room, std::uint8_t parts) {
   using namespace runtime;
   const std::uint64_t fixed = kHeadBytes + body_without_cloud();
-  if ((parts & kMendMementos) != 0 && room >= fixed) mend_memento(head + kHeadBytes + kDescriptionBytes);
+  if ((parts & kMendMementos) != 0 && room >= fixed) mend_memento(head + kHeadBytes + kAtMemento);
   if ((parts & kMendSizes) != 0 && room >= fixed) {
     unsigned char* const description = head + kHeadBytes;
     // Of the header's run: others are not computed.
     put<std::uint16_t>(get<std::uint16_t>(header + kAtHeaderRun), head + kAtRun);
     put<std::uint32_t>(get<std::uint32_t>(header + kAtHeaderConfigCrc), description + kAtConfigCrc);
+    // Inputs of a size that the engine takes, where there are any.
+    unsigned char* const inputs = description + kAtInputs;
+    if (get<std::uint32_t>(inputs) != 0) put<std::uint32_t>(sizeof(pose_wall_inputs), inputs);
     const std::uint64_t cloud = get<std::uint64_t>(head + kAtCloudBytes) % (room - fixed + 1) / 64 * 64;
     const std::uint32_t step = get<std::uint32_t>(description + kAtPointBytes) % 48U + 1U;
     const std::uint64_t points = cloud / step;

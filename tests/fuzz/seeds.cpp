@@ -138,7 +138,7 @@ Text recorded(std::uint32_t clouds) {
     runtime.wait_idle();
   }
   runtime.pass(400 * kMs);
-  pose_wall_runtime_stop(runtime.get());
+  runtime.stop();
   return disk.bytes;
 }
 

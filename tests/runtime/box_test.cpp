@@ -224,7 +224,7 @@ TEST(Box, DigestsAloneAreSmallAndSaySo) {
   runtime.start();
   runtime.push(room, 5);
   runtime.wait_idle();
-  pose_wall_runtime_stop(runtime.get());
+  runtime.stop();
   EXPECT_LT(disk.bytes.size(), 10000U);
   const Found found = read(disk.bytes);
   ASSERT_EQ(found.whole.size(), 1U);
@@ -273,7 +273,7 @@ void start_work_stop(RuntimeUnderTest* runtime, int frames) {
     runtime->push(Points(3, {1, 2, 3}), i * 100 * kMs);
     runtime->wait_idle();
   }
-  pose_wall_runtime_stop(runtime->get());
+  runtime->stop();
 }
 
 TEST(Box, RecordsOfAnEarlierStartAreToldApart) {

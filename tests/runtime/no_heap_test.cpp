@@ -46,18 +46,21 @@ TEST(RuntimeNoHeap, NothingAfterStart) {
   const Points room = room_points(1), few(3, {1, 1, 1});
   pose_wall_publication p{};
   pose_wall_runtime_statistics s{};
+  pose_wall_image image{};
   p.struct_size = sizeof p;
+  image.struct_size = sizeof image;
   s.struct_size = sizeof s;
 
   start_counting_heap_calls();
   for (std::int64_t i = 0; i < 50; ++i) {
     pose_wall_cloud cloud = cloud_of(i % 3 == 0 ? few : room, i * kMs);
     if (i % 10 == 9) cloud.data_bytes = 1;
-    pose_wall_runtime_push(r, &cloud);
+    (void)pose_wall_runtime_push(r, &cloud);
     if (i % 4 == 0) pose_wall_runtime_wait_idle(r);
     clock.advance(400 * kMs);
     pose_wall_runtime_tick(r);
-    pose_wall_runtime_latest(r, &p);
+    (void)pose_wall_runtime_latest(r, &p);
+    (void)pose_wall_runtime_image(r, &image);
     pose_wall_runtime_statistics_now(r, &s);
   }
   pose_wall_runtime_wait_idle(r);

@@ -22,14 +22,14 @@ std::int32_t sink(void* /*user*/, std::uint64_t /*offset*/, const void* /*bytes*
 }
 
 TEST(RuntimeAbi, Numbers) {
-  EXPECT_EQ(pose_wall_runtime_abi_version(), 2U);
+  EXPECT_EQ(pose_wall_runtime_abi_version(), 3U);
   const int statuses[] = {POSE_WALL_RUNTIME_E_OPTION,  POSE_WALL_RUNTIME_E_HANDLE, POSE_WALL_RUNTIME_E_STATE,
                           POSE_WALL_RUNTIME_E_THREAD,  POSE_WALL_RUNTIME_E_BUSY,   POSE_WALL_RUNTIME_E_LARGE,
-                          POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM};
-  for (int i = 0; i < 8; ++i) EXPECT_EQ(statuses[i], -100 - i);
+                          POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_RUNTIME_E_STALE};
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(statuses[i], -100 - i);
   const int of_box[] = {POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION, POSE_WALL_BOX_E_END,
                         POSE_WALL_BOX_E_EMPTY,  POSE_WALL_BOX_E_RUN,     POSE_WALL_BOX_E_KIND};
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(of_box[i], -80 - i);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(of_box[i], -90 - i);
   const int drops[] = {POSE_WALL_RUNTIME_DROP_DESCRIPTION, POSE_WALL_RUNTIME_DROP_LARGE,
                        POSE_WALL_RUNTIME_DROP_BUSY,        POSE_WALL_RUNTIME_DROP_OVERTAKEN,
                        POSE_WALL_RUNTIME_DROP_STOPPED,     POSE_WALL_RUNTIME_DROP_ENGINE,
@@ -37,18 +37,27 @@ TEST(RuntimeAbi, Numbers) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(drops[i], i);
   EXPECT_EQ(POSE_WALL_RUNTIME_FRAME, 1);
   EXPECT_EQ(POSE_WALL_RUNTIME_SILENCE, 2);
+  const int activities[] = {POSE_WALL_RUNTIME_AT_NOTHING, POSE_WALL_RUNTIME_AT_WAIT,    POSE_WALL_RUNTIME_AT_CHOICE,
+                            POSE_WALL_RUNTIME_AT_FRAME,   POSE_WALL_RUNTIME_AT_SILENCE, POSE_WALL_RUNTIME_AT_CALLBACK,
+                            POSE_WALL_RUNTIME_ACTIVITIES};
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(activities[i], i);
 }
 
 TEST(RuntimeAbi, EveryStatusAndDropHasAText) {
   std::set<std::string> texts;
-  for (int status = -100; status >= -107; --status) texts.insert(pose_wall_runtime_status_text(status));
-  for (int status = -80; status >= -85; --status) texts.insert(pose_wall_runtime_status_text(status));
-  EXPECT_EQ(texts.size(), 14U);
+  for (int status = -100; status >= -108; --status) texts.insert(pose_wall_runtime_status_text(status));
+  for (int status = -90; status >= -95; --status) texts.insert(pose_wall_runtime_status_text(status));
+  EXPECT_EQ(texts.size(), 15U);
   EXPECT_STREQ(pose_wall_runtime_status_text(POSE_WALL_E_NULL), pose_wall_status_text(POSE_WALL_E_NULL));
   EXPECT_EQ(texts.count(pose_wall_runtime_status_text(-99)), 0U);
   std::set<std::string> names;
   for (std::uint32_t d = 0; d <= POSE_WALL_RUNTIME_DROPS; ++d) names.insert(pose_wall_runtime_drop_name(d));
   EXPECT_EQ(names.size(), POSE_WALL_RUNTIME_DROPS + 1U);
+  std::set<std::string> activities;
+  for (std::uint32_t a = 0; a <= POSE_WALL_RUNTIME_ACTIVITIES; ++a) {
+    activities.insert(pose_wall_runtime_activity_name(a));
+  }
+  EXPECT_EQ(activities.size(), POSE_WALL_RUNTIME_ACTIVITIES + 1U);
 }
 
 TEST(RuntimeRefusals, OptionsOutOfRange) {
@@ -78,6 +87,7 @@ TEST(RuntimeRefusals, OptionsOutOfRange) {
       {"lock_memory", [](auto* o) { o->lock_memory = 2; }},
       {"required", [](auto* o) { o->required = 8; }},
       {"reserved", [](auto* o) { o->reserved = 1; }},
+      {"reserved_2", [](auto* o) { o->reserved_2 = 1; }},
       {"frame_period_max_ns", [](auto* o) { o->frame_period_max_ns = 0; }},
       {"watchdog_ns", [](auto* o) { o->watchdog_ns = -1; }},
       {"watchdog_every_ns", [](auto* o) { o->watchdog_every_ns = 0; }},
@@ -125,8 +135,8 @@ TEST(RuntimeRefusals, OptionsAtTheirLimits) {
   // The smallest black box, as the header says.
   const auto up = [](std::uint64_t bytes) { return (bytes + 63) / 64 * 64; };
   for (const std::uint32_t clouds : {0U, 1U}) {
-    const std::uint64_t least =
-        4224 + up(pose_wall_memento_bytes()) + up(sizeof(pose_wall_result)) + (clouds != 0 ? up(101 * 13) : 0);
+    const std::uint64_t least = 4224 + up(sizeof(pose_wall_inputs)) + up(pose_wall_memento_bytes()) +
+                                up(sizeof(pose_wall_result)) + (clouds != 0 ? up(101 * 13) : 0);
     for (const std::uint64_t less : {0U, 1U}) {
       EXPECT_EQ(accepted([&](pose_wall_runtime_options* o) {
                   o->sink = sink;

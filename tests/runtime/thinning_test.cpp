@@ -37,7 +37,7 @@ void overload(RuntimeUnderTest* runtime, int rounds, bool too_many) {
 
 std::uint32_t best_state(const pose_wall_publication& p) {
   std::uint32_t best = 0;
-  for (const pose_wall_value& v : p.result.quantity) best = std::max(best, v.state);
+  for (const pose_wall_value& v : p.result.quantity) best = std::max({best, v.state, v.raw_state});
   return best;
 }
 
@@ -85,6 +85,10 @@ TEST(RuntimeThinning, FramesGoFirstThenPointsAndItIsSaid) {
   const double share = p.result.points_in / static_cast<double>(room_points(1).size());
   EXPECT_NEAR(share, 0.5, 0.02);
   EXPECT_EQ(best_state(p), static_cast<std::uint32_t>(POSE_WALL_DEGRADED)) << "measured, but never better than that";
+  pose_wall_image image{};
+  image.struct_size = sizeof image;
+  EXPECT_EQ(pose_wall_image_fill(&p.result, &image), POSE_WALL_OK) << "a result that an engine made, all the same";
+  EXPECT_EQ(image.verdict, static_cast<std::uint32_t>(POSE_WALL_DEGRADED));
   EXPECT_GT(runtime.statistics().thinned, 0U);
   EXPECT_EQ(p.held_thinning, 1U) << "nothing is held";
   runtime.clock.set_step(0);

@@ -78,13 +78,14 @@ class RuntimeUnderTest {
   }
   ~RuntimeUnderTest() {
     gate.open();
-    pose_wall_runtime_stop(runtime_);
-    pose_wall_runtime_close(runtime_);
+    (void)pose_wall_runtime_stop(runtime_);
+    (void)pose_wall_runtime_close(runtime_);
   }
   RuntimeUnderTest(const RuntimeUnderTest&) = delete;
   RuntimeUnderTest& operator=(const RuntimeUnderTest&) = delete;
 
   void start() { note(pose_wall_runtime_start(runtime_)); }
+  void stop() { note(pose_wall_runtime_stop(runtime_)); }
   std::int32_t push(const Points& points, std::int64_t stamp_ns) {
     const pose_wall_cloud cloud = cloud_of(points, stamp_ns);
     return pose_wall_runtime_push(runtime_, &cloud);

@@ -151,7 +151,8 @@ TEST_F(ReplayBox, ADifferenceIsNamedAndHasAStatusOfItsOwn) {
   char* const head = bytes.data() + place_of(2);
   std::uint64_t record_bytes = 0;
   std::memcpy(&record_bytes, head + 8, 8);
-  const std::size_t at_result = 128 + (pose_wall_memento_bytes() + 63) / 64 * 64;
+  const std::size_t at_memento = 128 + (sizeof(pose_wall_inputs) + 63) / 64 * 64;
+  const std::size_t at_result = at_memento + (pose_wall_memento_bytes() + 63) / 64 * 64;
   const double other = 7.5;
   std::memcpy(head + at_result + offsetof(pose_wall_result, quantity), &other, 8);
   std::uint32_t crc = crc32(head + 64, record_bytes - 64);

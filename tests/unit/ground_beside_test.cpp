@@ -63,9 +63,9 @@ void expect_reaches_upright(const FloorResult& f) {
   const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
   const double tilt_rad = tilt_of_up(f.fit.plane.n);
   EXPECT_TRUE(is_ambiguous(f));
-  EXPECT_GE(f.roll_bound_rad, std::fabs(angles.roll_rad));
-  EXPECT_GE(f.pitch_bound_rad, std::fabs(angles.pitch_rad));
-  EXPECT_LE(std::hypot(f.roll_bound_rad, f.pitch_bound_rad), 2.5 * tilt_rad + 0.1);
+  EXPECT_GE(f.roll_bound_rad.sum(), std::fabs(angles.roll_rad));
+  EXPECT_GE(f.pitch_bound_rad.sum(), std::fabs(angles.pitch_rad));
+  EXPECT_LE(std::hypot(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 2.5 * tilt_rad + 0.1);
 }
 
 TEST(GroundBeside, BeforeARampTheLevelsReachToTheFlatFloor) {
@@ -157,11 +157,11 @@ TEST(GroundBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
     SCOPED_TRACE(slope_rad);
     const FloorResult on_other = TwoPlanes{slope_rad, 2.0}.reached(), on_floor = TwoPlanes{slope_rad, -3.0}.reached();
     EXPECT_TRUE(is_ambiguous(on_other));
-    EXPECT_GE(on_other.pitch_bound_rad, 0.12 + 0.02) << "the other plane, and some for how well it is known";
-    EXPECT_LT(on_other.pitch_bound_rad, 0.25);
-    EXPECT_LT(on_other.roll_bound_rad, 0.05);
+    EXPECT_GE(on_other.pitch_bound_rad.sum(), 0.12 + 0.02) << "the other plane, and some for how well it is known";
+    EXPECT_LT(on_other.pitch_bound_rad.sum(), 0.25);
+    EXPECT_LT(on_other.roll_bound_rad.sum(), 0.05);
     EXPECT_FALSE(is_ambiguous(on_floor));
-    EXPECT_EQ(on_floor.pitch_bound_rad, 0.0);
+    EXPECT_EQ(on_floor.pitch_bound_rad.sum(), 0.0);
   }
 }
 
@@ -199,7 +199,7 @@ TEST(GroundBeside, AFloorToAllSidesIsNotDoubtedForARampFurtherOn) {
   ASSERT_TRUE(f.fit.found && !f.fit.refused);
   EXPECT_LT(tilt_of_up(f.fit.plane.n), 0.01);
   EXPECT_FALSE(is_ambiguous(f));
-  EXPECT_LT(std::max(f.roll_bound_rad, f.pitch_bound_rad), 0.03);
+  EXPECT_LT(std::max(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 0.03);
 }
 
 }  // namespace

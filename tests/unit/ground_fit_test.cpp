@@ -74,7 +74,7 @@ TEST(GroundFit, TheLevelOfABentFloorHoldsTheTiltUnderTheMachine) {
   const FloorResult f = fit(&g, near_floor());
   ASSERT_TRUE(f.fit.found);
   const double pitch = roll_pitch_of_up(f.fit.plane.n).pitch_rad;
-  EXPECT_LE(std::fabs(pitch), f.pitch_bound_rad + protection_factor(5.0, f.dof) * f.pitch_sigma_rad);
+  EXPECT_LE(std::fabs(pitch), f.pitch_bound_rad.sum() + protection_factor(5.0, f.dof) * f.pitch_sigma_rad);
 }
 
 TEST(GroundFit, TheFootOfAWallDoesNotTiltTheFloor) {
@@ -105,8 +105,8 @@ TEST(GroundFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
     ASSERT_TRUE(f.fit.found);
     const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
     const double factor = protection_factor(5.0, f.dof);
-    outside += std::fabs(angles.roll_rad) > f.roll_bound_rad + factor * f.roll_sigma_rad ? 1 : 0;
-    outside += std::fabs(angles.pitch_rad) > f.pitch_bound_rad + factor * f.pitch_sigma_rad ? 1 : 0;
+    outside += std::fabs(angles.roll_rad) > f.roll_bound_rad.sum() + factor * f.roll_sigma_rad ? 1 : 0;
+    outside += std::fabs(angles.pitch_rad) > f.pitch_bound_rad.sum() + factor * f.pitch_sigma_rad ? 1 : 0;
   }
   EXPECT_EQ(outside, 0);
 }

@@ -59,7 +59,7 @@ TEST(Quality, GoodFitsMeasureAllSeven) {
     EXPECT_FALSE(m.quantity[q].weak) << q;
     EXPECT_NEAR(m.quantity[q].raw, expected[q], 1e-12) << q;
     EXPECT_GT(m.quantity[q].sigma, 0.0) << q;
-    EXPECT_GT(m.quantity[q].protection, 5.0 * m.quantity[q].sigma) << q;
+    EXPECT_GT(m.quantity[q].level.sum(), 5.0 * m.quantity[q].sigma) << q;
     EXPECT_EQ(m.quantity[q].reasons, 0U) << q;
   }
   EXPECT_TRUE(m.has_yaw_difference);
@@ -113,9 +113,9 @@ TEST(Quality, ARangeBiasOfBothWallsCancelsAndOfOneCounts) {
   Scene one = both;
   one.walls[1].fit.refused = true;
   Scene none;
-  const double without = none.measured().quantity[POSE_WALL_YAW].protection;
-  EXPECT_NEAR(both.measured().quantity[POSE_WALL_YAW].protection, without, 1e-9);
-  EXPECT_GE(one.measured().quantity[POSE_WALL_YAW].protection, 0.03 * 0.2);
+  const double without = none.measured().quantity[POSE_WALL_YAW].level.sum();
+  EXPECT_NEAR(both.measured().quantity[POSE_WALL_YAW].level.sum(), without, 1e-9);
+  EXPECT_GE(one.measured().quantity[POSE_WALL_YAW].level.sum(), 0.03 * 0.2);
 }
 
 // By two of their standard deviations walls differ by chance; by nearly three, neither is known so well.
@@ -127,9 +127,9 @@ TEST(Quality, WallsThatDifferMoreThanIsLikelyAreLessWellKnown) {
   };
   const Measurement alike = yaw_of_apart(0.0);
   EXPECT_EQ(yaw_of_apart(1.9).sigma, alike.sigma);
-  EXPECT_EQ(yaw_of_apart(1.9).protection, alike.protection);
+  EXPECT_EQ(yaw_of_apart(1.9).level.sum(), alike.level.sum());
   EXPECT_NEAR(yaw_of_apart(2.5).sigma, 1.25 * alike.sigma, 0.02 * alike.sigma);
-  EXPECT_NEAR(yaw_of_apart(2.9).protection, 1.45 * alike.protection, 0.02 * alike.protection);
+  EXPECT_NEAR(yaw_of_apart(2.9).level.sum(), 1.45 * alike.level.sum(), 0.02 * alike.level.sum());
 }
 
 // However few pieces they are known by, and whether one is known much better.
@@ -142,7 +142,7 @@ TEST(Quality, WallsFurtherApartAreNeverKnownBetter) {
         scene.walls[1] = good_wall(scene.walls[0].yaw_rad + apart, second_sigma);
         for (WallResult& wall : scene.walls) wall.dof_slope = dof;
         const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
-        EXPECT_GE(yaw.protection, last.protection) << apart << " " << second_sigma << " " << dof;
+        EXPECT_GE(yaw.level.sum(), last.level.sum()) << apart << " " << second_sigma << " " << dof;
         EXPECT_GE(yaw.sigma, last.sigma) << apart << " " << second_sigma << " " << dof;
         last = yaw;
       }
@@ -155,19 +155,19 @@ TEST(Quality, WallsThatDifferWidenTheLevelToReachEither) {
   scene.walls[0].yaw_rad = 0.00;
   scene.walls[1].yaw_rad = 0.06;
   const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
-  for (const WallResult& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.protection);
+  for (const WallResult& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.level.sum());
 }
 
 // The weaker wall's rival as well: where the road bends ahead, both walls are those behind the bend.
 TEST(Quality, YawReachesToARivalOfEitherWallHoweverSmallItsWeight) {
   for (const int side : {0, 1}) {
     Scene scene;
-    const double before = scene.measured().quantity[POSE_WALL_YAW].protection;
+    const double before = scene.measured().quantity[POSE_WALL_YAW].level.sum();
     scene.walls[side].yaw_sigma_rad = 0.02;
     scene.walls[side].yaw_to_rival_rad = 0.3;
-    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection, 0.3 + 0.5 * before) << side;
+    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].level.sum(), 0.3 + 0.5 * before) << side;
     scene.walls[1 - side].fit.refused = true;
-    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection, 0.3 + 0.1) << side;
+    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].level.sum(), 0.3 + 0.1) << side;
   }
 }
 
@@ -195,22 +195,22 @@ TEST(Quality, WhatIsDoubtfulIsWeak) {
 
 TEST(Quality, BoundsAddToTheLevel) {
   Scene plain, bound;
-  bound.walls[0].distance_bound_m[0] = 0.05;
-  bound.floor.roll_bound_rad = 0.01;
+  bound.walls[0].distance_bound_m[0][POSE_WALL_PART_BEND] = 0.05;
+  bound.floor.roll_bound_rad[POSE_WALL_PART_RIVAL] = 0.01;
   EXPECT_NEAR(
-      bound.measured().quantity[POSE_WALL_D_LF].protection - plain.measured().quantity[POSE_WALL_D_LF].protection, 0.05,
-      1e-12);
+      bound.measured().quantity[POSE_WALL_D_LF].level.sum() - plain.measured().quantity[POSE_WALL_D_LF].level.sum(),
+      0.05, 1e-12);
   EXPECT_NEAR(
-      bound.measured().quantity[POSE_WALL_ROLL].protection - plain.measured().quantity[POSE_WALL_ROLL].protection, 0.01,
-      1e-12);
+      bound.measured().quantity[POSE_WALL_ROLL].level.sum() - plain.measured().quantity[POSE_WALL_ROLL].level.sum(),
+      0.01, 1e-12);
 }
 
 TEST(Quality, FewPatchesWidenTheLevel) {
   Scene many, few;
   few.walls[0].dof = 3.0;
   few.walls[0].dof_slope = 3.0;
-  EXPECT_GT(few.measured().quantity[POSE_WALL_D_LF].protection,
-            1.5 * many.measured().quantity[POSE_WALL_D_LF].protection);
+  EXPECT_GT(few.measured().quantity[POSE_WALL_D_LF].level.sum(),
+            1.5 * many.measured().quantity[POSE_WALL_D_LF].level.sum());
 }
 
 TEST(Quality, BeyondTheAlertLimitIsSaid) {

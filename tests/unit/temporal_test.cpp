@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -33,7 +34,7 @@ class Life {
     q.measured = true;
     q.raw = raw;
     q.sigma = protection / 5.0;
-    q.protection = protection;
+    q.level[POSE_WALL_PART_RANDOM] = protection;
     q.weak = weak;
     return frame(stamp_ms, m);
   }
@@ -44,7 +45,7 @@ class Life {
     q.measured = q.weak = true;
     q.raw = raw;
     q.sigma = 0.004;
-    q.protection = protection;
+    q.level[POSE_WALL_PART_RANDOM] = protection;
     q.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
     return frame(stamp_ms, m);
   }
@@ -53,6 +54,8 @@ class Life {
     m.quantity[quantity_].reasons = POSE_WALL_R_WALL_NOT_FOUND;
     return frame(stamp_ms, m);
   }
+  void know(const pose_wall_inputs& inputs) { inputs_ = inputs; }
+  bool contradicted() const { return contradicted_; }
   const FrameTiming& timing() const { return timing_; }
   const Settings& settings() const { return settings_; }
 
@@ -60,8 +63,13 @@ class Life {
   pose_wall_value frame(std::int64_t stamp_ms, const Measurements& m) {
     const std::int64_t stamp = stamp_ms * kMs;
     timing_ = time_frame(state_, stamp, settings_);
+    MotionRates rates = rates_by_config(settings_);
+    if (inputs_.given != 0) {
+      EXPECT_TRUE(rates_by_inputs(inputs_, settings_, &rates));
+      contradicted_ = contradict(rates, m, timing_, state_);
+    }
     pose_wall_value values[POSE_WALL_QUANTITIES];
-    smooth_and_hold(m, timing_, stamp, settings_, &state_, &values);
+    smooth_and_hold(m, timing_, stamp, rates, settings_, &state_, &values);
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       if (q != quantity_) {
         EXPECT_EQ(values[q].state, POSE_WALL_INVALID) << "an untouched quantity came to life";
@@ -85,12 +93,36 @@ class Life {
     if (v.state == POSE_WALL_VALID) {
       EXPECT_EQ(v.reasons & POSE_WALL_R_ALERT_LIMIT, 0U);
     }
+    EXPECT_EQ(v.raw_state, live ? v.state : static_cast<std::uint32_t>(POSE_WALL_INVALID));
+    check_parts(v, m);
+  }
+
+  static void check_parts(const pose_wall_value& v, const Measurement& m) {
+    if (std::isnan(v.protection_level)) {
+      EXPECT_EQ(v.cause, static_cast<std::uint32_t>(POSE_WALL_PARTS));
+      return;
+    }
+    double sum = 0.0, largest = 0.0;
+    for (const double part : v.part) {
+      EXPECT_GE(part, 0.0);
+      sum += part;
+      largest = std::max(largest, part);
+    }
+    EXPECT_EQ(v.protection_level, sum);
+    ASSERT_LT(v.cause, static_cast<std::uint32_t>(POSE_WALL_PARTS));
+    EXPECT_EQ(v.part[v.cause], largest);
+    if (!m.measured) return;
+    EXPECT_NEAR(v.raw_protection_level, sum - v.part[POSE_WALL_PART_LAG], 1e-12);
+    EXPECT_GE(v.part[POSE_WALL_PART_LAG], std::fabs(v.value - v.raw));
+    EXPECT_LE(v.protection_level, 1.25 * v.raw_protection_level * (1.0 + 1e-12)) << "smoothing widens by a quarter";
   }
 
   Settings settings_;
   std::uint32_t quantity_;
   TemporalState state_;
   FrameTiming timing_;
+  pose_wall_inputs inputs_{};
+  bool contradicted_ = false;
 };
 
 TEST(Temporal, NeverMeasuredIsInvalidAndHasNoNumber) {
@@ -140,34 +172,59 @@ TEST(Temporal, WhatIsRefusedAgainAndAgainOrNeverComesAlikeIsNeverValid) {
   }
 }
 
-// First order: after five time constants 99 % of a small step is there; the level covers the lag all the way.
+// A level of 0.12 lets smoothing be 0.03 off.
 TEST(Temporal, SmoothingFollowsWithTheTimeConstantAndTheLevelCoversTheLag) {
-  Life life({{"temporal_smoothing_tau", "0.3"}});
-  life.measured(0, 2.00);
+  Life life({{"temporal_smoothing_tau", "0.3"}, {"alert_limit_distance", "1"}});
+  life.measured(0, 2.00, 0.12);
   pose_wall_value v{};
-  for (int i = 1; i <= 15; ++i) {
-    v = life.measured(100 * i, 2.03);
+  for (int i = 1; i <= 30; ++i) {
+    v = life.measured(100 * i, 2.03, 0.12);
     EXPECT_GE(v.value, 2.0);
-    EXPECT_LE(v.value, 2.03);
-    EXPECT_GE(v.protection_level, std::fabs(v.value - 2.03) + 0.02 - 1e-12);
-    if (i == 3) {
-      EXPECT_NEAR(v.value, 2.0 + 0.03 * (1 - std::exp(-1.0)), 0.004) << "one time constant";
+    EXPECT_LE(v.value, 2.03 + 0.14 * 0.03) << "swings over by e^-2 of the step";
+    EXPECT_GE(v.protection_level, std::fabs(v.value - 2.03) + 0.12 - 1e-12);
+    if (i == 1) {
+      EXPECT_NEAR(v.value, 2.0 + 0.03 * (1 - 0.75 * 0.75), 1e-12) << "g = 1 - theta^2 of theta = 0.3 / 0.4";
     }
   }
-  EXPECT_NEAR(v.value, 2.03, 0.0007);
+  EXPECT_NEAR(v.value, 2.03, 0.0003);
 }
 
+TEST(Temporal, ASteadyTurnIsFollowedWithoutLag) {
+  Life life({{"alert_limit_angle_deg", "20"}}, POSE_WALL_YAW);
+  constexpr double kTurn_rad_s = 0.1;
+  pose_wall_value v{};
+  std::int64_t ms = 0;
+  for (int i = 0; i < 60; ++i) {
+    v = life.measured(ms, kTurn_rad_s * 1e-3 * static_cast<double>(ms), 0.2);
+    ms += i % 2 == 0 ? 80 : 120;  // by the stamps, not by the frames
+  }
+  EXPECT_NEAR(v.value, v.raw, 1e-4) << "first order would be 0.03 behind";
+}
+
+// Twice as many frames in the same time are smoothed alike.
 TEST(Temporal, SmoothingGoesByTheStampsNotByTheFrames) {
-  Life slow, fast;
-  slow.measured(0, 2.0);
-  fast.measured(0, 2.0);
-  const double by_slow = slow.measured(200, 2.05).value;
-  fast.measured(50, 2.05);
-  fast.measured(100, 2.05);
-  fast.measured(150, 2.05);
-  const double by_fast = fast.measured(200, 2.05).value;
-  // Backward Euler at 0.2 and 0.05 s against the same 0.3 s: 0.40 and 0.46 of the step.
-  EXPECT_NEAR(by_slow, by_fast, 0.05 * 0.1);
+  Life slow({{"alert_limit_distance", "2"}}), fast({{"alert_limit_distance", "2"}});
+  slow.measured(0, 2.0, 0.4);
+  fast.measured(0, 2.0, 0.4);
+  double by_slow = 0.0, by_fast = 0.0;
+  for (int i = 1; i <= 4; ++i) {
+    by_slow = slow.measured(100 * i, 2.05, 0.4).value;
+    fast.measured(100 * i - 50, 2.05, 0.4);
+    by_fast = fast.measured(100 * i, 2.05, 0.4).value;
+    EXPECT_NEAR(by_slow, by_fast, 0.05 * 0.2) << i;
+  }
+}
+
+// Where smoothing would take the level over the alert limit, the value follows raw.
+TEST(Temporal, SmoothingTakesNoValidityAway) {
+  Life life;
+  std::mt19937 random(3);
+  life.measured(0, 2.0, 0.09);
+  for (int i = 1; i <= 200; ++i) {
+    const double raw = 2.0 + 0.1 * static_cast<double>(random() % 1000) / 1000.0;
+    const double level = 0.06 + 0.04 * static_cast<double>(random() % 1000) / 1000.0;
+    EXPECT_EQ(life.measured(100 * i, raw, level).state, POSE_WALL_VALID) << i << " " << level;
+  }
 }
 
 TEST(Temporal, WithoutATimeConstantTheValueIsRaw) {
@@ -346,22 +403,102 @@ TEST(Temporal, AJumpThereAndBackIsNeverValidWhereItIsWrong) {
   }
 }
 
-TEST(Temporal, YawFollowsByItsLimitPerFrame) {
-  Life life({{"yaw_rate_limit_deg", "3"}, {"temporal_smoothing_tau", "0"}}, POSE_WALL_YAW);
+TEST(Temporal, YawFollowsByItsLimitPerFrameWithinAQuarterOfItsLevel) {
   constexpr double kDeg = M_PI / 180.0;
-  life.measured(0, 0.0, 0.5 * kDeg);
-  double value = 0.0;
-  for (int i = 1; i <= 4; ++i) {
-    const pose_wall_value v = life.measured(100 * i, 10.0 * kDeg, 0.5 * kDeg);
-    EXPECT_LE(v.value - value, 3.0 * kDeg + 1e-12);
-    EXPECT_EQ((v.reasons & POSE_WALL_R_RATE_LIMITED) != 0, i <= 3) << i;
-    EXPECT_EQ(v.raw, 10.0 * kDeg) << "raw is untouched";
-    if (v.state == POSE_WALL_VALID) {
-      EXPECT_LE(10.0 * kDeg - v.value, v.protection_level);
+  for (const double level_deg : {16.0, 0.5}) {
+    Life life({{"yaw_rate_limit_deg", "3"}, {"temporal_smoothing_tau", "0"}, {"alert_limit_angle_deg", "20"}},
+              POSE_WALL_YAW);
+    life.measured(0, 0.0, level_deg * kDeg);
+    const pose_wall_value v = life.measured(100, 5.0 * kDeg, level_deg * kDeg);
+    EXPECT_EQ(v.raw, 5.0 * kDeg) << "raw is untouched";
+    EXPECT_LE(v.raw - v.value, 0.25 * v.raw_protection_level + 1e-12);
+    const bool has_room = level_deg > 8.0;
+    EXPECT_EQ((v.reasons & POSE_WALL_R_RATE_LIMITED) != 0, has_room) << level_deg;
+    if (has_room) {
+      EXPECT_NEAR(v.value, 3.0 * kDeg, 1e-12);
     }
-    value = v.value;
+    const pose_wall_value next = life.measured(200, 5.0 * kDeg, level_deg * kDeg);
+    EXPECT_NEAR(next.value, 5.0 * kDeg, 1e-12);
+    EXPECT_EQ(next.reasons & POSE_WALL_R_RATE_LIMITED, 0U);
   }
-  EXPECT_NEAR(value, 10.0 * kDeg, 1e-12);
+}
+
+pose_wall_inputs inputs_of(std::uint32_t given, double speed_m_s = 0.0, double turn_rate_rad_s = 0.0) {
+  pose_wall_inputs inputs{};
+  inputs.struct_size = sizeof inputs;
+  inputs.given = given;
+  inputs.speed_m_s = speed_m_s;
+  inputs.turn_rate_rad_s = turn_rate_rad_s;
+  inputs.speed_sigma_m_s = inputs.turn_rate_sigma_rad_s = 0.001;
+  return inputs;
+}
+
+TEST(TemporalInputs, WhatStandsStillDoesNotAge) {
+  Life life;
+  const pose_wall_value good = life.measured(0, 2.0);
+  life.know(inputs_of(POSE_WALL_INPUT_STANDING));
+  pose_wall_value held{};
+  for (int i = 1; i <= 15; ++i) held = life.missing(100 * i);
+  EXPECT_EQ(held.state, POSE_WALL_HELD);
+  EXPECT_EQ(held.protection_level, good.protection_level);
+  EXPECT_NEAR(held.age_s, 1.5, kRoundingS);
+  EXPECT_EQ(life.missing(2100).state, POSE_WALL_INVALID) << "hold_max stays";
+}
+
+TEST(TemporalInputs, AHeldYawTurnsWithTheMachine) {
+  Life life({{"protection_factor", "5"}}, POSE_WALL_YAW);
+  life.measured(0, 0.10, 0.005);
+  life.know(inputs_of(POSE_WALL_INPUT_TURN_RATE, 0.0, 0.2));
+  const pose_wall_value held = life.missing(500);
+  EXPECT_EQ(held.state, POSE_WALL_HELD);
+  EXPECT_NEAR(held.value, 0.10 - 0.2 * 0.5, 1e-12) << "a turn to the left makes yaw smaller";
+  EXPECT_NEAR(held.part[POSE_WALL_PART_AGE], 5.0 * 0.001 * 0.5, 1e-12);
+  const pose_wall_value again = life.measured(600, 0.10 - 0.2 * 0.6, 0.005);
+  EXPECT_EQ(again.state, POSE_WALL_VALID);
+  EXPECT_FALSE(life.contradicted());
+}
+
+TEST(TemporalInputs, ADistanceChangesNoFasterThanItsSamplingPoint) {
+  Life life;
+  life.measured(0, 2.0);
+  life.know(inputs_of(POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE, 0.05, 0.0));
+  EXPECT_NEAR(life.missing(1000).part[POSE_WALL_PART_AGE], 0.05 + 5.0 * 0.001 + 2.0 * 5.0 * 0.001, 1e-12);
+}
+
+TEST(TemporalInputs, WhatIsMeasuredSpeaksAgainstThem) {
+  Life life;
+  life.measured(0, 2.0);
+  life.know(inputs_of(POSE_WALL_INPUT_STANDING));
+  life.measured(100, 2.03);
+  EXPECT_FALSE(life.contradicted()) << "two levels of 0.02 bridge it";
+  life.measured(200, 2.09);
+  EXPECT_TRUE(life.contradicted());
+}
+
+TEST(TemporalInputs, ThoseThatContradictEachOtherOrAreNoNumbersAreRefused) {
+  const Settings settings = test::settings_with();
+  const auto refused = [&](const pose_wall_inputs& inputs) {
+    MotionRates rates = rates_by_config(settings);
+    const MotionRates before = rates;
+    const bool sound = rates_by_inputs(inputs, settings, &rates);
+    if (!sound) {
+      EXPECT_EQ(rates.growth[0], before.growth[0]);
+    }
+    return !sound;
+  };
+  EXPECT_FALSE(refused(inputs_of(POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED, 0.004)));
+  EXPECT_TRUE(refused(inputs_of(POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED, 0.3)));
+  EXPECT_TRUE(refused(inputs_of(POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_TURN_RATE, 0.0, -0.3)));
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinite, -infinite, 51.0, -51.0}) {
+    EXPECT_TRUE(refused(inputs_of(POSE_WALL_INPUT_SPEED, bad))) << bad;
+    EXPECT_FALSE(refused(inputs_of(POSE_WALL_INPUT_TURN_RATE, bad))) << "what is not given is not read";
+  }
+  for (const double bad : {nan, infinite, 0.0, -0.1}) {
+    pose_wall_inputs inputs = inputs_of(POSE_WALL_INPUT_TURN_RATE, 0.0, 0.1);
+    inputs.turn_rate_sigma_rad_s = bad;
+    EXPECT_TRUE(refused(inputs)) << bad;
+  }
 }
 
 TEST(Temporal, OtherAnglesAreNotLimited) {

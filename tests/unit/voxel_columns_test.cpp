@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kLeaf_m = 0.05;
 
-struct Voxels {
-  explicit Voxels(std::uint32_t capacity) : grid(capacity), points(capacity) { grid->begin(kLeaf_m, 50.0); }
+struct ColumnVoxels {
+  explicit ColumnVoxels(std::uint32_t capacity) : grid(capacity), points(capacity) { grid->begin(kLeaf_m, 50.0); }
 
   void add(double x, double y, double z) { ASSERT_TRUE(test::add_point(grid.get(), x, y, z)); }
 
@@ -28,7 +28,7 @@ struct Voxels {
   test::Placed<PointSet> points;
 };
 
-void expect_all_within(double reach_m, Voxels* voxels, std::uint32_t every) {
+void expect_all_within(double reach_m, ColumnVoxels* voxels, std::uint32_t every) {
   voxels->grid->extract(voxels->points.get());
   const PointSet& points = *voxels->points;
   VoxelColumns columns(voxels->grid.get(), reach_m);
@@ -51,7 +51,7 @@ void expect_all_within(double reach_m, Voxels* voxels, std::uint32_t every) {
 
 TEST(VoxelColumns, AroundAVoxelIsAllWithinTheReach) {
   for (const double reach_m : {0.1, 0.2, 0.37, 2.0}) {
-    Voxels voxels(4000);
+    ColumnVoxels voxels(4000);
     test::Noise noise(7);
     for (int i = 0; i < 3000; ++i) voxels.add(noise.normal(0.8), noise.normal(0.8), noise.normal(0.8));
     expect_all_within(reach_m, &voxels, 1);
@@ -61,7 +61,7 @@ TEST(VoxelColumns, AroundAVoxelIsAllWithinTheReach) {
 
 // A shaft: thousands in a few columns.
 TEST(VoxelColumns, OfATallColumnOnlyWhatIsAboutAsHigh) {
-  Voxels voxels(20000);
+  ColumnVoxels voxels(20000);
   for (int z = 0; z < 1500; ++z) {
     for (int k = 0; k < 12; ++k) voxels.add(0.05 * (k % 4) + 0.01, 0.05 * (k / 4) + 0.01, 0.05 * z - 37.0);
   }
@@ -81,7 +81,7 @@ TEST(VoxelColumns, OfATallColumnOnlyWhatIsAboutAsHigh) {
 
 // The lists of the last frame are another stage's by now.
 TEST(VoxelColumns, OfAGridThatWasOnlyBegunThereAreNone) {
-  Voxels voxels(100);
+  ColumnVoxels voxels(100);
   for (int i = 0; i < 8; ++i) voxels.add(0.3 * i, 0.0, 0.0);
   voxels.grid->extract(voxels.points.get());
   ASSERT_EQ(voxels.grid->find_columns().size(), 9U);
@@ -105,7 +105,7 @@ TEST(VoxelColumns, TheConfigsExtremesAreWithinTheirReach) {
 }
 
 TEST(VoxelColumns, EndWhereTheVisitorSaysSo) {
-  Voxels voxels(100);
+  ColumnVoxels voxels(100);
   for (int i = 0; i < 8; ++i) voxels.add(0.3 * i, 0.0, 0.0);
   voxels.grid->extract(voxels.points.get());
   VoxelColumns columns(voxels.grid.get(), 1.0);

@@ -46,7 +46,7 @@ TEST(WallsParallel, NearlyParallelWallsShareOneDirectionAndPayForIt) {
     for (int end = 0; end < 2; ++end) {
       const double moved = std::fabs(walls[side].distance_m[end] - before[side].distance_m[end]);
       EXPECT_GT(moved, 0.005);
-      EXPECT_GE(walls[side].distance_bound_m[end], moved - 1e-12);
+      EXPECT_GE(walls[side].distance_bound_m[end].sum(), moved - 1e-12);
     }
   }
 }
@@ -69,7 +69,7 @@ TEST(WallsParallel, SplayedDoubtfulAndRefusedWallsAreLeftAlone) {
     const double before = walls[0].distance_m[0];
     share_direction(band.scene(), &walls);
     EXPECT_EQ(walls[0].distance_m[0], before) << which;
-    EXPECT_EQ(walls[0].distance_bound_m[0], 0.0) << which;
+    EXPECT_EQ(walls[0].distance_bound_m[0].sum(), 0.0) << which;
   }
 }
 

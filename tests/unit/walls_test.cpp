@@ -163,7 +163,7 @@ TEST(Walls, ARailInFrontIsNotTheWall) {
   for (int copy = 0; copy < 4; ++copy) band.add_wall(2.0, {-8.0, 8.0, 1.0, 1.2});
   const WallResult left = band.walls().side[0];
   if (is_good(left)) {
-    EXPECT_NEAR(left.distance_m[0], 2.5, left.distance_bound_m[0] + 0.02);
+    EXPECT_NEAR(left.distance_m[0], 2.5, left.distance_bound_m[0].sum() + 0.02);
   }
 }
 
@@ -185,8 +185,8 @@ TEST(Walls, PipesOneAboveTheOtherAreDoubted) {
   EXPECT_NE(r.side[0].fit.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U);
   EXPECT_EQ(r.side[1].fit.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U);
   for (int end = 0; end < 2; ++end) {
-    EXPECT_GE(r.side[0].distance_bound_m[end], 2.0);
-    EXPECT_LT(r.side[1].distance_bound_m[end], 0.1);
+    EXPECT_GE(r.side[0].distance_bound_m[end].sum(), 2.0);
+    EXPECT_LT(r.side[1].distance_bound_m[end].sum(), 0.1);
   }
 }
 
@@ -229,7 +229,7 @@ TEST(Walls, ShortOnesVouchForEachOtherAsFarAsTheyRunAlike) {
       for (int side = 0; side < 2; ++side) {
         const bool doubted = unlike && (side == 1 || both_short);
         EXPECT_EQ((r.side[side].fit.reasons & POSE_WALL_R_WALLS_NOT_PARALLEL) != 0, doubted) << side;
-        for (const double bound_m : r.side[side].distance_bound_m) EXPECT_EQ(bound_m >= 2.0, doubted) << side;
+        for (const LevelParts& bound : r.side[side].distance_bound_m) EXPECT_EQ(bound.sum() >= 2.0, doubted) << side;
       }
     }
   }
@@ -247,14 +247,14 @@ TEST(Walls, AWallAloneTellsTheRoadNoBetterThanTheOtherSideAllows) {
     ASSERT_TRUE(is_good(r.side[0])) << apart_rad;
     ASSERT_EQ(is_good(r.side[1]), apart_rad == 0.0);
     if (apart_rad == 0.0) {
-      EXPECT_LT(r.side[0].yaw_bound_rad, 0.02);
+      EXPECT_LT(r.side[0].yaw_bound_rad.sum(), 0.02);
     } else {
-      EXPECT_GE(r.side[0].yaw_bound_rad, apart_rad - 0.02);
+      EXPECT_GE(r.side[0].yaw_bound_rad.sum(), apart_rad - 0.02);
     }
   }
   BandFixture alone;
   alone.add_wall(2.5, kLongWall);
-  EXPECT_LT(alone.walls().side[0].yaw_bound_rad, 0.02) << "nothing on the other side speaks against it";
+  EXPECT_LT(alone.walls().side[0].yaw_bound_rad.sum(), 0.02) << "nothing on the other side speaks against it";
 }
 
 // Also where the last column that is seen is the sampling point's own.
@@ -266,9 +266,9 @@ TEST(Walls, BeyondTheLastWallIsExtrapolationAndTheLevelSaysSo) {
     const WallsResult r = band.walls();
     ASSERT_TRUE(is_good(r.side[0])) << to_m;
     EXPECT_TRUE(r.side[0].extrapolated[0]) << to_m;
-    EXPECT_GE(r.side[0].distance_bound_m[0], 2.0) << to_m;
+    EXPECT_GE(r.side[0].distance_bound_m[0].sum(), 2.0) << to_m;
     EXPECT_FALSE(r.side[0].extrapolated[1]) << to_m;
-    EXPECT_LT(r.side[0].distance_bound_m[1], 0.05) << to_m;
+    EXPECT_LT(r.side[0].distance_bound_m[1].sum(), 0.05) << to_m;
     EXPECT_FALSE(r.side[1].extrapolated[0]) << to_m;
     EXPECT_GT(r.side[0].distance_sigma_m[0], r.side[0].distance_sigma_m[1]) << to_m;
   }
@@ -284,7 +284,7 @@ TEST(Walls, AWallThatIsHiddenAtASamplingPointIsExtrapolatedWhereMuchOfItIs) {
     const WallsResult r = band.walls();
     ASSERT_TRUE(is_good(r.side[0])) << hidden_m;
     EXPECT_EQ(r.side[0].extrapolated[0], hidden_m > 0.6) << hidden_m;
-    EXPECT_EQ(r.side[0].distance_bound_m[0] >= 2.0, hidden_m > 0.6) << hidden_m;
+    EXPECT_EQ(r.side[0].distance_bound_m[0].sum() >= 2.0, hidden_m > 0.6) << hidden_m;
   }
 }
 
@@ -313,7 +313,7 @@ TEST(Walls, AMachineThatNearlyTouchesAWallSeesItAllTheSame) {
     for (int end = 0; end < 2; ++end) {
       EXPECT_NEAR(r.side[0].distance_m[end], 2.5 - flank_m, 0.01);
       EXPECT_FALSE(r.side[0].extrapolated[end]) << flank_m;
-      EXPECT_LT(r.side[0].distance_bound_m[end], 0.05) << flank_m;
+      EXPECT_LT(r.side[0].distance_bound_m[end].sum(), 0.05) << flank_m;
     }
   }
 }
@@ -328,9 +328,9 @@ TEST(Walls, ASamplingPointInTheRockHasALevelThatReachesToItsOtherSign) {
   for (int end = 0; end < 2; ++end) {
     EXPECT_NEAR(r.side[0].distance_m[end], 0.3, 0.02);
     EXPECT_TRUE(r.side[0].extrapolated[end]);
-    EXPECT_GE(r.side[0].distance_bound_m[end], 2.0 * 0.28);
+    EXPECT_GE(r.side[0].distance_bound_m[end].sum(), 2.0 * 0.28);
     EXPECT_FALSE(r.side[1].extrapolated[end]);
-    EXPECT_LT(r.side[1].distance_bound_m[end], 0.05);
+    EXPECT_LT(r.side[1].distance_bound_m[end].sum(), 0.05);
   }
 }
 
@@ -346,7 +346,7 @@ TEST(Walls, AShortStepAtASamplingPointIsToldAndBounded) {
     const WallsResult r = band.walls();
     ASSERT_TRUE(is_good(r.side[0]) && is_good(r.side[1])) << by_m;
     EXPECT_TRUE(r.side[0].extrapolated[1]) << by_m;
-    EXPECT_GE(r.side[0].distance_bound_m[1], std::fabs(r.side[0].distance_m[1] - (2.5 - by_m))) << by_m;
+    EXPECT_GE(r.side[0].distance_bound_m[1].sum(), std::fabs(r.side[0].distance_m[1] - (2.5 - by_m))) << by_m;
     EXPECT_FALSE(r.side[0].extrapolated[0]) << by_m;
     EXPECT_FALSE(r.side[1].extrapolated[1]) << by_m;
   }

@@ -163,6 +163,7 @@ void count(const Events& events, BoxReplay* replay) {
     replay->frames += event.record.kind == POSE_WALL_BOX_FRAME ? 1 : 0;
     replay->silences += event.record.kind == POSE_WALL_BOX_SILENCE ? 1 : 0;
     replay->thinned += event.record.thinning > 1 ? 1 : 0;
+    replay->with_inputs += event.record.inputs != nullptr ? 1 : 0;
   }
 }
 

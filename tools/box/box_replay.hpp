@@ -26,7 +26,7 @@ struct BoxReplay {
   std::uint64_t records = 0;    // whole ones of the run of the header; all of them are computed
   std::uint64_t left_over = 0;  // of them: from laps of the ring that newer ones have overwritten but for these
   std::uint64_t first_sequence = 0, last_sequence = 0;  // of the others
-  std::uint64_t frames = 0, silences = 0, thinned = 0;
+  std::uint64_t frames = 0, silences = 0, thinned = 0, with_inputs = 0;
   std::uint64_t equal = 0, different = 0;
   std::uint64_t digests_only = 0;
   std::uint64_t refused = 0;  // the kind, the memento or the cloud: a record that no engine of this build wrote

@@ -39,6 +39,12 @@ class Fields {
   Fields() {
     add("struct_size", r_.struct_size);
     add("frame_reasons", r_.frame_reasons);
+    add("mark", r_.mark);
+    add("config_crc32", r_.config_crc32);
+    add("source_id", r_.source_id);
+    for (int i = 0; i < 3; ++i) add(fmt::format("positive_means[{}]", i), r_.positive_means[i]);
+    add("publication", r_.publication);
+    add("work", r_.work);
     add("stamp_ns", r_.stamp_ns);
     add("frame_index", r_.frame_index);
     add("confidence", r_.confidence);
@@ -68,10 +74,17 @@ class Fields {
     add(of + "raw", v.raw);
     add(of + "sigma", v.sigma);
     add(of + "protection_level", v.protection_level);
+    add(of + "raw_protection_level", v.raw_protection_level);
     add(of + "confidence", v.confidence);
     add(of + "age_s", v.age_s);
+    for (std::uint32_t i = 0; i < POSE_WALL_PARTS; ++i) {
+      add(fmt::format("{}part[{}]", of, pose_wall_part_name(i)), v.part[i]);
+    }
     add(of + "state", v.state);
     add(of + "reasons", v.reasons);
+    add(of + "raw_state", v.raw_state);
+    add(of + "cause", v.cause);
+    for (int i = 0; i < 2; ++i) add(fmt::format("{}reserved[{}]", of, i), v.reserved[i]);
   }
 
   void add_plane(const std::string& of, const pose_wall_plane& p) {

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# cpack --preset release (or arm64): libpose-wall-dev, and pose-wall where the command is built, as TGZ and DEB.
+# cpack --preset release (or arm64, armhf): libpose-wall-dev, and pose-wall where the command is built, as TGZ and DEB.
 if(POSE_WALL_AARCH64)
   set(pose_wall_architecture arm64)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$")
   set(pose_wall_architecture amd64)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "armv7")
+  set(pose_wall_architecture armhf)
 else()
   set(pose_wall_architecture ${CMAKE_SYSTEM_PROCESSOR})
 endif()

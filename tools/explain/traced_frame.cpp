@@ -21,7 +21,7 @@ struct alignas(POSE_WALL_BLOCK_ALIGNMENT) Line {
 
 Memento memento_of(pose_wall_engine* engine) {
   Memento memento(static_cast<std::size_t>(pose_wall_memento_bytes()));
-  expect_ok(pose_wall_save(engine, memento.data(), memento.size()));
+  expect_ok(pose_wall_save(engine, nullptr, memento.data(), memento.size()));
   return memento;
 }
 

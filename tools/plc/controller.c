@@ -159,7 +159,7 @@ static int control(pose_wall_engine* engine, char** paths, int count, FILE* imag
     }
     cloud.stamp_ns = (int64_t)i * 100000000;
     int32_t status = pose_wall_process(engine, &cloud, &result);
-    if (status == POSE_WALL_OK) status = pose_wall_image_fill(engine, &result, &image);
+    if (status == POSE_WALL_OK) status = pose_wall_image_fill(&result, &image);
     /* What leaves is looked at once more: memory fails, too. */
     if (status == POSE_WALL_OK) status = pose_wall_image_check(&image);
     if (status != POSE_WALL_OK) {

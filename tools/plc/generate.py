@@ -41,8 +41,9 @@ def c_struct(structs, struct):
 def header(structs, text):
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
-    size = 4 * len(description.image_words(structs))
-    parts = [f"#define POSE_WALL_IMAGE_BYTES {size}", *(c_struct(structs, struct) for struct in structs.values())]
+    sizes = [f"#define {name.upper()}_BYTES {description.size_of(structs, name)}"
+             for name in description.images(structs).values()]
+    parts = ["\n".join(sizes), *(c_struct(structs, struct) for struct in structs.values())]
     return before + BEGIN + "\n" + "\n\n".join(parts) + "\n\n" + END + after
 
 

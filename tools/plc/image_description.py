@@ -13,6 +13,9 @@ WORD = 4
 TYPES = {"uint32": ("uint32_t", "UDINT", "I"), "int32": ("int32_t", "DINT", "i"), "bits": ("uint32_t", "DWORD", "I"),
          "float": ("float", "REAL", "f")}
 
+# Of the reflected CRCs, by version of the image
+POLYNOMIAL = {1: 0xEDB88320, 2: 0x82F63B78}
+
 Member = collections.namedtuple("Member", "name type unit comment")
 Struct = collections.namedtuple("Struct", "name st_name comment members")
 # One 4-byte word of the image: "roll.value_mdeg", "int32"
@@ -20,7 +23,7 @@ Word = collections.namedtuple("Word", "path type")
 
 
 def read_structs(path=DEFINITION):
-    """{C name: Struct} in the order of the file; the last is the image itself."""
+    """{C name: Struct} in the order of the file."""
     structs = {}
     for line in path.read_text(encoding="utf-8").splitlines():
         line = line.split("//")[0].strip()
@@ -48,19 +51,35 @@ def words_of(structs, name, prefix=""):
             yield Word(prefix + member.name, member.type)
 
 
-def image_words(structs=None):
+def images(structs):
+    """{version: C name}: what begins with struct_size is an image."""
+    names = [name for name, item in structs.items() if item.members[0].name == "struct_size"]
+    return dict(enumerate(names, 1))
+
+
+def image_words(version, structs=None):
     structs = structs or read_structs()
-    return list(words_of(structs, list(structs)[-1]))
+    return list(words_of(structs, images(structs)[version]))
 
 
 def crc_word(words):
-    return next(i for i, word in enumerate(words) if word.path == "crc32")
+    return next(i for i, word in enumerate(words) if word.path in ("crc32", "crc32c"))
 
 
-def crc_bytes(raw):
+def crc_bytes(raw, version):
     """Of an image's bytes those that its CRC is over."""
-    at = WORD * crc_word(image_words())
+    at = WORD * crc_word(image_words(version))
     return raw[:at] + raw[at + WORD:]
+
+
+def crc_of(data, polynomial):
+    """By bits, as src/math/crc32.cpp: begun and ended with all ones."""
+    crc = 0xFFFFFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (polynomial if crc & 1 else 0)
+    return crc ^ 0xFFFFFFFF
 
 
 def size_of(structs, kind):
@@ -75,9 +94,9 @@ def offsets(structs, name):
         at += size
 
 
-def unpack_image(raw, byte_order="<"):
+def unpack_image(raw, version, byte_order="<"):
     """{"roll.value_mdeg": -1200, ...} from the image's bytes."""
-    words = image_words()
+    words = image_words(version)
     values = struct.unpack(byte_order + "".join(TYPES[word.type][2] for word in words), raw)
     return {word.path: value for word, value in zip(words, values)}
 

@@ -83,7 +83,8 @@ def decode_function(image_words):
 
 def structured_text(structs, header_text):
     states = description.read_enum(header_text, "pose_wall_state")
-    image_words = description.image_words(structs)
+    structs = {name: item for name, item in structs.items() if "image2" not in name}
+    image_words = description.image_words(1, structs)
     parts = [HEAD, enumeration(states), *(struct_type(structs, struct) for struct in structs.values()),
              "\n(* The image as it arrives: each word with its low byte first. *)\nTYPE T_PoseWallWords :\n"
              f"  ARRAY [0..{len(image_words) - 1}] OF DWORD;\nEND_TYPE\n",

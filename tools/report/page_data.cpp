@@ -74,7 +74,10 @@ void PageData::add(const FrameOutcome& outcome) {
   errors_.push_back(outcome.error);
   // What stays of a frame that could not be read: nothing of it is known.
   pose_wall_result result = api::make_result();
-  for (pose_wall_value& value : result.quantity) value = {kNone, kNone, kNone, kNone, kNone, kNone, kUnreadable, 0};
+  for (pose_wall_value& value : result.quantity) {
+    value.value = value.raw = value.sigma = value.protection_level = value.confidence = value.age_s = kNone;
+    value.state = kUnreadable;
+  }
   if (outcome.result) result = *outcome.result;
   add_values(result);
   stamp_s_.add(1e-9 * static_cast<double>(outcome.stamp_ns));

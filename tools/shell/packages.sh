@@ -14,10 +14,11 @@ packages_to_read="liblz4-dev libzstd-dev libbz2-dev libsqlite3-dev libpcap-dev"
 # shellcheck disable=SC2034
 packages_to_test="libgtest-dev python3 pkg-config groff-base"
 packages_to_cross="cmake ninja-build libeigen3-dev g++-aarch64-linux-gnu qemu-user-static"
+packages_to_cross_armhf="cmake ninja-build libeigen3-dev g++-arm-linux-gnueabihf qemu-user-static"
 # shellcheck disable=SC2034
 packages_to_pack="dpkg-dev file" # dpkg-shlibdeps looks up what the command depends on, and asks `file` what it is
 # shellcheck disable=SC2034
-presets_to_test="release debug asan tsan msan fuzz arm64 arm64-clang arm64-asan bare"
+presets_to_test="release debug asan tsan msan fuzz arm64 arm64-clang arm64-asan armhf bare"
 
 # shellcheck disable=SC2086  # lists of words
 packages_of() { # preset: what it takes to build it and to run its tests
@@ -26,6 +27,7 @@ packages_of() { # preset: what it takes to build it and to run its tests
     tsan) echo $packages_to_build $packages_to_test ;;
     msan | fuzz | coverage) echo $packages_to_build $packages_to_read $packages_to_test clang llvm libclang-rt-dev ;;
     arm64 | arm64-asan) echo $packages_to_cross $packages_to_test ;;
+    armhf) echo $packages_to_cross_armhf $packages_to_test ;;
     arm64-clang | bare) echo $packages_to_cross clang $packages_to_test ;;
     *) return 1 ;;
   esac

@@ -76,8 +76,9 @@ void print_counts(const SoakOutcome& o) {
              o.unbalanced);
   fmt::print("published {}, of them {} silences; thinned {}, at most {}; deepest queue {}\n", s.published, s.silences,
              s.thinned, s.thinning_worst, s.waiting_worst);
-  fmt::print("yaw by look: {} valid, {} degraded, {} held, {} invalid\n", o.states[POSE_WALL_VALID],
-             o.states[POSE_WALL_DEGRADED], o.states[POSE_WALL_HELD], o.states[POSE_WALL_INVALID]);
+  fmt::print("yaw by look: {} valid, {} degraded, {} held, {} invalid, {} refused as stale\n",
+             o.states[POSE_WALL_VALID], o.states[POSE_WALL_DEGRADED], o.states[POSE_WALL_HELD],
+             o.states[POSE_WALL_INVALID], o.stale);
   if (s.box_written + s.box_lost + s.box_failed > 0) {
     fmt::print("black box: {} written, {} lost, {} failed, {:.1f} MB\n", s.box_written, s.box_lost, s.box_failed,
                static_cast<double>(s.box_bytes_written) * 1e-6);

@@ -32,6 +32,7 @@ struct SoakOutcome {
   std::uint64_t looks = 0;
   std::uint64_t looks_at_work = 0;  // of them while a frame was on its way
   std::uint64_t states[4] = {};     // of the newest yaw, by look
+  std::uint64_t stale = 0;          // looks at which the newest was refused for its age
   std::uint64_t bytes = 0;          // the block
 
   bool accounts_balance() const {

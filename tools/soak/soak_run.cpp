@@ -72,8 +72,8 @@ class Soak {
     need(pose_wall_runtime_open(&plan.config, &options, block_.data(), block_.size() * sizeof(Line), &runtime_));
   }
   ~Soak() {
-    pose_wall_runtime_stop(runtime_);
-    pose_wall_runtime_close(runtime_);
+    (void)pose_wall_runtime_stop(runtime_);
+    (void)pose_wall_runtime_close(runtime_);
   }
   Soak(const Soak&) = delete;
   Soak& operator=(const Soak&) = delete;
@@ -149,7 +149,9 @@ class Soak {
     if (s.pushed != accounted) ++outcome_.unbalanced;
     pose_wall_publication p{};
     p.struct_size = sizeof p;
-    if (pose_wall_runtime_latest(runtime_, &p) != POSE_WALL_OK) return;
+    const std::int32_t status = pose_wall_runtime_latest(runtime_, &p);
+    if (status == POSE_WALL_RUNTIME_E_STALE) ++outcome_.stale;
+    if (status != POSE_WALL_OK) return;
     ++outcome_.states[p.result.quantity[POSE_WALL_YAW].state & 3U];
   }
 

@@ -31,6 +31,7 @@ void print(const ReplayOptions& options, const BoxReplay& r) {
              counted(r.silences, "silence"));
   fmt::print("  {} bit for bit as recorded, {} otherwise\n", r.equal, r.different);
   if (r.thinned > 0) fmt::print("  {} of a thinned cloud\n", counted(r.thinned, "frame"));
+  if (r.with_inputs > 0) fmt::print("  {} with inputs of the machine\n", counted(r.with_inputs, "frame"));
   if (r.digests_only > 0) fmt::print("  {} only as digests: there is nothing to compute\n", r.digests_only);
   if (r.missing > 0) fmt::print("  {} missing: lost to a slow disk, or damaged\n", counted(r.missing, "event"));
   if (r.damaged > 0) fmt::print("  {} damaged or cut off\n", counted(r.damaged, "record"));

@@ -30,6 +30,7 @@ bool is_inside(const void* part, std::uint64_t bytes, const unsigned char* box, 
 void require_inside(const pose_wall_box_record& r, const unsigned char* box, std::uint64_t count) {
   require(is_inside(r.memento, pose_wall_memento_bytes(), box, count), "the memento is inside");
   require(is_inside(r.result, sizeof(pose_wall_result), box, count), "the result is inside");
+  require(r.inputs == nullptr || is_inside(r.inputs, sizeof(pose_wall_inputs), box, count), "the inputs are inside");
   require(r.points == nullptr || is_inside(r.points, std::uint64_t{r.point_count} * r.point_bytes, box, count),
           "the points are inside");
 }

@@ -9,6 +9,7 @@
 #include "fuzz/config_from_input.hpp"
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/road_from_input.hpp"
+#include "support/moments.hpp"
 
 namespace {
 
@@ -66,7 +67,7 @@ void process(pose_wall_engine* engine, std::uint32_t points, std::int64_t stamp_
   for (const pose_wall_value& v : result.quantity) require(v.state <= POSE_WALL_HELD, "silence measures nothing");
   pose_wall_image image;
   image.struct_size = sizeof image;
-  require_ok(pose_wall_image_fill(engine, &result, &image), "image");
+  require_ok(pose_wall_image_fill(&result, &image), "image");
 }
 
 }  // namespace
@@ -82,7 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   pose_wall_engine* const engine = open_engine(config, &block, 0xA5);
   const std::uint8_t how = input.byte();
   if ((how & 1U) != 0) process(engine, points, 0);
-  require_ok(pose_wall_save(engine, before, bytes), "save");
+  require_ok(pose_wall_save(engine, nullptr, before, bytes), "save");
   std::memcpy(memento, before, bytes);
   if ((how & 2U) != 0) {
     const std::size_t held = input.left() < bytes ? input.left() : static_cast<std::size_t>(bytes);
@@ -91,8 +92,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     change_words(&input, memento);
   }
   if ((how & 4U) == 0) mend_checksum(memento);
-  const std::int32_t status = pose_wall_load(engine, memento, bytes);
-  require_ok(pose_wall_save(engine, after, bytes), "save");
+  const std::int32_t status = pose_wall_load(engine, &kSameClock, memento, bytes);
+  require_ok(pose_wall_save(engine, nullptr, after, bytes), "save");
   require(status == POSE_WALL_OK || status == POSE_WALL_E_MEMENTO, "taken or refused");
   require(std::memcmp(after, status == POSE_WALL_OK ? memento : before, bytes) == 0,
           "what is taken is there, what is refused changes nothing");

@@ -89,6 +89,18 @@ void push_described(Input* input, pose_wall_runtime* runtime, bool any) {
   require(pushed == checked || too_large || pushed == POSE_WALL_RUNTIME_E_STATE, "push says what the check says");
 }
 
+pose_wall_inputs inputs_by(std::uint8_t what) {
+  pose_wall_inputs inputs{};
+  inputs.struct_size = what == 254 ? 8 : sizeof inputs;
+  inputs.given = what % 8U;
+  inputs.speed_m_s = (what - 128) * 0.5;
+  inputs.speed_sigma_m_s = (what - 64) * 0.01;
+  inputs.turn_rate_rad_s = (what - 128) * 0.1;
+  inputs.turn_rate_sigma_rad_s = 0.01 * what;
+  for (int k = 0; k < 6; ++k) inputs.body_box[what % 4U][k] = (k % 2 == 0 ? -0.01 : 0.01) * what;
+  return inputs;
+}
+
 void push(Input* input, pose_wall_runtime* runtime, std::int64_t stamp_ns) {
   const std::uint8_t what = input->byte();
   if (what % 8U == 1) return push_described(input, runtime, what >= 128);
@@ -97,7 +109,9 @@ void push(Input* input, pose_wall_runtime* runtime, std::int64_t stamp_ns) {
   pose_wall_cloud cloud;
   require_ok(pose_wall_cloud_xyz32(&cloud, road_points(), points, 12, stamp_ns), "xyz32");
   if (what > 240) cloud.x.type = what % 10U;
-  pose_wall_runtime_push(runtime, &cloud);
+  pose_wall_inputs inputs = inputs_by(what);
+  if (what % 3U == 2) cloud.inputs = &inputs;
+  (void)pose_wall_runtime_push(runtime, &cloud);  // it may be stopped, or say no
 }
 
 void require_balance(pose_wall_runtime* runtime) {
@@ -118,7 +132,7 @@ void event(Input* input, pose_wall_runtime* runtime, World* world) {
   const std::uint8_t what = input->byte();
   switch (what % 8U) {
     case 5:
-      pose_wall_runtime_stop(runtime);
+      require_ok(pose_wall_runtime_stop(runtime), "stop");
       break;
     case 6:
       world->disk_broken = !world->disk_broken;
@@ -130,9 +144,13 @@ void event(Input* input, pose_wall_runtime* runtime, World* world) {
     default:
       push(input, runtime, world->now_ns);
   }
-  pose_wall_runtime_start(runtime);
+  const std::int32_t started = pose_wall_runtime_start(runtime);
+  require(started == POSE_WALL_OK || started == POSE_WALL_RUNTIME_E_STATE, "it starts, or runs");
   if ((what & 64U) == 0) pose_wall_runtime_wait_idle(runtime);
-  pose_wall_runtime_latest(runtime, &latest);
+  const std::int32_t status = pose_wall_runtime_latest(runtime, &latest);
+  for (const pose_wall_value& v : latest.result.quantity) {
+    require(status == POSE_WALL_OK || v.state == POSE_WALL_INVALID, "what is refused is invalid");
+  }
   world->now_ns += input->byte() * kMs;
   require_balance(runtime);
 }

@@ -13,6 +13,7 @@
 #include "fuzz/garbage_from_input.hpp"
 #include "fuzz/road_from_input.hpp"
 #include "support/contract.hpp"
+#include "support/moments.hpp"
 
 namespace {
 
@@ -48,7 +49,7 @@ void require_image(const pose_wall_engine* engine, const pose_wall_result& resul
   pose_wall_image image;
   std::memset(&image, 0, sizeof image);
   image.struct_size = sizeof image;
-  require_ok(pose_wall_image_fill(engine, &result, &image), "image");
+  require_ok(pose_wall_image_fill(&result, &image), "image");
   require_ok(pose_wall_image_check(&image), "image check");
   const pose_wall_value& yaw = result.quantity[POSE_WALL_YAW];
   if (std::isnan(yaw.value)) {
@@ -90,10 +91,10 @@ void hand_over(Pair* pair, int garbage) {
   static unsigned char memento[kMementoRoom], again[kMementoRoom];
   const std::uint64_t bytes = pose_wall_memento_bytes();
   require(bytes <= kMementoRoom, "room for a memento");
-  require_ok(pose_wall_save(pair->one, memento, bytes), "save");
+  require_ok(pose_wall_save(pair->one, nullptr, memento, bytes), "save");
   pair->other = open_engine(pair->config, pair->block_of_other, garbage);
-  require_ok(pose_wall_load(pair->other, memento, bytes), "load");
-  require_ok(pose_wall_save(pair->other, again, bytes), "save again");
+  require_ok(pose_wall_load(pair->other, &kSameClock, memento, bytes), "load");
+  require_ok(pose_wall_save(pair->other, nullptr, again, bytes), "save again");
   require(std::memcmp(memento, again, bytes) == 0, "what was loaded is what is saved");
 }
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What readers get. No thread of the runtime is asked: neither for its word nor for a lock.
+
+#include "freshness.hpp"
+#include "runtime.hpp"
+
+namespace pose_wall::runtime {
+
+void Runtime::tell_activity(pose_wall_publication* publication) const {
+  const Activity::Told told = activity_.now();
+  publication->activity = told.activity;
+  publication->activity_since_ns = told.since_ns;
+}
+
+pose_wall_publication Runtime::nothing() const {
+  pose_wall_publication p{};
+  p.struct_size = sizeof(p);
+  p.thinning = p.held_thinning = 1;
+  p.age_ns = INT64_MAX;
+  p.result = blank_;
+  return p;
+}
+
+std::int32_t Runtime::latest(pose_wall_publication* publication) const {
+  std::int32_t status = POSE_WALL_RUNTIME_E_STATE;
+  if (running_.load(std::memory_order_acquire) != 0) {
+    const LatestStatus there = latest_.load(publication);
+    if (there == LatestStatus::kThere) return judge(publication);
+    status = there == LatestStatus::kNothing ? std::int32_t{POSE_WALL_RUNTIME_E_NOTHING} : POSE_WALL_E_ENGINE;
+  }
+  *publication = nothing();
+  tell_activity(publication);
+  return status;
+}
+
+// The clock is read behind the copy: what was read is no older than it says.
+std::int32_t Runtime::judge(pose_wall_publication* publication) const {
+  tell_activity(publication);
+  const Freshness freshness(*publication, now(), options_.watchdog_ns);
+  publication->age_ns = freshness.age_ns();
+  if (!freshness.is_stale()) return POSE_WALL_OK;
+  make_stale(freshness.elapsed_s(), &publication->result);
+  return POSE_WALL_RUNTIME_E_STALE;
+}
+
+std::int32_t Runtime::image(pose_wall_image* image) const {
+  pose_wall_publication publication;
+  const std::int32_t status = latest(&publication);
+  const std::int32_t filled = pose_wall_image_fill(&publication.result, image);
+  return filled != POSE_WALL_OK ? filled : status;
+}
+
+}  // namespace pose_wall::runtime

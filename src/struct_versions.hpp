@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The sizes of the engine's structs in each version of the header; what they are for: struct_sizes.hpp.
+
+#pragma once
+
+#include <cstddef>
+
+#include "struct_sizes.hpp"
+
+namespace pose_wall {
+
+constexpr StructSizes kCloudSizes = {offsetof(pose_wall_cloud, inputs), sizeof(pose_wall_cloud),
+                                     sizeof(pose_wall_cloud)};
+constexpr StructSizes kResultSizes = {864, sizeof(pose_wall_result), sizeof(pose_wall_result)};
+constexpr StructSizes kInputsSizes = {0, sizeof(pose_wall_inputs), sizeof(pose_wall_inputs)};
+constexpr StructSizes kMomentSizes = {0, sizeof(pose_wall_moment), sizeof(pose_wall_moment)};
+// Not of ABI 1: a size of 0 was forgotten.
+constexpr StructSizes kSourceSizes = {sizeof(pose_wall_image_source), sizeof(pose_wall_image_source),
+                                      sizeof(pose_wall_image_source)};
+
+}  // namespace pose_wall

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a program of ABI 1 is refused by name, at its first call and at each later one; two calls at once do not
+// meet inside an engine; a result tells which engine made it, and memory that no engine wrote is none; the frame's
+// inputs are taken or refused as pose_wall.h says. Does not prove that every race is caught: only that the second call
+// is refused while the first is known to be inside.
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "support/clouds.hpp"
+#include "support/engine_under_test.hpp"
+#include "support/moments.hpp"
+#include "support/room.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+// What a program that was compiled against ABI 1 calls by this name.
+#undef pose_wall_config_init
+const auto config_init_of_abi1 = pose_wall_config_init;
+#define pose_wall_config_init pose_wall_config_init_2
+
+constexpr std::int64_t kPeriod_ns = 100000000;
+constexpr std::uint32_t kResultBytesOfAbi1 = 864, kCloudBytesOfAbi1 = offsetof(pose_wall_cloud, inputs);
+
+pose_wall_result blank_result() {
+  pose_wall_result result{};
+  result.struct_size = sizeof result;
+  return result;
+}
+
+TEST(Abi1, ItsFirstCallIsRefusedAndWritesNothing) {
+  pose_wall_config config;
+  std::memset(&config, 0x5A, sizeof config);
+  const pose_wall_config before = config;
+  EXPECT_EQ(config_init_of_abi1(&config), POSE_WALL_E_ABI);
+  EXPECT_EQ(std::memcmp(&config, &before, sizeof config), 0);
+}
+
+TEST(Abi1, ItsStructsAreRefusedByName) {
+  EngineUnderTest engine(small_config());
+  const Points points = room_points(1);
+  pose_wall_cloud cloud = cloud_of(points, 0);
+  pose_wall_result result = blank_result();
+  result.struct_size = kResultBytesOfAbi1;
+  EXPECT_EQ(pose_wall_process(engine.get(), &cloud, &result), POSE_WALL_E_ABI);
+  EXPECT_EQ(pose_wall_age(engine.get(), 0, &result), POSE_WALL_E_ABI);
+  result.struct_size = sizeof result;
+  cloud.struct_size = kCloudBytesOfAbi1;
+  EXPECT_EQ(pose_wall_process(engine.get(), &cloud, &result), POSE_WALL_E_ABI);
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_E_ABI);
+}
+
+TEST(StructSizes, OfANewerHeaderAreRefusedByNameAndOthersAsUnknown) {
+  EngineUnderTest engine(small_config());
+  const Points points = room_points(1);
+  pose_wall_cloud cloud = cloud_of(points, 0);
+  pose_wall_result result = blank_result();
+  for (const std::uint32_t more : {1U, 8U, 400U}) {
+    result.struct_size = static_cast<std::uint32_t>(sizeof result) + more;
+    EXPECT_EQ(pose_wall_process(engine.get(), &cloud, &result), POSE_WALL_E_STRUCT_NEWER);
+    EXPECT_EQ(pose_wall_age(engine.get(), 0, &result), POSE_WALL_E_STRUCT_NEWER);
+  }
+  for (const std::uint32_t none : {0U, 4U, 0x5A5A5A5AU}) {
+    result.struct_size = none;
+    EXPECT_EQ(pose_wall_process(engine.get(), &cloud, &result), POSE_WALL_E_STRUCT_SIZE);
+    cloud.struct_size = none;
+    EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_E_STRUCT_SIZE);
+    cloud.struct_size = sizeof cloud;
+  }
+}
+
+// The engine's clock is the one place where the caller's code runs inside a call.
+struct Door {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool inside = false, may_leave = false;
+
+  static std::int64_t wait(void* user) {
+    Door& door = *static_cast<Door*>(user);
+    std::unique_lock<std::mutex> lock(door.mutex);
+    door.inside = true;
+    door.changed.notify_all();
+    door.changed.wait(lock, [&] { return door.may_leave; });
+    return 0;
+  }
+};
+
+TEST(Busy, ASecondCallIsRefusedAndTheFirstIsNotDisturbed) {
+  const pose_wall_config config = small_config();
+  EngineUnderTest engine(config), alone(config);
+  const Points points = room_points(1);
+  const pose_wall_cloud cloud = cloud_of(points, 0);
+  const pose_wall_result expected = alone.process(cloud);
+  Door door;
+  ASSERT_EQ(pose_wall_set_clock(engine.get(), Door::wait, &door), POSE_WALL_OK);
+  pose_wall_result first = blank_result();
+  std::int32_t first_status = 1;
+  std::thread other([&] { first_status = pose_wall_process(engine.get(), &cloud, &first); });
+  {
+    std::unique_lock<std::mutex> lock(door.mutex);
+    door.changed.wait(lock, [&] { return door.inside; });
+  }
+  pose_wall_result second = blank_result();
+  pose_wall_points seen;
+  std::vector<unsigned char> memento(pose_wall_memento_bytes());
+  EXPECT_EQ(pose_wall_process(engine.get(), &cloud, &second), POSE_WALL_E_BUSY);
+  EXPECT_EQ(pose_wall_age(engine.get(), 0, &second), POSE_WALL_E_BUSY);
+  EXPECT_EQ(pose_wall_reset(engine.get()), POSE_WALL_E_BUSY);
+  EXPECT_EQ(pose_wall_set_clock(engine.get(), nullptr, nullptr), POSE_WALL_E_BUSY);
+  EXPECT_EQ(pose_wall_save(engine.get(), nullptr, memento.data(), memento.size()), POSE_WALL_E_BUSY);
+  EXPECT_EQ(pose_wall_load(engine.get(), &kSameClock, memento.data(), memento.size()), POSE_WALL_E_BUSY);
+  EXPECT_EQ(pose_wall_last_points(engine.get(), &seen), POSE_WALL_E_BUSY);
+  std::uint64_t bytes = 0;
+  pose_wall_engine* again = nullptr;
+  ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_open(&config, engine.get(), bytes, &again), POSE_WALL_E_BUSY) << "its block is in use";
+  EXPECT_EQ(again, nullptr);
+  {
+    const std::lock_guard<std::mutex> lock(door.mutex);
+    door.may_leave = true;
+  }
+  door.changed.notify_all();
+  other.join();
+  EXPECT_EQ(first_status, POSE_WALL_OK);
+  EXPECT_EQ(std::memcmp(&first, &expected, sizeof first), 0);
+  EXPECT_EQ(pose_wall_reset(engine.get()), POSE_WALL_OK) << "nobody is inside any more";
+}
+
+TEST(Busy, AClockThatCallsItsOwnEngineIsRefused) {
+  EngineUnderTest engine(small_config());
+  struct Asked {
+    pose_wall_engine* engine;
+    std::int32_t status;
+  } asked = {engine.get(), 0};
+  const auto ask = [](void* user) {
+    Asked& a = *static_cast<Asked*>(user);
+    a.status = pose_wall_reset(a.engine);
+    return std::int64_t{0};
+  };
+  ASSERT_EQ(pose_wall_set_clock(engine.get(), ask, &asked), POSE_WALL_OK);
+  engine.process(cloud_of(room_points(1), 0));
+  EXPECT_EQ(asked.status, POSE_WALL_E_BUSY);
+}
+
+TEST(Result, TellsWhoMadeItAndCountsPublications) {
+  const pose_wall_config config = config_with({{"source_id", "7"}});
+  EngineUnderTest engine(config);
+  std::uint32_t crc = 0;
+  ASSERT_EQ(pose_wall_config_crc(&config, &crc), POSE_WALL_OK);
+  const Points points = room_points(1);
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    const pose_wall_result frame = engine.process(cloud_of(points, static_cast<std::int64_t>(i) * kPeriod_ns));
+    EXPECT_EQ(frame.config_crc32, crc);
+    EXPECT_EQ(frame.source_id, 7U);
+    EXPECT_EQ(frame.frame_index, i);
+    EXPECT_EQ(frame.publication, 2 * i + 1);
+    pose_wall_result aged = blank_result();
+    ASSERT_EQ(pose_wall_age(engine.get(), static_cast<std::int64_t>(i) * kPeriod_ns + 1, &aged), POSE_WALL_OK);
+    EXPECT_EQ(aged.frame_index, i);
+    EXPECT_EQ(aged.publication, 2 * i + 2) << "news, though no frame has come";
+    EXPECT_NE(aged.mark, frame.mark);
+  }
+}
+
+TEST(Result, OneThatNoEngineMadeGivesNoImage) {
+  EngineUnderTest engine(small_config());
+  const pose_wall_result good = engine.process(cloud_of(room_points(1), 0));
+  pose_wall_image image{};
+  image.struct_size = sizeof image;
+  EXPECT_EQ(pose_wall_image_fill(&good, &image), POSE_WALL_OK);
+  EXPECT_EQ(image.config_crc32, good.config_crc32);
+  const pose_wall_result blank = blank_result();
+  EXPECT_EQ(pose_wall_image_fill(&blank, &image), POSE_WALL_E_RESULT);
+  pose_wall_result changed = good;
+  changed.config_crc32 ^= 1U;
+  EXPECT_EQ(pose_wall_image_fill(&changed, &image), POSE_WALL_E_RESULT);
+  changed = good;
+  changed.stamp_ns += 1;
+  EXPECT_EQ(pose_wall_image_fill(&changed, &image), POSE_WALL_E_RESULT);
+  changed = good;
+  changed.frame_index += 1;
+  EXPECT_EQ(pose_wall_image_fill(&changed, &image), POSE_WALL_E_RESULT);
+}
+
+// Roll is positive where the side at -Y is down, pitch where the one at +X is: in words for each forward axis.
+TEST(Result, SaysWhatPositiveAnglesMean) {
+  const struct {
+    const char* axis;
+    std::uint32_t roll, pitch;
+  } expected[] = {{"+X", POSE_WALL_SENSE_RIGHT_DOWN, POSE_WALL_SENSE_NOSE_DOWN},
+                  {"-X", POSE_WALL_SENSE_LEFT_DOWN, POSE_WALL_SENSE_NOSE_UP},
+                  {"+Y", POSE_WALL_SENSE_NOSE_UP, POSE_WALL_SENSE_RIGHT_DOWN},
+                  {"-Y", POSE_WALL_SENSE_NOSE_DOWN, POSE_WALL_SENSE_LEFT_DOWN}};
+  for (const auto& row : expected) {
+    EngineUnderTest engine(config_with({{"forward_axis", row.axis}}));
+    const pose_wall_result r = engine.process(cloud_of(room_points(1), 0));
+    EXPECT_EQ(r.positive_means[0], row.roll) << row.axis;
+    EXPECT_EQ(r.positive_means[1], row.pitch) << row.axis;
+    EXPECT_EQ(r.positive_means[2], static_cast<std::uint32_t>(POSE_WALL_SENSE_TURNED_RIGHT)) << row.axis;
+  }
+}
+
+class Inputs : public ::testing::Test {
+ protected:
+  pose_wall_inputs inputs_{};
+  EngineUnderTest engine_{small_config()};
+  const Points points_ = room_points(1);
+
+  void SetUp() override { inputs_.struct_size = sizeof inputs_; }
+  pose_wall_cloud cloud(std::int64_t stamp_ns) {
+    pose_wall_cloud cloud = cloud_of(points_, stamp_ns);
+    cloud.inputs = &inputs_;
+    return cloud;
+  }
+  std::int32_t status() {
+    pose_wall_result result = blank_result();
+    const pose_wall_cloud asked = cloud(0);
+    return pose_wall_process(engine_.get(), &asked, &result);
+  }
+};
+
+TEST_F(Inputs, AWrongDescriptionIsRefused) {
+  inputs_.given = 8;
+  EXPECT_EQ(status(), POSE_WALL_E_INPUT);
+  inputs_.given = 0;
+  inputs_.struct_size += 8;
+  EXPECT_EQ(status(), POSE_WALL_E_STRUCT_NEWER);
+  inputs_.struct_size = 4;
+  EXPECT_EQ(status(), POSE_WALL_E_STRUCT_SIZE);
+  inputs_.struct_size = sizeof inputs_;
+  EXPECT_EQ(status(), POSE_WALL_OK);
+}
+
+// The same as the config's body box, frame by frame.
+TEST_F(Inputs, ABoxTakesItsPointsOutInThisFrameOnly) {
+  const double box[6] = {0.5, 6.0, -0.8, 0.8, -2.0, 2.0};
+  std::memcpy(inputs_.body_box[2], box, sizeof box);
+  const pose_wall_result with = engine_.process(cloud(0));
+  EXPECT_GT(with.dropped_body, 0U);
+  EXPECT_EQ(with.frame_reasons & POSE_WALL_R_PRIOR, 0U);
+  pose_wall_config config = small_config();
+  set(&config, "body_box_1", "0.5 6.0 -0.8 0.8 -2.0 2.0");
+  EngineUnderTest by_config(config);
+  EXPECT_EQ(by_config.process(cloud_of(points_, 0)).dropped_body, with.dropped_body);
+  inputs_ = pose_wall_inputs{};
+  inputs_.struct_size = sizeof inputs_;
+  EXPECT_EQ(engine_.process(cloud(kPeriod_ns)).dropped_body, 0U);
+}
+
+TEST_F(Inputs, WhatIsNoNumberIsLeftOutAndSaid) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const pose_wall_result without = engine_.process(cloud(0));
+  inputs_.body_box[0][3] = nan;
+  const pose_wall_result by_box = engine_.process(cloud(kPeriod_ns));
+  EXPECT_NE(by_box.frame_reasons & POSE_WALL_R_PRIOR, 0U);
+  EXPECT_EQ(by_box.dropped_body, 0U);
+  inputs_.body_box[0][3] = 0.0;
+  inputs_.given = POSE_WALL_INPUT_SPEED;
+  inputs_.speed_m_s = nan;
+  inputs_.speed_sigma_m_s = 0.1;
+  EXPECT_NE(engine_.process(cloud(2 * kPeriod_ns)).frame_reasons & POSE_WALL_R_PRIOR, 0U);
+  inputs_.speed_m_s = 0.2;
+  EXPECT_EQ(engine_.process(cloud(3 * kPeriod_ns)).frame_reasons & POSE_WALL_R_PRIOR, 0U);
+  EXPECT_EQ(without.frame_reasons & POSE_WALL_R_PRIOR, 0U);
+}
+
+// What an engine held before the power went.
+class AfterPowerLoss : public ::testing::Test {
+ protected:
+  static constexpr std::int64_t kBefore_ns = 3600LL * 1000000000, kWall_ns = 1700000000LL * 1000000000;
+
+  AfterPowerLoss() {
+    EngineUnderTest engine(config_);
+    const pose_wall_result r = engine.process(cloud_of(room_points(1), kBefore_ns));
+    value_ = r.quantity[POSE_WALL_ROLL].value;
+    level_ = r.quantity[POSE_WALL_ROLL].protection_level;
+    then_ = {sizeof then_, POSE_WALL_MOMENT_BOOT | POSE_WALL_MOMENT_WALL, {1, 2, 3}, kWall_ns, kBefore_ns};
+    EXPECT_EQ(pose_wall_save(engine.get(), &then_, memento_.data(), memento_.size()), POSE_WALL_OK);
+  }
+
+  // Roll in the first frame, an empty one, after the load.
+  pose_wall_value held(const pose_wall_moment* now, std::int64_t stamp_ns) {
+    EngineUnderTest engine(config_);
+    EXPECT_EQ(pose_wall_load(engine.get(), now, memento_.data(), memento_.size()), POSE_WALL_OK);
+    return engine.process(cloud_of(Points(), stamp_ns)).quantity[POSE_WALL_ROLL];
+  }
+
+  const pose_wall_config config_ = [] {
+    pose_wall_config config = small_config();
+    set(&config, "alert_limit_angle_deg", "20");
+    set(&config, "hold_max", "10");
+    return config;
+  }();
+  double value_ = 0.0, level_ = 0.0;
+  pose_wall_moment then_{};
+  std::vector<unsigned char> memento_ = std::vector<unsigned char>(pose_wall_memento_bytes());
+};
+
+TEST_F(AfterPowerLoss, WhatNobodyCanDateIsNotHeld) {
+  pose_wall_moment other_boot = {sizeof other_boot, POSE_WALL_MOMENT_BOOT, {9}, 0, kPeriod_ns};
+  const pose_wall_moment* const none = nullptr;
+  for (const pose_wall_moment* now : {none, static_cast<const pose_wall_moment*>(&other_boot)}) {
+    // The uptime clock has begun anew, and happens to stand where it stood.
+    const pose_wall_value v = held(now, kBefore_ns + kPeriod_ns);
+    EXPECT_EQ(v.state, POSE_WALL_INVALID);
+    EXPECT_NE(v.reasons & POSE_WALL_R_HOLD_EXPIRED, 0U);
+    EXPECT_EQ(v.confidence, 0.0);
+  }
+}
+
+TEST_F(AfterPowerLoss, InTheSameBootItIsHeldByTheStamps) {
+  pose_wall_moment now = then_;
+  const pose_wall_value v = held(&now, kBefore_ns + kPeriod_ns);
+  EXPECT_EQ(v.state, POSE_WALL_HELD);
+  EXPECT_EQ(v.value, value_);
+  EXPECT_NEAR(v.age_s, 0.1, 1e-9);
+}
+
+TEST_F(AfterPowerLoss, TheWallClockDatesIt) {
+  pose_wall_moment now = {sizeof now, POSE_WALL_MOMENT_BOOT | POSE_WALL_MOMENT_WALL, {9}, kWall_ns + 3000000000, 50};
+  const pose_wall_value v = held(&now, 50 + kPeriod_ns);
+  EXPECT_EQ(v.state, POSE_WALL_HELD);
+  EXPECT_NEAR(v.age_s, 3.1, 1e-6);
+  EXPECT_NEAR(v.protection_level, level_ + 0.05 * 3.1, 1e-6) << "hold_rate_angle";
+  now.wall_ns = kWall_ns + 60000000000;
+  EXPECT_EQ(held(&now, 50 + kPeriod_ns).state, POSE_WALL_INVALID) << "a minute is beyond hold_max";
+  now.wall_ns = kWall_ns - 1;
+  EXPECT_EQ(held(&now, 50 + kPeriod_ns).state, POSE_WALL_INVALID) << "it went back";
+}
+
+TEST_F(AfterPowerLoss, AWrongMomentIsRefused) {
+  EngineUnderTest engine(config_);
+  pose_wall_moment now = then_;
+  now.known = 8;
+  EXPECT_EQ(pose_wall_load(engine.get(), &now, memento_.data(), memento_.size()), POSE_WALL_E_INPUT);
+  EXPECT_EQ(pose_wall_save(engine.get(), &now, memento_.data(), memento_.size()), POSE_WALL_E_INPUT);
+  now.known = 1;
+  now.struct_size = 1;
+  EXPECT_EQ(pose_wall_load(engine.get(), &now, memento_.data(), memento_.size()), POSE_WALL_E_STRUCT_SIZE);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

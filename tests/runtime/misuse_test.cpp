@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a block in which a runtime runs is not opened over, whatever else it may hold; structs of the ABI before, and
+// of newer headers, are refused by name and left as they are; so is the first call of a program of the ABI before.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "runtime/struct_versions.hpp"
+#include "support/runtime_under_test.hpp"
+
+extern "C" std::int32_t first_call_of_abi_2(pose_wall_runtime_options* options) __asm__(
+    "pose_wall_runtime_options_init");
+
+namespace pose_wall::test {
+namespace {
+
+struct OnABlock {
+  OnABlock() : options(options_of_default()), block(needed(), Dirt::kRandom) {}
+  static pose_wall_runtime_options options_of_default() {
+    pose_wall_runtime_options o;
+    pose_wall_runtime_options_init(&o);
+    o.cloud_points_max = 30000;
+    return o;
+  }
+  std::uint64_t needed() const {
+    std::uint64_t bytes = 0;
+    EXPECT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_OK);
+    return bytes;
+  }
+  std::int32_t open(pose_wall_runtime** runtime) {
+    return pose_wall_runtime_open(&config, &options, block.data(), block.size(), runtime);
+  }
+
+  pose_wall_config config = small_config();
+  pose_wall_runtime_options options;
+  AlignedBlock block;
+};
+
+TEST(RuntimeMisuse, ABlockInWhichARuntimeRunsIsNotOpenedOver) {
+  OnABlock on;
+  pose_wall_runtime* runtime = nullptr;
+  ASSERT_EQ(on.open(&runtime), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_runtime_start(runtime), POSE_WALL_OK);
+  const Points room = room_points(1);
+  for (std::int64_t i = 0; i < 3; ++i) {
+    pose_wall_runtime* other = nullptr;
+    EXPECT_EQ(on.open(&other), POSE_WALL_E_BUSY);
+    EXPECT_EQ(other, nullptr);
+    const pose_wall_cloud cloud = cloud_of(room, i * 100 * kMs);
+    EXPECT_EQ(pose_wall_runtime_push(runtime, &cloud), POSE_WALL_OK) << "it goes on";
+    EXPECT_EQ(pose_wall_runtime_wait_idle(runtime), POSE_WALL_OK);
+  }
+  EXPECT_EQ(pose_wall_runtime_request_stop(runtime), POSE_WALL_OK);
+  EXPECT_EQ(on.open(&runtime), POSE_WALL_E_BUSY) << "its threads are there until stop has come back";
+  EXPECT_EQ(pose_wall_runtime_stop(runtime), POSE_WALL_OK);
+  EXPECT_EQ(on.open(&runtime), POSE_WALL_OK) << "stopped, if not closed";
+  EXPECT_EQ(pose_wall_runtime_start(runtime), POSE_WALL_OK);
+  EXPECT_EQ(on.open(&runtime), POSE_WALL_E_BUSY);
+  EXPECT_EQ(pose_wall_runtime_stop(runtime), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_runtime_close(runtime), POSE_WALL_OK);
+  EXPECT_EQ(on.open(&runtime), POSE_WALL_OK);
+}
+
+// Copied elsewhere its bytes say that it runs, but of another place.
+TEST(RuntimeMisuse, ACopyOfARunningOneIsGarbage) {
+  OnABlock on, other;
+  pose_wall_runtime* runtime = nullptr;
+  ASSERT_EQ(on.open(&runtime), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_runtime_start(runtime), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_runtime_stop(runtime), POSE_WALL_OK);
+  std::memcpy(other.block.data(), on.block.data(), other.block.size());
+  pose_wall_runtime* placed = nullptr;
+  EXPECT_EQ(other.open(&placed), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_runtime_start(placed), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_runtime_stop(placed), POSE_WALL_OK);
+}
+
+TEST(RuntimeMisuse, AProgramOfTheAbiBeforeIsRefusedByItsFirstCall) {
+  pose_wall_runtime_options options;
+  std::memset(&options, 0x55, sizeof options);
+  const pose_wall_runtime_options before = options;
+  EXPECT_EQ(first_call_of_abi_2(&options), POSE_WALL_E_ABI);
+  EXPECT_EQ(first_call_of_abi_2(nullptr), POSE_WALL_E_ABI);
+  EXPECT_EQ(std::memcmp(&options, &before, sizeof options), 0);
+}
+
+// Each struct by the sizes it has had: what takes it gives its status.
+template <typename Struct, typename Call>
+void expect_versions(std::uint32_t of_abi_2, const Call& call) {
+  const struct {
+    std::uint32_t size;
+    std::int32_t status;
+  } rows[] = {{of_abi_2, POSE_WALL_E_ABI},           {sizeof(Struct) + 8, POSE_WALL_E_STRUCT_NEWER},
+              {1U << 16U, POSE_WALL_E_STRUCT_NEWER}, {(1U << 16U) + 1, POSE_WALL_E_STRUCT_SIZE},
+              {0, POSE_WALL_E_STRUCT_SIZE},          {sizeof(Struct) - 1, POSE_WALL_E_STRUCT_SIZE},
+              {sizeof(Struct), POSE_WALL_OK}};
+  for (const auto& row : rows) EXPECT_EQ(call(row.size), row.status) << row.size;
+}
+
+TEST(RuntimeMisuse, StructsOfOtherVersionsAreRefusedByName) {
+  expect_versions<pose_wall_runtime_options>(128, [](std::uint32_t size) {
+    pose_wall_runtime_options o;
+    pose_wall_runtime_options_init(&o);
+    o.struct_size = size;
+    return pose_wall_runtime_options_check(&o, nullptr);
+  });
+  RuntimeUnderTest runtime;
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.wait_idle();
+  expect_versions<pose_wall_publication>(912, [&](std::uint32_t size) {
+    pose_wall_publication p;
+    std::memset(&p, 0x55, sizeof p);
+    p.struct_size = size;
+    const pose_wall_publication before = p;
+    const std::int32_t status = pose_wall_runtime_latest(runtime.get(), &p);
+    EXPECT_EQ(std::memcmp(&p, &before, sizeof p) == 0, status != POSE_WALL_OK);
+    return status;
+  });
+  expect_versions<pose_wall_runtime_statistics>(664, [&](std::uint32_t size) {
+    pose_wall_runtime_statistics s;
+    std::memset(&s, 0x55, sizeof s);
+    s.struct_size = size;
+    const pose_wall_runtime_statistics before = s;
+    const std::int32_t status = pose_wall_runtime_statistics_now(runtime.get(), &s);
+    EXPECT_EQ(std::memcmp(&s, &before, sizeof s) == 0, status != POSE_WALL_OK);
+    return status;
+  });
+}
+
+// Once there are longer ones: who was built with an earlier header gets what he has room for, and a result whose size
+// says how much of it he has.
+TEST(RuntimeMisuse, AShorterPublicationIsWrittenNoFurtherThanItReaches) {
+  pose_wall_publication whole{}, to;
+  whole.struct_size = sizeof whole;
+  whole.index = 7;
+  whole.result.wall_points = 9;
+  std::memset(&to, 0x55, sizeof to);
+  const auto shorter = static_cast<std::uint32_t>(sizeof to) - 8;
+  runtime::write_publication(whole, shorter, &to);
+  EXPECT_EQ(to.struct_size, shorter);
+  EXPECT_EQ(to.result.struct_size, sizeof to.result - 8);
+  EXPECT_EQ(to.index, 7U);
+  EXPECT_EQ(to.result.wall_points, 0x55555555U) << "behind the end";
+}
+
+}  // namespace
+}  // namespace pose_wall::test
