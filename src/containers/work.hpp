@@ -25,7 +25,10 @@ class Work {
   void add(std::uint64_t items, std::uint64_t steps_each) { done_ += items * steps_each; }
   std::uint64_t done() const { return done_; }
   std::uint64_t most() const { return most_; }
+  std::uint64_t left() const { return done_ < most_ ? most_ - done_ : 0; }
   bool is_spent() const { return done_ > most_; }
+  // What is about to be done takes about so many steps.
+  bool allows(std::uint64_t steps) const { return done_ <= most_ && steps <= most_ - done_; }
 
  private:
   std::uint64_t done_ = 0, most_ = kNoEnd;
@@ -38,11 +41,11 @@ namespace steps {
 // a voxel that is sorted and written.
 constexpr std::uint64_t kPointRead = 11, kFourSlots = 2, kLink = 1, kVoxelWritten = 15;
 // Outliers: a voxel; one whose neighbours are looked for, and four that are looked at.
-constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 20, kFourLookedAt = 1;
+constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kFourLookedAt = 2;
 // Floor: a voxel that is told open or not; an open point within a radius; a hypothesis; a plane that is refined, weighed,
 // and a point that it is weighed by; a point that a fit selects from, and one that goes into its patches.
-constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 6, kFloorDrawn = 260, kFloorRefined = 3500;
-constexpr std::uint64_t kFloorWeighed = 8000, kPointWeighed = 4, kPointSelected = 5, kPointPatched = 8;
+constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 10, kFloorDrawn = 400, kFloorRefined = 4000;
+constexpr std::uint64_t kFloorWeighed = 8000, kPointWeighed = 7, kPointSelected = 8, kPointPatched = 12;
 // Band: a voxel that is turned and cut.
 constexpr std::uint64_t kVoxelLevelled = 8;
 // Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis; a plane that
@@ -54,6 +57,8 @@ constexpr std::uint64_t kPointMarked = 1, kWallLookedAt = 100000, kPointLookedAt
 // summed in patches; and one of which it is asked whether the surface bends.
 constexpr std::uint64_t kPointGathered = 2, kPointTaken = 12, kProfile = 30000, kPointByColumn = 12, kPointSummed = 3;
 constexpr std::uint64_t kPointBent = 8;
+// A whole fit and a close look, and a second fit: what a wall may come to where much stands out of it.
+constexpr std::uint64_t kWallFitted = 1000000, kWallFittedAgain = 700000;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those
 // around it; two patches of a floor that waves.
 constexpr std::uint64_t kPointRound = 1, kCell = 4, kPatch = 20, kPatchMeasured = 60, kPatchPaired = 300;

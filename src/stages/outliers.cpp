@@ -105,8 +105,13 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
                                 Span<std::uint8_t> keep, Work* work) {
   const double least_m = 2.0 * grid->leaf_m();
   const double radius_m = settings.outlier_radius > least_m ? settings.outlier_radius : least_m;
+  const std::uint64_t left = work->left();
   NeighbourCounter counter(points, grid, radius_m, settings.outlier_min_neighbors);
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
+    if (counter.steps_done() > left) {  // nothing is looked for among them any more
+      std::memset(&keep[i], 1, points.count - i);
+      break;
+    }
     const FourTruths enough = counter.next_have_enough_in_list(i);
     if (!any_of(~enough)) {  // as most
       std::memcpy(&keep[i], kKeepFour, kFour);

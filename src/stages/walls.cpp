@@ -75,7 +75,7 @@ WallResult measure(const WallScene& scene, const SideView& view, const WallChoic
   const Settings& s = scene.settings;
   const WallCandidate& chosen = *choice.side[side];
   Work& work = scratch->fit.work;
-  if (work.is_spent()) return unfinished(work);
+  if (!work.allows(steps::kWallFitted)) return unfinished(work);
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
   if (surface.unfinished) return unfinished(work);
   work.add(steps::kWallLookedAt);

@@ -131,7 +131,7 @@ void cut(const WallScene& scene, const WallSurface& fit, const Plane& start, con
          const WallGrid& grid, WallFitScratch* scratch, Heights* heights) {
   const IrlsSettings settings = fit_settings(scene.settings);
   gather(scene, start, along, *heights, settings.gate_m, kCutPointsMax, grid, scratch);
-  for (int cuts = 1; cuts < kCutsMax; ++cuts) {
+  for (int cuts = 1; cuts < kCutsMax && !scratch->work.is_spent(); ++cuts) {
     const WallSurface part = fit_for_a_cut(settings, *heights, fit.strips, scratch);
     if (!part.patch.solved || !cut_bent_rows(part, heights)) return;
   }
@@ -171,9 +171,9 @@ WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* gr
   Heights heights{scene.z_min_level_m, scene.z_max_level_m};
   WallSurface fit = fit_between(scene, start, along, heights, WallPoints::kMost, *grid, scratch);
   if (fit.patch.solved && cut_bent_rows(fit, &heights)) {
-    fit.unfinished = scratch->work.is_spent();
-    if (fit.unfinished) return fit;
     cut(scene, fit, start, along, *grid, scratch, &heights);
+    fit.unfinished = !scratch->work.allows(steps::kWallFittedAgain);
+    if (fit.unfinished) return fit;
     fit = fit_between(scene, start, along, heights, kAgainPointsMax, *grid, scratch);
   }
   mark_wall(scene, fit.irls_plane(), along, MarkWidth::kThreshold, grid);

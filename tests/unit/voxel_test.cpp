@@ -226,7 +226,7 @@ TEST(Voxel, WhatTheLastCloudNeededIsTriedFirstAndGivesTheSame) {
   EXPECT_EQ(second.result.counts.points_in, 40000U);
   EXPECT_EQ(second.returns, 40000U);
   // Where there is much less, the leaf is what it would have been, at once.
-  const Voxels after = voxels_of(test::cloud_of(scattered(3, 2000, 3, 1), 0), settings, at_origin(), first.result.leaf);
+  const Voxels after = voxels_of(test::cloud_of(scattered(3, 600, 3, 1), 0), settings, at_origin(), first.result.leaf);
   EXPECT_EQ(after.result.leaf_m, settings.voxel_leaf);
   EXPECT_FALSE(after.result.leaf_grown);
 }
