@@ -278,7 +278,8 @@ enum pose_wall_input {
 /* What the machine knows of itself since the last frame. All of it is optional, and none is believed against what is
  * measured: inputs that contradict each other or the measurements are left out of the frame (POSE_WALL_R_PRIOR).
  * Where they are used, held values age by them, and not by hold_rate_angle and hold_rate_distance: while the machine
- * stands still nothing ages; a held yaw turns with turn_rate_rad_s; what is uncertain grows by five sigma. */
+ * stands still nothing ages; a held yaw turns with turn_rate_rad_s; what is uncertain grows by protection_factor sigma.
+ */
 typedef struct pose_wall_inputs {
   uint32_t struct_size;                      /* sizeof(pose_wall_inputs) */
   uint32_t given;                            /* pose_wall_input bits; of the members below the others are not read */
