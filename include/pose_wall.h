@@ -384,7 +384,8 @@ enum pose_wall_reason {
   /* between frames */
   POSE_WALL_R_NO_FRAME = 1 << 28, /* told by pose_wall_age: no frame has come since */
   /* limits and inputs */
-  POSE_WALL_R_WORK_LIMIT = 1 << 29, /* the frame would have taken more than work_max: this was not looked for */
+  POSE_WALL_R_WORK_LIMIT = 1 << 29, /* the frame would have taken more steps than work_max: what was not
+                                       finished is refused */
   POSE_WALL_R_PRIOR = 1 << 30 /* the frame's inputs (pose_wall_inputs) were not used: they contradict each other or
                                  what was measured */
 };
