@@ -62,11 +62,24 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   refuse_if_across(ahead, behind, scene.settings, choice);
 }
 
+WallResult unfinished([[maybe_unused]] const Work& work) {
+  WallResult wall;
+  wall.fit.refuse(POSE_WALL_R_WORK_LIMIT);
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WORK, static_cast<double>(work.done()), static_cast<double>(work.most()),
+                             false));
+  return wall;
+}
+
 WallResult measure(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
                    WallsScratch* scratch) {
   const Settings& s = scene.settings;
   const WallCandidate& chosen = *choice.side[side];
+  Work& work = scratch->fit.work;
+  if (!work.allows(steps::kWallFitted)) return unfinished(work);
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
+  if (surface.unfinished) return unfinished(work);
+  work.add(steps::kWallLookedAt);
+  work.add(scene.band_level.count, steps::kPointLookedAt);
   WallResult wall = measure_wall(scene, surface, side, scratch->grid);
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
@@ -137,6 +150,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView sides[2] = {{f, l}, {f, -l}};
   thin_out(scene, &scratch->thin_level);
+  scratch->fit.work.add(scene.band_level.count, steps::kPointParted);
   WallCandidates beside[2];
   for (int side = 0; side < 2; ++side) draw_walls(scene, sides[side], last[side], random, &scratch->search[side]);
   exchange_directions(scratch->search);

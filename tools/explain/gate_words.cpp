@@ -36,6 +36,9 @@ constexpr GateWords kFrameWords[] = {
      "Its stamp is {value} after the frame before; more than {limit} ({key}) is a leap, and smoothing "
      "starts afresh.",
      "frames were lost, or the clock was set"},
+    {"inputs",
+     "What the machine told of itself was not used: it contradicts itself, or what was measured speaks against it.",
+     "speed, turn rate and standing still, as the caller gives them: their signs, units and sigmas"},
     {"repeated", "The very same points came {value} times again under new stamps: no LiDAR does that.",
      "the sensor, its driver or the network is frozen"},
     {"frozen", "After {limit} repeats ({key}) the sensor counts as frozen, and nothing new is measured.",
@@ -235,6 +238,8 @@ constexpr GateWords kOutcomeWords[] = {
     {"held_level", "The held value's protection level has grown to {value}, beyond {limit} ({key}).", ""},
     {"held_age", "The held value is {value} old; {limit} is the most ({key}).", ""},
     {"held_before", "What was held had expired before, by time or by a stamp that jumped or stood still.", ""},
+    {"work", "The frame had taken {value} steps when more were needed; {limit} is the most ({key}).",
+     "a smaller points_max or range_max makes frames cheaper; a larger {key} lets them take longer"},
 };
 
 const GateWords* find(const char* gate) {
