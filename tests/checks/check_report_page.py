@@ -118,6 +118,11 @@ def check(browser, frames, prefix):
         "  const sum = widths.reduce((total, width) => total + width, 0);"
         "  return !widths.length || Math.abs(sum - bar.getBoundingClientRect().width) < 1; })"))
     checks.hold("an angle says what its sign means", "roll (+ right side down)" in text("values"))
+    without_lag = "lags behind" not in text("values")
+    run("const i = recording.at(0, 2), cause = recording.cause[i];"
+        "recording.cause[i] = recording.words.parts.indexOf('lag'); show_frame(0); recording.cause[i] = cause;")
+    checks.hold("the lag is named where it is the largest part", without_lag and "lags behind" in text("values"))
+    run("show_frame(0)")
     for canvas in ("top", "section", "chart-yaw"):
         checks.hold(f"{canvas} is not empty", run(
             f"const c = document.getElementById('{canvas}'), pen = c.getContext('2d');"

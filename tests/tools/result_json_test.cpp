@@ -51,7 +51,7 @@ std::string place_of(std::string column) {
   if (column == "left_right_yaw_difference") return "/" + column + "_rad";
   if (column == "reason" || column == "frame_reason") return "/" + column + "s";
   if (column == "points_in") return "/points/in";
-  for (const char* alone : {"frame", "source", "stamp_ns", "confidence", "status", "error", "voxel_leaf_m"}) {
+  for (const char* alone : {"frame", "source", "stamp_ns", "confidence", "status", "error", "voxel_leaf_m", "work"}) {
     if (column == alone) return "/" + column;
   }
   const std::size_t ms = column.rfind("_ms");

@@ -126,6 +126,7 @@ void add_parts(std::vector<Column>& columns, std::uint32_t q) {
 std::vector<Column> make_last_columns(PartColumns parts) {
   std::vector<Column> columns;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) add_level(columns, q);
+  columns.push_back({"work", [](const pose_wall_result& r) { return std::to_string(r.work); }});
   for (std::uint32_t q = 0; parts == PartColumns::kAll && q < POSE_WALL_QUANTITIES; ++q) add_parts(columns, q);
   return columns;
 }

@@ -94,6 +94,10 @@ void add_result(Json& line, const pose_wall_result& r) {
       {"floor", plane_json(r.floor)}, {"left_wall", plane_json(r.left)}, {"right_wall", plane_json(r.right)}};
   line["points"] = points_json(r);
   line["voxel_leaf_m"] = r.voxel_leaf_m;
+  line["work"] = r.work;
+  line["publication"] = r.publication;
+  line["source_id"] = r.source_id;
+  line["config_crc32"] = r.config_crc32;
 }
 
 Json result_json(const FrameOutcome& outcome) {
@@ -104,8 +108,8 @@ Json result_json(const FrameOutcome& outcome) {
                {"status", "unreadable"},
                {"error", outcome.result ? Json() : Json(outcome.error)},
                {"reasons", Json::array({"unreadable"})}};
-  for (const char* name :
-       {"frame_reasons", "confidence", "values", "left_right_yaw_difference_rad", "planes", "points", "voxel_leaf_m"}) {
+  for (const char* name : {"frame_reasons", "confidence", "values", "left_right_yaw_difference_rad", "planes", "points",
+                           "voxel_leaf_m", "work", "publication", "source_id", "config_crc32"}) {
     line[name] = nullptr;
   }
   if (outcome.result) add_result(line, *outcome.result);

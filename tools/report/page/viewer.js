@@ -148,7 +148,9 @@ class Viewer {
       const foot = this.foot_of(start, k < 2 ? 0 : 1, shown_m), to = view.place(foot);
       if (view === this.section && k % 2) continue;
       stroke(pen, [from, to], style, 2.2, r.state[i] >= 2 ? [] : [6, 5]);
-      const text = `${QUANTITIES[q]} ${kind} ${shown_m.toFixed(3)} ± ${level_m.toFixed(3)} m`, middle = [0, 1].map((a) => (from[a] + to[a]) / 2);
+      // In section there is no room for a word that the caption says.
+      const name = view === this.section && is_raw ? QUANTITIES[q] : `${QUANTITIES[q]} ${kind}`;
+      const text = `${name} ${shown_m.toFixed(3)} ± ${level_m.toFixed(3)} m`, middle = [0, 1].map((a) => (from[a] + to[a]) / 2);
       if (view === this.section) label(pen, text, middle[0], middle[1] - 6, style, 'center');
       else label(pen, text, middle[0] + (k % 2 ? -7 : 7), middle[1] + 4, style, k % 2 ? 'right' : 'left');
     }
