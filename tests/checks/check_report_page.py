@@ -109,6 +109,15 @@ def check(browser, frames, prefix):
     checks.hold("seven charts, seven rows of values", run(
         "const count = (what) => document.querySelectorAll(what).length;"
         "return count('.chart canvas') == 7 && count('#values tr') == 8"))
+    checks.hold("seven rows of parts for the frame, seven of medians", run(
+        "const count = (what) => document.querySelectorAll(what).length;"
+        "return count('#levels tr') == 8 && count('#level-parts tr') == 8"))
+    checks.hold("bars are as long as their parts", run(
+        "return Array.from(document.querySelectorAll('#levels .bar')).every((bar) => {"
+        "  const widths = Array.from(bar.children, (part) => part.getBoundingClientRect().width);"
+        "  const sum = widths.reduce((total, width) => total + width, 0);"
+        "  return !widths.length || Math.abs(sum - bar.getBoundingClientRect().width) < 1; })"))
+    checks.hold("an angle says what its sign means", "roll (+ right side down)" in text("values"))
     for canvas in ("top", "section", "chart-yaw"):
         checks.hold(f"{canvas} is not empty", run(
             f"const c = document.getElementById('{canvas}'), pen = c.getContext('2d');"
@@ -150,6 +159,7 @@ def check(browser, frames, prefix):
     english = text("summary")
     run("document.getElementById('language').click()")
     checks.hold("the other language is Chinese", text("summary") != english and "有效" in text("summary"))
+    checks.hold("so are parts and signs", "测距偏差" in text("level-parts") and "右侧下倾" in text("values"))
     checks.hold("no word is missing", "undefined" not in run("return document.body.innerText") and
                 "NaN" not in run("return document.body.innerText"))
     if prefix:

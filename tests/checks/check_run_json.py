@@ -38,7 +38,7 @@ def main():
         (folder / "frames" / "000001b.pcd").write_text("no cloud")
         rows = {}
         for kind in ("csv", "json"):
-            ran = subprocess.run([command, "run", "-q", "-c", folder / "pose_wall.yaml", "--format", kind,
+            ran = subprocess.run([command, "run", "-q", "--parts", "-c", folder / "pose_wall.yaml", "--format", kind,
                                   folder / "frames"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             if ran.returncode != 1 or "000001b.pcd" not in ran.stderr:
                 sys.exit(f"{kind}: exit status {ran.returncode}, said: {ran.stderr}")
@@ -57,7 +57,11 @@ def main():
             unit = "_m" if name.startswith("d_") else "_rad"
             said += [(name, value["value" + unit], row[name]), (name, value["raw" + unit], row[name + "_raw"]),
                      (name, value["protection_level" + unit], row[name + "_pl"]),
+                     (name, value["raw_protection_level" + unit], row[name + "_raw_pl"]),
+                     (name, value["raw_state"], row[name + "_raw_state"]), (name, value["cause"], row[name + "_cause"]),
                      (name, value["state"], row[name + "_state"])]
+            parts = value["protection_level_parts" + unit]
+            said += [(f"{name} {part}", amount, row[f"{name}_pl_{part}"]) for part, amount in parts.items()]
         faults += [f"frame {line['frame']}: {name} is {value!r}, in the CSV {text!r}" for name, value, text in said
                    if cell(value) != text]
     shapes = {frozenset(members(line)) for line in lines if line["values"]}

@@ -12,6 +12,7 @@
 #include <limits>
 #include <string>
 
+#include "crafted_value.hpp"
 #include "picture/drawn_frame.hpp"
 #include "pose_wall.hpp"
 
@@ -27,7 +28,7 @@ struct Scene {
   pose_wall_points points{};
 
   Scene() {
-    for (pose_wall_value& value : result.quantity) value = {kNone, kNone, kNone, kNone, 0.0, 0.0, POSE_WALL_INVALID, 0};
+    for (pose_wall_value& value : result.quantity) value = test::unmeasured_value();
     for (int i = 0; i < 3; ++i) result.R_level_base[4 * i] = 1.0;
   }
 
@@ -86,11 +87,38 @@ TEST(FramePicture, ShowsNoFigureWhereNothingWasMeasured) {
 TEST(FramePicture, ShowsValuesInDegreesAndMetres) {
   Scene scene;
   scene.set_road(0.1);
-  scene.result.quantity[POSE_WALL_D_LF] = {1.2345, 1.2345, 0.01, 0.05, 1.0, 0.0, POSE_WALL_HELD, 0};
+  scene.result.quantity[POSE_WALL_D_LF] = test::crafted_value(POSE_WALL_HELD, 1.2345, kNone, {0.05});
   const std::string svg = scene.svg();
   EXPECT_NE(svg.find("yaw +5.73°"), std::string::npos);
   EXPECT_NE(svg.find("d_LF 1.234 m"), std::string::npos);
   EXPECT_NE(svg.find(">held<"), std::string::npos);
+}
+
+// Machine and lines are drawn by raw, while the table's first figures are those to act on.
+TEST(FramePicture, TellsRawFromWhatIsSmoothedOrHeld) {
+  Scene scene;
+  scene.set_road(0.1);
+  scene.result.quantity[POSE_WALL_YAW] =
+      test::crafted_value(POSE_WALL_VALID, 0.09, 0.1, {0.01, 0.0, 0.0, 0.02, 0.0, 0.01, 0.0});
+  scene.result.quantity[POSE_WALL_D_LF] = test::crafted_value(POSE_WALL_HELD, 1.2345, kNone, {0.05});
+  scene.result.quantity[POSE_WALL_D_RF] =
+      test::crafted_value(POSE_WALL_VALID, 3.1, 3.0, {0.2, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0});
+  const std::string svg = scene.svg();
+  for (const char* shown :
+       {"raw yaw +5.73°", ">+5.16°<", ">raw +5.73°<", ">2.29°<", ">1.72°<", "held d_LF 1.234 m", "raw d_RF 3.000 m",
+        "± 0.200", ">3.100 m<", "level mostly: rival", "level mostly: random"}) {
+    EXPECT_NE(svg.find(shown), std::string::npos) << shown;
+  }
+}
+
+TEST(FramePicture, SaysWhatAPositiveAngleMeans) {
+  Scene scene;
+  EXPECT_EQ(scene.svg().find("side down"), std::string::npos) << "an unknown sign is not made up";
+  scene.result.positive_means[POSE_WALL_ROLL] = POSE_WALL_SENSE_LEFT_DOWN;
+  scene.result.positive_means[POSE_WALL_YAW] = POSE_WALL_SENSE_TURNED_RIGHT;
+  const std::string svg = scene.svg();
+  EXPECT_NE(svg.find("+ left side down"), std::string::npos);
+  EXPECT_NE(svg.find("+ turned right"), std::string::npos);
 }
 
 TEST(FramePicture, EscapesWhatTheCallerWrites) {

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -105,17 +107,45 @@ TEST(ReportVerb, HoldsTheNumbersThatRunWrites) {
   const nlohmann::json data = road.data();
   const auto values = column<float>(data, "value"), levels = column<float>(data, "level");
   const auto truth = column<float>(data, "truth");
+  const auto raw_levels = column<float>(data, "raw_level"), parts = column<float>(data, "part");
+  const auto causes = column<std::uint8_t>(data, "cause");
   ASSERT_EQ(values.size(), 21U);
+  ASSERT_EQ(parts.size(), 21U * POSE_WALL_PARTS);
   const char* const names[] = {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"};
   for (std::size_t f = 0; f < 3; ++f) {
     for (std::size_t q = 0; q < 7; ++q) {
       const std::string name = names[q];
       EXPECT_FLOAT_EQ(values[7 * f + q], static_cast<float>(table.number(f, *table.find_column(name)))) << name << f;
       EXPECT_FLOAT_EQ(levels[7 * f + q], static_cast<float>(table.number(f, *table.find_column(name + "_pl"))));
+      EXPECT_FLOAT_EQ(raw_levels[7 * f + q], static_cast<float>(table.number(f, *table.find_column(name + "_raw_pl"))));
+      const auto first = parts.begin() + static_cast<std::ptrdiff_t>(POSE_WALL_PARTS * (7 * f + q));
+      EXPECT_NEAR(std::accumulate(first, first + POSE_WALL_PARTS, 0.0), levels[7 * f + q], 1e-6 * levels[7 * f + q]);
+      EXPECT_EQ(causes[7 * f + q], std::max_element(first, first + POSE_WALL_PARTS) - first) << name << f;
+      EXPECT_EQ(pose_wall_part_name(causes[7 * f + q]), table.cell(f, *table.find_column(name + "_cause")));
       EXPECT_NEAR(values[7 * f + q], truth[7 * f + q], levels[7 * f + q]) << name << f;
     }
   }
   EXPECT_GT(column<std::uint8_t>(data, "point_label").size(), 1000U);
+}
+
+// The page falls back to English, which nobody would notice.
+TEST(ReportVerb, ChineseHasEveryReasonPartAndSense) {
+  const Road road("1");
+  ASSERT_EQ(road.report().exit_status, 0);
+  const nlohmann::json data = road.data();
+  EXPECT_EQ(data.at("positive_means"),
+            (std::vector<std::uint32_t>{POSE_WALL_SENSE_RIGHT_DOWN, POSE_WALL_SENSE_NOSE_DOWN,
+                                        POSE_WALL_SENSE_TURNED_RIGHT}));
+  const std::string page = text_of(road.folder.file("out.html"));
+  const std::string chinese = page.substr(page.find("\n  zh: {"));
+  for (const std::string name : data.at("words").at("reason_names")) {
+    EXPECT_TRUE(contains(chinese, " " + name + ": '")) << name;
+  }
+  for (const std::string name : data.at("words").at("parts"))
+    EXPECT_TRUE(contains(chinese, " " + name + ": '")) << name;
+  for (const std::string name : data.at("words").at("senses")) {
+    EXPECT_TRUE(contains(chinese, name.find(' ') == std::string::npos ? name + ": '" : "'" + name + "': '")) << name;
+  }
 }
 
 TEST(ReportVerb, ShowsAPartOfTheFramesWithTheirOwnTruth) {

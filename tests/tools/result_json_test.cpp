@@ -37,6 +37,8 @@ std::string place_of(std::string column) {
     const std::string unit = q[1] == '_' ? "_m" : "_rad", place = "/values/" + q + "/";
     const std::string what = column == q ? "value" : column.substr(q.size() + 1);
     if (what == "value" || what == "raw" || what == "sigma") return place + what + unit;
+    if (what == "raw_pl") return place + "raw_protection_level" + unit;
+    if (what.rfind("pl_", 0) == 0) return place + "protection_level_parts" + unit + "/" + what.substr(3);
     if (what == "pl") return place + "protection_level" + unit;
     return place + (what == "reason" ? "reasons" : what);
   }
@@ -93,7 +95,8 @@ void expect_same(const FrameOutcome& outcome) {
   ASSERT_EQ(text.find('\n'), text.size() - 1) << "one line";
   const json line = json::parse(text);
   EXPECT_EQ(line.at("schema"), 1);
-  const std::vector<std::string> head = result_head(), cells = result_cells(outcome);
+  const std::vector<std::string> head = result_head(PartColumns::kAll),
+                                 cells = result_cells(outcome, PartColumns::kAll);
   ASSERT_EQ(head.size(), cells.size());
   for (std::size_t i = 0; i < head.size(); ++i) {
     EXPECT_EQ(cell_of(at(line, place_of(head[i]))), cells[i]) << head[i] << " at " << place_of(head[i]);

@@ -8,6 +8,7 @@
 
 #include "explain/amounts.hpp"
 #include "explain/candidate_words.hpp"
+#include "quantities.hpp"
 #include "results/json_words.hpp"
 
 namespace pose_wall::tools::explain {
@@ -32,6 +33,11 @@ Json outcome_json(const pose_wall_result& result, const Explanation& explanation
                    {"state", pose_wall_state_name(v.state)},
                    {"value", v.value},
                    {"protection_level", v.protection_level},
+                   {"parts", parts_json(v)},
+                   {"cause", v.cause < POSE_WALL_PARTS ? Json(cause_name(v)) : Json()},
+                   {"raw", v.raw},
+                   {"raw_protection_level", v.raw_protection_level},
+                   {"raw_state", pose_wall_state_name(v.raw_state)},
                    {"age_s", v.age_s},
                    {"reasons", reason_list(v.reasons)},
                    {"sentence", explanation.outcome.at(q)}});

@@ -36,6 +36,9 @@ constexpr GateWords kFrameWords[] = {
      "Its stamp is {value} after the frame before; more than {limit} ({key}) is a leap, and smoothing "
      "starts afresh.",
      "frames were lost, or the clock was set"},
+    {"inputs",
+     "What the machine told of itself was not used: it contradicts itself, or what was measured speaks against it.",
+     "speed, turn rate and standing still, as the caller gives them: their signs, units and sigmas"},
     {"repeated", "The very same points came {value} times again under new stamps: no LiDAR does that.",
      "the sensor, its driver or the network is frozen"},
     {"frozen", "After {limit} repeats ({key}) the sensor counts as frozen, and nothing new is measured.",

@@ -12,6 +12,7 @@
 
 #include "explain/amounts.hpp"
 #include "explain/gate_words.hpp"
+#include "explain/level_words.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
@@ -66,12 +67,14 @@ bool is_said_by_another(const Note& note, const std::vector<Note>& failed) {
          });
 }
 
-// A value that is still on its way from where earlier frames had it.
+// Where the figures show it: the raw value with a level of its own. Where lag is the largest part, what it comes from.
 std::string lag_sentence(const pose_wall_value& v, std::uint32_t quantity) {
-  if (!(std::fabs(v.value - v.raw) > 0.5 * v.protection_level)) return "";
-  return fmt::format(
-      " This frame alone measured {}: the value follows what earlier frames said (temporal_smoothing_tau{}).",
-      quantity_amount(quantity, v.raw), quantity == POSE_WALL_YAW ? ", yaw_rate_limit_deg" : "");
+  if (!shows_lag(v, quantity)) return "";
+  const std::string raw = fmt::format(" This frame alone measured {} ± {}", quantity_amount(quantity, v.raw),
+                                      quantity_amount(quantity, v.raw_protection_level));
+  if (v.cause != POSE_WALL_PART_LAG) return raw + ".";
+  return fmt::format("{}: the value follows what earlier frames said (temporal_smoothing_tau{}).", raw,
+                     quantity == POSE_WALL_YAW ? ", yaw_rate_limit_deg" : "");
 }
 
 }  // namespace
@@ -80,6 +83,8 @@ std::string outcome_sentence(const pose_wall_result& result, const Notes& notes,
   const pose_wall_value& v = result.quantity[quantity];
   std::string text = head(v, quantity);
   const bool measured = std::isfinite(v.raw);
+  const std::string sum = level_sum(v, quantity);
+  if (!sum.empty()) text += fmt::format(" Its level: {}.", sum);
   if (!measured) text += " " + why_unmeasured(notes, quantity);
   if (measured) text += lag_sentence(v, quantity);
   if (measured && v.state != POSE_WALL_VALID) {

@@ -81,7 +81,7 @@ void draw_machine(Svg& svg, const Viewport& view, const FrameScene& scene, const
 }  // namespace
 
 void draw_section(Svg& svg, const Box& box, const FrameScene& scene, const DrawnFrame& frame) {
-  draw_panel(svg, box, "Across the road at the machine, looking ahead, levelled by the floor");
+  draw_panel(svg, box, "Across the road at the machine, looking ahead, levelled by this frame's own floor");
   const Viewport view = view_of(box, scene, frame);
   const double floor_m = frame.floor_up_m();
   const Range band{floor_m + config_number(scene, "wall_z_min"), floor_m + config_number(scene, "wall_z_max")};

@@ -93,6 +93,12 @@ void draw_machine(Svg& svg, const Viewport& view, const DrawnFrame& frame) {
   svg.circle(at(0.0, 0.0), 5.0, kPanel, {kInk, 2.0});
 }
 
+// What is drawn is this frame's own, where it has one: a smoothed value would not fit the line beside it. The word
+// tells it from the value in the table.
+const char* kind_of(const pose_wall_value& value) {
+  return std::isfinite(value.raw) ? "raw" : pose_wall_state_name(value.state);
+}
+
 // The machine's axis against the road's direction, with the angle between them.
 void draw_yaw(Svg& svg, const Viewport& view, const DrawnFrame& frame, const pose_wall_value& yaw) {
   if (!frame.has_yaw()) return;
@@ -109,7 +115,7 @@ void draw_yaw(Svg& svg, const Viewport& view, const DrawnFrame& frame, const pos
   const std::string_view colour = state_colour(yaw.state);
   svg.polyline(arc, {colour, 3.0});
   const Pixel tip = view(kArm_m + 0.65, 0.0);
-  svg.text({tip.x, tip.y + 4.5}, fmt::format("yaw {:+.2f}°", frame.yaw_rad() * kDegPerRad),
+  svg.text({tip.x, tip.y + 4.5}, fmt::format("{} yaw {:+.2f}°", kind_of(yaw), frame.yaw_rad() * kDegPerRad),
            {colour, 13.5, Anchor::kStart, true, kPanel});
 }
 
@@ -129,8 +135,8 @@ void draw_distance(Svg& svg, const Viewport& view, const FrameScene& scene, cons
     return;
   }
 
-  // What is drawn is this frame's own, where it has one: a smoothed value would not fit the line beside it.
-  const double shown_m = std::isfinite(value.raw) ? value.raw : value.value;
+  const bool is_raw = std::isfinite(value.raw);
+  const double shown_m = is_raw ? value.raw : value.value;
   Pixel foot = view(start.along, start.left + side * shown_m);
   const DrawnPlane wall = frame.wall(distance.left ? scene.result->left : scene.result->right);
   if (wall.found) {
@@ -143,8 +149,10 @@ void draw_distance(Svg& svg, const Viewport& view, const FrameScene& scene, cons
 
   const double shift = anchor == Anchor::kStart ? 9.0 : -9.0;
   const Pixel words{0.45 * from.x + 0.55 * foot.x + shift, 0.45 * from.y + 0.55 * foot.y};
-  svg.text(words, fmt::format("{} {:.3f} m", distance.name, shown_m), {colour, 15.0, anchor, true, kPanel});
-  svg.text({words.x, words.y + 16.0}, fmt::format("± {:.3f}", value.protection_level),
+  svg.text(words, fmt::format("{} {} {:.3f} m", kind_of(value), distance.name, shown_m),
+           {colour, 15.0, anchor, true, kPanel});
+  svg.text({words.x, words.y + 16.0},
+           fmt::format("± {:.3f}", is_raw ? value.raw_protection_level : value.protection_level),
            {colour, 12.0, anchor, false, kPanel});
 }
 
@@ -157,7 +165,7 @@ void draw_sampling_point(Svg& svg, const Viewport& view, const DrawnFrame& frame
 
 void draw_top_view(Svg& svg, const Box& box, const FrameScene& scene, const DrawnFrame& frame) {
   draw_panel(svg, box,
-             frame.has_yaw() ? "From above, road to the right; as this frame measured it"
+             frame.has_yaw() ? "From above, road to the right; drawn by raw, as this frame alone measured it"
                              : "From above, machine's axis to the right");
   const Viewport view = view_of(box, scene, frame);
   draw_grid(svg, box, view);

@@ -22,7 +22,7 @@ struct Columns {
 
 Columns columns_of(const Box& box) {
   const double x = box.corner.x;
-  return {x + 20.0, x + 158.0, x + 246.0, x + 330.0, x + 352.0, x + 446.0};
+  return {x + 20.0, x + 172.0, x + 252.0, x + 332.0, x + 352.0, x + 446.0};
 }
 
 std::string figure(uint32_t quantity, double value, bool with_sign) {
@@ -53,6 +53,19 @@ void draw_head(Svg& svg, const Columns& columns, double y, bool with_truth) {
   svg.text({columns.reasons, y}, "reasons", start);
 }
 
+// Below each value: what its sign means, this frame's own measurement with its level, and what the level is mostly of.
+void draw_second_line(Svg& svg, const Columns& columns, double y, const FrameScene& scene, uint32_t quantity) {
+  const pose_wall_value& value = scene.result->quantity[quantity];
+  const TextStyle start{kFaintInk, 10.0}, end{kFaintInk, 10.0, Anchor::kEnd};
+  const std::string sign = positive_means(*scene.result, quantity);
+  if (!sign.empty()) svg.text({columns.name, y}, "+ " + sign, start);
+  if (std::isfinite(value.raw)) {
+    svg.text({columns.value, y}, "raw " + figure(quantity, value.raw, true), end);
+    svg.text({columns.protection, y}, figure(quantity, value.raw_protection_level, false), end);
+  }
+  if (value.cause < POSE_WALL_PARTS) svg.text({columns.reasons, y}, "level mostly: " + part_words(value.cause), start);
+}
+
 void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scene, uint32_t quantity) {
   const pose_wall_value& value = scene.result->quantity[quantity];
   const std::string_view colour = state_colour(value.state);
@@ -62,22 +75,23 @@ void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scen
   if (scene.truth != nullptr) {
     svg.text({columns.truth, y}, figure(quantity, scene.truth[quantity], true), {kFaintInk, 13.0, Anchor::kEnd});
   }
-  svg.rectangle({columns.state, y - 15.0}, 80.0, 20.0, colour, 10.0);
-  svg.text({columns.state + 40.0, y - 0.5}, pose_wall_state_name(value.state), {kPanel, 12.0, Anchor::kMiddle, true});
+  svg.rectangle({columns.state, y - 9.0}, 80.0, 20.0, colour, 10.0);
+  svg.text({columns.state + 40.0, y + 5.5}, pose_wall_state_name(value.state), {kPanel, 12.0, Anchor::kMiddle, true});
   svg.text({columns.reasons, y - 0.5}, reasons_text(value.reasons), {kFaintInk, 10.5});
+  draw_second_line(svg, columns, y + 11.0, scene, quantity);
 }
 
 }  // namespace
 
 void draw_value_table(Svg& svg, const Box& box, const FrameScene& scene) {
-  draw_panel(svg, box, "The seven values of this frame");
+  draw_panel(svg, box, "The seven values to act on (smoothed or held); below each: raw, by this frame alone");
   const Columns columns = columns_of(box);
   double y = box.corner.y + 54.0;
   draw_head(svg, columns, y, scene.truth != nullptr);
   y += 10.0;
   for (uint32_t quantity = 0; quantity < POSE_WALL_QUANTITIES; ++quantity) {
     svg.line({columns.name, y}, {box.right() - 20.0, y}, {kGrid, 1.0});
-    draw_row(svg, columns, y + 21.0, scene, quantity);
+    draw_row(svg, columns, y + 15.0, scene, quantity);
     y += kRow;
   }
 }

@@ -35,6 +35,10 @@ Json words_of_engine() {
     words["reason_names"].push_back(pose_wall_reason_name(bit));
     words["reason_texts"].push_back(pose_wall_reason_text(bit));
   }
+  for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) words["parts"].push_back(pose_wall_part_name(part));
+  for (std::uint32_t sense = 0; sense <= POSE_WALL_SENSE_TURNED_RIGHT; ++sense) {
+    words["senses"].push_back(pose_wall_sense_name(sense));
+  }
   for (std::uint32_t stage = 0; stage < POSE_WALL_STAGES; ++stage)
     words["stages"].push_back(pose_wall_stage_name(stage));
   return words;

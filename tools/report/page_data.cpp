@@ -76,9 +76,15 @@ void PageData::add(const FrameOutcome& outcome) {
   pose_wall_result result = api::make_result();
   for (pose_wall_value& value : result.quantity) {
     value.value = value.raw = value.sigma = value.protection_level = value.confidence = value.age_s = kNone;
+    value.raw_protection_level = kNone;
+    std::fill(std::begin(value.part), std::end(value.part), kNone);
     value.state = kUnreadable;
+    value.cause = POSE_WALL_PARTS;
   }
-  if (outcome.result) result = *outcome.result;
+  if (outcome.result) {
+    result = *outcome.result;
+    std::copy(std::begin(result.positive_means), std::end(result.positive_means), positive_means_.begin());
+  }
   add_values(result);
   stamp_s_.add(1e-9 * static_cast<double>(outcome.stamp_ns));
   engine_ms_.add(outcome.result ? outcome.total_ms : kNone);
@@ -106,6 +112,9 @@ void PageData::add_values(const pose_wall_result& result) {
     raw_.add(value.raw);
     sigma_.add(value.sigma);
     level_.add(value.protection_level);
+    raw_level_.add(value.raw_protection_level);
+    for (const double part : value.part) part_.add(part);
+    cause_.add(value.cause);
     age_s_.add(value.age_s);
     state_.add(value.state);
     reasons_.add(value.reasons);
@@ -151,6 +160,10 @@ Json PageData::json() const {
           {"raw", raw_.text()},
           {"sigma", sigma_.text()},
           {"level", level_.text()},
+          {"raw_level", raw_level_.text()},
+          {"part", part_.text()},
+          {"cause", cause_.text()},
+          {"positive_means", positive_means_},
           {"age_s", age_s_.text()},
           {"truth", truth_.text()},
           {"state", state_.text()},

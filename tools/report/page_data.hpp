@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -50,9 +51,13 @@ class PageData {
   CloudChoice choice_;
   std::vector<std::string> sources_, errors_;
   // Seven of a frame.
-  Column<float> value_, raw_, sigma_, level_, age_s_, truth_;
-  Column<std::uint8_t> state_;
+  Column<float> value_, raw_, sigma_, level_, raw_level_, age_s_, truth_;
+  Column<std::uint8_t> state_, cause_;
   Column<std::uint32_t> reasons_;
+  // POSE_WALL_PARTS of each of the seven.
+  Column<float> part_;
+  // What positive angles mean: by the config, the same in all frames.
+  std::array<std::uint32_t, 3> positive_means_{};
   // One of a frame.
   Column<double> stamp_s_;
   Column<float> engine_ms_, confidence_;

@@ -25,6 +25,12 @@ Json reason_list(std::uint32_t reasons) {
   return names;
 }
 
+Json parts_json(const pose_wall_value& value) {
+  Json parts;
+  for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) parts[pose_wall_part_name(part)] = value.part[part];
+  return parts;
+}
+
 Json error_figures_json(const ErrorFigures& figures) {
   return {{"count", figures.count},
           {"rmse", figures.rmse},

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "pose_wall.h"
 #include "truth/error_statistics.hpp"
 
 namespace pose_wall::tools {
@@ -22,6 +23,9 @@ std::string json_text(const Json& json, int indent);
 
 // Names of reason bits.
 Json reason_list(std::uint32_t reasons);
+
+// By pose_wall_part_name, in the value's own unit.
+Json parts_json(const pose_wall_value& value);
 
 Json error_figures_json(const ErrorFigures& figures);
 

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "csv/csv_table.hpp"
+#include "quantities.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -103,6 +104,42 @@ const std::vector<Column>& result_columns() {
   return columns;
 }
 
+// What this frame's own measurement is worth by itself, and what its level is mostly made of.
+void add_level(std::vector<Column>& columns, std::uint32_t q) {
+  const std::string name = pose_wall_quantity_name(q);
+  columns.push_back(
+      {name + "_raw_pl", [q](const pose_wall_result& r) { return csv_number(r.quantity[q].raw_protection_level); }});
+  columns.push_back({name + "_raw_state", [q](const pose_wall_result& r) {
+                       return std::string(pose_wall_state_name(r.quantity[q].raw_state));
+                     }});
+  columns.push_back({name + "_cause", [q](const pose_wall_result& r) { return cause_name(r.quantity[q]); }});
+}
+
+void add_parts(std::vector<Column>& columns, std::uint32_t q) {
+  for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) {
+    columns.push_back({fmt::format("{}_pl_{}", pose_wall_quantity_name(q), pose_wall_part_name(part)),
+                       [q, part](const pose_wall_result& r) { return csv_number(r.quantity[q].part[part]); }});
+  }
+}
+
+// Those behind `error`, which once was the last.
+std::vector<Column> make_last_columns(PartColumns parts) {
+  std::vector<Column> columns;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) add_level(columns, q);
+  for (std::uint32_t q = 0; parts == PartColumns::kAll && q < POSE_WALL_QUANTITIES; ++q) add_parts(columns, q);
+  return columns;
+}
+
+const std::vector<Column>& last_columns(PartColumns parts) {
+  static const std::vector<Column> few = make_last_columns(PartColumns::kNone);
+  static const std::vector<Column> all = make_last_columns(PartColumns::kAll);
+  return parts == PartColumns::kAll ? all : few;
+}
+
+void add_cells(const FrameOutcome& outcome, const std::vector<Column>& columns, std::vector<std::string>* cells) {
+  for (const Column& column : columns) cells->push_back(outcome.result ? column.cell(*outcome.result) : std::string{});
+}
+
 }  // namespace
 
 std::uint32_t worst_state(const pose_wall_result& result) {
@@ -125,14 +162,15 @@ std::string reason_names(std::uint32_t reasons) {
   return names;
 }
 
-std::vector<std::string> result_head() {
+std::vector<std::string> result_head(PartColumns parts) {
   std::vector<std::string> head = {"frame", "source", "stamp_ns", "confidence", "status", "reason", "total_ms"};
   for (const Column& column : result_columns()) head.push_back(column.name);
   head.insert(head.end(), {"load_ms", "processor_ms", "error"});
+  for (const Column& column : last_columns(parts)) head.push_back(column.name);
   return head;
 }
 
-std::vector<std::string> result_cells(const FrameOutcome& outcome) {
+std::vector<std::string> result_cells(const FrameOutcome& outcome, PartColumns parts) {
   std::vector<std::string> cells = {std::to_string(outcome.frame), outcome.source, std::to_string(outcome.stamp_ns)};
   if (outcome.result) {
     const pose_wall_result& result = *outcome.result;
@@ -141,11 +179,10 @@ std::vector<std::string> result_cells(const FrameOutcome& outcome) {
   } else {
     cells.insert(cells.end(), {"", "unreadable", "unreadable", ""});
   }
-  for (const Column& column : result_columns()) {
-    cells.push_back(outcome.result ? column.cell(*outcome.result) : std::string{});
-  }
+  add_cells(outcome, result_columns(), &cells);
   cells.insert(cells.end(), {outcome.result ? csv_number(outcome.load_ms) : "",
                              outcome.result ? csv_number(outcome.processor_ms) : "", outcome.error});
+  add_cells(outcome, last_columns(parts), &cells);
   return cells;
 }
 

@@ -26,8 +26,12 @@ struct FrameOutcome {
   double processor_ms = 0.0;  // what of it the thread was running: other programs do not count
 };
 
-std::vector<std::string> result_head();
-std::vector<std::string> result_cells(const FrameOutcome& outcome);
+// Whether each part of each protection level has a column of its own.
+enum class PartColumns { kNone, kAll };
+
+// Columns keep their places: later versions and kAll add theirs behind the others.
+std::vector<std::string> result_head(PartColumns parts = PartColumns::kNone);
+std::vector<std::string> result_cells(const FrameOutcome& outcome, PartColumns parts = PartColumns::kNone);
 
 // The lowest of the seven states.
 std::uint32_t worst_state(const pose_wall_result& result);

@@ -12,12 +12,22 @@
 namespace pose_wall::tools {
 namespace {
 
-Json value_json(std::uint32_t quantity, const pose_wall_value& v) {
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json() : Json(text);
+}
+
+Json value_json(std::uint32_t quantity, const pose_wall_result& r) {
+  const pose_wall_value& v = r.quantity[quantity];
   const std::string unit = is_angle(quantity) ? "_rad" : "_m";
   return {{"value" + unit, v.value},
           {"raw" + unit, v.raw},
           {"sigma" + unit, v.sigma},
           {"protection_level" + unit, v.protection_level},
+          {"protection_level_parts" + unit, parts_json(v)},
+          {"cause", text_or_null(cause_name(v))},
+          {"raw_protection_level" + unit, v.raw_protection_level},
+          {"raw_state", pose_wall_state_name(v.raw_state)},
+          {"positive_means", text_or_null(positive_means(r, quantity))},
           {"state", pose_wall_state_name(v.state)},
           {"reasons", reason_list(v.reasons)},
           {"confidence", v.confidence},
@@ -27,7 +37,7 @@ Json value_json(std::uint32_t quantity, const pose_wall_value& v) {
 Json values_json(const pose_wall_result& r) {
   Json values;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    values[pose_wall_quantity_name(q)] = value_json(q, r.quantity[q]);
+    values[pose_wall_quantity_name(q)] = value_json(q, r);
   }
   return values;
 }

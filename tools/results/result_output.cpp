@@ -15,8 +15,11 @@
 namespace pose_wall::tools {
 
 ResultOutput::ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs,
-                           ResultFormat format)
-    : name_(path.empty() ? "standard output" : path), format_(format), stream_(path.empty() ? &std::cout : &file_) {
+                           ResultFormat format, PartColumns parts)
+    : name_(path.empty() ? "standard output" : path),
+      format_(format),
+      parts_(parts),
+      stream_(path.empty() ? &std::cout : &file_) {
   if (!path.empty()) {
     for (const std::filesystem::path& input : inputs) {
       std::error_code ignored;
@@ -31,14 +34,14 @@ ResultOutput::ResultOutput(const std::string& path, const std::vector<std::files
           fmt::format("--output {}: cannot be written: {}", path, std::generic_category().message(errno)));
     }
   }
-  if (format_ == ResultFormat::kCsv) *stream_ << csv_line(result_head());
+  if (format_ == ResultFormat::kCsv) *stream_ << csv_line(result_head(parts_));
   *stream_ << std::flush;
   if (!*stream_) throw OutputError(fmt::format("{}: cannot be written", name_));
 }
 
 bool ResultOutput::write(const FrameOutcome& outcome) {
   const bool is_json = format_ == ResultFormat::kJson;
-  *stream_ << (is_json ? result_json_line(outcome) : csv_line(result_cells(outcome))) << std::flush;
+  *stream_ << (is_json ? result_json_line(outcome) : csv_line(result_cells(outcome, parts_))) << std::flush;
   return static_cast<bool>(*stream_);
 }
 

@@ -28,7 +28,7 @@ class ResultOutput {
   // Opens the file (standard output for an empty path) and writes the head of a CSV. Throws OutputError when it cannot
   // be written or is one of the inputs.
   ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs,
-               ResultFormat format = ResultFormat::kCsv);
+               ResultFormat format = ResultFormat::kCsv, PartColumns parts = PartColumns::kNone);
 
   // False when the row did not reach its place (disk full, pipe closed). Rows are flushed one by one, so that a
   // reader behind a pipe sees each frame as it is done.
@@ -40,6 +40,7 @@ class ResultOutput {
  private:
   std::string name_;
   ResultFormat format_;
+  PartColumns parts_;  // of a CSV; JSON has them always
   std::ofstream file_;
   std::ostream* stream_;
 };

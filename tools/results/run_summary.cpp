@@ -25,6 +25,12 @@ std::string amount(std::size_t quantity, double value) {
   return is_angle(quantity) ? fmt::format("{:.3f}°", value * kDegPerRad) : fmt::format("{:.3f} m", value);
 }
 
+// "roll (+ right side down)": an angle without its sign is half a number.
+std::string name_of(std::size_t quantity, const std::string& positive_means) {
+  const std::string name = pose_wall_quantity_name(static_cast<std::uint32_t>(quantity));
+  return positive_means.empty() ? name : fmt::format("{} (+ {})", name, positive_means);
+}
+
 std::string percent(std::size_t part, std::size_t whole) {
   if (whole == 0) return "-";
   return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
@@ -47,12 +53,8 @@ void RunSummary::add(const FrameOutcome& outcome) {
     return;
   }
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
-    const pose_wall_value& value = outcome.result->quantity[q];
-    ++quantities_[q].states[std::min<std::uint32_t>(value.state, POSE_WALL_VALID)];
-    if (value.state == POSE_WALL_INVALID) continue;
-    quantities_[q].values.push_back(value.value);
-    if (std::isfinite(value.raw)) quantities_[q].raws.push_back(value.raw);
-    quantities_[q].protection_levels.push_back(value.protection_level);
+    quantities_[q].positive_means = positive_means(*outcome.result, q);
+    add(outcome.result->quantity[q], &quantities_[q]);
   }
   const std::uint32_t reasons = all_reasons(*outcome.result);
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) reasons_[bit] += reasons >> bit & 1U;
@@ -60,8 +62,22 @@ void RunSummary::add(const FrameOutcome& outcome) {
   processor_ms_.push_back(outcome.processor_ms);
 }
 
+void RunSummary::add(const pose_wall_value& value, Quantity* to) {
+  ++to->states[std::min<std::uint32_t>(value.state, POSE_WALL_VALID)];
+  if (value.state == POSE_WALL_INVALID) return;
+  to->values.push_back(value.value);
+  to->protection_levels.push_back(value.protection_level);
+  if (std::isfinite(value.raw)) {
+    to->raws.push_back(value.raw);
+    to->raw_levels.push_back(value.raw_protection_level);
+  }
+  if (value.cause >= POSE_WALL_PARTS) return;
+  ++to->largest[value.cause];
+  for (std::size_t part = 0; part < to->parts.size(); ++part) to->parts[part].push_back(value.part[part]);
+}
+
 std::string RunSummary::text(double wall_s) const {
-  std::string text = quantities_text() + '\n' + times_text(wall_s) + reasons_text();
+  std::string text = quantities_text() + levels_text() + '\n' + times_text(wall_s) + reasons_text();
   if (unreadable_ > 0) text += fmt::format("unreadable: {} of {}\n", unreadable_, counted(frames_, "frame"));
   return text;
 }
@@ -71,13 +87,41 @@ std::string RunSummary::quantities_text() const {
   const std::size_t measured = frames_ - unreadable_;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const Quantity& quantity = quantities_[q];
-    table.add_row(
-        {pose_wall_quantity_name(static_cast<std::uint32_t>(q)), percent(quantity.states[POSE_WALL_VALID], measured),
-         percent(quantity.states[POSE_WALL_DEGRADED], measured), percent(quantity.states[POSE_WALL_HELD], measured),
-         percent(quantity.states[POSE_WALL_INVALID], measured), amount(q, quantile(quantity.values, 0.5)),
-         amount(q, quantile(quantity.raws, 0.5)), amount(q, quantile(quantity.protection_levels, 0.5))});
+    table.add_row({name_of(q, quantity.positive_means), percent(quantity.states[POSE_WALL_VALID], measured),
+                   percent(quantity.states[POSE_WALL_DEGRADED], measured),
+                   percent(quantity.states[POSE_WALL_HELD], measured),
+                   percent(quantity.states[POSE_WALL_INVALID], measured), amount(q, quantile(quantity.values, 0.5)),
+                   amount(q, quantile(quantity.raws, 0.5)), amount(q, quantile(quantity.protection_levels, 0.5))});
   }
   return table.text();
+}
+
+// Medians by part: they need not add up to the median of the level. What is no part of any level has no column.
+std::string RunSummary::levels_text() const {
+  std::vector<std::uint32_t> shown;
+  for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) {
+    const auto has_it = [part](const Quantity& quantity) {
+      return std::any_of(quantity.parts[part].begin(), quantity.parts[part].end(), [](double x) { return x > 0.0; });
+    };
+    if (std::any_of(quantities_.begin(), quantities_.end(), has_it)) shown.push_back(part);
+  }
+  if (shown.empty()) return "";
+  std::vector<std::string> head = {"median level", "of value", "of raw"};
+  for (const std::uint32_t part : shown) head.push_back(part_words(part));
+  head.emplace_back("mostly");
+  TextTable table(head);
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    const Quantity& quantity = quantities_[q];
+    std::vector<std::string> cells = {name_of(q, ""), amount(q, quantile(quantity.protection_levels, 0.5)),
+                                      amount(q, quantile(quantity.raw_levels, 0.5))};
+    for (const std::uint32_t part : shown) cells.push_back(amount(q, quantile(quantity.parts[part], 0.5)));
+    const auto most = std::max_element(quantity.largest.begin(), quantity.largest.end());
+    const auto cause = static_cast<std::uint32_t>(most - quantity.largest.begin());
+    cells.push_back(*most == 0 ? "-"
+                               : fmt::format("{} ({})", part_words(cause), percent(*most, quantity.parts[0].size())));
+    table.add_row(cells);
+  }
+  return '\n' + table.text();
 }
 
 std::string RunSummary::times_text(double wall_s) const {

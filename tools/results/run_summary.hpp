@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What a run over many frames came to: states, medians, times and reasons, for the table at its end.
+// What a run over many frames came to: states, medians, what levels are made of, times and reasons, for the tables at
+// its end.
 
 #pragma once
 
@@ -31,9 +32,15 @@ class RunSummary {
     std::vector<double> values;           // smoothed or held, of frames in which it was not invalid
     std::vector<double> raws;             // of frames in which it was measured
     std::vector<double> protection_levels;
+    std::vector<double> raw_levels;                          // of frames in which it was measured
+    std::array<std::vector<double>, POSE_WALL_PARTS> parts;  // of the protection levels
+    std::array<std::size_t, POSE_WALL_PARTS> largest{};      // how often each part was the largest
+    std::string positive_means;                              // "right side down", of angles
   };
 
+  static void add(const pose_wall_value& value, Quantity* to);
   std::string quantities_text() const;
+  std::string levels_text() const;
   std::string times_text(double wall_s) const;
   std::string reasons_text() const;
 

@@ -36,6 +36,7 @@ struct RunOptions {
   FrameOptions frames;
   std::string output;
   std::string format = "csv";
+  bool parts = false;
   std::string annotate;  // folder; empty: none
   std::string annotate_format = "pcd";
 };
@@ -115,7 +116,8 @@ int run(const RunOptions& options) {
     return kExitUnreadable;
   }
   ResultOutput output(options.output, options.frames.files_read(inputs),
-                      options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv);
+                      options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv,
+                      options.parts ? PartColumns::kAll : PartColumns::kNone);
   if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
 
@@ -140,6 +142,9 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--format", options->format, "Results as CSV, or as JSON: one object per line and frame")
       ->capture_default_str()
       ->check(one_of({"csv", "json"}));
+  verb->add_flag("--parts", options->parts,
+                 "In the CSV also a column for each part of each protection level, behind the others; JSON has them "
+                 "always");
   CLI::Option* annotate = verb->add_option(
       "--annotate", options->annotate,
       "Folder for the points of each frame: base frame, label (0 other, 1 floor, 2 left, 3 right wall), distance to "

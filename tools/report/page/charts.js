@@ -97,7 +97,7 @@ class Charts {
       label(pen, (Math.abs(v) < step / 2 ? 0 : v).toFixed(Math.max(0, Math.ceil(-Math.log10(step)))), Charts.kLeft - 6, y_of(v) + 4, colour('faint'), 'right');
     }
     const unit = this.recording.is_angle(q) ? '°' : 'm';
-    label(pen, `${WORDS[page.language].names[QUANTITIES[q]]} [${unit}]`, Charts.kLeft + 6, 16, colour('ink'));
+    label(pen, `${name_text(q)} [${unit}]`, Charts.kLeft + 6, 16, colour('ink'));
     if (q !== QUANTITIES.length - 1) return;
     const first = this.recording.stamp_s[0], at = (f) => this.recording.stamp_s[Math.round(f)] - first;
     for (const f of [Math.ceil(this.from), Math.floor(this.to)]) {

@@ -12,10 +12,12 @@ class Recording {
     const float = (name) => new Float32Array(bytesOf(data[name]));
     const whole = (name) => new Uint32Array(bytesOf(data[name]));
     Object.assign(this, { head: data.head, words: data.words, frames: data.frames, source: data.source, error: data.error });
-    for (const name of ['value', 'raw', 'sigma', 'level', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor',
+    for (const name of ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor',
       'machine', 'stage_ms']) this[name] = float(name);
     for (const name of ['reasons', 'frame_reasons', 'counts', 'cloud_frame', 'cloud_first']) this[name] = whole(name);
     this.state = new Uint8Array(bytesOf(data.state));
+    this.cause = new Uint8Array(bytesOf(data.cause));
+    this.positive_means = data.positive_means;
     this.stamp_s = new Float64Array(bytesOf(data.stamp_s));
     this.point_cm = new Int16Array(bytesOf(data.point_cm));
     this.point_label = new Uint8Array(bytesOf(data.point_label));
@@ -26,6 +28,12 @@ class Recording {
   is_angle(quantity) { return quantity < 3; }
   // To degrees, or metres as they are.
   unit(quantity) { return this.is_angle(quantity) ? 180 / Math.PI : 1; }
+  // What its level is made of, in rad or m.
+  parts(frame, quantity) {
+    const n = this.words.parts.length, i = n * this.at(frame, quantity);
+    return Array.from(this.part.subarray(i, i + n));
+  }
+  has_level(frame, quantity) { return this.cause[this.at(frame, quantity)] < this.words.parts.length; }
   alert(quantity) { return this.is_angle(quantity) ? this.head.alert_deg : this.head.alert_m; }
   error_of(frame, quantity) {
     const i = this.at(frame, quantity);

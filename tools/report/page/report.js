@@ -28,6 +28,14 @@ function reason_text(bit) {
   const name = recording.words.reason_names[bit];
   return words().reason_texts ? words().reason_texts[name] || name : recording.words.reason_texts[bit];
 }
+function part_text(part) { return words().parts[recording.words.parts[part]] || recording.words.parts[part]; }
+// An angle with what its sign means.
+function name_text(q) {
+  const w = words(), name = w.names[QUANTITIES[q]], sense = recording.is_angle(q) ? recording.positive_means[q] : 0;
+  if (!sense) return name;
+  const said = recording.words.senses[sense];
+  return w.positive(name, w.senses ? w.senses[said] || said : said);
+}
 function state_cell(state) { return element('td', words().states[STATES[state]], `state ${STATES[state]}`); }
 
 function show_verdict() {
@@ -54,7 +62,7 @@ function show_summary() {
   const head = ['', w.states.valid, w.states.degraded, w.states.held, w.states.invalid, w.median, w.median_level];
   if (recording.has_truth) head.push(w.rmse, w.max_error, w.beyond, w.misleading);
   fill('summary', table(head, summary.quantities.map((x) => {
-    const cells = [w.names[x.name], share(x.states[3]), share(x.states[2]), share(x.states[1]), share(x.states[0]),
+    const cells = [name_text(x.q), share(x.states[3]), share(x.states[2]), share(x.states[1]), share(x.states[0]),
       amount_text(recording, x.q, x.median), amount_text(recording, x.q, x.level)];
     if (recording.has_truth) cells.push(amount_text(recording, x.q, x.rmse), amount_text(recording, x.q, x.largest), String(x.beyond), String(x.misleading));
     return cells;
@@ -64,7 +72,63 @@ function show_summary() {
     for (const [bit, frames] of x.reasons.slice(0, 3)) rows.push([w.names[x.name], element('td', reason_text(bit), 'words'), String(frames)]);
   }
   fill('reasons', element('h2', w.reasons), table(['', w.reason, w.frames_with], rows));
+  show_level_parts();
   show_times();
+}
+
+// Shares of a level as one bar.
+function parts_bar(parts) {
+  const bar = element('div', undefined, 'bar'), sum = parts.reduce((total, part) => total + (part || 0), 0);
+  parts.forEach((part, k) => {
+    if (!(part > 0)) return;
+    const share = element('i');
+    share.style.width = `${100 * part / sum}%`;
+    share.style.background = `var(--part-${recording.words.parts[k]})`;
+    share.title = `${part_text(k)} ${percent(part / sum)}`;
+    bar.append(share);
+  });
+  const cell = element('td');
+  cell.append(bar);
+  return cell;
+}
+
+// rows: of a quantity its level, the level of raw, the parts (degrees or m) and which is mostly the largest.
+function parts_table(rows) {
+  const w = words(), kinds = recording.words.parts;
+  const out = table(['', w.of_value, w.of_raw, ''].concat(kinds.map((_, k) => part_text(k)), [w.mostly]), rows.map((x) => {
+    const cells = [name_text(x.q), amount_text(recording, x.q, x.level), amount_text(recording, x.q, x.raw_level), parts_bar(x.parts)];
+    x.parts.forEach((part, k) => cells.push(element('td', amount_text(recording, x.q, part), k === x.cause ? 'largest' : undefined)));
+    return cells.concat([element('td', x.mostly, 'words')]);
+  }));
+  out.querySelectorAll('th').forEach((cell, i) => {
+    if (i < 4 || i >= 4 + kinds.length) return;
+    const mark = element('i', undefined, 'mark');
+    mark.style.background = `var(--part-${kinds[i - 4]})`;
+    cell.prepend(mark);
+  });
+  return out;
+}
+
+function show_level_parts() {
+  const w = words();
+  fill('level-parts', element('h2', w.made_of_median), parts_table(summary.quantities.map((x) => ({ ...x.made_of,
+    mostly: x.made_of.often > 0 ? w.mostly_often(part_text(x.made_of.cause), percent(x.made_of.often)) : '–' }))));
+}
+
+function show_levels(f) {
+  const rows = QUANTITIES.map((name, q) => {
+    const i = recording.at(f, q), unit = recording.unit(q);
+    return { q, level: recording.level[i] * unit, raw_level: recording.raw_level[i] * unit, cause: recording.cause[i],
+      parts: recording.parts(f, q).map((part) => part * unit), mostly: recording.has_level(f, q) ? part_text(recording.cause[i]) : '–' };
+  });
+  fill('levels', element('h3', words().made_of), parts_table(rows));
+}
+
+// Smoothing is no reason bit: the value is as good as its level says, and later than raw.
+function why_text(f, q) {
+  const i = recording.at(f, q), why = recording.reason_bits(recording.reasons[i]).map(reason_text);
+  if (recording.words.parts[recording.cause[i]] === 'lag') why.push(words().lag_why);
+  return why.join('; ');
 }
 
 function show_times() {
@@ -84,14 +148,15 @@ function show_settings() {
 }
 
 function show_values(f) {
-  const w = words(), head = ['', w.value, w.level, w.sigma, w.state, w.age];
+  const w = words(), head = ['', w.value, w.level, w.raw, w.raw_level, w.sigma, w.state, w.age];
   if (recording.has_truth) head.push(w.truth, w.error);
   fill('values', table(head.concat([w.why]), QUANTITIES.map((name, q) => {
     const i = recording.at(f, q), unit = recording.unit(q), amount = (x) => amount_text(recording, q, x * unit);
-    const cells = [w.names[name], amount(recording.value[i]), amount(recording.level[i]), amount(recording.sigma[i]),
+    const cells = [name_text(q), amount(recording.value[i]), amount(recording.level[i]), amount(recording.raw[i]),
+      amount(recording.raw_level[i]), amount(recording.sigma[i]),
       state_cell(recording.state[i]), `${number_text(recording.age_s[i], 1)} s`];
     if (recording.has_truth) cells.push(amount(recording.truth[i]), amount_text(recording, q, recording.error_of(f, q)));
-    return cells.concat([element('td', recording.reason_bits(recording.reasons[i]).map(reason_text).join('; '), 'words')]);
+    return cells.concat([element('td', why_text(f, q), 'words')]);
   })));
 }
 
@@ -103,6 +168,7 @@ function show_frame(f) {
   document.getElementById('frame-name').textContent = `${w.frame} ${f} · ${recording.source[f].split('/').pop()}`;
   const cloud_of = viewer.draw(f);
   show_values(f);
+  show_levels(f);
   const notes = [recording.error[f] ? `${w.unreadable}: ${recording.error[f]}` : w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
   for (const bit of recording.reason_bits(recording.frame_reasons[f])) notes.push(reason_text(bit));
   if (cloud_of >= 0 && cloud_of !== f) notes.push(w.no_cloud(cloud_of));

@@ -5,7 +5,8 @@ function summarise(recording) {
   for (let f = 0; f < recording.frames; ++f) if (!recording.error[f]) readable.push(f);
   const quantities = QUANTITIES.map((name, q) => {
     const states = [0, 0, 0, 0], reasons = new Map();
-    const values = [], levels = [];
+    const values = [], levels = [], raw_levels = [], parts = recording.words.parts.map(() => []);
+    const how_often = parts.map(() => 0);
     let squares = 0, errors = 0, largest = 0, beyond = 0, misleading = 0;
     for (const f of readable) {
       const i = recording.at(f, q), state = recording.state[i];
@@ -14,6 +15,11 @@ function summarise(recording) {
       if (state === 0) continue;
       values.push(recording.value[i] * recording.unit(q));
       levels.push(recording.level[i] * recording.unit(q));
+      raw_levels.push(recording.raw_level[i] * recording.unit(q));
+      if (recording.has_level(f, q)) {
+        recording.parts(f, q).forEach((part, k) => parts[k].push(part * recording.unit(q)));
+        ++how_often[recording.cause[i]];
+      }
       const error = Math.abs(recording.error_of(f, q));
       // Valid where there is nothing to measure misleads, too.
       if (recording.has_truth && state === 3 && !(error <= recording.alert(q))) ++misleading;
@@ -24,7 +30,11 @@ function summarise(recording) {
       if (!(error <= recording.level[i] * recording.unit(q))) ++beyond;
     }
     const top = [...reasons].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
-    return { name, q, states, reasons: top, median: quantile(values, 0.5), level: quantile(levels, 0.5),
+    const most = Math.max(...how_often);
+    const made_of = { name, q, level: quantile(levels, 0.5), raw_level: quantile(raw_levels, 0.5),
+      parts: parts.map((numbers) => quantile(numbers, 0.5)), cause: most ? how_often.indexOf(most) : parts.length,
+      often: most / Math.max(1, parts[0].length) };
+    return { name, q, states, reasons: top, made_of, median: quantile(values, 0.5), level: quantile(levels, 0.5),
       errors, rmse: Math.sqrt(squares / errors), largest: errors ? largest : NaN, beyond, misleading,
       valid: readable.length ? states[3] / readable.length : 0,
       usable: readable.length ? (states[3] + states[2]) / readable.length : 0 };

@@ -142,10 +142,13 @@ class Viewer {
       const from = view.place(start);
       if (view === this.top) dot(pen, from, 4.5, colour('ink'));
       if (!Number.isFinite(r.value[i]) || r.state[i] === 0) continue;
-      const foot = this.foot_of(start, k < 2 ? 0 : 1, r.value[i]), to = view.place(foot);
+      // As the plane and the machine beside it: by raw where there is one.
+      const is_raw = Number.isFinite(r.raw[i]), shown_m = is_raw ? r.raw[i] : r.value[i], level_m = is_raw ? r.raw_level[i] : r.level[i];
+      const kind = is_raw ? words().drawn_raw : words().states[STATES[r.state[i]]];
+      const foot = this.foot_of(start, k < 2 ? 0 : 1, shown_m), to = view.place(foot);
       if (view === this.section && k % 2) continue;
       stroke(pen, [from, to], style, 2.2, r.state[i] >= 2 ? [] : [6, 5]);
-      const text = `${QUANTITIES[q]} ${r.value[i].toFixed(3)} ± ${r.level[i].toFixed(3)} m`, middle = [0, 1].map((a) => (from[a] + to[a]) / 2);
+      const text = `${QUANTITIES[q]} ${kind} ${shown_m.toFixed(3)} ± ${level_m.toFixed(3)} m`, middle = [0, 1].map((a) => (from[a] + to[a]) / 2);
       if (view === this.section) label(pen, text, middle[0], middle[1] - 6, style, 'center');
       else label(pen, text, middle[0] + (k % 2 ? -7 : 7), middle[1] + 4, style, k % 2 ? 'right' : 'left');
     }
