@@ -194,7 +194,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
                               &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
-  Work work(work_most(settings_) + found.voxels.work);
+  Work work(work_most_of(settings_, found.voxels.counts.points_in));
   work.add(found.voxels.work);
   found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base, &work);
   stage_done(POSE_WALL_STAGE_OUTLIERS);
@@ -253,7 +253,7 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
     return;
   }
   const Work& work = scratch_.ground.work;
-  if (work.is_spent()) {
+  if (!work.allows(steps::kFloorLookedFor)) {
     POSE_WALL_NOTE(note_work_spent(work));
     refuse_all(POSE_WALL_R_WORK_LIMIT, found);
     return;

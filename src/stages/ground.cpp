@@ -226,7 +226,7 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
     ++tried;
     scratch->work.add(open.count + within.count, steps::kPointWithin / 2);
     if (levels_of(floors[best], settings).worse() <= good_enough) break;
-    unfinished = !widest && scratch->work.is_spent();
+    unfinished = !widest && !scratch->work.allows(steps::kFloorLookedFor);
     if (unfinished) break;
   }
   POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(best)));
@@ -238,7 +238,7 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
   }
   // The first radius is the configured one: it was not picked for its claim.
   if (best > 0) widen(settings, claims, &out);
-  unfinished = unfinished || (!out.fit.refused && scratch->work.is_spent());
+  unfinished = unfinished || (!out.fit.refused && !scratch->work.allows(steps::kFloorLookedFor));
   if (!out.fit.refused && !unfinished) {
     reach_to_floors_beside(cloud_base, settings, axes, sensor_base_m, random, scratch, &out);
   }

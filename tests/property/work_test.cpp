@@ -63,7 +63,7 @@ TEST(Work, DearCloudsCostNoMoreThanTwoAndAHalfRoads) {
 }
 
 TEST(Work, IsTheSameAgain) {
-  for (const char* const kind : {"road", "par304", "hash"}) {
+  for (const char* const kind : {"road", "par304", "sheets"}) {
     EXPECT_EQ(costs_of(kind, 20000).last, costs_of(kind, 20000).last) << kind;
   }
 }

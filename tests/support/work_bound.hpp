@@ -12,6 +12,7 @@
 #include "config.hpp"
 #include "containers/voxel_hash.hpp"
 #include "containers/work.hpp"
+#include "engine.hpp"
 #include "estimation/patch_fit.hpp"
 #include "estimation/surface_patches.hpp"
 #include "stages/ground.hpp"
@@ -76,7 +77,8 @@ inline std::uint64_t most_of_a_wall(const Settings& s) {
 inline std::uint64_t most_of_a_frame(const Settings& s, std::uint64_t points) {
   std::uint64_t step = most_of_a_floor(s);
   for (const std::uint64_t other : {most_of_wall_search(s), most_of_a_wall(s)}) step = other > step ? other : step;
-  return most_of_reading(s, points) + work_most(s) + step;
+  const std::uint64_t reading = most_of_reading(s, points), allowed = Engine::work_most_of(s, points);
+  return (reading > allowed ? reading : allowed) + step;
 }
 
 }  // namespace pose_wall::test
