@@ -56,7 +56,8 @@ void StagePipeline::build_voxels() {
 }
 
 std::uint32_t StagePipeline::remove_outliers() {
-  return pose_wall::remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base);
+  Work work;
+  return pose_wall::remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base, &work);
 }
 
 FloorResult StagePipeline::find_floor() {

@@ -120,7 +120,10 @@ enum pose_wall_status {
   /* process images */
   POSE_WALL_E_IMAGE_VERSION = -60, /* an image of another version or size */
   POSE_WALL_E_IMAGE_CRC = -61,     /* its CRC is not that of its bytes: damaged, torn, or never filled */
-  POSE_WALL_E_RESULT = -62         /* a result that no engine made: blank, or its head was changed */
+  POSE_WALL_E_RESULT = -62,        /* a result that no engine made: blank, or its head was changed */
+
+  /* self test */
+  POSE_WALL_E_SELF_TEST = -80 /* the engine did not give what it must: the report tells what differs */
 };
 
 /* One English sentence, static storage; "unknown status" for anything else. */
@@ -381,7 +384,8 @@ enum pose_wall_reason {
   /* between frames */
   POSE_WALL_R_NO_FRAME = 1 << 28, /* told by pose_wall_age: no frame has come since */
   /* limits and inputs */
-  POSE_WALL_R_WORK_LIMIT = 1 << 29, /* the frame would have taken more than work_max: this was not looked for */
+  POSE_WALL_R_WORK_LIMIT = 1 << 29, /* the frame would have taken more steps than work_max: what was not
+                                       finished is refused */
   POSE_WALL_R_PRIOR = 1 << 30 /* the frame's inputs (pose_wall_inputs) were not used: they contradict each other or
                                  what was measured */
 };
@@ -605,6 +609,45 @@ typedef struct pose_wall_points {
   uint32_t reserved;
 } pose_wall_points;
 POSE_WALL_CHECKED int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points);
+
+/* ---------------------------------------------------------------------------------------------- self test */
+
+/* For start-up and proof tests: the engine measures a road that it carries, by settings of its own, through the very
+ * functions of this header. Every value has to be right (valid and within its level of the truth; not measured beside
+ * an open side and without a floor), and all that comes out the same bits as the library notes: results, process
+ * images, labelled points. It shows that this processor, compiler and memory compute as those that were tested. It
+ * shows nothing of the sensor, of your settings, or of an engine that is open elsewhere.
+ *
+ * CODE   a CRC-32 (as that of the process image) over the engine's machine code and constants, as they lie in this
+ * program's memory. Note it when the program is approved and compare it at each start: it is the same for each run of
+ * one program, and another for another program, for a linker fills in addresses. Tables of pointers, which a loader
+ * fills in at each start, are left out. Code has to be readable, so not for memory that can only be executed.
+ *
+ * TIME   POSE_WALL_SELF_TEST_FRAMES frames of at most POSE_WALL_SELF_TEST_POINTS points and one pass over the code:
+ * always the same work. src/README.md has the figure in instructions. */
+
+#define POSE_WALL_SELF_TEST_FRAMES 4
+#define POSE_WALL_SELF_TEST_POINTS 19200
+
+typedef struct pose_wall_self_test_report {
+  uint32_t struct_size;     /* set by the caller to sizeof(pose_wall_self_test_report) before the call */
+  uint32_t frames;          /* that were measured */
+  uint64_t digest_expected; /* FNV-1a, 64 bits, of all that came out: as the library notes it */
+  uint64_t digest_found;
+  uint64_t code_bytes;   /* that the CRC is over; 0: the engine was linked otherwise than by its archive */
+  uint32_t code_crc32;   /* 0 then */
+  uint32_t values_wrong; /* of 7 in each frame: wrong, or of another state than they must have */
+  int32_t refused;       /* what a call of the engine was refused with, or POSE_WALL_OK */
+  uint32_t reserved;
+} pose_wall_self_test_report;
+
+/* Bytes of the block that the self test takes: below 2.5 MiB. It may be that of an engine which is not open yet. */
+uint64_t pose_wall_self_test_bytes(void);
+
+/* Runs it in a block that holds anything, aligned to POSE_WALL_BLOCK_ALIGNMENT; what it held is lost, afterwards no
+ * engine is open in it. Fails iff: NULL, struct_size, block misaligned or too small, each with the report unchanged; or
+ * POSE_WALL_E_SELF_TEST, with the report filled: do not measure with this program. */
+POSE_WALL_CHECKED int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report);
 
 /* ---------------------------------------------------------------------------------------------- process image */
 

@@ -17,8 +17,8 @@
  *      40  24 bytes pose_wall_version(), zeros behind
  *      64           the config, as in memory; zeros behind
  *    4080  u32      sizeof(pose_wall_inputs)
- *    4084  u32      number of the run: the start that wrote this header. 0: written before there was one
- *    4088  u32      pose_wall_config_crc() of the config; 0 likewise
+ *    4084  u32      number of the run: the start that wrote this header; never 0
+ *    4088  u32      pose_wall_config_crc() of the config
  *    4092  u32      CRC-32 of bytes 0 to 4091
  *
  * From byte 4096 on records follow each other. One that does not fit before the end of the ring begins at 4096 again

@@ -18,7 +18,7 @@
  *     pose_wall_runtime_stop(runtime);
  *     pose_wall_runtime_close(runtime);                                      then free the block
  *
- * THREADS. push: any thread, one at a time. latest, image: any thread, any number of them, without a lock.
+ * THREADS. push: any thread, one at a time. latest, image, image2: any thread, any number of them, without a lock.
  * statistics_now, tick, request_stop: any thread, the callback too. start, stop, wait_idle, close, load: any thread but
  * the callback's and the sink's (POSE_WALL_RUNTIME_E_THREAD). save: the callback, or any thread while it is stopped.
  * The callback runs on the worker's thread, the sink on the recorder's. None of these is for signal handlers.
@@ -287,6 +287,11 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_latest(const pose_wall_runtime* runt
  * image, with a true CRC: what is stale, what was damaged and what is not there gives one with every value and the
  * verdict invalid. So it may be passed on whatever the status, as long as struct_size and handle are good. */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_image(const pose_wall_runtime* runtime, pose_wall_image* image);
+
+/* Image 2 of the same, likewise. Its publication is index + 1, and 0 where nothing was published; its latency is
+ * published_ns minus received_ns, so for silence the age of what it tells of. It has told_by, thinning and
+ * held_thinning of the publication. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_image2(const pose_wall_runtime* runtime, pose_wall_image2* image);
 
 /* Has the worker look at its clock. Fails iff: NULL, not open, not running. */
 int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime);

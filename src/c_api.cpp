@@ -11,6 +11,8 @@
 #include "image.hpp"
 #include "names.hpp"
 #include "pose_wall.h"
+#include "self_test.hpp"
+#include "self_test_digest.hpp"
 #include "stages/voxel_cloud_reader.hpp"
 #include "struct_versions.hpp"
 
@@ -314,6 +316,18 @@ POSE_WALL_EXPORT int32_t pose_wall_last_points(const pose_wall_engine* engine, p
   const Inside inside(engine);
   if (inside.status() == POSE_WALL_OK) *points = engine_of(engine)->points();
   return inside.status();
+}
+
+POSE_WALL_EXPORT uint64_t pose_wall_self_test_bytes(void) {
+  return pose_wall::self_test_bytes();
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report) {
+  if (block == nullptr || report == nullptr) return POSE_WALL_E_NULL;
+  if (report->struct_size != sizeof(*report)) return POSE_WALL_E_STRUCT_SIZE;
+  if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
+  if (bytes < pose_wall::self_test_bytes()) return POSE_WALL_E_BLOCK_SMALL;
+  return pose_wall::self_test(pose_wall::kSelfTestDigest, block, report);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image_fill(const pose_wall_result* result, pose_wall_image* image) {

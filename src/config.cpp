@@ -285,6 +285,11 @@ double reach_of(const Settings& s) {
          std::sqrt(s.extrinsic_x * s.extrinsic_x + s.extrinsic_y * s.extrinsic_y + s.extrinsic_z * s.extrinsic_z);
 }
 
+std::uint64_t work_most(const Settings& settings) {
+  constexpr std::uint64_t kWhatever = 2'900'000, kPerVoxel = 45;
+  return settings.work_max > 0 ? settings.work_max : kWhatever + kPerVoxel * settings.points_max;
+}
+
 double alert_limit(std::uint32_t quantity, const Settings& settings) {
   return quantity <= POSE_WALL_YAW ? radians(settings.alert_limit_angle_deg) : settings.alert_limit_distance;
 }

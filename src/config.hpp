@@ -56,6 +56,9 @@ Settings read_settings(const pose_wall_config& config);
 // No point of a frame lies further than this from the origin of base.
 double reach_of(const Settings& settings);
 
+// How many steps a frame may take beyond reading its cloud (containers/work.hpp): work_max, or what is worth points_max.
+std::uint64_t work_most(const Settings& settings);
+
 // The alert limit of one of the seven quantities, in its own unit (rad or m).
 double alert_limit(std::uint32_t quantity, const Settings& settings);
 

@@ -65,6 +65,16 @@ void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level
   floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
 }
 
+#ifdef POSE_WALL_TRACE
+// Before anything was looked for.
+void note_work_spent(const Work& work) {
+  for (const std::uint32_t subject : {POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_RIGHT}) {
+    trace::gate_of(subject, POSE_WALL_TRACE_WORK, static_cast<double>(work.done()), static_cast<double>(work.most()),
+                   false);
+  }
+}
+#endif
+
 }  // namespace
 
 void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
@@ -184,13 +194,22 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
                               &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
-  found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base);
+  Work work(work_most_of(settings_, found.voxels.counts.points_in));
+  work.add(found.voxels.work);
+  found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base, &work);
   stage_done(POSE_WALL_STAGE_OUTLIERS);
+  scratch_.ground.work = work;
   find_floor_if_any(&random, &found);
+  work = scratch_.ground.work;
   stage_done(POSE_WALL_STAGE_GROUND);
   level_and_cut(&found);
+  work.add(found.floor.fit.refused ? 0 : scratch_.cloud_base.count, steps::kVoxelLevelled);
+  scratch_.walls.fit.work = work;
   stage_done(POSE_WALL_STAGE_BAND);
   find_walls_if_level(&random, &found);
+  found.work = scratch_.walls.fit.work.done();
+  const std::uint32_t of_fits = found.floor.fit.reasons | found.walls.side[0].fit.reasons | found.walls.side[1].fit.reasons;
+  found.reasons |= of_fits & POSE_WALL_R_WORK_LIMIT;
   stage_done(POSE_WALL_STAGE_WALLS);
   conclude(cloud.inputs, &found, result);
   stage_done(POSE_WALL_STAGE_OUTPUT);
@@ -231,6 +250,12 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
   if (scratch_.cloud_base.count < kPointsMin) {
     found->reasons |= POSE_WALL_R_NO_POINTS;
     refuse_all(POSE_WALL_R_NO_POINTS, found);
+    return;
+  }
+  const Work& work = scratch_.ground.work;
+  if (!work.allows(steps::kFloorLookedFor)) {
+    POSE_WALL_NOTE(note_work_spent(work));
+    refuse_all(POSE_WALL_R_WORK_LIMIT, found);
     return;
   }
   found->floor = find_floor(scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m,

@@ -43,6 +43,7 @@ void report_counts(const FrameFindings& found, pose_wall_result* result) {
   result->ground_candidates = found.floor.candidates;
   result->wall_points = found.wall_points;
   result->voxel_leaf_m = found.voxels.leaf_m;
+  result->work = found.work;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace pose_wall {
 struct FrameFindings {
   std::int64_t stamp_ns = 0;
   std::uint32_t reasons = 0;
+  std::uint64_t work = 0;  // steps, see containers/work.hpp
   std::uint32_t outliers = 0;
   std::uint32_t wall_points = 0;
   VoxelResult voxels;

@@ -55,6 +55,7 @@ struct VoxelResult {
   LeafMemory leaf;
   double leaf_m = 0.0;
   bool leaf_grown = false;
+  std::uint64_t work = 0;
   bool fits = false;  // false: points fill the air, or points_max is far too small; there are no voxels then
   std::uint64_t fingerprint = 0;
 };

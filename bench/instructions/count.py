@@ -6,6 +6,7 @@
     cmake --preset arm64 -DPOSE_WALL_BUILD_BENCH=ON && cmake --build --preset arm64
     bench/instructions/count.py build/arm64            # count, show, compare with figures.csv
     bench/instructions/count.py build/arm64 --note     # and write figures.csv anew, on purpose
+    bench/instructions/count.py build/arm64 --dear     # clouds that cost most, beside a road of as many points
     bench/instructions/count.py build/arm64 --growth   # how they grow with the points of a frame, and the worst frame
     bench/instructions/count.py build/arm64 --functions --sensors os1-64   # which functions a frame's are spent in
 
@@ -28,6 +29,12 @@ STAGES = ["floor", "voxels", "outliers", "ground", "band", "walls", "output"]
 TOLERANCE = 0.05
 # A stage below this share of its frame may grow by this share: a few instructions are no regression.
 SMALL_SHARE = 0.005
+# See tests/support/dear_clouds.hpp; the first is what the others are compared with.
+DEAR = ["road", "equal", "sphere", "ball03", "spread", "dense", "sheets", "rough", "apart", "hash", "par27", "par304",
+        "par4", "par15"]
+DEAR_POINTS = [28800, 65536, 131072]
+DEAR_ROADS = 2.5
+STEP_LEAST, STEP_MOST = 5, 20  # instructions
 HERE = pathlib.Path(__file__).resolve().parent
 FIGURES = HERE / "figures.csv"
 
@@ -55,7 +62,7 @@ def count(plugin, program, sensor, folder, points=0):
     if len(frames) != FRAMES or len(marks) != FRAMES * per_frame:
         sys.exit(f"{sensor}: {len(frames)} frames, {len(marks)} marks; expected {FRAMES} and {FRAMES * per_frame}")
     row = {"sensor": sensor}
-    for k, name in enumerate(["points", "floor_cells", "voxel_count", "measured"]):
+    for k, name in enumerate(["points", "floor_cells", "voxel_count", "measured", "work"]):
         row[name] = round(sum(f[k] for f in frames) / FRAMES)
     for k, stage in enumerate(STAGES):
         steps = [marks[f * per_frame + k + 1] - marks[f * per_frame + k] for f in range(FRAMES)]
@@ -97,6 +104,27 @@ def show_growth(plugin, program, folder):
             r = count(plugin, program, name, folder, points)
             numbers = [r["points"], r["voxel_count"], r["measured"], millions(r["floor"]), millions(r["frame"])]
             print_row([name] + numbers + ratios(r))
+
+
+def show_dear(plugin, program, folder):
+    """Instructions of clouds that cost most, in roads of as many points, and how many stand for one step of the engine's
+    own count. Fails where one costs more than DEAR_ROADS roads, or steps tell too little of instructions."""
+    print_head(["cloud", "points", "voxel_count", "measured", "frame", "roads", "instructions per step"])
+    bad = []
+    for points in DEAR_POINTS:
+        road = None
+        for kind in DEAR:
+            r = count(plugin, program, f"dear:{kind}", folder, points)
+            road = road or r["frame"]
+            roads, per_step = r["frame"] / road, r["frame"] / r["work"]
+            numbers = [r["points"], r["voxel_count"], r["measured"], millions(r["frame"])]
+            print_row([kind] + numbers + [f"{roads:.2f}", f"{per_step:.1f}"])
+            if not roads <= DEAR_ROADS:
+                bad.append(f"{kind}, {points} points: {roads:.2f} roads")
+            if not STEP_LEAST <= per_step <= STEP_MOST:
+                bad.append(f"{kind}, {points} points: {per_step:.1f} instructions per step")
+    if bad:
+        sys.exit("\n".join(bad))
 
 
 def show_functions(plugin, program, sensor, folder):
@@ -146,6 +174,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path, help="folder of the arm64 build")
     parser.add_argument("--note", action="store_true", help="write figures.csv anew")
     parser.add_argument("--growth", action="store_true", help="count frames of 5,000 to 260,000 points instead")
+    parser.add_argument("--dear", action="store_true", help="count clouds that cost most instead")
     parser.add_argument("--functions", action="store_true", help="count by function instead, down to a hundredth")
     parser.add_argument("--sensors", default=",".join(SENSORS), help="names, separated by commas")
     options = parser.parse_args()
@@ -156,6 +185,9 @@ def main():
         plugin = build_plugin(folder)
         if options.growth:
             show_growth(plugin, program, folder)
+            return
+        if options.dear:
+            show_dear(plugin, program, folder)
             return
         if options.functions:
             for sensor in options.sensors.split(","):

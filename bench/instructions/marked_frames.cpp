@@ -2,10 +2,12 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Runs frames through the engine and calls getppid() at every boundary of a stage, for count_plugin to write what it
-// has counted. Before each frame the floor: one pass that no engine can do without. Prints a line per frame.
+// has counted. Before each frame the floor: one pass that no engine can do without. Prints a line per frame; the last
+// number is the engine's own count of its steps.
 //
 //   pose_wall_marked_frames [SENSOR [FRAMES [POINTS]]]   POINTS: frames are resampled to so many
 //   pose_wall_marked_frames spread FRAMES POINTS         points that fill every table
+//   pose_wall_marked_frames dear:KIND FRAMES POINTS      a cloud that costs much, see tests/support/dear_clouds.hpp
 
 #include <unistd.h>
 
@@ -16,6 +18,7 @@
 
 #include "bench_frames.hpp"
 #include "floor_pass.hpp"
+#include "support/dear_clouds.hpp"
 
 namespace pose_wall::bench {
 namespace {
@@ -39,6 +42,32 @@ std::vector<tools::sim::Frame> input(const std::string& name, std::uint32_t coun
   return out;
 }
 
+void print(const pose_wall_result& result, std::uint32_t floor_cells) {
+  int measured = 0;
+  for (const pose_wall_value& value : result.quantity) measured += value.state >= POSE_WALL_DEGRADED ? 1 : 0;
+  std::printf("%u %u %u %d %llu\n", result.points_in, floor_cells, result.voxels, measured,
+              static_cast<unsigned long long>(result.work));
+}
+
+// With the settings that nobody has changed, and without a floor pass.
+int run_dear(const std::string& kind, std::uint32_t count, std::uint32_t points) {
+  static test::DearCloud cloud;
+  api::Engine engine;
+  if (engine.open(api::Config()) != POSE_WALL_OK || !test::fill_dear(kind, points, &cloud)) {
+    std::fprintf(stderr, "no cloud is called %s\n", kind.c_str());
+    return EXIT_FAILURE;
+  }
+  engine.set_clock(mark);
+  pose_wall_result result = api::make_result();
+  for (std::uint32_t frame = 0; frame < count; ++frame) {
+    if (frame > 0) cloud.nudge();
+    mark(nullptr);
+    if (engine.process(cloud.at(1 + kPeriod_ns * frame), result) != POSE_WALL_OK) return EXIT_FAILURE;
+    print(result, 0);
+  }
+  return EXIT_SUCCESS;
+}
+
 int run(const std::string& sensor, std::uint32_t count, std::uint32_t points) {
   api::Engine engine;
   if (engine.open(config(sensor == "spread" ? kDense : sensor)) != POSE_WALL_OK) {
@@ -57,9 +86,7 @@ int run(const std::string& sensor, std::uint32_t count, std::uint32_t points) {
       std::fprintf(stderr, "the engine refused a frame of %s\n", sensor.c_str());
       return EXIT_FAILURE;
     }
-    int measured = 0;
-    for (const pose_wall_value& value : result.quantity) measured += value.state >= POSE_WALL_DEGRADED ? 1 : 0;
-    std::printf("%u %u %u %d\n", result.points_in, cells, result.voxels, measured);
+    print(result, cells);
   }
   return EXIT_SUCCESS;
 }
@@ -72,5 +99,6 @@ int main(int argc, char** argv) {
   const auto number = [&](int i, std::uint32_t otherwise) {
     return argc > i ? static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)) : otherwise;
   };
+  if (sensor.rfind("dear:", 0) == 0) return pose_wall::bench::run_dear(sensor.substr(5), number(2, 3), number(3, 65536));
   return pose_wall::bench::run(sensor, number(2, 3), number(3, 0));
 }

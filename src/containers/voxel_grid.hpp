@@ -76,6 +76,7 @@ class VoxelGrid {
   std::uint32_t count() const { return hash_.count(); }
   // What cells that share the hash's slots have cost since begin(), in steps of about ten instructions.
   std::uint64_t crowding() const { return hash_.links(); }
+  std::uint32_t slots() const { return hash_.slots(); }
   // Of all cells and their sums, as they were at the last extract(): equal clouds give equal numbers, others different
   // ones.
   std::uint64_t fingerprint() const { return fingerprint_; }

@@ -36,6 +36,7 @@ std::uint32_t VoxelHash::find_or_branch(std::uint64_t key, std::uint32_t count) 
     if (count == capacity_) return kFull;
     return root_ = count;
   }
+  links_ += kProbesMost;
   std::uint32_t link = root_;
   for (; is_branching(link); ++links_) link = sides_[side_of(key, bit_of(link))][index_of(link)];
   const std::uint64_t differing = keys_[link] ^ key;

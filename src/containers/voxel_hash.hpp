@@ -106,8 +106,9 @@ class VoxelHash {
   std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
   Span<const std::uint64_t> keys() const { return keys_.first(count_); }
 
-  // How many branchings of the tree were passed since clear(): what crowding has cost.
+  // How many branchings of the tree, and slots before it, were passed since clear(): what crowding has cost.
   std::uint64_t links() const { return links_; }
+  std::uint32_t slots() const { return slots_.size(); }
 
   // Where the tree lies, as long as the capacity and one more each. Once all keys are in, it is of no use, and whoever
   // goes on with the keys may write there until the next clear().

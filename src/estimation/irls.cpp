@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "containers/work.hpp"
 #include "estimation/normal_equations.hpp"
 #include "estimation/robust_scale.hpp"
 #include "estimation/tukey.hpp"
@@ -98,6 +99,7 @@ IrlsOver irls_tukey(const TangentPoints& points, std::uint32_t count, const Plan
     if (scale < settings.scale_min_m) scale = settings.scale_min_m;
     if (scale > settings.scale_max_m) scale = settings.scale_max_m;
     result.scale_m = scale;
+    result.work += count * steps::kPointRound;
     round.per_cutoff = static_cast<float>(1.0 / (kTukeyCutoff * scale));
     Eigen::Vector3d correction;
     result.solved = equations_of(points, count, round).solve(kSpreadMin_m, &correction);
@@ -113,7 +115,7 @@ IrlsResult irls_tukey(const PointSet& cloud, Span<const std::uint32_t> indices, 
   points->begin(start, Eigen::Vector3d::Zero(), u_hint);
   points->add(cloud, indices);
   const IrlsOver fit = irls_tukey(*points, points->count, PlaneOver{}, settings);
-  return {points->plane_of(fit.over), fit.over, fit.scale_m, fit.solved};
+  return {points->plane_of(fit.over), fit.over, fit.scale_m, fit.solved, fit.work};
 }
 
 }  // namespace pose_wall

@@ -37,6 +37,7 @@ struct IrlsOver {
   PlaneOver over;
   double scale_m = 0.0;
   bool solved = false;  // false: too few points, or all on a line
+  std::uint64_t work = 0;
 };
 
 // Iteratively reweighted least squares with Tukey weights around a start that is near already, on the first `count`
@@ -50,6 +51,7 @@ struct IrlsResult {
   PlaneOver over;  // the same plane, over the one it began with
   double scale_m = 0.0;
   bool solved = false;
+  std::uint64_t work = 0;
 };
 
 // The same on points of a cloud. Of more than points has room for only the first are taken: who has more thins them

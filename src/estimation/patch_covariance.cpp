@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "containers/even_share.hpp"
 #include "estimation/patch_fit.hpp"
 #include "estimation/small_cholesky.hpp"
 
@@ -94,12 +95,17 @@ double PatchFit::bend_slope_v_at(double u, double v) const {
 }
 
 // Each unordered pair of patches of one layer up to kLags apart, once: a patch, and those of its neighbours that come
-// after it, by their distance.
+// after it, by their distance. Of more patches than kPairedMost an even share, by which sums over pairs are to be
+// multiplied in the end.
 template <typename Visit>
-void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
+double PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
+  EvenShare share(kPairedMost, n);
+  std::uint32_t visited = 0;
   const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
   Neighbour neighbours[(kLags + 1) * (2 * kLags + 1)] = {};
   for (const Mean& p : means_.first(n)) {
+    if (!share.takes()) continue;
+    ++visited;
     std::uint32_t count = 0;
     for (std::int32_t dv = 0; dv <= kLags && p.iv + dv < rows; ++dv) {
       const std::int32_t reach = kLagOf.reach[dv], left = p.iu < reach ? p.iu : reach;
@@ -112,6 +118,7 @@ void PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) cons
     }
     visit(p, Span<const Neighbour>(neighbours, count));
   }
+  return static_cast<double>(n) / static_cast<double>(visited);
 }
 
 // All that the covariance needs to know of pairs, in one pass: nothing in it depends on the correlation, which changes
@@ -122,7 +129,7 @@ void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
     p.of_pairs[1] = packed(p.information * p.a, p.information * std::sqrt(p.information));
   }
   Products designs[kLayersMax][kLags + 1], weighted[kLayersMax][kLags + 1];
-  for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
+  const double all = for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     FourFloats rows_after[kLags + 1] = {}, weighted_after[kLags + 1] = {};
     std::uint32_t pairs[kLags + 1] = {};
     for (const Neighbour& o : neighbours) {
@@ -139,10 +146,11 @@ void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     for (int lag = 1; lag <= kLags; ++lag) {
       PairSums::Lag& sum = (*sums)[layer].lag[lag];
-      sum.errors = designs[layer][lag].at(3, 3);
-      sum.designs = designs[layer][lag].of_first_three();
-      sum.weighted = weighted[layer][lag].of_first_three();
-      sum.weights = weighted[layer][lag].at(3, 3);
+      sum.pairs *= all;
+      sum.errors = all * designs[layer][lag].at(3, 3);
+      sum.designs = all * designs[layer][lag].of_first_three();
+      sum.weighted = all * weighted[layer][lag].of_first_three();
+      sum.weights = all * weighted[layer][lag].at(3, 3);
     }
   }
 }
@@ -254,7 +262,7 @@ PatchGrid::BendSums PatchGrid::sum_bend_pairs(std::uint32_t n) const {
   BendSums sums;
   Products weighted[kLags + 1];
   FourFloats linear[kLags + 1] = {}, quadratic[kLags + 1] = {};
-  for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
+  const double all = for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
     if (p.layer != 0) return;
     FourFloats linear_after[kLags + 1] = {}, quadratic_after[kLags + 1] = {}, weighted_after[kLags + 1] = {};
     for (const Neighbour& o : neighbours) {
@@ -272,10 +280,10 @@ PatchGrid::BendSums PatchGrid::sum_bend_pairs(std::uint32_t n) const {
   });
   for (int lag = 1; lag <= kLags; ++lag) {
     PairSums::Lag& sum = sums.pairs.lag[lag];
-    sum.pairs = static_cast<double>(quadratic[lag][3]);
-    sum.errors = static_cast<double>(linear[lag][3]);
-    sum.weighted = weighted[lag].of_first_three();
-    sums.taken_by_fit[lag] = first_three(linear[lag]).sum() + first_three(quadratic[lag]).sum();
+    sum.pairs = all * static_cast<double>(quadratic[lag][3]);
+    sum.errors = all * static_cast<double>(linear[lag][3]);
+    sum.weighted = all * weighted[lag].of_first_three();
+    sums.taken_by_fit[lag] = all * (first_three(linear[lag]).sum() + first_three(quadratic[lag]).sum());
   }
   for (const Mean& p : means_.first(n)) {
     if (p.layer != 0) continue;

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "containers/work.hpp"
 #include "estimation/normal_equations.hpp"
 
 namespace pose_wall {
@@ -183,10 +184,22 @@ double PatchGrid::between_patch_variance(std::uint32_t n, std::uint32_t layer, c
   return excess > 0.0 && scale > 0.0 ? excess / scale : 0.0;
 }
 
+std::uint64_t PatchGrid::work_of(std::uint32_t patches, Errors errors) const {
+  Work work;
+  work.add(this->patches() * layers_, steps::kCell);
+  work.add(patches, steps::kPatch);
+  if (errors == Errors::kPlaneOnly) return work.done();
+  const std::uint32_t paired = patches < kPairedMost ? patches : kPairedMost;
+  work.add(patches, steps::kPatchMeasured);
+  work.add(paired, steps::kPatchPaired);
+  return work.done();
+}
+
 PatchFit PatchGrid::fit(Errors errors) {
   PatchFit out;
   const std::uint32_t n = collect_means(errors);
   out.patches = n;
+  out.work = work_of(n, errors);
   std::uint32_t of_surface = 0;
   for (const Mean& p : means_.first(n)) of_surface += p.layer == 0 ? 1U : 0U;
   if (of_surface < kPatchesMin) return out;
@@ -200,7 +213,8 @@ PatchFit PatchGrid::fit(Errors errors) {
   if (!solve(n, &out.correction, &inverse)) return out;
   out.tau_m = std::sqrt(roughness[0].tau2);
   out.solved = true;
-  if (errors == Errors::kPlaneOnly) return out;
+  if (errors == Errors::kBend) test_bend(n, &out);
+  if (errors == Errors::kPlaneOnly || errors == Errors::kBend) return out;
   PairSums pairs[kLayersMax];
   sum_pairs(n, &pairs);
   measure_correlation(pairs, inverse, &roughness);

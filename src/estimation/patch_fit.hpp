@@ -35,6 +35,7 @@ struct PatchFit {
   double dof = 0.0;        // independent patches of the surface less the three parameters: of the offset
   double dof_slope = 0.0;  // of both layers: of the slopes
   std::uint32_t patches = 0;
+  std::uint64_t work = 0;
   bool bends = false;  // a quadratic surface fits significantly better
   // Curvature along v (half the second derivative, 1/m) and its standard deviation, whether significant or not.
   double curvature_v = 0.0;
@@ -75,8 +76,8 @@ class PatchGrid {
 
   // kPlaneOnly: the correction alone, without its covariance and without a look for bends. Finding those is most of the
   // work, and a fit that is only a step on the way to the next one needs neither. kCovariance: all but the bends and
-  // the visibility.
-  enum class Errors { kMeasured, kCovariance, kPlaneOnly };
+  // the visibility. kBend: the correction and the bends.
+  enum class Errors { kMeasured, kCovariance, kBend, kPlaneOnly };
   PatchFit fit(Errors errors = Errors::kMeasured);
 
  private:
@@ -120,6 +121,7 @@ class PatchGrid {
     double u, v, r, b;
   };
   StripCentre strip_centre(std::uint32_t n) const;
+  std::uint64_t work_of(std::uint32_t patches, Errors errors) const;
   bool solve(std::uint32_t n, Eigen::Vector3d* solution, Eigen::Matrix3d* inverse);
   double between_patch_variance(std::uint32_t n, std::uint32_t layer, const Eigen::Matrix3d& inverse) const;
   struct Neighbour {
@@ -144,8 +146,9 @@ class PatchGrid {
     Eigen::Matrix3d rock = Eigen::Matrix3d::Zero();   // times the rock's variance
     Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();  // of the points: together, the variance were no rock shared
   };
+  static constexpr std::uint32_t kPairedMost = 384;
   template <typename Visit>
-  void for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
+  double for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
   void sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]);
   static void correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough);
   void measure_correlation(const PairSums (&sums)[kLayersMax], const Eigen::Matrix3d& fitted,

@@ -71,8 +71,7 @@ bool holds_head(const unsigned char* bytes, std::uint64_t count, std::uint64_t f
   return at < count && count - at >= kHeadBytes;
 }
 
-// A box from before there were runs holds zeros in all of these places. What stands there in a header that is damaged
-// makes its records another run's at worst, and those are not computed.
+// What stands there in a header that is damaged makes its records another run's at worst, and those are not computed.
 bool is_of_another_run(const unsigned char* header, std::uint64_t count, const unsigned char* head) {
   if (count < kHeaderBytes) return false;
   const unsigned char* const description = head + kHeadBytes;

@@ -21,8 +21,8 @@ class BoxWriter {
 
   void open(const pose_wall_runtime_options& options, unsigned char* scratch);
 
-  // The header; the ring begins anew. `run` tells this start's records from those of others; not 0, which is what boxes
-  // from before there was one hold. False: the sink failed.
+  // The header; the ring begins anew. `run`, never 0, tells this start's records from those of others. False: the sink
+  // failed.
   bool begin(const pose_wall_config& config, std::uint16_t run);
 
   // False: the sink failed; the next record takes the same place. Before the first header none is written.

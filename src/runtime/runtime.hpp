@@ -65,6 +65,7 @@ class Runtime {
   // *publication is written whatever comes of it.
   std::int32_t latest(pose_wall_publication* publication) const;
   std::int32_t image(pose_wall_image* image) const;
+  std::int32_t image2(pose_wall_image2* image) const;
   std::int32_t tick();
   void statistics(pose_wall_runtime_statistics* out);
 

@@ -161,6 +161,12 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_image(const pose_wall_runtime* runtim
   return status == POSE_WALL_OK ? runtime_of(runtime)->image(image) : status;
 }
 
+POSE_WALL_EXPORT int32_t pose_wall_runtime_image2(const pose_wall_runtime* runtime, pose_wall_image2* image) {
+  if (image == nullptr) return POSE_WALL_E_NULL;
+  const int32_t status = check(runtime);
+  return status == POSE_WALL_OK ? runtime_of(runtime)->image2(image) : status;
+}
+
 POSE_WALL_EXPORT int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime) {
   const int32_t status = check(runtime);
   return status == POSE_WALL_OK ? runtime_of(runtime)->tick() : status;

@@ -7,6 +7,21 @@
 #include "runtime.hpp"
 
 namespace pose_wall::runtime {
+namespace {
+
+std::int32_t fill_image2(const pose_wall_publication& p, pose_wall_image2* image) {
+  const bool is_published = p.cause != 0;
+  pose_wall_image_source source{};
+  source.struct_size = sizeof(source);
+  source.cause = p.cause;
+  source.thinning = p.thinning;
+  source.held_thinning = p.held_thinning;
+  source.publication = is_published ? p.index + 1 : 0;
+  source.latency_ns = is_published ? difference(p.published_ns, p.received_ns) : -1;
+  return pose_wall_image2_fill(&p.result, &source, image);
+}
+
+}  // namespace
 
 void Runtime::tell_activity(pose_wall_publication* publication) const {
   const Activity::Told told = activity_.now();
@@ -49,6 +64,13 @@ std::int32_t Runtime::image(pose_wall_image* image) const {
   pose_wall_publication publication;
   const std::int32_t status = latest(&publication);
   const std::int32_t filled = pose_wall_image_fill(&publication.result, image);
+  return filled != POSE_WALL_OK ? filled : status;
+}
+
+std::int32_t Runtime::image2(pose_wall_image2* image) const {
+  pose_wall_publication publication;
+  const std::int32_t status = latest(&publication);
+  const std::int32_t filled = fill_image2(publication, image);
   return filled != POSE_WALL_OK ? filled : status;
 }
 

@@ -9,7 +9,7 @@
 namespace pose_wall::runtime {
 namespace {
 
-// Starts of one runtime follow each other, so none has the number of the one before. Never 0: that means unknown.
+// Starts of one runtime follow each other, so none has the number of the one before. Never 0, as nobody wrote it.
 std::uint16_t number_of_run(std::uint32_t seed, std::uint64_t start) {
   return static_cast<std::uint16_t>(1 + (seed + start) % 0xFFFFU);
 }

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kRadiusGrowth = 2.25;
 constexpr int kRadiusSteps = 6;  // from the least first radius to the greatest last
+// Wider looks fit fewer points: each tells the same floor once more, and together they cost no more than two.
+constexpr std::uint32_t kOpenMost = 2 * kGroundFitPoints, kOpenMostAgain = kOpenMost / 4;
 // A wider radius with hardly more in it would tell the same once more.
 constexpr double kWorthALook = 1.02;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
@@ -200,9 +202,11 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
   const PointSet& open = scratch->open_base;
   scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->low,
                           &scratch->open_base);
+  scratch->work.add(cloud_base.count, steps::kVoxelOpened);
   FloorResult floors[kRadiusSteps];
   for (FloorResult& floor : floors) floor.fit.refused = true;
   int tried = 0, best = 0;
+  bool unfinished = false;
   double worth_a_look = 0.0;  // so many points
   const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
   double radius_m = settings.ground_roi_radius;
@@ -215,12 +219,15 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
     if (within.count >= kFloorPointsMin) worth_a_look = kWorthALook * static_cast<double>(within.count);
     POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
     const FloorResult& floor = floors[tried] =
-        floor_within({radius_m, open, within}, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
+        floor_within({radius_m, open, within, tried == 0 ? kOpenMost : kOpenMostAgain}, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
     // Of refused ones the widest that got furthest tells why.
     const bool told_more = floors[best].fit.refused && floor.fit.refused && floor.fit.found;
     if (told_more || levels_of(floor, settings).worse() < levels_of(floors[best], settings).worse()) best = tried;
     ++tried;
+    scratch->work.add(open.count + within.count, steps::kPointWithin / 2);
     if (levels_of(floors[best], settings).worse() <= good_enough) break;
+    unfinished = !widest && !scratch->work.allows(steps::kFloorLookedFor);
+    if (unfinished) break;
   }
   POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(best)));
   FloorResult out = floors[best];
@@ -231,8 +238,14 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
   }
   // The first radius is the configured one: it was not picked for its claim.
   if (best > 0) widen(settings, claims, &out);
-  if (!out.fit.refused) reach_to_floors_beside(cloud_base, settings, axes, sensor_base_m, random, scratch, &out);
+  unfinished = unfinished || (!out.fit.refused && !scratch->work.allows(steps::kFloorLookedFor));
+  if (!out.fit.refused && !unfinished) {
+    reach_to_floors_beside(cloud_base, settings, axes, sensor_base_m, random, scratch, &out);
+  }
   reach_to_upright(&out);
+  // What another look would have shown is not known: a rival, or that the floor is another one.
+  if (unfinished) out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
+  POSE_WALL_NOTE(if (unfinished) note_floor_unfinished(scratch->work, static_cast<std::uint32_t>(best)));
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "estimation/surface_patches.hpp"
 #include "estimation/tangent_points.hpp"
 #include "estimation/uneven_plane.hpp"
+#include "containers/work.hpp"
 #include "math/random.hpp"
 #include "stages/ground_evidence.hpp"
 #include "types.hpp"
@@ -31,6 +32,7 @@ struct GroundScratch {
   PatchGrid patches;
   SurfacePatches surface;
   UnevenPlane uneven;
+  Work work;
 
   void lay_out(Arena& arena, std::uint32_t points_max);
 };

@@ -117,6 +117,7 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
                             FloorResult* floor) {
   const PointSet &open = scratch->open_base, &left_over = scratch->within_base;
   const Plane plane = floor->fit.plane;
+  scratch->work.add(open.count, steps::kPointWithin);
   if (surround_machine(eighths_of(open, plane, s.ground_ransac_thresh, sensor_base_m.z()))) return;
   const double off_m = kOffInThresholds * s.ground_ransac_thresh;
   copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
@@ -128,6 +129,7 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
   scratch->grid.mark(open, plane, s.ground_ransac_thresh);
   const RollPitch a = roll_pitch_of_up(plane.n);
   for (const FloorCandidate& other : found.all()) {
+    scratch->work.add(open.count, steps::kPointWeighed);
     if (other.ghost || is_reflection(open, plane, other.plane, s, sensor_base_m, scratch->grid)) continue;
     if (!may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;
     const RollPitch b = roll_pitch_of_up(other.plane.n);

@@ -62,6 +62,7 @@ void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShor
   for (std::uint32_t k = 0; k < list->count(); ++k) {
     const IrlsResult refined =
         irls_tukey(within, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
+    scratch->work.add(steps::kFloorRefined);
     POSE_WALL_NOTE(note_refined_floor(refined, 1.0 - (*list)[k].cost, s, sensor));
     if (!refined.solved || !may_be_floor(refined.plane, limits, sensor)) continue;
     bool repeats = false;
@@ -69,9 +70,11 @@ void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShor
     POSE_WALL_NOTE(if (repeats) trace::fate(refined.plane, POSE_WALL_TRACE_REPEATS));
     if (repeats) continue;
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_UNSUPPORTED));
+    scratch->work.add(within.count, steps::kPointWeighed);
     if (mlesac_score(within, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
     scratch->grid.mark(within, refined.plane, s.ground_ransac_thresh);
     const FloorEvidence evidence = scratch->grid.evidence(axes);
+    scratch->work.add(steps::kFloorWeighed);
     if (evidence.area_m2 < kTellsNothing_m2) continue;
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
     if (!in.are_left_over &&
@@ -94,6 +97,7 @@ void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3
     bool marked = false;
     for (FloorCandidate& below : candidates) {
       if (!is_below(above.plane, below.plane, sensor)) continue;
+      scratch->work.add(within.count, steps::kPointWeighed);
       if (!marked) scratch->grid.mark(within, above.plane, s.ground_ransac_thresh);
       marked = true;
       below.ghost = below.ghost || is_reflection(within, above.plane, below.plane, s, sensor, scratch->grid);
@@ -124,6 +128,7 @@ std::uint32_t find_candidates(const FloorSearch& in, const Settings& s, const Ax
   FloorShortlist list;
   const GroundSearchInput drawn_from{in.within_base, scratch->low.first(low), in.sensor_base_m, in.last_floor};
   const std::uint32_t scored = search_floor(drawn_from, s, random, &scratch->subset, &list);
+  scratch->work.add(scored, steps::kFloorDrawn);
   weigh(in, s, axes, &list, scratch, out);
   mark_ghosts(in.within_base, s, in.sensor_base_m, scratch, Span<FloorCandidate>(out->item, out->count));
   return scored;

@@ -62,9 +62,11 @@ Span<std::uint32_t> select(const FloorLook& look, const FloorGrid& grid, const P
   const auto radius2 = static_cast<float>(look.radius_m * look.radius_m);
   const Eigen::Vector3f sensor = sensor_base_m.cast<float>();
   const FourDistances distances(plane);
+  EvenShare share(look.open_most, look.open_base.count);
   std::uint32_t count = 0;
   for_each_four_points(
       look.open_base, [&](std::uint32_t k, FourFloats px, FourFloats py, FourFloats pz, FourTruths counts) {
+        if (!share.takes()) return;
         const FourFloats height = distances.of(px, py, pz);
         counts &= (height >= -gate) & (height <= gate);
         if (!any_of(counts)) return;
@@ -197,8 +199,10 @@ FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings&
     const Span<std::uint32_t> chosen =
         select(look, scratch->grid, irls.plane, tukey.gate_m, sensor_base_m, scratch->low);
     const Plane before = irls.plane;
-    irls = irls_tukey(look.open_base, thinned(chosen, scratch->points.capacity()), before, u_hint, tukey,
-                      &scratch->points);
+    irls = irls_tukey(look.open_base, thinned(chosen, look.open_most / 2), before, u_hint, tukey, &scratch->points);
+    const std::uint32_t offered = look.open_base.count < look.open_most ? look.open_base.count : look.open_most;
+    scratch->work.add(offered, steps::kPointSelected);
+    scratch->work.add(irls.work);
     if (!irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
@@ -206,6 +210,9 @@ FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings&
   if (irls.solved) fill_patches(irls, look.radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
+  scratch->work.add(scratch->points.count, steps::kPointPatched);
+  scratch->work.add(bend.work);
+  scratch->work.add(static_cast<std::uint64_t>(patches.size()) * patches.size(), steps::kPatchesWaved);
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_FIT, uneven.solved));
   if (!uneven.solved) {

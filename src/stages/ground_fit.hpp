@@ -12,10 +12,12 @@
 namespace pose_wall {
 
 // A radius, the open points, and those of them within it. The fit goes by where the rays meet the floor, and so chooses
-// among all that are open; its inliers are counted of those within.
+// among all that are open; its inliers are counted of those within. It takes an even share of so many open points, and
+// of half as many that lie on the floor.
 struct FloorLook {
   double radius_m;
   const PointSet &open_base, &within_base;
+  std::uint32_t open_most = 2 * kGroundFitPoints;
 };
 
 // start: the chosen hypothesis.

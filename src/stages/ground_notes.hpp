@@ -13,6 +13,7 @@
 
 #include "config.hpp"
 #include "containers/span.hpp"
+#include "containers/work.hpp"
 #include "estimation/irls.hpp"
 #include "estimation/mlesac.hpp"
 #include "math/elementary.hpp"
@@ -52,6 +53,14 @@ void note_floor_choice(Span<const Candidate> candidates, const Candidate* best) 
     noted->area_m2 = c.evidence.area_m2;
   }
   trace::gate(POSE_WALL_TRACE_FLOOR_PLANES, plausible, 1.0, best != nullptr);
+}
+
+// attempt: the radius that was taken.
+inline void note_floor_unfinished(const Work& work, std::uint32_t attempt) {
+  trace::attempt(attempt);
+  trace::gate_of(POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_WORK, static_cast<double>(work.done()),
+                 static_cast<double>(work.most()), false);
+  trace::attempt(0);
 }
 
 // What the fit has to hold: as may_be_floor and same_floor say, one by one.

@@ -37,16 +37,20 @@ class NeighbourCounter {
   // Counting stops at the needed number. For one point after the other.
   bool has_enough(std::uint32_t i) {
     std::uint32_t found = 0;  // itself among them
+    steps_ += steps::kVoxelLookedAround;
     columns_.for_each_run(i, [&](std::uint32_t begin, std::uint32_t end) {
       while (begin < end && found <= needed_) {
         const std::uint32_t until = end - begin < kAtOnce ? end : begin + kAtOnce;
         found += near_in_run(i, begin, until);
+        steps_ += ((until - begin) / kFour + 1) * steps::kFourLookedAt;
         begin = until;
       }
       return found <= needed_;
     });
     return found > needed_;
   }
+
+  std::uint64_t steps_done() const { return steps_; }
 
  private:
   static constexpr std::uint32_t kLook = 3;
@@ -77,6 +81,7 @@ class NeighbourCounter {
   VoxelColumns columns_;
   float radius2_;
   std::uint32_t needed_;
+  std::uint64_t steps_ = 0;
   Ahead last_;  // of the four before
 };
 
@@ -97,11 +102,16 @@ std::uint32_t close_gaps(Span<const std::uint8_t> keep, PointSet* points) {
 }
 
 void mark_those_with_neighbours(const Settings& settings, const PointSet& points, VoxelGrid* grid,
-                                Span<std::uint8_t> keep) {
+                                Span<std::uint8_t> keep, Work* work) {
   const double least_m = 2.0 * grid->leaf_m();
   const double radius_m = settings.outlier_radius > least_m ? settings.outlier_radius : least_m;
+  const std::uint64_t left = work->left();
   NeighbourCounter counter(points, grid, radius_m, settings.outlier_min_neighbors);
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
+    if (counter.steps_done() > left) {  // nothing is looked for among them any more
+      std::memset(&keep[i], 1, points.count - i);
+      break;
+    }
     const FourTruths enough = counter.next_have_enough_in_list(i);
     if (!any_of(~enough)) {  // as most
       std::memcpy(&keep[i], kKeepFour, kFour);
@@ -110,15 +120,17 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
     const std::uint32_t end = i + kFour < points.count ? i + kFour : points.count;
     for (std::uint32_t k = i; k < end; ++k) keep[k] = enough[k - i] != 0 || counter.has_enough(k) ? 1 : 0;
   }
+  work->add(counter.steps_done());
 }
 
 }  // namespace
 
 std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep,
-                              BoundedPoints* points) {
+                              BoundedPoints* points, Work* work) {
+  work->add(points->count, steps::kVoxelListed);
   const std::uint32_t before = points->count;
   if (settings.outlier_min_neighbors > 0 && before > 0) {
-    mark_those_with_neighbours(settings, *points, grid, keep);
+    mark_those_with_neighbours(settings, *points, grid, keep, work);
     points->count = close_gaps(keep, points);
   }
   points->bound();

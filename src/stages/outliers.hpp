@@ -8,6 +8,7 @@
 #include "config.hpp"
 #include "containers/bounded_points.hpp"
 #include "containers/voxel_grid.hpp"
+#include "containers/work.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
@@ -16,6 +17,6 @@ namespace pose_wall {
 // grown, or none would have any), keeping the order of the rest, and bounds these. Returns how many went. points: just
 // what the grid has extracted; keep: scratch, one byte per point.
 std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep,
-                              BoundedPoints* points);
+                              BoundedPoints* points, Work* work);
 
 }  // namespace pose_wall

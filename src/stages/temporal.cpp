@@ -15,6 +15,8 @@ namespace {
 constexpr double kNanosecond_s = 1e-9;
 constexpr std::uint32_t kConfirmations = 3;
 constexpr std::uint32_t kStillFramesMax = 2;
+// A memory that is so long is that of 10 s at 20 Hz, the most that temporal_smoothing_tau and a quick sensor ask for.
+constexpr std::uint32_t kFramesUntilSettled = 400;
 // No LiDAR is that quick: it is the same frame again, or the stamps are no nanoseconds, by which everything would be
 // held a thousand times too long.
 constexpr std::int64_t kStillBelow_ns = 1000000;
@@ -79,11 +81,15 @@ double clamped(double x, double centre, double reach) {
 
 // Where a steady change would have taken the value, corrected by what was measured: the g-h filter whose memory fades
 // as fast for the value as for its rate, so that it neither lags in a steady turn nor swings (Benedict and Bordner
-// 1962; Brookner 1998, eq. 1.2-16: g = 1 - theta^2, h = (1 - theta)^2).
+// 1962; Brookner 1998, eq. 1.2-16: g = 1 - theta^2, h = (1 - theta)^2). The memory is no longer than what there is to
+// remember: the second measurement gives the rate, and none of the lag of a filter that assumes rest.
 double smoothed(double raw, double trust, double tau_s, Track* t) {
   const double dt_s = t->age_s;
   const bool filters = dt_s > 0.0 && tau_s > 0.0;
-  const double theta = filters ? tau_s / (tau_s + dt_s) : 0.0;
+  if (t->smoothed_frames < kFramesUntilSettled) ++t->smoothed_frames;
+  const double frames = t->smoothed_frames, remembered = (frames - 1.0) / (frames + 1.0);
+  const double settled = filters ? tau_s / (tau_s + dt_s) : 0.0;
+  const double theta = settled < remembered ? settled : remembered;
   const double predicted = t->value + t->rate * dt_s;
   const double off = trust * (raw - predicted);
   t->rate = filters ? t->rate + (1.0 - theta) * (1.0 - theta) * off / dt_s : 0.0;
@@ -93,15 +99,16 @@ double smoothed(double raw, double trust, double tau_s, Track* t) {
 // Moves the smoothed value; true where the yaw limit held it back. A value that follows its raw is better than one that
 // is smooth: the limit acts only within lag_most().
 bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
-  const double alert = alert_limit(quantity, s), level = m.level.sum(), before = t->value;
-  const double trust = level > alert ? alert / level : 1.0;  // a weak measurement pulls less
+  const double level = m.level.sum(), known = t->level.sum() + t->grown, before = t->value;
+  const double trust =
+      level > known ? known / level : 1.0;  // a measurement that is weaker than those before pulls less
   const double free = smoothed(m.raw, trust, s.temporal_smoothing_tau, t);
   const double limit = radians(s.yaw_rate_limit_deg);
   const bool limited = quantity == POSE_WALL_YAW && std::fabs(free - before) > limit;
   POSE_WALL_NOTE(if (quantity == POSE_WALL_YAW)
                      trace::gate(POSE_WALL_TRACE_RATE, std::fabs(free - before), limit, !limited));
   const double wished = limited ? clamped(free, before, limit) : free;
-  t->value = clamped(wished, m.raw, lag_most(level, alert));
+  t->value = clamped(wished, m.raw, lag_most(level, alert_limit(quantity, s)));
   return limited && t->value == wished;
 }
 
@@ -163,6 +170,7 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   if (afresh) {
     t->value = m.raw;
     t->rate = 0.0;
+    t->smoothed_frames = 0;
   } else if (follow(m, quantity, s, t)) {
     m.reasons |= POSE_WALL_R_RATE_LIMITED;
   }

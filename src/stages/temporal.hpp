@@ -26,9 +26,10 @@ struct LastGood {
 // What is remembered of one quantity.
 struct Track {
   bool has_value = false;
-  double value = 0.0;  // smoothed
-  double rate = 0.0;   // of value, per second
-  double raw = 0.0;    // of the last frame it was measured in
+  double value = 0.0;                 // smoothed
+  double rate = 0.0;                  // of value, per second
+  std::uint32_t smoothed_frames = 0;  // since the filter started afresh, as far as that matters
+  double raw = 0.0;                   // of the last frame it was measured in
   double raw_protection = 0.0;
   double sigma = 0.0;
   LevelParts level;      // of value in that frame

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "containers/work.hpp"
 #include "math/finite.hpp"
 #include "math/four_floats.hpp"
 #include "math/four_turns.hpp"
@@ -14,8 +15,6 @@
 
 namespace pose_wall {
 namespace {
-
-constexpr double kAnythingFits_m = 64.0;
 
 // What becomes of a point. The last of these that holds counts.
 enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // kBeyond: too far, zero or not a number
@@ -81,8 +80,9 @@ class Pass {
                   quadrant_of(axes, -y_base)};
   }
 
-  // False where the grid overflows; counts are complete only on true. Not inlined: it is called from two places.
-  [[gnu::noinline]] bool run(VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
+  // False where the grid overflows: then counts are complete only if the pass goes on to the end all the same.
+  bool run(bool to_the_end, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
+    bool fits = true;
     *counts = IngestCounts{};
     returns_lidar->clear();
     PointBlock block;
@@ -94,10 +94,12 @@ class Pass {
         read(point, count, &block);
         column += count;
         point += static_cast<std::size_t>(count) * cloud_.point_step;
-        if (block.count == PointBlock::kSize && !take(&block, grid, returns_lidar, counts)) return false;
+        if (block.count != PointBlock::kSize) continue;
+        if (!take(&block, grid, returns_lidar, counts)) fits = false;
+        if (!fits && !to_the_end) return false;
       }
     }
-    return take(&block, grid, returns_lidar, counts);
+    return take(&block, grid, returns_lidar, counts) && fits;
   }
 
  private:
@@ -221,12 +223,13 @@ class Pass {
     judge_and_turn(*grid, end, block);
     judge_bodies(end, block);
     counts->points_in += count;
+    bool fits = true;
     VoxelGrid::Filling cells(grid);
     for (std::uint32_t k = 0; k < count; ++k) {
       if (block->fate[k] == kKept) {
         returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
         ++counts->kept_by_quadrant[block->quadrant[k]];
-        if (!cells.add(block->key[k], block->sums[k])) return false;
+        if (!cells.add(block->key[k], block->sums[k])) fits = false;
       } else if (block->fate[k] == kBeyond) {
         count_beyond(*block, k, returns_lidar, counts);
       } else {
@@ -236,7 +239,7 @@ class Pass {
     }
     counts->kept = sum_of(counts->kept_by_quadrant);
     counts->dropped_near = sum_of(counts->near_by_quadrant);
-    return true;
+    return fits;
   }
 
   static std::uint32_t sum_of(const std::uint32_t (&by_quadrant)[kQuadrants]) {
@@ -282,24 +285,26 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings,
                          const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
                          PointSet* cloud_base) {
   VoxelResult result;
+  Work work;
   const Pass pass(cloud, settings, extrinsic, axes);
   LeafSearch leaf(settings.voxel_leaf, settings.points_max, last);
   do {
     grid->begin(leaf.leaf_m(), reach_of(settings));
-    result.fits = pass.run(grid, returns_lidar, &result.counts);
+    result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts);
+    work.add(result.counts.points_in, steps::kPointRead);
+    work.add(grid->slots() / kFour, steps::kFourSlots);
+    work.add(grid->crowding(), steps::kLink);
   } while (leaf.goes_on(result.fits, grid->count()));
   result.leaf_m = leaf.leaf_m();
   result.leaf_grown = leaf.has_grown();
   result.leaf = leaf.memory(result.fits, grid->count());
-  if (!result.fits) {  // the points are counted all the same
-    grid->begin(kAnythingFits_m, reach_of(settings));
-    pass.run(grid, returns_lidar, &result.counts);
-  }
   cloud_base->count = 0;
   if (result.fits) {
     grid->extract(cloud_base);
     result.fingerprint = grid->fingerprint();
+    work.add(cloud_base->count, steps::kVoxelWritten);
   }
+  result.work = work.done();
   return result;
 }
 

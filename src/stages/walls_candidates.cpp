@@ -65,6 +65,7 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
   const WallLimits limits(radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi);
   const auto refine = [&](RefineWidth width, Plane* plane) {
     const double thresh_m = scene.settings.wall_ransac_thresh;
+    scratch->fit.work.add(steps::kWallRefined);
     const bool holds = refine_hypothesis(scratch->thin_level, thresh_m, view.along_level, width, &scratch->fit, plane);
     POSE_WALL_NOTE(if (holds) note_refined_wall(
         *plane, width == RefineWidth::kWide ? POSE_WALL_TRACE_UNSUPPORTED : POSE_WALL_TRACE_OUT_OF_RANGE));
@@ -72,6 +73,8 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
   };
   POSE_WALL_NOTE(trace::subject(subject_of(scene, view)));
   out->count = 0;
+  scratch->fit.work.add(scene.band_level.count, steps::kPointSided);
+  scratch->fit.work.add(search->scored(), steps::kWallDrawn);
   for (std::uint32_t k = 0; k < search->list().count(); ++k) {
     Plane plane = search->list()[k].plane;
     POSE_WALL_NOTE(note_drawn_wall(plane));
@@ -82,6 +85,8 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
     if (!may_be_wall(plane, view, limits) || holds_one_like(*out, same, plane)) continue;
     mark_wall(scene, plane, along_of(plane, view.along_level), MarkWidth::kThreshold, &scratch->grid);
     const WallEvidence evidence = scratch->grid.evidence();
+    scratch->fit.work.add(steps::kWallWeighed);
+    scratch->fit.work.add(scene.band_level.count, steps::kPointMarked);
     out->item[out->count++] = {plane, evidence, faults_of(plane, evidence, scene.settings)};
     POSE_WALL_NOTE(note_weighed_wall(out->item[out->count - 1]));
   }

@@ -207,9 +207,11 @@ class FourWeights {
 
 }  // namespace
 
-void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit) {
-  sum_patches(*fit, patches);
-  fit->patch = patches->fit(errors);
+void fit_patches(PatchGrid::Errors errors, WallFitScratch* scratch, WallSurface* fit) {
+  sum_patches(*fit, &scratch->patches);
+  fit->patch = scratch->patches.fit(errors);
+  scratch->work.add(scratch->points.at.count, steps::kPointSummed);
+  scratch->work.add(fit->patch.work);
 }
 
 namespace {
@@ -223,13 +225,16 @@ bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSur
     joint->fronts = measure_fronts(*joint);
     if (!joint->fronts.found) return false;
     sum_patches(*joint, &scratch->patches);
+    scratch->work.add(scratch->points.at.count, steps::kPointSummed);
     if (round == 1 && alone != nullptr) {
       scratch->patches.begin_anew(1);
       *alone = scratch->patches.fit(PatchGrid::Errors::kCovariance);
+      scratch->work.add(alone->work);
       if (!alone->solved) return false;
       scratch->patches.begin_anew(PatchGrid::kLayersMax);
     }
     joint->patch = scratch->patches.fit(PatchGrid::Errors::kPlaneOnly);
+    scratch->work.add(joint->patch.work);
     if (!joint->patch.solved) return false;
     const Eigen::Vector3d moved = joint->patch.correction.cwiseAbs();
     const bool stands_still =
@@ -245,6 +250,7 @@ bool join_fronts(WallFitScratch* scratch, WallSurface* fit) {
   WallSurface joint = *fit;
   if (!fit_with_fronts(kLast, scratch, &joint, &fit->patch)) return false;
   joint.patch = scratch->patches.fit(PatchGrid::Errors::kMeasured);
+  scratch->work.add(joint.patch.work);
   if (!joint.patch.solved || !agree(*fit, joint)) return false;
   *fit = joint;
   return true;
@@ -259,6 +265,7 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   StripProfile& strips = scratch->strips;
   strips.begin(sensor_m - kProfileReach_m, fit->heights.min_m, fit->heights.max_m);
   fill_strips(points, &strips);
+  scratch->work.add(steps::kProfile);
   if (!strips.find(fit->irls.over, sensor_m, kSeenWithin * away_m, settings.gate_m)) return;
   double reach_m = kSeenWithin * away_m;
   IrlsSettings step = settings;
@@ -267,12 +274,15 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   bool had_fronts = false, marked = false;  // marked: the points know what the columns say
   for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
     const double added = ring > 0 ? strips.judge(fit->irls.over, sensor_m, reach_m) : 1.0;
+    if (ring > 0) scratch->work.add(steps::kProfile);
     if (added > 0.0) marked = false;
     if (!(added > kWorthAFit)) continue;  // also at an opening: the wall may go on behind it
     points.mark_columns(strips, scratch->near);
+    scratch->work.add(points.at.count, steps::kPointByColumn);
     marked = true;
     points.copy_surface();
     fit->irls = irls_tukey(points.surface, points.surface.count, surface_alone, step);
+    scratch->work.add(fit->irls.work);
     if (!fit->irls.solved) return;
     fit->strips = &strips;
     surface_alone = fit->irls.over;
@@ -282,7 +292,7 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
     had_fronts = fit_with_fronts(kOfARing, scratch, &next);
     if (!had_fronts) {
       next = *fit;
-      fit_patches(PatchGrid::Errors::kPlaneOnly, &scratch->patches, &next);
+      fit_patches(PatchGrid::Errors::kPlaneOnly, scratch, &next);
     }
     if (next.patch.solved) fit->irls.over = left_off = next.over();
   }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "containers/arena.hpp"
+#include "containers/work.hpp"
 #include "estimation/irls.hpp"
 #include "estimation/patch_fit.hpp"
 #include "estimation/strip_profile.hpp"
@@ -19,6 +20,7 @@ struct WallFitScratch {
   WallPoints points;
   PatchGrid patches;
   StripProfile strips;
+  Work work;
 
   void lay_out(Arena& arena, std::uint32_t points_max);
 };
@@ -46,6 +48,7 @@ struct WallSurface {
   StripFronts fronts;
   TwoLayers layers;            // without strips: what else stands out of it, point by point
   double layer_sigma_m = 0.0;  // what stands out may have moved the surface by this
+  bool unfinished = false;     // the frame's work was spent
   bool grooved = false;        // along its length, like pipes one above the other
   Heights heights{0.0, 0.0};   // where it is one plane
   PatchFit patch;              // corrects irls.over; not solved: there is no surface
@@ -69,7 +72,7 @@ struct WallSurface {
 };
 
 // Averages the surface's points, and the strips' fronts if they were found, over patches: sets patch.
-void fit_patches(PatchGrid::Errors errors, PatchGrid* patches, WallSurface* fit);
+void fit_patches(PatchGrid::Errors errors, WallFitScratch* scratch, WallSurface* fit);
 
 // Tells strips and surface apart, near the sensor first and then further and further out, and repeats the plane fit on
 // the surface alone. Without strips nothing changes.

@@ -24,7 +24,11 @@ constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows 
 constexpr double kStripsLeftOver = 0.05;
 // What a split into two layers may leave of the nearer one in the surface, of its share times its step.
 constexpr double kLayersLeftOver = 0.5;
+// A wall is fitted twice at most, with all that tells its surface: as it is seen, and again once what bends is cut off.
+// How much that is, fits between the two tell, on fewer points and without covariance; all they are asked is whether
+// the surface still bends.
 constexpr int kCutsMax = 6;
+constexpr std::uint32_t kCutPointsMax = 2048, kAgainPointsMax = WallPoints::kMost / 2;
 constexpr int kQuickRounds = 3;
 constexpr std::uint32_t kQuickPointsMax = 500;
 constexpr int kRounds = 8;
@@ -36,7 +40,7 @@ IrlsSettings fit_settings(const Settings& s) {
 
 // Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
 void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along, const Heights& heights,
-            double gate_m, const WallGrid& grid, WallFitScratch* scratch) {
+            double gate_m, std::uint32_t most, const WallGrid& grid, WallFitScratch* scratch) {
   const BoundedPoints& band = scene.band_level;
   const Slab slab(start, gate_m);
   const auto along_x = static_cast<float>(along.x()), along_y = static_cast<float>(along.y());
@@ -57,11 +61,13 @@ void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& a
   const double measured = sum_of_lanes(weights);
   WallPoints& points = scratch->points;
   points.begin(scene, start, along);
-  points.add(scene.band_level, thinned(scratch->near.first(count), WallPoints::kMost));
+  points.add(scene.band_level, thinned(scratch->near.first(count), most));
   double taken = 0.0;
   for (std::uint32_t k = 0; k < points.at.count; ++k) taken += static_cast<double>(points.at.weight[k]);
   points.measured_per_weight = taken > 0.0 ? measured / taken : 1.0;
   points.sort_by_patch(&scratch->patches, scratch->near);
+  scratch->work.add(band.count, steps::kPointGathered);
+  scratch->work.add(points.at.count, steps::kPointTaken);
 }
 
 bool is_grooved(const WallScene& scene, const WallSurface& surface) {
@@ -76,25 +82,59 @@ bool is_grooved(const WallScene& scene, const WallSurface& surface) {
 }
 
 WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
-                        const Heights& heights, const WallGrid& grid, WallFitScratch* scratch) {
+                        const Heights& heights, std::uint32_t points_most, const WallGrid& grid,
+                        WallFitScratch* scratch) {
   const IrlsSettings settings = fit_settings(scene.settings);
-  gather(scene, start, along, heights, settings.gate_m, grid, scratch);
+  gather(scene, start, along, heights, settings.gate_m, points_most, grid, scratch);
   WallSurface fit;
   fit.heights = heights;
   fit.points = &scratch->points;
   fit.irls = irls_tukey(scratch->points.at, scratch->points.at.count, PlaneOver{}, settings);
+  scratch->work.add(fit.irls.work);
   if (!fit.irls.solved) return fit;
   set_strips_apart(settings, scratch, &fit);
   // Before the layers: the fronts of pipes may be taken for the nearer one.
   fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
-  if (!join_fronts(scratch, &fit)) fit_patches(PatchGrid::Errors::kMeasured, &scratch->patches, &fit);
+  if (!join_fronts(scratch, &fit)) fit_patches(PatchGrid::Errors::kMeasured, scratch, &fit);
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
   fit.layer_sigma_m =
       std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m + layers_m * layers_m);
   return fit;
+}
+
+// Of points that were gathered between wider heights. Strips are where they were.
+WallSurface fit_for_a_cut(const IrlsSettings& settings, const Heights& heights, const StripProfile* strips,
+                          WallFitScratch* scratch) {
+  WallPoints& points = scratch->points;
+  for (std::uint32_t k = 0; k < points.at.count; ++k) points.spare[k] = heights.contain(points.z_level_m(k)) ? 1 : 0;
+  points.keep(points.spare);
+  if (strips != nullptr) points.mark_columns(*strips, scratch->near);
+  if (strips != nullptr) points.copy_surface();
+  const TangentPoints& of = strips != nullptr ? points.surface : points.at;
+  WallSurface fit;
+  fit.heights = heights;
+  fit.points = &points;
+  fit.strips = strips;
+  fit.irls = irls_tukey(of, of.count, PlaneOver{}, settings);
+  scratch->work.add(points.at.count, strips != nullptr ? steps::kPointByColumn : 0);
+  scratch->work.add(points.at.count, steps::kPointBent);
+  scratch->work.add(fit.irls.work);
+  if (fit.irls.solved) fit_patches(PatchGrid::Errors::kBend, scratch, &fit);
+  return fit;
+}
+
+// Where the surface bends off the rest of it.
+void cut(const WallScene& scene, const WallSurface& fit, const Plane& start, const Eigen::Vector3d& along,
+         const WallGrid& grid, WallFitScratch* scratch, Heights* heights) {
+  const IrlsSettings settings = fit_settings(scene.settings);
+  gather(scene, start, along, *heights, settings.gate_m, kCutPointsMax, grid, scratch);
+  for (int cuts = 1; cuts < kCutsMax && !scratch->work.is_spent(); ++cuts) {
+    const WallSurface part = fit_for_a_cut(settings, *heights, fit.strips, scratch);
+    if (!part.patch.solved || !cut_bent_rows(part, heights)) return;
+  }
 }
 
 }  // namespace
@@ -129,10 +169,12 @@ WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* gr
   const Eigen::Vector3d along = along_of(start, scene.forward_level);
   mark_wall(scene, start, along, MarkWidth::kFit, grid);
   Heights heights{scene.z_min_level_m, scene.z_max_level_m};
-  WallSurface fit;
-  for (int cut = 0; cut <= kCutsMax; ++cut) {
-    fit = fit_between(scene, start, along, heights, *grid, scratch);
-    if (!fit.patch.solved || !cut_bent_rows(fit, &heights)) break;
+  WallSurface fit = fit_between(scene, start, along, heights, WallPoints::kMost, *grid, scratch);
+  if (fit.patch.solved && cut_bent_rows(fit, &heights)) {
+    cut(scene, fit, start, along, *grid, scratch, &heights);
+    fit.unfinished = !scratch->work.allows(steps::kWallFittedAgain);
+    if (fit.unfinished) return fit;
+    fit = fit_between(scene, start, along, heights, kAgainPointsMax, *grid, scratch);
   }
   mark_wall(scene, fit.irls_plane(), along, MarkWidth::kThreshold, grid);
   return fit;

@@ -77,6 +77,15 @@ TEST_F(NoHeap, NoCallAllocates) {
   EXPECT_EQ(worst, POSE_WALL_OK);
 }
 
+TEST_F(NoHeap, NorDoesTheSelfTest) {
+  AlignedBlock block(pose_wall_self_test_bytes(), Dirt::kRandom);
+  pose_wall_self_test_report report{};
+  report.struct_size = sizeof report;
+  std::int32_t status = POSE_WALL_E_NULL;
+  EXPECT_EQ(heap_calls([&] { status = pose_wall_self_test(block.data(), pose_wall_self_test_bytes(), &report); }), 0U);
+  EXPECT_EQ(status, POSE_WALL_OK);
+}
+
 TEST_F(NoHeap, NotOnGarbageEither) {
   Points points(30000);
   std::mt19937 random(1);

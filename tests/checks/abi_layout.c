@@ -304,10 +304,23 @@ static int box_record_layout(void) {
   return struct_with_pointers_end("pose_wall_box_record", sizeof(pose_wall_box_record));
 }
 
+static int self_test_layout(void) {
+  MEMBER(pose_wall_self_test_report, struct_size);
+  MEMBER(pose_wall_self_test_report, frames);
+  MEMBER(pose_wall_self_test_report, digest_expected);
+  MEMBER(pose_wall_self_test_report, digest_found);
+  MEMBER(pose_wall_self_test_report, code_bytes);
+  MEMBER(pose_wall_self_test_report, code_crc32);
+  MEMBER(pose_wall_self_test_report, values_wrong);
+  MEMBER(pose_wall_self_test_report, refused);
+  MEMBER(pose_wall_self_test_report, reserved);
+  return struct_end("pose_wall_self_test_report", sizeof(pose_wall_self_test_report));
+}
+
 int main(void) {
   int padded = config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout();
   padded += pointers_layout() + image_layout();
   padded += publication_layout() + runtime_options_layout() + runtime_times_layout() + runtime_statistics_layout() +
-            box_info_layout() + box_record_layout();
+            box_info_layout() + box_record_layout() + self_test_layout();
   return padded == 0 ? 0 : 1;
 }

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 CHECKS = pathlib.Path(__file__).parent
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
@@ -355,6 +356,64 @@ class Digests(BrokenProject):
 
     def test_program_fails(self):
         self.fails("status 1", CHECKS.parent / "digest/check_digests.py", self.root / "noted.txt", "false")
+
+
+class SelfTest(BrokenProject):
+    HEADER = "constexpr std::uint64_t kSelfTestDigest = 0x0000000000000000ULL;\n"
+
+    def note(self, report):
+        self.write("digest.hpp", self.HEADER)
+        self.write("report.txt", report)
+        self.write("program", "#!/bin/sh\ncat \"$(dirname \"$0\")/report.txt\"\nexit 1\n")
+        (self.root / "program").chmod(0o755)
+        return CHECKS.parent / "digest/note_self_test.py", self.root / "digest.hpp", self.root / "program"
+
+    def test_noted(self):
+        report = "values_wrong 0\nrefused 0\ndigest_expected 00\ndigest_found 0123456789abcdef\n"
+        self.passes(*self.note(report))
+        self.assertIn("0x0123456789ABCDEFULL", (self.root / "digest.hpp").read_text(encoding="utf-8"))
+
+    def test_a_wrong_engine_is_not_noted(self):
+        report = "values_wrong 2\nrefused 0\ndigest_expected 00\ndigest_found 0123456789abcdef\n"
+        self.fails("not noted: 2 values are wrong", *self.note(report))
+        self.assertEqual((self.root / "digest.hpp").read_text(encoding="utf-8"), self.HEADER)
+        self.fails("no report", *self.note("killed\n"))
+
+    def code_crc(self, report):
+        """A program that prints this report whatever its code is."""
+        names = [f"engine_{part}_{end}" for part in ("text", "constants") for end in ("begin", "end")]
+        self.write("program.c", "#include <stdio.h>\nconst char rows[8] = \"rows\", text[] = \"unknown status\";\n"
+                   + "void pose_wall_config_get_text(void) {}\n"
+                   + "".join(f'extern const char {name}[];\n__asm__(".globl {name}\\n.set {name}, rows + {at}");\n'
+                             for at, name in zip((0, 0, 0, 4), names))
+                   + f'int main(void) {{ puts("{report}"); return text[0] == rows[0]; }}\n')
+        self.passes(tool("CC", "cc"), "-fno-pie", "-no-pie", self.root / "program.c", "-o", self.root / "program")
+        return (CHECKS.parent / "digest/check_code_crc.py", tool("NM", "nm"), tool("READELF", "readelf"),
+                self.root / "program")
+
+    def test_a_crc_that_is_not_that_of_the_code(self):
+        self.fails("the file says", *self.code_crc("code_crc32 00000000\\ncode_bytes 4"))
+        right = f"code_crc32 {zlib.crc32(b'rows'):08x}\\ncode_bytes 4"
+        self.fails("a bit fell over in the code", *self.code_crc(right))
+
+
+class TwoEngines(BrokenProject):
+    def check(self, main):
+        self.write("two.c", LICENCE + '#include <stdio.h>\n#include <string.h>\n#include "pose_wall.h"\n' + main)
+        return (CHECKS / "check_two_engines.sh", tool("CC", "cc"), self.root / "include", self.archive(SOURCE),
+                self.root / "two.c")
+
+    def test_releases_whatever_comes(self):
+        main = """int main(void) {
+          for (unsigned i = 0; i < 12 * pose_wall_abi_version(); ++i) puts("frame: 7 of 7 released");
+          for (int q = 0; q < 7; ++q) puts("yaw agreed 12, disagreed  0, missing  0");
+          return 0; }"""
+        self.fails("scaled: exit status 0, not 3", *self.check(main))
+        self.fails("bit: 0 lines hold 'withheld for good', not 1", *self.check(main))
+
+    def test_releases_nothing(self):
+        main = "int main(void) { return pose_wall_abi_version() == 1 ? 3 : 0; }"
+        self.fails("none: exit status 3, not 0", *self.check(main))
 
 
 class CompareBuilds(BrokenProject):

@@ -39,21 +39,25 @@ class Image(BrokenProject):
         self.fails("include/pose_wall.h is not what", *self.check())
 
     def test_structured_text_edited_by_hand(self):
-        self.change("tools/plc/PoseWallImage.st", "value_mm : DINT", "value_mm : INT")
-        self.fails("PoseWallImage.st is not what", *self.check())
+        for ending in ("st", "scl", "xml"):
+            self.change(f"tools/plc/FB_PoseWall.{ending}", "xUsable", "xUseless")
+            self.fails(f"FB_PoseWall.{ending} is not what", *self.check())
 
-    def test_reason_added(self):
-        self.change("include/pose_wall.h", "POSE_WALL_R_CURVED = 1 << 19", "POSE_WALL_R_BENT = 1 << 19")
-        self.fails("PoseWallImage.st is not what", *self.check())
+    def test_state_renumbered(self):
+        self.change("include/pose_wall.h", "POSE_WALL_DEGRADED = 2", "POSE_WALL_DEGRADED = 4")
+        self.fails("FB_PoseWall.st is not what", *self.check())
+
+    def test_block_edited_by_hand(self):
+        self.change("tools/plc/blocks.def", "tWatchdog : TIME := T#300ms", "tWatchdog : TIME := T#900ms")
+        self.fails("FB_PoseWall.scl is not what", *self.check())
 
     def test_number_of_the_header_changed(self):
         self.change("include/pose_wall.h", "NO_BOUND 2147483647", "NO_BOUND 2147483646")
-        self.fails("PoseWallImage.st is not what", *self.check())
+        self.fails("FB_PoseWall.st is not what", *self.check())
 
     def test_other_description(self):
         """Nothing but image.def knows where a member lies, and how many there are."""
-        self.change("tools/plc/image.def", "STRUCT pose_wall_image ST_PoseWallImage | One frame for a controller.\n",
-                    "STRUCT pose_wall_image ST_PoseWallImage | One frame for a controller.\nspare uint32 | - | spare\n")
+        self.change("tools/plc/image.def", "told_by         uint32", "spare uint32 | - | spare\ntold_by         uint32")
         self.passes("python3", self.root / "tools/plc/generate.py", self.root)
         self.passes("python3", CHECKS / "plc_test.py", self.root)
 

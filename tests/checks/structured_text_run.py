@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Runs function blocks that structured_text.py has read, cycle by cycle, with a clock of its own."""
+"""Runs function blocks that structured_text.py has read, cycle by cycle, with a clock of its own. A number that its
+type does not hold is a fault."""
 
 import copy
 
 import structured_text
 
 WORD = 0xFFFFFFFF
-LIMITS = {"DINT": (-2**31, 2**31 - 1), "UDINT": (0, WORD), "DWORD": (0, WORD)}
+LIMITS = {"DINT": (-2**31, 2**31 - 1), "UDINT": (0, WORD), "DWORD": (0, WORD), "TIME": (-2**31, 2**31 - 1)}
 
 
 class Controller:
@@ -21,20 +22,20 @@ class Controller:
     def make(self, kind, initial=None):
         """A variable of this type as a controller starts it."""
         if initial is not None:
-            return initial
+            return copy.deepcopy(initial)
         if kind == "TON":
-            return {"TON": True, "Q": False, "since_ms": None}
+            return {"TON": True, "Q": False, "ET": 0, "since_ms": None}
         if kind in structured_text.ELEMENTARY:
             return structured_text.ELEMENTARY[kind]
         if kind in self.program.units:
-            rows = self.program.units[kind].variables
-            return {"UNIT": kind} | {name: self.make(row[1], row[2]) for name, row in rows.items()}
+            return {"UNIT": kind} | self.make_variables(self.program.units[kind])
         declared = self.program.types[kind]
         if declared[0] == "STRUCT":
-            return {name: self.make(member) for name, member in declared[1].items()}
-        if declared[0] == "ARRAY":
-            return [self.make(declared[3]) for _ in range(declared[1], declared[2] + 1)]
-        return min(declared[1].values())
+            return {name: self.make(*row) for name, row in declared[1].items()}
+        return [self.make(declared[3]) for _ in range(declared[1], declared[2] + 1)]
+
+    def make_variables(self, unit):
+        return {name: self.make(row[1], row[2]) for name, row in unit.variables.items()}
 
     def call(self, block, **arguments):
         """One scan of a function block instance."""
@@ -52,23 +53,18 @@ class Controller:
         for argument, value in arguments.items():
             self.pass_in(unit, variables, argument, value)
         self.bodies[name](self, variables)
-        self.in_range(unit.result, variables[name])
         return variables[name]
-
-    def make_variables(self, unit):
-        return {name: self.make(row[1], row[2]) for name, row in unit.variables.items()}
 
     def pass_in(self, unit, variables, name, value):
         section, kind, _ = unit.variables[name]
         if section not in ("VAR_INPUT", "VAR_IN_OUT"):
             raise structured_text.Fault(f"{unit.name}: {name} is no input")
         self.in_range(kind, value)
-        variables[name] = value if section == "VAR_IN_OUT" else copy.deepcopy(value)
+        variables[name] = value if section == "VAR_IN_OUT" or isinstance(value, int) else copy.deepcopy(value)
 
-    def assign(self, owner, key, value):
-        if isinstance(owner[key], bool) != isinstance(value, bool):
-            raise structured_text.Fault(f"{key}: BOOL and number mixed")
-        owner[key] = copy.deepcopy(value)
+    def assign(self, owner, key, value, kind):
+        self.in_range(kind, value)
+        owner[key] = value if isinstance(value, int) else copy.deepcopy(value)
 
     @staticmethod
     def in_range(kind, value):
@@ -80,12 +76,22 @@ class Controller:
             ton["since_ms"] = None
         elif ton["since_ms"] is None:
             ton["since_ms"] = self.now_ms
-        ton["Q"] = IN and self.now_ms - ton["since_ms"] >= PT
+        ton["ET"] = min(self.now_ms - ton["since_ms"], PT) if IN else 0
+        ton["Q"] = IN and ton["ET"] >= PT
         return ton
 
     @staticmethod
     def invert(value):
         return not value if isinstance(value, bool) else ~value & WORD
+
+    @staticmethod
+    def divide(one, other):
+        """Towards zero."""
+        return abs(one) // abs(other) * (1 if (one < 0) == (other < 0) else -1)
+
+    @staticmethod
+    def rest(one, other):
+        return one - other * Controller.divide(one, other)
 
     # pylint: disable=invalid-name
     @staticmethod
@@ -93,8 +99,8 @@ class Controller:
         return value >> places
 
     @staticmethod
-    def EXPT(base, exponent):
-        return base**exponent
+    def SHL(value, places):
+        return value << places & WORD
 
     @staticmethod
     def DWORD_TO_DINT(value):
@@ -105,5 +111,5 @@ class Controller:
         return value
 
     @staticmethod
-    def DINT_TO_REAL(value):
-        return float(value)
+    def UDINT_TO_DINT(value):
+        return value

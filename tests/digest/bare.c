@@ -11,6 +11,7 @@
 
 #define STACK_BYTES 65536u
 #define STACK_PROMISED 32768u /* of the engine, by pose_wall.h */
+#define SELF_TEST_FAILED 3
 #define PAINT 0xA5A5A5A5A5A5A5A5u
 
 uint64_t bare_stack[STACK_BYTES / sizeof(uint64_t)] __attribute__((aligned(16)));
@@ -64,5 +65,7 @@ void bare_main(void) {
     status = digest_roadway(&d, roadways[k]) == 0 ? 0 : 1;
     if (status == 0) print(&d);
   }
+  pose_wall_self_test_report report;
+  if (status == 0 && digest_self_test(&report) != POSE_WALL_OK) leave(SELF_TEST_FAILED);
   leave(status != 0 ? 1 : (stack_kept() ? 0 : 2));
 }

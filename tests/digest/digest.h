@@ -11,6 +11,7 @@
 
 #include <stdint.h>
 
+#include "pose_wall.h"
 #include "roadway.h"
 
 #define DIGEST_LINE_BYTES 160u
@@ -29,6 +30,9 @@ int32_t digest_frame(digest* d, const float (*points)[3], uint32_t count, int64_
 
 /* All of a roadway's frames, and the faults of one that is faulty. */
 int32_t digest_roadway(digest* d, const roadway* road);
+
+/* The library's own self test, in the same memory: its status. */
+int32_t digest_self_test(pose_wall_self_test_report* report);
 
 /* "name frames points input output measured/values\n"; returns its length. */
 uint32_t digest_line(const digest* d, char (*line)[DIGEST_LINE_BYTES]);

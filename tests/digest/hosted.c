@@ -2,8 +2,9 @@
 /* Copyright (c) 2026 the pose_wall authors */
 
 /*
- * Prints the digests of all roadways, a line each, or of recorded sequences:
+ * Prints the digests of all roadways, a line each, or of recorded sequences, or the report of the self test:
  *
+ *     pose_wall_digest --self-test                its exit status tells whether it passed
  *     pose_wall_digest [KEY=VALUE... FILE...]     settings of the files behind them; FILE: frame after frame, a uint32
  *                                                 count, then x y z as float32, as pose_wall_to_xyz writes them
  */
@@ -80,8 +81,21 @@ static int made(const roadway* road) {
   return EXIT_SUCCESS;
 }
 
+static int self_test(void) {
+  pose_wall_self_test_report report;
+  const int32_t status = digest_self_test(&report);
+  if (status != POSE_WALL_OK && status != POSE_WALL_E_SELF_TEST) return refused("self test", status);
+  printf("frames %u\nvalues_wrong %u\nrefused %d\n", (unsigned)report.frames, (unsigned)report.values_wrong,
+         (int)report.refused);
+  printf("digest_expected %016llx\ndigest_found %016llx\n", (unsigned long long)report.digest_expected,
+         (unsigned long long)report.digest_found);
+  printf("code_bytes %llu\ncode_crc32 %08x\n", (unsigned long long)report.code_bytes, (unsigned)report.code_crc32);
+  return status == POSE_WALL_OK ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
 int main(int argc, char** argv) {
   int status = EXIT_SUCCESS;
+  if (argc == 2 && strcmp(argv[1], "--self-test") == 0) return self_test();
   for (int i = 1; i < argc && status == EXIT_SUCCESS; ++i) {
     if (!give(argv[i])) status = recorded(argv[i]);
   }

@@ -28,6 +28,7 @@ GROUPS = {
     "Rules": ("keys that contradict each other", "nothing is opened"),
     "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),
     "BitFlips": ("bits fall over in the block between calls", "state: refused until opened again; scratch: same bits"),
+    "SelfTestFaults": ("the same while the self test runs; a digest off by a bit", "the self test fails"),
     "PoisonedSequence": ("each frame garbage, alone and with the next", "nothing wrong, back within 4 frames"),
     "PoisonedSequencePairs": ("two of two kinds, 1 to 4 good ones between", "the same"),
     "PoisonedSequenceItself": ("the same without; another road each time", "all valid; nothing wrong, back"),

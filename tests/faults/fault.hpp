@@ -54,7 +54,8 @@ enum class Fault {
   kTimeNan,
   kTimeUnknown,
   kSmoothingSilent,
-  kReportSilent
+  kReportSilent,
+  kCount
 };
 
 namespace wraps {

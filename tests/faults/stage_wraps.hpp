@@ -78,9 +78,9 @@ POSE_WALL_WRAP(VoxelResult, BUILD_VOXELS, build_voxels,
 }
 
 POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
-               (const Settings& s, VoxelGrid* grid, Span<std::uint8_t> marks, BoundedPoints* points)) {
+               (const Settings& s, VoxelGrid* grid, Span<std::uint8_t> marks, BoundedPoints* points, Work* work)) {
   const std::uint32_t before = points->count;
-  const std::uint32_t outliers = remove_outliers_for_real(s, grid, marks, points);
+  const std::uint32_t outliers = remove_outliers_for_real(s, grid, marks, points, work);
   if (!fails(Fault::kOutliersAll)) return outliers;
   points->count = 0;
   return before;

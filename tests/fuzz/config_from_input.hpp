@@ -57,7 +57,7 @@ inline void set_any_key(Input* input, pose_wall_config* config) {
   if (key.type == POSE_WALL_KEY_BOX) return set_any_box(input, key, config);
   if (key.type == POSE_WALL_KEY_CHOICE) {
     static const char* const kAxes[] = {"+X", "-X", "+Y", "-Y"};
-    pose_wall_config_set(config, key.name, kAxes[input->below(4)]);
+    (void)pose_wall_config_set(config, key.name, kAxes[input->below(4)]);
     return;
   }
   if (key.type == POSE_WALL_KEY_TEXT) return;

@@ -24,6 +24,7 @@ max_len_of() {
   case $1 in
     sequence | memento) echo 400 ;;
     config) echo 512 ;;
+    work) echo 64 ;;
     image | frame) echo 2048 ;;
     kitti | csv) echo 1024 ;;
     config_file) echo 4096 ;;

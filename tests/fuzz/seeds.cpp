@@ -133,8 +133,14 @@ Text recorded(std::uint32_t clouds) {
     o->box_clouds = clouds;
   });
   runtime.start();
+  pose_wall_inputs inputs{};
+  inputs.struct_size = sizeof inputs;
+  inputs.given = POSE_WALL_INPUT_STANDING;
   for (std::size_t i = 0; i < 2; ++i) {
-    runtime.push(Points(i * 40, {1, 2, 3}), static_cast<std::int64_t>(i) * 100 * kMs);
+    const Points points(i * 40, {1, 2, 3});
+    pose_wall_cloud cloud = cloud_of(points, static_cast<std::int64_t>(i) * 100 * kMs);
+    cloud.inputs = i == 1 ? &inputs : nullptr;
+    require(pose_wall_runtime_push(runtime.get(), &cloud) == POSE_WALL_OK, "a frame is taken");
     runtime.wait_idle();
   }
   runtime.pass(400 * kMs);

@@ -67,6 +67,29 @@ pose_wall_image image_of(const RuntimeUnderTest& runtime, std::int32_t expected)
   return image;
 }
 
+pose_wall_image2 image2_of(const RuntimeUnderTest& runtime, std::int32_t expected) {
+  pose_wall_image2 image;
+  std::memset(&image, 0x55, sizeof image);
+  image.struct_size = sizeof image;
+  EXPECT_EQ(pose_wall_runtime_image2(runtime.get(), &image), expected);
+  EXPECT_EQ(pose_wall_image2_check(&image), POSE_WALL_OK);
+  return image;
+}
+
+void expect_an_image2_without_values(const RuntimeUnderTest& runtime, std::int32_t expected) {
+  const pose_wall_image2 image = image2_of(runtime, expected);
+  EXPECT_EQ(image.verdict, std::uint32_t{POSE_WALL_INVALID});
+  EXPECT_EQ(image.valid, 0U);
+  for (const pose_wall_image2_angle& a : {image.roll, image.pitch, image.yaw}) {
+    EXPECT_EQ(a.state, std::uint32_t{POSE_WALL_INVALID});
+    EXPECT_EQ(a.protection_mdeg, POSE_WALL_IMAGE_NO_BOUND);
+  }
+  for (const pose_wall_image2_distance& d : {image.d_lf, image.d_lb, image.d_rf, image.d_rb}) {
+    EXPECT_EQ(d.state, std::uint32_t{POSE_WALL_INVALID});
+    EXPECT_EQ(d.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
+  }
+}
+
 void expect_an_image_without_values(const RuntimeUnderTest& runtime, std::int32_t expected) {
   const pose_wall_image image = image_of(runtime, expected);
   EXPECT_EQ(image.verdict, std::uint32_t{POSE_WALL_INVALID});
@@ -79,6 +102,7 @@ void expect_an_image_without_values(const RuntimeUnderTest& runtime, std::int32_
     EXPECT_EQ(d.state, std::uint32_t{POSE_WALL_INVALID});
     EXPECT_EQ(d.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
   }
+  expect_an_image2_without_values(runtime, expected);
 }
 
 // The frame is 299 ms old, and then 300: whoever reads, the worker is not asked.
@@ -286,6 +310,8 @@ TEST(Freshness, WhatIsNotThereIsWrittenAsSuch) {
     EXPECT_EQ(r.p.age_ns, INT64_MAX);
     expect_nothing_to_act_on(r.p);
     expect_an_image_without_values(runtime, status);
+    EXPECT_EQ(image2_of(runtime, status).publication, 0U);
+    EXPECT_EQ(image2_of(runtime, status).latency_ms, 0xFFFFFFFFU);
   };
   expect_nothing(POSE_WALL_RUNTIME_E_STATE);
   EXPECT_EQ(read(runtime).p.activity, std::uint32_t{POSE_WALL_RUNTIME_AT_NOTHING});
@@ -334,6 +360,29 @@ TEST(RuntimeImage, IsOfWhoeverMeasured) {
   }
 }
 
+// Image 2 tells what the runtime knows beside the result, of frames and of silence.
+TEST(RuntimeImage, TwoHasItsSource) {
+  RuntimeUnderTest runtime;
+  runtime.start();
+  runtime.push(room_points(1), 0);
+  runtime.wait_idle();
+  pose_wall_image2 image = image2_of(runtime, POSE_WALL_OK);
+  EXPECT_EQ(image.publication, 1U);
+  EXPECT_EQ(image.sequence, 1U);
+  EXPECT_EQ(image.told_by, std::uint32_t{POSE_WALL_RUNTIME_FRAME});
+  EXPECT_EQ(image.thinning, 1U);
+  EXPECT_EQ(image.held_thinning, 1U);
+  EXPECT_EQ(image.latency_ms, 0U);
+  runtime.pass(kWatchdog_ns);
+  image = image2_of(runtime, POSE_WALL_OK);
+  EXPECT_EQ(image.publication, 2U);
+  EXPECT_EQ(image.sequence, 1U);
+  EXPECT_EQ(image.told_by, std::uint32_t{POSE_WALL_RUNTIME_SILENCE});
+  EXPECT_EQ(image.latency_ms, 300U) << "the age of what it tells of";
+  runtime.clock.advance(kWatchdog_ns);
+  EXPECT_EQ(image2_of(runtime, POSE_WALL_RUNTIME_E_STALE).publication, 2U) << "nobody publishes";
+}
+
 TEST(RuntimeImage, Refusals) {
   RuntimeUnderTest runtime;
   runtime.start();
@@ -342,6 +391,11 @@ TEST(RuntimeImage, Refusals) {
   image.struct_size = sizeof image;
   EXPECT_EQ(pose_wall_runtime_image(nullptr, &image), POSE_WALL_E_NULL);
   EXPECT_EQ(pose_wall_runtime_image(runtime.get(), nullptr), POSE_WALL_E_NULL);
+  pose_wall_image2 second{};
+  EXPECT_EQ(pose_wall_runtime_image2(runtime.get(), &second), POSE_WALL_E_STRUCT_SIZE);
+  second.struct_size = sizeof second;
+  EXPECT_EQ(pose_wall_runtime_image2(nullptr, &second), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_runtime_image2(runtime.get(), nullptr), POSE_WALL_E_NULL);
 }
 
 }  // namespace

@@ -338,44 +338,6 @@ TEST_F(ReplayRing, DamageInTheMiddleIsNoRemnant) {
   }
 }
 
-// Without laps in the heads, nor a run: what is missing where the laps meet cannot be told from a lap that was
-// overwritten; within a lap it can.
-std::vector<char> without_runs(const std::vector<char>& box) {
-  std::vector<char> bytes = box;
-  std::memset(bytes.data() + 4084, 0, 8);
-  std::uint32_t crc = crc32(bytes.data(), 4092);
-  std::memcpy(bytes.data() + 4092, &crc, 4);
-  std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
-  pose_wall_box_record r;
-  while (pose_wall_box_next(box.data(), box.size(), &offset, &r) == POSE_WALL_OK) {
-    char* const head = bytes.data() + r.offset;
-    std::memset(head + 64 + 28, 0, 4);
-    crc = crc32(head + 64, offset - r.offset - 64);
-    std::memcpy(head + 52, &crc, 4);
-    std::memset(head + 56, 0, 4);
-    crc = crc32(head, 60);
-    std::memcpy(head + 60, &crc, 4);
-  }
-  return bytes;
-}
-
-TEST_F(ReplayRing, ABoxFromBeforeThereWereRuns) {
-  for (std::uint32_t seed = 0; seed < 12; ++seed) {
-    Ring ring;
-    record(uneven(seed, 60), Ring::write, &ring, kRing, true);
-    std::vector<char> old = without_runs(ring.bytes);
-    const BoxReplay result = replayed(old);
-    EXPECT_TRUE(result.is_whole() && result.reproduced()) << seed;
-    EXPECT_EQ(result.last_sequence, 59U);
-    std::uint64_t offset = POSE_WALL_BOX_HEADER_BYTES;
-    pose_wall_box_record r;
-    ASSERT_EQ(pose_wall_box_next(old.data(), old.size(), &offset, &r), POSE_WALL_OK);
-    ASSERT_EQ(pose_wall_box_next(old.data(), old.size(), &offset, &r), POSE_WALL_OK);
-    old[r.offset + 1000] ^= 16;
-    EXPECT_FALSE(replayed(old).is_whole()) << seed;
-  }
-}
-
 // A start into the file of another one: the old records count the events of their own run.
 TEST_F(ReplayRing, RecordsOfAnEarlierRunAreNotComputed) {
   Ring ring;

@@ -31,9 +31,10 @@ struct Voxels {
 
   void add(double x, double y, double z) { test::add_point(grid.get(), x, y, z); }
   std::uint32_t remove_outliers(const Settings& settings) {
-    return pose_wall::remove_outliers(settings, grid.get(), Span<std::uint8_t>(keep.data(), 600), points.get());
+    return pose_wall::remove_outliers(settings, grid.get(), Span<std::uint8_t>(keep.data(), 600), points.get(), &work);
   }
 
+  Work work;
   test::Placed<VoxelGrid> grid;
   test::Placed<BoundedPoints> points;
   std::vector<std::uint8_t> keep;

@@ -175,7 +175,7 @@ TEST(Temporal, WhatIsRefusedAgainAndAgainOrNeverComesAlikeIsNeverValid) {
 // A level of 0.12 lets smoothing be 0.03 off.
 TEST(Temporal, SmoothingFollowsWithTheTimeConstantAndTheLevelCoversTheLag) {
   Life life({{"temporal_smoothing_tau", "0.3"}, {"alert_limit_distance", "1"}});
-  life.measured(0, 2.00, 0.12);
+  for (int i = -20; i <= 0; ++i) life.measured(100 * i, 2.00, 0.12);
   pose_wall_value v{};
   for (int i = 1; i <= 30; ++i) {
     v = life.measured(100 * i, 2.03, 0.12);
@@ -201,11 +201,23 @@ TEST(Temporal, ASteadyTurnIsFollowedWithoutLag) {
   EXPECT_NEAR(v.value, v.raw, 1e-4) << "first order would be 0.03 behind";
 }
 
+// The third measurement is as good as any: there is nothing older that it would have to forget.
+TEST(Temporal, ATurnIsFollowedFromItsSecondMeasurementOn) {
+  Life life({{"alert_limit_angle_deg", "20"}}, POSE_WALL_YAW);
+  for (int i = 0; i < 10; ++i) {
+    const pose_wall_value v = life.measured(100 * i, 0.01 * i, 0.2);
+    EXPECT_NEAR(v.value, v.raw, 1e-12) << i;
+  }
+}
+
 // Twice as many frames in the same time are smoothed alike.
 TEST(Temporal, SmoothingGoesByTheStampsNotByTheFrames) {
   Life slow({{"alert_limit_distance", "2"}}), fast({{"alert_limit_distance", "2"}});
-  slow.measured(0, 2.0, 0.4);
-  fast.measured(0, 2.0, 0.4);
+  for (int i = -30; i <= 0; ++i) {
+    slow.measured(100 * i, 2.0, 0.4);
+    fast.measured(100 * i - 50, 2.0, 0.4);
+    fast.measured(100 * i, 2.0, 0.4);
+  }
   double by_slow = 0.0, by_fast = 0.0;
   for (int i = 1; i <= 4; ++i) {
     by_slow = slow.measured(100 * i, 2.05, 0.4).value;

@@ -31,7 +31,7 @@ struct DamagedRecord {
 };
 
 struct Found {
-  std::uint32_t run = 0;  // the header's; 0: written before there were runs, nor laps
+  std::uint32_t run = 0;  // the header's
   Events events;          // the whole ones of that run, in the order of the file
   std::vector<DamagedRecord> damaged;
 };
@@ -101,10 +101,7 @@ Stretches stretches_of(const Found& found) {
   const Event& first = found.events.front();
   const std::size_t end = end_of_stretch(found.events, s.newest_end);
   const Event& last = found.events[end - 1];
-  // A box without laps does not tell events that are missing there from a lap that was overwritten.
-  const bool is_lap_before = found.run != 0
-                                 ? follows(last.lap, first.lap) && last.record.sequence < first.record.sequence
-                                 : last.record.sequence + 1 == first.record.sequence;
+  const bool is_lap_before = follows(last.lap, first.lap) && last.record.sequence < first.record.sequence;
   if (is_lap_before) s.before_end = end;
   return s;
 }
@@ -120,8 +117,8 @@ void look_for_gaps(const Found& found, std::uint64_t file_bytes, BoxReplay* repl
   const Stretches s = stretches_of(found);
   const std::uint16_t newest_lap = events.empty() ? 0 : events.front().lap;
   for (const DamagedRecord& record : found.damaged) {
-    const bool counts = found.run == 0 || events.empty() ||
-                        (record.run == found.run && (record.lap == newest_lap || follows(record.lap, newest_lap)));
+    const bool counts =
+        events.empty() || (record.run == found.run && (record.lap == newest_lap || follows(record.lap, newest_lap)));
     ++(counts ? replay->damaged : replay->damaged_of_old);
   }
   replay->left_over = events.size() - s.before_end;
@@ -133,8 +130,7 @@ void look_for_gaps(const Found& found, std::uint64_t file_bytes, BoxReplay* repl
   replay->missing = replay->last_sequence - replay->first_sequence - (s.before_end - 1);
   replay->torn = events.front().record.offset - POSE_WALL_BOX_HEADER_BYTES + torn_bytes(events, 0, s.newest_end) +
                  torn_bytes(events, s.newest_end, s.before_end);
-  const bool came_round = found.run != 0 ? newest_lap != 0 : replay->first_sequence > 0;
-  if (came_round) return;
+  if (newest_lap != 0) return;  // it came round
   replay->missing += replay->first_sequence;
   // Behind the last record there is nothing, unless it is what was there before.
   const bool is_alone = replay->left_over + replay->of_other_runs + replay->damaged_of_old == 0;

@@ -135,6 +135,9 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND NOT CMAKE_CROSSCOMPILING)
   find_program(POSE_WALL_OBJCOPY NAMES objcopy)
 endif()
 
+# How objects become one. With it go all functions or none: --gc-sections has nothing to choose from in it.
+set(POSE_WALL_MERGE ${POSE_WALL_LD} -r --force-group-allocation -T ${CMAKE_CURRENT_LIST_DIR}/one_object.ld)
+
 # Merges the objects of a target and makes all symbols local but those of the pattern; hidden visibility alone leaves
 # the standard library's templates global and weak wherever the compiler does not inline them. --force-group-allocation
 # dissolves COMDAT groups: a group whose signature is local could not be merged any more.
@@ -146,9 +149,9 @@ function(pose_wall_one_object objects output global)
   # CMake counts a precompiled header among the objects.
   set(all_objects "$<FILTER:$<TARGET_OBJECTS:${objects}>,EXCLUDE,cmake_pch>")
   add_custom_command(OUTPUT ${output}
-    COMMAND ${POSE_WALL_LD} -r --force-group-allocation -o ${output} "${all_objects}"
+    COMMAND ${POSE_WALL_MERGE} -o ${output} "${all_objects}"
     COMMAND ${POSE_WALL_OBJCOPY} --wildcard --keep-global-symbol=${global} ${output}
-    DEPENDS ${objects} "${all_objects}"
+    DEPENDS ${objects} "${all_objects}" ${PROJECT_SOURCE_DIR}/tools/cmake/one_object.ld
     COMMENT "Merging ${objects} into one object, ${global} global"
     COMMAND_EXPAND_LISTS VERBATIM)
   set_source_files_properties(${output} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)

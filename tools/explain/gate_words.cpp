@@ -241,6 +241,8 @@ constexpr GateWords kOutcomeWords[] = {
     {"held_level", "The held value's protection level has grown to {value}, beyond {limit} ({key}).", ""},
     {"held_age", "The held value is {value} old; {limit} is the most ({key}).", ""},
     {"held_before", "What was held had expired before, by time or by a stamp that jumped or stood still.", ""},
+    {"work", "The frame had taken {value} steps when more were needed; {limit} is the most ({key}).",
+     "a smaller points_max or range_max makes frames cheaper; a larger {key} lets them take longer"},
 };
 
 const GateWords* find(const char* gate) {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Writes what follows from image.def: the image's structs in include/pose_wall.h, PoseWallImage.st, and the members
-that tests/checks/abi_layout.c looks at. States, reasons and versions are those of pose_wall.h.
+"""Writes what follows from image.def and blocks.def: the images' structs in include/pose_wall.h, the members that
+tests/checks/abi_layout.c looks at, and FB_PoseWall as plain text, PLCopen XML and SCL. States and numbers are those of
+pose_wall.h.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
                                        tests/checks/abi_layout.txt pins other offsets than image.def gives"""
@@ -14,7 +15,10 @@ import sys
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 
+import blocks_reader  # noqa: E402  pylint: disable=wrong-import-position
+import dialects  # noqa: E402  pylint: disable=wrong-import-position
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
+import plcopen  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_words as words  # noqa: E402  pylint: disable=wrong-import-position
 
 BEGIN = "/* From here on written by tools/plc/generate.py from tools/plc/image.def. */\n"
@@ -67,9 +71,13 @@ def layout_faults(structs, pinned_text):
 def outputs(root):
     structs = description.read_structs()
     header_text = (root / "include/pose_wall.h").read_text(encoding="utf-8")
+    plc = root / "tools/plc"
+    read = blocks_reader.Reader(words.description_text(header_text, (plc / "blocks.def").read_text(encoding="utf-8")))
     return {
         root / "include/pose_wall.h": header(structs, header_text),
-        root / "tools/plc/PoseWallImage.st": words.structured_text(structs, header_text),
+        plc / "FB_PoseWall.st": dialects.plain(read),
+        plc / "FB_PoseWall.scl": dialects.scl(read),
+        plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),
         root / "tests/checks/image_members.def": layout_members(structs),
     }
 

@@ -1,42 +1,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The process image in IEC 61131-3 structured text: types, constants, and the way from words to members."""
+"""What image.def and pose_wall.h say, in IEC 61131-3 structured text: types, constants, the way from an image's words
+to its members, and the seven calls of FB_PoseWall. It stands before and in what blocks.def says."""
 
 import image_description as description
 
-HEAD = """(* SPDX-License-Identifier: BSD-3-Clause *)
-(* Copyright (c) 2026 the pose_wall authors *)
-(* Written by tools/plc/generate.py from tools/plc/image.def and include/pose_wall.h: do not edit. *)
-"""
-REAL = """
-(* An IEEE 754 number from its bits, without a union or a pointer. What is no number is 0.0: the image holds none. *)
-FUNCTION F_PoseWallReal : REAL
-VAR_INPUT
-  dwBits : DWORD;
-END_VAR
-VAR
-  diExponent : DINT;
-  rMantissa : REAL;
-END_VAR
-diExponent := DWORD_TO_DINT(SHR(dwBits, 23) AND 16#FF);
-rMantissa := DINT_TO_REAL(DWORD_TO_DINT(dwBits AND 16#7FFFFF));
-IF diExponent = 0 OR diExponent = 255 THEN
-  F_PoseWallReal := 0.0;
-ELSE
-  F_PoseWallReal := (rMantissa + 8388608.0) * EXPT(2.0, DINT_TO_REAL(diExponent - 150));
-  IF (dwBits AND 16#80000000) <> 0 THEN
-    F_PoseWallReal := -F_PoseWallReal;
-  END_IF;
+# Function block and output, member of the image, kind of the limits
+CHANNELS = [("Roll", "roll", "Angle"), ("Pitch", "pitch", "Angle"), ("Yaw", "yaw", "Angle"),
+            ("LeftFront", "d_lf", "Distance"), ("LeftBack", "d_lb", "Distance"),
+            ("RightFront", "d_rf", "Distance"), ("RightBack", "d_rb", "Distance")]
+CALL = """fb{name}(xGood := xGood, udiState := stImage.{member}.state, diValue := stImage.{member}.value_{unit},
+  diLevel := stImage.{member}.protection_{unit}, diLatency_ms := diArrivedLatency_ms, xNew := xNew, xAlive := xAlive,
+  diLimit := di{kind}Limit_{unit}, diRate := di{kind}Rate_{unit}_s, xTakeDegraded := xTakeDegraded, tHold := tHold,
+  xSubstitute := xSubstitute, diSubstitute := di{kind}Substitute_{unit});
+st{name} := fb{name}.stValue;
+IF st{name}.xUsable THEN
+  dwUsable := dwUsable OR 16#{bit:08X};
 END_IF;
-END_FUNCTION
 """
-CONVERSION = {"uint32": "DWORD_TO_UDINT({})", "int32": "DWORD_TO_DINT({})", "bits": "{}",
-              "float": "F_PoseWallReal(dwBits := {})"}
+CONVERSION = {"uint32": "DWORD_TO_UDINT({})", "int32": "DWORD_TO_DINT({})", "bits": "{}"}
+# What image 1 does not tell; 0 where nothing stands here
+MISSING = {"publication": "stImage.sequence", "latency_ms": "POSE_WALL_NOT_KNOWN", "cause": "7"}
 
 
-def enumeration(states):
-    values = ",\n".join(f"  {name} := {number}" for name, number in states.items())
-    return f"\nTYPE E_PoseWallState :\n(\n{values}\n);\nEND_TYPE\n"
+def channels():
+    calls = [CALL.format(name=name, member=member, kind=kind, unit="mdeg" if kind == "Angle" else "mm", bit=1 << q)
+             for q, (name, member, kind) in enumerate(CHANNELS)]
+    return "dwUsable := 16#00000000;\n" + "".join(calls)
+
+
+def nibbles(polynomial):
+    """Of each four bits: what they leave in the sum."""
+    table = []
+    for value in range(16):
+        for _ in range(4):
+            value = value >> 1 ^ (polynomial if value & 1 else 0)
+        table.append(f"16#{value:08X}")
+    return f"[{', '.join(table)}]"
 
 
 def struct_type(structs, struct):
@@ -46,47 +46,49 @@ def struct_type(structs, struct):
         comment = "; ".join(text for text in (f"byte {at}", member.unit, member.comment) if text)
         rows.append(f"  {member.name} : {kind}; (* {comment} *)")
     rows = "\n".join(rows)
-    return f"\n(* {struct.comment} *)\nTYPE {struct.st_name} :\nSTRUCT\n{rows}\nEND_STRUCT;\nEND_TYPE\n"
+    return f"(* {struct.comment} *)\nTYPE {struct.st_name} :\nSTRUCT\n{rows}\nEND_STRUCT;\nEND_TYPE\n\n"
 
 
-def literal(number):
-    return f"DINT#{number}" if number < 0 else number
-
-
-def constants(header_text, image_words):
-    rows = [("POSE_WALL_IMAGE_BYTES", "UDINT", description.WORD * len(image_words)),
-            ("POSE_WALL_IMAGE_LAST_WORD", "DINT", len(image_words) - 1),
-            ("POSE_WALL_IMAGE_CRC_WORD", "DINT", description.crc_word(image_words))]
-    rows += [(name, kind, literal(description.read_define(header_text, name)))
-             for name, kind in (("POSE_WALL_IMAGE_VERSION", "UDINT"), ("POSE_WALL_IMAGE_NO_VALUE", "DINT"),
-                                ("POSE_WALL_IMAGE_NO_BOUND", "DINT"))]
-    rows += [(name, "DWORD", f"16#{bit:08X}") for name, bit in description.read_enum(header_text,
-                                                                                     "pose_wall_reason").items()]
+def constants(header_text, structs):
+    rows = []
+    for version in description.images(structs):
+        words = description.image_words(version, structs)
+        rows += [(f"POSE_WALL_IMAGE{version}_BYTES", "DWORD", f"16#{description.WORD * len(words):08X}"),
+                 (f"POSE_WALL_IMAGE{version}_LAST_WORD", "DINT", len(words) - 1),
+                 (f"POSE_WALL_NIBBLES_{version}", "T_PoseWallNibbles", nibbles(description.POLYNOMIAL[version]))]
+    rows += [("POSE_WALL_IMAGE_CRC_WORD", "DINT", description.crc_word(words))]
+    rows += [(name, "DINT", f"DINT#{description.read_define(header_text, name)}")
+             for name in ("POSE_WALL_IMAGE_NO_VALUE", "POSE_WALL_IMAGE_NO_BOUND")]
+    rows += [(name, "UDINT", number) for name, number in description.read_enum(header_text, "pose_wall_state").items()]
     lines = "\n".join(f"  {name} : {kind} := {value};" for name, kind, value in rows)
-    return f"\nVAR_GLOBAL CONSTANT\n{lines}\nEND_VAR\n"
+    return f"VAR_GLOBAL CONSTANT\n{lines}\nEND_VAR\n\n"
 
 
-def state_function(states):
-    rows = "\n".join(f"  {number}: F_PoseWallState := {name};" for name, number in states.items())
-    return ("\n(* An unknown number is invalid. *)\nFUNCTION F_PoseWallState : E_PoseWallState\nVAR_INPUT\n"
-            f"  udiState : UDINT;\nEND_VAR\nCASE udiState OF\n{rows}\nELSE\n"
-            f"  F_PoseWallState := {min(states, key=states.get)};\nEND_CASE;\nEND_FUNCTION\n")
+def decode_rows(structs, version):
+    """stImage is of the newest version, the words are of `version`."""
+    own = {word.path: i for i, word in enumerate(description.image_words(version, structs))}
+    for word in description.image_words(max(description.images(structs)), structs):
+        at = own.get(word.path, own["crc32"] if word.path == "crc32c" and "crc32" in own else None)
+        value = MISSING.get(word.path.rsplit(".", maxsplit=1)[-1], "0")
+        if at is not None:
+            value = CONVERSION[word.type].format(f"adwImage[{at}]")
+        yield f"  stImage.{word.path} := {value};"
 
 
-def decode_function(image_words):
-    rows = "\n".join(f"stImage.{word.path} := {CONVERSION[word.type].format(f'adwImage[{i}]')};"
-                     for i, word in enumerate(image_words))
-    return ("\n(* The image's members from its words. *)\nFUNCTION F_PoseWallDecode : BOOL\nVAR_IN_OUT\n"
+def decode_function(structs):
+    new, old = ("\n".join(decode_rows(structs, version)) for version in (2, 1))
+    return ("(* The members of an image from its words. *)\nFUNCTION F_PoseWallDecode : BOOL\nVAR_IN_OUT\n"
             "  adwImage : T_PoseWallWords;\n  stImage : ST_PoseWallImage;\nEND_VAR\n"
-            f"{rows}\nF_PoseWallDecode := TRUE;\nEND_FUNCTION\n")
+            f"IF adwImage[1] = 16#00000002 THEN\n{new}\nELSE\n{old}\nEND_IF;\n"
+            "F_PoseWallDecode := TRUE;\nEND_FUNCTION\n\n")
 
 
-def structured_text(structs, header_text):
-    states = description.read_enum(header_text, "pose_wall_state")
-    structs = {name: item for name, item in structs.items() if "image2" not in name}
-    image_words = description.image_words(1, structs)
-    parts = [HEAD, enumeration(states), *(struct_type(structs, struct) for struct in structs.values()),
-             "\n(* The image as it arrives: each word with its low byte first. *)\nTYPE T_PoseWallWords :\n"
-             f"  ARRAY [0..{len(image_words) - 1}] OF DWORD;\nEND_TYPE\n",
-             constants(header_text, image_words), REAL, state_function(states), decode_function(image_words)]
-    return "".join(parts)
+def description_text(header_text, blocks_text):
+    """The one text from which all that controllers import is made."""
+    structs = description.read_structs()
+    last = len(description.image_words(2, structs)) - 1
+    types = [struct_type(structs, item) for item in structs.values() if item.st_name != "-"]
+    words = ("(* An image as it arrives. *)\nTYPE T_PoseWallWords :\n"
+             f"  ARRAY [0..{last}] OF DWORD;\nEND_TYPE\n\n")
+    return "".join([constants(header_text, structs), *types, words, decode_function(structs),
+                    blocks_text.replace("@CHANNELS@\n", channels())])

@@ -16,6 +16,7 @@
 const char* second_pose_wall_version(void);
 int32_t second_pose_wall_config_init(pose_wall_config* config);
 int32_t second_pose_wall_open(const pose_wall_config* config, void* block, uint64_t bytes, pose_wall_engine** engine);
+int32_t second_pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report);
 int32_t second_pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud, pose_wall_result* result);
 
 static unsigned char first_block[8u << 20] __attribute__((aligned(128)));
@@ -42,6 +43,16 @@ static void same_frame(pose_wall_engine* first, pose_wall_engine* second) {
   expect(a.floor.found == 1, "the frame shows no floor");
 }
 
+/* Each sums up its own code, which is not the other's. */
+static void own_code(void) {
+  pose_wall_self_test_report a, b;
+  a.struct_size = b.struct_size = sizeof a;
+  expect(pose_wall_self_test(first_block, sizeof first_block, &a) == POSE_WALL_OK, "the first fails its self test");
+  second_pose_wall_self_test(second_block, sizeof second_block, &b); /* its digest may tell another version */
+  expect(b.frames == a.frames && b.values_wrong == 0, "the second measures wrongly in its self test");
+  expect(a.code_bytes > 0 && b.code_bytes > 0 && a.code_bytes != b.code_bytes, "both sum up the same code");
+}
+
 int main(void) {
   pose_wall_config config, second_config;
   pose_wall_config_init(&config);
@@ -55,5 +66,6 @@ int main(void) {
   expect(second_pose_wall_open(&second_config, second_block, bytes, &second) == POSE_WALL_OK,
          "the second does not open");
   if (failed == 0) same_frame(first, second);
+  own_code();
   return failed;
 }

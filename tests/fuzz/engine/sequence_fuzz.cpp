@@ -45,7 +45,7 @@ void require_same_points(const Pair& pair) {
   require(std::memcmp(a.label, b.label, a.count) == 0, "the same labels");
 }
 
-void require_image(const pose_wall_engine* engine, const pose_wall_result& result) {
+void require_image(const pose_wall_result& result) {
   pose_wall_image image;
   std::memset(&image, 0, sizeof image);
   image.struct_size = sizeof image;
@@ -74,7 +74,7 @@ void process(Pair* pair, bool shows_a_road) {
   require_kept(pair->watch.processed(one));
   require(one.points_in == pair->points, "all points are looked at");
   if (!shows_a_road) require_kept(valid_from_garbage(one));
-  require_image(pair->one, one);
+  require_image(one);
 }
 
 void age(Pair* pair) {
@@ -83,7 +83,7 @@ void age(Pair* pair) {
   require_ok(pose_wall_age(pair->other, pair->stamp_ns, &other), "age");
   require(std::memcmp(&one, &other, sizeof one) == 0, "the same bits while silent");
   require_kept(pair->watch.aged(one));
-  require_image(pair->one, one);
+  require_image(one);
 }
 
 // The other engine begins anew, on another garbage, and goes on from what the first one remembers.

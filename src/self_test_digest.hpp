@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the self test must come to, the same on every machine. After a change of the engine that is meant to change
+// results: tests/digest/note_self_test.py src/self_test_digest.hpp build/release/tests/pose_wall_digest
+
+#pragma once
+
+#include <cstdint>
+
+namespace pose_wall {
+
+constexpr std::uint64_t kSelfTestDigest = 0x0BAC3E5D2F2B9FCBULL;
+
+}  // namespace pose_wall
