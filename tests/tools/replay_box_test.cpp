@@ -377,8 +377,9 @@ TEST_F(ReplayRing, ForgedHeadsDoNotHoldItUp) {
   Ring ring;
   record(uneven(1, 2), Ring::write, &ring, kRing, true);
   std::vector<char> bytes = ring.bytes;
-  const std::uint64_t from = bytes.size(), fixed = 64 + 64 + (pose_wall_memento_bytes() + 63) / 64 * 64 +
-                                                   (sizeof(pose_wall_result) + 63) / 64 * 64;
+  const auto room = [](std::uint64_t count) { return (count + 63) / 64 * 64; };
+  const std::uint64_t from = bytes.size(), fixed = 64 + 64 + room(sizeof(pose_wall_inputs)) +
+                                                   room(pose_wall_memento_bytes()) + room(sizeof(pose_wall_result));
   bytes.resize(from + (4 << 20));
   for (std::uint64_t at = from; at + fixed <= bytes.size(); at += 64) {
     std::memcpy(bytes.data() + at, ring.bytes.data() + POSE_WALL_BOX_HEADER_BYTES, 64);
