@@ -127,8 +127,8 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
 
 }  // namespace
 
-std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep,
-                              BoundedPoints* points, Work* work) {
+std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep, BoundedPoints* points,
+                              Work* work) {
   work->add(points->count, steps::kVoxelListed);
   const std::uint32_t before = points->count;
   if (settings.outlier_min_neighbors > 0 && before > 0) {

@@ -52,6 +52,7 @@ class DearCloud {
   void put_again(std::uint32_t i) {
     if (count_ < kRoom) points_[count_++] = points_[i];
   }
+  void keep_first(std::uint32_t points) { count_ = count_ < points ? count_ : points; }
   std::uint32_t size() const { return count_; }
   pose_wall_cloud at(std::int64_t stamp_ns) const {
     pose_wall_cloud cloud;
@@ -226,20 +227,34 @@ inline void fill_apart(std::uint32_t points, DearCloud* out) {
 // By name; false where there is none of that name. parN: the hall of the seed N.
 inline bool fill_dear(const std::string& kind, std::uint32_t points, DearCloud* out) {
   out->clear();
-  if (kind == "road") fill_road(points, out);
-  else if (kind == "equal") fill_shell(3.3, 0.0, 1, out);
-  else if (kind == "sphere") fill_shell(5.0, 0.0, points, out);
-  else if (kind == "sphere03") fill_shell(0.301, 0.0, points, out);
-  else if (kind == "ball03") fill_shell(0.3, 0.2, points, out);
-  else if (kind == "spread") fill_air(20.0, 5.0, points, out);
-  else if (kind == "dense") fill_air(5.0, 4.0, points, out);
-  else if (kind == "sheets") fill_sheets(points, out);
-  else if (kind == "rough") fill_rough(points, out);
-  else if (kind == "apart") fill_apart(points, out);
-  else if (kind == "hash") fill_crowd(points, out);
-  else if (kind.rfind("par", 0) == 0) Hall::drawn(static_cast<std::uint32_t>(std::stoul(kind.substr(3)))).fill(points, out);
-  else return false;
+  if (kind == "road")
+    fill_road(points, out);
+  else if (kind == "equal")
+    fill_shell(3.3, 0.0, 1, out);
+  else if (kind == "sphere")
+    fill_shell(5.0, 0.0, points, out);
+  else if (kind == "sphere03")
+    fill_shell(0.301, 0.0, points, out);
+  else if (kind == "ball03")
+    fill_shell(0.3, 0.2, points, out);
+  else if (kind == "spread")
+    fill_air(20.0, 5.0, points, out);
+  else if (kind == "dense")
+    fill_air(5.0, 4.0, points, out);
+  else if (kind == "sheets")
+    fill_sheets(points, out);
+  else if (kind == "rough")
+    fill_rough(points, out);
+  else if (kind == "apart")
+    fill_apart(points, out);
+  else if (kind == "hash")
+    fill_crowd(points, out);
+  else if (kind.rfind("par", 0) == 0)
+    Hall::drawn(static_cast<std::uint32_t>(std::stoul(kind.substr(3)))).fill(points, out);
+  else
+    return false;
   while (kind == "equal" && out->size() < points) out->put_again(0);
+  out->keep_first(points);
   return true;
 }
 
