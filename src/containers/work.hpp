@@ -60,7 +60,7 @@ constexpr std::uint64_t kPointBent = 8;
 // What is about to be done may come to so much where clouds are rough: one radius of the floor, the search for walls
 // and another one across the machine, a wall's whole fit with a close look, and its second fit.
 constexpr std::uint64_t kFloorLookedFor = 900000, kWallsLookedFor = 1200000, kAcrossLookedFor = 900000;
-constexpr std::uint64_t kWallFitted = 700000, kWallFittedAgain = 500000;
+constexpr std::uint64_t kWallFitted = 1200000, kWallFittedAgain = 700000;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those
 // around it; two patches of a floor that waves.
 constexpr std::uint64_t kPointRound = 1, kCell = 4, kPatch = 20, kPatchMeasured = 60, kPatchPaired = 300;

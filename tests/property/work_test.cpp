@@ -47,8 +47,9 @@ pose_wall_result frame_of(const test::DearCloud& cloud, const char* work_max) {
 }
 
 // What was thought out, and the dearest that searches found.
-const char* const kDear[] = {"equal", "sphere", "sphere03", "ball03", "spread", "dense", "sheets",
-                             "rough", "apart",  "hash",     "par27",  "par304", "par4",  "par15"};
+const char* const kDear[] = {"equal",  "sphere", "sphere03", "ball03",   "spread",  "dense",
+                             "sheets", "rough",  "apart",    "hash",     "par27",   "par304",
+                             "par4",   "par15",  "par1028",  "climbed0", "climbed1"};
 
 TEST(Work, DearCloudsCostNoMoreThanTwoAndAHalfRoads) {
   for (const std::uint32_t points : {28800U, 65536U, 131072U}) {
