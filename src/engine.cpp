@@ -208,7 +208,8 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   stage_done(POSE_WALL_STAGE_BAND);
   find_walls_if_level(&random, &found);
   found.work = scratch_.walls.fit.work.done();
-  const std::uint32_t of_fits = found.floor.fit.reasons | found.walls.side[0].fit.reasons | found.walls.side[1].fit.reasons;
+  const std::uint32_t of_fits =
+      found.floor.fit.reasons | found.walls.side[0].fit.reasons | found.walls.side[1].fit.reasons;
   found.reasons |= of_fits & POSE_WALL_R_WORK_LIMIT;
   stage_done(POSE_WALL_STAGE_WALLS);
   conclude(cloud.inputs, &found, result);

@@ -107,8 +107,8 @@ def show_growth(plugin, program, folder):
 
 
 def show_dear(plugin, program, folder):
-    """Instructions of clouds that cost most, in roads of as many points, and how many stand for one step of the engine's
-    own count. Fails where one costs more than DEAR_ROADS roads, or steps tell too little of instructions."""
+    """Instructions of clouds that cost most, in roads of as many points, and how many stand for one step of the
+    engine's own count. Fails where one costs more than DEAR_ROADS roads, or steps tell too little of instructions."""
     print_head(["cloud", "points", "voxel_count", "measured", "frame", "roads", "instructions per step"])
     bad = []
     for points in DEAR_POINTS:

@@ -99,6 +99,7 @@ int main(int argc, char** argv) {
   const auto number = [&](int i, std::uint32_t otherwise) {
     return argc > i ? static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)) : otherwise;
   };
-  if (sensor.rfind("dear:", 0) == 0) return pose_wall::bench::run_dear(sensor.substr(5), number(2, 3), number(3, 65536));
+  if (sensor.rfind("dear:", 0) == 0)
+    return pose_wall::bench::run_dear(sensor.substr(5), number(2, 3), number(3, 65536));
   return pose_wall::bench::run(sensor, number(2, 3), number(3, 0));
 }

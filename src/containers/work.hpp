@@ -42,8 +42,8 @@ namespace steps {
 constexpr std::uint64_t kPointRead = 11, kFourSlots = 2, kLink = 1, kVoxelWritten = 15;
 // Outliers: a voxel; one whose neighbours are looked for, and four that are looked at.
 constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kFourLookedAt = 2;
-// Floor: a voxel that is told open or not; an open point within a radius; a hypothesis; a plane that is refined, weighed,
-// and a point that it is weighed by; a point that a fit selects from, and one that goes into its patches.
+// Floor: a voxel that is told open or not; an open point within a radius; a hypothesis; a plane that is refined,
+// weighed, and a point that it is weighed by; a point that a fit selects from, and one that goes into its patches.
 constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 10, kFloorDrawn = 400, kFloorRefined = 4000;
 constexpr std::uint64_t kFloorWeighed = 8000, kPointWeighed = 7, kPointSelected = 8, kPointPatched = 12;
 // Band: a voxel that is turned and cut.
@@ -57,10 +57,10 @@ constexpr std::uint64_t kPointMarked = 1, kWallLookedAt = 100000, kPointLookedAt
 // summed in patches; and one of which it is asked whether the surface bends.
 constexpr std::uint64_t kPointGathered = 2, kPointTaken = 12, kProfile = 30000, kPointByColumn = 12, kPointSummed = 3;
 constexpr std::uint64_t kPointBent = 8;
-// What is about to be done may come to so much where clouds are rough: one radius of the floor, the search for walls and
-// another one across the machine, a wall's whole fit with a close look, and its second fit.
+// What is about to be done may come to so much where clouds are rough: one radius of the floor, the search for walls
+// and another one across the machine, a wall's whole fit with a close look, and its second fit.
 constexpr std::uint64_t kFloorLookedFor = 900000, kWallsLookedFor = 1200000, kAcrossLookedFor = 900000;
-constexpr std::uint64_t kWallFitted = 700000, kWallFittedAgain = 500000;
+constexpr std::uint64_t kWallFitted = 1200000, kWallFittedAgain = 700000;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those
 // around it; two patches of a floor that waves.
 constexpr std::uint64_t kPointRound = 1, kCell = 4, kPatch = 20, kPatchMeasured = 60, kPatchPaired = 300;

@@ -219,7 +219,8 @@ FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings
     if (within.count >= kFloorPointsMin) worth_a_look = kWorthALook * static_cast<double>(within.count);
     POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
     const FloorResult& floor = floors[tried] =
-        floor_within({radius_m, open, within, tried == 0 ? kOpenMost : kOpenMostAgain}, cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch);
+        floor_within({radius_m, open, within, tried == 0 ? kOpenMost : kOpenMostAgain}, cloud_base, settings, axes,
+                     sensor_base_m, last_floor, random, scratch);
     // Of refused ones the widest that got furthest tells why.
     const bool told_more = floors[best].fit.refused && floor.fit.refused && floor.fit.found;
     if (told_more || levels_of(floor, settings).worse() < levels_of(floors[best], settings).worse()) best = tried;

@@ -7,11 +7,11 @@
 
 #include "config.hpp"
 #include "containers/arena.hpp"
+#include "containers/work.hpp"
 #include "estimation/patch_fit.hpp"
 #include "estimation/surface_patches.hpp"
 #include "estimation/tangent_points.hpp"
 #include "estimation/uneven_plane.hpp"
-#include "containers/work.hpp"
 #include "math/random.hpp"
 #include "stages/ground_evidence.hpp"
 #include "types.hpp"

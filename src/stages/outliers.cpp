@@ -39,6 +39,7 @@ class NeighbourCounter {
     std::uint32_t found = 0;  // itself among them
     steps_ += steps::kVoxelLookedAround;
     columns_.for_each_run(i, [&](std::uint32_t begin, std::uint32_t end) {
+      steps_ += kRun;
       while (begin < end && found <= needed_) {
         const std::uint32_t until = end - begin < kAtOnce ? end : begin + kAtOnce;
         found += near_in_run(i, begin, until);
@@ -59,6 +60,7 @@ class NeighbourCounter {
     FourTruths by_1{}, by_2{}, by_3{};
   };
   static constexpr std::uint32_t kAtOnce = 64;
+  static constexpr std::uint64_t kRun = 12;  // steps: its ends are searched for
 
   FourPlaces four_from(std::uint32_t j) const {
     return {load_four(&points_.x[j]), load_four(&points_.y[j]), load_four(&points_.z[j])};
@@ -125,8 +127,8 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
 
 }  // namespace
 
-std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep,
-                              BoundedPoints* points, Work* work) {
+std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep, BoundedPoints* points,
+                              Work* work) {
   work->add(points->count, steps::kVoxelListed);
   const std::uint32_t before = points->count;
   if (settings.outlier_min_neighbors > 0 && before > 0) {

@@ -16,7 +16,7 @@ namespace pose_wall {
 // Drops centroids with fewer than outlier_min_neighbors others within outlier_radius (two leaves where the leaf has
 // grown, or none would have any), keeping the order of the rest, and bounds these. Returns how many went. points: just
 // what the grid has extracted; keep: scratch, one byte per point.
-std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep,
-                              BoundedPoints* points, Work* work);
+std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep, BoundedPoints* points,
+                              Work* work);
 
 }  // namespace pose_wall

@@ -5,8 +5,8 @@
 // room for. That is known when the room is full, which is most of a pass over the cloud, or all of it where somebody
 // wants it so; so the leaf that the last cloud of a sensor needed is tried first with the next one, and a cloud is read
 // four times at most. After a leaf in vain come the next one, the middle of what is left, and the largest. What was
-// skipped is tried by the next clouds, one growth each. Where clouds become thinner the leaf comes down in the same way:
-// at once as far as the voxels would have room even if they filled space, and from there by one growth a cloud.
+// skipped is tried by the next clouds, one growth each. Where clouds become thinner the leaf comes down in the same
+// way: at once as far as the voxels would have room even if they filled space, and from there by one growth a cloud.
 
 #pragma once
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Searches for halls whose frames cost most, by steps: halls drawn at random, and from the dearest of them uphill, one
-// number or a few at a time. The same numbers give the same search. Prints each hall that costs more than all before, as
-// roads of as many points, in the words of support/dear_clouds.hpp; at the end the bounds of sensors.
+// number or a few at a time. The same numbers give the same search. Prints each hall that costs more than all before,
+// as roads of as many points, in the words of support/dear_clouds.hpp; at the end the bounds of sensors.
 //
 //   pose_wall_climb [SEED [HALLS [POINTS]]]
 

@@ -52,6 +52,7 @@ class DearCloud {
   void put_again(std::uint32_t i) {
     if (count_ < kRoom) points_[count_++] = points_[i];
   }
+  void keep_first(std::uint32_t points) { count_ = count_ < points ? count_ : points; }
   std::uint32_t size() const { return count_; }
   pose_wall_cloud at(std::int64_t stamp_ns) const {
     pose_wall_cloud cloud;
@@ -223,23 +224,52 @@ inline void fill_apart(std::uint32_t points, DearCloud* out) {
   while (out->size() < points) out->put(20 * random.uniform() - 10, 2.4, 0.4 + 1.5 * random.uniform());
 }
 
-// By name; false where there is none of that name. parN: the hall of the seed N.
+// What fuzz/climb.cpp found: an engine without a budget takes 2.9 roads for the first.
+inline const Hall kClimbed[] = {
+    {{0.7470, 0.6213, 0.8956, 0.2723, 0.6855, 0.8600, 0.1665, 0.9878, 0.5260, 0.4075, 0.0000, 0.4376, 0.1983, 0.4342,
+      0.3315, 0.9787},
+     115},
+    {{0.9829, 0.8220, 0.6026, 0.7953, 0.5357, 0.9716, 0.3516, 0.2042, 0.0000, 0.1302, 0.3311, 0.5588, 0.6655, 0.9964,
+      0.9543, 0.6316},
+     80},
+};
+
+// By name; false where there is none of that name. parN: the hall of the seed N; climbedN: the N-th that climbing
+// found.
 inline bool fill_dear(const std::string& kind, std::uint32_t points, DearCloud* out) {
   out->clear();
-  if (kind == "road") fill_road(points, out);
-  else if (kind == "equal") fill_shell(3.3, 0.0, 1, out);
-  else if (kind == "sphere") fill_shell(5.0, 0.0, points, out);
-  else if (kind == "sphere03") fill_shell(0.301, 0.0, points, out);
-  else if (kind == "ball03") fill_shell(0.3, 0.2, points, out);
-  else if (kind == "spread") fill_air(20.0, 5.0, points, out);
-  else if (kind == "dense") fill_air(5.0, 4.0, points, out);
-  else if (kind == "sheets") fill_sheets(points, out);
-  else if (kind == "rough") fill_rough(points, out);
-  else if (kind == "apart") fill_apart(points, out);
-  else if (kind == "hash") fill_crowd(points, out);
-  else if (kind.rfind("par", 0) == 0) Hall::drawn(static_cast<std::uint32_t>(std::stoul(kind.substr(3)))).fill(points, out);
-  else return false;
+  if (kind == "road")
+    fill_road(points, out);
+  else if (kind == "equal")
+    fill_shell(3.3, 0.0, 1, out);
+  else if (kind == "sphere")
+    fill_shell(5.0, 0.0, points, out);
+  else if (kind == "sphere03")
+    fill_shell(0.301, 0.0, points, out);
+  else if (kind == "ball03")
+    fill_shell(0.3, 0.2, points, out);
+  else if (kind == "spread")
+    fill_air(20.0, 5.0, points, out);
+  else if (kind == "dense")
+    fill_air(5.0, 4.0, points, out);
+  else if (kind == "sheets")
+    fill_sheets(points, out);
+  else if (kind == "rough")
+    fill_rough(points, out);
+  else if (kind == "apart")
+    fill_apart(points, out);
+  else if (kind == "hash")
+    fill_crowd(points, out);
+  else if (kind == "climbed0")
+    kClimbed[0].fill(points, out);
+  else if (kind == "climbed1")
+    kClimbed[1].fill(points, out);
+  else if (kind.rfind("par", 0) == 0)
+    Hall::drawn(static_cast<std::uint32_t>(std::stoul(kind.substr(3)))).fill(points, out);
+  else
+    return false;
   while (kind == "equal" && out->size() < points) out->put_again(0);
+  out->keep_first(points);
   return true;
 }
 

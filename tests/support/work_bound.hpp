@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The most steps that a frame can take, by its config and the size of its cloud: computed from the caps of the loops, not
-// measured. White box: it reads the caps where they stand.
+// The most steps that a frame can take, by its config and the size of its cloud: computed from the caps of the loops,
+// not measured. White box: it reads the caps where they stand.
 
 #pragma once
 

@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: over sequences of clouds that thicken and thin out, the leaf fits whenever one does and soon is the smallest
-// that fits. It costs one pass a cloud as long as the clouds stay alike, and no sequence of clouds takes more than four.
+// that fits. It costs one pass a cloud as long as the clouds stay alike, and no sequence of clouds takes more than
+// four.
 
 #include "stages/voxel_leaf.hpp"
 

@@ -225,8 +225,11 @@ TEST(Voxel, WhatTheLastCloudNeededIsTriedFirstAndGivesTheSame) {
   EXPECT_TRUE(second.result.leaf_grown);
   EXPECT_EQ(second.result.counts.points_in, 40000U);
   EXPECT_EQ(second.returns, 40000U);
-  // Where there is much less, the leaf is what it would have been, at once.
-  const Voxels after = voxels_of(test::cloud_of(scattered(3, 600, 3, 1), 0), settings, at_origin(), first.result.leaf);
+  // Where there is much less, the leaf is what it would have been, by the second cloud at the latest.
+  const test::Points few = scattered(3, 600, 3, 1);
+  const Voxels between = voxels_of(test::cloud_of(few, 0), settings, at_origin(), first.result.leaf);
+  EXPECT_LT(between.result.leaf_m, first.result.leaf_m);
+  const Voxels after = voxels_of(test::cloud_of(few, 0), settings, at_origin(), between.result.leaf);
   EXPECT_EQ(after.result.leaf_m, settings.voxel_leaf);
   EXPECT_FALSE(after.result.leaf_grown);
 }
