@@ -112,8 +112,8 @@ void visit(Way* way, LevelParts* level) {
 
 template <typename Way>
 void visit(Way* way, Track* t) {
-  visit_all(way, &t->has_value, &t->value, &t->rate, &t->smoothed_frames, &t->raw, &t->raw_protection, &t->sigma, &t->level, &t->grown,
-            &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
+  visit_all(way, &t->has_value, &t->value, &t->rate, &t->smoothed_frames, &t->raw, &t->raw_protection, &t->sigma,
+            &t->level, &t->grown, &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
   LastGood& good = t->good;
   visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.level, &good.grown, &good.age_s);
 }
