@@ -356,22 +356,6 @@ TEST_F(ReplayRing, RecordsOfAnEarlierRunAreNotComputed) {
   EXPECT_TRUE(contains(ran.printed, "of another run: not computed")) << ran.printed;
 }
 
-// Two runs of a box without runs: the same events twice, which no count may come round of.
-TEST_F(ReplayRing, TheSameEventsTwiceAreNotLessThanNone) {
-  const pose_wall::test::Points large(1000, {1, 2, 3}), small(1, {1, 2, 3});
-  Ring first, second;
-  record(Clouds(5, large), Ring::write, &first, kRing, true);
-  record(Clouds(5, small), Ring::write, &second, kRing, true);
-  std::vector<char> both = without_runs(first.bytes);
-  const std::vector<char> newer = without_runs(second.bytes);
-  std::copy(newer.begin(), newer.end(), both.begin());
-  const BoxReplay result = replayed(both);
-  EXPECT_GT(result.records, 5U) << "some of them twice";
-  EXPECT_EQ(result.missing, 0U);
-  EXPECT_EQ(result.left_over, result.records - 5);
-  EXPECT_EQ(result.last_sequence, 4U);
-}
-
 // Heads that all claim the rest of the file: the search within them is given up, and that is told.
 TEST_F(ReplayRing, ForgedHeadsDoNotHoldItUp) {
   Ring ring;

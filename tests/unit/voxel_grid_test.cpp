@@ -312,7 +312,7 @@ TEST(VoxelGrid, MorePointsThanACellCounts) {
 
 // Middles of cells of 0.25 m whose keys begin at three neighbouring slots of the table for so many.
 std::vector<Xyz> points_of_few_slots(std::uint32_t capacity) {
-  constexpr double kLeaf_m = 0.25;
+  constexpr double kEdge_m = 0.25;
   constexpr std::int32_t kReach = 100, kOrigin = 1365;  // cells; the first cell of a grid that reaches 200 m
   std::uint32_t bits = 1;
   while ((1U << bits) < 2 * capacity) ++bits;
@@ -322,7 +322,7 @@ std::vector<Xyz> points_of_few_slots(std::uint32_t capacity) {
       for (std::int32_t z = -4; z < 12 && points.size() < capacity; ++z) {
         const std::uint64_t key = test::key_of(x + kOrigin, y + kOrigin, z + kOrigin);
         if (((key * 0x9E3779B97F4A7C15ULL) >> (64 - bits)) / 3 != 100) continue;
-        points.push_back({(x + 0.5) * kLeaf_m, (y + 0.5) * kLeaf_m, (z + 0.5) * kLeaf_m});
+        points.push_back({(x + 0.5) * kEdge_m, (y + 0.5) * kEdge_m, (z + 0.5) * kEdge_m});
       }
     }
   }
