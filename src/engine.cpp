@@ -194,7 +194,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
                               &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
-  Work work(work_most_of(settings_, found.voxels.counts.points_in));
+  Work work(work_most_of(settings_, found.voxels.returns));
   work.add(found.voxels.work);
   found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base, &work);
   stage_done(POSE_WALL_STAGE_OUTLIERS);

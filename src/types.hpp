@@ -52,6 +52,7 @@ struct LeafMemory {
 
 struct VoxelResult {
   IngestCounts counts;
+  std::uint32_t returns = 0;  // points that hold one
   LeafMemory leaf;
   double leaf_m = 0.0;
   bool leaf_grown = false;

@@ -37,9 +37,9 @@ class Work {
 // Steps of one item.
 namespace steps {
 
-// Reading: a point of the cloud, a pass of it through the table of voxels, by its slots; a branching of a crowded hash;
-// a voxel that is sorted and written.
-constexpr std::uint64_t kPointRead = 11, kFourSlots = 2, kLink = 1, kVoxelWritten = 15;
+// Reading: a return of the cloud, a pass of it through the table of voxels, by its slots; a voxel that is sorted and
+// written. What crowded keys cost more is not counted: it hangs on the order of points, and has a cap for each.
+constexpr std::uint64_t kPointRead = 11, kFourSlots = 2, kVoxelWritten = 15;
 // Outliers: a voxel; one whose neighbours are looked for, and four that are looked at.
 constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kFourLookedAt = 2;
 // Floor: a voxel that is told open or not; an open point within a radius; a hypothesis; a plane that is refined,

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kRadiusGrowth = 2.25;
 constexpr int kRadiusSteps = 6;  // from the least first radius to the greatest last
-// Wider looks fit fewer points: each tells the same floor once more, and together they cost no more than two.
-constexpr std::uint32_t kOpenMost = 2 * kGroundFitPoints, kOpenMostAgain = kOpenMost / 4;
+// Wider looks fit fewer points: each tells the same floor once more.
+constexpr std::uint32_t kOpenMost = 4 * kGroundFitPoints, kOpenMostAgain = kOpenMost / 4;
 // A wider radius with hardly more in it would tell the same once more.
 constexpr double kWorthALook = 1.02;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.

@@ -199,7 +199,9 @@ FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings&
     const Span<std::uint32_t> chosen =
         select(look, scratch->grid, irls.plane, tukey.gate_m, sensor_base_m, scratch->low);
     const Plane before = irls.plane;
-    irls = irls_tukey(look.open_base, thinned(chosen, look.open_most / 2), before, u_hint, tukey, &scratch->points);
+    const std::uint32_t half = look.open_most / 2, room = scratch->points.capacity();
+    const std::uint32_t taken_most = half < room ? half : room;
+    irls = irls_tukey(look.open_base, thinned(chosen, taken_most), before, u_hint, tukey, &scratch->points);
     const std::uint32_t offered = look.open_base.count < look.open_most ? look.open_base.count : look.open_most;
     scratch->work.add(offered, steps::kPointSelected);
     scratch->work.add(irls.work);

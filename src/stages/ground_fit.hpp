@@ -17,7 +17,7 @@ namespace pose_wall {
 struct FloorLook {
   double radius_m;
   const PointSet &open_base, &within_base;
-  std::uint32_t open_most = 2 * kGroundFitPoints;
+  std::uint32_t open_most = 4 * kGroundFitPoints;
 };
 
 // start: the chosen hypothesis.

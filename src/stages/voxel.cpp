@@ -279,6 +279,11 @@ class Pass {
   double mean_intensity_;
 };
 
+// What holds no return is passed over in a few instructions, and whoever hands the cloud over may leave it out.
+std::uint32_t returns_of(const IngestCounts& counts) {
+  return counts.points_in - counts.dropped_not_finite - counts.dropped_zero;
+}
+
 }  // namespace
 
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
@@ -291,9 +296,8 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings,
   do {
     grid->begin(leaf.leaf_m(), reach_of(settings));
     result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts);
-    work.add(result.counts.points_in, steps::kPointRead);
+    work.add(returns_of(result.counts), steps::kPointRead);
     work.add(grid->slots() / kFour, steps::kFourSlots);
-    work.add(grid->crowding(), steps::kLink);
   } while (leaf.goes_on(result.fits, grid->count()));
   result.leaf_m = leaf.leaf_m();
   result.leaf_grown = leaf.has_grown();
@@ -304,6 +308,7 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings,
     result.fingerprint = grid->fingerprint();
     work.add(cloud_base->count, steps::kVoxelWritten);
   }
+  result.returns = returns_of(result.counts);
   result.work = work.done();
   return result;
 }

@@ -28,7 +28,7 @@ constexpr double kLayersLeftOver = 0.5;
 // How much that is, fits between the two tell, on fewer points and without covariance; all they are asked is whether
 // the surface still bends.
 constexpr int kCutsMax = 6;
-constexpr std::uint32_t kCutPointsMax = 2048, kAgainPointsMax = WallPoints::kMost / 2;
+constexpr std::uint32_t kCutPointsMax = 3072, kAgainPointsMax = WallPoints::kMost / 2;
 constexpr int kQuickRounds = 3;
 constexpr std::uint32_t kQuickPointsMax = 500;
 constexpr int kRounds = 8;

@@ -32,8 +32,7 @@ inline std::uint64_t key_bits(const Settings& s) {
 inline std::uint64_t most_of_reading(const Settings& s, std::uint64_t points) {
   std::uint64_t slots = 2;
   while (slots < 2ULL * s.points_max) slots *= 2;
-  const std::uint64_t crowded = VoxelHash::kProbesMost + 2 * key_bits(s);
-  const std::uint64_t a_pass = points * (steps::kPointRead + crowded * steps::kLink) + slots / 4 * steps::kFourSlots;
+  const std::uint64_t a_pass = points * steps::kPointRead + slots / 4 * steps::kFourSlots;
   return LeafSearch::kPassesMost * a_pass + s.points_max * steps::kVoxelWritten;
 }
 

@@ -14,7 +14,7 @@
 #include "roadway.h"
 
 const char* second_pose_wall_version(void);
-int32_t second_pose_wall_config_init(pose_wall_config* config);
+int32_t second_pose_wall_config_init_2(pose_wall_config* config);
 int32_t second_pose_wall_open(const pose_wall_config* config, void* block, uint64_t bytes, pose_wall_engine** engine);
 int32_t second_pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report);
 int32_t second_pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud, pose_wall_result* result);
@@ -56,7 +56,7 @@ static void own_code(void) {
 int main(void) {
   pose_wall_config config, second_config;
   pose_wall_config_init(&config);
-  second_pose_wall_config_init(&second_config);
+  second_pose_wall_config_init_2(&second_config);
   expect(strcmp(pose_wall_version(), second_pose_wall_version()) != 0, "both say they are the same version");
   pose_wall_engine *first = NULL, *second = NULL;
   const uint64_t bytes = sizeof first_block - 64;
