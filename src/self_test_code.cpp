@@ -7,12 +7,14 @@
 
 // Where they begin and end, as tools/cmake/one_object.ld says. Two versions of the archive in one program have symbols
 // of their own, since these are local there. Objects that are linked without the archive have none: NULL.
+// NOLINTBEGIN(readability-identifier-naming): named in a linker script
 extern "C" {
 extern const unsigned char engine_text_begin[] __attribute__((weak));
 extern const unsigned char engine_text_end[] __attribute__((weak));
 extern const unsigned char engine_constants_begin[] __attribute__((weak));
 extern const unsigned char engine_constants_end[] __attribute__((weak));
 }
+// NOLINTEND(readability-identifier-naming)
 
 namespace pose_wall {
 namespace {

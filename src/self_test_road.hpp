@@ -23,6 +23,6 @@ struct SelfTestScene {
 std::uint32_t scan_self_test_road(const SelfTestScene& scene, std::uint32_t frame, float (*points_base_m)[3]);
 
 // How the machine stands in it, by the signs of pose_wall.h and in the order of pose_wall_quantity: rad and m.
-extern const double kSelfTestTruth[7];
+extern const double kSelfTestTruth[7];  // NOLINT(bugprone-dynamic-static-initializers): it is constant
 
 }  // namespace pose_wall

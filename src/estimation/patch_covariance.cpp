@@ -98,6 +98,7 @@ double PatchFit::bend_slope_v_at(double u, double v) const {
 // after it, by their distance. Of more patches than kPairedMost an even share, by which sums over pairs are to be
 // multiplied in the end.
 template <typename Visit>
+// To be split.  NOLINTNEXTLINE(readability-function-cognitive-complexity)
 double PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
   EvenShare share(kPairedMost, n);
   std::uint32_t visited = 0;

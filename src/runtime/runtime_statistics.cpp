@@ -8,6 +8,7 @@
 
 namespace pose_wall::runtime {
 
+// Member by member.  NOLINTNEXTLINE(readability-function-size)
 void Runtime::statistics(pose_wall_runtime_statistics* out) {
   pose_wall_runtime_statistics s{};
   s.struct_size = sizeof(s);

@@ -196,6 +196,7 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   uneven.lay_out(arena);
 }
 
+// To be split.  NOLINTNEXTLINE(readability-function-size,readability-function-cognitive-complexity)
 FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
                        GroundScratch* scratch) {

@@ -256,6 +256,7 @@ bool join_fronts(WallFitScratch* scratch, WallSurface* fit) {
   return true;
 }
 
+// To be split.  NOLINTNEXTLINE(readability-function-size)
 void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit) {
   WallPoints& points = scratch->points;
   const double sensor_m = points.sensor.x();
