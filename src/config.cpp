@@ -286,7 +286,7 @@ double reach_of(const Settings& s) {
 }
 
 std::uint64_t work_most(const Settings& settings) {
-  constexpr std::uint64_t kWhatever = 2'500'000, kPerVoxel = 45;
+  constexpr std::uint64_t kWhatever = 3'050'000, kPerVoxel = 45;
   return settings.work_max > 0 ? settings.work_max : kWhatever + kPerVoxel * settings.points_max;
 }
 
