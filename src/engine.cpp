@@ -158,7 +158,7 @@ void Engine::set_memory(const Memory& memory) {
   seal();
 }
 
-// A cloud that was seen before is as much older as all the rest. Where nobody knows how old, it is forgotten.
+// Clouds that were seen before are forgotten: their stamps are of the other clock.
 void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns) {
   memory_ = memory;
   rebase(elapsed_s, stamp_ns, settings_, &memory_.temporal);
@@ -194,7 +194,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
                               &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
-  Work work(work_most_of(settings_, found.voxels.returns));
+  Work work(work_most(settings_, found.voxels.returns));
   work.add(found.voxels.work);
   found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base, &work);
   stage_done(POSE_WALL_STAGE_OUTLIERS);
@@ -254,7 +254,7 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
     return;
   }
   const Work& work = scratch_.ground.work;
-  if (!work.allows(steps::kFloorLookedFor)) {
+  if (work.is_spent()) {
     POSE_WALL_NOTE(note_work_spent(work));
     refuse_all(POSE_WALL_R_WORK_LIMIT, found);
     return;

@@ -74,15 +74,9 @@ class Engine {
   pose_wall_points points() const;
   std::uint32_t config_crc32() const { return config_crc32_; }
   const Memory& memory() const { return memory_; }
-  // elapsed_s: since memory's stamp, in a clock that has begun anew; not a number: nobody knows.
   void set_memory(const Memory& memory);
+  // elapsed_s: since memory's stamp, in a clock that has begun anew; negative: nobody knows.
   void set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns);
-
-  // How many steps a frame of so many points may take.
-  static std::uint64_t work_most_of(const Settings& settings, std::uint64_t points) {
-    constexpr std::uint64_t kPerPoint = 50;
-    return work_most(settings) + (settings.work_max > 0 ? 0 : kPerPoint * points);
-  }
 
   // From the start of the block: what the sum guards. The rest may hold anything between two calls.
   static std::uint64_t guarded_bytes() { return sizeof(Engine) - sizeof(Scratch); }

@@ -10,6 +10,6 @@
 
 namespace pose_wall {
 
-constexpr std::uint64_t kSelfTestDigest = 0x69B3DFE1D61D5735ULL;
+constexpr std::uint64_t kSelfTestDigest = 0x559F87127410E78CULL;
 
 }  // namespace pose_wall

@@ -41,6 +41,9 @@ class VoxelColumns {
     }
   }
 
+  // How many columns had to be searched for their heights so far.
+  std::uint64_t searched() const { return searched_; }
+
  private:
   std::uint64_t column(std::uint32_t c) const { return VoxelKey::column_of(grid_.key_in_order(begin_[c])); }
   // The first whose key is not less.
@@ -49,12 +52,13 @@ class VoxelColumns {
   // Small ones that follow each other as one run, whatever their height.
   template <typename Visit>
   bool visit_columns(std::uint32_t from, std::uint32_t to, std::uint32_t z_from, std::uint32_t z_to,
-                     const Visit& visit) const {
+                     const Visit& visit) {
     constexpr std::uint32_t kFew = 16;
     for (std::uint32_t c = from; c < to;) {
       std::uint32_t begin = begin_[c], end = begin_[c + 1];
       const std::uint64_t own = column(c++);
       if (end - begin > kFew) {
+        ++searched_;
         begin = first_from(begin, end, VoxelKey::least_of(own, z_from));
         end = first_from(begin, end, VoxelKey::least_of(own, z_to + 1));
       } else {
@@ -70,6 +74,7 @@ class VoxelColumns {
   std::uint32_t count_ = 0;
   std::uint32_t reach_ = 0, z_reach_ = 0;  // columns; cells
   std::uint32_t own_ = 0;
+  std::uint64_t searched_ = 0;
   std::uint32_t cursor_[2 * kReachMost + 1] = {};  // by place along x from the own column's: the next looks begin there
 };
 

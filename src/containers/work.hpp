@@ -3,10 +3,10 @@
 //
 // What a frame has cost so far, in steps that are the same on every machine.
 //
-// Steps are counted where loops over data begin or end, by how many items they take, not inside of them. One stands for
-// about ten instructions of x86-64 or AArch64; bench/work compares the two over ordinary and hostile clouds. A frame
-// that has spent what it may (work_max) goes no further than to the next place that asks, and whatever is not finished
-// by then is refused.
+// Loops over data add their steps where they begin or end, by how many items they take. A step stands for about ten
+// instructions of x86-64 or AArch64: `bench/instructions/count.py --dear` compares the two over ordinary and hostile
+// clouds. A frame that has spent its budget (work_max) stops at the next place that asks. What was finished before then
+// is reported, all else is refused. The count never falls, so whoever asks last also answers for all that came before.
 
 #pragma once
 
@@ -27,8 +27,6 @@ class Work {
   std::uint64_t most() const { return most_; }
   std::uint64_t left() const { return done_ < most_ ? most_ - done_ : 0; }
   bool is_spent() const { return done_ > most_; }
-  // What is about to be done takes about so many steps.
-  bool allows(std::uint64_t steps) const { return done_ <= most_ && steps <= most_ - done_; }
 
  private:
   std::uint64_t done_ = 0, most_ = kNoEnd;
@@ -40,8 +38,9 @@ namespace steps {
 // Reading: a return of the cloud, a pass of it through the table of voxels, by its slots; a voxel that is sorted and
 // written. What crowded keys cost more is not counted: it hangs on the order of points, and has a cap for each.
 constexpr std::uint64_t kPointRead = 11, kFourSlots = 2, kVoxelWritten = 15;
-// Outliers: a voxel; one whose neighbours are looked for, and four that are looked at.
-constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kFourLookedAt = 2;
+// Outliers: a voxel; one whose neighbours are looked for, a column that is searched for its height, and four that are
+// looked at.
+constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kColumnSearched = 16, kFourLookedAt = 2;
 // Floor: a voxel that is told open or not; an open point within a radius; a hypothesis; a plane that is refined,
 // weighed, and a point that it is weighed by; a point that a fit selects from, and one that goes into its patches.
 constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 10, kFloorDrawn = 400, kFloorRefined = 4000;
@@ -51,16 +50,12 @@ constexpr std::uint64_t kVoxelLevelled = 8;
 // Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis; a plane that
 // is refined, weighed, and a point of the band that it is weighed by; what is looked at about a wall that was fitted,
 // and a point of the band for it.
-constexpr std::uint64_t kPointParted = 8, kPointSided = 1, kWallDrawn = 350, kWallRefined = 7000, kWallWeighed = 5000;
-constexpr std::uint64_t kPointMarked = 1, kWallLookedAt = 100000, kPointLookedAt = 6;
+constexpr std::uint64_t kPointParted = 12, kPointSided = 1, kWallDrawn = 350, kWallRefined = 7000, kWallWeighed = 5000;
+constexpr std::uint64_t kPointMarked = 2, kWallLookedAt = 150000, kPointLookedAt = 11;
 // A fit of a wall: a point of the band for it, one that is taken; a profile of strips; a point that is told by columns,
 // summed in patches; and one of which it is asked whether the surface bends.
 constexpr std::uint64_t kPointGathered = 2, kPointTaken = 12, kProfile = 30000, kPointByColumn = 12, kPointSummed = 3;
 constexpr std::uint64_t kPointBent = 8;
-// What is about to be done may come to so much where clouds are rough: one radius of the floor, the search for walls
-// and another one across the machine, a wall's whole fit with a close look, and its second fit.
-constexpr std::uint64_t kFloorLookedFor = 900000, kWallsLookedFor = 1200000, kAcrossLookedFor = 900000;
-constexpr std::uint64_t kWallFitted = 1200000, kWallFittedAgain = 700000;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those
 // around it; two patches of a floor that waves.
 constexpr std::uint64_t kPointRound = 1, kCell = 4, kPatch = 20, kPatchMeasured = 60, kPatchPaired = 300;

@@ -182,6 +182,61 @@ void reach_to_upright(FloorResult* floor) {
   floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += tilt_rad;
 }
 
+// The floor within one radius after another.
+struct Looks {
+  FloorResult at[kRadiusSteps];
+  int tried = 0, best = 0;
+
+  Looks() {
+    for (FloorResult& floor : at) floor.fit.refused = true;
+  }
+
+  void add(const FloorResult& seen, const Settings& s) {
+    at[tried] = seen;
+    // Of refused ones the widest that got furthest tells why.
+    const bool tells_more = at[best].fit.refused && seen.fit.refused && seen.fit.found;
+    if (tells_more || levels_of(seen, s).worse() < levels_of(at[best], s).worse()) best = tried;
+    ++tried;
+  }
+
+  // The best, with levels that reach to what the others say.
+  FloorResult taken(const Settings& s) const {
+    FloorResult out = at[best];
+    std::uint32_t claims = 0;
+    for (const FloorResult& other : at) {
+      reach_to_other(other, s, &out);
+      claims += other.fit.refused ? 0U : 1U;
+    }
+    // The first radius is the configured one: it was not picked for its claim.
+    if (best > 0) widen(s, claims, &out);
+    return out;
+  }
+};
+
+// Wider and wider, until a floor is good enough.
+void look_wider(const BoundedPoints& cloud_base, const Settings& s, const Axes& axes,
+                const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random, GroundScratch* scratch,
+                Looks* looks) {
+  const PointSet& open = scratch->open_base;
+  double worth_a_look = 0.0;  // so many points
+  const double good_enough = kGoodEnough * radians(s.alert_limit_angle_deg);
+  double radius_m = s.ground_roi_radius;
+  bool widest = false;
+  for (; !widest && looks->tried < kRadiusSteps && !scratch->work.is_spent(); radius_m *= kRadiusGrowth) {
+    widest = !(radius_m < s.ground_roi_radius_max);
+    if (widest) radius_m = s.ground_roi_radius_max;
+    if (!widest) copy_within(open, radius_m, &scratch->within_base);
+    const PointSet& within = widest ? open : scratch->within_base;
+    if (static_cast<double>(within.count) < worth_a_look) continue;
+    if (within.count >= kFloorPointsMin) worth_a_look = kWorthALook * static_cast<double>(within.count);
+    POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(looks->tried), radius_m));
+    const FloorLook look{radius_m, open, within, looks->tried == 0 ? kOpenMost : kOpenMostAgain};
+    looks->add(floor_within(look, cloud_base, s, axes, sensor_base_m, last_floor, random, scratch), s);
+    scratch->work.add(open.count + within.count, steps::kPointWithin / 2);
+    if (levels_of(looks->at[looks->best], s).worse() <= good_enough) return;
+  }
+}
+
 }  // namespace
 
 void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
@@ -196,58 +251,25 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   uneven.lay_out(arena);
 }
 
-// To be split.  NOLINTNEXTLINE(readability-function-size,readability-function-cognitive-complexity)
 FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
                        GroundScratch* scratch) {
-  const PointSet& open = scratch->open_base;
   scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->low,
                           &scratch->open_base);
   scratch->work.add(cloud_base.count, steps::kVoxelOpened);
-  FloorResult floors[kRadiusSteps];
-  for (FloorResult& floor : floors) floor.fit.refused = true;
-  int tried = 0, best = 0;
-  bool unfinished = false;
-  double worth_a_look = 0.0;  // so many points
-  const double good_enough = kGoodEnough * radians(settings.alert_limit_angle_deg);
-  double radius_m = settings.ground_roi_radius;
-  for (bool widest = false; !widest && tried < kRadiusSteps; radius_m *= kRadiusGrowth) {
-    widest = !(radius_m < settings.ground_roi_radius_max);
-    if (widest) radius_m = settings.ground_roi_radius_max;
-    if (!widest) copy_within(open, radius_m, &scratch->within_base);
-    const PointSet& within = widest ? open : scratch->within_base;
-    if (static_cast<double>(within.count) < worth_a_look) continue;
-    if (within.count >= kFloorPointsMin) worth_a_look = kWorthALook * static_cast<double>(within.count);
-    POSE_WALL_NOTE(trace::floor_radius(static_cast<std::uint32_t>(tried), radius_m));
-    const FloorResult& floor = floors[tried] =
-        floor_within({radius_m, open, within, tried == 0 ? kOpenMost : kOpenMostAgain}, cloud_base, settings, axes,
-                     sensor_base_m, last_floor, random, scratch);
-    // Of refused ones the widest that got furthest tells why.
-    const bool told_more = floors[best].fit.refused && floor.fit.refused && floor.fit.found;
-    if (told_more || levels_of(floor, settings).worse() < levels_of(floors[best], settings).worse()) best = tried;
-    ++tried;
-    scratch->work.add(open.count + within.count, steps::kPointWithin / 2);
-    if (levels_of(floors[best], settings).worse() <= good_enough) break;
-    unfinished = !widest && !scratch->work.allows(steps::kFloorLookedFor);
-    if (unfinished) break;
-  }
-  POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(best)));
-  FloorResult out = floors[best];
-  std::uint32_t claims = 0;
-  for (const FloorResult& other : floors) {
-    reach_to_other(other, settings, &out);
-    claims += other.fit.refused ? 0U : 1U;
-  }
-  // The first radius is the configured one: it was not picked for its claim.
-  if (best > 0) widen(settings, claims, &out);
-  unfinished = unfinished || (!out.fit.refused && !scratch->work.allows(steps::kFloorLookedFor));
-  if (!out.fit.refused && !unfinished) {
+  Looks looks;
+  look_wider(cloud_base, settings, axes, sensor_base_m, last_floor, random, scratch, &looks);
+  POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(looks.best)));
+  FloorResult out = looks.taken(settings);
+  if (!out.fit.refused && !scratch->work.is_spent()) {
     reach_to_floors_beside(cloud_base, settings, axes, sensor_base_m, random, scratch, &out);
   }
   reach_to_upright(&out);
   // What another look would have shown is not known: a rival, or that the floor is another one.
-  if (unfinished) out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
-  POSE_WALL_NOTE(if (unfinished) note_floor_unfinished(scratch->work, static_cast<std::uint32_t>(best)));
+  if (scratch->work.is_spent()) {
+    out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
+    POSE_WALL_NOTE(note_floor_unfinished(scratch->work, static_cast<std::uint32_t>(looks.best)));
+  }
   return out;
 }
 

@@ -129,6 +129,7 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
   scratch->grid.mark(open, plane, s.ground_ransac_thresh);
   const RollPitch a = roll_pitch_of_up(plane.n);
   for (const FloorCandidate& other : found.all()) {
+    if (scratch->work.is_spent()) return;
     scratch->work.add(open.count, steps::kPointWeighed);
     if (other.ghost || is_reflection(open, plane, other.plane, s, sensor_base_m, scratch->grid)) continue;
     if (!may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;

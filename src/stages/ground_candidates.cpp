@@ -59,7 +59,7 @@ void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShor
   for_even_share(within.count, kQuickPointsMax, [&](std::uint32_t k) { scratch->low[of_part++] = k; });
   const Span<const std::uint32_t> part = scratch->low.first(of_part);
   out->count = 0;
-  for (std::uint32_t k = 0; k < list->count(); ++k) {
+  for (std::uint32_t k = 0; k < list->count() && !scratch->work.is_spent(); ++k) {
     const IrlsResult refined =
         irls_tukey(within, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
     scratch->work.add(steps::kFloorRefined);
@@ -96,6 +96,7 @@ void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3
     if (above.evidence.area_m2 < kFloorAreaMin_m2) continue;
     bool marked = false;
     for (FloorCandidate& below : candidates) {
+      if (scratch->work.is_spent()) return;
       if (!is_below(above.plane, below.plane, sensor)) continue;
       scratch->work.add(within.count, steps::kPointWeighed);
       if (!marked) scratch->grid.mark(within, above.plane, s.ground_ransac_thresh);

@@ -205,10 +205,14 @@ FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings&
     const std::uint32_t offered = look.open_base.count < look.open_most ? look.open_base.count : look.open_most;
     scratch->work.add(offered, steps::kPointSelected);
     scratch->work.add(irls.work);
-    if (!irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
+    if (scratch->work.is_spent() || !irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   out.fit.plane = irls.plane;
+  if (scratch->work.is_spent()) {
+    out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
+    return out;
+  }
   if (irls.solved) fill_patches(irls, look.radius_m, sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();

@@ -51,7 +51,7 @@ class NeighbourCounter {
     return found > needed_;
   }
 
-  std::uint64_t steps_done() const { return steps_; }
+  std::uint64_t steps_done() const { return steps_ + columns_.searched() * steps::kColumnSearched; }
 
  private:
   static constexpr std::uint32_t kLook = 3;

@@ -43,27 +43,17 @@ void note_explained(double share, bool explained) {
 }
 #endif
 
-void note_unfinished([[maybe_unused]] int side, [[maybe_unused]] const Work& work) {
-  POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WORK, static_cast<double>(work.done()),
-                                static_cast<double>(work.most()), false));
-}
-
 // Nothing is reported of a machine that stands across the road, nor of one that may, as long as nobody has looked.
 void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* scratch, WallChoice* choice) {
+  if (scratch->fit.work.is_spent()) return;
   const double most_m2 = choice->any() ? most_area_across_m2(scene) : 0.0;
   if (!may_stand_across(2.0 * most_m2, *choice)) return;
-  for (int side = 0; side < 2 && !scratch->fit.work.allows(steps::kAcrossLookedFor); ++side) {
-    note_unfinished(side, scratch->fit.work);
-    choice->refused[side] = true;
-    choice->reasons[side] |= POSE_WALL_R_WORK_LIMIT;
-    choice->side[side] = nullptr;
-  }
-  if (!scratch->fit.work.allows(steps::kAcrossLookedFor)) return;
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView ends[2] = {{l, f}, {l, -f}};
   WallCandidates ahead, behind;
   draw_walls(scene, ends[0], nullptr, random, &scratch->search[0]);
   weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
+  if (scratch->fit.work.is_spent()) return;
   // With the most that could be behind, what is ahead may still be too little.
   const WallCandidate* const best = strongest(ahead);
   if (!is_behind_to_be_drawn(best != nullptr ? best->evidence.score_m2 : 0.0, most_m2, *choice)) return;
@@ -74,11 +64,19 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   refuse_if_across(ahead, behind, scene.settings, choice);
 }
 
-WallResult unfinished(int side, const Work& work) {
+WallResult unfinished([[maybe_unused]] int side, [[maybe_unused]] const Work& work) {
   WallResult wall;
   wall.fit.refuse(POSE_WALL_R_WORK_LIMIT);
-  note_unfinished(side, work);
+  POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WORK, static_cast<double>(work.done()),
+                                static_cast<double>(work.most()), false));
   return wall;
+}
+
+// Planes that nobody weighed may be the better walls.
+WallsResult both_unfinished(const Work& work) {
+  WallsResult none;
+  for (int side = 0; side < 2; ++side) none.side[side] = unfinished(side, work);
+  return none;
 }
 
 WallResult measure(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
@@ -86,11 +84,11 @@ WallResult measure(const WallScene& scene, const SideView& view, const WallChoic
   const Settings& s = scene.settings;
   const WallCandidate& chosen = *choice.side[side];
   Work& work = scratch->fit.work;
-  if (!work.allows(steps::kWallFitted)) return unfinished(side, work);
+  if (work.is_spent()) return unfinished(side, work);
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
-  if (surface.unfinished) return unfinished(side, work);
   work.add(steps::kWallLookedAt);
   work.add(scene.band_level.count, steps::kPointLookedAt);
+  if (work.is_spent()) return unfinished(side, work);
   WallResult wall = measure_wall(scene, surface, side, scratch->grid);
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
@@ -160,11 +158,6 @@ double explained_share(const WallScene& scene, const WallChoice& choice) {
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
   const SideView sides[2] = {{f, l}, {f, -l}};
-  if (!scratch->fit.work.allows(steps::kWallsLookedFor)) {
-    WallsResult none;
-    for (int side = 0; side < 2; ++side) none.side[side] = unfinished(side, scratch->fit.work);
-    return none;
-  }
   thin_out(scene, &scratch->thin_level);
   scratch->fit.work.add(scene.band_level.count, steps::kPointParted);
   WallCandidates beside[2];
@@ -175,6 +168,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const std::uint32_t scored[2] = {scratch->search[0].scored(), scratch->search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
   refuse_where_across(scene, random, scratch, &choice);
+  if (scratch->fit.work.is_spent()) return both_unfinished(scratch->fit.work);
 
   note_directions(scene, &scratch->sight);
   const bool explained = explained_share(scene, choice) >= kExplainedMin;

@@ -75,7 +75,7 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
   out->count = 0;
   scratch->fit.work.add(scene.band_level.count, steps::kPointSided);
   scratch->fit.work.add(search->scored(), steps::kWallDrawn);
-  for (std::uint32_t k = 0; k < search->list().count(); ++k) {
+  for (std::uint32_t k = 0; k < search->list().count() && !scratch->fit.work.is_spent(); ++k) {
     Plane plane = search->list()[k].plane;
     POSE_WALL_NOTE(note_drawn_wall(plane));
     if (!refine(RefineWidth::kWide, &plane)) continue;

@@ -143,6 +143,7 @@ void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   PlaneOver start = fit->irls.over;
   start.offset_m += layers.centre_m;
   fit->irls = irls_tukey(points.at, points.at.count, start, settings);
+  scratch->work.add(fit->irls.work);
   layers.centre_m = 0.0;  // by the new plane
   fit->layers = layers;
 }
@@ -239,7 +240,7 @@ bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSur
     const Eigen::Vector3d moved = joint->patch.correction.cwiseAbs();
     const bool stands_still =
         moved[0] < rounds.offset_stands_still_m && moved.tail<2>().maxCoeff() < rounds.slopes_stand_still;
-    if (stands_still || round == rounds.most) return true;
+    if (stands_still || round == rounds.most || scratch->work.is_spent()) return true;
     joint->irls.over = joint->over();
   }
 }
@@ -256,7 +257,38 @@ bool join_fronts(WallFitScratch* scratch, WallSurface* fit) {
   return true;
 }
 
-// To be split.  NOLINTNEXTLINE(readability-function-size)
+namespace {
+
+// What the fit of one ring leaves for the next.
+struct LastRing {
+  PlaneOver surface_alone, left_off;
+  bool had_fronts = false;
+};
+
+// Fits the wall by what the columns say so far: the surface alone, then with the fronts of the strips. False where the
+// surface cannot be told.
+bool fit_ring(const IrlsSettings& step, WallFitScratch* scratch, LastRing* last, WallSurface* fit) {
+  WallPoints& points = scratch->points;
+  points.copy_surface();
+  fit->irls = irls_tukey(points.surface, points.surface.count, last->surface_alone, step);
+  scratch->work.add(fit->irls.work);
+  if (!fit->irls.solved) return false;
+  fit->strips = &scratch->strips;
+  last->surface_alone = fit->irls.over;
+  // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
+  WallSurface next = *fit;
+  if (last->had_fronts) next.irls.over = last->left_off;
+  last->had_fronts = fit_with_fronts(kOfARing, scratch, &next);
+  if (!last->had_fronts) {
+    next = *fit;
+    fit_patches(PatchGrid::Errors::kPlaneOnly, scratch, &next);
+  }
+  if (next.patch.solved) fit->irls.over = last->left_off = next.over();
+  return true;
+}
+
+}  // namespace
+
 void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, WallSurface* fit) {
   WallPoints& points = scratch->points;
   const double sensor_m = points.sensor.x();
@@ -271,9 +303,10 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   double reach_m = kSeenWithin * away_m;
   IrlsSettings step = settings;
   step.rounds = kStepRounds;
-  PlaneOver surface_alone = fit->irls.over, left_off;
-  bool had_fronts = false, marked = false;  // marked: the points know what the columns say
-  for (int ring = 0; ring < kRings; ++ring, reach_m *= 2.0) {
+  LastRing last;
+  last.surface_alone = fit->irls.over;
+  bool marked = false;  // the points know what the columns say
+  for (int ring = 0; ring < kRings && !scratch->work.is_spent(); ++ring, reach_m *= 2.0) {
     const double added = ring > 0 ? strips.judge(fit->irls.over, sensor_m, reach_m) : 1.0;
     if (ring > 0) scratch->work.add(steps::kProfile);
     if (added > 0.0) marked = false;
@@ -281,21 +314,7 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
     points.mark_columns(strips, scratch->near);
     scratch->work.add(points.at.count, steps::kPointByColumn);
     marked = true;
-    points.copy_surface();
-    fit->irls = irls_tukey(points.surface, points.surface.count, surface_alone, step);
-    scratch->work.add(fit->irls.work);
-    if (!fit->irls.solved) return;
-    fit->strips = &strips;
-    surface_alone = fit->irls.over;
-    // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
-    WallSurface next = *fit;
-    if (had_fronts) next.irls.over = left_off;
-    had_fronts = fit_with_fronts(kOfARing, scratch, &next);
-    if (!had_fronts) {
-      next = *fit;
-      fit_patches(PatchGrid::Errors::kPlaneOnly, scratch, &next);
-    }
-    if (next.patch.solved) fit->irls.over = left_off = next.over();
+    if (!fit_ring(step, scratch, &last, fit)) return;
   }
   if (!marked) points.mark_columns(strips, scratch->near);
 }

@@ -48,7 +48,6 @@ struct WallSurface {
   StripFronts fronts;
   TwoLayers layers;            // without strips: what else stands out of it, point by point
   double layer_sigma_m = 0.0;  // what stands out may have moved the surface by this
-  bool unfinished = false;     // the frame's work was spent
   bool grooved = false;        // along its length, like pipes one above the other
   Heights heights{0.0, 0.0};   // where it is one plane
   PatchFit patch;              // corrects irls.over; not solved: there is no surface

@@ -93,6 +93,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   scratch->work.add(fit.irls.work);
   if (!fit.irls.solved) return fit;
   set_strips_apart(settings, scratch, &fit);
+  if (scratch->work.is_spent()) return fit;
   // Before the layers: the fronts of pipes may be taken for the nearer one.
   fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
@@ -170,10 +171,9 @@ WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* gr
   mark_wall(scene, start, along, MarkWidth::kFit, grid);
   Heights heights{scene.z_min_level_m, scene.z_max_level_m};
   WallSurface fit = fit_between(scene, start, along, heights, WallPoints::kMost, *grid, scratch);
-  if (fit.patch.solved && cut_bent_rows(fit, &heights)) {
+  if (fit.patch.solved && !scratch->work.is_spent() && cut_bent_rows(fit, &heights)) {
     cut(scene, fit, start, along, *grid, scratch, &heights);
-    fit.unfinished = !scratch->work.allows(steps::kWallFittedAgain);
-    if (fit.unfinished) return fit;
+    if (scratch->work.is_spent()) return fit;
     fit = fit_between(scene, start, along, heights, kAgainPointsMax, *grid, scratch);
   }
   mark_wall(scene, fit.irls_plane(), along, MarkWidth::kThreshold, grid);

@@ -6,34 +6,25 @@
 
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 
 #include "config.hpp"
-#include "containers/voxel_hash.hpp"
 #include "containers/work.hpp"
-#include "engine.hpp"
 #include "estimation/patch_fit.hpp"
 #include "estimation/surface_patches.hpp"
 #include "stages/ground.hpp"
-#include "stages/ground_search.hpp"
 #include "stages/voxel_leaf.hpp"
 #include "stages/walls_points.hpp"
-#include "stages/walls_search.hpp"
 
 namespace pose_wall::test {
 
-// Bits in which the cells of one frame can differ.
-inline std::uint64_t key_bits(const Settings& s) {
-  const double cells = 2.0 * reach_of(s) / s.voxel_leaf;
-  return 3 * static_cast<std::uint64_t>(std::ceil(std::log2(cells)) + 1.0);
-}
-
+// All passes over the cloud, up to where the outliers may be stopped.
 inline std::uint64_t most_of_reading(const Settings& s, std::uint64_t points) {
   std::uint64_t slots = 2;
   while (slots < 2ULL * s.points_max) slots *= 2;
   const std::uint64_t a_pass = points * steps::kPointRead + slots / 4 * steps::kFourSlots;
-  return LeafSearch::kPassesMost * a_pass + s.points_max * steps::kVoxelWritten;
+  return LeafSearch::kPassesMost * a_pass + s.points_max * (steps::kVoxelWritten + steps::kVoxelListed);
 }
 
 inline std::uint64_t most_of_patches() {
@@ -41,43 +32,42 @@ inline std::uint64_t most_of_patches() {
   return kAll * (steps::kCell + steps::kPatch + steps::kPatchMeasured) + 384 * steps::kPatchPaired;
 }
 
-// One radius of the floor, with what it began with and what is looked for beside it: nobody asks in between.
-inline std::uint64_t most_of_a_floor(const Settings& s) {
+// The most steps of the floor from one place that asks whether the work is spent to the next one.
+inline std::uint64_t most_of_a_floor_piece(const Settings& s) {
   const std::uint64_t voxels = s.points_max, waved = SurfacePatches::kMost;
-  const std::uint64_t search =
-      (s.ground_iterations + 1) * steps::kFloorDrawn +
-      kFloorShortlist * (steps::kFloorRefined + steps::kFloorWeighed + 2 * voxels * steps::kPointWeighed);
-  const std::uint64_t selection = 2ULL * kGroundFitPoints * steps::kPointSelected + 5ULL * kGroundFitPoints;
-  const std::uint64_t fit = 3 * selection + kGroundFitPoints * steps::kPointPatched + most_of_patches() +
-                            waved * waved * steps::kPatchesWaved;
-  const std::uint64_t beside = search + voxels * (steps::kPointWithin + kFloorShortlist * steps::kPointWeighed);
-  return voxels * (steps::kVoxelOpened + steps::kPointWithin) + search + fit + beside;
+  const std::uint64_t around = voxels / 4 * steps::kFourLookedAt + steps::kVoxelLookedAround;  // one last outlier
+  const std::uint64_t drawn = (s.ground_iterations + 1) * steps::kFloorDrawn;
+  const std::uint64_t weighed = steps::kFloorRefined + voxels * steps::kPointWeighed + steps::kFloorWeighed;
+  const std::uint64_t selected = 2ULL * kGroundFitPoints * steps::kPointSelected + 5ULL * kGroundFitPoints;
+  const std::uint64_t patched = kGroundFitPoints * steps::kPointPatched + most_of_patches() +
+                                waved * waved * steps::kPatchesWaved + voxels * steps::kPointWithin;
+  const std::uint64_t beside = voxels * steps::kPointWithin + drawn;
+  return std::max({around + voxels * steps::kVoxelOpened, drawn + weighed, selected, patched, beside + weighed});
 }
 
-// Up to where the walls that are chosen are to be fitted.
-inline std::uint64_t most_of_wall_search(const Settings& s) {
+// As of the floor.
+inline std::uint64_t most_of_a_wall_piece(const Settings& s) {
+  constexpr std::uint64_t kAll = WallPoints::kMost, kRounds = 8, kStepRounds = 4;
   const std::uint64_t band = s.points_max;
-  const std::uint64_t side = band * steps::kPointSided + (s.wall_iterations + 6ULL) * steps::kWallDrawn +
-                             kWallShortlist * (2 * steps::kWallRefined + steps::kWallWeighed + band);
-  return band * (steps::kVoxelLevelled + steps::kPointParted) + 5 * side;  // both sides, ahead twice, and behind
+  const std::uint64_t drawn = band * steps::kPointSided + (s.wall_iterations + 6ULL) * steps::kWallDrawn;
+  const std::uint64_t weighed = 2 * steps::kWallRefined + steps::kWallWeighed + band * steps::kPointMarked;
+  const std::uint64_t search = band * (steps::kVoxelLevelled + steps::kPointParted) + 2 * drawn + weighed;
+  const std::uint64_t joint = kAll * steps::kPointSummed + PatchGrid::kCapacity * (steps::kCell + steps::kPatch);
+  const std::uint64_t gathered = band * steps::kPointGathered + kAll * steps::kPointTaken;
+  const std::uint64_t ring =
+      steps::kProfile + kAll * (steps::kPointByColumn + kStepRounds * steps::kPointRound) + joint;
+  const std::uint64_t cut =
+      kAll * (steps::kPointByColumn + steps::kPointBent + kRounds * steps::kPointRound) + joint + most_of_patches();
+  const std::uint64_t begun = gathered + kAll * kRounds * steps::kPointRound + steps::kProfile + ring;
+  const std::uint64_t ended = kAll * kRounds * steps::kPointRound + joint + 2 * most_of_patches() +
+                              steps::kWallLookedAt + band * steps::kPointLookedAt;
+  return std::max({search, begun, gathered + cut, ended});
 }
 
-// One wall after it was asked for: cuts, the second fit and a close look.
-inline std::uint64_t most_of_a_wall(const Settings& s) {
-  constexpr std::uint64_t kAll = WallPoints::kMost, kRings = 4, kRingRounds = 3, kLastRounds = 8, kCuts = 5;
-  const std::uint64_t joint = 3 * kAll + PatchGrid::kCapacity * (steps::kCell + steps::kPatch);
-  const std::uint64_t gathered = s.points_max * steps::kPointGathered + kAll * steps::kPointTaken;
-  const std::uint64_t ring = steps::kProfile + kAll * steps::kPointByColumn + 8 * kAll + kRingRounds * joint;
-  const std::uint64_t fit = gathered + 2 * 8 * kAll + (kRings + 1) * ring + kLastRounds * joint + 2 * most_of_patches();
-  const std::uint64_t cut = kAll * (steps::kPointByColumn + steps::kPointBent + 8) + joint;
-  return 2 * fit + gathered + kCuts * cut + steps::kWallLookedAt + s.points_max * steps::kPointLookedAt;
-}
-
+// Whoever begins a piece has spent no more than the budget.
 inline std::uint64_t most_of_a_frame(const Settings& s, std::uint64_t points) {
-  std::uint64_t step = most_of_a_floor(s);
-  for (const std::uint64_t other : {most_of_wall_search(s), most_of_a_wall(s)}) step = other > step ? other : step;
-  const std::uint64_t reading = most_of_reading(s, points), allowed = Engine::work_most_of(s, points);
-  return (reading > allowed ? reading : allowed) + step;
+  const std::uint64_t begun = std::max(most_of_reading(s, points), work_most(s, points));
+  return begun + std::max(most_of_a_floor_piece(s), most_of_a_wall_piece(s));
 }
 
 }  // namespace pose_wall::test
