@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright (c) 2026 the pose_wall authors */
 
+/* clang-format off */
 /*
  * pose_wall: how a tunnelling machine stands in its roadway, from one 3D LiDAR.
  *
@@ -29,17 +30,21 @@
  *          roll is the driver's pitch and pitch the driver's roll. Distances are >= 0.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
  * MEMORY   only the caller's block, and less than 32 kB of stack. No call here allocates, blocks, prints, reads a clock
- * or throws. THREADS  one engine belongs to one thread at a time; different engines are independent. A call that finds
- * another one inside its engine is refused (POSE_WALL_E_BUSY). There are no globals. STRUCTS  every struct that begins
- * with struct_size grows at its end only. A library takes structs of any earlier header of its ABI: it reads what is
- * missing as zero and writes no further than struct_size. It refuses a later one's (POSE_WALL_E_STRUCT_NEWER). TIME
- * every loop over live data has a cap from the config: the worst case is bounded by points_max, the two iteration caps
- * and the size of the incoming cloud. ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a
- * negative pose_wall_status. A refused call changes nothing. "I was called wrongly" is a status; "I looked and could
- * not measure" is not an error: the call returns POSE_WALL_OK and the states and reasons in the result tell it. FLOATS
- * IEEE 754 without fast-math; the same version and input give the same bits, on x86-64 and AArch64, by GCC and Clang,
- * whatever the block held before.
+ *          or throws.
+ * THREADS  one engine belongs to one thread at a time; different engines are independent. A call that finds another one
+ *          inside its engine is refused (POSE_WALL_E_BUSY). There are no globals.
+ * STRUCTS  every struct that begins with struct_size grows at its end only. A library takes structs of any earlier
+ *          header of its ABI: it reads what is missing as zero and writes no further than struct_size. It refuses a
+ *          later one's (POSE_WALL_E_STRUCT_NEWER).
+ * TIME     every loop over live data has a cap from the config. A frame that would take more than work_max steps ends
+ *          early, and what is not finished is refused (POSE_WALL_R_WORK_LIMIT). bench/README.md has the bound.
+ * ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a negative pose_wall_status. A refused call
+ *          changes nothing. "I was called wrongly" is a status; "I looked and could not measure" is not an error: the
+ *          call returns POSE_WALL_OK, and the states and reasons in the result tell it.
+ * FLOATS   IEEE 754 without fast-math; the same version and input give the same bits, on x86-64, AArch64 and ARMv7, by
+ *          GCC and Clang, whatever the block held before.
  */
+/* clang-format on */
 
 #ifndef POSE_WALL_H
 #define POSE_WALL_H
@@ -97,7 +102,7 @@ enum pose_wall_status {
   POSE_WALL_E_BUSY = -9,          /* another call is inside this engine, or inside the one that lives in this block */
   POSE_WALL_E_ABI = -10,          /* the program was built against the header of ABI 1: build it anew */
   POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer pose_wall.h than the library that is linked */
-  POSE_WALL_E_INPUT = -12, /* pose_wall_inputs or pose_wall_moment: an unknown bit, or a member out of its range */
+  POSE_WALL_E_INPUT = -12,        /* an unknown bit in pose_wall_inputs or pose_wall_moment */
 
   /* configuration */
   POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
@@ -279,17 +284,19 @@ enum pose_wall_input {
 #define POSE_WALL_INPUT_BOXES 4
 
 /* What the machine knows of itself since the last frame. All of it is optional, and none is believed against what is
- * measured: inputs that contradict each other or the measurements are left out of the frame (POSE_WALL_R_PRIOR).
- * Where they are used, held values age by them, and not by hold_rate_angle and hold_rate_distance: while the machine
- * stands still nothing ages; a held yaw turns with turn_rate_rad_s; what is uncertain grows by protection_factor sigma.
+ * measured: motion that contradicts itself or the measurements, or is out of range, is not used, and neither is a box
+ * out of range. The frame then says POSE_WALL_R_PRIOR; sound boxes were applied all the same.
+ * Where motion is used, held values age by it, and not by hold_rate_angle and hold_rate_distance: while the machine
+ * stands still no level grows (age_s still does); a held yaw turns with turn_rate_rad_s; levels grow by
+ * protection_factor sigma.
  */
 typedef struct pose_wall_inputs {
-  uint32_t struct_size;                      /* sizeof(pose_wall_inputs) */
-  uint32_t given;                            /* pose_wall_input bits; of the members below the others are not read */
-  double speed_m_s;                          /* along forward_axis, negative backwards; -50 to 50 */
-  double speed_sigma_m_s;                    /* its standard deviation; above 0, to 50 */
-  double turn_rate_rad_s;                    /* about +Z of base, positive to the left; -10 to 10 */
-  double turn_rate_sigma_rad_s;              /* its standard deviation; above 0, to 10 */
+  uint32_t struct_size;         /* sizeof(pose_wall_inputs) */
+  uint32_t given;               /* pose_wall_input bits; members whose bit is not set are not read, but body_box is */
+  double speed_m_s;             /* along forward_axis, negative backwards; -50 to 50 */
+  double speed_sigma_m_s;       /* its standard deviation; above 0, to 50 */
+  double turn_rate_rad_s;       /* about +Z of base, positive to the left; -10 to 10 */
+  double turn_rate_sigma_rad_s; /* its standard deviation; above 0, to 10 */
   double body_box[POSE_WALL_INPUT_BOXES][6]; /* beside the config's: where the boom is in this frame, in base, as
                                                 body_box_1: x_min x_max y_min y_max z_min z_max. All zero: none */
 } pose_wall_inputs;
@@ -300,7 +307,7 @@ int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t
                               int64_t stamp_ns);
 
 /* Whether pose_wall_process would take this cloud: looks at the description only, at no point. Fails as it does: NULL,
- * struct_size, POSE_WALL_E_CLOUD_*. */
+ * struct_size of cloud or inputs, POSE_WALL_E_CLOUD_*, POSE_WALL_E_INPUT. */
 POSE_WALL_CHECKED int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud);
 
 /* ---------------------------------------------------------------------------------------------- result */
@@ -523,7 +530,9 @@ POSE_WALL_CHECKED int32_t pose_wall_memory_needed(const pose_wall_config* config
 
 /* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
  * The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_CONFIG_RULE,
- * block misaligned or too small. *engine is set only on success.
+ * block misaligned or too small, or a call is inside an engine that lives in it (POSE_WALL_E_BUSY). A block that a
+ * process left in the middle of a call, in memory that outlives it, looks so for ever: clear its first
+ * POSE_WALL_BLOCK_ALIGNMENT bytes before. *engine is set only on success.
  * There is nothing to close. Cost: none to speak of; the block is cleared as it is used.
  * Settings, memory and pointers in the block carry a sum, which every call checks: where a single word of them was
  * changed from outside, the engine is refused from then on (POSE_WALL_E_ENGINE) until it is opened again. */
@@ -540,8 +549,9 @@ int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, voi
 
 /* One frame in, one result out. Set result->struct_size = sizeof *result first. A malformed cloud description is
  * refused with a status and leaves engine and result unchanged; a cloud of garbage points is processed, and the result
- * says what could not be measured. Fails iff: NULL, engine not open, struct_size of cloud or result,
- * POSE_WALL_E_CLOUD_*. Cost: O(width x height) for reading plus a bounded part, see TIME above. */
+ * says what could not be measured. Fails iff: NULL, engine not open or in use (POSE_WALL_E_BUSY; so in all calls that
+ * take an engine), struct_size of cloud, inputs or result, POSE_WALL_E_CLOUD_*, POSE_WALL_E_INPUT. Cost: O(width x
+ * height) for reading plus a bounded part, see TIME above. */
 POSE_WALL_CHECKED int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud,
                                             pose_wall_result* result);
 
@@ -580,7 +590,8 @@ typedef struct pose_wall_moment {
  * AGE  values are held on only where load can date them: in the same boot (POSE_WALL_MOMENT_BOOT at both times, the
  * same boot_id), by the wall clock (POSE_WALL_MOMENT_WALL at both times, and it did not go back), or on the caller's
  * word (POSE_WALL_MOMENT_SAME_CLOCK). By the wall clock they age by what passed on it, and stamps go on from the
- * moment's stamp_ns. Otherwise, and with now NULL, all values have expired; leaf, planes and repeats are still known.
+ * moment's stamp_ns. Otherwise, and with now NULL, all values have expired; leaf and planes are still known. Only in
+ * the same boot, or on the caller's word, are clouds that were seen before still known.
  *
  * Fails iff: engine or memento NULL, engine not open, moment's struct_size or an unknown bit in it (POSE_WALL_E_INPUT);
  * save also with POSE_WALL_E_BUFFER_SMALL, load also with POSE_WALL_E_MEMENTO. Cost: no more than copying. */
@@ -615,8 +626,8 @@ POSE_WALL_CHECKED int32_t pose_wall_last_points(const pose_wall_engine* engine, 
 /* For start-up and proof tests: the engine measures a road that it carries, by settings of its own, through the very
  * functions of this header. Every value has to be right (valid and within its level of the truth; not measured beside
  * an open side and without a floor), and all that comes out the same bits as the library notes: results, process
- * images, labelled points. It shows that this processor, compiler and memory compute as those that were tested. It
- * shows nothing of the sensor, of your settings, or of an engine that is open elsewhere.
+ * images of layout 1, labelled points. It shows that this processor, compiler and memory compute as those that were
+ * tested. It shows nothing of the sensor, of your settings, or of an engine that is open elsewhere.
  *
  * CODE   a CRC-32 (as that of the process image) over the engine's machine code and constants, as they lie in this
  * program's memory. Note it when the program is approved and compare it at each start: it is the same for each run of
@@ -675,8 +686,8 @@ POSE_WALL_CHECKED int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_
  *
  * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it; where it
  * stands still, the values are old ones. What pose_wall_age tells has the sequence of the last frame. It begins anew
- * with pose_wall_open and pose_wall_reset. PUBLICATION (image 2) changes with what pose_wall_age tells, too: where it
- * stands still, nobody publishes.
+ * with pose_wall_open and pose_wall_reset, and goes on from the memento's with pose_wall_load. PUBLICATION (image 2)
+ * changes with what pose_wall_age tells, too: where it stands still, nobody publishes.
  *
  * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
 

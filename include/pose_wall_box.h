@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright (c) 2026 the pose_wall authors */
 
+/* clang-format off */
 /*
  * The black box: what went into the engine and what came out of it, as a ring of records in one file. Every record
  * carries what the engine remembered before it (pose_wall_save), so each can be computed again without the others: old
@@ -36,9 +37,11 @@
  *               8 u32 points    12 u32 bytes of a point    16 u32 big_endian    20 u32 left out: not finite
  *              24 u32 left out: zero                28  u32 CRC-32 of the config, as in its header
  *              32  x, y, z, intensity: u32 offset, u32 type each
- *     128       inputs of the frame, a pose_wall_inputs as in memory; all zero: none. Zeros up to the next multiple of
- * 64 memento before the event, zeros up to the next multiple of 64 result as published, zeros up to the next multiple
- * of 64 the cloud's points, zeros up to the end of the record
+ *     128       inputs of the frame, a pose_wall_inputs as in memory; all zero: none
+ *               then, each with zeros behind it up to the next multiple of 64:
+ *               memento before the event
+ *               result as published
+ *               the cloud's points
  *
  * The head is written last, so a record that was cut off by a crash has none, or an old one whose body's CRC (at 52) no
  * longer holds. A loss of power is another matter: what the sink did not bring onto the disk by then is lost, in parts
@@ -52,6 +55,7 @@
  *
  * CRC-32 is that of zlib and Ethernet (reflected 0xEDB88320). It finds accidents; it is no signature.
  */
+/* clang-format on */
 
 #ifndef POSE_WALL_BOX_H
 #define POSE_WALL_BOX_H
@@ -100,7 +104,10 @@ typedef struct pose_wall_box_info {
 } pose_wall_box_info;
 
 /* Reads the header. Fails iff: NULL, POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION; *info is then unchanged. */
+POSE_WALL_CHECKED int32_t pose_wall_box_open_2(const void* bytes, uint64_t count, pose_wall_box_info* info);
+/* What a program built against format 1 calls first: writes nothing, and always gives POSE_WALL_E_ABI. */
 POSE_WALL_CHECKED int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info);
+#define pose_wall_box_open pose_wall_box_open_2
 
 /* One record. The pointers point into the caller's bytes. */
 typedef struct pose_wall_box_record {

@@ -49,9 +49,9 @@
  * was received watchdog_ns ago, silence when it was published watchdog_ns ago, and both when the clock stands more than
  * watchdog_ns before that time. What is stale is refused (POSE_WALL_RUNTIME_E_STALE). It is written all the same, with
  * every value invalid, so that nobody acts on it who forgets the status. `activity` says what the worker is at, and
- * since when: a callback that hangs is told from an engine that does. A healthy worker tells silence in time, so
- * watchdog_every_ns must be below watchdog_ns, or silence becomes stale between two of its tellings. With watchdog_ns 0
- * nothing is ever stale: then compare age_ns. A clock that stands still makes everything look fresh.
+ * since when: a callback that hangs is told from an engine that does. A healthy worker tells silence every
+ * watchdog_every_ns: with one of watchdog_ns or more, silence itself becomes stale between two of its tellings. With
+ * watchdog_ns 0 nothing is ever stale: then compare age_ns. A clock that stands still makes everything look fresh.
  *
  * OVERLOAD. When frames come faster than they are worked, frames are dropped. Only if thinning_max allows it, and only
  * when three frames in a row took longer than frame_period_max_ns to work, and some were dropped meanwhile, points are
@@ -135,8 +135,8 @@ typedef struct pose_wall_publication {
   int64_t activity_since_ns; /* runtime's clock, rounded down to a multiple of 8 ns: since when the worker is at it */
   uint32_t activity;         /* pose_wall_runtime_activity, when this was asked for */
   uint32_t reserved[5];      /* 0 */
-  pose_wall_result result;   /* points that push leaves out for they hold no return are counted in it as the engine
-                                does. Both grow at their ends; its struct_size says how much of it was written */
+  pose_wall_result result;   /* Points that push left out because they hold no return are included in its counts.
+                                Both structs grow at their ends; its struct_size says how much of it was written */
 } pose_wall_publication;
 
 /* Called on the worker's thread after `latest` holds the same. What it takes, the next frame waits for. The pointer is
@@ -179,7 +179,7 @@ typedef struct pose_wall_runtime_options {
       frame_period_max_ns;   /* 100 ms; 1 ms to 1 h: frames are dropped, not thinned, while none takes longer to work */
   int64_t watchdog_ns;       /* 300 ms; 1 ns to 1 h, 0: never. Silence that long is published, frames that old are not,
                                 and what was published so long ago is refused: see FRESHNESS */
-  int64_t watchdog_every_ns; /* 100 ms; 1 ms to 1 h: and again so often, until a frame comes. Below watchdog_ns */
+  int64_t watchdog_every_ns; /* 100 ms; 1 ms to 1 h: and again so often, until a frame comes. Best below watchdog_ns */
   pose_wall_clock clock;     /* NULL: clock_gettime(CLOCK_MONOTONIC). Called by all threads at once, also
                                 under the lock: it must not call the runtime. With a clock of the caller's nothing but
                                 pose_wall_runtime_tick wakes the worker for the watchdog */
@@ -256,16 +256,17 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_save(pose_wall_runtime* runtime, con
                                                  uint64_t bytes);
 
 /* Gives the next start, and it alone, what was saved, as old as pose_wall_load takes it to be. Silence before the first
- * frame holds it on from the moment's stamp_ns, which must be that of now, with POSE_WALL_MOMENT_SAME_CLOCK too. What
- * is held of it tells thinning_max as its held_thinning, for nobody knows. Fails iff: NULL, not open, called back, not
- * stopped (POSE_WALL_RUNTIME_E_STATE), and as pose_wall_load: then the next start remembers what it would have without
- * this call. */
+ * frame holds it on from the moment's stamp_ns, which must be that of now, with POSE_WALL_MOMENT_SAME_CLOCK too. Values
+ * held from it report thinning_max as held_thinning, because a memento does not store theirs. Fails iff: NULL, not
+ * open, called back, not stopped (POSE_WALL_RUNTIME_E_STATE), and as pose_wall_load: then the next start remembers what
+ * it would have without this call. */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_load(pose_wall_runtime* runtime, const pose_wall_moment* now,
                                                  const void* memento, uint64_t bytes);
 
 /* ---------------------------------------------------------------------------------------------- frames and results */
 
-/* Checks the cloud and its inputs, copies what the engine reads of them, and queues it. Points that are not finite or
+/* Checks the cloud and its inputs, copies what the engine reads of them, and queues it. Inputs speak of the time since
+ * the frame that was pushed before: where that was dropped, only their boxes are used. Points that are not finite or
  * exactly zero are left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused
  * is counted as pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not
  * running or stopped before the copy was done (which is counted), another thread inside push, struct_size or a

@@ -254,7 +254,12 @@ POSE_WALL_EXPORT int32_t pose_wall_process(pose_wall_engine* engine, const pose_
   std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
   if (status == POSE_WALL_OK) status = check_whole_cloud(*cloud);
   if (status != POSE_WALL_OK) return status;
-  const auto whole_cloud = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
+  auto whole_cloud = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
+  pose_wall_inputs whole_inputs;
+  if (whole_cloud.inputs != nullptr) {
+    whole_inputs = pose_wall::read_struct<pose_wall_inputs>(whole_cloud.inputs, whole_cloud.inputs->struct_size);
+    whole_cloud.inputs = &whole_inputs;
+  }
   pose_wall_result whole{};
   whole.struct_size = sizeof(whole);
   engine_of(engine)->process(whole_cloud, &whole);

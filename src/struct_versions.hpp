@@ -16,8 +16,6 @@ constexpr StructSizes kCloudSizes = {offsetof(pose_wall_cloud, inputs), sizeof(p
 constexpr StructSizes kResultSizes = {864, sizeof(pose_wall_result), sizeof(pose_wall_result)};
 constexpr StructSizes kInputsSizes = {0, sizeof(pose_wall_inputs), sizeof(pose_wall_inputs)};
 constexpr StructSizes kMomentSizes = {0, sizeof(pose_wall_moment), sizeof(pose_wall_moment)};
-// Not of ABI 1: a size of 0 was forgotten.
-constexpr StructSizes kSourceSizes = {sizeof(pose_wall_image_source), sizeof(pose_wall_image_source),
-                                      sizeof(pose_wall_image_source)};
+constexpr StructSizes kSourceSizes = {0, sizeof(pose_wall_image_source), sizeof(pose_wall_image_source)};
 
 }  // namespace pose_wall

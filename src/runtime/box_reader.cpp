@@ -145,7 +145,12 @@ using namespace pose_wall::runtime;  // NOLINT(google-build-using-namespace): of
 
 extern "C" {
 
-POSE_WALL_EXPORT int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info) {
+#undef pose_wall_box_open
+POSE_WALL_EXPORT int32_t pose_wall_box_open(const void* /*bytes*/, uint64_t /*count*/, pose_wall_box_info* /*info*/) {
+  return POSE_WALL_E_ABI;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_box_open_2(const void* bytes, uint64_t count, pose_wall_box_info* info) {
   if (bytes == nullptr || info == nullptr) return POSE_WALL_E_NULL;
   const unsigned char* const header = static_cast<const unsigned char*>(bytes);
   const int32_t status = check_header(header, count);

@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 //
 // Values that are held may come from a thinned frame: the engine does not know that returns were left out, and holds
-// what it measured. Here is kept from what cloud each would be.
+// what it measured. Here is kept from what cloud each would be. A value that has become invalid may be held again: the
+// engine still knows the good one that an unconfirmed jump stood beside.
 
 #pragma once
 
@@ -25,7 +26,6 @@ class HeldThinning {
       if (state == POSE_WALL_VALID) past = thinning;
       // What is degraded replaces no good value: either may be held later.
       if (state == POSE_WALL_DEGRADED && past < thinning) past = thinning;
-      if (state == POSE_WALL_INVALID) past = 1;  // until it is measured again, nothing of the past is told
     }
     return held;
   }

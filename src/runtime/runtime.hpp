@@ -79,6 +79,7 @@ class Runtime {
 
   // runtime_life.cpp
   std::int32_t open_engine();
+  std::int32_t set_engine_clock();
   std::int32_t forget();
   void replace_damaged_engine();
   int start_recorder();

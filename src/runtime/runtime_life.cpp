@@ -46,7 +46,11 @@ std::uint64_t Runtime::lay_out(void* block, std::uint64_t engine_bytes, const po
 
 std::int32_t Runtime::open_engine() {
   const std::int32_t status = pose_wall_open(&config_, engine_block_, engine_bytes_, &engine_);
-  if (status != POSE_WALL_OK) return status;
+  return status == POSE_WALL_OK ? set_engine_clock() : status;
+}
+
+// The cheapest call that tells whether the engine is whole, so it serves to ask that, too.
+std::int32_t Runtime::set_engine_clock() {
   return pose_wall_set_clock(
       engine_, [](void* user) { return static_cast<const Runtime*>(user)->now(); }, this);
 }
@@ -54,8 +58,7 @@ std::int32_t Runtime::open_engine() {
 // An engine that finds its memory changed by others is no use any more. A new one has nothing to hold, and measures the
 // next frame.
 void Runtime::replace_damaged_engine() {
-  pose_wall_points any;
-  if (pose_wall_last_points(engine_, &any) != POSE_WALL_E_ENGINE) return;
+  if (set_engine_clock() != POSE_WALL_E_ENGINE) return;
   // What changed the engine may have changed the config beside it: then there is nothing to open a new one by.
   std::uint32_t crc32 = 0;
   if (pose_wall_config_crc(&config_, &crc32) == POSE_WALL_OK && crc32 == config_crc32_) open_engine();
@@ -100,8 +103,7 @@ bool Runtime::own_thread_calls() const {
 // All but what was loaded for the start that comes.
 std::int32_t Runtime::forget() {
   replace_damaged_engine();
-  pose_wall_points any;
-  const std::int32_t status = loaded_ ? pose_wall_last_points(engine_, &any) : pose_wall_reset(engine_);
+  const std::int32_t status = loaded_ ? set_engine_clock() : pose_wall_reset(engine_);
   if (status != POSE_WALL_OK || loaded_) return status;
   held_thinning_.forget();
   last_stamp_ns_ = 0;

@@ -129,6 +129,9 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   pose_wall_publication& p = slot->publication;
   const std::int64_t begin_ns = looked_ns_;
   activity_.note(POSE_WALL_RUNTIME_AT_FRAME, begin_ns);
+  // Inputs speak of the time since the frame before. Where that was dropped, the engine would take them for all the
+  // time since the last one that it measured. Where the boom is holds all the same.
+  if (p.frame != last_frame_ + 1) slot->inputs.given = 0;
   save_memento(slot);
   p.result.struct_size = sizeof(p.result);
   const std::int32_t status = pose_wall_process(engine_, &slot->cloud, &p.result);

@@ -12,7 +12,8 @@
 
 namespace pose_wall::runtime {
 
-constexpr StructSizes kOptionsSizes = {128, sizeof(pose_wall_runtime_options), sizeof(pose_wall_runtime_options)};
+constexpr StructSizes kOptionsSizes = {offsetof(pose_wall_runtime_options, reserved_2),
+                                       sizeof(pose_wall_runtime_options), sizeof(pose_wall_runtime_options)};
 constexpr StructSizes kPublicationSizes = {912, sizeof(pose_wall_publication), sizeof(pose_wall_publication)};
 constexpr StructSizes kStatisticsSizes = {664, sizeof(pose_wall_runtime_statistics),
                                           sizeof(pose_wall_runtime_statistics)};

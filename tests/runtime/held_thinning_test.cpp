@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: behind a held value stands the thinning of the frame that it may come from, until a whole cloud gave a good
-// one or nothing of the past is told any more.
+// one.
 
 #include "runtime/held_thinning.hpp"
 
@@ -36,11 +36,16 @@ TEST(HeldThinning, AWeakFrameReplacesNoGoodOne) {
   EXPECT_EQ(held.note(all_in(POSE_WALL_HELD), 1), 8U);
 }
 
-TEST(HeldThinning, EndsWithWhatIsHeld) {
+// The engine keeps a good value beside a jump that nothing confirmed, and may hold it after it said invalid.
+TEST(HeldThinning, LastsBeyondInvalid) {
   HeldThinning held;
   held.note(all_in(POSE_WALL_VALID), 2);
   held.note(all_in(POSE_WALL_INVALID), 1);
-  EXPECT_EQ(held.note(all_in(POSE_WALL_HELD), 1), 1U);
+  EXPECT_EQ(held.note(all_in(POSE_WALL_HELD), 1), 2U);
+}
+
+TEST(HeldThinning, EndsWhereAllIsForgotten) {
+  HeldThinning held;
   held.note(all_in(POSE_WALL_VALID), 2);
   held.forget();
   EXPECT_EQ(held.note(all_in(POSE_WALL_HELD), 1), 1U);

@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: what the machine knows of itself goes with its frame through the queue into the engine and the black box,
-// bit for bit, and into no other frame; the caller may change it when push has come back; what is malformed is refused
-// like a malformed cloud. What was saved is taken up by the next start, and by it alone.
+// bit for bit, and into no other frame; after a dropped frame nothing is believed of them; the caller may change it
+// when push has come back; what is malformed is refused like a malformed cloud. What was saved is taken up by the next
+// start, and by it alone.
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,44 @@ TEST(RuntimeInputs, AreInTheBlackBoxAndComputeToTheSameBits) {
     EXPECT_EQ(std::memcmp(&again, &published[frame].result, sizeof again), 0) << frame;
   }
   EXPECT_EQ(frame, kFrames);
+}
+
+// Inputs speak of the time since the frame before. The engine, which never saw a dropped one, would take them for all
+// the time since the last one that it did see: a machine that moved meanwhile would seem to stand.
+TEST(RuntimeInputs, DoNotSpeakOfTheTimeOfADroppedFrame) {
+  RuntimeUnderTest runtime;
+  EngineUnderTest engine(small_config()), deceived(small_config());
+  pose_wall_inputs inputs{};
+  inputs.struct_size = sizeof inputs;
+  inputs.given = POSE_WALL_INPUT_STANDING;
+  runtime.start();
+  const auto push = [&](const Points& points, std::int64_t stamp_ns) {
+    pose_wall_cloud cloud = cloud_of(points, stamp_ns);
+    cloud.inputs = &inputs;
+    const std::int32_t status = pose_wall_runtime_push(runtime.get(), &cloud);
+    runtime.wait_idle();
+    return status;
+  };
+  const Points seen = room_points(0), none;
+  ASSERT_EQ(push(seen, 0), POSE_WALL_OK);
+  pose_wall_cloud refused = cloud_of(seen, 100 * kMs);
+  refused.point_step = 1;
+  ASSERT_NE(pose_wall_runtime_push(runtime.get(), &refused), POSE_WALL_OK);
+  ASSERT_EQ(push(none, 200 * kMs), POSE_WALL_OK);
+  runtime.stop();
+  const auto published = runtime.published();
+  ASSERT_EQ(published.size(), 2U);
+  engine.process(cloud_of(seen, 0));
+  deceived.process(cloud_of(seen, 0));
+  pose_wall_cloud last = cloud_of(none, 200 * kMs);
+  const pose_wall_result expected = engine.process(last);
+  last.inputs = &inputs;
+  const pose_wall_result too_sure = deceived.process(last);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const pose_wall_value& value = published[1].result.quantity[q];
+    EXPECT_EQ(value.protection_level, expected.quantity[q].protection_level) << q;
+    EXPECT_GT(value.protection_level, too_sure.quantity[q].protection_level) << q;
+  }
 }
 
 // A box of the format before, or of a build whose inputs have another size.

@@ -14,6 +14,8 @@
 
 extern "C" std::int32_t first_call_of_abi_2(pose_wall_runtime_options* options) __asm__(
     "pose_wall_runtime_options_init");
+extern "C" std::int32_t first_call_of_box_1(const void* bytes, std::uint64_t count,
+                                            void* info) __asm__("pose_wall_box_open");
 
 namespace pose_wall::test {
 namespace {
@@ -85,6 +87,7 @@ TEST(RuntimeMisuse, AProgramOfTheAbiBeforeIsRefusedByItsFirstCall) {
   const pose_wall_runtime_options before = options;
   EXPECT_EQ(first_call_of_abi_2(&options), POSE_WALL_E_ABI);
   EXPECT_EQ(first_call_of_abi_2(nullptr), POSE_WALL_E_ABI);
+  EXPECT_EQ(first_call_of_box_1(nullptr, 0, nullptr), POSE_WALL_E_ABI) << "its record is shorter";
   EXPECT_EQ(std::memcmp(&options, &before, sizeof options), 0);
 }
 
