@@ -29,8 +29,9 @@ function(pose_wall_test_kind kind)
   set(target pose_wall_${kind}_tests)
   add_executable(${target} ${sources})
   pose_wall_compile_strictly(${target})
-  # What is tested is optimised as ever. The tests hardly are: they would take longer to compile than they save.
-  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${kind_WORDS}>,-O0,-O1>)
+  # What is tested is optimised as ever. The tests hardly are, and those with sanitizers not at all: they would take
+  # longer to compile than they save.
+  target_compile_options(${target} PRIVATE $<IF:$<OR:$<BOOL:${kind_WORDS}>,$<CONFIG:Debug>>,-O0,-O1>)
   if(POSE_WALL_QUICK_BUILD)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   endif()
