@@ -31,7 +31,7 @@ TOLERANCE = 0.05
 SMALL_SHARE = 0.005
 # See tests/support/dear_clouds.hpp; the first is what the others are compared with.
 DEAR = ["road", "equal", "sphere", "ball03", "spread", "dense", "sheets", "rough", "apart", "hash", "par27", "par304",
-        "par4", "par15"]
+        "par4", "par15", "par1028", "climbed0", "climbed1"]
 DEAR_POINTS = [28800, 65536, 131072]
 DEAR_ROADS = 2.5
 STEP_LEAST, STEP_MOST = 5, 20  # instructions

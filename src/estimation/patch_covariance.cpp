@@ -94,30 +94,33 @@ double PatchFit::bend_slope_v_at(double u, double v) const {
   return bend[2] + bend[4] * u + 2.0 * bend[5] * v;
 }
 
+std::uint32_t PatchGrid::neighbours_after(const Mean& p, Neighbour* out) const {
+  const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
+  std::uint32_t count = 0;
+  for (std::int32_t dv = 0; dv <= kLags && p.iv + dv < rows; ++dv) {
+    const std::int32_t reach = kLagOf.reach[dv], left = p.iu < reach ? p.iu : reach;
+    const std::int32_t first = dv == 0 ? 1 : -left, last = p.iu + reach < columns ? reach : columns - 1 - p.iu;
+    const std::int32_t row = static_cast<std::int32_t>(p.layer) * rows + p.iv + dv;
+    for (std::int32_t du = first; du <= last; ++du) {
+      const std::int32_t j = mean_of_cell_[static_cast<std::uint32_t>(row * columns + p.iu + du)];
+      if (j >= 0) out[count++] = {&means_[static_cast<std::uint32_t>(j)], kLagOf.lag[dv][du < 0 ? -du : du]};
+    }
+  }
+  return count;
+}
+
 // Each unordered pair of patches of one layer up to kLags apart, once: a patch, and those of its neighbours that come
 // after it, by their distance. Of more patches than kPairedMost an even share, by which sums over pairs are to be
 // multiplied in the end.
 template <typename Visit>
-// To be split.  NOLINTNEXTLINE(readability-function-cognitive-complexity)
 double PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) const {
   EvenShare share(kPairedMost, n);
   std::uint32_t visited = 0;
-  const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
-  Neighbour neighbours[(kLags + 1) * (2 * kLags + 1)] = {};
+  Neighbour neighbours[kNeighboursMost] = {};
   for (const Mean& p : means_.first(n)) {
     if (!share.takes()) continue;
     ++visited;
-    std::uint32_t count = 0;
-    for (std::int32_t dv = 0; dv <= kLags && p.iv + dv < rows; ++dv) {
-      const std::int32_t reach = kLagOf.reach[dv], left = p.iu < reach ? p.iu : reach;
-      const std::int32_t first = dv == 0 ? 1 : -left, last = p.iu + reach < columns ? reach : columns - 1 - p.iu;
-      const std::int32_t row = static_cast<std::int32_t>(p.layer) * rows + p.iv + dv;
-      for (std::int32_t du = first; du <= last; ++du) {
-        const std::int32_t j = mean_of_cell_[static_cast<std::uint32_t>(row * columns + p.iu + du)];
-        if (j >= 0) neighbours[count++] = {&means_[static_cast<std::uint32_t>(j)], kLagOf.lag[dv][du < 0 ? -du : du]};
-      }
-    }
-    visit(p, Span<const Neighbour>(neighbours, count));
+    visit(p, Span<const Neighbour>(neighbours, neighbours_after(p, neighbours)));
   }
   return static_cast<double>(n) / static_cast<double>(visited);
 }

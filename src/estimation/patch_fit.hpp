@@ -147,6 +147,9 @@ class PatchGrid {
     Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();  // of the points: together, the variance were no rock shared
   };
   static constexpr std::uint32_t kPairedMost = 384;
+  static constexpr std::uint32_t kNeighboursMost = (kLags + 1) * (2 * kLags + 1);
+  // Those of p's layer within kLags, in its own row and the rows above, each pair of patches once. Returns how many.
+  std::uint32_t neighbours_after(const Mean& p, Neighbour* out) const;
   template <typename Visit>
   double for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
   void sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]);
