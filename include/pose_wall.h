@@ -9,6 +9,8 @@
  * the distances from two points of the machine's centre line (s_front ahead, s_back behind) to the left and the
  * right wall. Each carries its own standard deviation, protection level, state, reasons and age.
  *
+ *     Every call returns a status to look at; it is left out here.
+ *
  *     pose_wall_config config;
  *     pose_wall_config_init(&config);                        defaults of every key
  *     pose_wall_config_set(&config, "forward_axis", "+X");   as in pose_wall.yaml
@@ -36,8 +38,9 @@
  * STRUCTS  every struct that begins with struct_size grows at its end only. A library takes structs of any earlier
  *          header of its ABI: it reads what is missing as zero and writes no further than struct_size. It refuses a
  *          later one's (POSE_WALL_E_STRUCT_NEWER).
- * TIME     every loop over live data has a cap from the config. A frame that would take more than work_max steps ends
- *          early, and what is not finished is refused (POSE_WALL_R_WORK_LIMIT). bench/README.md has the bound.
+ * TIME     every loop over live data has a cap from the config. A frame that has taken work_max steps stops at the next
+ *          place that asks, at most a million steps later, and what is not finished is refused
+ *          (POSE_WALL_R_WORK_LIMIT). Reading the cloud is never stopped. bench/README.md has the bound.
  * ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a negative pose_wall_status. A refused call
  *          changes nothing. "I was called wrongly" is a status; "I looked and could not measure" is not an error: the
  *          call returns POSE_WALL_OK, and the states and reasons in the result tell it.
@@ -102,7 +105,7 @@ enum pose_wall_status {
   POSE_WALL_E_BUSY = -9,          /* another call is inside this engine, or inside the one that lives in this block */
   POSE_WALL_E_ABI = -10,          /* the program was built against the header of ABI 1: build it anew */
   POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer pose_wall.h than the library that is linked */
-  POSE_WALL_E_INPUT = -12,        /* an unknown bit in pose_wall_inputs or pose_wall_moment */
+  POSE_WALL_E_INPUT = -12,        /* an unknown bit in pose_wall_inputs or pose_wall_moment, or a boot_id of zeros */
 
   /* configuration */
   POSE_WALL_E_KEY_UNKNOWN = -20, /* no such key */
@@ -286,9 +289,11 @@ enum pose_wall_input {
 /* What the machine knows of itself since the last frame. All of it is optional, and none is believed against what is
  * measured: motion that contradicts itself or the measurements, or is out of range, is not used, and neither is a box
  * out of range. The frame then says POSE_WALL_R_PRIOR; sound boxes were applied all the same.
- * Where motion is used, held values age by it, and not by hold_rate_angle and hold_rate_distance: while the machine
- * stands still no level grows (age_s still does); a held yaw turns with turn_rate_rad_s; levels grow by
- * protection_factor sigma.
+ * Without motion the levels of held values grow by hold_rate_angle and hold_rate_distance, with it as follows.
+ * STANDING: none grows (age_s still does). TURN_RATE: a held yaw turns with it, and its level grows by
+ * protection_factor sigma; roll and pitch are not in it. SPEED with TURN_RATE: distances grow no faster than the
+ * sampling points move, |speed| + reach x |turn rate|, sigmas with it, where that is less than hold_rate_distance;
+ * where a point moves to is not used. SPEED alone: nothing.
  */
 typedef struct pose_wall_inputs {
   uint32_t struct_size;         /* sizeof(pose_wall_inputs) */
@@ -303,8 +308,12 @@ typedef struct pose_wall_inputs {
 
 /* Describes `count` points of three consecutive native floats each, `point_step` bytes apart. Fails iff: cloud NULL,
  * or data NULL with count > 0. */
+int32_t pose_wall_cloud_xyz32_2(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
+                                int64_t stamp_ns);
+/* For programs built against ABI 1, whose cloud is shorter: writes nothing, and always gives POSE_WALL_E_ABI. */
 int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
                               int64_t stamp_ns);
+#define pose_wall_cloud_xyz32 pose_wall_cloud_xyz32_2
 
 /* Whether pose_wall_process would take this cloud: looks at the description only, at no point. Fails as it does: NULL,
  * struct_size of cloud or inputs, POSE_WALL_E_CLOUD_*, POSE_WALL_E_INPUT. */
@@ -393,8 +402,8 @@ enum pose_wall_reason {
   /* limits and inputs */
   POSE_WALL_R_WORK_LIMIT = 1 << 29, /* the frame would have taken more steps than work_max: what was not
                                        finished is refused */
-  POSE_WALL_R_PRIOR = 1 << 30 /* the frame's inputs (pose_wall_inputs) were not used: they contradict each other or
-                                 what was measured */
+  POSE_WALL_R_PRIOR = 1 << 30 /* a part of the frame's pose_wall_inputs was not used: out of range, or contradicted by
+                                 another or by what was measured. Sound boxes were applied all the same */
 };
 #define POSE_WALL_REASON_COUNT 31
 
@@ -575,7 +584,7 @@ typedef struct pose_wall_moment {
   uint32_t struct_size; /* sizeof(pose_wall_moment) */
   uint32_t known;       /* pose_wall_moment_known bits */
   uint8_t boot_id[16];  /* another one after each start of the machine: /proc/sys/kernel/random/boot_id, or a number
-                           drawn at start */
+                           drawn at start. All zero: refused where POSE_WALL_MOMENT_BOOT is set */
   int64_t wall_ns;      /* nanoseconds since any fixed date */
   int64_t stamp_ns;     /* now, in the clock of the clouds' stamps */
 } pose_wall_moment;
@@ -593,7 +602,8 @@ typedef struct pose_wall_moment {
  * moment's stamp_ns. Otherwise, and with now NULL, all values have expired; leaf and planes are still known. Only in
  * the same boot, or on the caller's word, are clouds that were seen before still known.
  *
- * Fails iff: engine or memento NULL, engine not open, moment's struct_size or an unknown bit in it (POSE_WALL_E_INPUT);
+ * Fails iff: engine or memento NULL, engine not open, moment's struct_size, an unknown bit in it or a boot_id of zeros
+ * (POSE_WALL_E_INPUT);
  * save also with POSE_WALL_E_BUFFER_SMALL, load also with POSE_WALL_E_MEMENTO. Cost: no more than copying. */
 uint64_t pose_wall_memento_bytes(void);
 POSE_WALL_CHECKED int32_t pose_wall_save(const pose_wall_engine* engine, const pose_wall_moment* now, void* memento,
@@ -817,8 +827,9 @@ typedef struct pose_wall_image_source {
 } pose_wall_image_source;
 
 /* As pose_wall_image_fill, for image 2. source may be NULL: publication is then the result's own, and the rest reads as
- * not known. Fails iff: result or image NULL, a struct_size of another version, POSE_WALL_E_RESULT; the image is then
- * unchanged. */
+ * not known. Without a runtime set publication to the result's own, cause 1, or 2 for what pose_wall_age gave, thinning
+ * and held_thinning 1, and latency_ns by your own clock. Fails iff: result or image NULL, a struct_size of another
+ * version, POSE_WALL_E_RESULT; the image is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_image2_fill(const pose_wall_result* result, const pose_wall_image_source* source,
                                                 pose_wall_image2* image);
 

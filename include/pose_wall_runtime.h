@@ -6,6 +6,8 @@
  * receives them and are worked by a thread of the runtime's own; results are there for every thread at any time. A
  * second archive, libpose_wall_runtime.a: POSIX threads and pose_wall.h, nothing else.
  *
+ *     Every call returns a status to look at; it is left out here.
+ *
  *     pose_wall_runtime_options options;
  *     pose_wall_runtime_options_init(&options);
  *     options.callback = on_result;                                          optional

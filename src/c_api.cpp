@@ -66,7 +66,11 @@ std::int32_t check_moment(const pose_wall_moment* moment) {
   if (moment == nullptr) return POSE_WALL_OK;
   const std::int32_t status = pose_wall::check_struct_size(moment->struct_size, pose_wall::kMomentSizes);
   if (status != POSE_WALL_OK) return status;
-  return (moment->known & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_INPUT;
+  // An identity that somebody forgot to fill in is the same after each start.
+  constexpr unsigned char kForgotten[sizeof(moment->boot_id)] = {};
+  const bool forgotten =
+      (moment->known & POSE_WALL_MOMENT_BOOT) != 0 && std::memcmp(moment->boot_id, kForgotten, sizeof(kForgotten)) == 0;
+  return (moment->known & ~kKnown) == 0 && !forgotten ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_INPUT;
 }
 
 // Struct size, description, inputs: all that is wrong with a cloud before a point is looked at.
@@ -179,8 +183,14 @@ POSE_WALL_EXPORT int32_t pose_wall_config_crc(const pose_wall_config* config, ui
   return config != nullptr && crc != nullptr ? pose_wall::config_crc(*config, crc) : POSE_WALL_E_NULL;
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count,
-                                               uint32_t point_step, int64_t stamp_ns) {
+#undef pose_wall_cloud_xyz32
+POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* /*cloud*/, const void* /*data*/, uint32_t /*count*/,
+                                               uint32_t /*point_step*/, int64_t /*stamp_ns*/) {
+  return POSE_WALL_E_ABI;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32_2(pose_wall_cloud* cloud, const void* data, uint32_t count,
+                                                 uint32_t point_step, int64_t stamp_ns) {
   if (cloud == nullptr || (data == nullptr && count > 0)) return POSE_WALL_E_NULL;
   *cloud = pose_wall_cloud{};
   cloud->struct_size = sizeof(*cloud);

@@ -72,19 +72,11 @@ WallResult unfinished([[maybe_unused]] int side, [[maybe_unused]] const Work& wo
   return wall;
 }
 
-// Planes that nobody weighed may be the better walls.
-WallsResult both_unfinished(const Work& work) {
-  WallsResult none;
-  for (int side = 0; side < 2; ++side) none.side[side] = unfinished(side, work);
-  return none;
-}
-
 WallResult measure(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
                    WallsScratch* scratch) {
   const Settings& s = scene.settings;
   const WallCandidate& chosen = *choice.side[side];
   Work& work = scratch->fit.work;
-  if (work.is_spent()) return unfinished(side, work);
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
   work.add(steps::kWallLookedAt);
   work.add(scene.band_level.count, steps::kPointLookedAt);
@@ -168,7 +160,6 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const std::uint32_t scored[2] = {scratch->search[0].scored(), scratch->search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
   refuse_where_across(scene, random, scratch, &choice);
-  if (scratch->fit.work.is_spent()) return both_unfinished(scratch->fit.work);
 
   note_directions(scene, &scratch->sight);
   const bool explained = explained_share(scene, choice) >= kExplainedMin;
@@ -177,7 +168,12 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   out.tilt_level_rad = tilt_by_walls(scene, beside);
   for (int side = 0; side < 2; ++side) {
     POSE_WALL_NOTE(note_side(choice, beside, side, scene.settings));
-    if (choice.side[side] != nullptr) out.side[side] = measure(scene, sides[side], choice, side, scratch);
+    // Planes that nobody weighed may be the better walls.
+    if (scratch->fit.work.is_spent()) {
+      out.side[side] = unfinished(side, scratch->fit.work);
+    } else if (choice.side[side] != nullptr) {
+      out.side[side] = measure(scene, sides[side], choice, side, scratch);
+    }
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.refused = out.side[side].fit.refused || choice.refused[side];
     out.side[side].fit.reasons |= choice.reasons[side];

@@ -28,6 +28,9 @@ namespace {
 #undef pose_wall_config_init
 const auto config_init_of_abi1 = pose_wall_config_init;
 #define pose_wall_config_init pose_wall_config_init_2
+#undef pose_wall_cloud_xyz32
+const auto cloud_xyz32_of_abi1 = pose_wall_cloud_xyz32;
+#define pose_wall_cloud_xyz32 pose_wall_cloud_xyz32_2
 
 constexpr std::int64_t kPeriod_ns = 100000000;
 constexpr std::uint32_t kResultBytesOfAbi1 = 864, kCloudBytesOfAbi1 = offsetof(pose_wall_cloud, inputs);
@@ -44,6 +47,16 @@ TEST(Abi1, ItsFirstCallIsRefusedAndWritesNothing) {
   const pose_wall_config before = config;
   EXPECT_EQ(config_init_of_abi1(&config), POSE_WALL_E_ABI);
   EXPECT_EQ(std::memcmp(&config, &before, sizeof config), 0);
+}
+
+// Its cloud ends where the inputs begin now, and has no size yet that would tell so.
+TEST(Abi1, ItsCloudIsNotFilled) {
+  unsigned char cloud[sizeof(pose_wall_cloud)], before[sizeof(pose_wall_cloud)];
+  std::memset(cloud, 0x5A, sizeof cloud);
+  std::memcpy(before, cloud, sizeof cloud);
+  const float point[3] = {1.0F, 2.0F, 3.0F};
+  EXPECT_EQ(cloud_xyz32_of_abi1(reinterpret_cast<pose_wall_cloud*>(cloud), point, 1, sizeof point, 0), POSE_WALL_E_ABI);
+  EXPECT_EQ(std::memcmp(cloud, before, sizeof cloud), 0);
 }
 
 TEST(Abi1, ItsStructsAreRefusedByName) {
@@ -344,6 +357,10 @@ TEST_F(AfterPowerLoss, AWrongMomentIsRefused) {
   now.known = 8;
   EXPECT_EQ(pose_wall_load(engine.get(), &now, memento_.data(), memento_.size()), POSE_WALL_E_INPUT);
   EXPECT_EQ(pose_wall_save(engine.get(), &now, memento_.data(), memento_.size()), POSE_WALL_E_INPUT);
+  // An identity that nobody filled in is the same after each start.
+  const pose_wall_moment forgotten = {sizeof now, POSE_WALL_MOMENT_BOOT, {}, 0, kBefore_ns};
+  EXPECT_EQ(pose_wall_load(engine.get(), &forgotten, memento_.data(), memento_.size()), POSE_WALL_E_INPUT);
+  EXPECT_EQ(pose_wall_save(engine.get(), &forgotten, memento_.data(), memento_.size()), POSE_WALL_E_INPUT);
   now.known = 1;
   now.struct_size = 1;
   EXPECT_EQ(pose_wall_load(engine.get(), &now, memento_.data(), memento_.size()), POSE_WALL_E_STRUCT_SIZE);

@@ -138,6 +138,28 @@ class Layers(BrokenProject):
         self.fails("nothing was checked", *self.check())
 
 
+class Keys(BrokenProject):
+    TABLE = "".join(f"  key_{n}\n    default 0; allowed: a number\n    meaning of\n    key {n}\n" for n in range(60))
+
+    def check(self, page_of, file_of):
+        command = self.root / "pose_wall"
+        self.write("pose_wall", f"#!/bin/sh\ncat <<'END'\n{self.TABLE}END\n")
+        command.chmod(0o755)
+        self.write("config/README.md", "".join(f"| `key_{n}` | 0 | any | {page_of(n)} |\n" for n in range(60)))
+        self.write("config/pose_wall.yaml", "".join(f"# {file_of(n)} [m]\nkey_{n}: 0\n" for n in range(60)))
+        return CHECKS / "check_keys.py", self.root, command
+
+    def test_passes(self):
+        self.passes(*self.check("meaning of key {}".format, "meaning of key {}".format))
+
+    def test_another_meaning(self):
+        def other(n):
+            return "what it was before" if n == 7 else f"meaning of key {n}"
+
+        self.fails("README.md: key_7", *self.check(other, "meaning of key {}".format))
+        self.fails("pose_wall.yaml: key_7", *self.check("meaning of key {}".format, other))
+
+
 class Stack(BrokenProject):
     def check(self):
         return CHECKS / "check_stack.py", self.root / "build", 1000

@@ -37,7 +37,9 @@ set(pose_wall_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libpose-wall-dev)
 pose_wall_sbom(pose_wall ${PROJECT_BINARY_DIR}/pose_wall.spdx.json)
 install(FILES ${PROJECT_BINARY_DIR}/pose_wall.spdx.json DESTINATION ${pose_wall_doc_dir} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pose_wall_doc_dir} RENAME copyright COMPONENT development)
-install(FILES ${PROJECT_SOURCE_DIR}/include/SAFETY.md DESTINATION ${pose_wall_doc_dir} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/include/SAFETY.md
+  ${PROJECT_SOURCE_DIR}/tools/example.c ${PROJECT_SOURCE_DIR}/tools/two_engines.c
+  DESTINATION ${pose_wall_doc_dir} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/ DESTINATION ${pose_wall_doc_dir}/plc COMPONENT development
   FILES_MATCHING PATTERN "FB_PoseWall.*" PATTERN "controller.c" PATTERN "README.md")
 if(TARGET pose_wall_cli)

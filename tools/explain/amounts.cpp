@@ -25,6 +25,7 @@ std::string amount(const Note& note, double value) {
   if (unit == "rad") return degrees(value);
   if (unit == "share") return per_cent(value);
   if (unit == "s") return fmt::format("{:.3g} s", value);
+  if (unit == "steps") return fmt::format("{:.3g} million", 1e-6 * value);
   if (unit == "points" || unit == "frames") return fmt::format("{:.0f}", value);
   if (is_quantity(note.gate.subject)) return quantity_amount(note.gate.subject - POSE_WALL_TRACE_QUANTITY, value);
   return fmt::format("{:.4g}", value);

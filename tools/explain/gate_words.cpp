@@ -41,7 +41,7 @@ constexpr GateWords kFrameWords[] = {
      "speed, turn rate and standing still, as the caller gives them: their signs, units and sigmas"},
     {"work",
      "It was not finished: the frame had taken {value} steps when more were needed, and {limit} is the most ({key}).",
-     "dust, clutter or points without end make a cloud dear; a larger {key} where the time is there"},
+     "dust, clutter or very many points make a frame expensive; a larger {key} where the time is there"},
     {"repeated", "The very same points came {value} times again under new stamps: no LiDAR does that.",
      "the sensor, its driver or the network is frozen"},
     {"frozen", "After {limit} repeats ({key}) the sensor counts as frozen, and nothing new is measured.",

@@ -94,7 +94,7 @@ const WORDS = {
       cross_road: '横向存在更好的墙对', curved: '墙面或地面明显弯曲', extrapolated: '采样点处未见墙面，由平面外推',
       level_missing: '本帧无地面，未搜索墙面', alert_limit: '保护级超过告警限', innovation: '跳变超过机器可能的运动',
       rate_limited: '航向平滑受速率限制', hold_expired: '保持超时、保护级超限，或时间戳无法说明其时效', wall_too_near: '过近的回波遮挡该侧',
-      never_measured: '从未测得', no_frame: '此后没有新的帧', work_limit: '本帧计算量将超过 work_max，此项未搜索',
+      never_measured: '从未测得', no_frame: '此后没有新的帧', work_limit: '本帧计算量已达 work_max，此项未完成',
       prior: '未采用本帧的机器输入：相互矛盾或与测量矛盾',
     },
   },
