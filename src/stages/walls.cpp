@@ -72,6 +72,16 @@ WallResult unfinished([[maybe_unused]] int side, [[maybe_unused]] const Work& wo
   return wall;
 }
 
+// What one wall says of the road, the other one may doubt: where that is not finished, neither is it.
+void refuse_beside_unfinished(const Work& work, WallsResult* out) {
+  for (int side = 0; side < 2; ++side) {
+    WallResult& wall = out->side[side];
+    const bool other_is = (out->side[1 - side].fit.reasons & POSE_WALL_R_WORK_LIMIT) != 0;
+    if (!other_is || (wall.fit.reasons & POSE_WALL_R_WORK_LIMIT) != 0) continue;
+    wall.fit.refuse(unfinished(side, work).fit.reasons);
+  }
+}
+
 WallResult measure(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
                    WallsScratch* scratch) {
   const Settings& s = scene.settings;
@@ -179,6 +189,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     out.side[side].fit.reasons |= choice.reasons[side];
     if (!explained) out.side[side].fit.refuse(POSE_WALL_R_WALL_NOT_FOUND);
   }
+  refuse_beside_unfinished(scratch->fit.work, &out);
   doubt_those_alone(scene.settings, choice, beside, &out.side);
   doubt_short_ones_apart(scene.settings, choice, &out.side);
   return out;
