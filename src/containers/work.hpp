@@ -50,7 +50,7 @@ constexpr std::uint64_t kVoxelLevelled = 8;
 // Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis; a plane that
 // is refined, weighed, and a point of the band that it is weighed by; what is looked at about a wall that was fitted,
 // and a point of the band for it.
-constexpr std::uint64_t kPointParted = 12, kPointSided = 1, kWallDrawn = 350, kWallRefined = 7000, kWallWeighed = 5000;
+constexpr std::uint64_t kPointParted = 16, kPointSided = 1, kWallDrawn = 350, kWallRefined = 7000, kWallWeighed = 5000;
 constexpr std::uint64_t kPointMarked = 2, kWallLookedAt = 150000, kPointLookedAt = 11;
 // A fit of a wall: a point of the band for it, one that is taken; a profile of strips; a point that is told by columns,
 // summed in patches; and one of which it is asked whether the surface bends.

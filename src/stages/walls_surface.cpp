@@ -169,6 +169,7 @@ void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d
 WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch) {
   const Eigen::Vector3d along = along_of(start, scene.forward_level);
   mark_wall(scene, start, along, MarkWidth::kFit, grid);
+  scratch->work.add(2ULL * scene.band_level.count, steps::kPointMarked);  // now, and once it is fitted
   Heights heights{scene.z_min_level_m, scene.z_max_level_m};
   WallSurface fit = fit_between(scene, start, along, heights, WallPoints::kMost, *grid, scratch);
   if (fit.patch.solved && !scratch->work.is_spent() && cut_bent_rows(fit, &heights)) {

@@ -58,7 +58,8 @@ inline std::uint64_t most_of_a_wall_piece(const Settings& s) {
       steps::kProfile + kAll * (steps::kPointByColumn + kStepRounds * steps::kPointRound) + joint;
   const std::uint64_t cut =
       kAll * (steps::kPointByColumn + steps::kPointBent + kRounds * steps::kPointRound) + joint + most_of_patches();
-  const std::uint64_t begun = gathered + kAll * kRounds * steps::kPointRound + steps::kProfile + ring;
+  const std::uint64_t begun =
+      2 * band * steps::kPointMarked + gathered + kAll * kRounds * steps::kPointRound + steps::kProfile + ring;
   const std::uint64_t ended = kAll * kRounds * steps::kPointRound + joint + 2 * most_of_patches() +
                               steps::kWallLookedAt + band * steps::kPointLookedAt;
   return std::max({search, begun, gathered + cut, ended});
