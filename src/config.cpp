@@ -288,11 +288,9 @@ double reach_of(const Settings& s) {
 std::uint64_t work_most(const Settings& settings, std::uint64_t returns) {
   // Measured (bench/README.md, "The dearest frames"): as much as leaves the dearest clouds below 2.5 roads of as many
   // returns, for 28,800 returns and more, and roads of every simulated sensor their values. What hypotheses and fits
-  // take of any cloud; what a voxel takes in lists, band and marks; what a return takes while it is read.
-  constexpr std::uint64_t kWhatever = 5'700'000, kPerVoxel = 15, kPerReturn = 40;
-  if (settings.work_max > 0) return settings.work_max;
-  const std::uint64_t voxels = returns < settings.points_max ? returns : settings.points_max;
-  return kWhatever + kPerVoxel * voxels + kPerReturn * returns;
+  // take of any cloud, and what a return takes while it is read, and as a voxel.
+  constexpr std::uint64_t kWhatever = 5'600'000, kPerReturn = 55;
+  return settings.work_max > 0 ? settings.work_max : kWhatever + kPerReturn * returns;
 }
 
 double alert_limit(std::uint32_t quantity, const Settings& settings) {
