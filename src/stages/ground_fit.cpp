@@ -185,11 +185,9 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   if (bent > kBendMatters * radians(s.alert_limit_angle_deg)) out->fit.reasons |= POSE_WALL_R_CURVED;
 }
 
-}  // namespace
-
-FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
-                      const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
-  FloorResult out;
+// The plane through the points about it, selected again until it stands still. The points stay in the scratch.
+IrlsResult fit_selected(const FloorLook& look, const Plane& start, const Settings& settings,
+                        const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
   IrlsSettings tukey = irls_settings(settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
   IrlsResult irls;
@@ -208,6 +206,15 @@ FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings&
     if (scratch->work.is_spent() || !irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
+  return irls;
+}
+
+}  // namespace
+
+FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
+                      const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+  FloorResult out;
+  const IrlsResult irls = fit_selected(look, start, settings, sensor_base_m, scratch);
   out.fit.plane = irls.plane;
   if (scratch->work.is_spent()) {
     out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
