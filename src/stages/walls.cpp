@@ -64,21 +64,14 @@ void refuse_where_across(const WallScene& scene, Random* random, WallsScratch* s
   refuse_if_across(ahead, behind, scene.settings, choice);
 }
 
-WallResult unfinished([[maybe_unused]] int side, [[maybe_unused]] const Work& work) {
-  WallResult wall;
-  wall.fit.refuse(POSE_WALL_R_WORK_LIMIT);
-  POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WORK, static_cast<double>(work.done()),
-                                static_cast<double>(work.most()), false));
-  return wall;
-}
-
-// What one wall says of the road, the other one may doubt: where that is not finished, neither is it.
-void refuse_beside_unfinished(const Work& work, WallsResult* out) {
+// Planes that nobody weighed may be the better walls, and what one wall says of the road the other one may doubt: where
+// the work was spent before the end, neither is finished.
+void refuse_unfinished(const Work& work, WallsResult* out) {
+  if (!work.is_spent()) return;
   for (int side = 0; side < 2; ++side) {
-    WallResult& wall = out->side[side];
-    const bool other_is = (out->side[1 - side].fit.reasons & POSE_WALL_R_WORK_LIMIT) != 0;
-    if (!other_is || (wall.fit.reasons & POSE_WALL_R_WORK_LIMIT) != 0) continue;
-    wall.fit.refuse(unfinished(side, work).fit.reasons);
+    out->side[side].fit.refuse(POSE_WALL_R_WORK_LIMIT);
+    POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WORK, static_cast<double>(work.done()),
+                                  static_cast<double>(work.most()), false));
   }
 }
 
@@ -90,7 +83,7 @@ WallResult measure(const WallScene& scene, const SideView& view, const WallChoic
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
   work.add(steps::kWallLookedAt);
   work.add(scene.band_level.count, steps::kPointLookedAt);
-  if (work.is_spent()) return unfinished(side, work);
+  if (work.is_spent()) return {};
   WallResult wall = measure_wall(scene, surface, side, scratch->grid);
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
@@ -178,18 +171,14 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   out.tilt_level_rad = tilt_by_walls(scene, beside);
   for (int side = 0; side < 2; ++side) {
     POSE_WALL_NOTE(note_side(choice, beside, side, scene.settings));
-    // Planes that nobody weighed may be the better walls.
-    if (scratch->fit.work.is_spent()) {
-      out.side[side] = unfinished(side, scratch->fit.work);
-    } else if (choice.side[side] != nullptr) {
-      out.side[side] = measure(scene, sides[side], choice, side, scratch);
-    }
+    const bool goes_on = choice.side[side] != nullptr && !scratch->fit.work.is_spent();
+    if (goes_on) out.side[side] = measure(scene, sides[side], choice, side, scratch);
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.refused = out.side[side].fit.refused || choice.refused[side];
     out.side[side].fit.reasons |= choice.reasons[side];
     if (!explained) out.side[side].fit.refuse(POSE_WALL_R_WALL_NOT_FOUND);
   }
-  refuse_beside_unfinished(scratch->fit.work, &out);
+  refuse_unfinished(scratch->fit.work, &out);
   doubt_those_alone(scene.settings, choice, beside, &out.side);
   doubt_short_ones_apart(scene.settings, choice, &out.side);
   return out;

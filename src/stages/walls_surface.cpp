@@ -28,7 +28,8 @@ constexpr double kLayersLeftOver = 0.5;
 // How much that is, fits between the two tell, on fewer points and without covariance; all they are asked is whether
 // the surface still bends.
 constexpr int kCutsMax = 6;
-constexpr std::uint32_t kCutPointsMax = 3072, kAgainPointsMax = WallPoints::kMost / 2;
+// Shares of a whole fit's points: a cut asks less than a fit does, and the second fit may cost half the first.
+constexpr std::uint32_t kCutPointsMax = WallPoints::kMost * 3 / 8, kAgainPointsMax = WallPoints::kMost / 2;
 constexpr int kQuickRounds = 3;
 constexpr std::uint32_t kQuickPointsMax = 500;
 constexpr int kRounds = 8;

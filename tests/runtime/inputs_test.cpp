@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: what the machine knows of itself goes with its frame through the queue into the engine and the black box,
-// bit for bit, and into no other frame; after a dropped frame nothing is believed of them; the caller may change it
-// when push has come back; what is malformed is refused like a malformed cloud. What was saved is taken up by the next
-// start, and by it alone.
+// bit for bit, and into no other frame. After a dropped frame nothing is believed of its motion. The caller may change
+// it when push has come back. What is malformed is refused like a malformed cloud. What was saved is taken up by the
+// next start, and by it alone.
 
 #include <gtest/gtest.h>
 

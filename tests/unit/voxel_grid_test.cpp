@@ -312,7 +312,7 @@ TEST(VoxelGrid, MorePointsThanACellCounts) {
 
 // Middles of cells of 0.25 m whose keys begin at three neighbouring slots of the table for so many.
 std::vector<Xyz> points_of_few_slots(std::uint32_t capacity) {
-  constexpr double kEdge_m = 0.25;
+  constexpr double kEdge_m = 0.25;  // of a float's exact values: no middle is rounded into the next cell
   constexpr std::int32_t kReach = 100, kOrigin = 1365;  // cells; the first cell of a grid that reaches 200 m
   std::uint32_t bits = 1;
   while ((1U << bits) < 2 * capacity) ++bits;
