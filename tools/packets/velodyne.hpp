@@ -21,6 +21,7 @@ class VelodyneAssembler : public ScanAssembler {
   bool add(const Datagram& datagram) override;
   void finish() override;
   const char* kind() const override { return "packets of a Velodyne VLP-16"; }
+  bool stamps_are_of_arrival() const override { return true; }
 
  private:
   struct Firing {  // of all 16 lasers
