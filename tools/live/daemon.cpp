@@ -128,8 +128,8 @@ void Daemon::run(const std::atomic<bool>& stop_asked) {
   }
   service_.stopping();
   log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
-  stop();
   for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(part));
+  stop();
 }
 
 }  // namespace pose_wall::tools::live

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <iostream>
 #include <mutex>
 #include <string>
@@ -35,6 +36,9 @@ class ReplaySource final : public Source {
   explicit ReplaySource(const ReplayPlan& plan) : plan_(plan) {
     options_.topic = plan.topic;
     options_.metadata = plan.metadata;
+    for (const std::string& input : plan.inputs) {
+      if (!std::filesystem::exists(input)) throw std::runtime_error(input + ": is not there");
+    }
     open();
     if (!sequence_->errors().empty()) throw std::runtime_error(sequence_->errors().front());
   }
