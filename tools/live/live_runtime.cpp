@@ -75,7 +75,7 @@ LiveRuntime::~LiveRuntime() {
 }
 
 void LiveRuntime::open() {
-  box_ = open_box_();
+  open_box();
   pose_wall_runtime_options options{};
   require(pose_wall_runtime_options_init(&options), "the runtime's options");
   options.cloud_points_max = settings_.frame_points_max;
@@ -93,6 +93,17 @@ void LiveRuntime::open() {
   require(pose_wall_runtime_open(config_.get(), &options, block_.data(), block_.size() * sizeof(Line), &runtime_),
           "opening the runtime");
   ++opened_;
+}
+
+// At the start a folder that cannot be written is a fault of the settings; later the machine goes on without a box.
+void LiveRuntime::open_box() {
+  try {
+    box_ = {};
+    box_ = open_box_();
+  } catch (const std::exception& fault) {
+    if (opened_ == 0) throw;
+    log_line(Grade::kBad, "black box", fault.what());
+  }
 }
 
 void LiveRuntime::close() {
@@ -192,8 +203,10 @@ void LiveRuntime::publish(const pose_wall_publication& publication) {
   result->config = *config_.get();
   if (publication.cause == POSE_WALL_RUNTIME_FRAME) {
     result->frame = frame_of(publication.frame);
+    if (result->frame) header_stamp_ns_ = result->frame->stamp_ns;
     if (wants_points_()) result->points = points();
   }
+  result->header_stamp_ns = header_stamp_ns_;
   post_(result);
 }
 

@@ -60,6 +60,7 @@ class LiveRuntime final : public FrameTaker, public Images {
   static void called_back(void* user, const pose_wall_publication* publication);
   void publish(const pose_wall_publication& publication);
   void open();
+  void open_box();
   void close();
   void reopen(const Extrinsic& extrinsic);
   std::shared_ptr<const LiveFrame> frame_of(std::uint64_t number);
@@ -86,6 +87,8 @@ class LiveRuntime final : public FrameTaker, public Images {
 
   std::mutex frames_lock_;
   std::map<std::uint64_t, std::shared_ptr<const LiveFrame>> frames_;
+
+  std::int64_t header_stamp_ns_ = 0;  // of the last measured frame; of the worker's thread
 
   std::atomic<std::uint64_t> without_extrinsic_{0}, refused_{0}, opened_{0};
   std::atomic<std::int32_t> last_refusal_{POSE_WALL_OK};

@@ -28,6 +28,7 @@ struct LiveResult {
   pose_wall_publication publication{};
   std::shared_ptr<const LiveFrame> frame;        // the cloud that was measured; none for silence
   std::shared_ptr<const LabelledPoints> points;  // where a sink wanted them
+  std::int64_t header_stamp_ns = 0;              // of that cloud; of silence: of the last one that was measured
   pose_wall_config config{};                     // with which it was measured: the extrinsic may come from tf
 };
 
