@@ -135,8 +135,8 @@ class Http(unittest.TestCase):
     def test_too_many_viewers_are_told(self):
         self.assertTrue(live_peer.becomes_true(self.nobody_looks), "those of other tests are gone")
         viewers = [Viewer(self.port) for _ in range(16)]
-        for viewer in viewers:
-            self.assertGreater(viewer.frames(0.5), 0)
+        for viewer in viewers:  # all are served; who took nothing for seconds would be cut off
+            self.assertIn(b"HTTP/1.1 200", viewer.socket.recv(200))
         late = Viewer(self.port)
         self.assertTrue(late.socket.recv(100).startswith(b"HTTP/1.1 503"))
         self.assertEqual(self.ask("GET", "/health")[0].status, 200, "who only asks is served all the same")

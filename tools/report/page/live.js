@@ -95,7 +95,8 @@ function show_tiles(f) {
     const i = recording.at(f, q), state = STATES[recording.state[i]], tile = element('div', undefined, `tile ${state}`);
     const digits = recording.is_angle(q) ? 2 : 3, unit = recording.is_angle(q) ? '°' : ' m', factor = recording.unit(q);
     const known = state !== 'invalid' && Number.isFinite(recording.value[i]);
-    const number = element('div', known ? (recording.value[i] * factor).toFixed(digits) + unit : '–', 'number');
+    const rounded = (recording.value[i] * factor).toFixed(digits).replace(/^-(0\.0*)$/, '$1');  // no sign for nothing
+    const number = element('div', known ? rounded + unit : '–', 'number');
     if (known) number.append(element('small', ` ± ${(recording.level[i] * factor).toFixed(digits)}`));
     const age = recording.age_s[i] > 0 ? `, ${number_text(recording.age_s[i], 1)} s` : '';
     tile.append(element('div', name_text(q), 'name'), number, element('div', w.states[state] + age, `state ${state}`), element('div', why_text(f, q), 'why'));
