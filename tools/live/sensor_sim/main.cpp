@@ -17,6 +17,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <random>
 #include <thread>
 
 #include "config_file/live_settings.hpp"
@@ -76,11 +77,18 @@ std::vector<RangeImage> render(const sim::Setup& setup, const Words& words) {
   return images;
 }
 
-// There and back again, so that the machine never jumps.
-const RangeImage& image_of(const std::vector<RangeImage>& images, std::uint64_t turn) {
+// There and back again, so that the machine never jumps; each range a millimetre off by chance, for a cloud that was
+// there before is a frozen sensor's.
+RangeImage image_of(const std::vector<RangeImage>& images, std::uint64_t turn) {
   const std::uint64_t round = images.size() < 2 ? 1 : 2 * (images.size() - 1);
   const std::uint64_t at = turn % round;
-  return images[at < images.size() ? at : round - at];
+  RangeImage image = images[at < images.size() ? at : round - at];
+  std::minstd_rand random(static_cast<std::uint32_t>(turn + 1));
+  for (double& range_m : image.range_m) {
+    const double off_m = 1e-3 * (static_cast<double>(random() % 3) - 1.0);
+    if (range_m > 0.0) range_m += off_m;
+  }
+  return image;
 }
 
 std::unique_ptr<PacketEncoder> encoder_of(const sim::Sensor& sensor) {

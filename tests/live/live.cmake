@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+
+# pose_walld seen from outside, by programs that others wrote. Debian's Python is taken: its packages bring the peers.
+find_program(POSE_WALL_PEER_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH DOC "Python with Debian's packages")
+if(NOT POSE_WALL_PEER_PYTHON)
+  find_program(POSE_WALL_PEER_PYTHON python3)
+endif()
+set(POSE_WALL_NODE_MODULES ${PROJECT_BINARY_DIR}/../node_modules CACHE PATH
+  "Where `npm ci` put the packages of tests/live/peer/package.json")
+
+# pose_wall_live_peer(<name> [<argument>...]): live/<name>_peer.py
+function(pose_wall_live_peer name)
+  add_test(NAME live.${name}_peer
+    COMMAND ${POSE_WALL_PEER_PYTHON} -W ignore ${CMAKE_CURRENT_SOURCE_DIR}/live/${name}_peer.py ${PROJECT_SOURCE_DIR}
+      $<TARGET_FILE:pose_wall_cli> $<TARGET_FILE:pose_walld> ${ARGN})
+  # One at a time: they measure rates, and a busy machine drops frames.
+  set_tests_properties(live.${name}_peer PROPERTIES
+    LABELS live TIMEOUT 300 RUN_SERIAL ON SKIP_REGULAR_EXPRESSION "SKIPPED:")
+endfunction()
+
+pose_wall_live_peer(daemon $<TARGET_FILE:pose_wall_sensor>)
+if(POSE_WALL_HAS_LIVE_modbus)
+  pose_wall_live_peer(modbus)
+endif()
+if(POSE_WALL_HAS_LIVE_page)
+  pose_wall_live_peer(page)
+endif()
+if(POSE_WALL_HAS_LIVE_ros1)
+  pose_wall_live_peer(ros1 ${POSE_WALL_NODE_MODULES})
+endif()
+add_test(NAME live.ros_types_are_generated
+  COMMAND ${POSE_WALL_PEER_PYTHON} ${PROJECT_SOURCE_DIR}/tools/live/ros_messages/generate_types.py --check)
+set_tests_properties(live.ros_types_are_generated PROPERTIES LABELS live SKIP_REGULAR_EXPRESSION "SKIPPED:")
