@@ -7,7 +7,8 @@ import pathlib
 import re
 
 NAMES = ("pose_wall.h", "pose_wall_runtime.h")
-ELEMENTARY = {"uint8_t": ctypes.c_uint8, "int8_t": ctypes.c_int8, "uint16_t": ctypes.c_uint16, "int32_t": ctypes.c_int32,
+ELEMENTARY = {"uint8_t": ctypes.c_uint8, "int8_t": ctypes.c_int8, "uint16_t": ctypes.c_uint16,
+              "int32_t": ctypes.c_int32,
               "uint32_t": ctypes.c_uint32, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
               "float": ctypes.c_float, "double": ctypes.c_double}
 # Pointers to functions have a name of their own in the headers.
@@ -65,7 +66,8 @@ class Headers:
         for row in filter(None, (part.strip() for part in body.split(";"))):
             kind, declared = re.fullmatch(r"(?:const )?(?:struct )?(\w+)\b\s*(.*)", row, re.S).groups()
             for one in declared.split(","):
-                stars, member, sizes = re.fullmatch(r"\s*(?:const)?\s*(\**)\s*(\w+)\s*((?:\[[^\]]*\])*)\s*", one).groups()
+                pattern = r"\s*(?:const)?\s*(\**)\s*(\w+)\s*((?:\[[^\]]*\])*)\s*"
+                stars, member, sizes = re.fullmatch(pattern, one).groups()
                 fields.append((member, self._array(self._type(kind, stars), sizes)))
         self.structs[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
 

@@ -20,7 +20,8 @@ def _structured(points):
     if points.dtype.names:
         return points.reshape(-1)
     if points.ndim != 2 or points.shape[1] < 3:
-        raise ValueError(f"points of shape {points.shape}: (N, 3), (N, 4) with intensity, or fields x, y, z are allowed")
+        raise ValueError(f"points of shape {points.shape}: (N, 3), (N, 4) with intensity, or fields x, y, z are "
+                         "allowed")
     if points.dtype.kind != "f" or points.dtype.itemsize not in (4, 8):
         raise ValueError(f"points of {points.dtype}: float32 and float64 are allowed")
     if points.strides[1] != points.dtype.itemsize:

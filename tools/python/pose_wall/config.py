@@ -117,5 +117,6 @@ class Config:
 
 # Of tools/config_file/live_settings.cpp; a test compares them with what the command prints.
 DAEMON_KEYS = frozenset(
-    "source extrinsic_from sensor sensor_metadata udp_address udp_port udp_sender frame_points_max ros1 ros2 ros_distro "
-    "http modbus mqtt mqtt_topic black_box black_box_mb recording recording_mb recording_clouds status_every_s".split())
+    "source extrinsic_from sensor sensor_metadata udp_address udp_port udp_sender frame_points_max ros1 ros2 "
+    "ros_distro http modbus mqtt mqtt_topic black_box black_box_mb recording recording_mb recording_clouds "
+    "status_every_s".split())

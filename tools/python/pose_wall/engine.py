@@ -28,7 +28,7 @@ class Engine:
         call("open", self.config.struct, address, size, ctypes.byref(self._engine))
 
     def process(self, points, stamp_ns=0, inputs=None):
-        """Points (N, 3), (N, 4) with intensity, or a structured array with x, y, z; see Inputs for what the machine knows."""
+        """Points (N, 3), (N, 4) with intensity, or a structured array with x, y, z. inputs: what `inputs` gives."""
         cloud, kept = describe(points, stamp_ns)
         if inputs is not None:
             cloud.inputs = ctypes.addressof(inputs)
@@ -72,7 +72,7 @@ class Engine:
 
 
 def inputs(speed_m_s=None, turn_rate_rad_s=None, standing=False, boxes=()):
-    """What the machine knows of itself since the last frame: speed and turn rate as (value, sigma); up to four boxes."""
+    """What the machine knows of itself since the last frame: speed, turn rate as (value, sigma); up to four boxes."""
     made = struct("pose_wall_inputs")
     if standing:
         made.given |= CONSTANTS["POSE_WALL_INPUT_STANDING"]

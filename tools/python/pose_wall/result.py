@@ -115,8 +115,9 @@ def _plane(p):
 
 def result_of(r) -> Result:
     """A pose_wall_result as a dataclass; raw_bytes is the struct itself, for images and comparisons."""
+    values = {name: _value(r.quantity[q]) for q, name in enumerate(NAMES)}
     return Result(stamp_ns=r.stamp_ns, frame_index=r.frame_index, publication=r.publication, confidence=r.confidence,
-                  frame_reasons=Reason(r.frame_reasons), **{name: _value(r.quantity[q]) for q, name in enumerate(NAMES)},
+                  frame_reasons=Reason(r.frame_reasons), **values,
                   floor=_plane(r.floor), left=_plane(r.left), right=_plane(r.right),
                   counts={name: getattr(r, name) for name in _COUNTS}, voxel_leaf_m=r.voxel_leaf_m, work=r.work,
                   config_crc32=r.config_crc32, raw_bytes=ctypes.string_at(ctypes.byref(r), ctypes.sizeof(r)))

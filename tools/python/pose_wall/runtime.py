@@ -107,7 +107,7 @@ class Runtime:
         call("runtime_wait_idle", self._runtime)
 
     def latest(self) -> Optional[Publication]:
-        """The newest one; None where nothing was published. One that is stale says so, and all its values are invalid."""
+        """The newest one; None where nothing was published. A stale one says so, and all its values are invalid."""
         publication = struct("pose_wall_publication")
         status = LIBRARY.pose_wall_runtime_latest(self._runtime, ctypes.byref(publication))
         if status == CONSTANTS["POSE_WALL_RUNTIME_E_NOTHING"]:
