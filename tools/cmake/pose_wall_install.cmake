@@ -60,8 +60,9 @@ if(TARGET pose_walld)
   install(TARGETS pose_walld pose_wall_sensor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
   # Where systemd looks whatever the prefix is: /usr/lib/systemd in a package.
   install(FILES ${pose_wall_daemon_dir}/pose_walld.service DESTINATION lib/systemd/system COMPONENT daemon)
-  install(FILES ${pose_wall_daemon_dir}/pose_walld.yaml DESTINATION ${CMAKE_INSTALL_FULL_SYSCONFDIR}/pose_wall
-    RENAME pose_wall.yaml COMPONENT daemon)
+  # The package's postinst copies it to /etc/pose_wall/pose_wall.yaml, where none is.
+  install(FILES ${pose_wall_daemon_dir}/pose_walld.yaml DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/pose_wall
+    COMPONENT daemon)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld RENAME copyright
     COMPONENT daemon)
   install(FILES ${pose_wall_daemon_dir}/README.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld

@@ -4,10 +4,10 @@
 """Writes ros_types.cpp: names, MD5 sums, hashes and definitions of the message types that pose_walld speaks.
 
 Reads msg/ and the .msg files of Debian's ROS 1 packages. The MD5 sum is that of ROS 1 (genmsg); the hash is that of
-ROS 2 from Iron on, computed as REP-2016 says. Where ROS 2 has other fields than ROS 1 (its header has no seq), the table
-ROS2_FIELDS has them.
+ROS 2 from Iron on, computed as REP-2016 says. Where ROS 2 has other fields than ROS 1 (its header has no seq), they
+stand in ROS2_FIELDS.
 
-usage: generate_types.py [--check]        --check compares, exit status 1 where the file is not as it would be written"""
+usage: generate_types.py [--check]        --check compares: exit status 1 where the file would be written otherwise"""
 
 import hashlib
 import json
@@ -134,10 +134,12 @@ def written():
         begin, end = KNOWN_HASH.get(name, ("", ""))
         if not (code.startswith(begin) and code.endswith(end)):
             raise SystemExit(f"{name}: the hash is {code}; others have {begin}...{end}")
-        rows.append(f'const RosType {constant} = {{"{name}", "{md5}",\n"{code}",\n{literal(full)},\n{literal(ros2_text(name, specs))}}};\n')
+        of_ros2 = literal(ros2_text(name, specs))
+        rows.append(f'const RosType {constant} = {{"{name}", "{md5}",\n"{code}",\n{literal(full)},\n{of_ros2}}};\n')
     return ("// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
             "// Written by generate_types.py from msg/ and the messages of ROS: do not edit.\n\n"
-            "// clang-format off\n#include \"live/ros_messages/ros_messages.hpp\"\n\nnamespace pose_wall::tools::live {\n\n"
+            "// clang-format off\n#include \"live/ros_messages/ros_messages.hpp\"\n\n"
+            "namespace pose_wall::tools::live {\n\n"
             + "\n".join(rows) + "\n}  // namespace pose_wall::tools::live\n// clang-format on\n")
 
 
