@@ -23,8 +23,12 @@ FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const In
   if (!options.topic.empty() && !bag_seen_) {
     throw std::invalid_argument(fmt::format("--topic {}: no input is a bag", options.topic));
   }
-  if (!options.metadata.empty() && !capture_seen_) {
-    throw std::invalid_argument(fmt::format("--metadata {}: no input is a capture of packets", options.metadata));
+  if (!options.packets.metadata.empty() && !packets_seen_) {
+    throw std::invalid_argument(
+        fmt::format("--metadata {}: no input is a capture of packets", options.packets.metadata));
+  }
+  if (!options.packets.sensor.empty() && !packets_seen_) {
+    throw std::invalid_argument(fmt::format("--sensor {}: no input is a capture of packets", options.packets.sensor));
   }
 }
 
@@ -32,9 +36,9 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
   try {
     if (is_rosbag2_folder(argument)) return add_bag(argument, rosbag2_files(argument), options);
     if (is_packet_capture(argument)) {
-      sources_.push_back(open_packet_capture(argument, options.metadata));
+      sources_.push_back(open_packet_capture(argument, options.packets));
       files_.emplace_back(argument);
-      capture_seen_ = true;
+      packets_seen_ = true;
       return;
     }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);
