@@ -13,6 +13,7 @@
 #include "bags/rosbag2_folder.hpp"
 #include "frames/file_source.hpp"
 #include "frames/input_list.hpp"
+#include "packets/bag_packets.hpp"
 #include "packets/packet_source.hpp"
 
 namespace pose_wall::tools {
@@ -60,7 +61,12 @@ void FrameSequence::add_bag(const std::string& argument, const std::vector<std::
   try {
     const bool fullest = options.fullest_topic && options.topic.empty();
     std::string topic = fullest ? bag->fullest_topic() : bag->choose_topic(options.topic);
-    sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
+    if (bag->has_packets(topic)) {
+      sources_.push_back(open_bag_packets(std::move(bag), topic, options.packets));
+      packets_seen_ = true;
+    } else {
+      sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
+    }
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument(fmt::format("{}: {}", argument, fault.what()));
   }

@@ -36,7 +36,7 @@ HesaiTraits xt32() {
 // Pandar40P user manual: appendix I (design values; the same table as of the Pandar40) and II (times).
 HesaiTraits pandar40p() {
   HesaiTraits traits{
-      HesaiModel::kPandar40p, "Hesai Pandar40P", 40, 10, 0, 4, 3, 22, 15, 55'560.0, -28'580.0, true, {}, {}};
+      HesaiModel::kPandar40p, "Hesai Pandar40P", 40, 10, 0, 4, 3, 22, 14, 55'560.0, -28'580.0, true, {}, {}};
   traits.firing_ns = {-42220, -28470, -16040, -3620,  -45490, -31740, -47460, -54670, -20620, -33710,
                       -40910, -8190,  -20620, -27160, -50730, -8190,  -14740, -36980, -45490, -52700,
                       -23890, -31740, -38950, -11470, -18650, -25190, -48760, -6230,  -12770, -35010,
