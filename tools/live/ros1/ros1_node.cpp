@@ -187,17 +187,26 @@ void Ros1Node::open() {
   ros_ = std::move(ros);
 }
 
-// A new master knows nothing of us.
+// A new master knows nothing of us. Nor does one that has just met a newer node of our name, and is about to end us:
+// who registered again at once would end the newer one. So it is looked twice.
 void Ros1Node::register_what_is_missing() {
   const std::optional<Registered> known = registered_topics();
   if (!known) return;
-  if (known->published.empty() && known->subscribed.empty()) ++masters_seen_;
+  std::vector<std::string> not_subscribed;
+  std::vector<std::size_t> not_published;
   for (const ros::Subscriber& subscriber : ros_->subscribers) {
-    if (known->subscribed.count(subscriber.getTopic()) == 0) register_subscriber(subscriber.getTopic());
+    if (known->subscribed.count(subscriber.getTopic()) == 0) not_subscribed.push_back(subscriber.getTopic());
   }
   for (std::size_t i = 0; i < advertised_.size(); ++i) {
-    const std::string topic = ros_->publishers[i].getTopic();
-    if (known->published.count(topic) == 0) register_publisher(topic, advertised_[i].type->name);
+    if (known->published.count(ros_->publishers[i].getTopic()) == 0) not_published.push_back(i);
+  }
+  const bool is_missing = !not_subscribed.empty() || !not_published.empty();
+  const bool was_missing = std::exchange(was_missing_, is_missing);
+  if (!is_missing || !was_missing || is_replaced() || !ros::ok()) return;
+  if (known->published.empty() && known->subscribed.empty()) ++masters_seen_;
+  for (const std::string& topic : not_subscribed) register_subscriber(topic);
+  for (const std::size_t i : not_published) {
+    register_publisher(ros_->publishers[i].getTopic(), advertised_[i].type->name);
   }
 }
 
