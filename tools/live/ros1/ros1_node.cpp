@@ -97,17 +97,18 @@ std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type) {
   return advertised_.size() - 1;
 }
 
-// roscpp listens on all addresses unless one of these names loopback. With the master on this machine, nobody else is
-// expected until one is named.
+// With the master on this machine, nobody else is expected until ROS_IP or ROS_HOSTNAME names an address. roscpp then
+// takes results and clouds on loopback alone, but lets itself be called on all addresses, whatever it is told.
 void Ros1Node::listen_where_allowed() const {
   const bool is_told = is_set("ROS_IP") || is_set("ROS_HOSTNAME");
   const bool is_local = master_.host == "localhost" || master_.host.rfind("127.", 0) == 0;
-  if (!is_told && is_local) setenv("ROS_IP", "127.0.0.1", 1);
-  log_line(Grade::kGood, "ros1",
-           !is_told && is_local
-               ? "listens on loopback, for the master is there; ROS_IP with this machine's address lets others in"
-               : "listens as ROS_IP and ROS_HOSTNAME say, on all addresses unless they name loopback; ROS 1 asks "
-                 "nobody who he is");
+  if (!is_told && is_local) {
+    setenv("ROS_IP", "127.0.0.1", 1);
+    log_line(Grade::kGood, "ros1", "sends on loopback, for the master is there; ROS_IP=ADDRESS lets other machines in");
+  }
+  log_line(Grade::kWarning, "ros1",
+           "roscpp lets itself be called (XML-RPC) on all addresses and asks nobody who he is: whoever reaches this "
+           "machine can name another publisher of clouds, or end the node. Keep others off by a firewall");
 }
 
 void Ros1Node::start() {
