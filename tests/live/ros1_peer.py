@@ -271,7 +271,8 @@ class WithoutMaster(unittest.TestCase):
     def test_words_that_are_no_topic_and_no_master_are_refused(self):
         for words, environment, complaint in (
                 (("--set", "pointcloud_topic=two words"), {}, "is no topic of ROS"),
-                ((), {"ROS_MASTER_URI": "localhost:11311"}, "is no address of a master; allowed: http://localhost:11311")):
+                ((), {"ROS_MASTER_URI": "localhost:11311"},
+                 "is no address of a master; allowed: http://localhost:11311")):
             done = subprocess.run([str(POSE_WALLD), "--set", "source=ros1", *words], env=os.environ | environment,
                                   capture_output=True, text=True, timeout=60, check=False)
             self.assertEqual(done.returncode, 1, done.stderr)
