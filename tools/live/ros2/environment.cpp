@@ -144,10 +144,16 @@ std::string cyclone_settings(const RosEnvironment& environment, const std::optio
                              const CycloneLimits& limits) {
   std::string general;
   if (interface) {
-    general += fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", interface->name);
+    // Loopback carries multicast, though it does not say so; Fast DDS announces itself that way there, too.
+    general += fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", interface->name,
+                           interface->is_loopback ? " multicast=\"true\"" : "");
   }
   const bool is_quiet = environment.range == DiscoveryRange::kLocalhost || environment.range == DiscoveryRange::kOff;
-  if (is_quiet) general += "<AllowMulticast>false</AllowMulticast>";
+  if (interface && interface->is_loopback && environment.range != DiscoveryRange::kOff) {
+    general += "<AllowMulticast>spdp</AllowMulticast>";
+  } else if (is_quiet) {
+    general += "<AllowMulticast>false</AllowMulticast>";
+  }
   const std::string discovery =
       environment.range == DiscoveryRange::kSystemDefault ? "" : discovery_settings(environment);
   // Only max: with min, a kernel that grants less would end the participant. A stop does not wait for slow readers.
