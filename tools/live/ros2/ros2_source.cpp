@@ -179,7 +179,9 @@ class Ros2Source final : public Source {
 }  // namespace
 
 std::string receive_buffer_warning(std::uint64_t granted_bytes, std::uint64_t cloud_bytes) {
-  if (granted_bytes == 0 || granted_bytes >= cloud_bytes) return "";
+  // What comes first is taken out before the last has come.
+  constexpr std::uint64_t kTakenMeanwhile_bytes = 65'536;
+  if (granted_bytes == 0 || granted_bytes + kTakenMeanwhile_bytes >= cloud_bytes) return "";
   return fmt::format(
       "clouds of {:.1f} MB lose parts and are dropped, for the kernel grants a receive buffer of {:.1f} MB: set "
       "net.core.rmem_max to {} or more (sysctl -w net.core.rmem_max={}, and a file in /etc/sysctl.d)",
