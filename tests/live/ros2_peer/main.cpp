@@ -9,8 +9,10 @@
 //   reliability=best_effort|reliable, type=..., topic=...   of the clouds
 //   results=1               reads what pose_walld publishes; durability=transient_local|volatile asks so of attitudes
 //   labelled=1              reads the labelled points
+//   static_latched=0        /tf_static as no broadcaster of ROS sends it
 //   interface=ADDRESS       default: 127.0.0.1
-// commands: static Y | moving Y (transform base_link -> lidar, by /tf_static or /tf), report, quit
+// commands: static Y | moving Y (transform base_link -> lidar, by /tf_static or /tf), junk (what is no cloud), report,
+// quit
 
 #include <fastcdr/Cdr.h>
 
@@ -352,7 +354,8 @@ class Peer {
           std::make_unique<Taking>([this, topic](const RawMessage& bytes) { results_.other(topic, bytes); }));
     }
     node_.reader("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_", true, true, &graph_);
-    static_ = node_.writer("rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", true, true);
+    static_ =
+        node_.writer("rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", true, words.number("static_latched", 1) != 0);
     moving_ = node_.writer("rt/tf", "tf2_msgs::msg::dds_::TFMessage_", true, false);
     if (words.number("results", 0) != 0) read_results();
     if (words.number("points", 0) > 0) {
@@ -378,6 +381,7 @@ class Peer {
       RawMessage message = transform(y_m);
       if (command == "static") static_->write(&message);
       if (command == "moving") moving_->write(&message);
+      if (command == "junk") send_junk();
     }
   }
 
@@ -399,6 +403,25 @@ class Peer {
     return clouds_ != nullptr && clouds_->get_publication_matched_status(status) == ReturnCode_t::RETCODE_OK
                ? status.current_count
                : 0;
+  }
+
+  // Heads without bodies, lengths beyond the end, fields beyond the point, and bytes by chance.
+  void send_junk() {
+    const RawMessage whole = road(64, now_ns(), 1);
+    for (std::size_t length = 4; length < whole.size(); length += 7) {
+      RawMessage part(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+      clouds_->write(&part);
+    }
+    std::uint32_t seed = 1;
+    for (std::size_t at = 0; at + 4 < 140; ++at) {
+      RawMessage changed = whole;
+      for (std::size_t i = 0; i < 4; ++i) {
+        seed = seed * 1664525U + 1013904223U;
+        changed[at + i] = static_cast<char>(at % 2 == 0 ? 0xFFU : seed >> 24U);
+      }
+      clouds_->write(&changed);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
 
   void publish() {
