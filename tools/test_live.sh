@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 #
-# Builds pose_walld on a fresh Debian 12 machine and tests its edges with programs that others wrote: sensors by UDP, ROS,
-# Modbus TCP, a browser, recordings. Installs what is missing (and says what).
+# Builds pose_walld on a fresh Debian 12 machine and tests its edges with programs that others wrote: sensors by UDP,
+# ROS, Modbus TCP, a browser, recordings. Installs what is missing (and says what).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/shell/steps.sh

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""pose_walld as the service manager and people at the terminal meet it: starts before its sensor, survives its loss and a
-restart of either side, stops within a second, tells what is wrong with words or settings; what is recorded is readable
-after a kill at any moment.
+"""pose_walld as the service manager and people at the terminal meet it: starts before its sensor, survives its loss and
+a restart of either side, stops within a second, tells what is wrong with words or settings; what is recorded is
+readable after a kill at any moment.
 
 usage: daemon_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR"""
 
@@ -63,7 +63,8 @@ class Sensor(Folder):
         self.assertTrue(daemon.says("the sensor is silent"), daemon.log())
         second = self.sensor(port)
         self.assertTrue(live_peer.becomes_true(lambda: fact(daemon, "source udp", "silences") == 1), daemon.log())
-        self.assertTrue(live_peer.becomes_true(lambda: "receives" in [x for x in daemon.lines if " source udp" in x][-1]))
+        newest = lambda: [line for line in daemon.lines if " source udp" in line][-1]
+        self.assertTrue(live_peer.becomes_true(lambda: "receives" in newest()))
         daemon.kill()
         again = self.start(*daemon_words)
         self.assertTrue(again.says("runtime: measures"), again.log())
@@ -88,7 +89,8 @@ class Sensor(Folder):
 
 class Words(Folder):
     def refused(self, words, status, *needles):
-        done = subprocess.run([str(POSE_WALLD), *map(str, words)], capture_output=True, text=True, timeout=30, check=False)
+        done = subprocess.run([str(POSE_WALLD), *map(str, words)], capture_output=True, text=True, timeout=30,
+                              check=False)
         self.assertEqual(done.returncode, status, done.stderr)
         for needle in needles:
             self.assertIn(needle, done.stderr)
@@ -174,7 +176,8 @@ class Recordings(Folder):
                 measured += sum(",unreadable," not in row for row in rows)
             self.assertGreater(measured, 8, "all but the chunk that was being gathered")
             for file in box.glob("*.box"):
-                done = subprocess.run([str(POSE_WALL), "replay-box", str(file)], capture_output=True, text=True, check=False)
+                done = subprocess.run([str(POSE_WALL), "replay-box", str(file)], capture_output=True, text=True,
+                                      check=False)
                 self.assertIn(" 0 otherwise", done.stdout, done.stderr)
                 self.assertGreater(int(done.stdout.split(" bit for bit")[0].split()[-1]), 8, done.stdout)
 

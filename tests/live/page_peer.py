@@ -102,7 +102,7 @@ class Http(unittest.TestCase):
             self.assertEqual(self.ask(method, "/", body="x")[0].status, 405, method)
         for path in ("/x", "/../etc/passwd", "/%2e%2e/etc/passwd", "/page.js/..", "//"):
             self.assertEqual(self.ask("GET", path)[0].status, 404, path)
-        self.assertEqual(self.ask("GET", "/", {"Host": "evil.example"})[0].status, 421, "a name pointed at this machine")
+        self.assertEqual(self.ask("GET", "/", {"Host": "evil.example"})[0].status, 421, "a name pointed here")
         self.assertEqual(self.ask("GET", "/", {"Host": f"localhost:{self.port}"})[0].status, 200)
 
     def test_malformed_requests_hold_up_nobody(self):
@@ -156,7 +156,7 @@ class Failing(unittest.TestCase):
                 self.assertTrue(daemon.says(f"http: cannot listen at 127.0.0.1:{port}"), daemon.log())
 
 
-@unittest.skipUnless(shutil.which("chromedriver"), "SKIPPED: there is no chromedriver (packages chromium, chromium-driver)")
+@unittest.skipUnless(shutil.which("chromedriver"), "SKIPPED: no chromedriver (packages chromium, chromium-driver)")
 class InABrowser(unittest.TestCase):
     def setUp(self):
         self.port = live_peer.free_port()

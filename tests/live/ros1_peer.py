@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""pose_walld as a node of ROS 1, with peers that others wrote: a JavaScript client publishes clouds of 512 kB and 4 MB at
-10 and 20 Hz and reads the results under the clouds' stamps; rostopic and rosbag read them; the master comes late and is
-started anew; the transform comes late, is missing and changes.
+"""pose_walld as a node of ROS 1, with peers that others wrote: a JavaScript client publishes clouds of 512 kB and 4 MB
+at 10 and 20 Hz and reads the results under the clouds' stamps; rostopic and rosbag read them; the master comes late and
+is started anew; the transform comes late, is missing and changes.
 
 usage: ros1_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
 
@@ -99,7 +99,8 @@ class Tools(WithMaster):
         self.addCleanup(program.kill)
         self.assertTrue(program.says("runtime: measures"), program.log())
         for topic, needle in (("/pose_wall/attitude", "vector:"), ("/pose_wall/distances", "d_lf d_lb d_rf d_rb"),
-                              ("/diagnostics", "pose_walld: runtime"), ("/tf", "base_link_level"), ("/pose_wall/points", "name: \"label\"")):
+                              ("/diagnostics", "pose_walld: runtime"), ("/tf", "base_link_level"),
+                              ("/pose_wall/points", "name: \"label\"")):
             done = subprocess.run(["rostopic", "echo", "-n", "1", topic], capture_output=True, text=True, timeout=60,
                                   check=False)
             self.assertIn(needle, done.stdout, f"{topic}: {done.stderr}")
@@ -176,9 +177,10 @@ class Transforms(WithMaster):
         time.sleep(1)
         self.assertIsNone(peer.left_m(), "never the identity by default")
         peer.transform(0.5, peer.static)
-        self.assertTrue(live_peer.becomes_true(lambda: peer.left_m() and abs(peer.left_m() - 3.0) < 0.05), program.log())
+        is_left = lambda far_m: live_peer.becomes_true(lambda: peer.left_m() and abs(peer.left_m() - far_m) < 0.05)
+        self.assertTrue(is_left(3.0), program.log())
         peer.transform(-0.5, peer.static)
-        self.assertTrue(live_peer.becomes_true(lambda: peer.left_m() and abs(peer.left_m() - 2.0) < 0.05), program.log())
+        self.assertTrue(is_left(2.0), program.log())
         attitude = peer.attitudes[-1]
         self.assertEqual(attitude.header.frame_id, "base_link")
         self.assertLess(abs(time.time() - attitude.header.stamp.to_sec()), 60)

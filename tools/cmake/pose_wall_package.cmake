@@ -36,12 +36,16 @@ if(TARGET pose_wall_cli)
                    "(packages file, dpkg-dev), here are '${POSE_WALL_FILE}' and '${POSE_WALL_SHLIBDEPS}'")
   endif()
 endif()
+if(TARGET pose_wall_shared AND TARGET pose_wall_cli)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 
 set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
 set(CPACK_ARCHIVE_DEVELOPMENT_FILE_NAME libpose-wall-dev_${PROJECT_VERSION}_${pose_wall_architecture})
 set(CPACK_ARCHIVE_COMMAND_FILE_NAME pose-wall_${PROJECT_VERSION}_${pose_wall_architecture})
 
+set(CPACK_ARCHIVE_PYTHON_FILE_NAME python3-pose-wall_${PROJECT_VERSION}_${pose_wall_architecture})
 set(CPACK_ARCHIVE_DAEMON_FILE_NAME pose-walld_${PROJECT_VERSION}_${pose_wall_architecture})
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -67,9 +71,17 @@ set(CPACK_DEBIAN_DAEMON_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_RECOMMENDS pose-wall)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
-  ${PROJECT_SOURCE_DIR}/tools/live/package/conffiles ${PROJECT_SOURCE_DIR}/tools/live/package/postinst
-  ${PROJECT_SOURCE_DIR}/tools/live/package/prerm)
+  ${PROJECT_SOURCE_DIR}/tools/live/package/postinst ${PROJECT_SOURCE_DIR}/tools/live/package/prerm
+  ${PROJECT_SOURCE_DIR}/tools/live/package/postrm)
 set(CPACK_DEBIAN_DAEMON_DESCRIPTION
   "pose of a tunnelling machine from one LiDAR: daemon\n\
 Takes a live sensor or ROS, publishes by ROS, Modbus TCP, MQTT and a web page, records.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pose-wall)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-yaml, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+  "pose of a tunnelling machine from one LiDAR: for Python\n\
+The engine and its runtime: NumPy arrays in, dataclasses out.")
 include(CPack)

@@ -10,13 +10,15 @@
 //   results=1               reads what pose_walld publishes; durability=transient_local|volatile asks so of attitudes
 //   labelled=1              reads the labelled points
 //   static_latched=0        /tf_static as no broadcaster of ROS sends it
-//   interface=ADDRESS       default: 127.0.0.1
+//   range=loopback          talks on 127.0.0.1 alone (default)
+//   range=localhost         as rmw_fastrtps does from Iron on, for ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
 // commands: static Y | moving Y (transform base_link -> lidar, by /tf_static or /tf), junk (what is no cloud), report,
 // quit
 
 #include <fastcdr/Cdr.h>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -119,10 +121,20 @@ class Discoveries final : public fast::DomainParticipantListener {
 
 class Node {
  public:
-  Node(int domain, const std::string& address) {
+  Node(int domain, const std::string& range) {
     fast::DomainParticipantQos qos;
     const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-    udp->interfaceWhiteList.push_back(address);
+    if (range == "localhost") {
+      auto& builtin = qos.wire_protocol().builtin;
+      builtin.metatrafficMulticastLocatorList.clear();
+      builtin.metatrafficUnicastLocatorList.push_back(rtps::Locator_t());
+      rtps::Locator_t localhost;
+      rtps::IPLocator::setIPv4(localhost, "127.0.0.1");
+      builtin.initialPeersList.push_back(localhost);
+      udp->maxInitialPeersRange = 32;
+    } else {
+      udp->interfaceWhiteList.push_back("127.0.0.1");
+    }
     udp->sendBufferSize = udp->receiveBufferSize = 4'194'304;
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(udp);
@@ -348,7 +360,7 @@ class Peer {
         graph_([](const RawMessage& bytes) {
           say("{\"saw\": \"graph\", \"hex\": \"" + hex(bytes.data(), bytes.size()) + "\"}");
         }),
-        node_(domain, words.text("interface", "127.0.0.1")) {
+        node_(domain, words.text("range", "loopback")) {
     for (const char* topic : {"state", "diagnostics", "tf", "points"}) {
       others_.emplace_back(
           std::make_unique<Taking>([this, topic](const RawMessage& bytes) { results_.other(topic, bytes); }));
@@ -432,6 +444,8 @@ class Peer {
     while (waits && !ending_ && (matched() == 0 || (both_ways && attitude_.matched == 0))) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
+    // The other side may know of it a little later.
+    if (waits) std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     say("{\"saw\": \"match\"}");
     results_.clear();
     auto due = std::chrono::steady_clock::now();

@@ -27,10 +27,12 @@ class RawType final : public eprosima::fastdds::dds::TopicDataType {
 
   bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override {
     const auto& message = *static_cast<const RawMessage*>(data);
-    if (message.size() > payload->max_size) return false;
+    const std::size_t padded = size_of(message);
+    if (padded > payload->max_size) return false;
     std::memcpy(payload->data, message.data(), message.size());
+    std::memset(payload->data + message.size(), 0, padded - message.size());
     payload->encapsulation = CDR_LE;
-    payload->length = static_cast<std::uint32_t>(message.size());
+    payload->length = static_cast<std::uint32_t>(padded);
     return true;
   }
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override {
@@ -39,13 +41,17 @@ class RawType final : public eprosima::fastdds::dds::TopicDataType {
     return true;
   }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<std::uint32_t>(static_cast<const RawMessage*>(data)->size()); };
+    return [data] { return static_cast<std::uint32_t>(size_of(*static_cast<const RawMessage*>(data))); };
   }
   void* createData() override { return new RawMessage; }
   void deleteData(void* data) override { delete static_cast<RawMessage*>(data); }
   bool getKey(void* /*data*/, eprosima::fastrtps::rtps::InstanceHandle_t* /*handle*/, bool /*force_md5*/) override {
     return false;
   }
+
+ private:
+  // What goes over the wire ends at a multiple of four.
+  static std::size_t size_of(const RawMessage& message) { return (message.size() + 3) / 4 * 4; }
 };
 
 }  // namespace pose_wall::test

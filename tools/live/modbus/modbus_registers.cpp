@@ -9,11 +9,16 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 7, kFunctionAt = 7, kAddressAt = 8;
+constexpr std::size_t kHeaderBytes = 7, kFunctionAt = 7, kAddressAt = 8, kCountAt = 10;
 constexpr int kReadInputRegisters = 0x04;
 
 unsigned big_endian_at(const std::uint8_t* bytes, std::size_t at) {
   return static_cast<unsigned>(bytes[at] << 8U) | bytes[at + 1];
+}
+
+// modbus_reply would refuse it, too, but sleeps first and throws away the requests that wait behind it.
+bool is_count(unsigned registers) {
+  return registers >= 1 && registers <= MODBUS_MAX_READ_REGISTERS;
 }
 
 // The images are little-endian in memory on every machine that this runs on (pose_wall.h, process image).
@@ -42,18 +47,16 @@ ModbusRegisters::ModbusRegisters(const Images& images)
       image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImageRegister, kImageRegisters)),
       image2_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImage2Register, kImage2Registers)) {
   if (!context_ || !image_ || !image2_) throw std::runtime_error("Modbus: no memory");
-  // Before it refuses a count the library waits for this long; others are waiting, too.
-  modbus_set_response_timeout(context_.get(), 0, 1000);
 }
 
 bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes, bool* was_refused) {
   modbus_set_socket(context_.get(), socket);
   constexpr int kReadBytes = 12;  // header, function, address, count
   int sent = -1;
-  if (request[kFunctionAt] != kReadInputRegisters || bytes != kReadBytes) {
-    sent = modbus_reply_exception(context_.get(), request,
-                                  request[kFunctionAt] == kReadInputRegisters ? MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE
-                                                                              : MODBUS_EXCEPTION_ILLEGAL_FUNCTION);
+  if (request[kFunctionAt] != kReadInputRegisters) {
+    sent = modbus_reply_exception(context_.get(), request, MODBUS_EXCEPTION_ILLEGAL_FUNCTION);
+  } else if (bytes != kReadBytes || !is_count(big_endian_at(request, kCountAt))) {
+    sent = modbus_reply_exception(context_.get(), request, MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE);
   } else if (big_endian_at(request, kAddressAt) >= kImage2Register) {
     copy_words(images_.image2(), image2_.get());
     sent = modbus_reply(context_.get(), request, bytes, image2_.get());

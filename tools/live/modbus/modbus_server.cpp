@@ -19,6 +19,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "live/edges.hpp"
@@ -33,6 +34,7 @@ using Clock = std::chrono::steady_clock;
 // A controller, a second one, a panel, somebody with a laptop: then the one that is silent longest makes room.
 constexpr std::size_t kClientsMost = 32;
 constexpr int kLook_ms = 100;
+constexpr auto kRest = std::chrono::milliseconds(10);
 // A controller that was switched off leaves its connection open for ever.
 constexpr auto kIdleMost = std::chrono::minutes(5);
 
@@ -65,7 +67,8 @@ Socket listen_at(const HostPort& place) {
   Socket server(socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int on = 1;
   setsockopt(server.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  const bool listens = bind(server.get(), found->ai_addr, found->ai_addrlen) == 0 && listen(server.get(), 8) == 0;
+  const bool listens =
+      bind(server.get(), found->ai_addr, found->ai_addrlen) == 0 && listen(server.get(), SOMAXCONN) == 0;
   const int why = errno;
   freeaddrinfo(found);
   if (!listens) {
@@ -128,15 +131,27 @@ class ModbusServer final : public Sink {
       for (std::size_t i = clients_.size(); i-- > 0;) {
         if (!stays[i]) clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
       }
-      if (readable[0].revents != 0) accept_client();
+      if (readable[0].revents != 0) accept_clients();
       clients_now_ = clients_.size();
     }
     clients_.clear();
   }
 
-  void accept_client() {
-    Socket socket(accept4(server_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-    if (socket.get() < 0) return;
+  // All that wait, but no more than there are places: then those that are there have their turn.
+  void accept_clients() {
+    for (std::size_t i = 0; i < kClientsMost; ++i) {
+      Socket socket(accept4(server_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+      if (socket.get() >= 0) {
+        admit(std::move(socket));
+        continue;
+      }
+      // Without descriptors the next one waits on, and poll would tell of it again and again.
+      if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) std::this_thread::sleep_for(kRest);
+      return;
+    }
+  }
+
+  void admit(Socket socket) {
     if (clients_.size() == kClientsMost) {
       clients_.erase(std::min_element(clients_.begin(), clients_.end(),
                                       [](const Client& a, const Client& b) { return a.heard < b.heard; }));

@@ -64,15 +64,16 @@ std::uint64_t BoundedFolder::bytes() const {
   return sum;
 }
 
-void BoundedFolder::make_room(std::uint64_t bytes, const std::filesystem::path& kept) const {
+bool BoundedFolder::make_room(std::uint64_t bytes, const std::filesystem::path& kept) const {
   std::uint64_t taken = this->bytes();
   for (const std::filesystem::path& oldest : files()) {
-    if (taken + bytes <= room_bytes_) return;
+    if (taken + bytes <= room_bytes_) return true;
     if (oldest == kept) continue;
     const std::uint64_t freed = size_of(oldest);
     std::error_code refused;
     if (std::filesystem::remove(oldest, refused)) taken -= std::min(taken, freed);
   }
+  return taken + bytes <= room_bytes_;
 }
 
 std::filesystem::path BoundedFolder::next(std::uint64_t bytes) {
@@ -82,7 +83,7 @@ std::filesystem::path BoundedFolder::next(std::uint64_t bytes) {
   }
   std::error_code fault;
   std::filesystem::create_directories(folder_, fault);
-  if (fault) throw std::runtime_error(fmt::format("{}: {}", folder_.string(), fault.message()));
+  if (fault) throw std::system_error(fault, folder_.string());
   const std::vector<std::filesystem::path> known = files();
   const std::uint64_t number = known.empty() ? 1 : *number_of(known.back()) + 1;
   make_room(bytes);

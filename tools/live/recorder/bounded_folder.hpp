@@ -19,10 +19,11 @@ class BoundedFolder {
   BoundedFolder(std::filesystem::path folder, std::string ending, std::uint64_t room_bytes);
 
   // Makes room for so many bytes and tells the path of a file that is not there: "000012_20261125T081502Z.mcap". Throws
-  // std::runtime_error that names the folder where it cannot be made or written, or where bytes are more than the room.
+  // std::runtime_error (by the system: std::system_error) that names the folder where it cannot be made or written, or
+  // where bytes are more than the room.
   std::filesystem::path next(std::uint64_t bytes);
-  // Deletes the oldest files, but for `kept`, until so many bytes more fit.
-  void make_room(std::uint64_t bytes, const std::filesystem::path& kept = {}) const;
+  // Deletes the oldest files, but for `kept`, until so many bytes more fit. Whether they do.
+  bool make_room(std::uint64_t bytes, const std::filesystem::path& kept = {}) const;
 
   // Oldest first.
   std::vector<std::filesystem::path> files() const;

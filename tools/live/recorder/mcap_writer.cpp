@@ -9,8 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <stdexcept>
+#include <system_error>
 
 #include "bags/crc32.hpp"
 
@@ -56,13 +55,22 @@ class Record {
   std::string bytes_;
 };
 
+constexpr std::uint64_t kRecordHead = 9, kMagicBytes = 8;
+// Kind and length, then what each holds.
+constexpr std::uint64_t kChunkHead = kRecordHead + 40, kChunkIndexBytes = kRecordHead + 64;
+constexpr std::uint64_t kDataEndBytes = kRecordHead + 4, kFooterBytes = kRecordHead + 20;
+
+[[noreturn]] void refuse(int why, const std::string& path) {
+  throw std::system_error(why, std::generic_category(), path);
+}
+
 }  // namespace
 
 McapWriter::McapWriter(const std::string& path, const std::vector<McapChannel>& channels)
     : path_(path),
       file_(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR | S_IRGRP)),
       messages_of_(channels.size(), 0) {
-  if (file_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
+  if (file_ < 0) refuse(errno, path);
   for (std::uint16_t i = 0; i < channels.size(); ++i) {
     const McapChannel& c = channels[i];
     const auto schema = static_cast<std::uint16_t>(i + 1);  // 0 would be none
@@ -71,11 +79,34 @@ McapWriter::McapWriter(const std::string& path, const std::vector<McapChannel>& 
     descriptions_ +=
         Record().number(i).number(schema).text(c.topic).text(c.message_encoding).number(std::uint32_t{0}).as(kChannel);
   }
-  write(std::string(kMagic) + Record().text("").text("pose_walld").as(kHeader) + descriptions_);
+  try {
+    write(std::string(kMagic) + Record().text("").text("pose_walld").as(kHeader) + descriptions_);
+  } catch (...) {  // there will be no destructor
+    close_file();
+    throw;
+  }
 }
 
 McapWriter::~McapWriter() {
-  if (file_ >= 0) close(file_);
+  close_file();
+}
+
+// A disk that is full for days is tried every few seconds: empty files must not pile up.
+void McapWriter::close_file() {
+  if (chunks_.empty() && is_in_place()) unlink(path_.c_str());
+  close(file_);
+}
+
+// What was deleted or moved away takes bytes as before, and nobody would find them.
+bool McapWriter::is_in_place() const {
+  struct stat named {
+  }, held{};
+  return stat(path_.c_str(), &named) == 0 && fstat(file_, &held) == 0 && named.st_ino == held.st_ino &&
+         named.st_dev == held.st_dev;
+}
+
+void McapWriter::require_in_place() const {
+  if (!is_in_place()) refuse(ENOENT, path_);
 }
 
 void McapWriter::write(std::string_view bytes) {
@@ -87,7 +118,7 @@ void McapWriter::write(std::string_view bytes) {
       const int why = written < 0 ? errno : ENOSPC;
       // Half a chunk is no record: the file ends where it ended before.
       static_cast<void>(!ftruncate(file_, static_cast<off_t>(bytes_)));
-      throw std::runtime_error(path_ + ": " + std::strerror(why));
+      refuse(why, path_);
     }
     at += static_cast<std::uint64_t>(written);
     bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -116,11 +147,17 @@ void McapWriter::flush() {
                                  .number(std::uint64_t{chunk_.size()})
                                  .raw(chunk_)
                                  .as(kChunk);
+  require_in_place();
   const Chunk chunk{chunk_first_ns_, chunk_last_ns_, bytes_, record.size(), chunk_.size()};
   chunk_.clear();
   write(record);
   chunks_.push_back(chunk);
-  if (fdatasync(file_) != 0) throw std::runtime_error(path_ + ": " + std::strerror(errno));
+  if (fdatasync(file_) != 0) refuse(errno, path_);
+}
+
+std::uint64_t McapWriter::finished_bytes() const {
+  const std::uint64_t chunk = chunk_.empty() ? 0 : kChunkHead + chunk_.size() + kChunkIndexBytes;
+  return bytes_ + chunk + kDataEndBytes + summary().size() + kFooterBytes + kMagicBytes;
 }
 
 std::string McapWriter::summary() const {

@@ -21,12 +21,13 @@ struct McapChannel {
 
 class McapWriter {
  public:
-  // Opens a new file and writes its head. A message's channel is its place in the list. Throws std::runtime_error that
-  // names the file; so do the others, when the disk is full or gone. Then the file stays as it was.
+  // Opens a new file and writes its head. A message's channel is its place in the list. Throws std::system_error that
+  // names the file; so do the others, when the disk is full or the file was moved away. Then the file stays as it was;
+  // one that holds no message yet is deleted.
   McapWriter(const std::string& path, const std::vector<McapChannel>& channels);
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
-  // Closes without a summary, as a loss of power would.
+  // Closes without a summary, as a loss of power would; deletes what holds no chunk.
   ~McapWriter();
 
   void add(std::uint16_t channel, std::uint64_t time_ns, std::string_view message);
@@ -37,6 +38,9 @@ class McapWriter {
 
   std::uint64_t bytes() const { return bytes_; }  // of the file
   std::uint64_t gathered_bytes() const { return chunk_.size(); }
+  // Of the file, were it finished now.
+  std::uint64_t finished_bytes() const;
+  const std::string& path() const { return path_; }
   std::uint64_t messages() const { return messages_; }
 
  private:
@@ -45,6 +49,9 @@ class McapWriter {
   };
 
   void write(std::string_view bytes);
+  void require_in_place() const;
+  bool is_in_place() const;
+  void close_file();
   std::string summary() const;
 
   std::string path_;

@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <ctime>
 #include <memory>
 #include <mutex>
+#include <system_error>
+#include <utility>
 
 #include "live/edges.hpp"
 #include "live/log.hpp"
@@ -59,26 +62,37 @@ class Recorder final : public Sink {
         messages_(MessageEncoding::kCdr, ""),
         part_("sink recorder " + loaded.live.recording) {}
 
-  // A folder that cannot be written is a fault of the settings now, and of the disk later.
-  void start() override { open(); }
+  // A folder that cannot be written is a fault of the settings now, and of the disk later. A disk that is full at
+  // power-on is no reason to measure nothing.
+  void start() override {
+    try {
+      open();
+    } catch (const std::system_error& fault) {
+      if (fault.code() != std::errc::no_space_on_device && fault.code().value() != EDQUOT) throw;
+      pause(fault.what());
+    }
+  }
 
   void take(const LiveResult& result) override {
     if (!writer_ && Clock::now() < try_again_) {
       ++not_recorded_;
       return;
     }
+    ++in_chunk_;
     try {
       if (!writer_) open();
       record(result);
     } catch (const std::exception& fault) {
-      ++not_recorded_;
       pause(fault.what());
     }
   }
 
   void stop() override {
     try {
-      if (writer_) writer_->finish();
+      if (writer_) {
+        write_chunk();
+        writer_->finish();
+      }
     } catch (const std::exception& fault) {
       pause(fault.what());
     }
@@ -118,18 +132,28 @@ class Recorder final : public Sink {
       health_last_ = Clock::now();
       writer_->add(kHealth, now_ns, health_json(board_.all()));
     }
-    if (Clock::now() - chunk_began_ >= kChunkTime || writer_->gathered_bytes() >= kChunkBytes) {
-      writer_->flush();
-      chunk_began_ = Clock::now();
-    }
-    ++recorded_;
+    if (Clock::now() - chunk_began_ < kChunkTime && writer_->gathered_bytes() < kChunkBytes) return;
+    write_chunk();
     if (writer_->bytes() < file_bytes_most()) return;
     writer_->finish();
     open();
   }
 
+  // Room is made before it is taken, also for the summary that is to come: the folder never holds more.
+  void write_chunk() {
+    const std::uint64_t finished = writer_->finished_bytes();
+    if (!folder_.make_room(finished - writer_->bytes(), writer_->path())) {
+      throw std::runtime_error(fmt::format("{}: a second's recording is {} bytes, recording_mb allows {} for all",
+                                           writer_->path(), writer_->gathered_bytes(), folder_.room_bytes()));
+    }
+    writer_->flush();
+    chunk_began_ = Clock::now();
+    recorded_ += std::exchange(in_chunk_, 0);
+  }
+
   void pause(const std::string& why) {
     writer_.reset();
+    not_recorded_ += std::exchange(in_chunk_, 0);
     try_again_ = Clock::now() + kTryAgain;
     say(why);
   }
@@ -147,6 +171,7 @@ class Recorder final : public Sink {
   std::string part_;
   std::unique_ptr<McapWriter> writer_;
   Clock::time_point chunk_began_, health_last_, try_again_;
+  std::uint64_t in_chunk_ = 0;  // results that are not on the disk yet
   mutable std::mutex trouble_lock_;
   std::string trouble_;
   std::atomic<std::uint64_t> recorded_{0}, not_recorded_{0}, files_{0};

@@ -5,10 +5,8 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <chrono>
+#include <algorithm>
 #include <memory>
-#include <mutex>
 
 #include "bags/point_cloud2.hpp"
 #include "live/edges.hpp"
@@ -22,6 +20,14 @@ namespace {
 constexpr const char* kNodeName = "pose_walld";
 // The newest cloud counts; of transforms none may be lost.
 constexpr std::uint32_t kCloudQueue = 2, kTransformQueue = 100;
+
+// Why nobody new can find the node; empty when all is well.
+std::string trouble_of(const Ros1Node& node) {
+  if (node.was_ended_by_ros()) {
+    return "was ended by rosnode kill or by another node of its name; pose_walld must be started anew to come back";
+  }
+  return node.has_master() ? "" : "waits for the master at " + node.master_uri();
+}
 
 class Ros1Source final : public Source {
  public:
@@ -47,13 +53,12 @@ class Ros1Source final : public Source {
   PartHealth health() const override {
     PartHealth health = reader_.health("source ros1 " + reader_.topic());
     health.add("masters seen", node_->masters_seen());
-    if (!node_->has_master()) {
-      health.grade = Grade::kBad;
-      health.summary = "waits for the master at " + node_->master_uri();
-    } else if (node_->publishers() == 0) {
-      health.grade = Grade::kBad;
-      health.summary = "nobody publishes " + reader_.topic();
-    }
+    if (health.grade == Grade::kBad && node_->publishers() == 0) health.summary = "nobody publishes " + reader_.topic();
+    const std::string trouble = trouble_of(*node_);
+    if (trouble.empty()) return health;
+    // Who is connected goes on sending without a master.
+    health.summary = health.grade == Grade::kBad ? trouble : fmt::format("{}; {}", health.summary, trouble);
+    health.grade = std::max(health.grade, Grade::kWarning);
     return health;
   }
 
@@ -73,9 +78,7 @@ class Ros1Out final : public RosOut {
   std::uint32_t subscribers(std::size_t number) const override { return node_->subscribers(number); }
   void start() override { node_->start(); }
   void stop() override { node_->stop(); }
-  std::string trouble() const override {
-    return node_->has_master() ? "" : "waits for the master at " + node_->master_uri();
-  }
+  std::string trouble() const override { return trouble_of(*node_); }
 
  private:
   std::shared_ptr<Ros1Node> node_;

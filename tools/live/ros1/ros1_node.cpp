@@ -3,16 +3,19 @@
 
 #include "live/ros1/ros1_node.hpp"
 
+#include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <topic_tools/shape_shifter.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <optional>
+#include <stdexcept>
+#include <typeinfo>
 #include <utility>
 
 #include "live/log.hpp"
+#include "live/ros1/registrations.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -21,33 +24,70 @@ constexpr const char* kUsualMaster = "http://localhost:11311";
 constexpr auto kLookForMaster = std::chrono::milliseconds(500);
 constexpr double kSpin_s = 0.05;
 constexpr std::uint32_t kQueueOut = 2;
+// A clean end takes a dozen calls of a millisecond each; who waits for pose_walld waits a second.
+constexpr auto kFarewell = std::chrono::milliseconds(400);
+// roscpp tries again where the master went away between two calls; what was not registered then, the next look finds.
+constexpr double kRetry_s = 0.1;
 
-// The process number of the master: another one after it was started anew.
-std::optional<std::int64_t> master_pid() {
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  if (!ros::master::execute("getPid", request, response, payload, false)) return std::nullopt;
-  return static_cast<int>(payload);
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
 }
+
+void require_topic_name(const std::string& topic) {
+  std::string why;
+  if (topic.empty() || !ros::names::validate(topic, why)) {
+    throw std::runtime_error(fmt::format("'{}' is no topic of ROS: {}", topic, topic.empty() ? "it is empty" : why));
+  }
+}
+
+// Hands on the bytes of any type as roscpp received them, without a copy.
+class BytesTaker final : public ros::SubscriptionCallbackHelper {
+ public:
+  explicit BytesTaker(Ros1Node::Take take) : take_(std::move(take)) {}
+
+  ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& message) override {
+    const auto type = message.connection_header->find("type");
+    take_(type != message.connection_header->end() ? type->second : "",
+          {reinterpret_cast<const std::byte*>(message.buffer), message.length});
+    return nullptr;  // nothing is left to call back with
+  }
+  void call(ros::SubscriptionCallbackHelperCallParams&) override {}
+  const std::type_info& getTypeInfo() override { return typeid(BytesTaker); }
+  bool isConst() override { return true; }
+  bool hasHeader() override { return false; }
+
+ private:
+  Ros1Node::Take take_;
+};
 
 }  // namespace
 
-// What lives between one master and the next.
+// What lives from the first master to the end.
 struct Ros1Node::Ros {
   ros::NodeHandle handle;
-  ros::CallbackQueue queue;
   std::vector<ros::Subscriber> subscribers;
   std::vector<ros::Publisher> publishers;
-  std::int64_t master_pid = 0;
 };
 
-Ros1Node::Ros1Node(std::string name) : name_(std::move(name)) {}
+Ros1Node::Ros1Node(std::string name)
+    : name_(std::move(name)),
+      master_uri_(is_set("ROS_MASTER_URI") ? std::getenv("ROS_MASTER_URI") : kUsualMaster),
+      queue_(std::make_unique<ros::CallbackQueue>()) {
+  const std::optional<HostPort> master = parse_master_uri(master_uri_);
+  if (!master) {
+    throw std::runtime_error(
+        fmt::format("ROS_MASTER_URI: '{}' is no address of a master; allowed: {}", master_uri_, kUsualMaster));
+  }
+  master_ = *master;
+}
 
 Ros1Node::~Ros1Node() {
   stop();
 }
 
 void Ros1Node::subscribe(const std::string& topic, std::uint32_t queue, Take take) {
+  require_topic_name(topic);
   subscriptions_.push_back({topic, queue, std::move(take)});
 }
 
@@ -57,20 +97,31 @@ std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type) {
   return advertised_.size() - 1;
 }
 
-std::string Ros1Node::master_uri() const {
-  const char* uri = std::getenv("ROS_MASTER_URI");
-  return uri != nullptr && *uri != '\0' ? uri : kUsualMaster;
+// roscpp listens on all addresses unless one of these names loopback. With the master on this machine, nobody else is
+// expected until one is named.
+void Ros1Node::listen_where_allowed() const {
+  const bool is_told = is_set("ROS_IP") || is_set("ROS_HOSTNAME");
+  const bool is_local = master_.host == "localhost" || master_.host.rfind("127.", 0) == 0;
+  if (!is_told && is_local) setenv("ROS_IP", "127.0.0.1", 1);
+  log_line(Grade::kGood, "ros1",
+           !is_told && is_local
+               ? "listens on loopback, for the master is there; ROS_IP with this machine's address lets others in"
+               : "listens as ROS_IP and ROS_HOSTNAME say, on all addresses unless they name loopback; ROS 1 asks "
+                 "nobody who he is");
 }
 
 void Ros1Node::start() {
-  if (thread_.joinable()) return;
-  // Without it roscpp ends the process.
-  setenv("ROS_MASTER_URI", master_uri().c_str(), 1);
+  if (master_thread_.joinable()) return;
+  listen_where_allowed();
   ending_ = false;
+  line_ = std::make_unique<MasterLine>(master_);
   if (!ros::isInitialized()) {
-    ros::init(ros::M_string{}, name_, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+    ros::init(ros::M_string{{"__master", line_->uri()}}, name_,
+              ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+    ros::master::setRetryTimeout(ros::WallDuration(kRetry_s));
   }
-  thread_ = std::thread([this] { run(); });
+  master_thread_ = std::thread([this] { attend_master(); });
+  message_thread_ = std::thread([this] { take_messages(); });
 }
 
 void Ros1Node::stop() {
@@ -79,26 +130,35 @@ void Ros1Node::stop() {
     ending_ = true;
   }
   changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  if (message_thread_.joinable()) message_thread_.join();
+  if (!master_thread_.joinable()) return;
+  line_->end_within(kFarewell);
+  master_thread_.join();
+  line_.reset();
 }
 
-void Ros1Node::run() {
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point looked{};
+void Ros1Node::take_messages() {
   while (true) {
     {
-      std::unique_lock<std::mutex> locked(lock_);
-      if (!ros_) changed_.wait_for(locked, kLookForMaster, [this] { return ending_; });
-      if (ending_) break;
+      const std::lock_guard<std::mutex> locked(lock_);
+      if (ending_) return;
     }
-    if (Clock::now() - looked >= kLookForMaster) {
-      looked = Clock::now();
-      const std::optional<std::int64_t> pid = master_pid();
-      has_master_ = pid.has_value();
-      if (pid && (!ros_ || ros_->master_pid != *pid)) attend(*pid);
-      count_peers();
+    queue_->callAvailable(ros::WallDuration(kSpin_s));
+  }
+}
+
+void Ros1Node::attend_master() {
+  while (true) {
+    has_master_ = !ended_by_ros_ && ros::master::check();
+    if (has_master_ && !ros_) {
+      open();
+    } else if (has_master_) {
+      register_what_is_missing();
     }
-    if (ros_) ros_->queue.callAvailable(ros::WallDuration(kSpin_s));
+    ended_by_ros_ = ros_ && !ros::ok();
+    count_peers();
+    std::unique_lock<std::mutex> locked(lock_);
+    if (changed_.wait_for(locked, kLookForMaster, [this] { return ending_; })) break;
   }
   std::unique_ptr<Ros> last;
   {
@@ -109,27 +169,14 @@ void Ros1Node::run() {
   last.reset();
 }
 
-// A new master knows nothing of us: everything is registered anew.
-void Ros1Node::attend(std::int64_t pid) {
-  {
-    std::unique_ptr<Ros> before;
-    const std::lock_guard<std::mutex> locked(lock_);
-    before = std::move(ros_);
-  }
+void Ros1Node::open() {
   auto ros = std::make_unique<Ros>();
-  ros->master_pid = pid;
-  ros->handle.setCallbackQueue(&ros->queue);
   for (const Subscription& subscription : subscriptions_) {
-    const Take take = subscription.take;
-    const boost::function<void(const topic_tools::ShapeShifter::ConstPtr&)> call =
-        [take](const topic_tools::ShapeShifter::ConstPtr& message) {
-          std::vector<std::uint8_t> bytes(message->size());
-          ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-          message->write(stream);
-          take(message->getDataType(), {reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()});
-        };
-    ros->subscribers.push_back(ros->handle.subscribe<topic_tools::ShapeShifter>(
-        subscription.topic, subscription.queue, call, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+    ros::SubscribeOptions options(subscription.topic, subscription.queue, "*", "*");
+    options.helper = boost::make_shared<BytesTaker>(subscription.take);
+    options.callback_queue = queue_.get();
+    options.transport_hints = ros::TransportHints().tcpNoDelay();
+    ros->subscribers.push_back(ros->handle.subscribe(options));
   }
   for (const Advertised& topic : advertised_) {
     ros::AdvertiseOptions options(topic.topic, kQueueOut, topic.type->md5, topic.type->name, topic.type->definition);
@@ -138,6 +185,20 @@ void Ros1Node::attend(std::int64_t pid) {
   ++masters_seen_;
   const std::lock_guard<std::mutex> locked(lock_);
   ros_ = std::move(ros);
+}
+
+// A new master knows nothing of us.
+void Ros1Node::register_what_is_missing() {
+  const std::optional<Registered> known = registered_topics();
+  if (!known) return;
+  if (known->published.empty() && known->subscribed.empty()) ++masters_seen_;
+  for (const ros::Subscriber& subscriber : ros_->subscribers) {
+    if (known->subscribed.count(subscriber.getTopic()) == 0) register_subscriber(subscriber.getTopic());
+  }
+  for (std::size_t i = 0; i < advertised_.size(); ++i) {
+    const std::string topic = ros_->publishers[i].getTopic();
+    if (known->published.count(topic) == 0) register_publisher(topic, advertised_[i].type->name);
+  }
 }
 
 void Ros1Node::count_peers() {

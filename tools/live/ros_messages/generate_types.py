@@ -4,10 +4,10 @@
 """Writes ros_types.cpp: names, MD5 sums, hashes and definitions of the message types that pose_walld speaks.
 
 Reads msg/ and the .msg files of Debian's ROS 1 packages. The MD5 sum is that of ROS 1 (genmsg); the hash is that of
-ROS 2 from Iron on, computed as REP-2016 says. Where ROS 2 has other fields than ROS 1 (its header has no seq), the table
-ROS2_FIELDS has them.
+ROS 2 from Iron on, computed as REP-2016 says. Where ROS 2 has other fields than ROS 1 (its header has no seq), they
+stand in ROS2_FIELDS.
 
-usage: generate_types.py [--check]        --check compares, exit status 1 where the file is not as it would be written"""
+usage: generate_types.py [--check]        --check compares: exit status 1 where the file would be written otherwise"""
 
 import hashlib
 import json
@@ -49,8 +49,10 @@ KNOWN_HASH = {"sensor_msgs/PointCloud2": ("RIHS01_9198cabf", "bae2b5"),
               "geometry_msgs/Vector3Stamped": ("RIHS01_d4829622", "7887a"),
               "std_msgs/Float32MultiArray": ("RIHS01_0599f6f8", "bfe0"),
               "tf2_msgs/TFMessage": ("RIHS01_e369d0f05a23ae52508854b66f6aa043", "7f3449d652e8cbf22d5abe85d020f087"),
-              "diagnostic_msgs/DiagnosticArray": ("RIHS01_5a8a36efb05fb25070fa0fb3810290c0", "e6cd4862b54a8fb975a1ee8dc55a333e"),
-              f"{GRAPH}/ParticipantEntitiesInfo": ("RIHS01_91a0593bacdcc50ea9bdcf849a938b12", "8412cc1ea821245c663bcd26f83c295e")}
+              "diagnostic_msgs/DiagnosticArray": ("RIHS01_5a8a36efb05fb25070fa0fb3810290c0",
+                                                  "e6cd4862b54a8fb975a1ee8dc55a333e"),
+              f"{GRAPH}/ParticipantEntitiesInfo": ("RIHS01_91a0593bacdcc50ea9bdcf849a938b12",
+                                                   "8412cc1ea821245c663bcd26f83c295e")}
 
 
 def load(context, name):
@@ -147,12 +149,14 @@ def written():
         md5 = genmsg.gentools.compute_md5(context, specs[name])
         full = genmsg.gentools.compute_full_text(context, specs[name])
         code = rihs01(name, specs)
-        rows.append(f'const RosType {constant} = {{"{name}", "{md5}",\n"{code}",\n{literal(full)},\n{literal(ros2_text(name, specs))}}};\n')
+        of_ros2 = literal(ros2_text(name, specs))
+        rows.append(f'const RosType {constant} = {{"{name}", "{md5}",\n"{code}",\n{literal(full)},\n{of_ros2}}};\n')
     for constant, name in ROS2_TYPES.items():
         rows.append(f'const RosType {constant} = {{"{name}", "", "{rihs01(name, specs)}", "", ""}};\n')
     return ("// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
             "// Written by generate_types.py from msg/ and the messages of ROS: do not edit.\n\n"
-            "// clang-format off\n#include \"live/ros_messages/ros_messages.hpp\"\n\nnamespace pose_wall::tools::live {\n\n"
+            "// clang-format off\n#include \"live/ros_messages/ros_messages.hpp\"\n\n"
+            "namespace pose_wall::tools::live {\n\n"
             + "\n".join(rows) + "\n}  // namespace pose_wall::tools::live\n// clang-format on\n")
 
 

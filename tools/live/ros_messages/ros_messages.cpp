@@ -71,7 +71,7 @@ class RosMessages::Writer : public MessageWriter {
 };
 
 RosMessages::RosMessages(MessageEncoding encoding, std::string base_frame)
-    : encoding_(encoding), base_frame_(std::move(base_frame)) {}
+    : encoding_(encoding), base_frame_(base_frame.rfind('/', 0) == 0 ? base_frame.substr(1) : std::move(base_frame)) {}
 
 RosMessages::Writer RosMessages::begin(std::int64_t stamp_ns, const std::string& frame_id) const {
   Writer writer(encoding_);

@@ -3,9 +3,12 @@
 
 #include "live/ros_messages/ros_publisher.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <utility>
+#include <vector>
 
 namespace pose_wall::tools::live {
 namespace {
@@ -52,9 +55,7 @@ class RosPublisher final : public Sink {
     wants_points_ = out_->subscribers(points_) > 0;
     if (result.points && wants_points_) out_->publish(points_, messages_.points(result));
     ++published_;
-    if (Clock::now() - diagnostics_last_ < kDiagnosticsEvery) return;
-    diagnostics_last_ = Clock::now();
-    out_->publish(diagnostics_, messages_.diagnostics(board_.all(), wall_ns()));
+    tell_health();
   }
 
   PartHealth health() const override {
@@ -73,12 +74,26 @@ class RosPublisher final : public Sink {
   bool wants_points() const override { return wants_points_; }
 
  private:
+  // Once a second, and at once where a part fares otherwise than it did.
+  void tell_health() {
+    std::vector<PartHealth> parts = board_.all();
+    const auto fares_alike = [](const PartHealth& a, const PartHealth& b) {
+      return a.part == b.part && a.grade == b.grade && a.summary == b.summary;
+    };
+    const bool is_news = !std::equal(parts.begin(), parts.end(), told_.begin(), told_.end(), fares_alike);
+    if (!is_news && Clock::now() - diagnostics_last_ < kDiagnosticsEvery) return;
+    diagnostics_last_ = Clock::now();
+    out_->publish(diagnostics_, messages_.diagnostics(parts, wall_ns()));
+    told_ = std::move(parts);
+  }
+
   std::string part_;
   const HealthBoard& board_;
   std::unique_ptr<RosOut> out_;
   RosMessages messages_;
   std::size_t attitude_, distances_, state_, points_, diagnostics_, transforms_;
   Clock::time_point diagnostics_last_{};
+  std::vector<PartHealth> told_;
   std::atomic<bool> wants_points_{false};
   std::atomic<std::uint64_t> published_{0};
 };

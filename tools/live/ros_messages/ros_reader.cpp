@@ -15,6 +15,8 @@ namespace pose_wall::tools::live {
 namespace {
 
 constexpr std::int64_t kSilent_ns = 1'000'000'000;
+// Garbage may be another one each time; the journal shall not be filled by who sends it.
+constexpr std::int64_t kRefusalsLoggedEvery_ns = 10'000'000'000;
 
 std::int64_t monotonic_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -47,7 +49,12 @@ void RosReader::deliver_to(FrameTaker* taker) {
 
 void RosReader::refuse(const std::string& why) {
   ++refused_;
-  if (why != last_refusal_) log_line(Grade::kWarning, topic_, why);
+  const std::int64_t now_ns = monotonic_ns();
+  const bool is_due = !refusal_logged_ns_ || now_ns - *refusal_logged_ns_ >= kRefusalsLoggedEvery_ns;
+  if (why != last_refusal_ && is_due) {
+    log_line(Grade::kWarning, topic_, why);
+    refusal_logged_ns_ = now_ns;
+  }
   last_refusal_ = why;
 }
 
@@ -60,25 +67,36 @@ void RosReader::take_cloud(const std::string& type, ByteView message) {
     DecodedCloud cloud = decode_point_cloud2(encoding_, message, {});
     frame.frame = std::move(cloud.frame);
     frame.stamp_ns = cloud.stamp_ns;
-    frame.frame_id = std::move(cloud.frame_id);
+    // Frames of ROS 1 before 2012 began with a slash; tf2 knows none that do.
+    frame.frame_id = cloud.frame_id.substr(cloud.frame_id.rfind('/', 0) == 0 ? 1 : 0);
   } catch (const FrameError& fault) {
     return refuse(fault.what());
   }
   // Who stamps nothing gets the time of arrival, or the engine would take every cloud for the one before.
   if (frame.stamp_ns == 0) ++without_stamp_;
   frame.frame.cloud.stamp_ns = frame.stamp_ns != 0 ? frame.stamp_ns : last_cloud_ns_;
-  if (frame.frame_id != cloud_frame_) {
-    cloud_frame_ = frame.frame_id;
-    if (cloud_frame_ != lidar_frame_) {
-      log_line(Grade::kWarning, topic_,
-               fmt::format("frame_id is '{}', lidar_frame is '{}': {}", cloud_frame_, lidar_frame_,
-                           wants_transforms_ ? "the transform from the cloud's frame is used"
-                                             : "the extrinsic of the config is taken for it"));
-    }
+  if (!is_of_this_sensor(frame.frame_id)) {
+    ++of_others_;
+    return;
   }
   if (wants_transforms_) tell_extrinsic();
   ++frames_;
   if (taker_ != nullptr) taker_->take(std::move(frame));
+}
+
+bool RosReader::is_of_this_sensor(const std::string& frame_id) {
+  const bool is_known = cloud_frame_seen_ns_ != 0 && frame_id == cloud_frame_;
+  if (!is_known && cloud_frame_seen_ns_ != 0 && last_cloud_ns_ - cloud_frame_seen_ns_ < kSilent_ns) return false;
+  cloud_frame_seen_ns_ = last_cloud_ns_;
+  if (is_known) return true;
+  cloud_frame_ = frame_id;
+  if (!cloud_frame_.empty() && cloud_frame_ != lidar_frame_) {
+    log_line(Grade::kWarning, topic_,
+             fmt::format("frame_id is '{}', lidar_frame is '{}': {}", cloud_frame_, lidar_frame_,
+                         wants_transforms_ ? "the transform from the cloud's frame is used"
+                                           : "the extrinsic of the config is taken for it"));
+  }
+  return true;
 }
 
 void RosReader::take_transforms(ByteView message, bool is_static) {
@@ -122,6 +140,7 @@ PartHealth RosReader::health(const std::string& part) const {
   health.add("clouds", frames_.load());
   health.add("messages refused", refused_.load());
   health.add("clouds without stamp", without_stamp_.load());
+  if (of_others_ > 0) health.add("clouds of another frame_id, dropped", of_others_.load());
   if (wants_transforms_) health.add("transform messages", transforms_taken_.load());
   if (!last_refusal_.empty()) health.add("last refusal", last_refusal_);
   return health;

@@ -37,6 +37,8 @@ class RosReader {
 
  private:
   void tell_extrinsic();
+  // False for a cloud of another frame than those that come all the time: two sensors on one topic.
+  bool is_of_this_sensor(const std::string& frame_id);
   void refuse(const std::string& why);
 
   MessageEncoding encoding_;
@@ -47,9 +49,11 @@ class RosReader {
   TransformTree transforms_;
   bool extrinsic_known_ = false;
   std::string cloud_frame_;  // of the newest cloud's header
+  std::int64_t cloud_frame_seen_ns_ = 0;
   std::string last_refusal_;
+  std::optional<std::int64_t> refusal_logged_ns_;
   std::int64_t last_cloud_ns_ = 0;
-  std::atomic<std::uint64_t> frames_{0}, refused_{0}, without_stamp_{0}, transforms_taken_{0};
+  std::atomic<std::uint64_t> frames_{0}, refused_{0}, without_stamp_{0}, transforms_taken_{0}, of_others_{0};
 };
 
 }  // namespace pose_wall::tools::live

@@ -82,26 +82,34 @@ void TransformTree::take(MessageEncoding encoding, ByteView bytes, bool is_stati
   }
 }
 
-std::optional<TransformTree::Root> TransformTree::root_of(const std::string& frame, std::int64_t now_ns) const {
-  Root root;
-  root.name = frame;
-  for (std::size_t steps = 0; steps <= links_.size(); ++steps) {
-    const auto found = links_.find(root.name);
-    if (found == links_.end()) return root;
+std::vector<TransformTree::Step> TransformTree::chain_of(const std::string& frame) const {
+  std::vector<Step> chain = {{frame, Eigen::Isometry3d::Identity(), nullptr}};
+  while (chain.size() <= kStepsMost) {
+    const auto found = links_.find(chain.back().frame);
+    if (found == links_.end()) break;
     const Link& link = found->second;
-    if (!link.is_static && now_ns - link.taken_ns > kOld_ns) return std::nullopt;
-    root.root_from_frame = link.parent_from_child * root.root_from_frame;
-    root.name = link.parent;
+    chain.push_back({link.parent, link.parent_from_child * chain.back().here_from_first, &link});
   }
-  return std::nullopt;  // a ring
+  return chain;
+}
+
+bool TransformTree::is_fresh(const std::vector<Step>& chain, std::size_t end, std::int64_t now_ns) {
+  return std::all_of(chain.begin() + 1, chain.begin() + static_cast<std::ptrdiff_t>(end) + 1,
+                     [&](const Step& step) { return step.link->is_static || now_ns - step.link->taken_ns <= kOld_ns; });
 }
 
 std::optional<Extrinsic> TransformTree::extrinsic(const std::string& base_frame, const std::string& lidar_frame,
                                                   std::int64_t now_ns) const {
-  const std::optional<Root> of_base = root_of(frame_name(base_frame), now_ns);
-  const std::optional<Root> of_lidar = root_of(frame_name(lidar_frame), now_ns);
-  if (!of_base || !of_lidar || of_base->name != of_lidar->name) return std::nullopt;
-  return extrinsic_of(of_base->root_from_frame.inverse() * of_lidar->root_from_frame);
+  const std::vector<Step> of_lidar = chain_of(frame_name(lidar_frame)), of_base = chain_of(frame_name(base_frame));
+  for (std::size_t i = 0; i < of_lidar.size(); ++i) {
+    for (std::size_t k = 0; k < of_base.size(); ++k) {
+      if (of_lidar[i].frame != of_base[k].frame) continue;
+      // What is above the frame where both meet is the machine's place in the world: it may be as old as it likes.
+      if (!is_fresh(of_lidar, i, now_ns) || !is_fresh(of_base, k, now_ns)) return std::nullopt;
+      return extrinsic_of(of_base[k].here_from_first.inverse() * of_lidar[i].here_from_first);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace pose_wall::tools::live

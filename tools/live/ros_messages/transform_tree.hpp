@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bags/bag_reader.hpp"
 #include "bags/byte_cursor.hpp"
@@ -25,7 +26,8 @@ class TransformTree {
   void take(MessageEncoding encoding, ByteView message, bool is_static, std::int64_t now_ns);
 
   // Nothing where no chain leads from the sensor to base, or where a link of it that comes by /tf is older than
-  // kOld_ns. Never the identity by default: unless both are one frame, which they then are.
+  // kOld_ns; links above the first frame that both hang on do not count. Never the identity by default: unless both are
+  // one frame, which they then are.
   std::optional<Extrinsic> extrinsic(const std::string& base_frame, const std::string& lidar_frame,
                                      std::int64_t now_ns) const;
 
@@ -34,6 +36,8 @@ class TransformTree {
   static constexpr std::int64_t kOld_ns = 10'000'000'000;
   // Who sends other names all the time must not fill the memory.
   static constexpr std::size_t kLinksMost = 10'000;
+  // Machines have chains of ten links; a ring has no end.
+  static constexpr std::size_t kStepsMost = 100;
 
  private:
   struct Link {
@@ -42,12 +46,15 @@ class TransformTree {
     bool is_static = false;
     std::int64_t taken_ns = 0;
   };
-  // To the root that the frame's chain ends in; nothing where a link is old or the chain is a ring.
-  struct Root {
-    std::string name;
-    Eigen::Isometry3d root_from_frame = Eigen::Isometry3d::Identity();
+  // A frame on the way up from a first one.
+  struct Step {
+    std::string frame;
+    Eigen::Isometry3d here_from_first;
+    const Link* link;  // by which it was reached; none for the first
   };
-  std::optional<Root> root_of(const std::string& frame, std::int64_t now_ns) const;
+  std::vector<Step> chain_of(const std::string& frame) const;
+  // Of the links up to the step `end`.
+  static bool is_fresh(const std::vector<Step>& chain, std::size_t end, std::int64_t now_ns);
 
   std::map<std::string, Link> links_;  // by child
 };
