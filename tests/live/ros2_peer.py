@@ -194,9 +194,12 @@ class Transforms(Ros2):
 
 
 class Discovery(Ros2):
-    def discovered(self, distro, **variables):
+    def discovered(self, distro):
+        """Either distro's way of keeping to this machine; the later one is all unicast to localhost."""
+        is_humble = distro == "humble"
+        variables = {} if is_humble else {"ROS_LOCALHOST_ONLY": "", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
         program = self.daemon(f"ros_distro={distro}", **variables)
-        peer = self.peer("results=1")
+        peer = self.peer("results=1", "range=loopback" if is_humble else "range=localhost")
         self.comes_true(lambda: {one["topic"] for one in peer.seen("writer")} >= set(RESULTS), peer, program)
         self.comes_true(lambda: peer.seen("graph"), peer)
         time.sleep(1)
