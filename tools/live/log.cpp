@@ -37,11 +37,36 @@ std::string time_text() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z ", parts, since_epoch_ms % 1000);
 }
 
-// Names and messages of others must not forge lines.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-  return text;
+// How many bytes the UTF-8 character at `at` has; 0 where there is none (RFC 3629, 4, but for the overlong ones).
+std::size_t character_bytes(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(at);
+  const std::size_t bytes = first < 0x80                    ? 1
+                            : first >= 0xC2 && first < 0xE0 ? 2
+                            : first >= 0xE0 && first < 0xF0 ? 3
+                            : first >= 0xF0 && first < 0xF5 ? 4
+                                                            : 0;
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(at + i) & 0xC0U) != 0x80U) return 0;
+  }
+  return bytes;
+}
+
+// Names and messages of others must not forge lines, nor break who reads the log as text.
+std::string one_line(const std::string& text) {
+  std::string line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = character_bytes(text, at);
+    const bool is_control = static_cast<unsigned char>(text[at]) < 0x20 || text[at] == 0x7F;
+    if (bytes == 0 || is_control) {
+      line += bytes == 0 ? '?' : ' ';
+      ++at;
+    } else {
+      line.append(text, at, bytes);
+      at += bytes;
+    }
+  }
+  return line;
 }
 
 }  // namespace
