@@ -37,7 +37,8 @@ ROS2_FIELDS = {"std_msgs/Header": [("builtin_interfaces/Time", "stamp"), ("strin
                "builtin_interfaces/Time": [("int32", "sec"), ("uint32", "nanosec")],
                f"{GRAPH}/Gid": [("uint8[16]", "data")],
                f"{GRAPH}/NodeEntitiesInfo": [("string<=256", "node_namespace"), ("string<=256", "node_name"),
-                                             (f"{GRAPH}/Gid[]", "reader_gid_seq"), (f"{GRAPH}/Gid[]", "writer_gid_seq")],
+                                             (f"{GRAPH}/Gid[]", "reader_gid_seq"),
+                                             (f"{GRAPH}/Gid[]", "writer_gid_seq")],
                f"{GRAPH}/ParticipantEntitiesInfo": [(f"{GRAPH}/Gid", "gid"),
                                                     (f"{GRAPH}/NodeEntitiesInfo[]", "node_entities_info_seq")]}
 # type_description_interfaces/msg/FieldType: numbers of the elementary types, and what is added for arrays.
@@ -152,7 +153,7 @@ def written():
         of_ros2 = literal(ros2_text(name, specs))
         rows.append(f'const RosType {constant} = {{"{name}", "{md5}",\n"{code}",\n{literal(full)},\n{of_ros2}}};\n')
     for constant, name in ROS2_TYPES.items():
-        rows.append(f'const RosType {constant} = {{"{name}", "", "{rihs01(name, specs)}", "", ""}};\n')
+        rows.append(f'const RosType {constant} = {{"{name}", "",\n"{rihs01(name, specs)}", "", ""}};\n')
     return ("// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
             "// Written by generate_types.py from msg/ and the messages of ROS: do not edit.\n\n"
             "// clang-format off\n#include \"live/ros_messages/ros_messages.hpp\"\n\n"

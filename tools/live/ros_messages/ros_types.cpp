@@ -434,7 +434,8 @@ builtin_interfaces/Time stamp
 string frame_id
 )msg"};
 
-const RosType kParticipantEntitiesType = {"rmw_dds_common/ParticipantEntitiesInfo", "", "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e", "", ""};
+const RosType kParticipantEntitiesType = {"rmw_dds_common/ParticipantEntitiesInfo", "",
+"RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e", "", ""};
 
 }  // namespace pose_wall::tools::live
 // clang-format on
