@@ -147,6 +147,15 @@ class Peers(Ros2):
         peer = self.peer("points=16384", "results=1")  # one that is right is read all the same
         self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
 
+    def test_clouds_of_livox_are_read_by_their_type(self):
+        program = self.daemon()
+        livox = self.peer("points=16384", "type=livox_ros_driver2::msg::dds_::CustomMsg_", "results=1")
+        self.comes_true(lambda: livox.report()["valid"] > 5, livox, program)
+        livox.command("quit")
+        self.assertTrue(program.says("nobody publishes"), program.log())
+        peer = self.peer("points=16384", "results=1")
+        self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
+
     def test_qualities_of_service_that_do_not_match_are_named(self):
         program = self.daemon("extrinsic_from=tf")
         peer = self.peer("results=1", "durability=transient_local", "static_latched=0")

@@ -215,9 +215,14 @@ void Ros2Node::start() {
   join();
   receive_buffer_bytes_ = receive_buffer_of_new(sockets_before);
   log_line(Grade::kGood, "ros2", environment_text(environment_, interface_));
-  if (interface_ && interface_->is_loopback && environment_.range == DiscoveryRange::kSubnet) {
-    log_line(Grade::kWarning, "ros2", "no other interface was up at the start: nodes of other machines are not found");
-  }
+}
+
+std::string Ros2Node::trouble() const {
+  const bool is_cut_off = interface_ && interface_->is_loopback && environment_.range == DiscoveryRange::kSubnet;
+  return is_cut_off
+             ? "no network but loopback was up at the start: nodes of other machines are not found until the daemon "
+               "is started anew"
+             : "";
 }
 
 void Ros2Node::join() {

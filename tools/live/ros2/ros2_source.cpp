@@ -3,12 +3,12 @@
 
 #include "live/ros2/ros2_source.hpp"
 
-#include <dds/dds.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -27,10 +27,7 @@ constexpr RosQos kCloudQos{false, false, 2};
 constexpr RosQos kStaticTransformsQos{true, true, 100}, kTransformsQos{false, false, 100};
 
 // What RosReader reads, the preferred one first.
-const std::array<const RosType*, 1>& cloud_types() {
-  static const std::array<const RosType*, 1> types = {&kPointCloud2Type};
-  return types;
-}
+constexpr std::array<const RosType*, 2> kCloudTypes = {&kPointCloud2Type, &kLivoxCustomType};
 
 class Ros2Source final : public Source {
  public:
@@ -49,7 +46,7 @@ class Ros2Source final : public Source {
       static_transforms_ = node_->make_reader("/tf_static", kTfMessageType, kStaticTransformsQos);
       transforms_ = node_->make_reader("/tf", kTfMessageType, kTransformsQos);
     }
-    read_type(*cloud_types().front());
+    read_type(*kCloudTypes.front());
     ending_ = false;
     thread_ = std::thread([this] { run(); });
   }
@@ -67,6 +64,7 @@ class Ros2Source final : public Source {
     } else if (seen_.matched == 0) {
       health.grade = Grade::kBad;
       health.summary = "nobody publishes " + reader_.topic();
+      if (!node_->trouble().empty()) health.summary += "; " + node_->trouble();
     } else if (!lost.empty()) {
       health.grade = std::max(health.grade, Grade::kWarning);
       health.summary += "; " + lost;
@@ -87,9 +85,8 @@ class Ros2Source final : public Source {
     std::uint64_t matched = 0, largest_bytes = 0, granted_bytes = 0, lost = 0;
   };
 
-  // DDS knows a topic by one type at a time.
+  // One type at a time, or ROS's tools would take the topic for one of several types.
   void read_type(const RosType& type) {
-    clouds_.reset();
     clouds_ = node_->make_reader(reader_.topic(), type, kCloudQos);
     const std::lock_guard<std::mutex> locked(lock_);
     seen_.type = type.ros2_name();
@@ -104,8 +101,13 @@ class Ros2Source final : public Source {
                          [&](const RemoteEndpoint& one) { return one.type == type.dds_name(); });
     };
     if (is_sent(clouds_->type())) return;
-    for (const RosType* type : cloud_types()) {
-      if (is_sent(*type)) return read_type(*type);
+    const auto found =
+        std::find_if(kCloudTypes.begin(), kCloudTypes.end(), [&](const RosType* type) { return is_sent(*type); });
+    if (found == kCloudTypes.end()) return;
+    try {
+      read_type(**found);
+    } catch (const std::exception& fault) {
+      log_line(Grade::kBad, "ros2", fault.what());
     }
   }
 
