@@ -43,9 +43,9 @@ class LoopbackSender {
   sockaddr_in to_{};
 };
 
-// A port that nobody listens at just now.
-inline std::uint16_t free_udp_port() {
-  const int file = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+// A port that nobody has just now, for SOCK_DGRAM or SOCK_STREAM: what is free for one may be taken for the other.
+inline std::uint16_t free_port(int kind) {
+  const int file = socket(AF_INET, kind | SOCK_CLOEXEC, 0);
   sockaddr_in own{};
   own.sin_family = AF_INET;
   own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -54,6 +54,13 @@ inline std::uint16_t free_udp_port() {
                      getsockname(file, reinterpret_cast<sockaddr*>(&own), &size) == 0;
   close(file);
   return known ? ntohs(own.sin_port) : 0;
+}
+
+inline std::uint16_t free_udp_port() {
+  return free_port(SOCK_DGRAM);
+}
+inline std::uint16_t free_tcp_port() {
+  return free_port(SOCK_STREAM);
 }
 
 }  // namespace pose_wall::test

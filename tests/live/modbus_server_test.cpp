@@ -123,7 +123,7 @@ class ModbusServerTest : public ::testing::Test {
   }
   Text alone(const Text& request, std::size_t bytes) const { return Client(port_).ask(request, bytes); }
 
-  const std::uint16_t port_ = pose_wall::test::free_udp_port();
+  const std::uint16_t port_ = pose_wall::test::free_tcp_port();
   CountingImages images_;
   std::unique_ptr<Sink> server_;
 };

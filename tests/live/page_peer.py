@@ -104,6 +104,7 @@ class Http(unittest.TestCase):
             self.assertEqual(self.ask("GET", path)[0].status, 404, path)
         self.assertEqual(self.ask("GET", "/", {"Host": "evil.example"})[0].status, 421, "a name pointed here")
         self.assertEqual(self.ask("GET", "/", {"Host": f"localhost:{self.port}"})[0].status, 200)
+        self.assertEqual(self.ask("GET", "/page.js", {"Range": "bytes=" + ",".join(["0-"] * 900)})[0].status, 416)
 
     def test_malformed_requests_hold_up_nobody(self):
         for request in (b"\r\n\r\n", b"GET\r\n\r\n", b"\x00" * 100, b"GET / HTTP/9.9\r\n\r\n", b"GET /" + b"a" * 100000,
@@ -146,6 +147,12 @@ class Http(unittest.TestCase):
 
 
 class Failing(unittest.TestCase):
+    def test_two_daemons_do_not_share_a_port(self):
+        port = live_peer.free_port()
+        with live_peer.running(*words(port)) as first, live_peer.running(*words(port)) as second:
+            self.assertTrue(live_peer.becomes_true(
+                lambda: first.process.poll() is not None or second.process.poll() is not None))
+
     def test_a_port_that_is_taken_is_named(self):
         with socket.socket() as taken:
             taken.bind(("127.0.0.1", 0))

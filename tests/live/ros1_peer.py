@@ -10,7 +10,9 @@ usage: ros1_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
 import json
 import os
 import pathlib
+import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -27,16 +29,19 @@ import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 try:
     import rospy
     from geometry_msgs.msg import TransformStamped, Vector3Stamped
-    from sensor_msgs.msg import PointCloud2, PointField
+    from sensor_msgs.msg import LaserScan, PointCloud2, PointField
     from std_msgs.msg import Float32MultiArray
     from tf2_msgs.msg import TFMessage
 except ImportError as missing:
     print(f"SKIPPED: {missing} (packages python3-rospy python3-sensor-msgs python3-tf2-msgs and others)")
     sys.exit(0)
 
-PORT = live_peer.free_port()
-URI = f"http://127.0.0.1:{PORT}"
-os.environ |= {"ROS_MASTER_URI": URI, "ROS_IP": "127.0.0.1"}
+if sys.argv[1:] == ["drive"]:  # called by the test, with its environment
+    URI = os.environ["ROS_MASTER_URI"]
+else:
+    PORT = live_peer.free_port()
+    URI = f"http://127.0.0.1:{PORT}"
+    os.environ |= {"ROS_MASTER_URI": URI, "ROS_IP": "127.0.0.1"}
 TOPIC = "/lidar/points"
 
 
@@ -50,6 +55,13 @@ def master_answers():
         return xmlrpc.client.ServerProxy(URI).getPid("/test")[0] == 1
     except OSError:
         return False
+
+
+def known_topics():
+    """What the master knows that pose_walld publishes, and what it subscribes to."""
+    import xmlrpc.client  # pylint: disable=import-outside-toplevel
+    published, subscribed, _ = xmlrpc.client.ServerProxy(URI).getSystemState("/test")[2]
+    return tuple({topic for topic, nodes in of if "/pose_walld" in nodes} for of in (published, subscribed))
 
 
 def daemon(*more):
@@ -77,7 +89,7 @@ class JavaScript(WithMaster):
             client = pathlib.Path(folder) / "ros1_client.mjs"  # beside its modules
             shutil.copy(ROOT / "tests/live/peer/ros1_client.mjs", client)
             os.symlink(MODULES, pathlib.Path(folder) / "node_modules")
-            for columns, rate in ((256, 10), (256, 20), (2048, 10)):
+            for columns, rate in ((256, 10), (256, 20), (2048, 10), (2048, 20)):
                 done = subprocess.run(["node", client, URI, TOPIC, str(columns), str(rate), "50"], capture_output=True,
                                       text=True, timeout=120, check=False)
                 self.assertEqual(done.returncode, 0, done.stderr + program.log())
@@ -166,7 +178,37 @@ class Peer:
         return values[-1] if values else None
 
 
-class Transforms(WithMaster):
+class PeersByRospy(WithMaster):
+    """One master for all: rospy registers once."""
+
+    def test_garbage_and_other_types_are_named_and_sound_clouds_go_on(self):
+        peer = Peer()
+        program = daemon()
+        self.addCleanup(program.kill)
+        self.assertTrue(live_peer.becomes_true(lambda: peer.clouds.get_num_connections() > 0), program.log())
+        fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate("xyz")]
+        for width, point_step, data, fields_told in (
+                (2 ** 32 - 1, 2 ** 32 - 1, b"", fields), (100, 12, b"short", fields), (1, 0, b"x" * 12, fields),
+                (1, 12, b"x" * 12, fields[:2]), (1, 12, b"x" * 12, fields + fields),
+                (1, 12, b"x" * 12, [PointField("x", 2 ** 32 - 1, PointField.FLOAT32, 2 ** 32 - 1)] + fields[1:])):
+            peer.clouds.publish(PointCloud2(height=1, width=width, fields=fields_told, point_step=point_step,
+                                            row_step=0, data=data))
+            time.sleep(0.05)
+        peer.thread.start()
+        self.addCleanup(peer.ending.set)
+        self.assertTrue(live_peer.becomes_true(lambda: peer.left_m() is not None), program.log())
+        self.assertTrue(any("bytes" in line for line in program.lines), "the refusal is named: " + program.log())
+
+        scans = rospy.Publisher("/lidar/scan", LaserScan, queue_size=2, latch=True)
+        scans.publish(LaserScan(ranges=[1.0] * 10))
+        second = live_peer.Program(POSE_WALLD, "--set", "source=ros1", "--set", "pointcloud_topic=/lidar/scan")
+        self.addCleanup(second.kill)
+        self.assertTrue(second.says("sensor_msgs/LaserScan"), second.log())
+        # By the rule of ROS the second node of a name ends the first; the rest of the daemon goes on.
+        self.assertTrue(program.says("was ended by rosnode kill or by another node of its name"), program.log())
+        self.assertIsNone(program.process.poll())
+        self.assertEqual(program.stop() >= 0 and program.process.returncode, 0)
+
     def test_late_then_changed_then_a_master_started_anew(self):
         peer = Peer()
         peer.thread.start()
@@ -186,7 +228,56 @@ class Transforms(WithMaster):
         self.assertLess(abs(time.time() - attitude.header.stamp.to_sec()), 60)
 
 
+class Driver(unittest.TestCase):
+    """A driver that does not register again after the master was started anew, as those by roscpp and rospy."""
+
+    def test_its_clouds_go_on_without_a_master_and_with_the_next_one(self):
+        core = master()
+        self.addCleanup(lambda: core.kill())  # pylint: disable=unnecessary-lambda
+        self.assertTrue(live_peer.becomes_true(master_answers))
+        driver = subprocess.Popen([sys.executable, "-W", "ignore", __file__, str(ROOT), str(POSE_WALL), str(POSE_WALLD),
+                                   str(MODULES), "drive"])
+        self.addCleanup(driver.wait)
+        self.addCleanup(driver.kill)
+        program = daemon("--set", "status_every_s=1")
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("runtime: measures"), program.log())
+        core.kill()
+        self.assertTrue(program.says("receives; waits for the master"), program.log())
+        self.clouds_go_on(program)
+        core = master()
+        self.assertTrue(live_peer.becomes_true(master_answers))
+        self.assertTrue(live_peer.becomes_true(lambda: known_topics() == (
+            {"/diagnostics", "/tf"} | {f"/pose_wall/{topic}" for topic in ("attitude", "distances", "state", "points")},
+            {TOPIC})), known_topics())
+        self.clouds_go_on(program)
+        core.process.send_signal(signal.SIGSTOP)  # it takes connections, and answers nothing
+        lines = len(program.lines)
+        self.assertTrue(live_peer.becomes_true(
+            lambda: any("receives; waits for the master" in line for line in program.lines[lines:])), program.log())
+        self.clouds_go_on(program)
+        print(f"stop while the master hangs: {program.stop():.2f} s", flush=True)
+        self.assertEqual(program.process.returncode, 0, "by itself, not by force: " + program.log())
+
+    def clouds_go_on(self, program):
+        def clouds():
+            told = re.findall(r"source ros1.*?; clouds (\d+)", "\n".join(program.lines))
+            return int(told[-1]) if told else 0
+        before = clouds()
+        self.assertTrue(live_peer.becomes_true(lambda: clouds() > before + 5), program.log())
+
+
 class WithoutMaster(unittest.TestCase):
+    def test_words_that_are_no_topic_and_no_master_are_refused(self):
+        for words, environment, complaint in (
+                (("--set", "pointcloud_topic=two words"), {}, "is no topic of ROS"),
+                ((), {"ROS_MASTER_URI": "localhost:11311"},
+                 "is no address of a master; allowed: http://localhost:11311")):
+            done = subprocess.run([str(POSE_WALLD), "--set", "source=ros1", *words], env=os.environ | environment,
+                                  capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(complaint, done.stderr)
+
     def test_waits_for_the_master_and_comes_back_after_it_was_started_anew(self):
         program = live_peer.Program(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set",
                                                             "ros1=1"))
@@ -206,4 +297,8 @@ class WithoutMaster(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if sys.argv[1:] == ["drive"]:
+        driver_of_the_test = Peer()
+        driver_of_the_test.thread.start()
+        driver_of_the_test.thread.join()
     unittest.main()

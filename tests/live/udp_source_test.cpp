@@ -18,6 +18,7 @@
 #include "live/sensor_sim/metadata_server.hpp"
 #include "live/sensor_sim/packet_encoder.hpp"
 #include "packets/ouster.hpp"
+#include "packets/udp_capture.hpp"
 #include "packets/velodyne.hpp"
 #include "sim/scenes.hpp"
 #include "support/real_frames.hpp"
@@ -264,7 +265,7 @@ TEST_F(LiveCaptures, GiveTheSameBitsByUdpAsFromTheFile) {
     FrameCatcher catcher;
     source->start(catcher);
     const LoopbackSender sender(port);
-    const std::unique_ptr<UdpCapture> capture = open_udp_capture(entry.path().string());
+    const std::unique_ptr<DatagramSource> capture = open_udp_capture(entry.path().string());
     std::int64_t last_ns = 0;
     std::size_t sent = 0;
     while (std::optional<Datagram> datagram = capture->next()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The bytes of a ROS message as either serialisation lays them out: ROS 1 without gaps, ROS 2 as CDR.
+// Fields of a ROS message one after another, as either serialisation lays them out.
 
 #pragma once
 
@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include "bags/bag_reader.hpp"
-#include "bags/byte_cursor.hpp"
 
 namespace pose_wall::tools {
 
@@ -21,6 +20,7 @@ class MessageCursor {
  public:
   MessageCursor(MessageEncoding encoding, ByteView message, const Place& place)
       : cursor_(message, place), is_cdr_(encoding == MessageEncoding::kCdr) {
+    if (encoding == MessageEncoding::kOther) cursor_.refuse("a message that is neither CDR nor of ROS 1");
     if (is_cdr_) read_encapsulation();
   }
 
@@ -38,9 +38,33 @@ class MessageCursor {
     return text;
   }
 
+  // Behind its length.
   ByteView block(std::string_view what) { return cursor_.bytes(number<std::uint32_t>(what), what); }
 
+  // Of a length that the type of the message says.
+  ByteView bytes(std::size_t size, std::string_view what) { return cursor_.bytes(size, what); }
+
+  // CDR puts numbers, and what begins with one, at multiples of their size, counted from behind its head.
+  void align(std::size_t size, std::string_view what) {
+    if (!is_cdr_) return;
+    const std::size_t beyond = (cursor_.position() - start_) % size;
+    if (beyond != 0) cursor_.bytes(size - beyond, what);
+  }
+
+  std::int64_t stamp_ns(std::string_view what) {
+    // ROS 2 has signed seconds; what ROS 1 counts above them ends in 2106.
+    const std::int64_t seconds =
+        is_cdr_ ? std::int64_t{number<std::int32_t>(what)} : std::int64_t{number<std::uint32_t>(what)};
+    const auto nanoseconds = number<std::uint32_t>(what);
+    if (nanoseconds >= 1'000'000'000) {
+      refuse(fmt::format("{} has {} nanoseconds; less than 1000000000 are allowed", what, nanoseconds));
+    }
+    return seconds * 1'000'000'000 + nanoseconds;
+  }
+
+  std::size_t left() const { return cursor_.left(); }
   bool is_cdr() const { return is_cdr_; }
+  bool is_big_endian() const { return is_big_endian_; }
   [[noreturn]] void refuse(const std::string& why) const { cursor_.refuse(why); }
 
  private:
@@ -48,20 +72,28 @@ class MessageCursor {
     const ByteView head = cursor_.bytes(4, "head of a CDR message");
     const auto kind = std::to_integer<unsigned>(head.data[0]) << 8U | std::to_integer<unsigned>(head.data[1]);
     if (kind > 1) cursor_.refuse(fmt::format("CDR of kind {:04x}; 0000 and 0001 are read", kind));
-    cursor_.set_big_endian(kind == 0);
+    is_big_endian_ = kind == 0;
+    cursor_.set_big_endian(is_big_endian_);
     start_ = cursor_.position();
-  }
-
-  // CDR puts numbers at multiples of their size, counted from behind its head.
-  void align(std::size_t size, std::string_view what) {
-    if (!is_cdr_) return;
-    const std::size_t beyond = (cursor_.position() - start_) % size;
-    if (beyond != 0) cursor_.bytes(size - beyond, what);
   }
 
   ByteCursor cursor_;
   bool is_cdr_;
+  bool is_big_endian_ = false;
   std::size_t start_ = 0;
 };
+
+struct MessageHeader {
+  std::int64_t stamp_ns = 0;  // 0: none
+  std::string_view frame_id;  // as long as the message's bytes
+};
+
+inline MessageHeader read_header(MessageCursor& message) {
+  if (!message.is_cdr()) message.number<std::uint32_t>("header.seq");
+  MessageHeader header;
+  header.stamp_ns = message.stamp_ns("header.stamp");
+  header.frame_id = message.text("header.frame_id");
+  return header;
+}
 
 }  // namespace pose_wall::tools

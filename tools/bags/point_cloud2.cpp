@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "bags/message_cursor.hpp"
@@ -28,18 +27,6 @@ struct CloudHead {
   PointLayout layout;
   std::vector<std::uint64_t> field_ends;
 };
-
-std::int64_t read_stamp(MessageCursor& message) {
-  if (!message.is_cdr()) message.number<std::uint32_t>("header.seq");
-  // ROS 2 has signed seconds; what ROS 1 counts above them ends in 2106.
-  const std::int64_t seconds = message.is_cdr() ? std::int64_t{message.number<std::int32_t>("header.stamp")}
-                                                : std::int64_t{message.number<std::uint32_t>("header.stamp")};
-  const auto nanoseconds = message.number<std::uint32_t>("header.stamp");
-  if (nanoseconds >= 1'000'000'000) {
-    message.refuse(fmt::format("header.stamp has {} nanoseconds; less than 1000000000 are allowed", nanoseconds));
-  }
-  return seconds * 1'000'000'000 + nanoseconds;
-}
 
 void read_fields(MessageCursor& message, CloudHead& head) {
   const auto count = message.number<std::uint32_t>("fields");
@@ -108,8 +95,9 @@ Frame frame_of(const MessageCursor& message, CloudHead& head, ByteView data) {
 DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message_bytes, const Place& place) {
   MessageCursor message(encoding, message_bytes, place);
   DecodedCloud cloud;
-  cloud.stamp_ns = read_stamp(message);
-  cloud.frame_id = message.text("header.frame_id");
+  const MessageHeader header = read_header(message);
+  cloud.stamp_ns = header.stamp_ns;
+  cloud.frame_id = header.frame_id;
   CloudHead head;
   head.height = message.number<std::uint32_t>("height");
   head.width = message.number<std::uint32_t>("width");

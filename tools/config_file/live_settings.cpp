@@ -34,10 +34,14 @@ const std::vector<Row>& rows() {
         "is measured before it is there"},
        &LiveSettings::extrinsic_from},
       {{"sensor", kSources, Type::kText, "", 0, 0, "",
-        "which sensor sends the packets; automatic: the packets tell. One that contradicts its packets is refused"},
+        "which sensor sends the packets: auto (the packets tell), vlp16, vlp16_hires, hdl32e, vlp32c, ouster, "
+        "hesai_xt32, "
+        "hesai_40p, hesai_qt64, mid360. One that contradicts its packets is refused"},
        &LiveSettings::sensor},
       {{"sensor_metadata", kSources, Type::kText, "", 0, 0, "",
-        "what the sensor says of itself: a file, or http://SENSOR for an Ouster; empty: not needed"},
+        "what the sensor says of itself: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for "
+        "an "
+        "Ouster; empty: not needed"},
        &LiveSettings::sensor_metadata},
       {{"udp_address", kSources, Type::kText, "", 0, 0, "",
         "this machine's address on the sensor's network; 0.0.0.0 listens on all. Anybody there can then send packets"},

@@ -14,7 +14,7 @@ namespace pose_wall::tools {
 struct LiveSettings {
   std::string source = "udp";
   std::string extrinsic_from = "config";
-  std::string sensor = "automatic";
+  std::string sensor = "auto";
   std::string sensor_metadata;
   std::string udp_address = "127.0.0.1";
   double udp_port = 0;

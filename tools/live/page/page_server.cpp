@@ -124,6 +124,11 @@ class PageServer final : public Sink {
 
   void prepare() {
     server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    // The library's own options let a second server take the same port, and neither would know.
+    server_.set_socket_options([](int file) {
+      const int on = 1;
+      setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    });
     server_.set_read_timeout(kReadTimeout_s, 0);
     server_.set_write_timeout(0, kWriteTimeout_us);
     server_.set_payload_max_length(kRequestMost);
@@ -156,6 +161,12 @@ class PageServer final : public Sink {
       answer->status = 405;
       answer->set_header("Allow", "GET, HEAD");
       answer->set_content("only GET and HEAD: nothing can be changed here\n", "text/plain");
+      return false;
+    }
+    // One small request could ask for the page a thousand times.
+    if (request.has_header("Range")) {
+      answer->status = 416;
+      answer->set_content("parts are not given\n", "text/plain");
       return false;
     }
     if (is_loopback(place_.host) && !is_loopback(host_of(request.get_header_value("Host")))) {

@@ -79,6 +79,13 @@ std::optional<Registered> registered_topics() {
   }
 }
 
+bool is_replaced() {
+  XmlRpcValue uri;
+  if (!ask_master("lookupNode", {ros::this_node::getName()}, &uri)) return false;
+  return uri.getType() == XmlRpcValue::TypeString &&
+         static_cast<std::string>(uri) != ros::XMLRPCManager::instance()->getServerURI();
+}
+
 void register_publisher(const std::string& topic, const std::string& type) {
   XmlRpcValue subscribers;
   ask_master("registerPublisher", {topic, type, ros::XMLRPCManager::instance()->getServerURI()}, &subscribers);

@@ -19,6 +19,9 @@ struct Registered {
 // Asks the master; nothing where it does not answer, or answers something else than it should.
 std::optional<Registered> registered_topics();
 
+// Whether the master knows another node by this node's name: the newer one, by the rule of ROS; it ends the older.
+bool is_replaced();
+
 // The master tells the subscribers.
 void register_publisher(const std::string& topic, const std::string& type);
 

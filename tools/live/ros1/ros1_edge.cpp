@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "bags/point_cloud2.hpp"
 #include "live/edges.hpp"
 #include "live/ros1/ros1_node.hpp"
 #include "live/ros_messages/ros_publisher.hpp"

@@ -97,17 +97,18 @@ std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type) {
   return advertised_.size() - 1;
 }
 
-// roscpp listens on all addresses unless one of these names loopback. With the master on this machine, nobody else is
-// expected until one is named.
+// With the master on this machine, nobody else is expected until ROS_IP or ROS_HOSTNAME names an address. roscpp then
+// takes results and clouds on loopback alone, but lets itself be called on all addresses, whatever it is told.
 void Ros1Node::listen_where_allowed() const {
   const bool is_told = is_set("ROS_IP") || is_set("ROS_HOSTNAME");
   const bool is_local = master_.host == "localhost" || master_.host.rfind("127.", 0) == 0;
-  if (!is_told && is_local) setenv("ROS_IP", "127.0.0.1", 1);
-  log_line(Grade::kGood, "ros1",
-           !is_told && is_local
-               ? "listens on loopback, for the master is there; ROS_IP with this machine's address lets others in"
-               : "listens as ROS_IP and ROS_HOSTNAME say, on all addresses unless they name loopback; ROS 1 asks "
-                 "nobody who he is");
+  if (!is_told && is_local) {
+    setenv("ROS_IP", "127.0.0.1", 1);
+    log_line(Grade::kGood, "ros1", "sends on loopback, for the master is there; ROS_IP=ADDRESS lets other machines in");
+  }
+  log_line(Grade::kWarning, "ros1",
+           "roscpp lets itself be called (XML-RPC) on all addresses and asks nobody who he is: whoever reaches this "
+           "machine can name another publisher of clouds, or end the node. Keep others off by a firewall");
 }
 
 void Ros1Node::start() {
@@ -187,17 +188,26 @@ void Ros1Node::open() {
   ros_ = std::move(ros);
 }
 
-// A new master knows nothing of us.
+// A new master knows nothing of us. Nor does one that has just met a newer node of our name, and is about to end us:
+// who registered again at once would end the newer one. So it is looked twice.
 void Ros1Node::register_what_is_missing() {
   const std::optional<Registered> known = registered_topics();
   if (!known) return;
-  if (known->published.empty() && known->subscribed.empty()) ++masters_seen_;
+  std::vector<std::string> not_subscribed;
+  std::vector<std::size_t> not_published;
   for (const ros::Subscriber& subscriber : ros_->subscribers) {
-    if (known->subscribed.count(subscriber.getTopic()) == 0) register_subscriber(subscriber.getTopic());
+    if (known->subscribed.count(subscriber.getTopic()) == 0) not_subscribed.push_back(subscriber.getTopic());
   }
   for (std::size_t i = 0; i < advertised_.size(); ++i) {
-    const std::string topic = ros_->publishers[i].getTopic();
-    if (known->published.count(topic) == 0) register_publisher(topic, advertised_[i].type->name);
+    if (known->published.count(ros_->publishers[i].getTopic()) == 0) not_published.push_back(i);
+  }
+  const bool is_missing = !not_subscribed.empty() || !not_published.empty();
+  const bool was_missing = std::exchange(was_missing_, is_missing);
+  if (!is_missing || !was_missing || is_replaced() || !ros::ok()) return;
+  if (known->published.empty() && known->subscribed.empty()) ++masters_seen_;
+  for (const std::string& topic : not_subscribed) register_subscriber(topic);
+  for (const std::size_t i : not_published) {
+    register_publisher(ros_->publishers[i].getTopic(), advertised_[i].type->name);
   }
 }
 

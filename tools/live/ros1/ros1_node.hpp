@@ -88,6 +88,7 @@ class Ros1Node {
   mutable std::mutex lock_;
   std::condition_variable changed_;
   bool ending_ = false;
+  bool was_missing_ = false;  // something was, when the master was looked at last; of its thread
   std::unique_ptr<MasterLine> line_;
   std::thread master_thread_, message_thread_;  // a master that hangs must hold up no cloud
   std::vector<std::uint32_t> subscribers_;

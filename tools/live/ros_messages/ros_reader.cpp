@@ -6,9 +6,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <string_view>
 #include <utility>
 
-#include "bags/point_cloud2.hpp"
+#include "bags/cloud_message.hpp"
 #include "live/log.hpp"
 
 namespace pose_wall::tools::live {
@@ -29,8 +30,12 @@ std::string text_of(const LoadedConfig& loaded, const char* key) {
   return text;
 }
 
-bool is_point_cloud2(const std::string& type) {
-  return type == "sensor_msgs/PointCloud2" || type == "sensor_msgs::msg::dds_::PointCloud2_";
+// "sensor_msgs::msg::dds_::PointCloud2_", as DDS has it, is sensor_msgs/msg/PointCloud2.
+std::string ros_type(const std::string& type) {
+  constexpr std::string_view kDds = "::msg::dds_::";
+  const std::size_t at = type.find(kDds);
+  if (at == std::string::npos || type.back() != '_') return type;
+  return type.substr(0, at) + "/msg/" + type.substr(at + kDds.size(), type.size() - at - kDds.size() - 1);
 }
 
 }  // namespace
@@ -61,10 +66,13 @@ void RosReader::refuse(const std::string& why) {
 void RosReader::take_cloud(const std::string& type, ByteView message) {
   const std::lock_guard<std::mutex> locked(lock_);
   last_cloud_ns_ = monotonic_ns();
-  if (!is_point_cloud2(type)) return refuse(fmt::format("is of type {}; sensor_msgs/PointCloud2 is read", type));
+  const std::string known = ros_type(type);
+  if (!is_cloud_type(known)) {
+    return refuse(fmt::format("is of type {}; sensor_msgs/PointCloud2 and Livox's CustomMsg are read", type));
+  }
   LiveFrame frame;
   try {
-    DecodedCloud cloud = decode_point_cloud2(encoding_, message, {});
+    DecodedCloud cloud = decode_cloud(known, encoding_, message);
     frame.frame = std::move(cloud.frame);
     frame.stamp_ns = cloud.stamp_ns;
     // Frames of ROS 1 before 2012 began with a slash; tf2 knows none that do.

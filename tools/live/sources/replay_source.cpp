@@ -35,7 +35,7 @@ class ReplaySource final : public Source {
  public:
   explicit ReplaySource(const ReplayPlan& plan) : plan_(plan) {
     options_.topic = plan.topic;
-    options_.metadata = plan.metadata;
+    options_.packets.metadata = plan.metadata;
     for (const std::string& input : plan.inputs) {
       if (!std::filesystem::exists(input)) throw std::runtime_error(input + ": is not there");
     }

@@ -9,15 +9,10 @@
 #include <httplib.h>
 #endif
 
-#include <cerrno>
 #include <chrono>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "packets/ouster.hpp"
-#include "packets/velodyne.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -25,7 +20,6 @@ namespace {
 constexpr const char* kHttp = "http://";
 // Ouster's HTTP API of firmware 2.1 and later.
 constexpr const char* kPath = "/api/v1/sensor/metadata";
-constexpr std::uint16_t kOusterPort = 7502, kVelodynePort = 2368;
 constexpr auto kAskEvery = std::chrono::milliseconds(1000);
 constexpr auto kLook = std::chrono::milliseconds(50);
 
@@ -51,23 +45,14 @@ std::string ask(const std::string& host, std::string* trouble) {
 
 }  // namespace
 
-SensorMetadata::SensorMetadata(const std::string& place) : place_(place), by_http_(place.rfind(kHttp, 0) == 0) {
-  if (by_http_) {
-    ask_again();
-    return;
-  }
-  if (place_.empty()) return;
-  std::ifstream file(place_, std::ios::binary);
-  if (!file) {
-    throw std::runtime_error(
-        fmt::format("sensor_metadata: {}: cannot be opened for reading: {}", place_, std::strerror(errno)));
-  }
-  text_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+SensorMetadata::SensorMetadata(const std::string& sensor, const std::string& place)
+    : place_(place), by_http_(place.rfind(kHttp, 0) == 0) {
   try {
-    parse_ouster_metadata(text_);
+    choice_ = choose_sensor({sensor, by_http_ ? "" : place_});
   } catch (const FrameError& fault) {
-    throw std::runtime_error(fmt::format("sensor_metadata: {}: {}", place_, fault.what()));
+    throw std::runtime_error(fault.what());
   }
+  if (by_http_) ask_again();
 }
 
 SensorMetadata::~SensorMetadata() {
@@ -86,7 +71,7 @@ void SensorMetadata::ask_again() {
   asking_ = true;
   {
     const std::lock_guard<std::mutex> locked(lock_);
-    text_.clear();
+    choice_.metadata.clear();
   }
   thread_ = std::thread([this] { ask_until_told(); });
 }
@@ -104,7 +89,7 @@ void SensorMetadata::ask_until_told() {
     }
     {
       const std::lock_guard<std::mutex> locked(lock_);
-      text_ = text;
+      choice_.metadata = text;
       trouble_ = trouble;
     }
     if (!text.empty()) break;
@@ -115,13 +100,17 @@ void SensorMetadata::ask_until_told() {
 
 std::unique_ptr<ScanAssembler> SensorMetadata::assembler() {
   const std::lock_guard<std::mutex> locked(lock_);
-  if (place_.empty()) return std::make_unique<VelodyneAssembler>();
-  if (text_.empty()) return nullptr;
-  return std::make_unique<OusterAssembler>(parse_ouster_metadata(text_));
+  if (by_http_ && choice_.metadata.empty()) return nullptr;
+  return make_assembler(choice_);
 }
 
 std::uint16_t SensorMetadata::usual_port() const {
-  return place_.empty() ? kVelodynePort : kOusterPort;
+  const std::lock_guard<std::mutex> locked(lock_);
+  if (by_http_ || (choice_.metadata.find('{') < choice_.metadata.find_first_not_of(" \t\r\n{"))) {
+    return known_sensor(SensorKind::kOuster).port;
+  }
+  const std::uint16_t port = known_sensor(choice_.kind).port;
+  return port != 0 ? port : known_sensor(SensorKind::kVlp16).port;
 }
 
 std::string SensorMetadata::trouble() const {

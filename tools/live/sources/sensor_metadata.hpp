@@ -12,19 +12,20 @@
 #include <string>
 #include <thread>
 
-#include "packets/scan.hpp"
+#include "packets/sensors.hpp"
 
 namespace pose_wall::tools::live {
 
 class SensorMetadata {
  public:
-  // place: a file, http://HOST of an Ouster, or nothing. A file is read at once: throws std::runtime_error.
-  explicit SensorMetadata(const std::string& place);
+  // sensor: a name of known_sensors(). place: a file, http://HOST of an Ouster, or nothing. A file is read at once:
+  // throws std::runtime_error for it, and for a sensor that is not known.
+  SensorMetadata(const std::string& sensor, const std::string& place);
   ~SensorMetadata();
   SensorMetadata(const SensorMetadata&) = delete;
   SensorMetadata& operator=(const SensorMetadata&) = delete;
 
-  // Of its packets; nothing while the sensor has not told yet.
+  // Of its packets; nothing while the sensor has not told yet. Throws FrameError for metadata that does not fit.
   std::unique_ptr<ScanAssembler> assembler();
   // After the sensor was gone: it may tell something else now.
   void ask_again();
@@ -40,7 +41,8 @@ class SensorMetadata {
   std::string place_;
   bool by_http_ = false;
   mutable std::mutex lock_;
-  std::string text_, trouble_;
+  SensorChoice choice_;
+  std::string trouble_;
   std::thread thread_;
   std::atomic<bool> ending_{false}, asking_{false};
 };

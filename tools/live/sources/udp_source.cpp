@@ -7,8 +7,6 @@
 
 #include <atomic>
 #include <ctime>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <thread>
 
@@ -16,8 +14,7 @@
 #include "live/log.hpp"
 #include "live/sources/sensor_metadata.hpp"
 #include "live/sources/udp_receiver.hpp"
-#include "packets/ouster.hpp"
-#include "packets/velodyne.hpp"
+#include "packets/sensors.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -35,7 +32,7 @@ std::int64_t clock_ns(clockid_t clock) {
 
 class UdpSource final : public Source {
  public:
-  explicit UdpSource(const LoadedConfig& loaded) : live_(loaded.live), metadata_(live_.sensor_metadata) {
+  explicit UdpSource(const LoadedConfig& loaded) : live_(loaded.live), metadata_(live_.sensor, live_.sensor_metadata) {
     if (live_.udp_sender.empty()) return;
     sender_ = parse_ipv4(live_.udp_sender);
     if (!sender_) {
@@ -70,9 +67,10 @@ class UdpSource final : public Source {
     health.part = part();
     const bool is_silent = clock_ns(CLOCK_MONOTONIC) - last_packet_ns_ > kSilent_ns;
     health.grade = is_silent || frames_ == 0 ? Grade::kBad : Grade::kGood;
-    const std::string trouble = metadata_.trouble();
-    if (!trouble.empty()) {
-      health.summary = trouble;
+    const std::string trouble = metadata_.trouble(), contradicted = contradiction();
+    if (!trouble.empty() || !contradicted.empty()) {
+      health.grade = Grade::kBad;
+      health.summary = !trouble.empty() ? trouble : contradicted;
     } else if (packets_ == 0) {
       health.summary = "waits for the sensor: no packet yet";
     } else {
@@ -89,12 +87,20 @@ class UdpSource final : public Source {
 
  private:
   std::string part() const {
-    const std::lock_guard<std::mutex> locked(part_lock_);
+    const std::lock_guard<std::mutex> locked(words_lock_);
     return part_;
   }
   void set_part(const std::string& part) {
-    const std::lock_guard<std::mutex> locked(part_lock_);
+    const std::lock_guard<std::mutex> locked(words_lock_);
     part_ = part;
+  }
+  std::string contradiction() const {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    return contradiction_;
+  }
+  void say(const std::string& contradiction) {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    contradiction_ = contradiction;
   }
 
   void run(FrameTaker& taker) {
@@ -107,12 +113,24 @@ class UdpSource final : public Source {
       if (packets_ > 0 && now_ns - last_packet_ns_ > kSilent_ns) begin_anew();
       last_packet_ns_ = now_ns;
       ++packets_;
-      if (!assembler_) assembler_ = metadata_.assembler();
-      if (!assembler_ || !assembler_->add(*datagram)) {
+      if (!add(*datagram)) {
         ++useless_;
         continue;
       }
       while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
+    }
+  }
+
+  // Packets that contradict the sensor that was chosen say so in the health, and are of no use.
+  bool add(const Datagram& datagram) {
+    try {
+      if (!assembler_) assembler_ = metadata_.assembler();
+      const bool is_data = assembler_ && assembler_->add(datagram);
+      if (is_data) say("");
+      return is_data;
+    } catch (const FrameError& fault) {
+      say(fault.what());
+      return false;
     }
   }
 
@@ -151,8 +169,8 @@ class UdpSource final : public Source {
   std::optional<std::uint32_t> sender_;
   bool is_first_turn_ = true;
   std::thread thread_;
-  mutable std::mutex part_lock_;
-  std::string part_ = "source udp";
+  mutable std::mutex words_lock_;
+  std::string part_ = "source udp", contradiction_;
   std::atomic<bool> ending_{false};
   std::atomic<std::uint64_t> frames_{0}, packets_{0}, useless_{0}, of_others_{0}, silences_{0};
   std::atomic<std::uint32_t> lost_{0};
