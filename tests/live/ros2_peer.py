@@ -12,6 +12,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -110,6 +111,12 @@ class Clouds(Ros2):
         self.assertLess(told["attitudes"], 50, "the buffer was small")
 
 
+    def test_a_cloud_beyond_what_is_allowed_is_told(self):
+        program = self.daemon("frame_points_max=1000")
+        self.peer(f"points={POINTS_OF['4 MB']}")
+        self.assertTrue(program.says("Clouds above 1.1 MB are not taken (frame_points_max)"), program.log())
+
+
 class Peers(Ros2):
     def test_either_comes_first_goes_and_comes_back(self):
         peer = self.peer("points=16384", "wait=0", "results=1")
@@ -129,6 +136,24 @@ class Peers(Ros2):
         self.assertTrue(third.says("runtime: measures"), third.log())
         second.command("quit")
         self.assertTrue(third.says("nobody publishes /lidar/points"), third.log())
+
+    def test_a_reader_that_hangs_holds_up_nobody(self):
+        program = self.daemon()
+        peer = self.peer("points=32768", "results=1")
+        hanging = self.peer("results=1", "labelled=1")
+        self.comes_true(lambda: hanging.report().get("points", 0) > 5, hanging, program)
+        os.kill(hanging.process.pid, signal.SIGSTOP)
+        try:
+            before = peer.report()
+            time.sleep(6)
+            after = peer.report()
+        finally:
+            os.kill(hanging.process.pid, signal.SIGCONT)
+        sent, valid = after["sent"] - before["sent"], after["valid"] - before["valid"]
+        print(f"beside a reader that hangs: {valid} of {sent} answered, median {after['median_ms']:.1f} ms", flush=True)
+        self.assertGreater(valid, 0.8 * sent, program.log())
+        count = hanging.report()["points"]
+        self.comes_true(lambda: hanging.report()["points"] > count + 5, hanging, program)
 
     def test_what_is_no_cloud_is_counted_and_named(self):
         peer = self.peer("points=16384", "reliability=reliable", "results=1")

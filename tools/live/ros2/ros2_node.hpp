@@ -94,6 +94,7 @@ class Ros2Node {
   // Of what was asked for, what the kernel granted.
   std::uint64_t receive_buffer_bytes() const { return receive_buffer_bytes_; }
   std::uint64_t receive_buffer_asked_bytes() const { return limits_.receive_buffer_bytes; }
+  std::uint64_t sample_bytes_max() const { return limits_.sample_bytes_max; }
 
  private:
   void join();

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -20,7 +21,11 @@
 namespace pose_wall::tools::live {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::int64_t kLookEvery_ms = 50;
+// Sensors turn five times a second and more.
+constexpr auto kPatience = std::chrono::seconds(2);
 // SensorDataQoS, but for its depth: the newest cloud counts. It takes clouds of every writer there is.
 constexpr RosQos kCloudQos{false, false, 2};
 // As tf2_ros listens; best effort to /tf, which also takes what careless broadcasters send.
@@ -65,6 +70,13 @@ class Ros2Source final : public Source {
       health.grade = Grade::kBad;
       health.summary = "nobody publishes " + reader_.topic();
       if (!node_->trouble().empty()) health.summary += "; " + node_->trouble();
+    } else if (Clock::now() - seen_.fared_well > kPatience) {
+      health.grade = Grade::kBad;
+      health.summary += fmt::format(
+          ": a writer is there, but nothing comes through whole. Clouds above {:.1f} MB are not taken "
+          "(frame_points_max), "
+          "and the kernel grants a receive buffer of {:.1f} MB (net.core.rmem_max)",
+          static_cast<double>(node_->sample_bytes_max()) * 1e-6, static_cast<double>(seen_.granted_bytes) * 1e-6);
     } else if (!lost.empty()) {
       health.grade = std::max(health.grade, Grade::kWarning);
       health.summary += "; " + lost;
@@ -83,6 +95,7 @@ class Ros2Source final : public Source {
   struct Seen {
     std::string type, trouble;
     std::uint64_t matched = 0, largest_bytes = 0, granted_bytes = 0, lost = 0;
+    Clock::time_point fared_well = Clock::now();  // a cloud came, or none could
   };
 
   // One type at a time, or ROS's tools would take the topic for one of several types.
@@ -131,6 +144,7 @@ class Ros2Source final : public Source {
     const std::lock_guard<std::mutex> locked(lock_);
     seen_.matched = matched;
     seen_.lost = lost;
+    if (matched == 0) seen_.fared_well = Clock::now();
   }
 
   void take() {
@@ -143,6 +157,7 @@ class Ros2Source final : public Source {
     clouds_->take([&](ByteView message) {
       {
         const std::lock_guard<std::mutex> locked(lock_);
+        seen_.fared_well = Clock::now();
         seen_.largest_bytes = std::max<std::uint64_t>(seen_.largest_bytes, message.size);
       }
       reader_.take_cloud(type, message);
