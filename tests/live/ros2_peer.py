@@ -12,6 +12,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -112,6 +113,12 @@ class Clouds(Ros2):
         self.assertLess(told["attitudes"], 50, "the buffer was small")
 
 
+    def test_a_cloud_beyond_what_is_allowed_is_told(self):
+        program = self.daemon("frame_points_max=1000")
+        self.peer(f"points={POINTS_OF['4 MB']}")
+        self.assertTrue(program.says("Clouds above 1.1 MB are not taken (frame_points_max)"), program.log())
+
+
 class Peers(Ros2):
     def test_either_comes_first_goes_and_comes_back(self):
         peer = self.peer("points=16384", "wait=0", "results=1")
@@ -132,6 +139,24 @@ class Peers(Ros2):
         second.command("quit")
         self.assertTrue(third.says("nobody publishes /lidar/points"), third.log())
 
+    def test_a_reader_that_hangs_holds_up_nobody(self):
+        program = self.daemon()
+        peer = self.peer("points=32768", "results=1")
+        hanging = self.peer("results=1", "labelled=1")
+        self.comes_true(lambda: hanging.report().get("points", 0) > 5, hanging, program)
+        os.kill(hanging.process.pid, signal.SIGSTOP)
+        try:
+            before = peer.report()
+            time.sleep(6)
+            after = peer.report()
+        finally:
+            os.kill(hanging.process.pid, signal.SIGCONT)
+        sent, valid = after["sent"] - before["sent"], after["valid"] - before["valid"]
+        print(f"beside a reader that hangs: {valid} of {sent} answered, median {after['median_ms']:.1f} ms", flush=True)
+        self.assertGreater(valid, 0.8 * sent, program.log())
+        count = hanging.report()["points"]
+        self.comes_true(lambda: hanging.report()["points"] > count + 5, hanging, program)
+
     def test_what_is_no_cloud_is_counted_and_named(self):
         peer = self.peer("points=16384", "reliability=reliable", "results=1")
         program = self.daemon()
@@ -147,6 +172,15 @@ class Peers(Ros2):
         self.assertTrue(program.says("is of type std_msgs::msg::dds_::String_, this node's is "
                                      "sensor_msgs::msg::dds_::PointCloud2_"), program.log())
         peer = self.peer("points=16384", "results=1")  # one that is right is read all the same
+        self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
+
+    def test_clouds_of_livox_are_read_by_their_type(self):
+        program = self.daemon()
+        livox = self.peer("points=16384", "type=livox_ros_driver2::msg::dds_::CustomMsg_", "results=1")
+        self.comes_true(lambda: livox.report()["valid"] > 5, livox, program)
+        livox.command("quit")
+        self.assertTrue(program.says("nobody publishes"), program.log())
+        peer = self.peer("points=16384", "results=1")
         self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
 
     def test_qualities_of_service_that_do_not_match_are_named(self):

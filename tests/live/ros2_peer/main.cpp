@@ -244,7 +244,7 @@ class Message {
 };
 
 // A road 5 m wide and 3.2 m high from 1.2 m above its floor; x, y, z and intensity. No cloud is one that was before.
-RawMessage road(std::uint32_t count, std::int64_t stamp_ns, std::uint32_t turn) {
+std::vector<float> road_points(std::uint32_t count, std::uint32_t turn) {
   std::vector<float> points(4 * std::size_t{count});
   std::uint32_t seed = turn * 2654435761U + 1;
   const std::uint32_t columns = std::max(count / 64, 1U);
@@ -263,6 +263,11 @@ RawMessage road(std::uint32_t count, std::int64_t stamp_ns, std::uint32_t turn) 
     points[4 * i + 2] = static_cast<float>(range * z);
     points[4 * i + 3] = 9.0F;
   }
+  return points;
+}
+
+RawMessage road(std::uint32_t count, std::int64_t stamp_ns, std::uint32_t turn) {
+  const std::vector<float> points = road_points(count, turn);
   Message message;
   message.header(stamp_ns, "lidar");
   message.cdr << std::uint32_t{1} << count << std::uint32_t{4};
@@ -274,6 +279,21 @@ RawMessage road(std::uint32_t count, std::int64_t stamp_ns, std::uint32_t turn) 
   message.cdr << false << std::uint32_t{16} << 16 * count << 16 * count;
   message.cdr.serializeArray(reinterpret_cast<const std::uint8_t*>(points.data()), 4 * points.size());
   message.cdr << false;
+  return message.written();
+}
+
+// The same as livox_ros_driver2/CustomMsg.
+RawMessage road_of_livox(std::uint32_t count, std::int64_t stamp_ns, std::uint32_t turn) {
+  const std::vector<float> points = road_points(count, turn);
+  Message message;
+  message.header(stamp_ns, "lidar");
+  message.cdr << static_cast<std::uint64_t>(stamp_ns) << count << std::uint8_t{1};
+  for (int i = 0; i < 3; ++i) message.cdr << std::uint8_t{0};
+  message.cdr << count;
+  for (std::size_t i = 0; i < count; ++i) {
+    message.cdr << static_cast<std::uint32_t>(i) << points[4 * i] << points[4 * i + 1] << points[4 * i + 2];
+    for (int k = 0; k < 3; ++k) message.cdr << std::uint8_t{0};
+  }
   return message.written();
 }
 
@@ -450,7 +470,8 @@ class Peer {
     results_.clear();
     auto due = std::chrono::steady_clock::now();
     std::uint32_t turn = 0;
-    RawMessage cloud = road(points, 0, turn);
+    const auto make = words_.text("type", "").find("CustomMsg") != std::string::npos ? road_of_livox : road;
+    RawMessage cloud = make(points, 0, turn);
     while (!ending_ && (count == 0 || sent_ < count)) {
       due += std::chrono::microseconds(1'000'000 / hz);
       std::this_thread::sleep_until(due);
@@ -461,7 +482,7 @@ class Peer {
       std::memcpy(cloud.data() + 8, &nanoseconds, 4);
       clouds_->write(&cloud);
       ++sent_;
-      cloud = road(points, 0, ++turn);
+      cloud = make(points, 0, ++turn);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(800));
     results_.report(sent_, matched());

@@ -176,7 +176,8 @@ std::string environment_text(const RosEnvironment& environment, const std::optio
     case DiscoveryRange::kOff:
       return text + "; discovery is off: no node finds this one";
     case DiscoveryRange::kLocalhost:
-      return text + "; found by nodes of this machine alone";
+      return text +
+             "; found by nodes of this machine alone (the ports listen on all addresses: a firewall closes them)";
     default:
       return text +
              "; whoever is on that network can publish clouds to it and read results: "

@@ -8,7 +8,7 @@
 namespace pose_wall::tools::live {
 
 RosEdge make_ros2_edge(const LoadedConfig&, const HealthBoard&, bool, bool) {
-  throw EdgeMissing("this build has no ROS 2: install cyclonedds-dev cyclonedds-tools, configure and build again");
+  throw EdgeMissing("this build has no ROS 2: install cyclonedds-dev, configure and build again");
 }
 
 }  // namespace pose_wall::tools::live

@@ -71,6 +71,7 @@ class Ros2Out final : public RosOut {
         if (trouble_.empty()) trouble_ = readers_->mismatch_with(*topic.writer);
       }
     }
+    if (trouble_.empty() && !node_->trouble().empty()) return node_->trouble();
     if (trouble_.empty() && not_sent_ > 0) return "a subscriber does not keep up: results were not sent to it";
     return trouble_;
   }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <set>
 #include <stdexcept>
@@ -62,15 +63,44 @@ Qos endpoint_settings(const RosQos& of, const std::string& user_data) {
   return qos;
 }
 
+// Whoever sends garbage makes Cyclone complain of each packet; the journal shall not be filled by it.
+class CycloneLog {
+ public:
+  void line(Grade grade, const std::string& text) {
+    const std::lock_guard<std::mutex> locked(lock_);
+    const Clock::time_point now = Clock::now();
+    if (now - began_ >= kPeriod) {
+      if (left_out_ > 0) log_line(Grade::kWarning, "ros2", fmt::format("Cyclone DDS: {} lines left out", left_out_));
+      began_ = now;
+      written_ = left_out_ = 0;
+    }
+    if (written_ >= kLinesMost) {
+      ++left_out_;
+      return;
+    }
+    ++written_;
+    log_line(grade, "ros2", "Cyclone DDS: " + text);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr auto kPeriod = std::chrono::seconds(60);
+  static constexpr std::uint64_t kLinesMost = 10;
+
+  std::mutex lock_;
+  Clock::time_point began_{};
+  std::uint64_t written_ = 0, left_out_ = 0;
+};
+
 // What Cyclone has to say goes the way of all that the daemon says.
 void log_of_cyclone(void* /*nothing*/, const dds_log_data_t* data) {
+  static CycloneLog log;
   const std::size_t head = std::min(data->hdrsize, data->size);
   std::string text(data->message + head, data->size - head);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\0')) text.pop_back();
-  const Grade grade = (data->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0 ? Grade::kBad
-                      : (data->priority & DDS_LC_WARNING) != 0              ? Grade::kWarning
-                                                                            : Grade::kGood;
-  log_line(grade, "ros2", "Cyclone DDS: " + text);
+  const bool is_bad = (data->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0;
+  const bool is_warning = (data->priority & DDS_LC_WARNING) != 0;
+  log.line(is_bad ? Grade::kBad : is_warning ? Grade::kWarning : Grade::kGood, text);
 }
 
 std::set<int> datagram_sockets() {
@@ -215,9 +245,14 @@ void Ros2Node::start() {
   join();
   receive_buffer_bytes_ = receive_buffer_of_new(sockets_before);
   log_line(Grade::kGood, "ros2", environment_text(environment_, interface_));
-  if (interface_ && interface_->is_loopback && environment_.range == DiscoveryRange::kSubnet) {
-    log_line(Grade::kWarning, "ros2", "no other interface was up at the start: nodes of other machines are not found");
-  }
+}
+
+std::string Ros2Node::trouble() const {
+  const bool is_cut_off = interface_ && interface_->is_loopback && environment_.range == DiscoveryRange::kSubnet;
+  return is_cut_off
+             ? "no network but loopback was up at the start: nodes of other machines are not found until the daemon "
+               "is started anew"
+             : "";
 }
 
 void Ros2Node::join() {

@@ -89,9 +89,12 @@ class Ros2Node {
   const Gid& gid() const { return gid_; }
   const RosEnvironment& environment() const { return environment_; }
   const std::optional<NetworkInterface>& interface() const { return interface_; }
+  // "" where nothing is wrong with it; else why other machines cannot find it.
+  std::string trouble() const;
   // Of what was asked for, what the kernel granted.
   std::uint64_t receive_buffer_bytes() const { return receive_buffer_bytes_; }
   std::uint64_t receive_buffer_asked_bytes() const { return limits_.receive_buffer_bytes; }
+  std::uint64_t sample_bytes_max() const { return limits_.sample_bytes_max; }
 
  private:
   void join();

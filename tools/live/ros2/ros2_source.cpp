@@ -3,12 +3,13 @@
 
 #include "live/ros2/ros2_source.hpp"
 
-#include <dds/dds.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -20,17 +21,18 @@
 namespace pose_wall::tools::live {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::int64_t kLookEvery_ms = 50;
+// Sensors turn five times a second and more.
+constexpr auto kPatience = std::chrono::seconds(2);
 // SensorDataQoS, but for its depth: the newest cloud counts. It takes clouds of every writer there is.
 constexpr RosQos kCloudQos{false, false, 2};
 // As tf2_ros listens; best effort to /tf, which also takes what careless broadcasters send.
 constexpr RosQos kStaticTransformsQos{true, true, 100}, kTransformsQos{false, false, 100};
 
 // What RosReader reads, the preferred one first.
-const std::array<const RosType*, 1>& cloud_types() {
-  static const std::array<const RosType*, 1> types = {&kPointCloud2Type};
-  return types;
-}
+constexpr std::array<const RosType*, 2> kCloudTypes = {&kPointCloud2Type, &kLivoxCustomType};
 
 class Ros2Source final : public Source {
  public:
@@ -49,7 +51,7 @@ class Ros2Source final : public Source {
       static_transforms_ = node_->make_reader("/tf_static", kTfMessageType, kStaticTransformsQos);
       transforms_ = node_->make_reader("/tf", kTfMessageType, kTransformsQos);
     }
-    read_type(*cloud_types().front());
+    read_type(*kCloudTypes.front());
     ending_ = false;
     thread_ = std::thread([this] { run(); });
   }
@@ -67,6 +69,14 @@ class Ros2Source final : public Source {
     } else if (seen_.matched == 0) {
       health.grade = Grade::kBad;
       health.summary = "nobody publishes " + reader_.topic();
+      if (!node_->trouble().empty()) health.summary += "; " + node_->trouble();
+    } else if (Clock::now() - seen_.fared_well > kPatience) {
+      health.grade = Grade::kBad;
+      health.summary += fmt::format(
+          ": a writer is there, but nothing comes through whole. Clouds above {:.1f} MB are not taken "
+          "(frame_points_max), "
+          "and the kernel grants a receive buffer of {:.1f} MB (net.core.rmem_max)",
+          static_cast<double>(node_->sample_bytes_max()) * 1e-6, static_cast<double>(seen_.granted_bytes) * 1e-6);
     } else if (!lost.empty()) {
       health.grade = std::max(health.grade, Grade::kWarning);
       health.summary += "; " + lost;
@@ -85,11 +95,11 @@ class Ros2Source final : public Source {
   struct Seen {
     std::string type, trouble;
     std::uint64_t matched = 0, largest_bytes = 0, granted_bytes = 0, lost = 0;
+    Clock::time_point fared_well = Clock::now();  // a cloud came, or none could
   };
 
-  // DDS knows a topic by one type at a time.
+  // One type at a time, or ROS's tools would take the topic for one of several types.
   void read_type(const RosType& type) {
-    clouds_.reset();
     clouds_ = node_->make_reader(reader_.topic(), type, kCloudQos);
     const std::lock_guard<std::mutex> locked(lock_);
     seen_.type = type.ros2_name();
@@ -104,8 +114,13 @@ class Ros2Source final : public Source {
                          [&](const RemoteEndpoint& one) { return one.type == type.dds_name(); });
     };
     if (is_sent(clouds_->type())) return;
-    for (const RosType* type : cloud_types()) {
-      if (is_sent(*type)) return read_type(*type);
+    const auto found =
+        std::find_if(kCloudTypes.begin(), kCloudTypes.end(), [&](const RosType* type) { return is_sent(*type); });
+    if (found == kCloudTypes.end()) return;
+    try {
+      read_type(**found);
+    } catch (const std::exception& fault) {
+      log_line(Grade::kBad, "ros2", fault.what());
     }
   }
 
@@ -129,6 +144,7 @@ class Ros2Source final : public Source {
     const std::lock_guard<std::mutex> locked(lock_);
     seen_.matched = matched;
     seen_.lost = lost;
+    if (matched == 0) seen_.fared_well = Clock::now();
   }
 
   void take() {
@@ -141,6 +157,7 @@ class Ros2Source final : public Source {
     clouds_->take([&](ByteView message) {
       {
         const std::lock_guard<std::mutex> locked(lock_);
+        seen_.fared_well = Clock::now();
         seen_.largest_bytes = std::max<std::uint64_t>(seen_.largest_bytes, message.size);
       }
       reader_.take_cloud(type, message);

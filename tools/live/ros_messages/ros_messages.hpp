@@ -33,7 +33,7 @@ struct RosType {
 
 extern const RosType kPointCloud2Type, kVector3StampedType, kFloat32MultiArrayType, kStateType, kDiagnosticArrayType,
     kTfMessageType;
-extern const RosType kParticipantEntitiesType;  // of the graph of ROS 2
+extern const RosType kParticipantEntitiesType, kLivoxCustomType;  // of ROS 2 alone, by name and hash
 
 class RosMessages {
  public:
