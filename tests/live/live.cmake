@@ -33,7 +33,6 @@ add_test(NAME live.ros_types_are_generated
   COMMAND ${POSE_WALL_PEER_PYTHON} ${PROJECT_SOURCE_DIR}/tools/live/ros_messages/generate_types.py --check)
 set_tests_properties(live.ros_types_are_generated PROPERTIES LABELS live SKIP_REGULAR_EXPRESSION "SKIPPED:")
 if(POSE_WALL_HAS_LIVE_ros2)
-  target_compile_definitions(pose_wall_live_tests PRIVATE POSE_WALL_HAS_LIVE_ROS2=1)
   find_path(FASTDDS_INCLUDE_DIR fastdds/dds/domain/DomainParticipant.hpp)
   find_library(FASTRTPS_LIBRARY fastrtps)
   find_library(FASTCDR_LIBRARY fastcdr)

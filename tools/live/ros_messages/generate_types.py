@@ -31,19 +31,21 @@ TYPES = {"kPointCloud2Type": "sensor_msgs/PointCloud2", "kVector3StampedType": "
          "kFloat32MultiArrayType": "std_msgs/Float32MultiArray", "kStateType": f"{OURS}/State",
          "kDiagnosticArrayType": "diagnostic_msgs/DiagnosticArray", "kTfMessageType": "tf2_msgs/TFMessage"}
 GRAPH, LIVOX = "rmw_dds_common", "livox_ros_driver2"
-# Known by name and hash alone: the graph of ROS 2, whose gids had 24 bytes before there were hashes, and Livox's driver.
+# Known by name and hash alone: the graph of ROS 2, whose gids had 24 bytes before there were hashes, and Livox's.
 ROS2_TYPES = {"kParticipantEntitiesType": f"{GRAPH}/ParticipantEntitiesInfo", "kLivoxCustomType": f"{LIVOX}/CustomMsg"}
 ROS2_FIELDS = {"std_msgs/Header": [("builtin_interfaces/Time", "stamp"), ("string", "frame_id")],
                "builtin_interfaces/Time": [("int32", "sec"), ("uint32", "nanosec")],
                f"{GRAPH}/Gid": [("uint8[16]", "data")],
                f"{GRAPH}/NodeEntitiesInfo": [("string<=256", "node_namespace"), ("string<=256", "node_name"),
-                                             (f"{GRAPH}/Gid[]", "reader_gid_seq"), (f"{GRAPH}/Gid[]", "writer_gid_seq")],
+                                             (f"{GRAPH}/Gid[]", "reader_gid_seq"),
+                                             (f"{GRAPH}/Gid[]", "writer_gid_seq")],
                f"{GRAPH}/ParticipantEntitiesInfo": [(f"{GRAPH}/Gid", "gid"),
                                                     (f"{GRAPH}/NodeEntitiesInfo[]", "node_entities_info_seq")],
                f"{LIVOX}/CustomPoint": [("uint32", "offset_time"), ("float32", "x"), ("float32", "y"), ("float32", "z"),
                                         ("uint8", "reflectivity"), ("uint8", "tag"), ("uint8", "line")],
                f"{LIVOX}/CustomMsg": [("std_msgs/Header", "header"), ("uint64", "timebase"), ("uint32", "point_num"),
-                                      ("uint8", "lidar_id"), ("uint8[3]", "rsvd"), (f"{LIVOX}/CustomPoint[]", "points")]}
+                                      ("uint8", "lidar_id"), ("uint8[3]", "rsvd"),
+                                      (f"{LIVOX}/CustomPoint[]", "points")]}
 # type_description_interfaces/msg/FieldType: numbers of the elementary types, and what is added for arrays.
 TYPE_ID = {"int8": 2, "uint8": 3, "int16": 4, "uint16": 5, "int32": 6, "uint32": 7, "int64": 8, "uint64": 9,
            "float32": 10, "float64": 11, "bool": 15, "byte": 16, "string": 17, "string<=256": 21}
@@ -156,7 +158,7 @@ def written():
         of_ros2 = literal(ros2_text(name, specs))
         rows.append(f'const RosType {constant} = {{"{name}", "{md5}",\n"{code}",\n{literal(full)},\n{of_ros2}}};\n')
     for constant, name in ROS2_TYPES.items():
-        rows.append(f'const RosType {constant} = {{"{name}", "", "{rihs01(name, specs)}", "", ""}};\n')
+        rows.append(f'const RosType {constant} = {{"{name}", "",\n"{rihs01(name, specs)}", "", ""}};\n')
     return ("// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
             "// Written by generate_types.py from msg/ and the messages of ROS: do not edit.\n\n"
             "// clang-format off\n#include \"live/ros_messages/ros_messages.hpp\"\n\n"

@@ -434,9 +434,11 @@ builtin_interfaces/Time stamp
 string frame_id
 )msg"};
 
-const RosType kParticipantEntitiesType = {"rmw_dds_common/ParticipantEntitiesInfo", "", "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e", "", ""};
+const RosType kParticipantEntitiesType = {"rmw_dds_common/ParticipantEntitiesInfo", "",
+"RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e", "", ""};
 
-const RosType kLivoxCustomType = {"livox_ros_driver2/CustomMsg", "", "RIHS01_2eb17e5e35bf5a2d6cd079f3c57f33abf95e5bf7d71b42cddc05daace73d815a", "", ""};
+const RosType kLivoxCustomType = {"livox_ros_driver2/CustomMsg", "",
+"RIHS01_2eb17e5e35bf5a2d6cd079f3c57f33abf95e5bf7d71b42cddc05daace73d815a", "", ""};
 
 }  // namespace pose_wall::tools::live
 // clang-format on
