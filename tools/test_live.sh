@@ -14,7 +14,8 @@ need_packages $packages_to_build $packages_to_read $packages_to_live $packages_t
 need_cmake
 need_peers
 step "Configuring" cmake --preset release -DPOSE_WALL_BUILD_TESTS=ON
-step "Building" cmake --build --preset release --target pose_walld pose_wall_sensor pose_wall_cli pose_wall_live_tests
+step "Building" cmake --build --preset release --target pose_walld pose_wall_sensor pose_wall_cli pose_wall_live_tests \
+  pose_wall_live_peers
 step "Testing the edges" ctest --preset release -L live
 echo
 sed -n '/tests passed/,$p' "$step_log"

@@ -73,13 +73,32 @@ std::vector<std::string> vlp16_turns(std::uint32_t turns, std::uint32_t first = 
   return packets;
 }
 
-// A pause after each packet: a burst of a whole turn would be lost in a small receive buffer.
-void send_all(const LoopbackSender& sender, const std::vector<std::string>& packets) {
-  for (const std::string& packet : packets) {
+// Of the one source of a test, so that what is sent never outruns what is taken: a small receive buffer would lose it.
+class Pace {
+ public:
+  explicit Pace(const Source& source) : source_(source) {}
+
+  void send(const LoopbackSender& sender, std::string_view packet) {
     ASSERT_TRUE(sender.send(packet));
-    std::this_thread::sleep_for(std::chrono::microseconds(50));
+    if (++sent_ % kAhead == 0) {
+      ASSERT_TRUE(becomes_true([this] { return taken() + kAhead >= sent_; }));
+    }
   }
-}
+  void send(const LoopbackSender& sender, const std::vector<std::string>& packets) {
+    for (const std::string& packet : packets) send(sender, std::string_view(packet));
+  }
+
+ private:
+  static constexpr std::uint64_t kAhead = 20;
+
+  std::uint64_t taken() const {
+    const PartHealth health = source_.health();
+    return std::stoull(fact(health, "packets")) + std::stoull(fact(health, "packets of others"));
+  }
+
+  const Source& source_;
+  std::uint64_t sent_ = 0;
+};
 
 double range_at(const Frame& frame, std::uint32_t point) {
   return std::hypot(test::number_at(frame, frame.cloud.x, point), test::number_at(frame, frame.cloud.y, point),
@@ -129,7 +148,7 @@ TEST(UdpSource, TurnsBecomeFramesAndTheStampsOfTheEngineAreOfAClockThatNobodySet
   FrameCatcher catcher;
   source->start(catcher);
   const LoopbackSender sender(port);
-  send_all(sender, vlp16_turns(4));
+  Pace(*source).send(sender, vlp16_turns(4));
   ASSERT_TRUE(catcher.wait_for_frames(3));
   source->stop();
   EXPECT_EQ(catcher.frames().size(), 3U) << "the fourth has no end yet";
@@ -151,12 +170,12 @@ TEST(UdpSource, PacketsOfOthersAndWhatIsNoPacketAreCountedAndDropped) {
   source->start(catcher);
   const LoopbackSender sender(port), other(port, "127.0.0.2");
   const std::vector<std::string> ours = vlp16_turns(3), theirs = vlp16_turns(3, 50);
+  Pace pace(*source);
   for (std::size_t i = 0; i < ours.size(); ++i) {
-    ASSERT_TRUE(other.send(theirs[i]));
-    ASSERT_TRUE(sender.send(ours[i]));
-    ASSERT_TRUE(sender.send("no packet"));
-    ASSERT_TRUE(sender.send(""));
-    std::this_thread::sleep_for(std::chrono::microseconds(50));
+    pace.send(other, std::string_view(theirs[i]));
+    pace.send(sender, std::string_view(ours[i]));
+    pace.send(sender, "no packet");
+    pace.send(sender, "");
   }
   ASSERT_TRUE(catcher.wait_for_frames(2));
   source->stop();
@@ -182,11 +201,12 @@ TEST(UdpSource, HalfATurnBeforeASilenceIsNotJoinedToHalfOfOneAfterIt) {
   std::vector<std::string> before = vlp16_turns(2), after = vlp16_turns(3, 20);
   before.resize(75 + 37);
   after.erase(after.begin(), after.begin() + 37);
-  send_all(sender, before);
+  Pace pace(*source);
+  pace.send(sender, before);
   ASSERT_TRUE(catcher.wait_for_frames(1));
   std::this_thread::sleep_for(std::chrono::milliseconds(1200));
   EXPECT_EQ(source->health().summary, "the sensor is silent");
-  send_all(sender, after);
+  pace.send(sender, after);
   ASSERT_TRUE(catcher.wait_for_frames(2));
   source->stop();
   for (const LiveFrame& frame : catcher.frames()) {
@@ -211,7 +231,10 @@ TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
   const MetadataServer server(web, encoder.metadata());
   ASSERT_TRUE(becomes_true([&] { return source->health().summary.find("metadata") == std::string::npos; }));
   const LoopbackSender sender(port);
-  for (int turn = 0; turn < 3; ++turn) send_all(sender, encoder.packets(image_of(64, 1024), turn * kTurn_ns, kTurn_ns));
+  Pace pace(*source);
+  for (int turn = 0; turn < 3; ++turn) {
+    pace.send(sender, encoder.packets(image_of(64, 1024), turn * kTurn_ns, kTurn_ns));
+  }
   ASSERT_TRUE(catcher.wait_for_frames(2));
   source->stop();
   EXPECT_EQ(catcher.frames()[0].frame.cloud.width * catcher.frames()[0].frame.cloud.height, 64U * 1024U);
@@ -254,7 +277,6 @@ TEST_F(LiveCaptures, GiveTheSameBitsByUdpAsFromTheFile) {
     while (std::optional<SourcedFrame> frame = sequence.next()) {
       if (frame->frame) expected.push_back(std::move(*frame->frame));
     }
-    ASSERT_FALSE(expected.empty());
     std::filesystem::path metadata = entry.path();
     metadata.replace_extension(".json");
     std::vector<std::string> settings;
@@ -296,7 +318,7 @@ TEST_F(LiveCaptures, GiveTheSameBitsByUdpAsFromTheFile) {
     }
     std::cout << entry.path().filename().string() << ": " << expected.size() << " frames of the file, "
               << catcher.frames().size() << " live, " << same << " the same bits\n";
-    EXPECT_EQ(same, catcher.frames().size());
+    EXPECT_EQ(same, catcher.frames().size()) << "what the file's reader refuses is refused live";
     EXPECT_GE(catcher.frames().size() + 1, expected.size()) << "but for a turn whose end the capture does not hold";
   }
   EXPECT_GT(looked_at, 0U);

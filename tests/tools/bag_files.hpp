@@ -71,6 +71,7 @@ class CdrWriter {
     put(static_cast<std::uint32_t>(text.size() + 1));
     text_ += text + '\0';
   }
+  void put_bytes(const std::string& bytes) { text_ += bytes; }
   void put_block(const std::string& block) {
     put(static_cast<std::uint32_t>(block.size()));
     text_ += block;

@@ -11,37 +11,20 @@
 
 #include <cmath>
 
-#include "inputs/frame_sequence.hpp"
+#include "packet_files.hpp"
 #include "packets/ouster_metadata.hpp"
-#include "test_files.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
+using test::capture_head;
+using test::captured;
+using test::datagram;
 using test::number_at;
 using test::raw;
+using test::read;
+using test::ReadCapture;
 using test::TempFolder;
-
-std::string big(std::uint16_t number) {
-  return raw(number, true);
-}
-
-std::string capture_head() {
-  return raw(0xA1B2C3D4U) + raw(std::uint16_t{2}) + raw(std::uint16_t{4}) + raw(0U) + raw(0U) + raw(65535U) + raw(1U);
-}
-
-// One IPv4 packet on Ethernet; `fragment` as its header has it.
-std::string captured(const std::string& content, std::uint32_t microseconds, std::uint16_t fragment = 0) {
-  const std::string packet = std::string(12, 'e') + big(0x0800) + "\x45" + std::string(1, '\0') +
-                             big(static_cast<std::uint16_t>(20 + content.size())) + big(77) + big(fragment) +
-                             "\x40\x11" + big(0) + "\x0A\x01\x01\x01" + "\x0A\x01\x01\x02" + content;
-  const auto size = static_cast<std::uint32_t>(packet.size());
-  return raw(1700000000U) + raw(microseconds) + raw(size) + raw(size) + packet;
-}
-
-std::string datagram(const std::string& payload) {
-  return big(2368) + big(2368) + big(static_cast<std::uint16_t>(8 + payload.size())) + big(0) + payload;
-}
 
 // Twelve blocks 6 degrees apart; all lasers at 10 m but laser 3, which has no return.
 std::string velodyne_packet(std::uint32_t first_azimuth_deg) {
@@ -59,24 +42,6 @@ std::string velodyne_capture(std::uint32_t from_deg, std::uint32_t packets) {
     file += captured(datagram(velodyne_packet((from_deg + 72 * i) % 360)), 1000 * i);
   }
   return file;
-}
-
-struct ReadCapture {
-  std::vector<SourcedFrame> frames;
-  std::vector<std::string> errors;
-  std::size_t announced = 0;
-};
-
-ReadCapture read(const std::string& file) {
-  FrameSequence sequence({file});
-  ReadCapture capture;
-  capture.errors = sequence.errors();
-  capture.announced = sequence.frames();
-  while (std::optional<SourcedFrame> frame = sequence.next()) {
-    if (!frame->frame) capture.errors.push_back(frame->error);
-    if (frame->frame) capture.frames.push_back(std::move(*frame));
-  }
-  return capture;
 }
 
 TEST(Velodyne, TurnsBecomeFramesAndThosePartlySeenAreLeftOut) {

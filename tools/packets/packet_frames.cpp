@@ -83,6 +83,7 @@ PacketFrames::PacketFrames(PacketRecording recording, const SensorChoice& choice
     const std::size_t scans = frames_;
     while (survey.take_fault()) ++frames_;
     if (scans == 0 && frames_ == 0) refuse_empty(survey, choice);
+    recording_.about.kind += (recording_.about.kind.empty() ? "" : ", ") + std::string(survey.assembler().kind());
   }
   walk_ = std::make_unique<ScanWalk>(recording_.open(), make_assembler(choice));
 }
@@ -122,12 +123,6 @@ std::optional<SourcedFrame> PacketFrames::next() {
   sourced.name = recording_.name;
   sourced.error = *fault;
   return sourced;
-}
-
-SourceAbout PacketFrames::about() const {
-  SourceAbout about = recording_.about;
-  about.kind += (about.kind.empty() ? "" : ", ") + std::string(walk_->assembler().kind());
-  return about;
 }
 
 }  // namespace pose_wall::tools

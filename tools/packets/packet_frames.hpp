@@ -35,7 +35,7 @@ class PacketFrames : public FrameSource {
 
   std::optional<SourcedFrame> next() override;
   std::size_t frames() const override { return frames_; }
-  SourceAbout about() const override;
+  SourceAbout about() const override { return recording_.about; }
 
  private:
   class ScanWalk;

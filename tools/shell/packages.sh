@@ -20,7 +20,12 @@ packages_to_live="libmodbus-dev libpaho-mqtt-dev libcpp-httplib-dev libssl-dev l
 packages_to_test_live="python3-pymodbus python3-serial-asyncio mosquitto mosquitto-clients python3-rosmaster
   python3-rospy python3-rosbag python3-rostopic python3-geometry-msgs python3-sensor-msgs python3-std-msgs
   python3-tf2-msgs python3-diagnostic-msgs python3-genmsg ros-std-msgs ros-sensor-msgs ros-geometry-msgs
-  ros-diagnostic-msgs ros-tf2-msgs ros-nav-msgs chromium chromium-driver nodejs"
+  ros-diagnostic-msgs ros-tf2-msgs ros-nav-msgs libtf2-dev python3-roslaunch libfastrtps-dev libfastcdr-dev tshark
+  chromium chromium-driver nodejs"
+# For the tests of the package for Python.
+# shellcheck disable=SC2034
+packages_to_test_python="python3-numpy python3-yaml python3-matplotlib python3-pip python3-setuptools python3-wheel
+  python3-venv"
 # shellcheck disable=SC2034
 packages_to_test="libgtest-dev python3 pkg-config groff-base"
 packages_to_cross="cmake ninja-build libeigen3-dev g++-aarch64-linux-gnu qemu-user-static"

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Packets of sensors made by hand from the makers' descriptions, captures of them, and what is read from these.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "inputs/frame_sequence.hpp"
+#include "packets/scan.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools::test {
+
+inline std::string big(std::uint16_t number) {
+  return raw(number, true);
+}
+
+inline std::string capture_head() {
+  return raw(0xA1B2C3D4U) + raw(std::uint16_t{2}) + raw(std::uint16_t{4}) + raw(0U) + raw(0U) + raw(65535U) + raw(1U);
+}
+
+// One IPv4 packet on Ethernet; `fragment` as its header has it.
+inline std::string captured(const std::string& content, std::uint32_t microseconds, std::uint16_t fragment = 0) {
+  const std::string packet = std::string(12, 'e') + big(0x0800) + "\x45" + std::string(1, '\0') +
+                             big(static_cast<std::uint16_t>(20 + content.size())) + big(77) + big(fragment) +
+                             "\x40\x11" + big(0) + "\x0A\x01\x01\x01" + "\x0A\x01\x01\x02" + content;
+  const auto size = static_cast<std::uint32_t>(packet.size());
+  return raw(1700000000U) + raw(microseconds) + raw(size) + raw(size) + packet;
+}
+
+inline std::string datagram(const std::string& payload) {
+  return big(2368) + big(2368) + big(static_cast<std::uint16_t>(8 + payload.size())) + big(0) + payload;
+}
+
+// A packet each millisecond.
+inline std::string capture_of(const std::vector<std::string>& payloads) {
+  std::string file = capture_head();
+  for (std::uint32_t i = 0; i < payloads.size(); ++i) file += captured(datagram(payloads[i]), 1000 * i);
+  return file;
+}
+
+struct ReadCapture {
+  std::vector<SourcedFrame> frames;
+  std::vector<std::string> errors;
+  std::size_t announced = 0;
+  SourceAbout about;
+};
+
+inline ReadCapture read(const std::string& file, const SensorOptions& packets = {}) {
+  InputOptions options;
+  options.packets = packets;
+  FrameSequence sequence({file}, options);
+  ReadCapture capture;
+  capture.errors = sequence.errors();
+  capture.announced = sequence.frames();
+  capture.about = sequence.about();
+  while (std::optional<SourcedFrame> frame = sequence.next()) {
+    if (!frame->frame) capture.errors.push_back(frame->error);
+    if (frame->frame) capture.frames.push_back(std::move(*frame));
+  }
+  return capture;
+}
+
+// Where nothing is read: the one reason.
+inline std::string refusal_of(const ReadCapture& capture) {
+  return capture.frames.empty() && capture.errors.size() == 1 ? capture.errors.front() : "read";
+}
+
+// Distance of a laser in a block, in the unit of the packet.
+using Distances = std::function<std::uint16_t(std::size_t block, std::size_t laser)>;
+
+struct VelodynePacket {
+  double first_deg = 0.0, step_deg = 30.0;  // step from block to block, or from pair to pair
+  std::uint32_t clock_us = 0;
+  std::uint8_t mode = 0x37, product = 0x22;
+  Distances distance = [](std::size_t, std::size_t) { return std::uint16_t{5000}; };
+};
+
+inline std::string payload_of(const VelodynePacket& packet) {
+  std::string payload;
+  for (std::size_t block = 0; block < 12; ++block) {
+    const std::size_t firing = packet.mode == 0x39 ? block / 2 : block;
+    const double azimuth_deg = packet.first_deg + static_cast<double>(firing) * packet.step_deg;
+    payload += "\xFF\xEE" + raw(static_cast<std::uint16_t>(std::lround(azimuth_deg * 100.0) % 36000));
+    for (std::size_t laser = 0; laser < 32; ++laser) payload += raw(packet.distance(block, laser)) + "\x2A";
+  }
+  return payload + raw(packet.clock_us) + raw(packet.mode) + raw(packet.product);
+}
+
+// What differs between the packets of Hesai's sensors.
+struct HesaiPacket {
+  std::size_t lasers = 32, blocks = 8;
+  double first_deg = 0.0, step_deg = 45.0;  // step from block to block, or from pair to pair
+  std::uint8_t mode = 0x37;
+  Distances distance = [](std::size_t, std::size_t) { return std::uint16_t{2500}; };
+};
+
+inline std::string payload_of(const HesaiPacket& packet) {
+  const bool is_40p = packet.lasers == 40;
+  std::string payload;
+  if (!is_40p) {
+    payload = "\xEE\xFF\x06\x01" + std::string(2, '\0') + static_cast<char>(packet.lasers) +
+              static_cast<char>(packet.blocks) + '\0' + "\x04\x02\x01";
+  }
+  for (std::size_t block = 0; block < packet.blocks; ++block) {
+    const std::size_t firing = packet.mode >= 0x39 ? block / 2 : block;
+    const double azimuth_deg = packet.first_deg + static_cast<double>(firing) * packet.step_deg;
+    if (is_40p) payload += "\xFF\xEE";
+    payload += raw(static_cast<std::uint16_t>(std::lround(azimuth_deg * 100.0) % 36000));
+    for (std::size_t laser = 0; laser < packet.lasers; ++laser) {
+      payload += raw(packet.distance(block, laser)) + (is_40p ? "\x2A" : "\x2A\x01");
+    }
+  }
+  const std::string mode(1, static_cast<char>(packet.mode)), date("\x17\x0B\x0E\x01\x02\x03", 6);
+  const std::string speed = raw(std::uint16_t{600}), clock = raw(std::uint32_t{123456});
+  if (is_40p) return payload + std::string(8, '\0') + speed + clock + mode + '\x42' + date;
+  const std::string sequence = raw(std::uint32_t{7});
+  if (packet.lasers == 64) return payload + std::string(10, '\0') + speed + clock + mode + '\x42' + date + sequence;
+  return payload + std::string(10, '\0') + mode + speed + date + clock + '\x42' + sequence;
+}
+
+// Livox's head of 36 bytes, then the points as they are given.
+inline std::string mid360_payload(std::uint8_t type, std::uint64_t time_ns, const std::vector<std::string>& points,
+                                  std::uint16_t tenths_us = 4800) {
+  std::string body;
+  for (const std::string& point : points) body += point;
+  std::string head = std::string(1, '\0') + raw(static_cast<std::uint16_t>(36 + body.size())) + raw(tenths_us) +
+                     raw(static_cast<std::uint16_t>(points.size())) + raw(std::uint16_t{9}) + std::string(1, '\0') +
+                     raw(type) + std::string(1, '\0') + std::string(12, '\0') + raw(0U) + raw(time_ns);
+  return head + body;
+}
+
+inline ByteView view_of(const std::string& bytes) {
+  return {reinterpret_cast<const std::byte*>(bytes.data()), bytes.size()};
+}
+
+inline bool add(ScanAssembler& assembler, const std::string& payload, std::int64_t captured_ns = 0) {
+  return assembler.add({captured_ns, 1, view_of(payload)});
+}
+
+inline void expect_at(const ScanPoint& point, double x_m, double y_m, double z_m) {
+  EXPECT_NEAR(point.x_m, x_m, 1e-5);
+  EXPECT_NEAR(point.y_m, y_m, 1e-5);
+  EXPECT_NEAR(point.z_m, z_m, 1e-5);
+}
+
+inline const ScanPoint& point_at(const Scan& scan, std::size_t ring, std::size_t column) {
+  return scan.points.at(ring * (scan.points.size() / scan.rings) + column);
+}
+
+}  // namespace pose_wall::tools::test
