@@ -38,7 +38,6 @@ add_test(NAME live.ros_types_are_generated
 set_tests_properties(live.ros_types_are_generated PROPERTIES LABELS live SKIP_REGULAR_EXPRESSION "SKIPPED:")
 add_custom_target(pose_wall_live_peers)  # what tools/test_live.sh builds of them
 if(POSE_WALL_HAS_LIVE_ros2)
-  target_compile_definitions(pose_wall_live_tests PRIVATE POSE_WALL_HAS_LIVE_ROS2=1)
   find_path(FASTDDS_INCLUDE_DIR fastdds/dds/domain/DomainParticipant.hpp)
   find_library(FASTRTPS_LIBRARY fastrtps)
   find_library(FASTCDR_LIBRARY fastcdr)

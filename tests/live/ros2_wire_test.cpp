@@ -5,7 +5,7 @@
 // those of ROS; its environment variables are read as ROS reads them, and what is none is refused by name; the settings
 // for Cyclone follow; a mismatch names each policy with what either side has.
 
-#ifdef POSE_WALL_HAS_LIVE_ROS2
+#ifdef POSE_WALL_LIVE_HAS_ROS2
 
 #include <gtest/gtest.h>
 

@@ -74,13 +74,17 @@ std::string allowed_text(const pose_wall_key_info& key) {
 std::string config_value_text(const pose_wall_config& config, const pose_wall_key_info& key) {
   if (key.type == POSE_WALL_KEY_BOX) return box_text(config, key);
   if (key.type == POSE_WALL_KEY_TEXT || key.type == POSE_WALL_KEY_CHOICE) {
-    char text[POSE_WALL_TEXT_MAX] = {};
-    pose_wall_config_get_text(&config, key.name, text, sizeof text);
-    return text;
+    return config_text(config, key.name);
   }
   double value = 0.0;
   pose_wall_config_get_number(&config, key.name, &value);
   return fmt::format("{:.9g}", value);
+}
+
+std::string config_text(const pose_wall_config& config, const char* key) {
+  char text[POSE_WALL_TEXT_MAX] = {};
+  pose_wall_config_get_text(&config, key, text, sizeof text);
+  return text;
 }
 
 std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key) {

@@ -26,6 +26,9 @@ std::string allowed_text(const pose_wall_key_info& key);
 // The present value as it would be written in pose_wall.yaml.
 std::string config_value_text(const pose_wall_config& config, const pose_wall_key_info& key);
 
+// Of a key of text or choice.
+std::string config_text(const pose_wall_config& config, const char* key);
+
 // The same where people read it: nothing as it is written, too, in a file or behind --set ("[]": no box).
 std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key);
 

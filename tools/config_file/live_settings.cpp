@@ -3,6 +3,7 @@
 
 #include "config_file/live_settings.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -191,6 +192,14 @@ std::optional<HostPort> parse_host_port(const std::string& text) {
   const auto [stop, error] = std::from_chars(begin, end, parts.port);
   if (error != std::errc() || stop != end || parts.port < 1 || parts.port > 65535) return std::nullopt;
   return parts;
+}
+
+bool is_loopback(const std::string& host) {
+  in_addr four{};
+  in6_addr six{};
+  if (inet_pton(AF_INET, host.c_str(), &four) == 1) return ntohl(four.s_addr) >> 24U == 127;
+  if (inet_pton(AF_INET6, host.c_str(), &six) == 1) return IN6_IS_ADDR_LOOPBACK(&six) != 0;
+  return host == "localhost";
 }
 
 }  // namespace pose_wall::tools

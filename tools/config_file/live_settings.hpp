@@ -64,4 +64,7 @@ struct HostPort {
 };
 std::optional<HostPort> parse_host_port(const std::string& text);
 
+// "localhost" and addresses of 127.0.0.0/8 and ::1. A name that begins as such an address is none.
+bool is_loopback(const std::string& host);
+
 }  // namespace pose_wall::tools

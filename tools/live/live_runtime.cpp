@@ -13,6 +13,8 @@
 #include <utility>
 
 #include "angles.hpp"
+#include "config_file/key_table.hpp"
+#include "live/clocks.hpp"
 #include "live/log.hpp"
 #include "quantities.hpp"
 
@@ -24,14 +26,12 @@ constexpr std::uint64_t kFramesKept = 8;
 // A frame takes 0.2 s at most on the slowest controller (bench/README.md); a worker that is at one thing for so much
 // longer does not come back.
 constexpr std::int64_t kHangs_ns = 10'000'000'000;
-// A transform that moved less is the same one with rounding: reopening costs what the engine remembers.
-constexpr double kSamePlace_m = 1e-4, kSameAngle_rad = 1e-5;
-
-std::string text_of(const api::Config& config, const char* key) {
-  char text[POSE_WALL_TEXT_MAX] = {};
-  pose_wall_config_get_text(config.get(), key, text, sizeof text);
-  return text;
-}
+// x, y, z as doubles, and intensity: whatever a driver writes.
+constexpr std::uint32_t kPointBytes = 32;
+// A transform that moved less is the same mount: a thirtieth of range_bias_max, and as much at five metres. Reopening
+// costs what the engine remembers, so it is done at most so often; meanwhile nothing is measured.
+constexpr double kSamePlace_m = 1e-3, kSameAngle_rad = 2e-4;
+constexpr std::int64_t kReopenEvery_ns = 2'000'000'000;
 
 void require(std::int32_t status, const char* what) {
   if (status == POSE_WALL_OK) return;
@@ -43,12 +43,6 @@ bool is_same(const Extrinsic& a, const Extrinsic& b) {
   return near(a.x_m, b.x_m, kSamePlace_m) && near(a.y_m, b.y_m, kSamePlace_m) && near(a.z_m, b.z_m, kSamePlace_m) &&
          near(a.roll_rad, b.roll_rad, kSameAngle_rad) && near(a.pitch_rad, b.pitch_rad, kSameAngle_rad) &&
          near(a.yaw_rad, b.yaw_rad, kSameAngle_rad);
-}
-
-std::int64_t monotonic_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
 std::string milliseconds(std::int64_t ns) {
@@ -63,9 +57,10 @@ LiveRuntime::LiveRuntime(const LoadedConfig& loaded, std::function<BlackBox()> o
       open_box_(std::move(open_box)),
       post_(std::move(post)),
       wants_points_(std::move(wants_points)) {
-  settings_.lidar_frame = text_of(config_, "lidar_frame");
+  settings_.lidar_frame = config_text(*config_.get(), "lidar_frame");
   settings_.extrinsic_by_tf = loaded.live.extrinsic_from == "tf";
   settings_.frame_points_max = static_cast<std::uint32_t>(loaded.live.frame_points_max);
+  open_box();
   open();
 }
 
@@ -75,7 +70,7 @@ LiveRuntime::~LiveRuntime() {
 }
 
 void LiveRuntime::open() {
-  open_box();
+  box_ = std::exchange(spare_box_, {});  // the one before is closed: its runtime is
   pose_wall_runtime_options options{};
   require(pose_wall_runtime_options_init(&options), "the runtime's options");
   options.cloud_points_max = settings_.frame_points_max;
@@ -84,9 +79,16 @@ void LiveRuntime::open() {
   options.sink = box_.write;
   options.sink_user = box_.user;
   options.box_bytes = box_.bytes;
-  // Clouds are in the box only where one fits beside the rest.
-  options.box_clouds = box_.bytes > 2 * std::uint64_t{options.cloud_points_max} * options.point_bytes_max ? 1 : 0;
-  if (config_.number("intensity_weight") > 0.0) options.point_bytes_max = std::max(options.point_bytes_max, 32U);
+  options.point_bytes_max = kPointBytes;
+  // Clouds are in the box only where one fits beside the rest; without them nothing can be computed again.
+  const std::uint64_t needed = 2 * std::uint64_t{options.cloud_points_max} * options.point_bytes_max;
+  options.box_clouds = box_.bytes > needed ? 1 : 0;
+  if (box_.write != nullptr && options.box_clouds == 0) {
+    log_line(Grade::kWarning, "black box",
+             fmt::format("holds digests alone, for a file of {} bytes has no room for clouds of frame_points_max {}: "
+                         "black_box_mb above {} gives it",
+                         box_.bytes, options.cloud_points_max, 4 * needed / 1'000'000 + 1));
+  }
   std::uint64_t bytes = 0;
   require(pose_wall_runtime_memory_needed(config_.get(), &options, &bytes), "the runtime's memory");
   block_.resize(static_cast<std::size_t>((bytes + sizeof(Line) - 1) / sizeof(Line)));
@@ -98,8 +100,8 @@ void LiveRuntime::open() {
 // At the start a folder that cannot be written is a fault of the settings; later the machine goes on without a box.
 void LiveRuntime::open_box() {
   try {
-    box_ = {};
-    box_ = open_box_();
+    spare_box_ = {};
+    spare_box_ = open_box_();
   } catch (const std::exception& fault) {
     if (opened_ == 0) throw;
     log_line(Grade::kBad, "black box", fault.what());
@@ -152,28 +154,59 @@ void LiveRuntime::take(LiveFrame frame) {
 void LiveRuntime::set_extrinsic(const std::optional<Extrinsic>& extrinsic) {
   const std::lock_guard<std::mutex> in_row(take_lock_);
   if (!settings_.extrinsic_by_tf) return;
-  const bool is_new = extrinsic && !(extrinsic_ && is_same(*extrinsic_, *extrinsic));
-  if (!extrinsic && extrinsic_) log_line(Grade::kWarning, "tf", "the transform is gone; nothing is measured");
-  if (extrinsic_ && !is_new && extrinsic) return;
-  extrinsic_ = extrinsic;
-  if (is_new) reopen(*extrinsic);
+  if (!extrinsic) {
+    if (extrinsic_) log_line(Grade::kWarning, "tf", "the transform is gone; nothing is measured");
+    extrinsic_.reset();
+    return;
+  }
+  const bool is_known = extrinsic_ && is_same(*extrinsic_, *extrinsic);
+  const bool is_refused = refused_extrinsic_ && is_same(*refused_extrinsic_, *extrinsic);
+  if (is_known || is_refused) return;
+  extrinsic_.reset();
+  // The source tells it again with the next cloud.
+  if (reopened_ns_ != 0 && monotonic_ns() - reopened_ns_ < kReopenEvery_ns) return;
+  reopened_ns_ = monotonic_ns();
+  const std::optional<api::Config> config = with_extrinsic(*extrinsic);
+  if (!config) {
+    refused_extrinsic_ = extrinsic;
+    log_line(Grade::kBad, "tf",
+             "the transform is out of the range of extrinsic_x to extrinsic_yaw; nothing is measured");
+    return;
+  }
+  refused_extrinsic_.reset();
+  try {
+    reopen(*config);
+    extrinsic_ = extrinsic;
+  } catch (const std::exception& fault) {
+    log_line(Grade::kBad, "runtime", fmt::format("{}; nothing is measured", fault.what()));
+    return;
+  }
+  log_line(Grade::kGood, "tf",
+           fmt::format("sensor in base: x {:.3f}, y {:.3f}, z {:.3f} m, roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg",
+                       extrinsic->x_m, extrinsic->y_m, extrinsic->z_m, extrinsic->roll_rad * kDegPerRad,
+                       extrinsic->pitch_rad * kDegPerRad, extrinsic->yaw_rad * kDegPerRad));
 }
 
-void LiveRuntime::reopen(const Extrinsic& extrinsic) {
-  const std::unique_lock<std::shared_mutex> locked(handle_lock_);
-  require(pose_wall_runtime_stop(runtime_), "stopping the runtime");
-  close();
+// The settings with this mount; nothing where it is out of their range.
+std::optional<api::Config> LiveRuntime::with_extrinsic(const Extrinsic& extrinsic) const {
+  api::Config config = config_;
   const std::pair<const char*, double> values[] = {
       {"extrinsic_x", extrinsic.x_m},           {"extrinsic_y", extrinsic.y_m},
       {"extrinsic_z", extrinsic.z_m},           {"extrinsic_roll", extrinsic.roll_rad},
       {"extrinsic_pitch", extrinsic.pitch_rad}, {"extrinsic_yaw", extrinsic.yaw_rad}};
-  bool is_set = true;
-  for (const auto& [key, value] : values) is_set = config_.set(key, value) == POSE_WALL_OK && is_set;
-  if (!is_set) {
-    log_line(Grade::kBad, "tf",
-             "the transform is out of the range of extrinsic_x to extrinsic_yaw; nothing is measured");
-    extrinsic_.reset();
+  for (const auto& [key, value] : values) {
+    if (config.set(key, value) != POSE_WALL_OK) return std::nullopt;
   }
+  return config;
+}
+
+// Who asks for images waits for neither the frame in work nor the disk of the black box.
+void LiveRuntime::reopen(const api::Config& config) {
+  stop();
+  open_box();
+  const std::unique_lock<std::shared_mutex> locked(handle_lock_);
+  close();
+  config_ = config;
   {
     const std::lock_guard<std::mutex> frames_locked(frames_lock_);
     frames_.clear();
@@ -181,11 +214,6 @@ void LiveRuntime::reopen(const Extrinsic& extrinsic) {
   }
   open();
   if (started_) require(pose_wall_runtime_start(runtime_), "starting the runtime");
-  if (!is_set) return;
-  log_line(Grade::kGood, "tf",
-           fmt::format("sensor in base: x {:.3f}, y {:.3f}, z {:.3f} m, roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg",
-                       extrinsic.x_m, extrinsic.y_m, extrinsic.z_m, extrinsic.roll_rad * kDegPerRad,
-                       extrinsic.pitch_rad * kDegPerRad, extrinsic.yaw_rad * kDegPerRad));
 }
 
 void LiveRuntime::wait_idle() {
@@ -245,12 +273,12 @@ pose_wall_image2 LiveRuntime::image2() const {
   return image;
 }
 
-pose_wall_publication LiveRuntime::latest() const {
-  pose_wall_publication publication{};
+std::int32_t LiveRuntime::latest(pose_wall_publication* newest) const {
+  pose_wall_publication& publication = *newest;
+  publication = {};
   publication.struct_size = sizeof publication;
   const std::shared_lock<std::shared_mutex> locked(handle_lock_);
-  static_cast<void>(pose_wall_runtime_latest(runtime_, &publication));
-  return publication;
+  return pose_wall_runtime_latest(runtime_, &publication);
 }
 
 pose_wall_runtime_statistics LiveRuntime::statistics() const {
@@ -268,7 +296,8 @@ bool LiveRuntime::is_alive() const {
 }
 
 PartHealth LiveRuntime::health() const {
-  const pose_wall_publication publication = latest();
+  pose_wall_publication publication{};
+  const bool is_stale = latest(&publication) == POSE_WALL_RUNTIME_E_STALE;
   PartHealth health;
   health.part = "runtime";
   std::uint32_t usable = 0;
@@ -277,6 +306,10 @@ PartHealth LiveRuntime::health() const {
   if (settings_.extrinsic_by_tf && without_extrinsic_ > 0 && publication.cause == 0) {
     health.grade = Grade::kBad;
     health.summary = "waits for the transform from " + settings_.lidar_frame + "; nothing is measured";
+  } else if (is_stale) {
+    // Silence is published ten times a second: who does not even tell that, hangs.
+    health.grade = Grade::kBad;
+    health.summary = "the worker hangs: results are old, and all values invalid";
   } else if (!is_fresh) {
     health.grade = Grade::kBad;
     health.summary = publication.cause == 0 ? "no frame yet" : "no frame comes";

@@ -62,17 +62,18 @@ class LiveRuntime final : public FrameTaker, public Images {
   void open();
   void open_box();
   void close();
-  void reopen(const Extrinsic& extrinsic);
+  std::optional<api::Config> with_extrinsic(const Extrinsic& extrinsic) const;
+  void reopen(const api::Config& config);
   std::shared_ptr<const LiveFrame> frame_of(std::uint64_t number);
   std::shared_ptr<const LabelledPoints> points() const;
-  pose_wall_publication latest() const;
+  std::int32_t latest(pose_wall_publication* newest) const;
   pose_wall_runtime_statistics statistics() const;
   void add_runtime_facts(PartHealth* health) const;
 
   api::Config config_;
   Settings settings_;
   std::function<BlackBox()> open_box_;
-  BlackBox box_;
+  BlackBox box_, spare_box_;  // spare: opened before the runtime that will write it
   Post post_;
   std::function<bool()> wants_points_;
 
@@ -83,7 +84,8 @@ class LiveRuntime final : public FrameTaker, public Images {
 
   std::mutex take_lock_;  // frames come in one row, and each knows its number before it is pushed
   std::uint64_t next_number_ = 0;
-  std::optional<Extrinsic> extrinsic_;
+  std::optional<Extrinsic> extrinsic_, refused_extrinsic_;
+  std::int64_t reopened_ns_ = 0;
 
   std::mutex frames_lock_;
   std::map<std::uint64_t, std::shared_ptr<const LiveFrame>> frames_;

@@ -36,6 +36,12 @@ std::vector<std::shared_ptr<const std::string>> Broadcast::next(Seen* seen, int 
   return news;
 }
 
+void Broadcast::forget_frames() {
+  const std::lock_guard<std::mutex> locked(lock_);
+  newest_[kHealth] = {};
+  newest_[kFrame] = {};
+}
+
 void Broadcast::end() {
   {
     const std::lock_guard<std::mutex> locked(lock_);

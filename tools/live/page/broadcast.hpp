@@ -27,6 +27,8 @@ class Broadcast {
   // The events that this viewer has not seen, which it then has; waits until there is one or time is up (none) or `end`
   // was called (none).
   std::vector<std::shared_ptr<const std::string>> next(Seen* seen, int timeout_ms);
+  // The newest frame and health; the hello stays.
+  void forget_frames();
   void end();
   bool is_ending() const;
 

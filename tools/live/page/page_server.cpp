@@ -16,6 +16,7 @@
 #include <mutex>
 #include <thread>
 
+#include "live/clocks.hpp"
 #include "live/edges.hpp"
 #include "live/log.hpp"
 #include "live/page/broadcast.hpp"
@@ -35,16 +36,13 @@ constexpr int kWriteTimeout_us = 400'000;
 constexpr int kReadTimeout_s = 5;
 constexpr std::size_t kRequestMost = 4096;  // a body is never wanted
 constexpr int kWait_ms = 500;
+constexpr std::int64_t kOld_ns = 1'000'000'000;
 constexpr auto kHealthEvery = std::chrono::seconds(1);
 
 // Everything comes from this server, nothing is framed, nothing else is asked.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'none'";
-
-bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
-}
 
 // "localhost:8080", "[::1]:8080".
 std::string host_of(const std::string& header) {
@@ -190,7 +188,10 @@ class PageServer final : public Sink {
     answer->set_chunked_content_provider(
         "text/event-stream",
         [this, seen](std::size_t, httplib::DataSink& sink) { return send_news(seen.get(), &sink); },
-        [this](bool) { --viewers_; });
+        [this](bool) {
+          // Who comes later must not see what was live when the last one left.
+          if (--viewers_ == 0) broadcast_.forget_frames();
+        });
   }
 
   // One round for one viewer; false at its end.
@@ -216,6 +217,8 @@ class PageServer final : public Sink {
       answer->set_content("{\"error\": \"nothing was published yet\"}\n", "application/json");
       return;
     }
+    // Silence is published, too: what is older was left by a worker that hangs.
+    if (monotonic_ns() - newest_.publication.published_ns > kOld_ns) answer->status = 503;
     answer->set_content(result_json(newest_) + "\n", "application/json");
   }
 

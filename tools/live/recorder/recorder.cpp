@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "live/clocks.hpp"
 #include "live/edges.hpp"
 #include "live/log.hpp"
 #include "live/recorder/bounded_folder.hpp"
@@ -44,12 +45,6 @@ std::vector<McapChannel> channels(const LoadedConfig& loaded) {
   return {{"/pose_wall/result", "json", "pose_wall.Result", "jsonschema", kAnyObject},
           {"/pose_wall/health", "json", "pose_wall.Health", "jsonschema", kAnyObject},
           {topic, "cdr", kPointCloud2Type.ros2_name(), "ros2msg", kPointCloud2Type.ros2_definition}};
-}
-
-std::uint64_t wall_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec, 0));
 }
 
 class Recorder final : public Sink {

@@ -101,7 +101,7 @@ std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type) {
 // takes results and clouds on loopback alone, but lets itself be called on all addresses, whatever it is told.
 void Ros1Node::listen_where_allowed() const {
   const bool is_told = is_set("ROS_IP") || is_set("ROS_HOSTNAME");
-  const bool is_local = master_.host == "localhost" || master_.host.rfind("127.", 0) == 0;
+  const bool is_local = is_loopback(master_.host);
   if (!is_told && is_local) {
     setenv("ROS_IP", "127.0.0.1", 1);
     log_line(Grade::kGood, "ros1", "sends on loopback, for the master is there; ROS_IP=ADDRESS lets other machines in");

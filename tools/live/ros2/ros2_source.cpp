@@ -127,7 +127,7 @@ class Ros2Source final : public Source {
   std::string trouble() const {
     for (const auto* endpoint : {&clouds_, &static_transforms_, &transforms_}) {
       if (!*endpoint) continue;
-      const std::string mismatch = writers_->mismatch_with(**endpoint);
+      std::string mismatch = writers_->mismatch_with(**endpoint);
       if (!mismatch.empty()) return mismatch;
     }
     return "";

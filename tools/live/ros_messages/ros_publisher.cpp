@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include "live/ros_messages/ros_publisher.hpp"
+#include "config_file/key_table.hpp"
+#include "live/clocks.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -16,18 +18,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kDiagnosticsEvery = std::chrono::seconds(1);
 
-std::string text_of(const LoadedConfig& loaded, const char* key) {
-  char text[POSE_WALL_TEXT_MAX] = {};
-  pose_wall_config_get_text(loaded.config.get(), key, text, sizeof text);
-  return text;
-}
-
-std::int64_t wall_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
 class RosPublisher final : public Sink {
  public:
   RosPublisher(std::string part, const LoadedConfig& loaded, const HealthBoard& board, MessageEncoding encoding,
@@ -35,7 +25,7 @@ class RosPublisher final : public Sink {
       : part_(std::move(part)),
         board_(board),
         out_(std::move(out)),
-        messages_(encoding, text_of(loaded, "base_frame")),
+        messages_(encoding, config_text(*loaded.config.get(), "base_frame")),
         attitude_(out_->advertise("/pose_wall/attitude", kVector3StampedType)),
         distances_(out_->advertise("/pose_wall/distances", kFloat32MultiArrayType)),
         state_(out_->advertise("/pose_wall/state", kStateType)),

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include "live/ros_messages/ros_reader.hpp"
+#include "config_file/key_table.hpp"
+#include "live/clocks.hpp"
 
 #include <fmt/format.h>
 
@@ -19,17 +21,6 @@ constexpr std::int64_t kSilent_ns = 1'000'000'000;
 // Garbage may be another one each time; the journal shall not be filled by who sends it.
 constexpr std::int64_t kRefusalsLoggedEvery_ns = 10'000'000'000;
 
-std::int64_t monotonic_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-std::string text_of(const LoadedConfig& loaded, const char* key) {
-  char text[POSE_WALL_TEXT_MAX] = {};
-  pose_wall_config_get_text(loaded.config.get(), key, text, sizeof text);
-  return text;
-}
-
 // "sensor_msgs::msg::dds_::PointCloud2_", as DDS has it, is sensor_msgs/msg/PointCloud2.
 std::string ros_type(const std::string& type) {
   constexpr std::string_view kDds = "::msg::dds_::";
@@ -42,9 +33,9 @@ std::string ros_type(const std::string& type) {
 
 RosReader::RosReader(const LoadedConfig& loaded, MessageEncoding encoding)
     : encoding_(encoding),
-      topic_(text_of(loaded, "pointcloud_topic")),
-      base_frame_(text_of(loaded, "base_frame")),
-      lidar_frame_(text_of(loaded, "lidar_frame")),
+      topic_(config_text(*loaded.config.get(), "pointcloud_topic")),
+      base_frame_(config_text(*loaded.config.get(), "base_frame")),
+      lidar_frame_(config_text(*loaded.config.get(), "lidar_frame")),
       wants_transforms_(loaded.live.extrinsic_from == "tf") {}
 
 void RosReader::deliver_to(FrameTaker* taker) {
@@ -89,6 +80,7 @@ void RosReader::take_cloud(const std::string& type, ByteView message) {
   }
   if (wants_transforms_) tell_extrinsic();
   ++frames_;
+  last_taken_ns_ = last_cloud_ns_;
   if (taker_ != nullptr) taker_->take(std::move(frame));
 }
 
@@ -134,10 +126,15 @@ PartHealth RosReader::health(const std::string& part) const {
   const std::lock_guard<std::mutex> locked(lock_);
   PartHealth health;
   health.part = part;
-  const bool is_silent = last_cloud_ns_ == 0 || monotonic_ns() - last_cloud_ns_ > kSilent_ns;
+  const std::int64_t now_ns = monotonic_ns();
+  const bool is_silent = last_cloud_ns_ == 0 || now_ns - last_cloud_ns_ > kSilent_ns;
   if (is_silent) {
     health.grade = Grade::kBad;
     health.summary = last_cloud_ns_ == 0 ? "waits for clouds" : "no cloud comes any more";
+  } else if (last_taken_ns_ == 0 || now_ns - last_taken_ns_ > kSilent_ns) {
+    health.grade = Grade::kBad;
+    health.summary = "messages come, and none is a cloud of this sensor: " +
+                     (last_refusal_.empty() ? "their frame_id is another one" : last_refusal_);
   } else if (wants_transforms_ && !extrinsic_known_) {
     health.grade = Grade::kBad;
     health.summary = fmt::format("no transform from '{}' to '{}': nothing is measured",

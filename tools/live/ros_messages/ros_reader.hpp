@@ -52,6 +52,7 @@ class RosReader {
   std::int64_t cloud_frame_seen_ns_ = 0;
   std::string last_refusal_;
   std::optional<std::int64_t> refusal_logged_ns_;
+  std::int64_t last_taken_ns_ = 0;  // of the newest that was handed on
   std::int64_t last_cloud_ns_ = 0;
   std::atomic<std::uint64_t> frames_{0}, refused_{0}, without_stamp_{0}, transforms_taken_{0}, of_others_{0};
 };

@@ -22,6 +22,7 @@
 
 #include "config_file/live_settings.hpp"
 #include "demo/demo_setup.hpp"
+#include "live/clocks.hpp"
 #include "live/sensor_sim/metadata_server.hpp"
 #include "live/sensor_sim/packet_encoder.hpp"
 #include "sim/run_files.hpp"
@@ -94,10 +95,6 @@ RangeImage image_of(const std::vector<RangeImage>& images, std::uint64_t turn) {
 std::unique_ptr<PacketEncoder> encoder_of(const sim::Sensor& sensor) {
   if (sensor.rings == 16.0) return std::make_unique<Vlp16Encoder>();
   return std::make_unique<OusterEncoder>(sensor);
-}
-
-std::int64_t monotonic_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
 }
 
 bool is_absent(const Words& words, double time_s) {

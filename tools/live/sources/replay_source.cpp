@@ -72,11 +72,18 @@ class ReplaySource final : public Source {
   }
 
   void run(FrameTaker& taker) {
-    do {
-      play(taker);
-      if (plan_.repeat && !ending_) open();
-    } while (plan_.repeat && !ending_);
-    taker.wait_idle();
+    try {
+      std::uint64_t before = 0;
+      do {
+        before = frames_;
+        play(taker);
+        if (plan_.repeat && !ending_) open();
+        // A round without a frame is one for ever.
+      } while (plan_.repeat && !ending_ && frames_ > before);
+      taker.wait_idle();
+    } catch (const std::exception& fault) {
+      log_line(Grade::kBad, "source replay", fault.what());
+    }
     finished_ = true;
   }
 

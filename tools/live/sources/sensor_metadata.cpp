@@ -20,6 +20,9 @@ namespace {
 constexpr const char* kHttp = "http://";
 // Ouster's HTTP API of firmware 2.1 and later.
 constexpr const char* kPath = "/api/v1/sensor/metadata";
+// Metadata of 128 beams has 20 kB.
+constexpr std::size_t kMetadataMost = 1'000'000;
+constexpr auto kAnswerWithin = std::chrono::seconds(3);
 constexpr auto kAskEvery = std::chrono::milliseconds(1000);
 constexpr auto kLook = std::chrono::milliseconds(50);
 
@@ -29,8 +32,13 @@ std::string ask(const std::string& host, std::string* trouble) {
   httplib::Client client(host);
   client.set_connection_timeout(0, 500'000);
   client.set_read_timeout(1, 0);
-  const auto answer = client.Get(kPath);
-  if (answer && answer->status == 200) return answer->body;
+  std::string body;
+  const auto until = std::chrono::steady_clock::now() + kAnswerWithin;
+  const auto answer = client.Get(kPath, [&](const char* bytes, std::size_t count) {
+    body.append(bytes, count);
+    return body.size() <= kMetadataMost && std::chrono::steady_clock::now() < until;
+  });
+  if (answer && answer->status == 200) return body;
   *trouble = fmt::format("the sensor's metadata: {}{}: {}", host, kPath,
                          answer ? fmt::format("answered {}", answer->status) : httplib::to_string(answer.error()));
   return "";

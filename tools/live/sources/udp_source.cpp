@@ -10,6 +10,7 @@
 #include <mutex>
 #include <thread>
 
+#include "live/clocks.hpp"
 #include "live/edges.hpp"
 #include "live/log.hpp"
 #include "live/sources/sensor_metadata.hpp"
@@ -23,12 +24,8 @@ namespace {
 // silence must not be joined to half of one after it.
 constexpr std::int64_t kSilent_ns = 1'000'000'000;
 constexpr int kLook_ms = 100;
-
-std::int64_t clock_ns(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
+// So many packets without one of use are no accident.
+constexpr std::uint64_t kEnoughPackets = 50;
 
 class UdpSource final : public Source {
  public:
@@ -65,16 +62,22 @@ class UdpSource final : public Source {
   PartHealth health() const override {
     PartHealth health;
     health.part = part();
-    const bool is_silent = clock_ns(CLOCK_MONOTONIC) - last_packet_ns_ > kSilent_ns;
-    health.grade = is_silent || frames_ == 0 ? Grade::kBad : Grade::kGood;
+    const bool silent = is_silent();
+    health.grade = silent || frames_ == 0 ? Grade::kBad : Grade::kGood;
     const std::string trouble = metadata_.trouble(), contradicted = contradiction();
     if (!trouble.empty() || !contradicted.empty()) {
       health.grade = Grade::kBad;
       health.summary = !trouble.empty() ? trouble : contradicted;
     } else if (packets_ == 0) {
-      health.summary = "waits for the sensor: no packet yet";
+      health.summary = of_others_ == 0 ? "waits for the sensor: no packet yet"
+                                       : "packets come, but none from udp_sender " + live_.udp_sender;
+    } else if (packets_ == useless_ && packets_ > kEnoughPackets) {
+      health.summary =
+          fmt::format("packets come, none is of sensor '{}'{}", live_.sensor,
+                      live_.sensor == "auto" ? "; an Ouster tells nothing of itself: it needs sensor_metadata"
+                                             : ": is another one there?");
     } else {
-      health.summary = is_silent ? "the sensor is silent" : frames_ == 0 ? "packets come, no turn yet" : "receives";
+      health.summary = silent ? "the sensor is silent" : frames_ == 0 ? "packets come, no turn yet" : "receives";
     }
     health.add("frames", frames_.load());
     health.add("packets", packets_.load());
@@ -107,16 +110,18 @@ class UdpSource final : public Source {
     while (!ending_) {
       const std::optional<Datagram> datagram = receiver_->next(kLook_ms);
       lost_ = receiver_->lost();
-      const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
       if (!datagram) continue;
       if (is_of_other(*datagram)) continue;
-      if (packets_ > 0 && now_ns - last_packet_ns_ > kSilent_ns) begin_anew();
-      last_packet_ns_ = now_ns;
       ++packets_;
+      // Only what is of use counts as the sensor: anybody may send anything.
+      if (is_silent() && packets_of_use_ > 0) begin_anew();
       if (!add(*datagram)) {
         ++useless_;
         continue;
       }
+      if (!sender_) sender_ = datagram->source_address;
+      last_packet_ns_ = monotonic_ns();
+      ++packets_of_use_;
       while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
     }
   }
@@ -125,9 +130,7 @@ class UdpSource final : public Source {
   bool add(const Datagram& datagram) {
     try {
       if (!assembler_) assembler_ = metadata_.assembler();
-      const bool is_data = assembler_ && assembler_->add(datagram);
-      if (is_data) say("");
-      return is_data;
+      return assembler_ && assembler_->add(datagram);
     } catch (const FrameError& fault) {
       say(fault.what());
       return false;
@@ -135,14 +138,16 @@ class UdpSource final : public Source {
   }
 
   bool is_of_other(const Datagram& datagram) {
-    if (!sender_) sender_ = datagram.source_address;
-    const bool is_other = *sender_ != datagram.source_address;
+    const bool is_other = sender_ && *sender_ != datagram.source_address;
     if (is_other) ++of_others_;
     return is_other;
   }
 
+  bool is_silent() const { return monotonic_ns() - last_packet_ns_ > kSilent_ns; }
+
   void begin_anew() {
     ++silences_;
+    packets_of_use_ = 0;
     assembler_.reset();
     metadata_.ask_again();
     is_first_turn_ = true;
@@ -156,9 +161,10 @@ class UdpSource final : public Source {
     frame.frame = frame_of(scan);
     frame.stamp_ns = scan.stamp_ns;
     // The engine's ages go by a clock that nobody sets; stamps of arrival are of one that people do set.
-    const std::int64_t set_ns = clock_ns(CLOCK_REALTIME) - clock_ns(CLOCK_MONOTONIC);
+    const std::int64_t set_ns = wall_ns() - monotonic_ns();
     frame.frame.cloud.stamp_ns = assembler_->stamps_are_of_arrival() ? scan.stamp_ns - set_ns : scan.stamp_ns;
     ++frames_;
+    say("");
     taker.take(std::move(frame));
   }
 
@@ -168,6 +174,7 @@ class UdpSource final : public Source {
   std::unique_ptr<ScanAssembler> assembler_;
   std::optional<std::uint32_t> sender_;
   bool is_first_turn_ = true;
+  std::uint64_t packets_of_use_ = 0;  // since the last silence
   std::thread thread_;
   mutable std::mutex words_lock_;
   std::string part_ = "source udp", contradiction_;

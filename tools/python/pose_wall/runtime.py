@@ -46,6 +46,7 @@ class Runtime:
         self.config.check()
         self._options = struct("pose_wall_runtime_options")
         call("runtime_options_init_3", self._options)
+        self._options.point_bytes_max = 32  # doubles, which are NumPy's own
         for name, value in options.items():
             if name in ("struct_size", "callback", "callback_user") or not hasattr(self._options, name):
                 raise TypeError(f"there is no option '{name}' (pose_wall_runtime.h)")
