@@ -25,7 +25,7 @@ struct LiveSettings {
   std::string http, modbus, mqtt;  // HOST:PORT; empty: off
   std::string mqtt_topic = "pose_wall";
   std::string black_box;
-  double black_box_mb = 256;
+  double black_box_mb = 2048;
   std::string recording;
   double recording_mb = 4096;
   bool recording_clouds = false;
