@@ -6,7 +6,6 @@ header says. What the engine measures is proven elsewhere."""
 import copy
 import dataclasses
 import gc
-import json
 import math
 import multiprocessing
 import os
@@ -16,7 +15,7 @@ import struct
 import threading
 import unittest
 
-from support import ROOT, needs_command, np, pose_wall, road, run_command, simulated, untimed
+from support import ROOT, json_rows, needs_command, np, pose_wall, road, simulated, untimed
 
 ROOT_CONFIG = ROOT / "config/pose_wall.yaml"
 Status, State = pose_wall.Status, pose_wall.State
@@ -25,11 +24,6 @@ Status, State = pose_wall.Status, pose_wall.State
 def bits(number):
     """Of a double; the command writes null where there is none."""
     return None if number is None or math.isnan(number) else struct.pack("<d", number)
-
-
-def json_rows(config, frames, *more):
-    return [json.loads(line) for line in run_command(
-        "run", "--quiet", "--format", "json", "--config", config, *more, frames).splitlines()]
 
 
 class AsTheCommand(unittest.TestCase):

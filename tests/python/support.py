@@ -4,6 +4,7 @@
 
 import atexit
 import functools
+import json
 import os
 import pathlib
 import shutil
@@ -42,6 +43,11 @@ def run_command(*words):
     if done.returncode != 0:
         raise AssertionError(f"pose_wall {words}: status {done.returncode}\n{done.stderr}")
     return done.stdout
+
+
+def json_rows(config, frames, *more):
+    return [json.loads(line) for line in run_command(
+        "run", "--quiet", "--format", "json", "--config", config, *more, frames).splitlines()]
 
 
 @functools.lru_cache(None)

@@ -65,15 +65,17 @@ def _numbers(name: str, words: "list[str]", low: int, high: int) -> "list[int]":
 
 def _lines(data: bytes) -> "tuple[dict[str, list[str]], int, int, Optional[int]]":
     entries: "dict[str, list[str]]" = {}
-    offset, lines, stamp = 0, 0, None
+    offset, lines = 0, 0
+    stamp: Optional[int] = None
     head = data[:_HEADER_BYTES_MAX]
     while offset < len(head):
         end = head.find(b"\n", offset)
         end = len(head) if end < 0 else end
         words = head[offset:end].decode("latin-1").split()
         offset, lines = min(end + 1, len(head)), lines + 1
-        if len(words) == 3 and words[:2] == ["#", "stamp_ns"] and re.fullmatch("[+-]?[0-9]{1,18}", words[2]):
-            stamp = int(words[2])
+        if len(words) == 3 and words[:2] == ["#", "stamp_ns"]:
+            stamp = int(words[2]) if re.fullmatch("[+-]?[0-9]{1,19}", words[2]) else None
+            stamp = stamp if stamp is not None and -2**63 <= stamp < 2**63 else None
         if not words or words[0].startswith("#"):
             continue
         name = "FIELDS" if words[0] == "COLUMNS" else words[0]

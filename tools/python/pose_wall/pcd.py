@@ -17,6 +17,9 @@ import numpy as np
 from ._lzf import decompress
 from ._pcd_header import Header, PcdError, parse_header
 
+# As the command has it: a hundred times the largest frame of any sensor on the market.
+_FILE_BYTES_MAX = 2_000_000_000
+
 Path = Union[str, "os.PathLike[str]"]
 
 
@@ -106,6 +109,11 @@ def _stamp_of_name(path: pathlib.Path) -> Optional[int]:
 def read_pcd(path: Path) -> Frame:
     """One file. Compressed points are unpacked in Python, which takes a large cloud about a second."""
     path = pathlib.Path(path)
+    size = path.stat().st_size
+    if not path.is_file():
+        raise PcdError(f"{path}: not a regular file")
+    if size > _FILE_BYTES_MAX:
+        raise PcdError(f"{path}: {size} bytes; a frame file of at most {_FILE_BYTES_MAX} bytes is read")
     data = path.read_bytes()
     try:
         header = parse_header(data)
