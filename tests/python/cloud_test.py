@@ -123,7 +123,7 @@ class SameBits(unittest.TestCase):
         """The points end where a page ends, and nobody may read the next one."""
         page, pages = mmap.PAGESIZE, 40
         region = mmap.mmap(-1, page * (pages + 1))
-        memory = np.frombuffer(region, np.uint8)
+        memory = np.frombuffer(region, np.uint8, page * pages)  # all that an array may take for its own
         libc = ctypes.CDLL(None, use_errno=True)
         self.assertEqual(libc.mprotect(ctypes.c_void_p(memory.ctypes.data + page * pages), page, 0), 0)
         for columns in (3, 4, 7):

@@ -220,9 +220,8 @@ class Threads(Refusing):
             for thread in threads:
                 thread.start()
             closers = [threading.Thread(target=runtime.close) for _ in range(2)]
-            for thread in closers + threads:
-                if not thread.is_alive():
-                    thread.start()
+            for thread in closers:
+                thread.start()
             for thread in closers + threads:
                 thread.join()
             self.assertEqual(told.count(Status.RUNTIME_HANDLE), 3)

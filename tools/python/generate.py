@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Writes pose_wall/_abi.py, the C ABI as ctypes sees it, from include/pose_wall.h and include/pose_wall_runtime.h:
+"""Writes src/pose_wall/_abi.py, the C ABI as ctypes sees it, from include/pose_wall.h and include/pose_wall_runtime.h:
 numbers, enums, structs and functions. Nobody writes a struct down a second time.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if the file would change"""
@@ -11,7 +11,7 @@ import re
 import sys
 
 HEADERS = ("include/pose_wall.h", "include/pose_wall_runtime.h")
-OUTPUT = "tools/python/pose_wall/_abi.py"
+OUTPUT = "tools/python/src/pose_wall/_abi.py"
 
 # C enum -> class, base, what each name begins with. Enums of one class are one enum in Python.
 ENUMS = {

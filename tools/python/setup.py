@@ -54,7 +54,7 @@ class BuildWithLibrary(build_py):
     """The modules, and the library beside them."""
 
     def run(self):
-        if self.editable_mode:
+        if getattr(self, "editable_mode", False):
             sys.exit("pose_wall cannot be installed editable: build the target pose_wall_python and put "
                      "build/<preset>/python into PYTHONPATH")
         super().run()
@@ -76,6 +76,6 @@ class AnyPython(bdist_wheel):
 
 
 BUILD.mkdir(parents=True, exist_ok=True)
-setup(version=version(), packages=["pose_wall"], package_data={"pose_wall": ["py.typed"]}, distclass=OfThisMachine,
-      cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": AnyPython},
+setup(version=version(), packages=["pose_wall"], package_dir={"": "src"}, package_data={"pose_wall": ["py.typed"]},
+      distclass=OfThisMachine, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": AnyPython},
       options={"build": {"build_base": str(BUILD / "setuptools")}, "egg_info": {"egg_base": str(BUILD)}})
