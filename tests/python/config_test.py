@@ -39,7 +39,8 @@ class Keys(unittest.TestCase):
     def test_every_key_is_written_and_read(self):
         for key, info in pose_wall.KEYS.items():
             config = Config()
-            values = {KeyType.NUMBER: [info.minimum, info.maximum], KeyType.INTEGER: [int(info.minimum), int(info.maximum)],
+            values = {KeyType.NUMBER: [info.minimum, info.maximum],
+                      KeyType.INTEGER: [int(info.minimum), int(info.maximum)],
                       KeyType.CHOICE: info.choices, KeyType.TEXT: ["word", "", "x" * 63],
                       KeyType.BOX: [(-1.5, 2.0, -0.25, 0.5, -1.0, 0.125), ()]}[info.type]
             for value in values:
@@ -153,17 +154,19 @@ class Files(unittest.TestCase):
 
     def test_all_faults_at_once(self):
         text = self.refused("voxel_leave: 1\nyaw_max_deg: 1000\nrange_min: 1\nrange_min: 2\nforward_axis: [1]\n",
-                            "pose_wall.yaml:1: 'voxel_leave', did you mean 'voxel_leaf'?", "pose_wall.yaml:2: yaw_max_deg",
-                            "pose_wall.yaml:4: range_min is set a second time", "pose_wall.yaml:5: forward_axis",
-                            "set: hold_max", hold_max=-1)
+                            "pose_wall.yaml:1: 'voxel_leave', did you mean 'voxel_leaf'?",
+                            "pose_wall.yaml:2: yaw_max_deg", "pose_wall.yaml:4: range_min is set a second time",
+                            "pose_wall.yaml:5: forward_axis", "set: hold_max", hold_max=-1)
         self.assertEqual(len(text.splitlines()), 5)
 
     def test_rules_name_where_keys_were_set(self):
         self.refused("range_min: 9\n", "range_min", "pose_wall.yaml:1", "range_max (set)", range_max=8)
 
     def test_what_is_no_list_of_settings(self):
-        for text, word in (("- a\n- b\n", "'key: value'"), ("just words\n", "'key: value'"), ("a: {b: c}\n", "not nested"),
-                           ("a: [[1]]\n", "nothing nested"), ("a: &x 1\nb: *x\n", "aliases"), ("{a: b", "not YAML"),
+        for text, word in (("- a\n- b\n", "'key: value'"), ("just words\n", "'key: value'"),
+                           ("a: {b: c}\n", "not nested"), ("a: [[1]]\n", "nothing nested"),
+                           ("a: &x 1\nb: *x\n", "aliases"),
+                           ("{a: b", "not YAML"),
                            ("a: 1\n---\nb: 2\n", "a second document"), ("[a]: 1\n", "a key is expected"),
                            (b"\xff\xfe\xff\xff", "not YAML"), (b"a: \x00\n", "not YAML"), ("a: 'x\n", "not YAML")):
             self.refused(text, "pose_wall.yaml", word, kind=pose_wall.YamlError)

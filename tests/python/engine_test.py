@@ -29,7 +29,8 @@ def bits(number):
 class AsTheCommand(unittest.TestCase):
     def same_value(self, value, line, unit):
         for member, name in (("value", "value"), ("raw", "raw"), ("sigma", "sigma"),
-                             ("protection_level", "protection_level"), ("raw_protection_level", "raw_protection_level")):
+                             ("protection_level", "protection_level"),
+                             ("raw_protection_level", "raw_protection_level")):
             self.assertEqual(bits(getattr(value, member)), bits(line[name + unit]), name)
         self.assertEqual(bits(value.age_s), bits(line["age_s"]))
         self.assertEqual(bits(value.confidence), bits(line["confidence"]))

@@ -280,14 +280,15 @@ print("alive")
                     call()
                 except pose_wall.Error as error:
                     statuses.append(error.status)
-            newest.append((publication.index, runtime.latest().index, len(runtime.save()), runtime.statistics().activity))
+            runtime.save()
+            newest.append((publication.index, runtime.latest().index, runtime.statistics().activity))
 
         with Runtime(options=PATIENT, callback=callback) as runtime:
             runtime.push(road(), stamp_ns=0)
             runtime.wait_idle()
             self.assertEqual(runtime.callback_failures, 0, runtime.callback_error)
         self.assertEqual(statuses, [Status.RUNTIME_THREAD] * 5)
-        self.assertEqual([entry[:2] + entry[3:] for entry in newest], [(0, 0, Activity.CALLBACK)])
+        self.assertEqual(newest, [(0, 0, Activity.CALLBACK)])
 
 
 class Collected(unittest.TestCase):

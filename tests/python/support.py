@@ -61,8 +61,8 @@ def simulated(scene, frames, *settings):
 
 @functools.lru_cache(None)
 def road(rows=64, columns=400):
-    """A scan of a road with a flat floor, walls at 2.5 m and a roof, as (N, 3) float32: rays at even angles, each to the
-    first surface. Not to be changed."""
+    """A scan of a road with a flat floor, walls at 2.5 m and a roof, as (N, 3) float32: rays at even angles, each to
+    the first surface. Not to be changed."""
     up = np.radians(np.linspace(-35.0, 35.0, rows))[:, None]
     around = np.radians(np.arange(columns) * 360.0 / columns)[None, :]
     rays = np.stack(np.broadcast_arrays(np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)), -1)

@@ -90,7 +90,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("inputs", nargs="*", type=pathlib.Path, metavar="FILE_OR_FOLDER")
     parser.add_argument("--config", type=pathlib.Path, help="a pose_wall.yaml")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="after the file; may be repeated")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                        help="after the file; may be repeated")
     parser.add_argument("--plot", type=pathlib.Path, default=pathlib.Path("run.png"), help="default: run.png")
     given = parser.parse_args()
     settings = dict(setting.partition("=")[::2] for setting in given.set)

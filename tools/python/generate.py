@@ -169,8 +169,9 @@ def wrapped(head, words, tail):
 def python_of(abi):
     lines = ["# SPDX-License-Identifier: BSD-3-Clause", "# Copyright (c) 2026 the pose_wall authors",
              '"""The C ABI as ctypes sees it. Written by tools/python/generate.py from the headers; edit those."""', "",
-             "from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64,",
-             "                    c_uint8, c_uint32, c_uint64, c_void_p)", "from enum import IntEnum, IntFlag", ""]
+             "from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32,",
+             "                    c_int64, c_uint8, c_uint32, c_uint64, c_void_p)",
+             "from enum import IntEnum, IntFlag", ""]
     in_enums = {constant for _, members in abi.classes.values() for _, _, constant in members}
     lines += [f"{name} = {number}" for name, number in abi.numbers.items() if name not in in_enums]
     for title, (base, members) in abi.classes.items():

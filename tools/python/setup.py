@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """pip install ./tools/python: has CMake build the shared library out of the tree that this folder lies in. What it
-makes is left below build/pip, so that a second run is quick. In the environment: CMAKE_ARGS are handed on; POSE_WALL_BUILD
-names a folder that CMake was run in already, whose objects are taken."""
+makes is left below build/pip, so that a second run is quick. In the environment: CMAKE_ARGS are handed on;
+POSE_WALL_BUILD names a folder that CMake was run in already, whose objects are taken."""
 
 import os
 import pathlib

@@ -2,8 +2,8 @@
 # Copyright (c) 2026 the pose_wall authors
 """The C ABI as ctypes sees it. Written by tools/python/generate.py from the headers; edit those."""
 
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_int64,
-                    c_uint8, c_uint32, c_uint64, c_void_p)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int32,
+                    c_int64, c_uint8, c_uint32, c_uint64, c_void_p)
 from enum import IntEnum, IntFlag
 
 POSE_WALL_VERSION_MAJOR = 0

@@ -36,17 +36,17 @@ def _open() -> ctypes.CDLL:
         loaded = ctypes.CDLL(str(PATH))
     except OSError as error:
         raise ImportError(
-            f"pose_wall: its library cannot be loaded ({error}). In the source tree it is not built beside the modules: "
-            "either `pip install ./tools/python`, or build the target pose_wall_python and put build/<preset>/python "
-            "into PYTHONPATH") from error
+            f"pose_wall: its library cannot be loaded ({error}). In the source tree it is not built beside the "
+            "modules: either `pip install ./tools/python`, or build the target pose_wall_python and put "
+            "build/<preset>/python into PYTHONPATH") from error
     for name, (gives, takes) in _abi.FUNCTIONS.items():
         function = getattr(loaded, name)
         function.restype, function.argtypes = gives, takes
     found = (loaded.pose_wall_abi_version(), loaded.pose_wall_runtime_abi_version(), loaded.pose_wall_version())
     needed = (_abi.POSE_WALL_ABI_VERSION, _abi.POSE_WALL_RUNTIME_ABI_VERSION, VERSION.encode())
     if found != needed:
-        raise ImportError(f"pose_wall: {PATH} is of (ABI, runtime's ABI, version) {found}; this package needs {needed}: "
-                          "install both anew")
+        raise ImportError(f"pose_wall: {PATH} is of (ABI, runtime's ABI, version) {found}; this package needs "
+                          f"{needed}: install both anew")
     for asked, real in _abi.RENAMED.items():
         setattr(loaded, asked, getattr(loaded, real))
     return loaded

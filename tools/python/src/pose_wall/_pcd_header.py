@@ -103,8 +103,8 @@ def _fields(entries: "dict[str, list[str]]") -> "tuple[list[Field], int]":
     offset = 0
     for name, size, kind, count in zip(names, sizes, columns["TYPE"], counts):
         if size not in _KINDS.get(kind, ()):
-            raise PcdError(f"PCD header: field '{name}' has TYPE '{kind}' SIZE {size}; F of 4 or 8, I and U of 1, 2, 4 or "
-                           "8 bytes are allowed")
+            raise PcdError(f"PCD header: field '{name}' has TYPE '{kind}' SIZE {size}; F of 4 or 8, I and U of 1, 2, 4 "
+                           "or 8 bytes are allowed")
         if name != "_" and any(field.name == name for field in fields):
             raise PcdError(f"field '{name}' appears twice")
         fields.append(Field(name, f"<{kind.lower()}{size}", size, count, offset))

@@ -27,7 +27,7 @@ def _fault(where: str, text: str) -> YamlError:
 def entries_of(path: "Union[str, os.PathLike[str]]") -> "Iterator[tuple[str, Union[str, list[str]], int]]":
     """Key, value and line of each entry."""
     try:
-        import yaml  # pylint: disable=import-outside-toplevel
+        import yaml  # type: ignore[import]  # pylint: disable=import-outside-toplevel
     except ImportError:
         raise ImportError("Config.load reads YAML with PyYAML: apt install python3-yaml (or pip install pyyaml). "
                           "Config({...}) and Config(key=value) need no file") from None
@@ -75,7 +75,7 @@ class _Walk:
             return str(event.value)
         if not isinstance(event, self.yaml.SequenceStartEvent):
             raise self.fault(event, f"{key}: one value is expected; keys are not nested, aliases are not supported")
-        items = []
+        items: "list[str]" = []
         for item in self.events:
             if isinstance(item, self.yaml.SequenceEndEvent):
                 return items

@@ -19,8 +19,8 @@ from ._library import Error, sized, stamp
 INTENSITIES = ("intensity", "i", "reflectivity")
 _TYPES = {"i1": FieldType.INT8, "u1": FieldType.UINT8, "i2": FieldType.INT16, "u2": FieldType.UINT16,
           "i4": FieldType.INT32, "u4": FieldType.UINT32, "f4": FieldType.FLOAT32, "f8": FieldType.FLOAT64}
-_ALLOWED = ("an array of shape (N, 3), or (N, 4) with intensity, of float32 or float64; or a structured one with fields "
-            "x, y and z (float32 or float64, metres)")
+_ALLOWED = ("an array of shape (N, 3), or (N, 4) with intensity, of float32 or float64; or a structured one with "
+            "fields x, y and z (float32 or float64, metres)")
 _STEP_MAX = 2**32 - 1
 
 
@@ -70,7 +70,7 @@ def _covered(points: "np.ndarray[Any, Any]") -> bool:
     # Of an owner that is no plain block of memory only what lies within the array itself is known.
     if not owner.flags.c_contiguous and not owner.flags.f_contiguous:
         return bool(points.flags.c_contiguous)
-    return first <= start and start + len(points) * step <= first + owner.nbytes
+    return bool(first <= start and start + len(points) * step <= first + owner.nbytes)
 
 
 def _in_place(points: "np.ndarray[Any, Any]", offsets: "list[tuple[int, int]]") -> bool:
@@ -79,14 +79,13 @@ def _in_place(points: "np.ndarray[Any, Any]", offsets: "list[tuple[int, int]]") 
         return True
     step = points.strides[0]
     fits = 0 < step <= _STEP_MAX and all(0 <= first and last <= step for first, last in offsets)
-    return fits and _covered(points)
+    return bool(fits) and _covered(points)
 
 
 def _unstructured(points: "np.ndarray[Any, Any]") -> "tuple[Any, dict[str, tuple[Any, int]]]":
-    names = ("x", "y", "z", "intensity")
     if points.ndim != 2 or points.shape[1] not in (3, 4):
         raise ValueError(f"points: shape {points.shape}; allowed: {_ALLOWED}")
-    names = names[:points.shape[1]]
+    names = ("x", "y", "z", "intensity")[:points.shape[1]]
 
     def fields(array: "np.ndarray[Any, Any]") -> "dict[str, tuple[Any, int]]":
         across = array.strides[1]
@@ -134,8 +133,8 @@ def _in_one_order(points: "np.ndarray[Any, Any]", fields: "dict[str, tuple[Any, 
     swapped = {kind.byteorder not in "=|" + ("<" if sys.byteorder == "little" else ">") for kind, _ in fields.values()
                if kind.itemsize > 1}
     if len(swapped) > 1:
-        raise TypeError(f"points: fields of both byte orders, {points.dtype}; one for all is allowed: points.astype of a "
-                        "type of this machine's order")
+        raise TypeError(f"points: fields of both byte orders, {points.dtype}; one for all is allowed: points.astype of "
+                        "a type of this machine's order")
     return True in swapped
 
 

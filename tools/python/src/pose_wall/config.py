@@ -65,8 +65,9 @@ def _read_table() -> "dict[str, KeyInfo]":
         row = _abi.pose_wall_key_info()
         check(lib.pose_wall_config_key(index, row))
         table[row.name.decode()] = KeyInfo(
-            row.name.decode(), KeyType(row.type), row.unit.decode(), tuple(filter(None, row.choices.decode().split("|"))),
-            row.default_text.decode(), row.group.decode(), row.help.decode(), row.minimum, row.maximum)
+            row.name.decode(), KeyType(row.type), row.unit.decode(),
+            tuple(filter(None, row.choices.decode().split("|"))), row.default_text.decode(),
+            row.group.decode(), row.help.decode(), row.minimum, row.maximum)
     return table
 
 
@@ -180,7 +181,9 @@ class Config(Mapping):  # type: ignore[type-arg]
         return len(KEYS)
 
     def __eq__(self, other: object) -> bool:
-        return bytes(self._c) == bytes(other._c) if isinstance(other, Config) else NotImplemented
+        if not isinstance(other, Config):
+            return NotImplemented
+        return bytes(self._c) == bytes(other._c)
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -209,8 +212,8 @@ class Config(Mapping):  # type: ignore[type-arg]
         fault = _abi.pose_wall_rule_fault()
         status = lib.pose_wall_config_check(self._c, fault)
         if status == Status.CONFIG_RULE:
-            places = [f"{key} ({(origins or {}).get(key, 'default')})" if origins is not None else key
-                      for key in filter(None, (fault.key.decode(), fault.other_key.decode()))]
+            keys: "list[str]" = [key.decode() for key in (fault.key, fault.other_key) if key]
+            places = keys if origins is None else [f"{key} ({origins.get(key, 'default')})" for key in keys]
             raise ConfigError(status, f"{' and '.join(places)}: {fault.rule.decode()}")
         check(status)
 

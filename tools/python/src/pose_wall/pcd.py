@@ -37,8 +37,8 @@ def _binary(data: bytes, header: Header) -> "np.ndarray[Any, Any]":
     available = len(data) - header.data_offset
     count = header.count(available)
     if count * header.point_step > available:
-        raise PcdError(f"the header declares {count} points of {header.point_step} bytes, but the {available} bytes that "
-                       f"follow hold {available // header.point_step}")
+        raise PcdError(f"the header declares {count} points of {header.point_step} bytes, but the {available} bytes "
+                       f"that follow hold {available // header.point_step}")
     return np.frombuffer(data, header.dtype, count, header.data_offset)
 
 
@@ -51,8 +51,8 @@ def _compressed(data: bytes, header: Header) -> "np.ndarray[Any, Any]":
         raise PcdError(f"compressed points: {packed} bytes announced, {len(body) - 8} bytes follow")
     count = header.count(unpacked)
     if unpacked != count * header.point_step:
-        raise PcdError(f"compressed points: {count} points of {header.point_step} bytes are {count * header.point_step} "
-                       f"bytes, but the packed size says {unpacked}")
+        raise PcdError(f"compressed points: {count} points of {header.point_step} bytes are "
+                       f"{count * header.point_step} bytes, but the packed size says {unpacked}")
     try:
         columns = decompress(body[8:8 + packed], unpacked)
     except ValueError as error:

@@ -68,7 +68,8 @@ class Plane:
     @classmethod
     def from_c(cls, c: Any) -> Plane:
         """From the struct of C."""
-        return cls(tuple(c.normal), c.d_m, c.rms_m, c.lean_rad, c.along_min_m, c.along_max_m, c.area_m2, c.found != 0,
+        x, y, z = c.normal
+        return cls((x, y, z), c.d_m, c.rms_m, c.lean_rad, c.along_min_m, c.along_max_m, c.area_m2, c.found != 0,
                    c.inliers, c.iterations, Reason(c.reasons))
 
 
@@ -122,6 +123,7 @@ class Result:
     def from_c(cls, c: Any) -> Result:
         """From the struct of C, of which nothing is kept but a copy."""
         values = {name: Value.from_c(c.quantity[q]) for q, name in enumerate(QUANTITIES)}
+        roll, pitch, yaw = map(Sense, c.positive_means)
         level = np.array(c.R_level_base, dtype=np.float64).reshape(3, 3)
         level.flags.writeable = False
         return cls(
@@ -129,7 +131,7 @@ class Result:
             frame_reasons=Reason(c.frame_reasons), confidence=c.confidence, stamp_ns=c.stamp_ns,
             frame_index=c.frame_index if c.frame_index != 2**64 - 1 else None, publication=c.publication, work=c.work,
             config_crc32=c.config_crc32, source_id=c.source_id,
-            positive_means=tuple(Sense(sense) for sense in c.positive_means), R_level_base=level,
+            positive_means=(roll, pitch, yaw), R_level_base=level,
             left_right_yaw_difference_rad=c.left_right_yaw_difference_rad, voxel_leaf_m=c.voxel_leaf_m,
             stage_ns=dict(zip(Stage, c.stage_ns)),
             counts=Counts(*(getattr(c, name) for name in Counts.__dataclass_fields__)), bits=bytes(c))
@@ -139,7 +141,9 @@ class Result:
         return _abi.pose_wall_result.from_buffer_copy(self.bits)
 
     def __eq__(self, other: object) -> bool:
-        return self.bits == other.bits if isinstance(other, Result) else NotImplemented
+        if not isinstance(other, Result):
+            return NotImplemented
+        return self.bits == other.bits
 
     def __hash__(self) -> int:
         return hash(self.bits)

@@ -58,7 +58,6 @@ class RuntimeOptions:
         """The struct of C, checked."""
         options = _abi.pose_wall_runtime_options()
         check(lib.pose_wall_runtime_options_init(options))
-        kinds = dict(_abi.pose_wall_runtime_options._fields_)
         for name, value in dataclasses.asdict(self).items():
             if value is None:
                 continue
@@ -66,7 +65,7 @@ class RuntimeOptions:
                 raise TypeError(f"{name}: a whole number is expected, not {value!r}")
             setattr(options, name, value)
             if getattr(options, name) != value:  # ctypes cuts off what does not fit
-                raise Error(Status.RUNTIME_OPTION, f"{name} = {value} does not fit {kinds[name].__name__}")
+                raise Error(Status.RUNTIME_OPTION, f"{name} = {value}")
         fault = ctypes.c_char_p()
         status = lib.pose_wall_runtime_options_check(options, fault)
         if status == Status.RUNTIME_OPTION and fault.value:
@@ -95,7 +94,7 @@ class _Open:
     def use(self) -> Iterator[Any]:
         """While a call is inside, the runtime is not closed."""
         if os.getpid() != self.process_id:
-            raise Error(Status.RUNTIME_HANDLE, "opened by another process: its threads did not come along with the fork")
+            raise Error(Status.RUNTIME_HANDLE, "opened before a fork, and its threads did not come along")
         with self.changed:
             if self.is_closing:
                 raise Error(Status.RUNTIME_HANDLE, "closed")
