@@ -6,12 +6,14 @@ pose_wall.yaml comes to the same as for the command."""
 import copy
 import math
 import pickle
+import re
 import subprocess
 import sys
 import unittest
 
 from support import ROOT, needs_command, np, pose_wall, run_command, scratch
 
+from pose_wall.config import LIVE_KEYS  # pylint: disable=wrong-import-order
 from pose_wall import Config, ConfigError, KeyType, Status  # pylint: disable=wrong-import-order
 
 try:
@@ -158,6 +160,17 @@ class Files(unittest.TestCase):
                             "pose_wall.yaml:2: yaw_max_deg", "pose_wall.yaml:4: range_min is set a second time",
                             "pose_wall.yaml:5: forward_axis", "set: hold_max", hold_max=-1)
         self.assertEqual(len(text.splitlines()), 5)
+
+    def test_a_file_for_the_daemon_too(self):
+        self.assertEqual(self.load("http: 127.0.0.1:8080\nros2: 1\nvoxel_leaf: 0.1\n"), Config(voxel_leaf=0.1))
+        self.refused("http: a\nhttp: b\n", "pose_wall.yaml:2: http is set a second time")
+        self.refused("http: a\n", "'modbus'", modbus="127.0.0.1:502")  # what is set here is for the engine
+
+    @needs_command
+    def test_keys_of_the_daemon_are_those_of_the_command(self):
+        told = set(re.findall(r"^  (\w+)$", run_command("check-config", "--keys"), re.M))
+        self.assertEqual(told, set(pose_wall.KEYS) | LIVE_KEYS)
+        self.assertEqual(set(pose_wall.KEYS) & LIVE_KEYS, set())
 
     def test_rules_name_where_keys_were_set(self):
         self.refused("range_min: 9\n", "range_min", "pose_wall.yaml:1", "range_max (set)", range_max=8)

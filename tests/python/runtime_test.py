@@ -291,6 +291,19 @@ print("alive")
         self.assertEqual(newest, [(0, 0, Activity.CALLBACK)])
 
 
+    def test_points_of_the_frame_that_is_told(self):
+        engine, told = pose_wall.Engine(), []
+        engine.process(road(), stamp_ns=0)
+        expected = engine.last_points()
+        with Runtime(options=PATIENT, callback=lambda _: told.append(runtime.last_points())) as runtime:
+            runtime.push(road(), stamp_ns=0)
+            runtime.wait_idle()
+            self.assertEqual(runtime.callback_failures, 0, runtime.callback_error)
+            self.refused(Status.RUNTIME_STATE, runtime.last_points)
+        np.testing.assert_array_equal(told[0].xyz_base_m, expected.xyz_base_m)
+        np.testing.assert_array_equal(told[0].label, expected.label)
+
+
 class Collected(unittest.TestCase):
     def test_a_running_one_that_is_forgotten(self):
         told = []

@@ -21,8 +21,6 @@ struct BagTopic {
   std::string name;
   std::string type;  // "sensor_msgs/PointCloud2", "sensor_msgs/msg/PointCloud2"
   MessageEncoding encoding = MessageEncoding::kOther;
-
-  bool has_clouds() const { return type == "sensor_msgs/PointCloud2" || type == "sensor_msgs/msg/PointCloud2"; }
 };
 
 struct BagMessage {

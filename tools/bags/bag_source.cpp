@@ -10,7 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bags/point_cloud2.hpp"
+#include "bags/cloud_message.hpp"
+#include "bags/packet_message.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/did_you_mean.hpp"
 
@@ -56,49 +57,74 @@ void Bag::add(const std::filesystem::path& path) {
     if (known != topics_.end()) {
       known->messages += survey.messages[i];
     } else {
-      topics_.push_back({found[i].name, found[i].type, survey.messages[i], found[i].has_clouds()});
+      topics_.push_back({found[i].name, found[i].type, survey.messages[i], is_cloud_type(found[i].type),
+                         is_packet_type(found[i].type)});
     }
   }
   files_.push_back(std::move(file));
 }
 
-std::vector<SourceTopic> Bag::cloud_topics() const {
-  std::vector<SourceTopic> clouds;
-  std::copy_if(topics_.begin(), topics_.end(), std::back_inserter(clouds),
-               [](const SourceTopic& topic) { return topic.has_clouds; });
+std::vector<SourceTopic> Bag::frame_topics() const {
+  std::vector<SourceTopic> topics;
+  std::copy_if(topics_.begin(), topics_.end(), std::back_inserter(topics),
+               [](const SourceTopic& topic) { return topic.has_clouds || topic.has_packets; });
   // Of a bag with faults the reading says what is wrong.
-  if (clouds.empty() && faults_ == 0) {
-    throw FrameError(fmt::format("no topic of sensor_msgs/PointCloud2; topics: {}",
-                                 topics_.empty() ? "none" : list_of(topics_, true)));
+  if (topics.empty() && faults_ == 0) {
+    throw FrameError(
+        fmt::format("no topic of sensor_msgs/PointCloud2, of Livox's CustomMsg, or of packets (VelodyneScan, "
+                    "NebulaPackets, PandarScan); topics: {}",
+                    topics_.empty() ? "none" : list_of(topics_, true)));
   }
-  return clouds;
+  return topics;
+}
+
+std::vector<SourceTopic> Bag::preferred_topics() const {
+  const std::vector<SourceTopic> topics = frame_topics();
+  std::vector<SourceTopic> preferred;
+  const auto keep = [&](auto is_wanted) {
+    if (preferred.empty()) std::copy_if(topics.begin(), topics.end(), std::back_inserter(preferred), is_wanted);
+  };
+  // A driver that records both has made the clouds of the packets.
+  keep([](const SourceTopic& topic) { return topic.has_clouds && topic.messages > 0; });
+  keep([](const SourceTopic& topic) { return topic.messages > 0; });
+  keep([](const SourceTopic&) { return true; });
+  return preferred;
 }
 
 std::string Bag::fullest_topic() const {
-  const std::vector<SourceTopic> clouds = cloud_topics();
+  const std::vector<SourceTopic> topics = preferred_topics();
   const auto fullest = std::max_element(
-      clouds.begin(), clouds.end(), [](const SourceTopic& a, const SourceTopic& b) { return a.messages < b.messages; });
-  return fullest != clouds.end() ? fullest->name : "";
+      topics.begin(), topics.end(), [](const SourceTopic& a, const SourceTopic& b) { return a.messages < b.messages; });
+  return fullest != topics.end() ? fullest->name : "";
 }
 
 std::string Bag::choose_topic(const std::string& wanted) const {
-  const std::vector<SourceTopic> clouds = cloud_topics();
-  if (clouds.empty()) return wanted;
+  const std::vector<SourceTopic> topics = frame_topics();
+  if (topics.empty()) return wanted;
   if (!wanted.empty()) {
     std::vector<std::string> names;
-    for (const SourceTopic& topic : clouds) names.push_back(topic.name);
+    for (const SourceTopic& topic : topics) names.push_back(topic.name);
     if (std::find(names.begin(), names.end(), wanted) != names.end()) return wanted;
     throw std::invalid_argument(fmt::format("--topic {}: no clouds of this name{}; topics with clouds: {}", wanted,
-                                            did_you_mean(wanted, names), list_of(clouds, false)));
+                                            did_you_mean(wanted, names), list_of(topics, false)));
   }
-  std::vector<SourceTopic> filled;
-  std::copy_if(clouds.begin(), clouds.end(), std::back_inserter(filled),
-               [](const SourceTopic& topic) { return topic.messages > 0; });
-  if (filled.size() > 1) {
+  const std::vector<SourceTopic> preferred = preferred_topics();
+  if (preferred.size() > 1 && preferred.front().messages > 0) {
     throw std::invalid_argument(
-        fmt::format("several topics with clouds: {}. Name one with --topic", list_of(filled, false)));
+        fmt::format("several topics with clouds: {}. Name one with --topic", list_of(preferred, false)));
   }
-  return filled.empty() ? clouds.front().name : filled.front().name;
+  return preferred.front().name;
+}
+
+bool Bag::has_packets(const std::string& name) const {
+  return std::any_of(topics_.begin(), topics_.end(),
+                     [&](const SourceTopic& topic) { return topic.name == name && topic.has_packets; });
+}
+
+SourceAbout Bag::about(const std::string& topic) const {
+  std::string kind(bag_kind_name(kind_));
+  if (files_.size() > 1) kind += fmt::format(" of {} files", files_.size());
+  return {std::move(kind), topics_, topic};
 }
 
 BagSource::BagSource(std::unique_ptr<Bag> bag, std::string topic) : bag_(std::move(bag)), topic_(std::move(topic)) {
@@ -108,20 +134,13 @@ BagSource::BagSource(std::unique_ptr<Bag> bag, std::string topic) : bag_(std::mo
   }
 }
 
-SourceAbout BagSource::about() const {
-  const std::size_t files = bag_->files().size();
-  std::string kind(bag_kind_name(bag_->kind()));
-  if (files > 1) kind += fmt::format(" of {} files", files);
-  return {std::move(kind), bag_->topics(), topic_};
-}
-
 SourcedFrame BagSource::frame_of(const Bag::File& file, const BagMessage& message) {
   SourcedFrame sourced;
   sourced.name = fmt::format("{}#{}", file.path.string(), next_message_++);
   sourced.stamp_ns = message.recorded_ns;
   try {
-    DecodedCloud cloud =
-        decode_point_cloud2(file.reader->topics()[message.topic].encoding, message.data, message.place);
+    const BagTopic& topic = file.reader->topics()[message.topic];
+    DecodedCloud cloud = decode_cloud(topic.type, topic.encoding, message.data, message.place);
     if (cloud.stamp_ns != 0) sourced.stamp_ns = cloud.stamp_ns;
     sourced.frame = std::move(cloud.frame);
   } catch (const FrameError& fault) {
@@ -136,7 +155,7 @@ std::optional<SourcedFrame> BagSource::next() {
     try {
       while (const std::optional<BagMessage> message = file.reader->next()) {
         const BagTopic& topic = file.reader->topics()[message->topic];
-        if (topic.name == topic_ && topic.has_clouds()) return frame_of(file, *message);
+        if (topic.name == topic_ && is_cloud_type(topic.type)) return frame_of(file, *message);
       }
     } catch (const FrameError& fault) {
       SourcedFrame sourced;

@@ -35,15 +35,21 @@ class Bag {
   std::vector<File>& files() { return files_; }
   BagKind kind() const { return kind_; }
 
-  // The topic to read: `wanted`, or the only one with clouds when that is empty. Throws std::invalid_argument when the
-  // command line has to say more, FrameError when the bag holds no clouds.
+  // The topic to read: `wanted`, or the only one with clouds when that is empty, or with packets when there are no
+  // clouds. Throws std::invalid_argument when the command line has to say more, FrameError when the bag holds neither.
   std::string choose_topic(const std::string& wanted) const;
 
-  // The topic of clouds with the most messages; throws FrameError when the bag holds no clouds.
+  // Of those the one with the most messages; throws FrameError when the bag holds neither.
   std::string fullest_topic() const;
 
+  // Frames have to be put together of what this topic holds.
+  bool has_packets(const std::string& name) const;
+
+  SourceAbout about(const std::string& topic) const;
+
  private:
-  std::vector<SourceTopic> cloud_topics() const;
+  std::vector<SourceTopic> frame_topics() const;
+  std::vector<SourceTopic> preferred_topics() const;  // where none is named
   void add(const std::filesystem::path& path);
 
   std::vector<File> files_;
@@ -54,12 +60,12 @@ class Bag {
 
 class BagSource : public FrameSource {
  public:
-  // `topic` is one that the bag holds.
+  // `topic` is one of clouds that the bag holds.
   BagSource(std::unique_ptr<Bag> bag, std::string topic);
 
   std::optional<SourcedFrame> next() override;
   std::size_t frames() const override { return frames_; }
-  SourceAbout about() const override;
+  SourceAbout about() const override { return bag_->about(topic_); }
 
  private:
   SourcedFrame frame_of(const Bag::File& file, const BagMessage& message);

@@ -6,59 +6,12 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <utility>
 #include <vector>
+
+#include "bags/message_cursor.hpp"
 
 namespace pose_wall::tools {
 namespace {
-
-// The bytes of a message as either serialisation lays them out.
-class MessageCursor {
- public:
-  MessageCursor(MessageEncoding encoding, ByteView message, const Place& place)
-      : cursor_(message, place), is_cdr_(encoding == MessageEncoding::kCdr) {
-    if (is_cdr_) read_encapsulation();
-  }
-
-  template <typename Number>
-  Number number(std::string_view what) {
-    align(sizeof(Number), what);
-    return cursor_.number<Number>(what);
-  }
-
-  std::string_view text(std::string_view what) {
-    const ByteView bytes = block(what);
-    std::string_view text = text_of(bytes);
-    // CDR counts the zero that ends a text.
-    if (is_cdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
-    return text;
-  }
-
-  ByteView block(std::string_view what) { return cursor_.bytes(number<std::uint32_t>(what), what); }
-
-  bool is_cdr() const { return is_cdr_; }
-  [[noreturn]] void refuse(const std::string& why) const { cursor_.refuse(why); }
-
- private:
-  void read_encapsulation() {
-    const ByteView head = cursor_.bytes(4, "head of a CDR message");
-    const auto kind = std::to_integer<unsigned>(head.data[0]) << 8U | std::to_integer<unsigned>(head.data[1]);
-    if (kind > 1) cursor_.refuse(fmt::format("CDR of kind {:04x}; 0000 and 0001 are read", kind));
-    cursor_.set_big_endian(kind == 0);
-    start_ = cursor_.position();
-  }
-
-  // CDR puts numbers at multiples of their size, counted from behind its head.
-  void align(std::size_t size, std::string_view what) {
-    if (!is_cdr_) return;
-    const std::size_t beyond = (cursor_.position() - start_) % size;
-    if (beyond != 0) cursor_.bytes(size - beyond, what);
-  }
-
-  ByteCursor cursor_;
-  bool is_cdr_;
-  std::size_t start_ = 0;
-};
 
 // Types of PointField and of pose_wall_field are numbered alike: 1 INT8 to 8 FLOAT64.
 constexpr std::uint8_t kTypeMax = POSE_WALL_FIELD_FLOAT64;
@@ -74,18 +27,6 @@ struct CloudHead {
   PointLayout layout;
   std::vector<std::uint64_t> field_ends;
 };
-
-std::int64_t read_stamp(MessageCursor& message) {
-  if (!message.is_cdr()) message.number<std::uint32_t>("header.seq");
-  // ROS 2 has signed seconds; what ROS 1 counts above them ends in 2106.
-  const std::int64_t seconds = message.is_cdr() ? std::int64_t{message.number<std::int32_t>("header.stamp")}
-                                                : std::int64_t{message.number<std::uint32_t>("header.stamp")};
-  const auto nanoseconds = message.number<std::uint32_t>("header.stamp");
-  if (nanoseconds >= 1'000'000'000) {
-    message.refuse(fmt::format("header.stamp has {} nanoseconds; less than 1000000000 are allowed", nanoseconds));
-  }
-  return seconds * 1'000'000'000 + nanoseconds;
-}
 
 void read_fields(MessageCursor& message, CloudHead& head) {
   const auto count = message.number<std::uint32_t>("fields");
@@ -154,8 +95,9 @@ Frame frame_of(const MessageCursor& message, CloudHead& head, ByteView data) {
 DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message_bytes, const Place& place) {
   MessageCursor message(encoding, message_bytes, place);
   DecodedCloud cloud;
-  cloud.stamp_ns = read_stamp(message);
-  cloud.frame_id = message.text("header.frame_id");
+  const MessageHeader header = read_header(message);
+  cloud.stamp_ns = header.stamp_ns;
+  cloud.frame_id = header.frame_id;
   CloudHead head;
   head.height = message.number<std::uint32_t>("height");
   head.width = message.number<std::uint32_t>("width");

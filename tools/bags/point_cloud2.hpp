@@ -5,19 +5,9 @@
 
 #pragma once
 
-#include <cstdint>
-#include <string>
-
-#include "bags/bag_reader.hpp"
-#include "frames/frame.hpp"
+#include "bags/cloud_message.hpp"
 
 namespace pose_wall::tools {
-
-struct DecodedCloud {
-  std::int64_t stamp_ns = 0;  // of its header; 0: none
-  std::string frame_id;
-  Frame frame;
-};
 
 // The points stay as they lie in the message. Throws FrameError that names the place.
 DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message, const Place& place);

@@ -2,8 +2,9 @@
 # Copyright (c) 2026 the pose_wall authors
 
 # cmake --install: headers, archives, package config, pkg-config files, bill of materials, what a controller needs; and
-# the command where it is built. find_package(pose_wall) gives pose_wall::pose_wall, and pose_wall::pose_wall_runtime
-# where that is built. Components: development, command.
+# the command and the daemon where they are built. find_package(pose_wall) gives pose_wall::pose_wall, and
+# pose_wall::pose_wall_runtime where that is built. Components: development, command, daemon; python, which only
+# who names it gets (tools/python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 include(pose_wall_sbom)
 
@@ -54,6 +55,19 @@ if(TARGET pose_wall_cli)
     COMPONENT command)
   install(FILES ${pose_wall_words}/pose_wall.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
     COMPONENT command)
+endif()
+if(TARGET pose_walld)
+  set(pose_wall_daemon_dir ${PROJECT_SOURCE_DIR}/tools/live)
+  install(TARGETS pose_walld pose_wall_sensor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
+  # Where systemd looks whatever the prefix is: /usr/lib/systemd in a package.
+  install(FILES ${pose_wall_daemon_dir}/pose_walld.service DESTINATION lib/systemd/system COMPONENT daemon)
+  # The package's postinst copies it to /etc/pose_wall/pose_wall.yaml, where none is.
+  install(FILES ${pose_wall_daemon_dir}/pose_walld.yaml DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/pose_wall
+    COMPONENT daemon)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld RENAME copyright
+    COMPONENT daemon)
+  install(FILES ${pose_wall_daemon_dir}/README.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld
+    COMPONENT daemon)
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   include(pose_wall_package)

@@ -27,7 +27,8 @@ struct SourceTopic {
   std::string name;
   std::string type;
   std::uint64_t messages = 0;
-  bool has_clouds = false;
+  bool has_clouds = false;   // a message is a frame
+  bool has_packets = false;  // messages hold packets, of which frames are put together
 };
 
 struct SourceAbout {

@@ -13,6 +13,7 @@
 #include "bags/rosbag2_folder.hpp"
 #include "frames/file_source.hpp"
 #include "frames/input_list.hpp"
+#include "packets/bag_packets.hpp"
 #include "packets/packet_source.hpp"
 
 namespace pose_wall::tools {
@@ -23,8 +24,12 @@ FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const In
   if (!options.topic.empty() && !bag_seen_) {
     throw std::invalid_argument(fmt::format("--topic {}: no input is a bag", options.topic));
   }
-  if (!options.metadata.empty() && !capture_seen_) {
-    throw std::invalid_argument(fmt::format("--metadata {}: no input is a capture of packets", options.metadata));
+  if (!options.packets.metadata.empty() && !packets_seen_) {
+    throw std::invalid_argument(
+        fmt::format("--metadata {}: no input is a capture of packets", options.packets.metadata));
+  }
+  if (!options.packets.sensor.empty() && !packets_seen_) {
+    throw std::invalid_argument(fmt::format("--sensor {}: no input is a capture of packets", options.packets.sensor));
   }
 }
 
@@ -32,9 +37,9 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
   try {
     if (is_rosbag2_folder(argument)) return add_bag(argument, rosbag2_files(argument), options);
     if (is_packet_capture(argument)) {
-      sources_.push_back(open_packet_capture(argument, options.metadata));
+      sources_.push_back(open_packet_capture(argument, options.packets));
       files_.emplace_back(argument);
-      capture_seen_ = true;
+      packets_seen_ = true;
       return;
     }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);
@@ -56,7 +61,12 @@ void FrameSequence::add_bag(const std::string& argument, const std::vector<std::
   try {
     const bool fullest = options.fullest_topic && options.topic.empty();
     std::string topic = fullest ? bag->fullest_topic() : bag->choose_topic(options.topic);
-    sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
+    if (bag->has_packets(topic)) {
+      sources_.push_back(open_bag_packets(std::move(bag), topic, options.packets));
+      packets_seen_ = true;
+    } else {
+      sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
+    }
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument(fmt::format("{}: {}", argument, fault.what()));
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "frames/frame_source.hpp"
+#include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
 
@@ -20,8 +21,8 @@ namespace pose_wall::tools {
 struct InputOptions {
   std::string topic;           // of bags; empty: the only one with clouds
   bool fullest_topic = false;  // where `topic` is empty and several topics have clouds: take the one with most messages
-  std::string metadata;        // of captures of packets; empty: the file of the same name with the ending .json
-  bool of_others = false;      // topic and metadata may be meant for inputs that are opened elsewhere
+  SensorOptions packets;       // of captures and bags of packets
+  bool of_others = false;      // topic and packets may be meant for inputs that are opened elsewhere
 };
 
 class FrameSequence {
@@ -50,7 +51,7 @@ class FrameSequence {
   std::vector<std::string> errors_;
   std::size_t current_ = 0;
   bool bag_seen_ = false;
-  bool capture_seen_ = false;
+  bool packets_seen_ = false;
 };
 
 }  // namespace pose_wall::tools

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "packets/udp_capture.hpp"
+#include "packets/datagram_source.hpp"
 
 namespace pose_wall::tools {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "frames/frame.hpp"
-#include "packets/udp_capture.hpp"
+#include "packets/datagram_source.hpp"
 
 namespace pose_wall::tools {
 
@@ -48,6 +48,9 @@ class ScanAssembler {
   virtual void finish() = 0;
 
   virtual const char* kind() const = 0;
+
+  // True where the sensor's own clock tells no date: scans are stamped with the time at which their packets arrived.
+  virtual bool stamps_are_of_arrival() const = 0;
 
   std::optional<Scan> take();
 

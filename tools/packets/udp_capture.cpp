@@ -41,7 +41,7 @@ LinkType link_type(int number) {
                   number));
 }
 
-class PcapFile : public UdpCapture {
+class PcapFile : public DatagramSource {
  public:
   explicit PcapFile(const std::string& path) : pcap_(open(path)), packets_(link_type(pcap_datalink(pcap_.get()))) {}
 
@@ -59,6 +59,7 @@ class PcapFile : public UdpCapture {
       std::int64_t captured_ns = 0;
       if (__builtin_mul_overflow(std::int64_t{header->ts.tv_sec}, std::int64_t{1'000'000'000}, &captured_ns) ||
           __builtin_add_overflow(captured_ns, std::int64_t{header->ts.tv_usec}, &captured_ns)) {
+        ended_ = true;
         throw FrameError(fmt::format("offset {}: a time of {} s", offset, std::int64_t{header->ts.tv_sec}));
       }
       const ByteView bytes{reinterpret_cast<const std::byte*>(packet), header->caplen};
@@ -85,7 +86,7 @@ class PcapFile : public UdpCapture {
 
 }  // namespace
 
-std::unique_ptr<UdpCapture> open_udp_capture(const std::string& path) {
+std::unique_ptr<DatagramSource> open_udp_capture(const std::string& path) {
   return std::make_unique<PcapFile>(path);
 }
 
@@ -95,7 +96,7 @@ std::unique_ptr<UdpCapture> open_udp_capture(const std::string& path) {
 
 namespace pose_wall::tools {
 
-std::unique_ptr<UdpCapture> open_udp_capture(const std::string& /*path*/) {
+std::unique_ptr<DatagramSource> open_udp_capture(const std::string& /*path*/) {
   throw FrameError(missing_support("captures of packets", "libpcap-dev", "POSE_WALL_READ_PCAP"));
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "frames/text_cursor.hpp"
+#include "verbs/one_of.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -32,15 +33,19 @@ FrameSequence FrameOptions::open() const {
 std::vector<std::filesystem::path> FrameOptions::files_read(const FrameSequence& sequence) const {
   std::vector<std::filesystem::path> files = sequence.files();
   if (!config_file.empty()) files.emplace_back(config_file);
-  if (!input.metadata.empty()) files.emplace_back(input.metadata);
+  if (!input.packets.metadata.empty()) files.emplace_back(input.packets.metadata);
   return files;
 }
 
 void add_input_options(CLI::App* verb, InputOptions* options) {
   verb->add_option("-t,--topic", options->topic, "Topic of a bag, where it has several with clouds")
       ->type_name("TOPIC");
-  verb->add_option("--metadata", options->metadata,
-                   "What an Ouster capture was recorded with; default: its name, .json")
+  verb->add_option("--sensor", options->packets.sensor, "Sensor of packets, where they do not tell it themselves")
+      ->check(one_of(sensor_names()))
+      ->type_name("NAME");
+  verb->add_option("--metadata", options->packets.metadata,
+                   "What packets were recorded with: JSON of an Ouster (default: the capture's name, .json), angles of "
+                   "a Hesai (CSV)")
       ->check(CLI::ExistingFile);
 }
 

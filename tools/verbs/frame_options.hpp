@@ -34,7 +34,7 @@ struct FrameOptions {
 
 constexpr const char* kInputHelp =
     "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, bags (ROS 1, MCAP, SQLite, "
-    "folders of rosbag2) or captures of packets (Ouster, VLP-16)";
+    "folders of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox)";
 
 // What tells how inputs are to be read.
 void add_input_options(CLI::App* verb, InputOptions* options);

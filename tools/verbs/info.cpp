@@ -33,9 +33,10 @@ struct Looked {
   bool complete = false;
 };
 
-// Each input is looked at by itself; topic and metadata have to be of one of them, not of each.
+// Each input is looked at by itself; topic, sensor and metadata have to be of one of them, not of each.
 void expect_use(const InfoOptions& options) {
-  const bool has_words = !options.input.topic.empty() || !options.input.metadata.empty();
+  const SensorOptions& packets = options.input.packets;
+  const bool has_words = !options.input.topic.empty() || !packets.sensor.empty() || !packets.metadata.empty();
   if (has_words && options.inputs.size() > 1) FrameSequence(options.inputs, options.input);
 }
 

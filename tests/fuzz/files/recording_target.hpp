@@ -20,7 +20,7 @@ constexpr int kFramesMax = 64;  // that are looked at
 inline void take_frames(const std::string& path, const std::string& metadata) {
   tools::InputOptions options;
   options.fullest_topic = true;
-  options.metadata = metadata;
+  options.packets.metadata = metadata;
   try {
     tools::FrameSequence frames({path}, options);
     for (int i = 0; i < kFramesMax; ++i) {

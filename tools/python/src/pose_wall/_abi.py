@@ -741,6 +741,7 @@ FUNCTIONS = {
     "pose_wall_runtime_latest": (c_int32, (c_void_p, POINTER(pose_wall_publication))),
     "pose_wall_runtime_image": (c_int32, (c_void_p, POINTER(pose_wall_image))),
     "pose_wall_runtime_image2": (c_int32, (c_void_p, POINTER(pose_wall_image2))),
+    "pose_wall_runtime_last_points": (c_int32, (c_void_p, POINTER(pose_wall_points))),
     "pose_wall_runtime_tick": (c_int32, (c_void_p,)),
     "pose_wall_runtime_drop_name": (c_char_p, (c_uint32,)),
     "pose_wall_runtime_statistics_now": (c_int32, (c_void_p, POINTER(pose_wall_runtime_statistics))),

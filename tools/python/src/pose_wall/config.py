@@ -74,6 +74,14 @@ def _read_table() -> "dict[str, KeyInfo]":
 KEYS: "dict[str, KeyInfo]" = _read_table()
 
 
+# Of pose_walld (tools/config_file/live_settings.cpp): a file for both is a good file. A test compares them with what
+# the command prints.
+LIVE_KEYS = frozenset((
+    "source", "extrinsic_from", "sensor", "sensor_metadata", "udp_address", "udp_port", "udp_sender",
+    "frame_points_max", "ros1", "ros2", "ros_distro", "http", "modbus", "mqtt", "mqtt_topic", "black_box",
+    "black_box_mb", "recording", "recording_mb", "recording_clouds", "status_every_s"))
+
+
 def _known(key: Any) -> KeyInfo:
     if isinstance(key, str) and key in KEYS:
         return KEYS[key]
@@ -113,7 +121,8 @@ class Config(Mapping):  # type: ignore[type-arg]
     @classmethod
     def load(cls, path: "Optional[Union[str, os.PathLike[str]]]" = None,
              set: Optional[Mapping] = None) -> Config:  # type: ignore[type-arg]  # pylint: disable=redefined-builtin
-        """Defaults, then the file, then `set`; then the rules over several keys. All faults are told at once."""
+        """Defaults, then the file, then `set`; then the rules over several keys. All faults are told at once. Keys of
+        the daemon are passed over."""
         config, origins = cls(), {}  # type: ignore[var-annotated]
         refused: "list[tuple[str, Error]]" = []
         given = [(f"{path}:{line}", key, value) for key, value, line in entries_of(path)] if path is not None else []
@@ -123,7 +132,7 @@ class Config(Mapping):  # type: ignore[type-arg]
                 refused.append((where, again))
             else:
                 origins[key] = where
-                refused += config._refusals(where, key, value)
+                refused += [] if key in LIVE_KEYS else config._refusals(where, key, value)
         for key, value in (set or {}).items():
             origins[key] = "set"
             refused += config._refusals("set", key, value)

@@ -54,6 +54,14 @@ class Points:
     xyz_base_m: "np.ndarray[Any, Any]"  # (N, 3) float32
     label: "np.ndarray[Any, Any]"  # (N,) uint8
 
+    @classmethod
+    def from_c(cls, c: Any) -> Points:
+        """From the struct of C, whose pointers are good for the moment."""
+        if c.count == 0:
+            return cls(np.empty((0, 3), np.float32), np.empty(0, np.uint8))
+        axes = [np.ctypeslib.as_array(axis, (c.count,)) for axis in (c.x_base_m, c.y_base_m, c.z_base_m)]
+        return cls(np.stack(axes, axis=1), np.ctypeslib.as_array(c.label, (c.count,)).copy())
+
 
 @dataclass(frozen=True)
 class SelfTest:
@@ -144,12 +152,7 @@ class Engine:
         points = _abi.pose_wall_points()
         with self._alone() as engine:
             check(lib.pose_wall_last_points(engine, points))
-            count = points.count
-            if count == 0:
-                return Points(np.empty((0, 3), np.float32), np.empty(0, np.uint8))
-            axes = (points.x_base_m, points.y_base_m, points.z_base_m)
-            xyz = np.stack([np.ctypeslib.as_array(axis, (count,)) for axis in axes], axis=1)
-            return Points(xyz, np.ctypeslib.as_array(points.label, (count,)).copy())
+            return Points.from_c(points)
 
 
 def self_test() -> SelfTest:

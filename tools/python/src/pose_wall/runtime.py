@@ -21,7 +21,7 @@ from ._abi import Status, Wish
 from ._library import Block, Error, check, lib, sized
 from .cloud import CloudView, Inputs
 from .config import Config
-from .engine import Moment, moment_argument
+from .engine import Moment, Points, moment_argument
 from .publication import Publication, Statistics
 
 Callback = Callable[[Publication], None]
@@ -258,6 +258,13 @@ class Runtime:
         if status not in _WRITTEN:
             raise Error(status)
         return bytes(image)
+
+    def last_points(self) -> Points:
+        """The points of the frame that is told, labelled. From the callback only."""
+        points = _abi.pose_wall_points()
+        with self._opened.use() as runtime:
+            check(lib.pose_wall_runtime_last_points(runtime, points))
+            return Points.from_c(points)
 
     def statistics(self) -> Statistics:
         """Counters and times since open."""

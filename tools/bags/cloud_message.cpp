@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "bags/cloud_message.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "bags/livox_custom.hpp"
+#include "bags/point_cloud2.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+struct CloudType {
+  std::string_view name;
+  DecodedCloud (*decode)(MessageEncoding, ByteView, const Place&);
+};
+
+constexpr std::array<CloudType, 6> kCloudTypes = {{{"sensor_msgs/PointCloud2", decode_point_cloud2},
+                                                   {"sensor_msgs/msg/PointCloud2", decode_point_cloud2},
+                                                   {"livox_ros_driver/CustomMsg", decode_livox_custom},
+                                                   {"livox_ros_driver/msg/CustomMsg", decode_livox_custom},
+                                                   {"livox_ros_driver2/CustomMsg", decode_livox_custom},
+                                                   {"livox_ros_driver2/msg/CustomMsg", decode_livox_custom}}};
+
+const CloudType* find_cloud_type(std::string_view name) {
+  const auto* const found =
+      std::find_if(kCloudTypes.begin(), kCloudTypes.end(), [&](const CloudType& type) { return type.name == name; });
+  return found != kCloudTypes.end() ? found : nullptr;
+}
+
+}  // namespace
+
+bool is_cloud_type(std::string_view type) {
+  return find_cloud_type(type) != nullptr;
+}
+
+DecodedCloud decode_cloud(std::string_view type, MessageEncoding encoding, ByteView message, const Place& place) {
+  const CloudType* const found = find_cloud_type(type);
+  if (found == nullptr) throw FrameError(fmt::format("messages of type {} are no clouds", type));
+  return found->decode(encoding, message, place);
+}
+
+}  // namespace pose_wall::tools

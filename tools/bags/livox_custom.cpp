@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "bags/livox_custom.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bags/message_cursor.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+// CustomPoint: a time, three coordinates, three bytes. CDR begins each at a multiple of four.
+constexpr std::size_t kCustomPointBytes = 19;
+constexpr std::size_t kCdrStep = 20;
+
+PointLayout layout_of(const MessageCursor& message, std::uint32_t points) {
+  PointLayout layout;
+  layout.count = points;
+  layout.point_step = static_cast<std::uint32_t>(message.is_cdr() ? kCdrStep : kCustomPointBytes);
+  layout.big_endian = message.is_big_endian();
+  layout.fields = {{"offset_time", {0, POSE_WALL_FIELD_UINT32}},  {"x", {4, POSE_WALL_FIELD_FLOAT32}},
+                   {"y", {8, POSE_WALL_FIELD_FLOAT32}},           {"z", {12, POSE_WALL_FIELD_FLOAT32}},
+                   {"reflectivity", {16, POSE_WALL_FIELD_UINT8}}, {"tag", {17, POSE_WALL_FIELD_UINT8}},
+                   {"line", {18, POSE_WALL_FIELD_UINT8}}};
+  return layout;
+}
+
+}  // namespace
+
+DecodedCloud decode_livox_custom(MessageEncoding encoding, ByteView message_bytes, const Place& place) {
+  MessageCursor message(encoding, message_bytes, place);
+  const MessageHeader header = read_header(message);
+  const auto base_ns = message.number<std::uint64_t>("timebase");
+  // What point_num says is said again by the list of points, which is what is believed.
+  message.number<std::uint32_t>("point_num");
+  message.bytes(4, "lidar_id and rsvd");
+  const auto points = message.number<std::uint32_t>("points");
+  const std::size_t step = message.is_cdr() ? kCdrStep : kCustomPointBytes;
+  // Behind the last point nothing fills up to a multiple of four.
+  const std::uint64_t needed = points == 0 ? 0 : std::uint64_t{points - 1} * step + kCustomPointBytes;
+  if (needed > message.left()) {
+    message.refuse(fmt::format("{} points need {} bytes, but {} are left", points, needed, message.left()));
+  }
+  const ByteView data = message.bytes(static_cast<std::size_t>(needed), "points");
+  Bytes bytes(std::size_t{points} * step);
+  std::copy_n(data.data, data.size, bytes.begin());
+
+  DecodedCloud cloud;
+  cloud.frame_id = header.frame_id;
+  cloud.stamp_ns = header.stamp_ns;
+  const std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+  if (cloud.stamp_ns == 0 && base_ns <= most) cloud.stamp_ns = static_cast<std::int64_t>(base_ns);
+  cloud.frame = describe_frame(std::move(bytes), layout_of(message, points));
+  return cloud;
+}
+
+}  // namespace pose_wall::tools

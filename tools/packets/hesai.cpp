@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "packets/hesai.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "angles.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr double kHesaiUnit_m = 0.004;
+
+double azimuth_of(const HesaiTraits& traits, ByteView payload, std::size_t block) {
+  const std::size_t start = traits.head_bytes + block * traits.block_bytes();
+  return 0.01 * little_endian_at(payload, start + traits.block_head_bytes - 2, 2);
+}
+
+}  // namespace
+
+HesaiAssembler::HesaiAssembler(std::optional<HesaiModel> stated, std::string angles) : angles_(std::move(angles)) {
+  if (stated) set_model(*stated);
+}
+
+void HesaiAssembler::set_model(HesaiModel model) {
+  const HesaiTraits& traits = hesai_traits(model);
+  const std::vector<HesaiLaser> lasers =
+      angles_.empty() ? traits.design_angles : parse_hesai_angles(angles_, traits.lasers);
+  const std::int32_t first_ns = *std::min_element(traits.firing_ns.begin(), traits.firing_ns.end());
+  first_laser_ns_ = first_ns;
+  for (std::size_t i = 0; i < lasers.size(); ++i) {
+    const double elevation_rad = lasers[i].elevation_deg * kRadPerDeg;
+    // Lasers at one elevation keep the order of their numbers, so that each has a ring of its own.
+    const auto lower = std::count_if(lasers.begin(), lasers.end(), [&](const HesaiLaser& other) {
+      return other.elevation_deg < lasers[i].elevation_deg ||
+             (other.elevation_deg == lasers[i].elevation_deg && &other < &lasers[i]);
+    });
+    beams_.push_back({std::cos(elevation_rad), std::sin(elevation_rad), lasers[i].azimuth_deg,
+                      static_cast<std::uint32_t>(traits.firing_ns[i] - first_ns), static_cast<std::uint16_t>(lower)});
+  }
+  traits_ = &traits;
+  kind_ = std::string("packets of a ") + traits.title;
+  firing_.points.resize(traits.lasers);
+}
+
+bool HesaiAssembler::add(const Datagram& datagram) {
+  const std::optional<HesaiModel> model = hesai_model_of(datagram.payload);
+  if (!model || (traits_ != nullptr && traits_->model != *model) || !is_first_heard(datagram)) return false;
+  if (traits_ == nullptr) set_model(*model);
+  const bool is_dual = is_hesai_dual(*traits_, datagram.payload);
+  const std::size_t step = is_dual ? 2 : 1;
+  for (std::size_t block = 0; block < traits_->blocks; block += step) {
+    if (block + step < traits_->blocks) {
+      last_step_deg_ = turned_deg(azimuth_of(*traits_, datagram.payload, block),
+                                  azimuth_of(*traits_, datagram.payload, block + step));
+    }
+    fill_firing(datagram.payload, block, is_dual, datagram.captured_ns);
+    add_firing(firing_, last_step_deg_);
+  }
+  return true;
+}
+
+void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, bool is_dual, std::int64_t captured_ns) {
+  firing_.azimuth_deg = azimuth_of(*traits_, payload, block);
+  const std::size_t step = is_dual ? 2 : 1;
+  const double start_ns = traits_->firing_start_ns(block / step, traits_->blocks / step);
+  firing_.time_ns = captured_ns + std::llround(start_ns + first_laser_ns_);
+  const std::size_t start = traits_->head_bytes + block * traits_->block_bytes() + traits_->block_head_bytes;
+  for (std::size_t i = 0; i < traits_->lasers; ++i) {
+    const Beam& beam = beams_[i];
+    ScanPoint& point = firing_.points[beam.ring];
+    point = ScanPoint{};
+    point.ring = beam.ring;
+    point.t_ns = beam.after_ns;
+    // Whatever the order of a pair, the farther return is the later one: dust before a wall would be taken for the
+    // wall.
+    std::size_t at = start + i * traits_->return_bytes;
+    if (is_dual) {
+      const std::size_t other = at + traits_->block_bytes();
+      if (little_endian_at(payload, other, 2) > little_endian_at(payload, at, 2)) at = other;
+    }
+    const double range_m = kHesaiUnit_m * little_endian_at(payload, at, 2);
+    if (range_m == 0.0) continue;
+    const double azimuth_rad = (firing_.azimuth_deg + beam.azimuth_deg) * kRadPerDeg;
+    const double flat_m = range_m * beam.cos_elevation;
+    point.x_m = static_cast<float>(flat_m * std::cos(azimuth_rad));
+    point.y_m = static_cast<float>(-flat_m * std::sin(azimuth_rad));
+    point.z_m = static_cast<float>(range_m * beam.sin_elevation);
+    point.intensity = std::to_integer<std::uint8_t>(payload.data[at + 2]);
+  }
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The Hesai sensors whose packets are read: how these lie in memory, when lasers fire and where they point.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bags/byte_cursor.hpp"
+
+namespace pose_wall::tools {
+
+enum class HesaiModel { kXt32, kPandar40p, kQt64 };
+
+struct HesaiLaser {
+  double elevation_deg = 0.0;
+  double azimuth_deg = 0.0;  // beside the head's; clockwise from above
+};
+
+struct HesaiTraits {
+  HesaiModel model;
+  const char* title;  // "Hesai PandarXT-32"
+  std::size_t lasers, blocks;
+  std::size_t head_bytes;        // before the first block
+  std::size_t block_head_bytes;  // flag and azimuth before a block's returns
+  std::size_t return_bytes;
+  std::size_t tail_bytes;
+  std::size_t mode_offset;  // of the return mode, within the tail
+  double block_ns;          // from firing to firing
+  double known_block_ns;    // from a packet's time to its first firing, or to the last
+  bool last_is_known;
+  std::vector<std::int32_t> firing_ns;    // of each laser, since its block's time
+  std::vector<HesaiLaser> design_angles;  // what the manual says; each sensor is a little off
+
+  std::size_t block_bytes() const { return block_head_bytes + lasers * return_bytes; }
+  std::size_t bytes() const { return head_bytes + blocks * block_bytes() + tail_bytes; }
+
+  // From a packet's time to that of one of its `firings`, counted from 0.
+  double firing_start_ns(std::size_t firing, std::size_t firings) const;
+};
+
+const HesaiTraits& hesai_traits(HesaiModel model);
+
+// The model whose data these bytes are, with lengths, counts, azimuths and return mode that fit it.
+std::optional<HesaiModel> hesai_model_of(ByteView payload);
+
+// What data of a Hesai is that is not read ("a Hesai of 16 lasers in 8 blocks"); "" for anything else.
+std::string unread_hesai(ByteView payload);
+
+bool is_hesai_dual(const HesaiTraits& traits, ByteView payload);
+
+// A file of angles, as the sensor or its maker gives it: a head, then a line for each laser with its number from 1,
+// elevation and azimuth in degrees. Throws FrameError unless each of `lasers` is there once.
+std::vector<HesaiLaser> parse_hesai_angles(const std::string& text, std::size_t lasers);
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "packets/packet_frames.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <utility>
+
+namespace pose_wall::tools {
+
+// Scans of a recording one by one, the incomplete ones at its ends left out.
+class PacketFrames::ScanWalk {
+ public:
+  ScanWalk(std::unique_ptr<DatagramSource> datagrams, std::unique_ptr<ScanAssembler> assembler)
+      : datagrams_(std::move(datagrams)), assembler_(std::move(assembler)) {}
+
+  // Throws FrameError where packets contradict themselves or the sensor that was chosen. What cannot be read is a
+  // fault.
+  std::optional<Scan> next() {
+    while (true) {
+      if (!ahead_) ahead_ = assembled_next();
+      if (!ahead_) return std::nullopt;
+      Scan scan = std::move(*ahead_);
+      ahead_ = assembled_next();
+      const bool at_an_end = given_ == 0 || !ahead_;
+      const bool is_only = given_ == 0 && !ahead_;
+      if (scan.is_complete || !at_an_end || is_only) {
+        ++given_;
+        return scan;
+      }
+    }
+  }
+
+  std::optional<std::string> take_fault() {
+    if (faults_.empty()) return std::nullopt;
+    std::optional<std::string> fault = std::move(faults_.front());
+    faults_.pop_front();
+    return fault;
+  }
+
+  const ScanAssembler& assembler() const { return *assembler_; }
+  std::optional<SensorKind> other() const { return other_; }
+  const std::string& unread() const { return unread_; }
+
+ private:
+  std::optional<Scan> assembled_next() {
+    while (true) {
+      if (std::optional<Scan> scan = assembler_->take()) return scan;
+      if (ended_) return std::nullopt;
+      std::optional<Datagram> datagram;
+      try {
+        datagram = datagrams_->next();
+      } catch (const FrameError& fault) {
+        faults_.emplace_back(fault.what());
+        continue;
+      }
+      if (!datagram) {
+        assembler_->finish();
+        ended_ = true;
+      } else if (!assembler_->add(*datagram)) {
+        if (!other_) other_ = recognise_sensor(datagram->payload);
+        if (unread_.empty()) unread_ = unread_sensor(datagram->payload);
+      }
+    }
+  }
+
+  std::unique_ptr<DatagramSource> datagrams_;
+  std::unique_ptr<ScanAssembler> assembler_;
+  std::optional<Scan> ahead_;
+  std::deque<std::string> faults_;
+  std::optional<SensorKind> other_;  // whose packets the assembler did not take
+  std::string unread_;
+  std::size_t given_ = 0;
+  bool ended_ = false;
+};
+
+PacketFrames::PacketFrames(PacketRecording recording, const SensorChoice& choice) : recording_(std::move(recording)) {
+  {
+    ScanWalk survey(recording_.open(), make_assembler(choice));
+    while (survey.next()) ++frames_;
+    const std::size_t scans = frames_;
+    while (survey.take_fault()) ++frames_;
+    if (scans == 0 && frames_ == 0) refuse_empty(survey, choice);
+  }
+  walk_ = std::make_unique<ScanWalk>(recording_.open(), make_assembler(choice));
+}
+
+PacketFrames::~PacketFrames() = default;
+
+void PacketFrames::refuse_empty(const ScanWalk& survey, const SensorChoice& choice) const {
+  std::string wanted;
+  if (choice.kind != SensorKind::kAutomatic) {
+    wanted = fmt::format("of a {} ({})", known_sensor(choice.kind).title, known_sensor(choice.kind).name);
+  } else if (!choice.metadata.empty() && recording_.ouster_hint.empty()) {
+    wanted = "of an Ouster as its metadata says";
+  } else {
+    for (const KnownSensor& sensor : known_sensors()) {
+      if (sensor.kind == SensorKind::kAutomatic || sensor.needs_metadata) continue;
+      wanted += fmt::format("{}{}", wanted.empty() ? "of a " : ", ", sensor.title);
+    }
+    wanted += fmt::format(", nor of an Ouster: {}", recording_.ouster_hint);
+  }
+  std::string there;
+  if (survey.other()) there = fmt::format("; there are packets of a {}", known_sensor(*survey.other()).title);
+  if (!survey.unread().empty()) there += fmt::format("; there is data of {}, which is not read", survey.unread());
+  throw FrameError(fmt::format("no data packets {}{}", wanted, there));
+}
+
+std::optional<SourcedFrame> PacketFrames::next() {
+  SourcedFrame sourced;
+  sourced.name = fmt::format("{}#{}", recording_.name, next_);
+  if (const std::optional<Scan> scan = walk_->next()) {
+    ++next_;
+    sourced.stamp_ns = scan->stamp_ns;
+    sourced.frame = frame_of(*scan);
+    return sourced;
+  }
+  const std::optional<std::string> fault = walk_->take_fault();
+  if (!fault) return std::nullopt;
+  sourced.name = recording_.name;
+  sourced.error = *fault;
+  return sourced;
+}
+
+SourceAbout PacketFrames::about() const {
+  SourceAbout about = recording_.about;
+  about.kind += (about.kind.empty() ? "" : ", ") + std::string(walk_->assembler().kind());
+  return about;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Which sensor packets are of: chosen by name, or told by the packets; for captures, bags and live reception alike.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "packets/mid360.hpp"
+#include "packets/scan.hpp"
+
+namespace pose_wall::tools {
+
+enum class SensorKind {
+  kAutomatic,
+  kVlp16,
+  kVlp16HiRes,
+  kHdl32e,
+  kVlp32c,
+  kOuster,
+  kHesaiXt32,
+  kHesai40p,
+  kHesaiQt64,
+  kMid360
+};
+
+enum class SensorMetadata { kNone, kOusterJson, kHesaiAngles };
+
+struct KnownSensor {
+  SensorKind kind;
+  const char* name;    // as options name it: "hesai_xt32"
+  const char* title;   // "Hesai PandarXT-32"
+  std::uint16_t port;  // of data, as it leaves the factory; 0: none of its own
+  SensorMetadata metadata;
+  bool needs_metadata;
+};
+
+// All, kAutomatic ("auto") first.
+const std::vector<KnownSensor>& known_sensors();
+const KnownSensor& known_sensor(SensorKind kind);
+std::vector<std::string> sensor_names();
+std::optional<SensorKind> sensor_by_name(std::string_view name);
+
+struct SensorChoice {
+  SensorKind kind = SensorKind::kAutomatic;
+  std::string metadata;                     // text: JSON of an Ouster, table of angles of a Hesai; "": none
+  std::int64_t frame_ns = kMid360Frame_ns;  // of sensors without a turn
+};
+
+// The same as people write it, in options and settings.
+struct SensorOptions {
+  std::string sensor;    // a name of known_sensors(); "": automatic
+  std::string metadata;  // a file; "": none
+};
+
+// Reads the metadata. Throws FrameError for a name that is not known, with the one that was meant, and for a file that
+// cannot be read or is no metadata of such a sensor.
+SensorChoice choose_sensor(const SensorOptions& options);
+
+// For one sensor; the datagrams of all ports may be handed to it. Automatic: told by the first data packets; an Ouster
+// has to be described by its metadata, for its packets do not say what they are. Throws FrameError for metadata that is
+// missing, wrong, or of another kind of sensor. Its add() and finish() throw FrameError where packets contradict
+// themselves or what was chosen: which then stands for all packets of this sensor.
+std::unique_ptr<ScanAssembler> make_assembler(const SensorChoice& choice);
+
+// Whose data packet this is, where a packet alone tells; nothing for an Ouster's. Of Velodyne's the product byte
+// counts, which first VLP-16s had as an HDL-32E: make_assembler looks at more than one.
+std::optional<SensorKind> recognise_sensor(ByteView payload);
+
+// What these bytes are data of, where it is known and not read: "a Hesai of 16 lasers in 8 blocks"; else "".
+std::string unread_sensor(ByteView payload);
+
+}  // namespace pose_wall::tools
