@@ -4,7 +4,8 @@
 #
 # The library's packages hold the same files, of the right machine, and serve users' projects wherever they are
 # unpacked. The command's package (amd64) depends on what the command needs, and the command runs. With POSE_WALL in the
-# environment (the native command), a controller linked from the package must print the numbers of `pose_wall run`.
+# environment (the native command), a controller linked from the package must print the numbers of `pose_wall run`. The
+# Python package (amd64) asks for NumPy and, where that is installed, computes what was tested.
 # usage: check_package.sh CMAKE SOURCE_DIR PACKAGES_DIR ARCHITECTURE CC CXX TOOLCHAIN_FILE [EMULATOR...]
 # TOOLCHAIN_FILE: - for none
 set -eu
@@ -37,6 +38,26 @@ if [ "$architecture" = amd64 ]; then
     fish/vendor_completions.d/pose_wall.fish; do
     [ -s "$work/command/usr/share/$file" ] || complain "$deb has no share/$file"
   done
+
+  named python3-pose-wall deb
+  deb=$packages/python3-pose-wall_${version}_$architecture.deb
+  depends=$(dpkg-deb -f "$deb" Depends)
+  case $depends in
+    *python3-numpy*libc6*) ;;
+    *) complain "$deb: depends on '$depends'; the module needs python3-numpy and libc6" ;;
+  esac
+  dpkg-deb -x "$deb" "$work/python"
+  if /usr/bin/python3 -c "import numpy" 2> /dev/null; then
+    found=$(PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$work/python/usr/lib/python3/dist-packages" /usr/bin/python3 -c \
+      'import pose_wall; print(pose_wall.__version__, pose_wall.__file__, pose_wall.self_test())') ||
+      complain "$deb: the module does not work"
+    case $found in
+      "$version $work/python/"*) ;;
+      *) complain "$deb: the module says '$found', not $version" ;;
+    esac
+  else
+    echo "not tried: $deb, for NumPy is not installed (python3-numpy)"
+  fi
 fi
 
 named libpose-wall-dev deb

@@ -6,6 +6,7 @@
 import json
 import os
 import shutil
+import subprocess
 import sys
 import unittest
 
@@ -207,6 +208,14 @@ class Packages(BrokenProject):
         self.passes("dpkg-deb", "--root-owner-group", "-b", self.root / "deb",
                     self.root / f"pose-wall_{version}_amd64.deb")
 
+    def pack_python(self, version="0.2.0", depends="python3-numpy, libc6", module=None):
+        self.write("deb/DEBIAN/control", f"Package: python3-pose-wall\nVersion: {version}\nArchitecture: amd64\n"
+                                         f"Maintainer: x <x@y>\nDepends: {depends}\nDescription: x\n")
+        self.write("deb/usr/lib/python3/dist-packages/pose_wall.py",
+                   module or f"__version__ = '{version}'\ndef self_test(): return 'tested'\n")
+        self.passes("dpkg-deb", "--root-owner-group", "-b", self.root / "deb",
+                    self.root / f"python3-pose-wall_{version}_amd64.deb")
+
     def check(self):
         return CHECKS / "check_package.sh", tool("CMAKE", "cmake"), self.root, self.root, "amd64", "cc", "c++", "-"
 
@@ -214,7 +223,23 @@ class Packages(BrokenProject):
         self.pack("0.1.0", "Depends: libyaml-0-2\n", "echo 0.1.0")
         self.fails("has no pose-wall_0.2.0_amd64.deb", *self.check())
         self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo pose_wall 0.2.0")
+        self.fails("has no python3-pose-wall_0.2.0_amd64.deb", *self.check())
+        self.pack_python()
         self.fails("has no libpose-wall-dev_0.2.0_amd64.deb", *self.check())
+
+    def test_of_python(self):
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo pose_wall 0.2.0")
+        self.pack_python(depends="python3")
+        self.fails("depends on 'python3'; the module needs python3-numpy", *self.check())
+        numpy = subprocess.run(["/usr/bin/python3", "-c", "import numpy"], stderr=subprocess.DEVNULL, check=False)
+        if numpy.returncode != 0:
+            self.pack_python()
+            self.fails("not tried", *self.check())
+            return
+        self.pack_python(module="import nothing_of_this_name\n")
+        self.fails("the module does not work", *self.check())
+        self.pack_python(module="__version__ = '0.1.0'\ndef self_test(): return 'tested'\n")
+        self.fails("not 0.2.0", *self.check())
 
     def test_depends_on_nothing(self):
         self.pack("0.2.0", "", "echo 0.2.0")

@@ -3,7 +3,8 @@
 
 # cmake --install: headers, archives, package config, pkg-config files, bill of materials, what a controller needs; and
 # the command and the daemon where they are built. find_package(pose_wall) gives pose_wall::pose_wall, and
-# pose_wall::pose_wall_runtime where that is built. Components: development, command, daemon, python.
+# pose_wall::pose_wall_runtime where that is built. Components: development, command, daemon; python, which only
+# who names it gets (tools/python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 include(pose_wall_sbom)
 
@@ -67,21 +68,6 @@ if(TARGET pose_walld)
     COMPONENT daemon)
   install(FILES ${pose_wall_daemon_dir}/README.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld
     COMPONENT daemon)
-endif()
-if(TARGET pose_wall_shared)
-  # Where Debian's Python looks, whichever its version.
-  set(pose_wall_python_dir lib/python3/dist-packages/pose_wall)
-  install(TARGETS pose_wall_shared LIBRARY DESTINATION ${pose_wall_python_dir} COMPONENT python)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/python/pose_wall/ DESTINATION ${pose_wall_python_dir} COMPONENT python
-    FILES_MATCHING PATTERN "*.py" PATTERN "py.typed")
-  install(FILES ${PROJECT_SOURCE_DIR}/include/pose_wall.h ${PROJECT_SOURCE_DIR}/include/pose_wall_runtime.h
-    DESTINATION ${pose_wall_python_dir} COMPONENT python)
-  set(pose_wall_python_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-pose-wall)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pose_wall_python_doc_dir} RENAME copyright
-    COMPONENT python)
-  install(FILES ${PROJECT_SOURCE_DIR}/tools/python/README.md
-    ${PROJECT_SOURCE_DIR}/tools/python/examples/plot_run.py
-    DESTINATION ${pose_wall_python_doc_dir} COMPONENT python)
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   include(pose_wall_package)
