@@ -77,8 +77,8 @@ const std::vector<Row>& rows() {
         "folder of the black box, one ring file a start; empty: none. `pose_wall replay-box` computes it again"},
        &LiveSettings::black_box},
       {{"black_box_mb", kSinks, Type::kNumber, "MB", 1, 1000000, "",
-        "room for all black boxes together, a quarter of it for each start; the oldest goes first. 2048 holds a minute of "
-        "clouds of 65,536 points"},
+        "room for all black boxes together, a quarter of it for each start; the oldest goes first. 2048 holds a minute "
+        "of clouds of 65,536 points"},
        &LiveSettings::black_box_mb},
       {{"recording", kSinks, Type::kText, "", 0, 0, "", "folder of recordings as MCAP; empty: none"},
        &LiveSettings::recording},

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -120,7 +121,7 @@ class Recorder final : public Sink {
   }
 
   void record(const LiveResult& result) {
-    const std::uint64_t now_ns = wall_ns();
+    const auto now_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(wall_ns(), 0));
     if (with_clouds_ && result.frame) writer_->add(kCloud, now_ns, messages_.cloud(*result.frame));
     writer_->add(kResult, now_ns, result_json(result));
     if (Clock::now() - health_last_ >= kHealthEvery) {
