@@ -47,7 +47,7 @@ std::vector<std::string> mid360() {
   return payloads;
 }
 
-// Packets of each sensor that name it, three turns or frames.
+// Packets of each sensor that name it, more than two turns or frames.
 std::vector<Example> examples() {
   std::vector<Example> examples;
   for (const auto& [kind, product] : {std::pair(SensorKind::kVlp16, 0x22), std::pair(SensorKind::kVlp16HiRes, 0x24),
@@ -74,7 +74,7 @@ TEST(Sensors, EachIsToldByItsPacketsAndReadByItsName) {
     const ReadCapture told = read(file), named = read(file, {sensor.name, ""}), automatic = read(file, {"auto", ""});
     ASSERT_TRUE(told.errors.empty()) << told.errors.front();
     EXPECT_EQ(told.about.kind, std::string("packets of a ") + sensor.title);
-    EXPECT_GE(told.frames.size(), 3U) << sensor.name;
+    EXPECT_GE(told.frames.size(), 2U) << sensor.name;
     ASSERT_EQ(told.frames.size(), named.frames.size());
     EXPECT_EQ(told.frames.size(), automatic.frames.size());
     for (std::size_t i = 0; i < told.frames.size(); ++i) {
