@@ -23,6 +23,7 @@
  * THREADS. push: any thread, one at a time. latest, image, image2: any thread, any number of them, without a lock.
  * statistics_now, tick, request_stop: any thread, the callback too. start, stop, wait_idle, close, load: any thread but
  * the callback's and the sink's (POSE_WALL_RUNTIME_E_THREAD). save: the callback, or any thread while it is stopped.
+ * last_points: the callback.
  * The callback runs on the worker's thread, the sink on the recorder's. None of these is for signal handlers.
  *
  * STATES. stopped (after open, and after stop) -> start -> running -> request_stop or stop -> stopping -> stop ->
@@ -90,7 +91,7 @@ uint32_t pose_wall_runtime_abi_version(void);
 enum pose_wall_runtime_status {
   POSE_WALL_RUNTIME_E_OPTION = -100, /* an option out of its range, or `reserved` not zero: options_check tells which */
   POSE_WALL_RUNTIME_E_HANDLE = -101, /* not an open runtime */
-  POSE_WALL_RUNTIME_E_STATE = -102,  /* not in this state: not running, or not stopped */
+  POSE_WALL_RUNTIME_E_STATE = -102,  /* not in this state: not running, not stopped, or not called back */
   POSE_WALL_RUNTIME_E_THREAD = -103, /* not from the callback or the sink: it would wait for itself */
   POSE_WALL_RUNTIME_E_BUSY = -104,   /* another thread is inside push */
   POSE_WALL_RUNTIME_E_LARGE = -105,  /* more points than cloud_points_max, or wider than point_bytes_max */
@@ -295,6 +296,12 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_image(const pose_wall_runtime* runti
  * published_ns minus received_ns, so for silence the age of what it tells of. It has told_by, thinning and
  * held_thinning of the publication. */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_image2(const pose_wall_runtime* runtime, pose_wall_image2* image);
+
+/* What became of the points of the frame that the callback is called back with, as pose_wall_last_points tells it:
+ * for pictures and logs. The pointers are good until the callback returns; of a silence they are the last worked
+ * frame's. Only from the callback. Fails iff: NULL, not open, POSE_WALL_RUNTIME_E_STATE (not from the callback), and as
+ * pose_wall_last_points. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_last_points(const pose_wall_runtime* runtime, pose_wall_points* points);
 
 /* Has the worker look at its clock. Fails iff: NULL, not open, not running. */
 int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime);

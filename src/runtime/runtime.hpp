@@ -66,6 +66,7 @@ class Runtime {
   std::int32_t latest(pose_wall_publication* publication) const;
   std::int32_t image(pose_wall_image* image) const;
   std::int32_t image2(pose_wall_image2* image) const;
+  std::int32_t last_points(pose_wall_points* points) const;
   std::int32_t tick();
   void statistics(pose_wall_runtime_statistics* out);
 
@@ -75,6 +76,7 @@ class Runtime {
 
   std::int64_t now() const { return options_.clock != nullptr ? options_.clock(options_.clock_user) : monotonic_ns(); }
   bool own_thread_calls() const;
+  bool callback_calls() const;
   bool is_idle() const;
 
   // runtime_life.cpp

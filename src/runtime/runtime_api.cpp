@@ -129,6 +129,12 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_save(pose_wall_runtime* runtime, cons
   return status == POSE_WALL_OK ? runtime_of(runtime)->save(now, memento, bytes) : status;
 }
 
+POSE_WALL_EXPORT int32_t pose_wall_runtime_last_points(const pose_wall_runtime* runtime, pose_wall_points* points) {
+  if (points == nullptr) return POSE_WALL_E_NULL;
+  const int32_t status = check(runtime);
+  return status == POSE_WALL_OK ? runtime_of(runtime)->last_points(points) : status;
+}
+
 POSE_WALL_EXPORT int32_t pose_wall_runtime_load(pose_wall_runtime* runtime, const pose_wall_moment* now,
                                                 const void* memento, uint64_t bytes) {
   if (memento == nullptr) return POSE_WALL_E_NULL;

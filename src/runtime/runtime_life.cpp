@@ -110,11 +110,20 @@ std::int32_t Runtime::forget() {
   return POSE_WALL_OK;
 }
 
+bool Runtime::callback_calls() const {
+  return has_worker_ && pthread_equal(pthread_self(), worker_) != 0;
+}
+
+std::int32_t Runtime::last_points(pose_wall_points* points) const {
+  Locked locked(&lock_);
+  if (!callback_calls()) return POSE_WALL_RUNTIME_E_STATE;
+  return pose_wall_last_points(engine_, points);
+}
+
 std::int32_t Runtime::save(const pose_wall_moment* now, void* memento, std::uint64_t bytes) {
   Locked locked(&lock_);
   // In the callback the engine has nothing to do; while stopped the lock keeps a start out.
-  const bool in_callback = has_worker_ && pthread_equal(pthread_self(), worker_) != 0;
-  if (!in_callback && state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
+  if (!callback_calls() && state_ != POSE_WALL_RUNTIME_STOPPED) return POSE_WALL_RUNTIME_E_STATE;
   return pose_wall_save(engine_, now, memento, bytes);
 }
 

@@ -19,7 +19,7 @@ import urllib.request
 
 
 class Browser:
-    def __init__(self, width=1400, height=2300):
+    def __init__(self, width=1400, height=2300, reachable="127.0.0.2"):
         self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE, text=True)
         for line in self.driver.stdout:
             if "successfully on port" in line:
@@ -28,7 +28,7 @@ class Browser:
         else:
             raise RuntimeError("chromedriver did not start")
         arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                     "--host-resolver-rules=MAP * ~NOTFOUND", f"--window-size={width},{height}"]
+                     f"--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE {reachable}", f"--window-size={width},{height}"]
         options = {"browserName": "chrome", "goog:chromeOptions": {"args": arguments},
                    "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}
         self.session = self.post("/session", {"capabilities": {"alwaysMatch": options}})["sessionId"]

@@ -15,15 +15,17 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
+constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
 
-enum Op : std::uint8_t {
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kDataEnd = 0x0F
+struct McapOp {
+  enum : std::uint8_t {
+    kFooter = 0x02,
+    kSchema = 0x03,
+    kChannel = 0x04,
+    kMessage = 0x05,
+    kChunk = 0x06,
+    kDataEnd = 0x0F
+  };
 };
 
 std::string text(ByteCursor& data, std::string_view what) {
@@ -38,7 +40,7 @@ MessageEncoding encoding_of(std::string_view name) {
 }  // namespace
 
 void McapBag::start(ByteCursor& cursor) {
-  if (text_of(cursor.bytes(std::min(cursor.left(), kMagic.size()), "magic")) != kMagic) {
+  if (text_of(cursor.bytes(std::min(cursor.left(), kMcapMagic.size()), "magic")) != kMcapMagic) {
     throw FrameError("offset 0: the file does not begin as an MCAP of version 0 does");
   }
   footer_seen_ = false;
@@ -54,9 +56,9 @@ BagRecord McapBag::cut_record(ByteCursor& cursor) const {
   const std::uint64_t held = std::min<std::uint64_t>(bytes, cursor.left());
   record.data = ByteCursor(cursor.bytes(held, "record"), place);
   record.missing = bytes - held;
-  if (record.op == kFooter && record.missing == 0) {
+  if (record.op == McapOp::kFooter && record.missing == 0) {
     // Only here two ends meet: what follows the footer is no record.
-    if (text_of(cursor.bytes(cursor.left(), "magic")) != kMagic) {
+    if (text_of(cursor.bytes(cursor.left(), "magic")) != kMcapMagic) {
       cursor.refuse("the file is cut or goes on behind its footer: the 8 bytes of its magic are to end it");
     }
   }
@@ -64,25 +66,25 @@ BagRecord McapBag::cut_record(ByteCursor& cursor) const {
 }
 
 std::optional<BagMessage> McapBag::interpret(BagRecord& record, bool in_chunk) {
-  if (record.op != kChunk) require_whole(record, "record");
-  if (data_end_seen_ && record.op != kFooter) return std::nullopt;
+  if (record.op != McapOp::kChunk) require_whole(record, "record");
+  if (data_end_seen_ && record.op != McapOp::kFooter) return std::nullopt;
   switch (record.op) {
-    case kSchema:
+    case McapOp::kSchema:
       note_schema(record.data);
       break;
-    case kChannel:
+    case McapOp::kChannel:
       note_channel(record.data);
       break;
-    case kMessage:
+    case McapOp::kMessage:
       return message_of(record.data);
-    case kChunk:
+    case McapOp::kChunk:
       if (in_chunk) record.data.refuse("a chunk within a chunk");
       read_chunk(record);
       break;
-    case kDataEnd:
+    case McapOp::kDataEnd:
       data_end_seen_ = true;
       break;
-    case kFooter:
+    case McapOp::kFooter:
       footer_seen_ = true;
       break;
     default:  // indexes, attachments, metadata, and what later versions may add

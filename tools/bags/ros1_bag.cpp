@@ -11,9 +11,9 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::string_view kRosbagMagic = "#ROSBAG V2.0\n";
 
-enum Op : std::uint8_t {
+enum RosbagOp : std::uint8_t {
   kMessage = 0x02,
   kBagHeader = 0x03,
   kIndexData = 0x04,
@@ -58,8 +58,8 @@ std::string text_field(std::map<std::string_view, ByteCursor>& fields, std::stri
 }  // namespace
 
 void Ros1Bag::start(ByteCursor& cursor) {
-  const std::string_view found = text_of(cursor.bytes(std::min(cursor.left(), kMagic.size()), "magic"));
-  if (found != kMagic) {
+  const std::string_view found = text_of(cursor.bytes(std::min(cursor.left(), kRosbagMagic.size()), "magic"));
+  if (found != kRosbagMagic) {
     throw FrameError(fmt::format("offset 0: a ROS bag of version 2.0 begins with '#ROSBAG V2.0', this file with '{}'",
                                  found.substr(0, found.find('\n'))));
   }

@@ -2,8 +2,8 @@
 # Copyright (c) 2026 the pose_wall authors
 
 # cmake --install: headers, archives, package config, pkg-config files, bill of materials, what a controller needs; and
-# the command where it is built. find_package(pose_wall) gives pose_wall::pose_wall, and pose_wall::pose_wall_runtime
-# where that is built. Components: development, command.
+# the command and the daemon where they are built. find_package(pose_wall) gives pose_wall::pose_wall, and
+# pose_wall::pose_wall_runtime where that is built. Components: development, command, daemon, python.
 include(CMakePackageConfigHelpers)
 include(pose_wall_sbom)
 
@@ -54,6 +54,34 @@ if(TARGET pose_wall_cli)
     COMPONENT command)
   install(FILES ${pose_wall_words}/pose_wall.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d
     COMPONENT command)
+endif()
+if(TARGET pose_walld)
+  set(pose_wall_daemon_dir ${PROJECT_SOURCE_DIR}/tools/live)
+  install(TARGETS pose_walld pose_wall_sensor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
+  # Where systemd looks whatever the prefix is: /usr/lib/systemd in a package.
+  install(FILES ${pose_wall_daemon_dir}/pose_walld.service DESTINATION lib/systemd/system COMPONENT daemon)
+  # The package's postinst copies it to /etc/pose_wall/pose_wall.yaml, where none is.
+  install(FILES ${pose_wall_daemon_dir}/pose_walld.yaml DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/pose_wall
+    COMPONENT daemon)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld RENAME copyright
+    COMPONENT daemon)
+  install(FILES ${pose_wall_daemon_dir}/README.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld
+    COMPONENT daemon)
+endif()
+if(TARGET pose_wall_shared)
+  # Where Debian's Python looks, whichever its version.
+  set(pose_wall_python_dir lib/python3/dist-packages/pose_wall)
+  install(TARGETS pose_wall_shared LIBRARY DESTINATION ${pose_wall_python_dir} COMPONENT python)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/python/pose_wall/ DESTINATION ${pose_wall_python_dir} COMPONENT python
+    FILES_MATCHING PATTERN "*.py" PATTERN "py.typed")
+  install(FILES ${PROJECT_SOURCE_DIR}/include/pose_wall.h ${PROJECT_SOURCE_DIR}/include/pose_wall_runtime.h
+    DESTINATION ${pose_wall_python_dir} COMPONENT python)
+  set(pose_wall_python_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-pose-wall)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pose_wall_python_doc_dir} RENAME copyright
+    COMPONENT python)
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/python/README.md
+    ${PROJECT_SOURCE_DIR}/tools/python/examples/plot_run.py
+    DESTINATION ${pose_wall_python_doc_dir} COMPONENT python)
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   include(pose_wall_package)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# cpack --preset release (or arm64, armhf): libpose-wall-dev, and pose-wall where the command is built, as TGZ and DEB.
+# cpack --preset release (or arm64, armhf): libpose-wall-dev, and where they are built pose-wall (the command) and
+# pose-walld (the daemon), as TGZ and DEB.
 if(POSE_WALL_AARCH64)
   set(pose_wall_architecture arm64)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|amd64|AMD64)$")
@@ -23,6 +24,9 @@ set(CPACK_STRIP_FILES OFF)  # would take the archive's symbols
 set(CPACK_COMPONENTS_ALL development)
 if(TARGET pose_wall_cli)
   list(APPEND CPACK_COMPONENTS_ALL command)
+  if(TARGET pose_walld)
+    list(APPEND CPACK_COMPONENTS_ALL daemon)
+  endif()
   # Without the first CPack fails, without the second the package silently depends on nothing.
   find_program(POSE_WALL_FILE file)
   find_program(POSE_WALL_SHLIBDEPS dpkg-shlibdeps)
@@ -32,11 +36,17 @@ if(TARGET pose_wall_cli)
                    "(packages file, dpkg-dev), here are '${POSE_WALL_FILE}' and '${POSE_WALL_SHLIBDEPS}'")
   endif()
 endif()
+if(TARGET pose_wall_shared AND TARGET pose_wall_cli)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 
 set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
 set(CPACK_ARCHIVE_DEVELOPMENT_FILE_NAME libpose-wall-dev_${PROJECT_VERSION}_${pose_wall_architecture})
 set(CPACK_ARCHIVE_COMMAND_FILE_NAME pose-wall_${PROJECT_VERSION}_${pose_wall_architecture})
+
+set(CPACK_ARCHIVE_PYTHON_FILE_NAME python3-pose-wall_${PROJECT_VERSION}_${pose_wall_architecture})
+set(CPACK_ARCHIVE_DAEMON_FILE_NAME pose-walld_${PROJECT_VERSION}_${pose_wall_architecture})
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -56,4 +66,22 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMMAND_DESCRIPTION
   "pose of a tunnelling machine from one LiDAR: command\n\
 Reads frames (PCD, KITTI .bin, PLY, bags, captures), writes one row per frame; simulates roads.")
+set(CPACK_DEBIAN_DAEMON_PACKAGE_NAME pose-walld)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_RECOMMENDS pose-wall)
+set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/tools/live/package/postinst ${PROJECT_SOURCE_DIR}/tools/live/package/prerm
+  ${PROJECT_SOURCE_DIR}/tools/live/package/postrm)
+set(CPACK_DEBIAN_DAEMON_DESCRIPTION
+  "pose of a tunnelling machine from one LiDAR: daemon\n\
+Takes a live sensor or ROS, publishes by ROS, Modbus TCP, MQTT and a web page, records.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pose-wall)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-yaml, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+  "pose of a tunnelling machine from one LiDAR: for Python\n\
+The engine and its runtime: NumPy arrays in, dataclasses out.")
 include(CPack)

@@ -47,6 +47,10 @@ class ConfigLoader {
   }
 
   void check_rules() {
+    if (loaded_.live.extrinsic_from == "tf" && loaded_.live.source == "udp") {
+      fault("extrinsic_from ({}): tf comes by ROS, so source ({}) must be ros1 or ros2",
+            loaded_.origin("extrinsic_from"), loaded_.origin("source"));
+    }
     pose_wall_rule_fault broken{};
     if (!faults_.empty() || loaded_.config.check(&broken) == POSE_WALL_OK) return;
     std::string keys = fmt::format("{} ({})", broken.key, loaded_.origin(broken.key));
@@ -90,9 +94,10 @@ class ConfigLoader {
   }
 
   void apply(const std::string& where, const std::string& key, const std::string& value, bool is_sequence) {
+    if (const LiveKeyInfo* live_key = find_live_key(key)) return apply_live(where, *live_key, value, is_sequence);
     const std::optional<pose_wall_key_info> known = find_config_key(key);
     if (!known) {
-      fault("{}: unknown key '{}'{}", where, key, did_you_mean(key, config_key_names()));
+      fault("{}: unknown key '{}'{}", where, key, did_you_mean(key, all_key_names()));
       return;
     }
     if (is_sequence && known->type != POSE_WALL_KEY_BOX) {
@@ -108,6 +113,20 @@ class ConfigLoader {
       // A choice needs more than its words: z_axis is fixed, and its help says what to turn instead.
       if (known->type == POSE_WALL_KEY_CHOICE) faults_ += fmt::format(" ({})", known->help);
     }
+  }
+
+  void apply_live(const std::string& where, const LiveKeyInfo& key, const std::string& value, bool is_sequence) {
+    if (!is_sequence && set_live_value(&loaded_.live, key, value)) {
+      loaded_.origins[key.name] = where;
+    } else {
+      fault("{}: {}: '{}' is refused; allowed: {}", where, key.name, value, allowed_text(key));
+    }
+  }
+
+  static std::vector<std::string> all_key_names() {
+    std::vector<std::string> names = config_key_names();
+    for (const LiveKeyInfo& key : live_keys()) names.emplace_back(key.name);
+    return names;
   }
 
   template <typename... Values>

@@ -26,6 +26,7 @@ class HesaiAssembler : public TurnAssembler {
 
   bool add(const Datagram& datagram) override;
   const char* kind() const override { return kind_.c_str(); }
+  bool stamps_are_of_arrival() const override { return true; }
 
  private:
   struct Beam {

@@ -27,6 +27,7 @@ class Mid360Assembler : public ScanAssembler {
   bool add(const Datagram& datagram) override;
   void finish() override;
   const char* kind() const override { return "packets of a Livox Mid-360"; }
+  bool stamps_are_of_arrival() const override { return false; }
 
  private:
   void end_frame(bool is_complete);

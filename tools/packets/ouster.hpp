@@ -24,6 +24,7 @@ class OusterAssembler : public ScanAssembler {
   bool add(const Datagram& datagram) override;
   void finish() override;
   const char* kind() const override { return kind_.c_str(); }
+  bool stamps_are_of_arrival() const override { return false; }
 
   std::size_t packet_bytes() const;
 

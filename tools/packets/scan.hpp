@@ -49,6 +49,9 @@ class ScanAssembler {
 
   virtual const char* kind() const = 0;
 
+  // True where the sensor's own clock tells no date: scans are stamped with the time at which their packets arrived.
+  virtual bool stamps_are_of_arrival() const = 0;
+
   std::optional<Scan> take();
 
  protected:

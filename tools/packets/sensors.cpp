@@ -70,6 +70,7 @@ class AutomaticAssembler : public ScanAssembler {
   }
 
   const char* kind() const override { return inner_ ? inner_->kind() : "packets of no known sensor"; }
+  bool stamps_are_of_arrival() const override { return !inner_ || inner_->stamps_are_of_arrival(); }
 
  private:
   bool begin(ByteView payload) {

@@ -25,6 +25,7 @@ class VelodyneAssembler : public TurnAssembler {
   bool add(const Datagram& datagram) override;
   void finish() override;
   const char* kind() const override { return kind_.c_str(); }
+  bool stamps_are_of_arrival() const override { return true; }
 
  private:
   struct Held {

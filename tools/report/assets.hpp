@@ -12,6 +12,7 @@ namespace pose_wall::tools::report {
 struct Assets {
   std::string_view html, style, script;
 };
-Assets assets();
+Assets assets();       // of a report
+Assets live_assets();  // of the page of pose_walld, which shares most scripts
 
 }  // namespace pose_wall::tools::report

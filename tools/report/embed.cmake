@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# cmake -DOUTPUT=a.cpp "-DPARTS=a.html;a.css;a.js;b.js" -P embed.cmake: the first two as they are, the scripts as one.
+# cmake -DOUTPUT=a.cpp -DFUNCTION=assets "-DPARTS=a.html;a.css;b.css;a.js;b.js" -P embed.cmake: the page, then its
+# styles as one and its scripts as one.
 # As bytes, which know no quotes and have no greatest length.
 function(append_array name)
   set(hex "")
@@ -13,11 +14,15 @@ function(append_array name)
   file(APPEND ${OUTPUT} "const char ${name}[] = {${bytes}};\n")
 endfunction()
 
-list(POP_FRONT PARTS html style)
+set(styles ${PARTS})
+list(FILTER styles INCLUDE REGEX "\\.css$")
+set(scripts ${PARTS})
+list(FILTER scripts INCLUDE REGEX "\\.js$")
+list(POP_FRONT PARTS html)
 file(WRITE ${OUTPUT} "// Made by tools/report/embed.cmake.\n#include \"report/assets.hpp\"\n\n")
 file(APPEND ${OUTPUT} "namespace pose_wall::tools::report {\nnamespace {\n")
 append_array(kHtml ${html})
-append_array(kStyle ${style})
-append_array(kScript ${PARTS})
-file(APPEND ${OUTPUT} "}  // namespace\nAssets assets() {\n")
+append_array(kStyle ${styles})
+append_array(kScript ${scripts})
+file(APPEND ${OUTPUT} "}  // namespace\nAssets ${FUNCTION}() {\n")
 file(APPEND ${OUTPUT} "  return {{kHtml, sizeof kHtml}, {kStyle, sizeof kStyle}, {kScript, sizeof kScript}};\n}\n}\n")

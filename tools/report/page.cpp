@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "config_file/key_table.hpp"
+#include "config_file/resolved_frames.hpp"
+#include "picture/parts.hpp"
 #include "picture/svg.hpp"
 #include "report/assets.hpp"
 #include "results/json_words.hpp"
@@ -29,7 +31,9 @@ std::string script_safe(std::string text) {
   return text;
 }
 
-Json words_of_engine() {
+}  // namespace
+
+Json words_json() {
   Json words;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
     words["reason_names"].push_back(pose_wall_reason_name(bit));
@@ -44,6 +48,8 @@ Json words_of_engine() {
   return words;
 }
 
+namespace {
+
 Json settings_of(const LoadedConfig& loaded) {
   const api::Config defaults;
   Json rows = Json::array();
@@ -55,7 +61,28 @@ Json settings_of(const LoadedConfig& loaded) {
   return rows;
 }
 
-Json head_of(const PageHead& head, const LoadedConfig& loaded) {
+// The axes in which the page draws boxes of base, and the outline of the machine.
+Json machine_of(const api::Config& config) {
+  const ResolvedFrames frames = resolve_frames(config);
+  return {{"forward", {frames.forward_base[0], frames.forward_base[1]}},
+          {"left", {frames.left_base[0], frames.left_base[1]}},
+          {"length_m", picture::kMachineLength_m},
+          {"width_m", picture::kMachineWidth_m}};
+}
+
+Json boxes_of(const api::Config& config) {
+  Json boxes = Json::array();
+  for (const char* key : {"body_box_1", "body_box_2", "body_box_3", "body_box_4"}) {
+    double box[6] = {};
+    const bool is_set = pose_wall_config_get_box(config.get(), key, box) == POSE_WALL_OK && box[0] < box[1];
+    if (is_set) boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+Json head_json(const PageHead& head, const LoadedConfig& loaded) {
   return {{"title", head.title},
           {"language", head.language},
           {"truth", head.truth},
@@ -66,15 +93,15 @@ Json head_of(const PageHead& head, const LoadedConfig& loaded) {
           {"alert_deg", loaded.config.number("alert_limit_angle_deg")},
           {"alert_m", loaded.config.number("alert_limit_distance")},
           {"wall_z_min", loaded.config.number("wall_z_min")},
-          {"wall_z_max", loaded.config.number("wall_z_max")}};
+          {"wall_z_max", loaded.config.number("wall_z_max")},
+          {"machine", machine_of(loaded.config)},
+          {"body_boxes", boxes_of(loaded.config)}};
 }
-
-}  // namespace
 
 std::string page(const PageHead& head, const LoadedConfig& loaded, const PageData& data) {
   Json all = data.json();
-  all["head"] = head_of(head, loaded);
-  all["words"] = words_of_engine();
+  all["head"] = head_json(head, loaded);
+  all["words"] = words_json();
   const Assets parts = assets();
   std::string text(parts.html);
   put_in(&text, "/*@style@*/", parts.style);

@@ -21,6 +21,10 @@ struct PageHead {
   std::size_t inputs = 0;
 };
 
+// What a page's script reads beside the frames: the head, and the engine's names for states, reasons and parts.
+Json head_json(const PageHead& head, const LoadedConfig& loaded);
+Json words_json();
+
 // The same data give the same text.
 std::string page(const PageHead& head, const LoadedConfig& loaded, const PageData& data);
 

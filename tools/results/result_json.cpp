@@ -100,7 +100,9 @@ void add_result(Json& line, const pose_wall_result& r) {
   line["config_crc32"] = r.config_crc32;
 }
 
-Json result_json(const FrameOutcome& outcome) {
+}  // namespace
+
+Json result_as_json(const FrameOutcome& outcome) {
   Json line = {{"schema", kResultJsonSchema},
                {"frame", outcome.frame},
                {"source", outcome.source},
@@ -117,10 +119,8 @@ Json result_json(const FrameOutcome& outcome) {
   return line;
 }
 
-}  // namespace
-
 std::string result_json_line(const FrameOutcome& outcome) {
-  return json_text(result_json(outcome)) + '\n';
+  return json_text(result_as_json(outcome)) + '\n';
 }
 
 }  // namespace pose_wall::tools

@@ -7,12 +7,15 @@
 
 #include <string>
 
+#include "results/json_words.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools {
 
 // Raised when a member moves or changes its meaning; new members do not raise it.
 constexpr int kResultJsonSchema = 1;
+
+Json result_as_json(const FrameOutcome& outcome);
 
 // On one line, ending with a line break. Every frame has the same members: what is not a number, and all of a frame
 // that could not be read, is null.

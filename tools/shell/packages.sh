@@ -11,6 +11,21 @@ packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev li
 # Optional: what the command reads bags and captures with; a build without them says so when it meets one.
 # shellcheck disable=SC2034
 packages_to_read="liblz4-dev libzstd-dev libbz2-dev libsqlite3-dev libpcap-dev"
+# Optional: the edges of pose_walld; a build without them says so when one is asked for.
+# shellcheck disable=SC2034
+packages_to_live="libmodbus-dev libpaho-mqtt-dev libcpp-httplib-dev libssl-dev libbrotli-dev zlib1g-dev pkg-config
+  libroscpp-dev libtopic-tools-dev cyclonedds-dev cyclonedds-tools"
+# Peers of the edges that others wrote.
+# shellcheck disable=SC2034
+packages_to_test_live="python3-pymodbus python3-serial-asyncio mosquitto mosquitto-clients python3-rosmaster
+  python3-rospy python3-rosbag python3-rostopic python3-geometry-msgs python3-sensor-msgs python3-std-msgs
+  python3-tf2-msgs python3-diagnostic-msgs python3-genmsg ros-std-msgs ros-sensor-msgs ros-geometry-msgs
+  ros-diagnostic-msgs ros-tf2-msgs ros-nav-msgs libtf2-dev python3-roslaunch libfastrtps-dev libfastcdr-dev tshark
+  chromium chromium-driver nodejs"
+# For the tests of the package for Python.
+# shellcheck disable=SC2034
+packages_to_test_python="python3-numpy python3-yaml python3-matplotlib python3-pip python3-setuptools python3-wheel
+  python3-venv"
 # shellcheck disable=SC2034
 packages_to_test="libgtest-dev python3 pkg-config groff-base"
 packages_to_cross="cmake ninja-build libeigen3-dev g++-aarch64-linux-gnu qemu-user-static"
@@ -40,7 +55,8 @@ need_packages() {
     return
   fi
   for package in "$@"; do
-    if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null)" != installed ]; then
+    # A line for each architecture that has it.
+    if ! dpkg-query -W -f='${db:Status-Status}\n' "$package" 2> /dev/null | grep -qx installed; then
       missing="$missing $package"
     fi
   done
@@ -70,4 +86,17 @@ need_cmake() {
     echo "pose_wall needs CMake 3.25 or newer (Debian 12, Ubuntu 24.04); here is $version."
     exit 1
   fi
+}
+
+# The clients of tests/live/peer, from npm's registry, in build/node_modules. Where it cannot be reached, the tests that
+# need them are skipped, and say so.
+need_peers() {
+  if ! command -v npm > /dev/null; then
+    echo "There is no npm here: the tests with clients in JavaScript will be skipped"
+    return 0
+  fi
+  mkdir -p build
+  cp tests/live/peer/package.json tests/live/peer/package-lock.json build/
+  step "Getting the JavaScript clients" sh -c 'npm ci --prefix build --no-audit --no-fund ||
+    echo "npm has no registry here: the tests with clients in JavaScript will be skipped"'
 }

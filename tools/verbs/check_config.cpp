@@ -37,11 +37,23 @@ std::string range_text(const pose_wall_key_info& key) {
   }
 }
 
+std::string range_text(const LiveKeyInfo& key) {
+  using Type = LiveKeyInfo::Type;
+  if (key.type == Type::kNumber || key.type == Type::kInteger) {
+    return fmt::format("{:.9g} .. {:.9g}", key.minimum, key.maximum);
+  }
+  return key.type == Type::kText ? "" : allowed_text(key);
+}
+
 void print_values(const LoadedConfig& loaded) {
   TextTable table({"key", "value", "unit", "allowed", "from"});
   for (const pose_wall_key_info& key : config_keys()) {
     table.add_row(
         {key.name, config_written_text(*loaded.config.get(), key), key.unit, range_text(key), loaded.origin(key.name)});
+  }
+  for (const LiveKeyInfo& key : live_keys()) {
+    const std::string value = live_value_text(loaded.live, key);
+    table.add_row({key.name, value.empty() ? "''" : value, key.unit, range_text(key), loaded.origin(key.name)});
   }
   fmt::print("{}", table.text(5));
 }
@@ -61,18 +73,22 @@ void print_crc(const LoadedConfig& loaded) {
   fmt::print("settings' CRC: 16#{:08X} (dwConfigCrc of FB_PoseWall, config_crc32 of the process image)\n", crc);
 }
 
-// The manual of all keys, under the headings of the table.
+// The manual of all keys, under the headings of the tables.
 void print_keys() {
-  const char* kManualIndent = "    ";
-  const api::Config defaults;
   std::string group;
-  for (const pose_wall_key_info& key : config_keys()) {
+  const auto print = [&group](const auto& key, const std::string& usual) {
     if (group != key.group) {
       group = key.group;
       fmt::print("\n{}\n", group);
     }
-    fmt::print("  {}\n{}default {}; allowed: {}\n{}", key.name, kManualIndent,
-               config_written_text(*defaults.get(), key), allowed_text(key), wrapped(key.help, 4, 100));
+    fmt::print("  {}\n    default {}; allowed: {}\n{}", key.name, usual, allowed_text(key), wrapped(key.help, 4, 100));
+  };
+  const api::Config defaults;
+  for (const pose_wall_key_info& key : config_keys()) print(key, config_written_text(*defaults.get(), key));
+  const LiveSettings live_defaults;
+  for (const LiveKeyInfo& key : live_keys()) {
+    const std::string value = live_value_text(live_defaults, key);
+    print(key, value.empty() ? "''" : value);
   }
 }
 

@@ -41,6 +41,7 @@ class Viewer {
     this.recording = recording;
     this.shown = LAYERS.map(() => true);
     this.planes_shown = true;
+    this.boxes_shown = true;
     const again = () => this.draw(this.frame);
     this.top = new View(document.getElementById('top'), [{ axis: 0, sign: 1 }, { axis: 1, sign: 1 }], { centre: [0, 0], metres: [26, 12] }, again);
     this.section = new View(document.getElementById('section'), [{ axis: 1, sign: -1 }, { axis: 2, sign: 1 }], { centre: [0, 0.2], metres: [9, 6] }, again);
@@ -58,6 +59,7 @@ class Viewer {
     const { pen, width, height } = begin(view.canvas);
     this.draw_grid(pen, view, width, height);
     if (cloud >= 0) this.draw_points(pen, view, cloud, in_view);
+    if (this.boxes_shown) this.draw_boxes(pen, view);
     if (!this.planes_shown) return;
     this.draw_walls(pen, view);
     if (view === this.section) this.draw_floor(pen, view);
@@ -131,6 +133,26 @@ class Viewer {
     stroke(pen, corners.concat([corners[0]]), colour('machine'), 1.5);
     const nose = [0, 1].map((i) => (corners[0][i] + corners[1][i]) / 2);
     dot(pen, nose, 4, colour('machine'));
+  }
+
+  // A point of base as it is drawn, by the machine's outline, which is drawn in the same frame.
+  base_point([x, y, z]) {
+    const { forward, left, length_m, width_m } = this.recording.head.machine, corners = [0, 1, 2, 3].map((k) => this.machine_point(k));
+    const middle = (a, b) => [0, 1, 2].map((i) => (corners[a][i] + corners[b][i]) / 2), origin = [0, 1, 2].map((i) => (middle(0, 1)[i] + middle(2, 3)[i]) / 2);
+    const ahead = middle(0, 1).map((v, i) => (v - origin[i]) / (length_m / 2)), aside = middle(0, 3).map((v, i) => (v - origin[i]) / (width_m / 2));
+    const up = [0, 1, 2].map((i) => ahead[(i + 1) % 3] * aside[(i + 2) % 3] - ahead[(i + 2) % 3] * aside[(i + 1) % 3]);
+    const f = x * forward[0] + y * forward[1], l = x * left[0] + y * left[1];
+    return [0, 1, 2].map((i) => origin[i] + f * ahead[i] + l * aside[i] + z * up[i]);
+  }
+
+  // What is left out as the machine's own body: twelve edges a box.
+  draw_boxes(pen, view) {
+    for (const box of this.recording.head.body_boxes) {
+      const corner = (k) => view.place(this.base_point([box[k & 1], box[2 + (k >> 1 & 1)], box[4 + (k >> 2 & 1)]]));
+      for (let k = 0; k < 8; ++k) {
+        for (const bit of [1, 2, 4]) if (!(k & bit)) stroke(pen, [corner(k), corner(k | bit)], colour('dropped'), 1.2, [4, 3]);
+      }
+    }
   }
 
   draw_sensor(pen, view) { dot(pen, view.place(this.machine_point(4)), 4, colour('ink')); }

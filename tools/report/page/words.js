@@ -11,7 +11,7 @@ const WORDS = {
     subtitle: (r) => `${count(r.frames, 'frame')}, pose_wall ${r.head.version}` +
       (r.head.truth ? `, compared with ${r.head.truth}` : ''),
     interrupted: (r) => `Interrupted: ${r.frames} of ${r.head.inputs} frames are shown.`,
-    layers: ['other points', 'floor', 'left wall', 'right wall', 'dropped (range, body)'], planes: 'planes',
+    layers: ['other points', 'floor', 'left wall', 'right wall', 'dropped (range, body)'], planes: 'planes', boxes: 'body boxes',
     top_caption: 'From above, the road to the right; machine, planes and lines are drawn by raw, as this frame alone measured, and named so; what is held is named by its state. Thick: wall from first to last inlier. Wheel: zoom, drag: move, double click: back.',
     section_caption: 'Across the road at the machine (± 1.5 m), looking ahead; drawn by raw, too.',
     no_cloud: (f) => `The points shown are those of frame ${f}; planes and values are this frame's.`,
@@ -50,7 +50,7 @@ const WORDS = {
     other_language: 'English (EN)', theme: '深色 / 浅色', play: '▶ 播放', pause: '❚❚ 暂停',
     subtitle: (r) => `${r.frames} 帧，pose_wall ${r.head.version}` + (r.head.truth ? `，与 ${r.head.truth} 对比` : ''),
     interrupted: (r) => `处理被中断：显示 ${r.head.inputs} 帧中的 ${r.frames} 帧。`,
-    layers: ['其他点', '地面', '左墙', '右墙', '被滤除（距离、机身）'], planes: '平面',
+    layers: ['其他点', '地面', '左墙', '右墙', '被滤除（距离、机身）'], planes: '平面', boxes: '机身滤除框',
     top_caption: '俯视图，巷道方向向右；机器、平面与连线按原始值（仅本帧测得）绘制并注明，保持的值注明其状态。粗线：墙面首末内点之间。滚轮缩放，拖动平移，双击复位。',
     section_caption: '机身处横断面（± 1.5 m），面向前方；同样按原始值绘制。',
     no_cloud: (f) => `图中点云为第 ${f} 帧；平面与数值为当前帧。`,

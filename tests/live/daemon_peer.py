@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""pose_walld as the service manager and people at the terminal meet it: starts before its sensor, survives its loss and
+a restart of either side, stops within a second, tells what is wrong with words or settings; what is recorded is
+readable after a kill at any moment.
+
+usage: daemon_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR"""
+
+import os
+import pathlib
+import random
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+ROOT, POSE_WALL, POSE_WALLD, SENSOR = (pathlib.Path(sys.argv.pop(1)) for _ in range(4))
+sys.path[:0] = [str(ROOT / "tests/live")]
+
+import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+
+
+def fact(program, part, name):
+    """The newest count of a part, as the log's status lines tell it."""
+    for line in reversed(list(program.lines)):
+        if f" {part}" in line and f"; {name} " in line:
+            return int(line.split(f"; {name} ")[1].split(";")[0])
+    return -1
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def start(self, *words, **options):
+        program = live_peer.Program(*words, **options)
+        self.addCleanup(program.kill)
+        return program
+
+
+class Sensor(Folder):
+    def sensor(self, port, *more):
+        return self.start(SENSOR, "--sensor", "vlp16", "--frames", "6", "--to", f"127.0.0.1:{port}", "--config-to",
+                          self.folder / "sensor.yaml", *more)
+
+    def test_starts_before_the_sensor_and_survives_restarts_of_either_side(self):
+        port = live_peer.free_port(socket.SOCK_DGRAM)
+        daemon_words = [POSE_WALLD, "--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={port}", "--set",
+                        "status_every_s=1"]
+        daemon = self.start(*daemon_words)
+        self.assertTrue(daemon.says("waits for the sensor: no packet yet"), daemon.log())
+        first = self.sensor(port)
+        self.assertTrue(daemon.says("runtime: measures"), daemon.log())
+        first.kill()
+        self.assertTrue(daemon.says("the sensor is silent"), daemon.log())
+        second = self.sensor(port)
+        self.assertTrue(live_peer.becomes_true(lambda: fact(daemon, "source udp", "silences") == 1), daemon.log())
+        newest = lambda: [line for line in daemon.lines if " source udp" in line][-1]
+        self.assertTrue(live_peer.becomes_true(lambda: "receives" in newest()))
+        daemon.kill()
+        again = self.start(*daemon_words)
+        self.assertTrue(again.says("runtime: measures"), again.log())
+        self.assertLess(again.stop(), 2)
+        self.assertEqual(again.process.returncode, 0)
+        self.assertIsNone(second.process.poll(), "the sensor cares for nobody")
+
+    def test_nothing_is_lost_unaccounted_for(self):
+        port = live_peer.free_port(socket.SOCK_DGRAM)
+        daemon = self.start(POSE_WALLD, "--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={port}", "--set",
+                            "status_every_s=1")
+        self.assertTrue(daemon.says("listens"))
+        sensor = self.sensor(port, "--seconds", "5")
+        self.assertEqual(sensor.process.wait(60), 0)
+        self.assertTrue(daemon.says("the sensor is silent"))
+        daemon.stop()
+        frames, pushed = fact(daemon, "source udp", "frames"), fact(daemon, "runtime", "frames pushed")
+        self.assertEqual(frames, 49, "of fifty turns the last has no end")
+        self.assertEqual(pushed, frames)
+        self.assertEqual(fact(daemon, "source udp", "packets"), 50 * 75)
+
+
+class Words(Folder):
+    def refused(self, words, status, *needles):
+        done = subprocess.run([str(POSE_WALLD), *map(str, words)], capture_output=True, text=True, timeout=30,
+                              check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        for needle in needles:
+            self.assertIn(needle, done.stderr)
+
+    def test_what_is_wrong_is_named(self):
+        self.refused(["--set", "modbsu=127.0.0.1:502"], 2, "unknown key 'modbsu'; did you mean 'modbus'?")
+        self.refused(["--http", "8080"], 2, "http: '8080' is refused; allowed: HOST:PORT")
+        self.refused(["--config", self.folder / "none.yaml"], 2, "none.yaml: cannot be opened")
+        self.refused(["--replay", self.folder / "none.pcd"], 1, "none.pcd: is not there")
+        self.refused(["--speed", "2"], 2, "--replay")
+        self.refused(["--set", "udp_address=192.0.2.1"], 1, "udp_address 192.0.2.1")
+        blocked = self.folder / "file"
+        blocked.write_text("")
+        self.refused(["--set", f"recording={blocked}/x"], 1, f"{blocked}/x: ")
+        self.refused(["--set", f"black_box={blocked}/x"], 1, f"{blocked}/x: ")
+
+    def test_help_and_version(self):
+        for words in (["--help"], ["--version"]):
+            done = subprocess.run([str(POSE_WALLD), *words], capture_output=True, text=True, check=True)
+            self.assertIn("pose_walld", done.stdout)
+
+
+class Service(Folder):
+    def test_tells_the_service_manager(self):
+        place = str(self.folder / "notify")
+        manager = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        self.addCleanup(manager.close)
+        manager.bind(place)
+        manager.settimeout(live_peer.PATIENCE_S)
+        daemon = self.start(POSE_WALLD, "--set", f"udp_port={live_peer.free_port(socket.SOCK_DGRAM)}",
+                            env=os.environ | {"NOTIFY_SOCKET": place, "WATCHDOG_USEC": "200000"})
+        told = [manager.recv(1000) for _ in range(4)]
+        self.assertIn(b"READY=1", told)
+        self.assertGreaterEqual(told.count(b"WATCHDOG=1"), 2)
+        for stop in (signal.SIGTERM,):
+            daemon.process.send_signal(stop)
+        self.assertEqual(daemon.process.wait(5), 0)
+        manager.setblocking(False)
+        rest = []
+        try:
+            while True:
+                rest.append(manager.recv(1000))
+        except BlockingIOError:
+            pass
+        self.assertIn(b"STOPPING=1", rest)
+
+    def test_stops_by_every_usual_signal(self):
+        for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            daemon = self.start(POSE_WALLD, "--set", f"udp_port={live_peer.free_port(socket.SOCK_DGRAM)}")
+            self.assertTrue(daemon.says("listens"))
+            daemon.process.send_signal(stop)
+            self.assertEqual(daemon.process.wait(3), 0, stop)
+
+    def test_the_unit_file_is_sound(self):
+        if not shutil.which("systemd-analyze"):
+            self.skipTest("no systemd-analyze here (package systemd)")
+        unit = self.folder / "pose_walld.service"
+        text = (ROOT / "tools/live/pose_walld.service").read_text(encoding="utf-8")
+        unit.write_text(text.replace("/usr/bin/pose_walld", str(POSE_WALLD)), encoding="utf-8")
+        done = subprocess.run(["systemd-analyze", "verify", str(unit)], capture_output=True, text=True, check=False)
+        self.assertNotIn("Unknown", done.stderr)
+        self.assertNotIn("Failed to parse", done.stderr)
+
+
+class Recordings(Folder):
+    def test_are_readable_after_a_kill_at_any_moment(self):
+        road = live_peer.simulated_road(POSE_WALL)
+        random_s = random.Random(11)
+        for turn in range(4):
+            recording, box = self.folder / f"rec{turn}", self.folder / f"box{turn}"
+            daemon = self.start(*live_peer.replay_words(
+                POSE_WALLD, road, "--set", f"recording={recording}", "--set", "recording_clouds=1", "--set",
+                "recording_mb=100", "--set", f"black_box={box}", "--set", "black_box_mb=200"))
+            self.assertTrue(daemon.says("runtime: measures"), daemon.log())
+            time.sleep(1.5 + random_s.random())
+            daemon.process.kill()
+            daemon.process.wait()
+            measured = 0
+            for file in sorted(recording.glob("*.mcap")):
+                subprocess.run([str(POSE_WALL), "run", "--config", str(road / "pose_wall.yaml"), str(file), "--output",
+                                str(self.folder / "out.csv")], capture_output=True, text=True, check=False)
+                rows = (self.folder / "out.csv").read_text(encoding="utf-8").splitlines()[1:]
+                measured += sum(",unreadable," not in row for row in rows)
+            self.assertGreater(measured, 8, "all but the chunk that was being gathered")
+            for file in box.glob("*.box"):
+                done = subprocess.run([str(POSE_WALL), "replay-box", str(file)], capture_output=True, text=True,
+                                      check=False)
+                self.assertIn(" 0 otherwise", done.stdout, done.stderr)
+                self.assertGreater(int(done.stdout.split(" bit for bit")[0].split()[-1]), 8, done.stdout)
+
+    def test_take_no_more_than_their_room(self):
+        road = live_peer.simulated_road(POSE_WALL)
+        recording = self.folder / "rec"
+        words = live_peer.replay_words(POSE_WALLD, road, "--speed", "4", "--set", f"recording={recording}", "--set",
+                                       "recording_clouds=1", "--set", "recording_mb=40")
+        daemon = self.start(*words)
+        self.assertTrue(live_peer.becomes_true(lambda: len(list(recording.glob("*.mcap"))) > 3))
+        self.assertTrue(live_peer.becomes_true(lambda: not list(recording.glob("000001_*"))), "the oldest goes first")
+        self.assertLess(sum(file.stat().st_size for file in recording.glob("*.mcap")), 48e6)
+        self.assertLess(daemon.stop(), 2)
+        last = sorted(recording.glob("*.mcap"))[-1]
+        done = subprocess.run([str(POSE_WALL), "info", str(last)], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), "what was stopped cleanly has its footer")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""For the tests that look at pose_walld from outside: starts it, waits for what it logs, finds free ports."""
+
+import contextlib
+import os
+import pathlib
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+
+PATIENCE_S = 30  # long enough for the slowest machine; what is waited for comes far sooner
+
+
+def free_port(kind=socket.SOCK_STREAM):
+    with socket.socket(socket.AF_INET, kind) as found:
+        found.bind(("127.0.0.1", 0))
+        return found.getsockname()[1]
+
+
+def becomes_true(condition, patience_s=PATIENCE_S):
+    until = time.monotonic() + patience_s
+    while time.monotonic() < until:
+        if condition():
+            return True
+        time.sleep(0.02)
+    return False
+
+
+class Program:
+    """A program that runs while the test does; its log is read as it comes."""
+
+    def __init__(self, *words, **options):
+        self.process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                        text=True, **options)
+        self.lines = []
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            self.lines.append(line.rstrip("\n"))
+
+    def says(self, text, patience_s=PATIENCE_S):
+        return becomes_true(lambda: any(text in line for line in list(self.lines)), patience_s)
+
+    def log(self):
+        return "\n".join(self.lines[-60:])
+
+    def stop(self, patience_s=PATIENCE_S):
+        """Asks it to end; how many seconds that took."""
+        begin = time.monotonic()
+        if self.process.poll() is None:
+            self.process.terminate()
+        self.process.wait(patience_s)
+        self.reader.join(patience_s)
+        return time.monotonic() - begin
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        self.reader.join()
+
+
+@contextlib.contextmanager
+def running(*words, **options):
+    program = Program(*words, **options)
+    try:
+        yield program
+    finally:
+        program.kill()
+
+
+def simulated_road(pose_wall, frames=20, sensor="os1-64"):
+    """A folder with frames and the settings that fit them; made once a build."""
+    folder = pathlib.Path(pose_wall).parent / "live_roads" / f"{sensor}_{frames}"
+    if not (folder / "pose_wall.yaml").exists():
+        folder.parent.mkdir(exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder.parent) as making:
+            made = pathlib.Path(making) / "road"
+            subprocess.run([str(pose_wall), "sim", "--scene", "nominal", "--sensor", sensor, "--frames", str(frames),
+                            "--output", str(made)], check=True, capture_output=True)
+            with contextlib.suppress(OSError):  # another test was quicker
+                os.rename(made, folder)
+    return folder
+
+
+def replay_words(pose_walld, road, *more):
+    return [pose_walld, "--config", road / "pose_wall.yaml", "--replay", road / "frames", "--repeat", *more]

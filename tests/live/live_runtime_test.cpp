@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: each result comes with the very frame that it measures, with its stamp and labelled points; with the
+// extrinsic from tf nothing is measured before it is known, it is measured anew when it changes and no more when it is
+// gone; images can be asked for at any time; a recording played as fast as possible loses nothing.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "live/edges.hpp"
+#include "live/frame_catcher.hpp"
+#include "live/live_runtime.hpp"
+#include "tools/test_files.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using pose_wall::test::becomes_true;
+using pose_wall::test::fact;
+using pose_wall::test::FrameCatcher;
+
+// A road 5 m wide and 3.2 m high, seen from 1.2 m above its floor.
+LiveFrame road_frame(std::int64_t stamp_ns, float aside_m = 0.0F) {
+  std::vector<std::array<float, 4>> points;
+  for (int ring = 0; ring < 64; ++ring) {
+    for (int column = 0; column < 1024; ++column) {
+      const double elevation = (-45.0 + 90.0 * ring / 63.0) * M_PI / 180.0, azimuth = 2.0 * M_PI * column / 1024;
+      const double x = std::cos(elevation) * std::cos(azimuth), y = std::cos(elevation) * std::sin(azimuth);
+      const double z = std::sin(elevation);
+      const double to_side =
+          y > 0 ? (2.5 - static_cast<double>(aside_m)) / y : (2.5 + static_cast<double>(aside_m)) / -y;
+      const double range = std::min(to_side, z > 0 ? 2.0 / z : z < 0 ? 1.2 / -z : 1e9);
+      if (range > 25.0) continue;
+      points.push_back(
+          {static_cast<float>(range * x), static_cast<float>(range * y), static_cast<float>(range * z), 9});
+    }
+  }
+  Bytes bytes(points.size() * sizeof points[0]);
+  std::memcpy(bytes.data(), points.data(), bytes.size());
+  PointLayout layout;
+  layout.count = static_cast<std::uint32_t>(points.size());
+  layout.point_step = sizeof points[0];
+  layout.fields = {
+      {"x", {0, POSE_WALL_FIELD_FLOAT32}}, {"y", {4, POSE_WALL_FIELD_FLOAT32}}, {"z", {8, POSE_WALL_FIELD_FLOAT32}}};
+  LiveFrame frame;
+  frame.frame = describe_frame(std::move(bytes), layout);
+  frame.stamp_ns = stamp_ns + 7;
+  frame.frame.cloud.stamp_ns = stamp_ns;
+  return frame;
+}
+
+class Collected {
+ public:
+  void add(const std::shared_ptr<const LiveResult>& result) {
+    const std::lock_guard<std::mutex> locked(lock_);
+    results_.push_back(result);
+  }
+  // Of frames, not of silence.
+  std::vector<std::shared_ptr<const LiveResult>> measured() const {
+    const std::lock_guard<std::mutex> locked(lock_);
+    std::vector<std::shared_ptr<const LiveResult>> frames;
+    for (const auto& result : results_) {
+      if (result->publication.cause == POSE_WALL_RUNTIME_FRAME) frames.push_back(result);
+    }
+    return frames;
+  }
+
+ private:
+  mutable std::mutex lock_;
+  std::vector<std::shared_ptr<const LiveResult>> results_;
+};
+
+class LiveRuntimeTest : public ::testing::Test {
+ protected:
+  void open(const std::vector<std::string>& settings, bool wants_points = false) {
+    runtime_ = std::make_unique<LiveRuntime>(
+        load_config("", settings), [] { return BlackBox{}; },
+        [this](const std::shared_ptr<const LiveResult>& result) { collected_.add(result); },
+        [wants_points] { return wants_points; });
+    runtime_->start();
+  }
+
+  Collected collected_;
+  std::unique_ptr<LiveRuntime> runtime_;
+};
+
+TEST_F(LiveRuntimeTest, EachResultComesWithItsFrame) {
+  open({}, true);
+  for (int i = 0; i < 10; ++i) {
+    runtime_->take(road_frame(i * 100'000'000, 0.01F * static_cast<float>(i)));  // repeats would be a frozen sensor's
+    runtime_->wait_idle();
+  }
+  runtime_->stop();
+  const auto results = collected_.measured();
+  ASSERT_EQ(results.size(), 10U);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const LiveResult& result = *results[i];
+    ASSERT_TRUE(result.frame);
+    EXPECT_EQ(result.publication.result.stamp_ns, static_cast<std::int64_t>(i) * 100'000'000);
+    EXPECT_EQ(result.frame->stamp_ns, result.publication.result.stamp_ns + 7) << "the header's stamp goes along";
+    EXPECT_EQ(result.frame->frame_id, "lidar") << "lidar_frame, where the source has none";
+    EXPECT_EQ(result.publication.result.quantity[POSE_WALL_YAW].state, POSE_WALL_VALID);
+    ASSERT_TRUE(result.points);
+    EXPECT_EQ(result.points->label.size(), result.points->x_base_m.size());
+    EXPECT_GT(std::count(result.points->label.begin(), result.points->label.end(), POSE_WALL_LABEL_LEFT), 500);
+  }
+}
+
+TEST_F(LiveRuntimeTest, NobodyWantsPointsNobodyGetsThem) {
+  open({});
+  runtime_->take(road_frame(0));
+  runtime_->wait_idle();
+  runtime_->stop();
+  ASSERT_EQ(collected_.measured().size(), 1U);
+  EXPECT_FALSE(collected_.measured()[0]->points);
+}
+
+TEST_F(LiveRuntimeTest, NothingIsMeasuredBeforeTheTransformIsKnownAndAfterItIsGone) {
+  open({"source=ros1", "extrinsic_from=tf"});
+  runtime_->take(road_frame(0));
+  EXPECT_EQ(fact(runtime_->health(), "dropped, no transform yet"), "1");
+  EXPECT_NE(runtime_->health().summary.find("waits for the transform"), std::string::npos);
+
+  Extrinsic extrinsic;
+  extrinsic.y_m = 0.5;
+  runtime_->set_extrinsic(extrinsic);
+  runtime_->take(road_frame(100'000'000));
+  runtime_->wait_idle();
+  runtime_->set_extrinsic(extrinsic);
+  EXPECT_EQ(fact(runtime_->health(), "opened"), "2") << "the same transform again changes nothing";
+
+  extrinsic.y_m = -0.5;
+  runtime_->set_extrinsic(extrinsic);
+  runtime_->take(road_frame(200'000'000));
+  runtime_->wait_idle();
+  runtime_->set_extrinsic(std::nullopt);
+  runtime_->take(road_frame(300'000'000));
+  runtime_->stop();
+
+  const auto results = collected_.measured();
+  ASSERT_EQ(results.size(), 2U);
+  const auto d_lf = [&](std::size_t i) { return results[i]->publication.result.quantity[POSE_WALL_D_LF].value; };
+  EXPECT_NEAR(d_lf(0), 3.0, 0.01) << "base is half a metre to the right of the sensor";
+  EXPECT_NEAR(d_lf(1), 2.0, 0.01);
+  EXPECT_EQ(fact(runtime_->health(), "dropped, no transform yet"), "2");
+}
+
+TEST_F(LiveRuntimeTest, ATransformOutOfRangeIsRefusedAndNothingIsMeasured) {
+  open({"source=ros1", "extrinsic_from=tf"});
+  Extrinsic far;
+  far.x_m = 1e6;
+  runtime_->set_extrinsic(far);
+  runtime_->take(road_frame(0));
+  runtime_->stop();
+  EXPECT_TRUE(collected_.measured().empty());
+}
+
+TEST_F(LiveRuntimeTest, WithTheExtrinsicOfTheConfigTfChangesNothing) {
+  open({"extrinsic_y=0.5"});
+  runtime_->set_extrinsic(Extrinsic{});
+  runtime_->take(road_frame(0));
+  runtime_->wait_idle();
+  runtime_->stop();
+  EXPECT_NEAR(collected_.measured().at(0)->publication.result.quantity[POSE_WALL_D_LF].value, 3.0, 0.01);
+}
+
+TEST_F(LiveRuntimeTest, ImagesAreSoundBeforeWhileAndAfterItRuns) {
+  open({});
+  EXPECT_EQ(runtime_->image().verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+  runtime_->take(road_frame(0));
+  runtime_->wait_idle();
+  EXPECT_EQ(runtime_->image().verdict, static_cast<std::uint32_t>(POSE_WALL_VALID));
+  runtime_->stop();
+  EXPECT_EQ(runtime_->image().verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+  EXPECT_EQ(runtime_->image2().struct_size, sizeof(pose_wall_image2));
+}
+
+TEST_F(LiveRuntimeTest, ACloudThatIsTooLargeIsNamed) {
+  open({"frame_points_max=1000"});
+  runtime_->take(road_frame(0));
+  runtime_->stop();
+  EXPECT_EQ(fact(runtime_->health(), "last refusal"), pose_wall_runtime_status_text(POSE_WALL_RUNTIME_E_LARGE));
+}
+
+class Replay : public ::testing::Test {
+ protected:
+  // Ascii frames of three points, named by their stamps.
+  std::string folder_with(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      folder_.write(name,
+                    "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\n"
+                    "DATA ascii\n1 2 3\n");
+    }
+    return folder_.path();
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(Replay, AtSpeedZeroWaitsForEachFrameAndEnds) {
+  ReplayPlan plan;
+  plan.inputs = {folder_with({"a0.pcd", "a1.pcd", "a2.pcd"})};
+  plan.speed = 0.0;
+  const auto source = make_replay_source(plan);
+  FrameCatcher catcher;
+  source->start(catcher);
+  ASSERT_TRUE(becomes_true([&] { return source->is_finished(); }));
+  source->stop();
+  EXPECT_EQ(catcher.frames().size(), 3U);
+  EXPECT_GE(catcher.idle_waits(), 3U);
+}
+
+TEST_F(Replay, RepeatedGoesOnInTime) {
+  ReplayPlan plan;
+  plan.inputs = {folder_with({"a0.pcd", "a1.pcd", "a2.pcd"})};
+  plan.speed = 1000.0;
+  plan.repeat = true;
+  const auto source = make_replay_source(plan);
+  FrameCatcher catcher;
+  source->start(catcher);
+  ASSERT_TRUE(catcher.wait_for_frames(8));
+  source->stop();
+  EXPECT_FALSE(source->is_finished() && catcher.frames().size() < 8);
+  for (std::size_t i = 1; i < catcher.frames().size(); ++i) {
+    EXPECT_GT(catcher.frames()[i].stamp_ns, catcher.frames()[i - 1].stamp_ns) << i;
+  }
+}
+
+TEST_F(Replay, WhatCannotBeReadIsNamedAndTheRestIsPlayed) {
+  ReplayPlan plan;
+  plan.inputs = {folder_with({"a0.pcd", "a1.pcd"})};
+  folder_.write("a2.pcd", "no cloud");
+  plan.speed = 0.0;
+  const auto source = make_replay_source(plan);
+  FrameCatcher catcher;
+  source->start(catcher);
+  ASSERT_TRUE(becomes_true([&] { return source->is_finished(); }));
+  EXPECT_EQ(catcher.frames().size(), 2U);
+  EXPECT_EQ(fact(source->health(), "unreadable"), "1");
+  plan.inputs = {"/nowhere"};
+  EXPECT_THROW(make_replay_source(plan), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: keys of pose_walld stand in the same file and have the same errors as the engine's: place, value, what is
+// allowed, and the nearest name; the written form of each default reads back.
+
+#include <gtest/gtest.h>
+
+#include "config_file/load_config.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+std::string fault_of(const std::string& setting) {
+  try {
+    load_config("", {setting});
+  } catch (const ConfigError& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(LiveSettings, AreRefusedWithWhatIsAllowed) {
+  EXPECT_EQ(fault_of("source=usb"), "--set: source: 'usb' is refused; allowed: one of udp, ros1, ros2");
+  EXPECT_EQ(fault_of("udp_port=65536"), "--set: udp_port: '65536' is refused; allowed: a whole number from 0 to 65535");
+  for (const char* wrong : {"udp_port=1.5", "udp_port=", "udp_port=x", "udp_port=nan", "ros1=yes", "ros1=2",
+                            "black_box_mb=0.5", "status_every_s=1e9", "http=8080", "http=:80", "http=a:0", "modbus=a:b",
+                            "mqtt=::1:1883", "modbus=a:65536", "http=[]:80"}) {
+    EXPECT_NE(fault_of(wrong).find("is refused; allowed: "), std::string::npos) << wrong;
+  }
+  EXPECT_NE(fault_of("modbsu=127.0.0.1:502").find("did you mean 'modbus'?"), std::string::npos);
+  EXPECT_NE(fault_of("extrinsic_from=tf").find("source (default) must be ros1 or ros2"), std::string::npos);
+}
+
+TEST(LiveSettings, AreTakenWithTheirOrigin) {
+  const LoadedConfig loaded = load_config("", {"http=[::1]:8080", "udp_port=7502", "ros1=1", "source=ros1",
+                                               "extrinsic_from=tf", "black_box=/var/lib/pose_wall/box"});
+  EXPECT_EQ(loaded.live.http, "[::1]:8080");
+  EXPECT_EQ(loaded.live.udp_port, 7502);
+  EXPECT_TRUE(loaded.live.ros1);
+  EXPECT_EQ(loaded.live.black_box, "/var/lib/pose_wall/box");
+  EXPECT_EQ(loaded.origin("http"), "--set");
+  EXPECT_EQ(loaded.origin("modbus"), "default");
+}
+
+TEST(LiveSettings, EveryDefaultReadsBack) {
+  const LiveSettings defaults;
+  EXPECT_GT(live_keys().size(), 15U);
+  for (const LiveKeyInfo& key : live_keys()) {
+    LiveSettings changed;
+    const std::string written = live_value_text(defaults, key);
+    EXPECT_TRUE(set_live_value(&changed, key, written)) << key.name;
+    EXPECT_EQ(live_value_text(changed, key), written) << key.name;
+  }
+}
+
+TEST(HostPort, IsReadOrRefused) {
+  const std::optional<HostPort> six = parse_host_port("[fe80::1]:502");
+  ASSERT_TRUE(six);
+  EXPECT_EQ(six->host, "fe80::1");
+  EXPECT_EQ(six->port, 502);
+  EXPECT_EQ(parse_host_port("localhost:1")->host, "localhost");
+  for (const char* wrong : {"", "a", "a:", ":1", "a:-1", "a:1x", "fe80::1:502", "[:1"}) {
+    EXPECT_FALSE(parse_host_port(wrong)) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

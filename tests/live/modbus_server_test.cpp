@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves, byte for byte: registers are the words of the image of that moment, low word of a number first; each wrong
+// request has its exception; requests that come in parts, in rows or beside garbage get the answers they would have got
+// alone; a client that is turned away makes room; the port is free after a stop.
+// Does not prove: what clients of others make of it, modbus_peer.py.
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "live/edges.hpp"
+#include "live/frame_catcher.hpp"
+#include "live/loopback.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using pose_wall::test::fact;
+using pose_wall::test::kPatience;
+using Text = std::string;
+
+// Images whose every byte tells which image it is of.
+class CountingImages final : public Images {
+ public:
+  pose_wall_image image() const override { return filled<pose_wall_image>(0); }
+  pose_wall_image2 image2() const override { return filled<pose_wall_image2>(0x80); }
+
+ private:
+  template <typename Image>
+  Image filled(unsigned first) const {
+    Image image{};
+    std::memset(&image, static_cast<int>(first + asked_++ % 100), sizeof image);
+    const unsigned char known[] = {0x11, 0x22, 0x33, 0x44};  // 0x44332211
+    std::memcpy(&image, known, sizeof known);
+    return image;
+  }
+  mutable std::atomic<unsigned> asked_{0};
+};
+
+class Client {
+ public:
+  explicit Client(std::uint16_t port) : file_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    const timeval patience{kPatience.count(), 0};
+    setsockopt(file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(port);
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    is_there_ = connect(file_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+  }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+  ~Client() { close(file_); }
+
+  bool is_there() const { return is_there_; }
+  bool send(const Text& bytes) const {
+    return ::send(file_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+  }
+  // Fewer where the server closes.
+  Text take(std::size_t count) const {
+    Text bytes(count, '\0');
+    std::size_t got = 0;
+    while (got < count) {
+      const ssize_t part = recv(file_, bytes.data() + got, count - got, 0);
+      if (part <= 0) break;
+      got += static_cast<std::size_t>(part);
+    }
+    return bytes.substr(0, got);
+  }
+  Text ask(const Text& request, std::size_t answer_bytes) const { return send(request) ? take(answer_bytes) : Text(); }
+
+ private:
+  int file_;
+  bool is_there_ = false;
+};
+
+Text word(unsigned number) {
+  return {static_cast<char>(number >> 8U), static_cast<char>(number & 0xFFU)};
+}
+
+// An ADU: transaction, protocol 0, length, unit, the rest.
+Text adu(unsigned transaction, const Text& pdu, char unit = 1) {
+  return word(transaction) + word(0) + word(static_cast<unsigned>(pdu.size()) + 1) + unit + pdu;
+}
+Text read_request(unsigned transaction, unsigned first, unsigned count) {
+  return adu(transaction, Text("\x04") + word(first) + word(count));
+}
+Text exception(unsigned transaction, unsigned function, char code) {
+  return adu(transaction, Text{static_cast<char>(function | 0x80U), code});
+}
+constexpr std::size_t kExceptionBytes = 9;
+constexpr std::size_t answer_bytes(std::size_t registers) {
+  return 9 + 2 * registers;
+}
+
+class ModbusServerTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      server_ = make(port_);
+    } catch (const EdgeMissing& missing) {
+      GTEST_SKIP() << missing.what();
+    }
+    server_->start();
+  }
+  void TearDown() override {
+    if (server_) server_->stop();
+  }
+  std::unique_ptr<Sink> make(std::uint16_t port) const {
+    return make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_);
+  }
+  Text alone(const Text& request, std::size_t bytes) const { return Client(port_).ask(request, bytes); }
+
+  const std::uint16_t port_ = pose_wall::test::free_tcp_port();
+  CountingImages images_;
+  std::unique_ptr<Sink> server_;
+};
+
+TEST_F(ModbusServerTest, ARegisterIsAWordOfTheImageTheLowOneFirst) {
+  // 0x44332211 lies in memory as 11 22 33 44: register 0 is 0x2211, register 1 is 0x4433; on the wire high byte first.
+  EXPECT_EQ(alone(read_request(7, 0, 2), answer_bytes(2)), adu(7, Text("\x04\x04\x22\x11\x44\x33")));
+  EXPECT_EQ(alone(read_request(0xABCD, 1000, 2), answer_bytes(2)), adu(0xABCD, Text("\x04\x04\x22\x11\x44\x33")));
+  EXPECT_EQ(alone(read_request(8, 1, 1), answer_bytes(1)), adu(8, Text("\x04\x02\x44\x33")));
+}
+
+TEST_F(ModbusServerTest, OneReadIsOneImageAndEachIsNew) {
+  const Client client(port_);
+  std::set<char> seen;
+  for (unsigned i = 0; i < 50; ++i) {
+    const unsigned first = i % 2 == 0 ? 0 : 1000;
+    const std::size_t registers = first == 0 ? 120 : 124;
+    const Text answer = client.ask(read_request(i, first, static_cast<unsigned>(registers)), answer_bytes(registers));
+    ASSERT_EQ(answer.size(), answer_bytes(registers));
+    const Text rest = answer.substr(13);
+    EXPECT_EQ(rest, Text(rest.size(), rest[0])) << "of one image";
+    seen.insert(rest[0]);
+  }
+  EXPECT_EQ(seen.size(), 50U) << "asked for at every request";
+}
+
+TEST_F(ModbusServerTest, EachWrongRequestHasItsException) {
+  constexpr char kFunction = 1, kAddress = 2, kValue = 3;
+  for (const auto& [first, count] : {std::pair(1U, 120U),
+                                     {120U, 1U},
+                                     {119U, 2U},
+                                     {999U, 1U},
+                                     {999U, 2U},
+                                     {1000U, 125U},
+                                     {1124U, 1U},
+                                     {1123U, 2U},
+                                     {65535U, 1U},
+                                     {65535U, 125U}}) {
+    EXPECT_EQ(alone(read_request(3, first, count), kExceptionBytes), exception(3, 4, kAddress))
+        << first << " " << count;
+  }
+  for (const unsigned count : {0U, 126U, 256U, 65535U}) {
+    EXPECT_EQ(alone(read_request(3, 0, count), kExceptionBytes), exception(3, 4, kValue)) << count;
+    EXPECT_EQ(alone(read_request(3, 1000, count), kExceptionBytes), exception(3, 4, kValue)) << count;
+  }
+  for (unsigned function = 1; function < 128; ++function) {
+    if (function == 4) continue;
+    const Text pdu = Text(1, static_cast<char>(function)) + word(0) + word(1);
+    EXPECT_EQ(alone(adu(9, pdu), kExceptionBytes), exception(9, function, kFunction)) << function;
+  }
+  EXPECT_EQ(alone(adu(5, Text("\x04")), kExceptionBytes), exception(5, 4, kValue)) << "no address";
+  EXPECT_EQ(alone(adu(5, Text("\x04") + word(0) + word(1) + "x"), kExceptionBytes), exception(5, 4, kValue)) << "more";
+}
+
+TEST_F(ModbusServerTest, RequestsByTheByteAndInARowAreAnsweredAsAlone) {
+  const Client by_byte(port_);
+  for (const char byte : read_request(1, 0, 2)) ASSERT_TRUE(by_byte.send(Text(1, byte)));
+  EXPECT_EQ(by_byte.take(answer_bytes(2)), adu(1, Text("\x04\x04\x22\x11\x44\x33")));
+
+  Text row, expected;
+  for (unsigned i = 0; i < 200; ++i) {
+    const bool is_wrong = i % 3 == 0;
+    row += read_request(i, 0, is_wrong ? 126 : 2);
+    expected += is_wrong ? exception(i, 4, 3) : adu(i, Text("\x04\x04\x22\x11\x44\x33"));
+  }
+  EXPECT_EQ(Client(port_).ask(row, expected.size()), expected) << "a wrong one costs those behind it nothing";
+}
+
+TEST_F(ModbusServerTest, WhatIsNoModbusIsClosed) {
+  const std::string wrong[] = {"GET / HTTP/1.1\r\n\r\n",
+                               word(1) + word(1) + word(6) + "\x01\x04" + word(0) + word(2),  // another protocol
+                               word(1) + word(0) + word(0) + "\x01",                          // no unit
+                               word(1) + word(0) + word(1) + "\x01\x04",                      // no function
+                               word(1) + word(0) + word(255) + Text(255, '\x04'),             // longer than an ADU
+                               word(1) + word(0) + word(65535) + Text(300, '\x04')};
+  for (const std::string& bytes : wrong) {
+    Client client(port_);
+    ASSERT_TRUE(client.send(bytes));
+    EXPECT_EQ(client.take(1), "") << ::testing::PrintToString(bytes.substr(0, 8));
+  }
+  EXPECT_EQ(fact(server_->health(), "connections of no Modbus"), std::to_string(std::size(wrong)));
+  EXPECT_EQ(fact(server_->health(), "requests"), "0");
+}
+
+TEST_F(ModbusServerTest, RandomBytesLeaveItServing) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 300; ++round) {
+    Text bytes = round % 2 == 0 ? Text() : word(1) + word(0) + word(static_cast<unsigned>(random() % 300));
+    while (bytes.size() < 40 + random() % 300) bytes += static_cast<char>(random());
+    static_cast<void>(Client(port_).send(bytes));
+  }
+  EXPECT_EQ(alone(read_request(7, 0, 2), answer_bytes(2)), adu(7, Text("\x04\x04\x22\x11\x44\x33")));
+}
+
+TEST_F(ModbusServerTest, HalfARequestHoldsUpNobody) {
+  const Client half(port_), other(port_);
+  const Text request = read_request(1, 0, 2);
+  ASSERT_TRUE(half.send(request.substr(0, 9)));
+  for (unsigned i = 0; i < 20; ++i)
+    EXPECT_EQ(other.ask(read_request(i, 0, 2), answer_bytes(2)).size(), answer_bytes(2));
+  EXPECT_EQ(half.ask(request.substr(9), answer_bytes(2)), adu(1, Text("\x04\x04\x22\x11\x44\x33")));
+}
+
+TEST_F(ModbusServerTest, OneThatTakesNoAnswersIsClosedAndHoldsUpNobody) {
+  const Client greedy(port_), other(port_);
+  Text row;
+  for (unsigned i = 0; i < 2000; ++i) row += read_request(i, 0, 120);
+  // As many as it takes until its answers, which nobody reads, fill both ends.
+  int rounds = 0;
+  while (greedy.send(row) && ++rounds < 200) {
+    EXPECT_EQ(other.ask(read_request(1, 0, 2), answer_bytes(2)).size(), answer_bytes(2));
+  }
+  EXPECT_LT(rounds, 200) << "it was closed";
+  EXPECT_EQ(other.ask(read_request(1, 0, 2), answer_bytes(2)).size(), answer_bytes(2));
+}
+
+TEST_F(ModbusServerTest, TheOneThatIsSilentLongestMakesRoom) {
+  const Client silent(port_);
+  ASSERT_EQ(silent.ask(read_request(1, 0, 2), answer_bytes(2)).size(), answer_bytes(2));
+  std::vector<std::unique_ptr<Client>> others;
+  for (int i = 0; i < 32; ++i) {
+    others.push_back(std::make_unique<Client>(port_));
+    ASSERT_EQ(others.back()->ask(read_request(1, 0, 2), answer_bytes(2)).size(), answer_bytes(2));
+  }
+  EXPECT_EQ(silent.take(1), "");
+  for (const auto& other : others) {
+    EXPECT_EQ(other->ask(read_request(1, 0, 2), answer_bytes(2)).size(), answer_bytes(2));
+  }
+}
+
+TEST_F(ModbusServerTest, ThePortIsNamedWhileTakenAndFreeAfterAStop) {
+  const auto second = make(port_);
+  try {
+    second->start();
+    FAIL() << "two servers at one port";
+  } catch (const std::runtime_error& fault) {
+    EXPECT_NE(std::string(fault.what()).find("127.0.0.1:" + std::to_string(port_)), std::string::npos) << fault.what();
+  }
+  const Client open(port_);
+  server_->stop();
+  EXPECT_FALSE(Client(port_).is_there());
+  second->start();
+  EXPECT_EQ(alone(read_request(7, 0, 2), answer_bytes(2)).size(), answer_bytes(2));
+  second->stop();
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::live

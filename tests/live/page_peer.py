@@ -1,0 +1,269 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""The page of pose_walld as people and machines meet it: in a real browser it shows live frames at their rate, in both
+languages, says at once when nothing comes any more and comes back after a restart; four viewers and one that takes
+nothing hold up nobody; by HTTP nothing can be changed, and what is malformed gets an answer or a closed connection.
+
+usage: page_peer.py ROOT POSE_WALL POSE_WALLD [SCREENSHOT_PREFIX]"""
+
+import http.client
+import json
+import os
+import pathlib
+import shutil
+import socket
+import sys
+import time
+import unittest
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+ROOT, POSE_WALL, POSE_WALLD = pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1), sys.argv.pop(1)
+PICTURES = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
+sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tests/checks")]
+
+import check_report_page  # noqa: E402  pylint: disable=wrong-import-position
+import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+
+RATE_HZ = 10
+
+
+def words(port, *more):
+    return live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--http", f"127.0.0.1:{port}", *more)
+
+
+def cpu_s(pid):
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class Viewer:
+    """Takes events as a script does, or nothing at all."""
+
+    def __init__(self, port):
+        self.socket = socket.create_connection(("127.0.0.1", port), 10)
+        self.socket.sendall(b"GET /events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+        self.bytes = b""
+
+    def frames(self, seconds):
+        until, self.bytes = time.monotonic() + seconds, b""
+        self.socket.settimeout(0.2)
+        while time.monotonic() < until:
+            try:
+                self.bytes += self.socket.recv(1 << 20)
+            except socket.timeout:
+                pass
+        return self.bytes.count(b"event: frame\n")
+
+    def close(self):
+        self.socket.close()
+
+
+class Http(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.port = live_peer.free_port()
+        cls.daemon = live_peer.Program(*words(cls.port))
+        assert cls.daemon.says("runtime: measures"), cls.daemon.log()
+
+    @classmethod
+    def tearDownClass(cls):
+        took_s = cls.daemon.stop()
+        print(f"stopped in {took_s:.2f} s")
+        assert cls.daemon.process.returncode == 0, cls.daemon.log()
+
+    def ask(self, method, path, headers=None, body=None):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
+        self.addCleanup(connection.close)
+        connection.request(method, path, body, headers or {})
+        answer = connection.getresponse()
+        return answer, answer.read()
+
+    def test_the_page_and_what_it_needs(self):
+        for path, kind, needle in (("/", "text/html", b"<canvas"), ("/page.css", "text/css", b"--valid"),
+                                   ("/page.js", "text/javascript", b"class Viewer")):
+            answer, body = self.ask("GET", path)
+            self.assertEqual(answer.status, 200)
+            self.assertTrue(answer.headers["Content-Type"].startswith(kind))
+            self.assertIn(needle, body)
+            self.assertIn("default-src 'none'", answer.headers["Content-Security-Policy"])
+            self.assertNotIn(b"http://", body.replace(b"http://www.w3.org", b""), "nothing of other places")
+
+    def test_numbers_for_scripts(self):
+        self.assertTrue(live_peer.becomes_true(lambda: self.ask("GET", "/state.json")[0].status == 200))
+        state = json.loads(self.ask("GET", "/state.json")[1])
+        self.assertEqual(set(state["values"]), {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"})
+        answer, body = self.ask("GET", "/health")
+        self.assertEqual(answer.status, 200, body)
+        self.assertEqual([part["part"] for part in json.loads(body)["parts"]][:2], ["runtime", "source replay"])
+
+    def test_nothing_can_be_changed(self):
+        for method in ("POST", "PUT", "DELETE", "PATCH", "OPTIONS"):
+            self.assertEqual(self.ask(method, "/", body="x")[0].status, 405, method)
+        for path in ("/x", "/../etc/passwd", "/%2e%2e/etc/passwd", "/page.js/..", "//"):
+            self.assertEqual(self.ask("GET", path)[0].status, 404, path)
+        self.assertEqual(self.ask("GET", "/", {"Host": "evil.example"})[0].status, 421, "a name pointed here")
+        self.assertEqual(self.ask("GET", "/", {"Host": f"localhost:{self.port}"})[0].status, 200)
+        self.assertEqual(self.ask("GET", "/page.js", {"Range": "bytes=" + ",".join(["0-"] * 900)})[0].status, 416)
+
+    def test_malformed_requests_hold_up_nobody(self):
+        for request in (b"\r\n\r\n", b"GET\r\n\r\n", b"\x00" * 100, b"GET / HTTP/9.9\r\n\r\n", b"GET /" + b"a" * 100000,
+                        b"GET / HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n", b"GET / HTTP/1.1\r\n"):
+            with socket.create_connection(("127.0.0.1", self.port), 10) as connection:
+                connection.sendall(request)
+        self.assertEqual(self.ask("GET", "/health")[0].status, 200)
+
+    def test_a_viewer_that_takes_nothing_holds_up_nobody(self):
+        pid = self.daemon.process.pid
+        before = cpu_s(pid)
+        time.sleep(3)
+        alone = (cpu_s(pid) - before) / 3
+        stalled, viewers = Viewer(self.port), [Viewer(self.port) for _ in range(4)]
+        before, began = cpu_s(pid), time.monotonic()
+        counts = []
+        for viewer in viewers:
+            counts.append(viewer.frames(1.5))
+        with_viewers = (cpu_s(pid) - before) / (time.monotonic() - began)
+        print(f"processor time: {alone:.3f} s/s without viewers, {with_viewers:.3f} with four and one that stalls; "
+              f"frames in 1.5 s by viewer: {counts}")
+        self.assertGreater(min(counts), 5)
+        for viewer in viewers + [stalled]:
+            viewer.close()
+
+    def nobody_looks(self):
+        return b'"viewers":"0"' in self.ask("GET", "/health")[1].replace(b" ", b"")
+
+    def test_too_many_viewers_are_told(self):
+        self.assertTrue(live_peer.becomes_true(self.nobody_looks), "those of other tests are gone")
+        viewers = [Viewer(self.port) for _ in range(16)]
+        for viewer in viewers:  # all are served; who took nothing for seconds would be cut off
+            self.assertIn(b"HTTP/1.1 200", viewer.socket.recv(200))
+        late = Viewer(self.port)
+        self.assertTrue(late.socket.recv(100).startswith(b"HTTP/1.1 503"))
+        self.assertEqual(self.ask("GET", "/health")[0].status, 200, "who only asks is served all the same")
+        for viewer in viewers:
+            viewer.close()
+        self.assertTrue(live_peer.becomes_true(self.nobody_looks))
+
+
+class Failing(unittest.TestCase):
+    def test_two_daemons_do_not_share_a_port(self):
+        port = live_peer.free_port()
+        with live_peer.running(*words(port)) as first, live_peer.running(*words(port)) as second:
+            self.assertTrue(live_peer.becomes_true(
+                lambda: first.process.poll() is not None or second.process.poll() is not None))
+
+    def test_a_port_that_is_taken_is_named(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            port = taken.getsockname()[1]
+            with live_peer.running(*words(port)) as daemon:
+                self.assertEqual(daemon.process.wait(live_peer.PATIENCE_S), 1)
+                self.assertTrue(daemon.says(f"http: cannot listen at 127.0.0.1:{port}"), daemon.log())
+
+
+@unittest.skipUnless(shutil.which("chromedriver"), "SKIPPED: no chromedriver (packages chromium, chromium-driver)")
+class InABrowser(unittest.TestCase):
+    def setUp(self):
+        self.port = live_peer.free_port()
+        self.daemon = live_peer.Program(*words(self.port))
+        self.addCleanup(lambda: self.daemon.kill())
+        self.assertTrue(self.daemon.says("runtime: measures"), self.daemon.log())
+
+    def browser(self, width=1400, height=2000):
+        browser = check_report_page.Browser(width, height, "127.0.0.1")
+        self.addCleanup(browser.close)
+        browser.open(f"http://127.0.0.1:{self.port}/")
+        self.assertTrue(live_peer.becomes_true(lambda: self.shown(browser) > 3), "frames are shown")
+        return browser
+
+    def shown(self, browser):
+        return browser.run("return page.shown")
+
+    def text(self, browser, name):
+        return browser.run(f"return document.getElementById('{name}').textContent")
+
+    def test_it_lives(self):
+        browser = self.browser()
+        first, began = self.shown(browser), time.monotonic()
+        time.sleep(4)
+        rate = (self.shown(browser) - first) / (time.monotonic() - began)
+        print(f"{rate:.1f} frames a second shown of {RATE_HZ}")
+        self.assertGreater(rate, 0.3 * RATE_HZ)
+        self.assertIn("Live: frame", self.text(browser, "link"))
+        self.assertIn("roll (+ right side down)", self.text(browser, "tiles"))
+        self.assertIn("sampling point", self.text(browser, "mount"))
+        self.assertIn("body box 1", self.text(browser, "mount"))
+        self.assertTrue(live_peer.becomes_true(lambda: "source replay" in self.text(browser, "health")))
+        for canvas in ("top", "section", "chart-yaw"):
+            self.assertTrue(browser.run(
+                f"const c = document.getElementById('{canvas}');"
+                "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x)"), canvas)
+        if PICTURES:
+            browser.run("document.documentElement.dataset.theme = 'light'")
+            time.sleep(0.6)
+            browser.screenshot(f"{PICTURES}_light_en.png")
+        browser.run("document.getElementById('language').click(); document.documentElement.dataset.theme = 'dark'")
+        time.sleep(0.6)
+        self.assertIn("实时", self.text(browser, "link"))
+        self.assertIn("右侧下倾", self.text(browser, "tiles"))
+        shown = browser.run("return document.body.innerText")
+        for bad in ("undefined", "NaN", "[object"):
+            self.assertNotIn(bad, shown)
+        if PICTURES:
+            browser.screenshot(f"{PICTURES}_dark_zh.png")
+        browser.run("document.getElementById('pause').click()")
+        time.sleep(0.5)
+        still = self.shown(browser)
+        time.sleep(1)
+        self.assertEqual(self.shown(browser), still, "paused")
+        errors = [entry["message"] for entry in browser.log("browser") if entry["level"] == "SEVERE"]
+        self.assertEqual(errors, [])
+        asked = [a for a in check_report_page.requests_made(browser)
+                 if not a.startswith((f"http://127.0.0.1:{self.port}/", "data:"))]
+        self.assertEqual(asked, [])
+
+    def test_it_says_when_it_is_not_live_and_comes_back(self):
+        browser = self.browser(820, 1180)
+        if PICTURES:
+            browser.screenshot(f"{PICTURES}_tablet.png")
+        wide = browser.run("return document.documentElement.scrollWidth - window.innerWidth")
+        self.assertLessEqual(wide, 0, "nothing sticks out of a tablet")
+        self.daemon.kill()
+        self.assertTrue(live_peer.becomes_true(lambda: "Connection lost" in self.text(browser, "link")))
+        self.assertTrue(browser.run("return document.body.classList.contains('waiting')"))
+        if PICTURES:
+            browser.screenshot(f"{PICTURES}_lost.png")
+        before = self.shown(browser)
+        self.daemon = live_peer.Program(*words(self.port))
+        self.assertTrue(live_peer.becomes_true(lambda: self.shown(browser) > before + 5), self.daemon.log())
+        self.assertIn("Live: frame", self.text(browser, "link"))
+        self.assertFalse(browser.run("return document.body.classList.contains('waiting')"))
+
+    def test_four_browsers_see_the_same(self):
+        browsers = [self.browser() for _ in range(4)]
+        first = [self.shown(browser) for browser in browsers]
+        time.sleep(4)
+        gained = [self.shown(browser) - before for browser, before in zip(browsers, first)]
+        print(f"frames shown in 4 s by four browsers: {gained}")
+        self.assertGreater(min(gained), 3)
+
+    def test_silence_of_the_sensor_is_told(self):
+        self.daemon.kill()
+        road = live_peer.simulated_road(POSE_WALL)
+        port = live_peer.free_port(socket.SOCK_DGRAM)
+        self.daemon = live_peer.Program(POSE_WALLD, "--config", road / "pose_wall.yaml", "--set", f"udp_port={port}",
+                                        "--http", f"127.0.0.1:{self.port}")
+        self.assertTrue(self.daemon.says("listens"), self.daemon.log())
+        browser = check_report_page.Browser(1400, 2000, "127.0.0.1")
+        self.addCleanup(browser.close)
+        browser.open(f"http://127.0.0.1:{self.port}/")
+        self.assertTrue(live_peer.becomes_true(lambda: "No frame from the sensor" in self.text(browser, "link")))
+        states = browser.run("return Array.from(document.querySelectorAll('.tile .state'), (x) => x.textContent)")
+        self.assertEqual(len(states), 7)
+        self.assertTrue(all(state.startswith("invalid") for state in states), states)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// A reader of MCAP that others wrote (@mcap/core): what it gets out of a file, cut or whole. node mcap_reader.mjs FILE...
+// Prints one line of JSON a file: messages by topic, chunks, whether it is whole, and how many results are sound JSON.
+import { readFileSync } from 'node:fs';
+import mcap from '@mcap/core'; // CommonJS
+
+const { McapIndexedReader, McapStreamReader } = mcap;
+
+// The file in memory as the reader asks for it.
+function inMemory(bytes) {
+  return {
+    size: async () => BigInt(bytes.length),
+    read: async (offset, length) => bytes.subarray(Number(offset), Number(offset + length)),
+  };
+}
+
+// Chunks come as they lie there (with their checksums tested), then their messages.
+function stream(bytes) {
+  const told = { topics: {}, schemas: {}, results: 0, chunks: 0, fault: '' };
+  const reader = new McapStreamReader({ validateCrcs: true, includeChunks: true });
+  const channels = new Map(), schemas = new Map();
+  try {
+    reader.append(bytes);
+    for (let record; (record = reader.nextRecord());) {
+      if (record.type === 'Chunk') ++told.chunks;
+      if (record.type === 'Schema') schemas.set(record.id, record.name);
+      if (record.type === 'Channel') channels.set(record.id, record);
+      if (record.type !== 'Message') continue;
+      const channel = channels.get(record.channelId);
+      told.topics[channel.topic] = (told.topics[channel.topic] ?? 0) + 1;
+      told.schemas[channel.topic] = schemas.get(channel.schemaId);
+      if (channel.messageEncoding === 'json') {
+        const read = JSON.parse(new TextDecoder().decode(record.data));
+        if (channel.topic === '/pose_wall/result' && Number.isInteger(read.publication)) ++told.results;
+      }
+    }
+  } catch (fault) {
+    told.fault = String(fault.message);
+  }
+  told.whole = reader.done();
+  return told;
+}
+
+// By the summary, as Foxglove opens a file. There is none of a file that was cut.
+async function byIndex(bytes) {
+  const reader = await McapIndexedReader.Initialize({ readable: inMemory(bytes) });
+  return { statistics: Number(reader.statistics.messageCount), chunks: reader.chunkIndexes.length };
+}
+
+for (const file of process.argv.slice(2)) {
+  const bytes = new Uint8Array(readFileSync(file));
+  const told = stream(bytes);
+  try {
+    told.index = await byIndex(bytes);
+  } catch (fault) {
+    told.index = null;
+    told.noIndex = String(fault.message).slice(0, 200);
+  }
+  console.log(JSON.stringify(told));
+}

@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""pose_walld as a node of ROS 1, with peers that others wrote: a JavaScript client publishes clouds of 512 kB and 4 MB
+at 10 and 20 Hz and reads the results under the clouds' stamps; rostopic and rosbag read them; the master comes late and
+is started anew; the transform comes late, is missing and changes.
+
+usage: ros1_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+ROOT, POSE_WALL, POSE_WALLD, MODULES = (pathlib.Path(sys.argv.pop(1)) for _ in range(4))
+sys.path[:0] = [str(ROOT / "tests/live")]
+
+import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+
+try:
+    import rospy
+    from geometry_msgs.msg import TransformStamped, Vector3Stamped
+    from sensor_msgs.msg import LaserScan, PointCloud2, PointField
+    from std_msgs.msg import Float32MultiArray
+    from tf2_msgs.msg import TFMessage
+except ImportError as missing:
+    print(f"SKIPPED: {missing} (packages python3-rospy python3-sensor-msgs python3-tf2-msgs and others)")
+    sys.exit(0)
+
+if sys.argv[1:] == ["drive"]:  # called by the test, with its environment
+    URI = os.environ["ROS_MASTER_URI"]
+else:
+    PORT = live_peer.free_port()
+    URI = f"http://127.0.0.1:{PORT}"
+    os.environ |= {"ROS_MASTER_URI": URI, "ROS_IP": "127.0.0.1"}
+TOPIC = "/lidar/points"
+
+
+def master():
+    return live_peer.Program("rosmaster", "--core", "-p", PORT)
+
+
+def master_answers():
+    import xmlrpc.client  # pylint: disable=import-outside-toplevel
+    try:
+        return xmlrpc.client.ServerProxy(URI).getPid("/test")[0] == 1
+    except OSError:
+        return False
+
+
+def known_topics():
+    """What the master knows that pose_walld publishes, and what it subscribes to."""
+    import xmlrpc.client  # pylint: disable=import-outside-toplevel
+    published, subscribed, _ = xmlrpc.client.ServerProxy(URI).getSystemState("/test")[2]
+    return tuple({topic for topic, nodes in of if "/pose_walld" in nodes} for of in (published, subscribed))
+
+
+def daemon(*more):
+    return live_peer.Program(POSE_WALLD, "--set", "source=ros1", "--set", "ros1=1", "--set", "status_every_s=5", *more)
+
+
+class WithMaster(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.master = master()
+        assert live_peer.becomes_true(master_answers), cls.master.log()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.master.kill()
+
+
+@unittest.skipUnless(shutil.which("node") and (MODULES / "@foxglove/ros1").exists(),
+                     f"SKIPPED: there is no node or {MODULES} has no @foxglove/ros1 (npm ci in tests/live/peer)")
+class JavaScript(WithMaster):
+    def test_clouds_and_results(self):
+        program = daemon()
+        self.addCleanup(program.kill)
+        with tempfile.TemporaryDirectory() as folder:
+            client = pathlib.Path(folder) / "ros1_client.mjs"  # beside its modules
+            shutil.copy(ROOT / "tests/live/peer/ros1_client.mjs", client)
+            os.symlink(MODULES, pathlib.Path(folder) / "node_modules")
+            for columns, rate in ((256, 10), (256, 20), (2048, 10), (2048, 20)):
+                done = subprocess.run(["node", client, URI, TOPIC, str(columns), str(rate), "50"], capture_output=True,
+                                      text=True, timeout=120, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr + program.log())
+                told = json.loads(done.stdout.strip().splitlines()[-1])
+                print(f"{told['bytes'] / 1e3:.0f} kB at {rate} Hz: {told['received']} of {told['sent']} answered, "
+                      f"median {told['median_ms']:.1f} ms, worst {told['worst_ms']:.1f} ms", flush=True)
+                self.assertTrue(told["connected"])
+                self.assertGreater(told["received"], 0.8 * told["sent"])
+                self.assertEqual(told["names"], ["roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"])
+                self.assertEqual(told["label"], "d_lf d_lb d_rf d_rb")
+                self.assertAlmostEqual(sum(told["distances"][::2]), 5.0, delta=0.1)
+        self.assertLess(program.stop(), 2)
+
+
+class Tools(WithMaster):
+    def test_rostopic_and_rosbag_read_the_results(self):
+        program = live_peer.Program(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set",
+                                                            "ros1=1"))
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("runtime: measures"), program.log())
+        for topic, needle in (("/pose_wall/attitude", "vector:"), ("/pose_wall/distances", "d_lf d_lb d_rf d_rb"),
+                              ("/diagnostics", "pose_walld: runtime"), ("/tf", "base_link_level"),
+                              ("/pose_wall/points", "name: \"label\"")):
+            done = subprocess.run(["rostopic", "echo", "-n", "1", topic], capture_output=True, text=True, timeout=60,
+                                  check=False)
+            self.assertIn(needle, done.stdout, f"{topic}: {done.stderr}")
+        with tempfile.TemporaryDirectory() as folder:
+            bag = pathlib.Path(folder) / "results.bag"
+            subprocess.run(["rosbag", "record", "--duration=3", "-O", str(bag), "/pose_wall/attitude",
+                            "/pose_wall/state", "/pose_wall/points"], capture_output=True, timeout=60, check=True)
+            about = subprocess.run(["rosbag", "info", str(bag)], capture_output=True, text=True, check=True).stdout
+            for kind in ("geometry_msgs/Vector3Stamped", "pose_wall_msgs/State", "sensor_msgs/PointCloud2"):
+                self.assertIn(kind, about)
+            read = subprocess.run([str(POSE_WALL), "info", str(bag)], capture_output=True, text=True, check=False)
+            self.assertIn("ROS 1 bag", read.stdout)
+
+
+class Peer:
+    """A publisher and reader by rospy."""
+
+    def __init__(self):
+        if not rospy.core.is_initialized():
+            rospy.init_node("tester", disable_signals=True, disable_rosout=True)
+        self.clouds = rospy.Publisher(TOPIC, PointCloud2, queue_size=2)
+        self.static = rospy.Publisher("/tf_static", TFMessage, queue_size=10, latch=True)
+        self.moving = rospy.Publisher("/tf", TFMessage, queue_size=10)
+        self.attitudes, self.distances = [], []
+        rospy.Subscriber("/pose_wall/attitude", Vector3Stamped, self.attitudes.append)
+        rospy.Subscriber("/pose_wall/distances", Float32MultiArray, self.distances.append)
+        self.ending = threading.Event()
+        self.thread = threading.Thread(target=self._publish, daemon=True)
+
+    def _publish(self):
+        import array  # pylint: disable=import-outside-toplevel
+        import math  # pylint: disable=import-outside-toplevel
+        points = array.array("f")
+        for ring in range(64):
+            for column in range(256):
+                e, a = math.radians(-45 + 90 * ring / 63), 2 * math.pi * column / 256
+                x, y, z = math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)
+                far = min(2.5 / abs(y) if y else 1e9, 2.0 / z if z > 0 else 1.2 / -z if z < 0 else 1e9)
+                points.extend((far * x, far * y, far * z) if far < 25 else (0, 0, 0))
+        fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate("xyz")]
+        turn = 0
+        while not self.ending.wait(0.1):
+            turn += 1
+            for i in range(1, len(points), 3):  # a cloud that was there before is a frozen sensor's
+                points[i] += 1e-4 * (-1) ** (turn // 100) if points[i - 1] else 0
+            data = points.tobytes()
+            message = PointCloud2(height=1, width=len(data) // 12, fields=fields, point_step=12, row_step=len(data),
+                                  data=data, is_dense=False)
+            message.header.stamp = rospy.Time.from_sec(time.time())
+            message.header.frame_id = "lidar"
+            self.clouds.publish(message)
+
+    def transform(self, y_m, publisher):
+        stamped = TransformStamped()
+        stamped.header.frame_id, stamped.child_frame_id = "base_link", "lidar"
+        stamped.header.stamp = rospy.Time.from_sec(time.time())
+        stamped.transform.translation.y, stamped.transform.rotation.w = y_m, 1.0
+        publisher.publish(TFMessage([stamped]))
+
+    def left_m(self):
+        """The newest valid distance to the left."""
+        values = [message.data[0] for message in self.distances[-3:] if message.data[0] == message.data[0]]
+        return values[-1] if values else None
+
+
+class PeersByRospy(WithMaster):
+    """One master for all: rospy registers once."""
+
+    def test_garbage_and_other_types_are_named_and_sound_clouds_go_on(self):
+        peer = Peer()
+        program = daemon()
+        self.addCleanup(program.kill)
+        self.assertTrue(live_peer.becomes_true(lambda: peer.clouds.get_num_connections() > 0), program.log())
+        fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate("xyz")]
+        for width, point_step, data, fields_told in (
+                (2 ** 32 - 1, 2 ** 32 - 1, b"", fields), (100, 12, b"short", fields), (1, 0, b"x" * 12, fields),
+                (1, 12, b"x" * 12, fields[:2]), (1, 12, b"x" * 12, fields + fields),
+                (1, 12, b"x" * 12, [PointField("x", 2 ** 32 - 1, PointField.FLOAT32, 2 ** 32 - 1)] + fields[1:])):
+            peer.clouds.publish(PointCloud2(height=1, width=width, fields=fields_told, point_step=point_step,
+                                            row_step=0, data=data))
+            time.sleep(0.05)
+        peer.thread.start()
+        self.addCleanup(peer.ending.set)
+        self.assertTrue(live_peer.becomes_true(lambda: peer.left_m() is not None), program.log())
+        self.assertTrue(any("bytes" in line for line in program.lines), "the refusal is named: " + program.log())
+
+        scans = rospy.Publisher("/lidar/scan", LaserScan, queue_size=2, latch=True)
+        scans.publish(LaserScan(ranges=[1.0] * 10))
+        second = live_peer.Program(POSE_WALLD, "--set", "source=ros1", "--set", "pointcloud_topic=/lidar/scan")
+        self.addCleanup(second.kill)
+        self.assertTrue(second.says("sensor_msgs/LaserScan"), second.log())
+        # By the rule of ROS the second node of a name ends the first; the rest of the daemon goes on.
+        self.assertTrue(program.says("was ended by rosnode kill or by another node of its name"), program.log())
+        self.assertIsNone(program.process.poll())
+        self.assertEqual(program.stop() >= 0 and program.process.returncode, 0)
+
+    def test_late_then_changed_then_a_master_started_anew(self):
+        peer = Peer()
+        peer.thread.start()
+        self.addCleanup(peer.ending.set)
+        program = daemon("--set", "extrinsic_from=tf")
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("no transform from 'lidar' to 'base_link': nothing is measured"), program.log())
+        time.sleep(1)
+        self.assertIsNone(peer.left_m(), "never the identity by default")
+        peer.transform(0.5, peer.static)
+        is_left = lambda far_m: live_peer.becomes_true(lambda: peer.left_m() and abs(peer.left_m() - far_m) < 0.05)
+        self.assertTrue(is_left(3.0), program.log())
+        peer.transform(-0.5, peer.static)
+        self.assertTrue(is_left(2.0), program.log())
+        attitude = peer.attitudes[-1]
+        self.assertEqual(attitude.header.frame_id, "base_link")
+        self.assertLess(abs(time.time() - attitude.header.stamp.to_sec()), 60)
+
+
+class Driver(unittest.TestCase):
+    """A driver that does not register again after the master was started anew, as those by roscpp and rospy."""
+
+    def test_its_clouds_go_on_without_a_master_and_with_the_next_one(self):
+        core = master()
+        self.addCleanup(lambda: core.kill())  # pylint: disable=unnecessary-lambda
+        self.assertTrue(live_peer.becomes_true(master_answers))
+        driver = subprocess.Popen([sys.executable, "-W", "ignore", __file__, str(ROOT), str(POSE_WALL), str(POSE_WALLD),
+                                   str(MODULES), "drive"])
+        self.addCleanup(driver.wait)
+        self.addCleanup(driver.kill)
+        program = daemon("--set", "status_every_s=1")
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("runtime: measures"), program.log())
+        core.kill()
+        self.assertTrue(program.says("receives; waits for the master"), program.log())
+        self.clouds_go_on(program)
+        core = master()
+        self.assertTrue(live_peer.becomes_true(master_answers))
+        self.assertTrue(live_peer.becomes_true(lambda: known_topics() == (
+            {"/diagnostics", "/tf"} | {f"/pose_wall/{topic}" for topic in ("attitude", "distances", "state", "points")},
+            {TOPIC})), known_topics())
+        self.clouds_go_on(program)
+        core.process.send_signal(signal.SIGSTOP)  # it takes connections, and answers nothing
+        lines = len(program.lines)
+        self.assertTrue(live_peer.becomes_true(
+            lambda: any("receives; waits for the master" in line for line in program.lines[lines:])), program.log())
+        self.clouds_go_on(program)
+        print(f"stop while the master hangs: {program.stop():.2f} s", flush=True)
+        self.assertEqual(program.process.returncode, 0, "by itself, not by force: " + program.log())
+
+    def clouds_go_on(self, program):
+        def clouds():
+            told = re.findall(r"source ros1.*?; clouds (\d+)", "\n".join(program.lines))
+            return int(told[-1]) if told else 0
+        before = clouds()
+        self.assertTrue(live_peer.becomes_true(lambda: clouds() > before + 5), program.log())
+
+
+class WithoutMaster(unittest.TestCase):
+    def test_words_that_are_no_topic_and_no_master_are_refused(self):
+        for words, environment, complaint in (
+                (("--set", "pointcloud_topic=two words"), {}, "is no topic of ROS"),
+                ((), {"ROS_MASTER_URI": "localhost:11311"},
+                 "is no address of a master; allowed: http://localhost:11311")):
+            done = subprocess.run([str(POSE_WALLD), "--set", "source=ros1", *words], env=os.environ | environment,
+                                  capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn(complaint, done.stderr)
+
+    def test_waits_for_the_master_and_comes_back_after_it_was_started_anew(self):
+        program = live_peer.Program(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set",
+                                                            "ros1=1"))
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says(f"waits for the master at {URI}"), program.log())
+        self.assertTrue(program.says("runtime: measures"), "who has no master measures all the same")
+        for _ in range(2):
+            core = master()
+            try:
+                self.assertTrue(live_peer.becomes_true(master_answers))
+                done = subprocess.run(["rostopic", "echo", "-n", "1", "/pose_wall/attitude"], capture_output=True,
+                                      text=True, timeout=60, check=False)
+                self.assertIn("vector:", done.stdout, done.stderr + program.log())
+            finally:
+                core.kill()
+        self.assertLess(program.stop(), 2, program.log())
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["drive"]:
+        driver_of_the_test = Peer()
+        driver_of_the_test.thread.start()
+        driver_of_the_test.thread.join()
+    unittest.main()

@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""pose_walld as a node of ROS 2, seen by another make of DDS (ros2_peer/: Fast DDS) and by tshark: clouds of 512 kB and
+4 MB and the results under their stamps; either side first, gone and back; what is no cloud, other types, qualities of
+service that do not match; transforms late, missing, changed and old; what is said of the node in discovery.
+
+usage: ros2_peer.py ROOT POSE_WALL POSE_WALLD PEER"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+ROOT, POSE_WALL, POSE_WALLD, PEER = (pathlib.Path(sys.argv.pop(1)) for _ in range(4))
+sys.path[:0] = [str(ROOT / "tests/live")]
+
+import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+
+RESULTS = {"rt/pose_wall/attitude": "geometry_msgs::msg::dds_::Vector3Stamped_",
+           "rt/pose_wall/distances": "std_msgs::msg::dds_::Float32MultiArray_",
+           "rt/pose_wall/state": "pose_wall_msgs::msg::dds_::State_",
+           "rt/pose_wall/points": "sensor_msgs::msg::dds_::PointCloud2_",
+           "rt/diagnostics": "diagnostic_msgs::msg::dds_::DiagnosticArray_",
+           "rt/tf": "tf2_msgs::msg::dds_::TFMessage_"}
+POINTS_OF = {"512 kB": 32768, "4 MB": 262144}  # of 16 bytes
+
+
+class Peer(live_peer.Program):
+    def __init__(self, domain, *words):
+        super().__init__(PEER, domain, *words, stdin=subprocess.PIPE)
+
+    def command(self, text):
+        self.process.stdin.write(text + "\n")
+        self.process.stdin.flush()
+
+    def seen(self, kind):
+        told = [json.loads(line) for line in list(self.lines) if line.startswith("{")]
+        return [one for one in told if one["saw"] == kind]
+
+    def report(self):
+        """The counts of now."""
+        before = len(self.seen("report"))
+        self.command("report")
+        live_peer.becomes_true(lambda: len(self.seen("report")) > before)
+        return self.seen("report")[-1]
+
+
+class Ros2(unittest.TestCase):
+    domains = iter(range(100 + os.getpid() % 100, 233))
+
+    def setUp(self):
+        self.domain = next(Ros2.domains)
+
+    def daemon(self, *settings, **variables):
+        words = [word for setting in settings for word in ("--set", setting)]
+        clean = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "CYCLONEDDS"))}
+        environment = clean | {"ROS_DOMAIN_ID": str(self.domain), "ROS_LOCALHOST_ONLY": "1"} | variables
+        program = live_peer.Program(POSE_WALLD, "--set", "source=ros2", "--set", "ros2=1", "--set", "status_every_s=1",
+                                    *words, env=environment)
+        self.addCleanup(program.kill)
+        return program
+
+    def peer(self, *words):
+        program = Peer(self.domain, *words)
+        self.addCleanup(program.kill)
+        return program
+
+    def comes_true(self, condition, *programs):
+        self.assertTrue(live_peer.becomes_true(condition), "\n---\n".join(program.log() for program in programs))
+
+
+class Clouds(Ros2):
+    def run_of(self, size, rate, reliability, **variables):
+        program = self.daemon(**variables)
+        peer = self.peer(f"points={POINTS_OF[size]}", f"hz={rate}", "count=50", f"reliability={reliability}",
+                         "results=1",
+                         "labelled=1")
+        self.assertTrue(peer.says('"saw": "end"', 90), peer.log() + program.log())
+        told = peer.seen("report")[-1]
+        print(f"{size} at {rate} Hz, {reliability}: {told['attitudes']} of {told['sent']} answered, "
+              f"median {told['median_ms']:.1f} ms, worst {told['worst_ms']:.1f} ms", flush=True)
+        return program, told
+
+    def test_are_answered_under_their_stamps(self):
+        for size, rate, reliability in (("512 kB", 10, "best_effort"), ("512 kB", 20, "reliable"),
+                                        ("4 MB", 10, "best_effort"), ("4 MB", 10, "reliable")):
+            program, told = self.run_of(size, rate, reliability)
+            self.assertEqual(told["sent"], 50)
+            self.assertGreater(told["attitudes"], 25, program.log())
+            self.assertEqual(told["valid"], told["attitudes"], program.log())
+            self.assertEqual((told["frame"], told["label"]), ("base_link", "d_lf d_lb d_rf d_rb"))
+            self.assertLess(abs(told["roll_rad"]), 0.002)
+            for topic in ("state", "points", "tf", "diagnostics"):
+                self.assertGreater(told[topic], 0, topic)
+            self.assertLess(program.stop(), 2, program.log())
+
+    def test_a_small_buffer_is_told_with_the_remedy(self):
+        small = ("<CycloneDDS><Domain><General><Interfaces>"
+                 "<NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces>"
+                 "</General><Internal><SocketReceiveBufferSize max=\"100 kB\"/></Internal></Domain></CycloneDDS>")
+        program, told = self.run_of("4 MB", 10, "best_effort", CYCLONEDDS_URI=small)
+        self.assertIn("net.core.rmem_max", program.log() + "\n".join(program.lines))
+        self.assertIn("warning", next(line for line in program.lines if "net.core.rmem_max" in line))
+        self.assertLess(told["attitudes"], 50, "the buffer was small")
+
+
+class Peers(Ros2):
+    def test_either_comes_first_goes_and_comes_back(self):
+        peer = self.peer("points=16384", "wait=0", "results=1")
+        time.sleep(1)
+        program = self.daemon()
+        self.assertTrue(program.says("runtime: measures"), program.log())
+        self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
+        peer.kill()  # without a word: its lease ends
+        self.assertTrue(program.says("no frame comes"), program.log())
+        self.comes_true(lambda: any("nobody publishes" in line for line in program.lines[-40:]), program)
+        count = len([line for line in program.lines if "runtime: measures" in line])
+        second = self.peer("points=16384", "results=1")
+        self.comes_true(lambda: second.report()["valid"] > 5, second, program)
+        self.assertGreater(len([line for line in program.lines if "runtime: measures" in line]), count)
+        program.stop()
+        third = self.daemon()
+        self.assertTrue(third.says("runtime: measures"), third.log())
+        second.command("quit")
+        self.assertTrue(third.says("nobody publishes /lidar/points"), third.log())
+
+    def test_what_is_no_cloud_is_counted_and_named(self):
+        peer = self.peer("points=16384", "reliability=reliable", "results=1")
+        program = self.daemon()
+        self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
+        peer.command("junk")
+        self.comes_true(lambda: any(re.search("messages refused [1-9]", line) for line in program.lines[-10:]), program)
+        before = peer.report()["valid"]
+        self.comes_true(lambda: peer.report()["valid"] > before + 5, peer, program)
+
+    def test_another_type_on_the_topic_is_named(self):
+        program = self.daemon()
+        self.peer("points=64", "type=std_msgs::msg::dds_::String_", "wait=0")
+        self.assertTrue(program.says("is of type std_msgs::msg::dds_::String_, this node's is "
+                                     "sensor_msgs::msg::dds_::PointCloud2_"), program.log())
+        peer = self.peer("points=16384", "results=1")  # one that is right is read all the same
+        self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
+
+    def test_qualities_of_service_that_do_not_match_are_named(self):
+        program = self.daemon("extrinsic_from=tf")
+        peer = self.peer("results=1", "durability=transient_local", "static_latched=0")
+        self.assertTrue(program.says("/pose_wall/attitude: the reader"), program.log())
+        self.assertTrue(program.says("durability: the writer offers volatile, the reader asks for transient local"),
+                        program.log())
+        self.assertTrue(program.says("/tf_static: the writer"), program.log())
+        self.comes_true(lambda: peer.seen("incompatible"), peer)
+        peer.command("quit")
+        self.comes_true(lambda: any("sink ros2: publishes" in line for line in program.lines[-20:]), program)
+
+    def test_settings_that_are_none_end_the_start(self):
+        for name, value in (("ROS_DOMAIN_ID", "300"), ("ROS_LOCALHOST_ONLY", "perhaps")):
+            program = self.daemon(**{name: value})
+            program.process.wait(live_peer.PATIENCE_S)
+            self.assertNotEqual(program.process.returncode, 0)
+            self.assertTrue(program.says(f"{name} is '{value}'"), program.log())
+
+
+class Transforms(Ros2):
+    def left_is(self, peer, wanted_m):
+        left_m = peer.report()["left_m"]
+        return left_m is None if wanted_m is None else left_m is not None and abs(left_m - wanted_m) < 0.05
+
+    def test_late_changed_and_old(self):
+        peer = self.peer("points=16384", "results=1")
+        program = self.daemon("extrinsic_from=tf")
+        self.assertTrue(program.says("no transform from 'lidar' to 'base_link': nothing is measured"), program.log())
+        time.sleep(1)
+        self.assertEqual(peer.report()["valid"], 0, "never the identity by default")
+        peer.command("static 0.5")
+        self.comes_true(lambda: self.left_is(peer, 2.0) or self.left_is(peer, 3.0), peer, program)
+        first_m = peer.report()["left_m"]
+        peer.command("static -0.5")
+        self.comes_true(lambda: self.left_is(peer, 5.0 - first_m), peer, program)
+        peer.command("moving 0.2")  # from now on by /tf, which grows old
+        self.comes_true(lambda: self.left_is(peer, 2.5 + (0.2 if first_m > 2.5 else -0.2)), peer, program)
+        self.assertTrue(program.says("tf: the transform is gone; nothing is measured"), program.log())
+
+    def test_a_static_one_that_was_there_before(self):
+        peer = self.peer("points=16384", "results=1")
+        peer.command("static 0.5")
+        program = self.daemon("extrinsic_from=tf")
+        self.comes_true(lambda: peer.report()["valid"] > 5, peer, program)
+
+
+class Discovery(Ros2):
+    def discovered(self, distro):
+        """Either distro's way of keeping to this machine; the later one is all unicast to localhost."""
+        is_humble = distro == "humble"
+        variables = {} if is_humble else {"ROS_LOCALHOST_ONLY": "", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+        program = self.daemon(f"ros_distro={distro}", **variables)
+        peer = self.peer("results=1", "range=loopback" if is_humble else "range=localhost")
+        self.comes_true(lambda: {one["topic"] for one in peer.seen("writer")} >= set(RESULTS), peer, program)
+        self.comes_true(lambda: peer.seen("graph"), peer)
+        time.sleep(1)
+        return peer
+
+    def of_the_daemon(self, peer):
+        """Topics, types and words of what the peer does not have itself."""
+        of_results = [one for one in peer.seen("writer") if one["topic"] in RESULTS]
+        writers = {one["topic"]: one for one in of_results if one["topic"] != "rt/tf"}
+        readers = {one["topic"]: one for one in peer.seen("reader") if one["topic"] == "rt/lidar/points"}
+        return writers | readers
+
+    def check_graph(self, peer, gid_bytes):
+        graph = bytes.fromhex(peer.seen("graph")[-1]["hex"])[4:]
+        gid, rest = graph[:16], graph[gid_bytes:]
+        self.assertEqual(graph[16:gid_bytes], bytes(gid_bytes - 16))
+        self.assertEqual(rest[:8], (1).to_bytes(4, "little") + (2).to_bytes(4, "little"))
+        self.assertIn(b"pose_walld\0", rest)
+        self.assertEqual(rest.count(gid[:12]), 1 + len(RESULTS), "a reader of clouds, and the writers")
+
+    def test_of_humble(self):
+        peer = self.discovered("humble")
+        self.assertEqual(peer.seen("participant")[0]["user_data"], "enclave=/;")
+        seen = self.of_the_daemon(peer)
+        self.assertEqual({topic: one["type"] for topic, one in seen.items() if topic != "rt/lidar/points"},
+                         {topic: kind for topic, kind in RESULTS.items() if topic != "rt/tf"})
+        self.assertEqual({one["user_data"] for one in seen.values()}, {""})
+        self.check_graph(peer, 24)
+
+    def test_of_iron_and_later(self):
+        peer = self.discovered("iron")
+        self.assertEqual(peer.seen("participant")[0]["user_data"], "enclave=/;")
+        seen = self.of_the_daemon(peer)
+        for one in seen.values():
+            self.assertRegex(one["user_data"], "^typehash=RIHS01_[0-9a-f]{64};$")
+        self.assertIn("RIHS01_9198cabf", seen["rt/lidar/points"]["user_data"])
+        self.assertIn("RIHS01_d4829622", seen["rt/pose_wall/attitude"]["user_data"])
+        self.check_graph(peer, 16)
+
+    def test_on_the_wire_by_tshark(self):
+        if os.geteuid() != 0 or not shutil.which("tshark"):
+            self.skipTest("SKIPPED: a capture takes root and tshark")
+        with tempfile.TemporaryDirectory() as folder:
+            os.chmod(folder, 0o777)
+            capture = pathlib.Path(folder) / "discovery.pcapng"
+            tshark = live_peer.Program("tshark", "-i", "lo", "-f", "udp", "-w", capture)
+            self.addCleanup(tshark.kill)
+            if not tshark.says("Capturing on", 10):
+                self.skipTest(f"SKIPPED: tshark cannot capture here: {tshark.log()}")
+            time.sleep(1)
+            self.discovered("iron")
+            tshark.stop()
+            read = subprocess.run(["tshark", "-r", str(capture), "-Y", "rtps", "-O", "rtps"], capture_output=True,
+                                  text=True,
+                                  timeout=120, check=False).stdout
+        vendors = [part for part in re.split(r"\nFrame \d+", read) if "Eclipse" in part or "Cyclone" in part]
+        text = "\n".join(vendors)
+        self.assertTrue(vendors, "no packets of Cyclone among them")
+        for topic, kind in RESULTS.items():
+            self.assertIn(f"topic: {topic}", text.replace("topicName", "topic").replace("topic name", "topic"), topic)
+            self.assertIn(kind, text)
+        self.assertIn(b"enclave=/;".hex(), text.replace(":", "").lower() + text.lower())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a sink that hangs loses its own results, counted, and holds up neither who posts nor other sinks; what
+// waits at a stop is still taken.
+
+#include <gtest/gtest.h>
+
+#include "live/frame_catcher.hpp"
+#include "live/sink_thread.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using pose_wall::test::becomes_true;
+using pose_wall::test::fact;
+
+// What became of a sink, for those who gave it away.
+struct Seen {
+  std::vector<std::uint64_t> taken;
+  bool started = false, stopped = false;
+};
+
+class GatedSink final : public Sink {
+ public:
+  GatedSink(std::shared_ptr<Seen> seen, std::mutex* gate, std::size_t backlog)
+      : seen_(std::move(seen)), gate_(gate), backlog_(backlog) {}
+  void start() override { seen_->started = true; }
+  void take(const LiveResult& result) override {
+    const std::lock_guard<std::mutex> locked(*gate_);
+    seen_->taken.push_back(result.publication.index);
+  }
+  void stop() override { seen_->stopped = true; }
+  PartHealth health() const override { return {"sink", Grade::kGood, "runs", {}}; }
+  std::size_t backlog() const override { return backlog_; }
+
+ private:
+  std::shared_ptr<Seen> seen_;
+  std::mutex* gate_;
+  std::size_t backlog_;
+};
+
+std::shared_ptr<const LiveResult> result_number(std::uint64_t index) {
+  auto result = std::make_shared<LiveResult>();
+  result->publication.index = index;
+  return result;
+}
+
+TEST(SinkThread, AHangingSinkLosesItsOldestAndHoldsUpNobody) {
+  std::mutex gate, open;
+  const auto slow_seen = std::make_shared<Seen>(), quick_seen = std::make_shared<Seen>();
+  SinkThread slow(std::make_unique<GatedSink>(slow_seen, &gate, 2));
+  SinkThread quick(std::make_unique<GatedSink>(quick_seen, &open, 200));
+  slow.start();
+  quick.start();
+  gate.lock();
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    slow.post(result_number(i));
+    quick.post(result_number(i));
+  }
+  EXPECT_TRUE(becomes_true([&] { return fact(quick.health(), "results taken") == "100"; }));
+  gate.unlock();
+  slow.stop();
+  quick.stop();
+  ASSERT_GE(slow_seen->taken.size(), 2U);
+  EXPECT_EQ(slow_seen->taken.back(), 99U) << "the newest is never the one that is lost";
+  EXPECT_EQ(slow_seen->taken[slow_seen->taken.size() - 2], 98U);
+  EXPECT_EQ(fact(slow.health(), "results lost to slowness"), std::to_string(100 - slow_seen->taken.size()));
+  EXPECT_EQ(fact(quick.health(), "results lost to slowness"), "0");
+}
+
+TEST(SinkThread, WhatWaitsAtAStopIsTakenAndNothingAfterIt) {
+  std::mutex gate;
+  const auto seen = std::make_shared<Seen>();
+  SinkThread sink(std::make_unique<GatedSink>(seen, &gate, 10));
+  sink.start();
+  EXPECT_TRUE(seen->started);
+  for (std::uint64_t i = 0; i < 5; ++i) sink.post(result_number(i));
+  sink.stop();
+  sink.post(result_number(5));
+  sink.stop();
+  EXPECT_EQ(seen->taken, (std::vector<std::uint64_t>{0, 1, 2, 3, 4}));
+  EXPECT_TRUE(seen->stopped);
+}
+
+TEST(SinkThread, OneThatNeverBeganIsNotStopped) {
+  std::mutex gate;
+  const auto seen = std::make_shared<Seen>();
+  { SinkThread sink(std::make_unique<GatedSink>(seen, &gate, 1)); }
+  EXPECT_FALSE(seen->stopped);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::live

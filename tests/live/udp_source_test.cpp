@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: packets that arrive by UDP become the frames that a capture of them gives, bit for bit; what comes from
+// others, what is no packet and what the sensor sent before it fell silent gets into no frame; what no waiting mends is
+// refused with words that help. The simulated sensor's packets give back the ranges that they were made from.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "inputs/frame_sequence.hpp"
+#include "live/edges.hpp"
+#include "live/frame_catcher.hpp"
+#include "live/loopback.hpp"
+#include "live/sensor_sim/metadata_server.hpp"
+#include "live/sensor_sim/packet_encoder.hpp"
+#include "packets/ouster.hpp"
+#include "packets/udp_capture.hpp"
+#include "packets/velodyne.hpp"
+#include "sim/scenes.hpp"
+#include "support/real_frames.hpp"
+#include "tools/test_files.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using pose_wall::test::becomes_true;
+using pose_wall::test::fact;
+using pose_wall::test::FrameCatcher;
+using pose_wall::test::free_udp_port;
+using pose_wall::test::LoopbackSender;
+
+constexpr std::int64_t kTurn_ns = 100'000'000;
+
+LoadedConfig live_config(std::uint16_t port, std::vector<std::string> more = {}) {
+  more.push_back("udp_port=" + std::to_string(port));
+  return load_config("", more);
+}
+
+std::string refusal_of(const LoadedConfig& loaded) {
+  FrameCatcher catcher;
+  try {
+    make_udp_source(loaded)->start(catcher);
+  } catch (const std::runtime_error& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+// A closed room in every direction, another range at every place.
+RangeImage image_of(std::uint32_t rings, std::uint32_t columns, std::uint32_t turn = 0) {
+  RangeImage image;
+  image.rings = rings;
+  image.columns = columns;
+  for (std::uint32_t i = 0; i < rings * columns; ++i) {
+    image.range_m.push_back(2.0 + 0.002 * ((i + 7 * turn) % 1500));
+    image.intensity.push_back(static_cast<float>(i % 200));
+  }
+  return image;
+}
+
+std::vector<std::string> vlp16_turns(std::uint32_t turns, std::uint32_t first = 0) {
+  std::vector<std::string> packets;
+  Vlp16Encoder encoder;
+  for (std::uint32_t turn = first; turn < first + turns; ++turn) {
+    for (std::string& packet : encoder.packets(image_of(16, 1800, turn), turn * kTurn_ns, kTurn_ns)) {
+      packets.push_back(std::move(packet));
+    }
+  }
+  return packets;
+}
+
+// Of the one source of a test, so that what is sent never outruns what is taken: a small receive buffer would lose it.
+class Pace {
+ public:
+  explicit Pace(const Source& source) : source_(source) {}
+
+  void send(const LoopbackSender& sender, std::string_view packet) {
+    ASSERT_TRUE(sender.send(packet));
+    if (++sent_ % kAhead == 0) {
+      ASSERT_TRUE(becomes_true([this] { return taken() + kAhead >= sent_; }));
+    }
+  }
+  void send(const LoopbackSender& sender, const std::vector<std::string>& packets) {
+    for (const std::string& packet : packets) send(sender, std::string_view(packet));
+  }
+
+ private:
+  static constexpr std::uint64_t kAhead = 20;
+
+  std::uint64_t taken() const {
+    const PartHealth health = source_.health();
+    return std::stoull(fact(health, "packets")) + std::stoull(fact(health, "packets of others"));
+  }
+
+  const Source& source_;
+  std::uint64_t sent_ = 0;
+};
+
+double range_at(const Frame& frame, std::uint32_t point) {
+  return std::hypot(test::number_at(frame, frame.cloud.x, point), test::number_at(frame, frame.cloud.y, point),
+                    test::number_at(frame, frame.cloud.z, point));
+}
+
+TEST(SimulatedSensor, PacketsOfAVlp16GiveTheRangesBack) {
+  VelodyneAssembler assembler;
+  for (const std::string& packet : vlp16_turns(2)) {
+    const Bytes bytes = test::bytes_of(packet);
+    ASSERT_TRUE(assembler.add({0, 1, {bytes.data(), bytes.size()}}));
+  }
+  const std::optional<Scan> scan = assembler.take();
+  ASSERT_TRUE(scan);
+  const Frame frame = frame_of(*scan);
+  ASSERT_EQ(scan->points.size(), 16U * 1800U);
+  const RangeImage image = image_of(16, 1800);
+  for (std::uint32_t i = 0; i < scan->points.size(); i += 97) {
+    // The beam starts up to 11 mm above the centre.
+    EXPECT_NEAR(range_at(frame, i), image.range_m[i], 0.012) << i;
+  }
+}
+
+TEST(SimulatedSensor, PacketsOfAnOusterGiveTheRangesBack) {
+  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterEncoder encoder(setup.sensor);
+  OusterAssembler assembler(parse_ouster_metadata(encoder.metadata()));
+  const RangeImage image = image_of(64, 1024);
+  for (const std::string& packet : encoder.packets(image, 0, kTurn_ns)) {
+    const Bytes bytes = test::bytes_of(packet);
+    ASSERT_TRUE(assembler.add({0, 1, {bytes.data(), bytes.size()}}));
+  }
+  assembler.finish();
+  const std::optional<Scan> scan = assembler.take();
+  ASSERT_TRUE(scan);
+  const Frame frame = frame_of(*scan);
+  for (std::uint32_t from_top = 0; from_top < 64; from_top += 9) {
+    for (std::uint32_t column = 0; column < 1024; column += 101) {
+      EXPECT_NEAR(range_at(frame, from_top * 1024 + column), image.range_m[image.at(63 - from_top, column)], 0.001);
+    }
+  }
+}
+
+TEST(UdpSource, TurnsBecomeFramesAndTheStampsOfTheEngineAreOfAClockThatNobodySets) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port);
+  Pace(*source).send(sender, vlp16_turns(4));
+  ASSERT_TRUE(catcher.wait_for_frames(3));
+  source->stop();
+  EXPECT_EQ(catcher.frames().size(), 3U) << "the fourth has no end yet";
+  timespec up{};
+  clock_gettime(CLOCK_MONOTONIC, &up);
+  for (const LiveFrame& frame : catcher.frames()) {
+    EXPECT_EQ(frame.frame.cloud.width * frame.frame.cloud.height, 16U * 1800U);
+    EXPECT_NEAR(static_cast<double>(frame.frame.cloud.stamp_ns) * 1e-9, static_cast<double>(up.tv_sec), 60.0);
+    EXPECT_NEAR(static_cast<double>(frame.stamp_ns) * 1e-9, static_cast<double>(std::time(nullptr)), 60.0);
+  }
+  EXPECT_EQ(fact(source->health(), "packets"), "300");
+  EXPECT_EQ(fact(source->health(), "packets of no use"), "0");
+}
+
+TEST(UdpSource, PacketsOfOthersAndWhatIsNoPacketAreCountedAndDropped) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port, {"udp_sender=127.0.0.1"}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port), other(port, "127.0.0.2");
+  const std::vector<std::string> ours = vlp16_turns(3), theirs = vlp16_turns(3, 50);
+  Pace pace(*source);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    pace.send(other, std::string_view(theirs[i]));
+    pace.send(sender, std::string_view(ours[i]));
+    pace.send(sender, "no packet");
+    pace.send(sender, "");
+  }
+  ASSERT_TRUE(catcher.wait_for_frames(2));
+  source->stop();
+  EXPECT_EQ(fact(source->health(), "packets of others"), "225");
+  EXPECT_EQ(fact(source->health(), "packets of no use"), "450");
+  VelodyneAssembler alone;
+  for (const std::string& packet : ours) {
+    const Bytes bytes = test::bytes_of(packet);
+    alone.add({0, 1, {bytes.data(), bytes.size()}});
+  }
+  const Frame expected = frame_of(*alone.take());
+  for (std::uint32_t i = 0; i < 16U * 1800U; ++i) {
+    ASSERT_EQ(range_at(catcher.frames()[0].frame, i), range_at(expected, i)) << i;
+  }
+}
+
+TEST(UdpSource, HalfATurnBeforeASilenceIsNotJoinedToHalfOfOneAfterIt) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port);
+  std::vector<std::string> before = vlp16_turns(2), after = vlp16_turns(3, 20);
+  before.resize(75 + 37);
+  after.erase(after.begin(), after.begin() + 37);
+  Pace pace(*source);
+  pace.send(sender, before);
+  ASSERT_TRUE(catcher.wait_for_frames(1));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+  EXPECT_EQ(source->health().summary, "the sensor is silent");
+  pace.send(sender, after);
+  ASSERT_TRUE(catcher.wait_for_frames(2));
+  source->stop();
+  for (const LiveFrame& frame : catcher.frames()) {
+    EXPECT_EQ(frame.frame.cloud.width * frame.frame.cloud.height, 16U * 1800U) << "a whole turn or none";
+  }
+  const RangeImage second = image_of(16, 1800, 21);
+  EXPECT_NEAR(range_at(catcher.frames()[1].frame, 0), second.range_m[0], 0.012);
+  EXPECT_EQ(fact(source->health(), "silences"), "1");
+}
+
+#ifdef POSE_WALL_LIVE_HAS_HTTP
+TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
+  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterEncoder encoder(setup.sensor);
+  const std::uint16_t port = free_udp_port();
+  const std::string web = "127.0.0.1:" + std::to_string(free_udp_port());
+  const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  ASSERT_TRUE(becomes_true([&] { return source->health().summary.find("metadata") != std::string::npos; }))
+      << source->health().summary;
+  const MetadataServer server(web, encoder.metadata());
+  ASSERT_TRUE(becomes_true([&] { return source->health().summary.find("metadata") == std::string::npos; }));
+  const LoopbackSender sender(port);
+  Pace pace(*source);
+  for (int turn = 0; turn < 3; ++turn) {
+    pace.send(sender, encoder.packets(image_of(64, 1024), turn * kTurn_ns, kTurn_ns));
+  }
+  ASSERT_TRUE(catcher.wait_for_frames(2));
+  source->stop();
+  EXPECT_EQ(catcher.frames()[0].frame.cloud.width * catcher.frames()[0].frame.cloud.height, 64U * 1024U);
+  EXPECT_EQ(catcher.frames()[1].stamp_ns - catcher.frames()[0].stamp_ns, kTurn_ns) << "the sensor's own clock";
+}
+#endif
+
+TEST(UdpSource, WhatNoWaitingMendsIsRefusedWithWordsThatHelp) {
+  EXPECT_NE(
+      refusal_of(live_config(0, {"udp_address=sensor"})).find("udp_address: 'sensor' is no IPv4 address; allowed:"),
+      std::string::npos);
+  EXPECT_NE(refusal_of(live_config(2368, {"udp_address=192.0.2.1"})).find("udp_address 192.0.2.1, udp_port 2368"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(live_config(0, {"udp_sender=x"})).find("udp_sender: 'x' is no IPv4 address"), std::string::npos);
+  EXPECT_NE(refusal_of(live_config(0, {"sensor_metadata=/nowhere.json"})).find("/nowhere.json"), std::string::npos);
+  const std::uint16_t port = free_udp_port();
+  FrameCatcher catcher;
+  const auto first = make_udp_source(live_config(port));
+  first->start(catcher);
+  EXPECT_NE(refusal_of(live_config(port)).find("cannot listen there"), std::string::npos);
+}
+
+TEST(UdpSource, StopsTwiceAndBeforeItBegan) {
+  const auto source = make_udp_source(live_config(free_udp_port()));
+  source->stop();
+  source->stop();
+  EXPECT_EQ(fact(source->health(), "frames"), "0");
+}
+
+// Every capture there is: as UDP the same points as from the file, bit for bit.
+class LiveCaptures : public pose_wall::test::RealFrames {};
+
+TEST_F(LiveCaptures, GiveTheSameBitsByUdpAsFromTheFile) {
+  std::size_t looked_at = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(pose_wall::test::data_folder() / "packets")) {
+    if (entry.path().extension() != ".pcap") continue;
+    SCOPED_TRACE(entry.path().filename().string());
+    FrameSequence sequence({entry.path().string()});
+    std::vector<Frame> expected;
+    while (std::optional<SourcedFrame> frame = sequence.next()) {
+      if (frame->frame) expected.push_back(std::move(*frame->frame));
+    }
+    std::filesystem::path metadata = entry.path();
+    metadata.replace_extension(".json");
+    std::vector<std::string> settings;
+    if (std::filesystem::exists(metadata)) settings.push_back("sensor_metadata=" + metadata.string());
+
+    const std::uint16_t port = free_udp_port();
+    const auto source = make_udp_source(live_config(port, settings));
+    FrameCatcher catcher;
+    source->start(catcher);
+    const LoopbackSender sender(port);
+    const std::unique_ptr<DatagramSource> capture = open_udp_capture(entry.path().string());
+    std::int64_t last_ns = 0;
+    std::size_t sent = 0;
+    while (std::optional<Datagram> datagram = capture->next()) {
+      const std::int64_t pause_ns = last_ns == 0 ? 0 : datagram->captured_ns - last_ns;
+      last_ns = datagram->captured_ns;
+      std::this_thread::sleep_for(std::chrono::nanoseconds(std::clamp<std::int64_t>(pause_ns, 0, 100'000'000)));
+      ASSERT_TRUE(sender.send(text_of(datagram->payload)));
+      ++sent;
+    }
+    ASSERT_TRUE(becomes_true([&] { return fact(source->health(), "packets") == std::to_string(sent); }));
+    source->stop();
+    ++looked_at;
+    std::size_t same = 0;
+    for (const LiveFrame& frame : catcher.frames()) {
+      for (const Frame& from_file : expected) {
+        if (frame.frame.cloud.width != from_file.cloud.width || frame.frame.cloud.height != from_file.cloud.height) {
+          continue;
+        }
+        bool is_same = true;
+        const std::uint32_t points = from_file.cloud.width * from_file.cloud.height;
+        for (std::uint32_t i = 0; i < points && is_same; ++i) {
+          const auto at = std::size_t{i} * from_file.cloud.point_step;
+          // x, y, z and intensity; the times go by the packets' arrival.
+          is_same = std::memcmp(frame.frame.bytes.data() + at, from_file.bytes.data() + at, 16) == 0;
+        }
+        if (is_same) ++same;
+      }
+    }
+    std::cout << entry.path().filename().string() << ": " << expected.size() << " frames of the file, "
+              << catcher.frames().size() << " live, " << same << " the same bits\n";
+    EXPECT_EQ(same, catcher.frames().size()) << "what the file's reader refuses is refused live";
+    EXPECT_GE(catcher.frames().size() + 1, expected.size()) << "but for a turn whose end the capture does not hold";
+  }
+  EXPECT_GT(looked_at, 0U);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::live

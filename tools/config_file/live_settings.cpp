@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "config_file/live_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <variant>
+
+namespace pose_wall::tools {
+namespace {
+
+using Type = LiveKeyInfo::Type;
+using Member = std::variant<std::string LiveSettings::*, double LiveSettings::*, bool LiveSettings::*>;
+
+struct Row {
+  LiveKeyInfo info;
+  Member member;
+};
+
+constexpr const char* kSources = "Live: where pose_walld takes clouds from";
+constexpr const char* kSinks = "Live: where pose_walld puts results";
+
+const std::vector<Row>& rows() {
+  static const std::vector<Row> table = {
+      {{"source", kSources, Type::kChoice, "", 0, 0, "udp, ros1, ros2",
+        "where clouds come from: a sensor's packets by UDP, or pointcloud_topic of ROS 1 or ROS 2"},
+       &LiveSettings::source},
+      {{"extrinsic_from", kSources, Type::kChoice, "", 0, 0, "config, tf",
+        "config: extrinsic_x to extrinsic_yaw. tf: the transform from lidar_frame to base_frame, of ROS alone; nothing "
+        "is measured before it is there"},
+       &LiveSettings::extrinsic_from},
+      {{"sensor", kSources, Type::kText, "", 0, 0, "",
+        "which sensor sends the packets: auto (the packets tell), vlp16, vlp16_hires, hdl32e, vlp32c, ouster, "
+        "hesai_xt32, "
+        "hesai_40p, hesai_qt64, mid360. One that contradicts its packets is refused"},
+       &LiveSettings::sensor},
+      {{"sensor_metadata", kSources, Type::kText, "", 0, 0, "",
+        "what the sensor says of itself: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for "
+        "an "
+        "Ouster; empty: not needed"},
+       &LiveSettings::sensor_metadata},
+      {{"udp_address", kSources, Type::kText, "", 0, 0, "",
+        "this machine's address on the sensor's network; 0.0.0.0 listens on all. Anybody there can then send packets"},
+       &LiveSettings::udp_address},
+      {{"udp_port", kSources, Type::kInteger, "1", 0, 65535, "", "port the sensor sends to; 0: its usual one"},
+       &LiveSettings::udp_port},
+      {{"udp_sender", kSources, Type::kText, "", 0, 0, "",
+        "address of the sensor; packets of others are counted and dropped. Empty: whoever sends first"},
+       &LiveSettings::udp_sender},
+      {{"frame_points_max", kSources, Type::kInteger, "points", 1, 67108864, "",
+        "most points of one cloud; decides the memory, larger clouds are refused"},
+       &LiveSettings::frame_points_max},
+      {{"ros1", kSinks, Type::kSwitch, "1", 0, 0, "", "1: publish results as a node of ROS 1"}, &LiveSettings::ros1},
+      {{"ros2", kSinks, Type::kSwitch, "1", 0, 0, "", "1: publish results as a node of ROS 2"}, &LiveSettings::ros2},
+      {{"ros_distro", kSinks, Type::kChoice, "", 0, 0, "humble, iron",
+        "which ROS 2 the others speak; iron stands for all later ones, too"},
+       &LiveSettings::ros_distro},
+      {{"http", kSinks, Type::kHostPort, "", 0, 0, "",
+        "address of the page, HOST:PORT; empty: no page. Everybody who reaches it may look, nobody can change "
+        "anything"},
+       &LiveSettings::http},
+      {{"modbus", kSinks, Type::kHostPort, "", 0, 0, "",
+        "address of the Modbus TCP server, HOST:PORT; empty: none. It answers reads of input registers and nothing "
+        "else"},
+       &LiveSettings::modbus},
+      {{"mqtt", kSinks, Type::kHostPort, "", 0, 0, "",
+        "broker for telemetry, HOST:PORT; empty: none. Never control a machine by it"},
+       &LiveSettings::mqtt},
+      {{"mqtt_topic", kSinks, Type::kText, "", 0, 0, "", "topic under which MQTT telemetry is published"},
+       &LiveSettings::mqtt_topic},
+      {{"black_box", kSinks, Type::kText, "", 0, 0, "",
+        "folder of the black box, one ring file a start; empty: none. `pose_wall replay-box` computes it again"},
+       &LiveSettings::black_box},
+      {{"black_box_mb", kSinks, Type::kNumber, "MB", 1, 1000000, "",
+        "room for all black boxes together; the oldest goes first"},
+       &LiveSettings::black_box_mb},
+      {{"recording", kSinks, Type::kText, "", 0, 0, "", "folder of recordings as MCAP; empty: none"},
+       &LiveSettings::recording},
+      {{"recording_mb", kSinks, Type::kNumber, "MB", 1, 10000000, "",
+        "room for all recordings together; the oldest goes first"},
+       &LiveSettings::recording_mb},
+      {{"recording_clouds", kSinks, Type::kSwitch, "1", 0, 0, "", "1: recordings hold the clouds, too"},
+       &LiveSettings::recording_clouds},
+      {{"status_every_s", kSinks, Type::kNumber, "s", 1, 86400, "", "a line of status goes to the log this often"},
+       &LiveSettings::status_every_s},
+  };
+  return table;
+}
+
+const Row* find_row(const std::string& name) {
+  for (const Row& row : rows()) {
+    if (name == row.info.name) return &row;
+  }
+  return nullptr;
+}
+
+bool is_choice(const LiveKeyInfo& key, const std::string& value) {
+  std::istringstream choices(key.choices);
+  for (std::string choice; std::getline(choices >> std::ws, choice, ',');) {
+    if (choice == value) return true;
+  }
+  return false;
+}
+
+std::optional<double> number_of(const LiveKeyInfo& key, const std::string& text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (!(number >= key.minimum && number <= key.maximum)) return std::nullopt;
+  if (key.type == Type::kInteger && number != std::floor(number)) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+const std::vector<LiveKeyInfo>& live_keys() {
+  static const std::vector<LiveKeyInfo> keys = [] {
+    std::vector<LiveKeyInfo> infos;
+    for (const Row& row : rows()) infos.push_back(row.info);
+    return infos;
+  }();
+  return keys;
+}
+
+const LiveKeyInfo* find_live_key(const std::string& name) {
+  const Row* row = find_row(name);
+  return row != nullptr ? &row->info : nullptr;
+}
+
+std::string allowed_text(const LiveKeyInfo& key) {
+  const std::string unit = key.unit == std::string("1") || *key.unit == '\0' ? "" : std::string(" ") + key.unit;
+  switch (key.type) {
+    case Type::kText:
+      return "text";
+    case Type::kChoice:
+      return fmt::format("one of {}", key.choices);
+    case Type::kNumber:
+      return fmt::format("a number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
+    case Type::kInteger:
+      return fmt::format("a whole number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
+    case Type::kSwitch:
+      return "0 or 1";
+    case Type::kHostPort:
+      return "HOST:PORT, as 127.0.0.1:8080, or nothing";
+  }
+  return "";
+}
+
+std::string live_value_text(const LiveSettings& settings, const LiveKeyInfo& key) {
+  const Member member = find_row(key.name)->member;
+  if (const auto text = std::get_if<std::string LiveSettings::*>(&member)) return settings.**text;
+  if (const auto number = std::get_if<double LiveSettings::*>(&member)) return fmt::format("{:.9g}", settings.**number);
+  return settings.*std::get<bool LiveSettings::*>(member) ? "1" : "0";
+}
+
+bool set_live_value(LiveSettings* settings, const LiveKeyInfo& key, const std::string& value) {
+  if (key.type == Type::kChoice && !is_choice(key, value)) return false;
+  if (key.type == Type::kHostPort && !value.empty() && !parse_host_port(value)) return false;
+  const Member member = find_row(key.name)->member;
+  if (const auto text = std::get_if<std::string LiveSettings::*>(&member)) {
+    settings->** text = value;
+    return true;
+  }
+  if (const auto number = std::get_if<double LiveSettings::*>(&member)) {
+    const std::optional<double> read = number_of(key, value);
+    if (read) settings->** number = *read;
+    return read.has_value();
+  }
+  if (value != "0" && value != "1") return false;
+  settings->*std::get<bool LiveSettings::*>(member) = value == "1";
+  return true;
+}
+
+std::optional<HostPort> parse_host_port(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) return std::nullopt;
+  HostPort parts;
+  parts.host = text.substr(0, colon);
+  if (parts.host.front() == '[') {
+    if (parts.host.size() < 3 || parts.host.back() != ']') return std::nullopt;
+    parts.host = parts.host.substr(1, parts.host.size() - 2);
+  } else if (parts.host.find(':') != std::string::npos) {
+    return std::nullopt;
+  }
+  const char* begin = text.data() + colon + 1;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(begin, end, parts.port);
+  if (error != std::errc() || stop != end || parts.port < 1 || parts.port > 65535) return std::nullopt;
+  return parts;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The keys of pose_wall.yaml that pose_walld reads and the engine does not: sources, sinks, ports.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pose_wall::tools {
+
+struct LiveSettings {
+  std::string source = "udp";
+  std::string extrinsic_from = "config";
+  std::string sensor = "auto";
+  std::string sensor_metadata;
+  std::string udp_address = "127.0.0.1";
+  double udp_port = 0;
+  std::string udp_sender;
+  double frame_points_max = 262144;
+  bool ros1 = false, ros2 = false;
+  std::string ros_distro = "humble";
+  std::string http, modbus, mqtt;  // HOST:PORT; empty: off
+  std::string mqtt_topic = "pose_wall";
+  std::string black_box;
+  double black_box_mb = 256;
+  std::string recording;
+  double recording_mb = 4096;
+  bool recording_clouds = false;
+  double status_every_s = 60;
+};
+
+// One row of the table of live keys.
+struct LiveKeyInfo {
+  enum class Type { kText, kChoice, kNumber, kInteger, kSwitch, kHostPort };
+
+  const char* name;
+  const char* group;
+  Type type;
+  const char* unit;
+  double minimum, maximum;  // of numbers
+  const char* choices;      // of kChoice: "udp, ros1, ros2"
+  const char* help;
+};
+
+// All rows, in the table's order.
+const std::vector<LiveKeyInfo>& live_keys();
+const LiveKeyInfo* find_live_key(const std::string& name);
+
+// "one of udp, ros1, ros2", "a number from 0 to 65535", ...
+std::string allowed_text(const LiveKeyInfo& key);
+// As it would be written in pose_wall.yaml.
+std::string live_value_text(const LiveSettings& settings, const LiveKeyInfo& key);
+
+// False where the value is not allowed; the settings are then as before.
+bool set_live_value(LiveSettings* settings, const LiveKeyInfo& key, const std::string& value);
+
+// "HOST:PORT" in its parts; nothing where it is none. [::1]:502 is one.
+struct HostPort {
+  std::string host;
+  int port = 0;
+};
+std::optional<HostPort> parse_host_port(const std::string& text);
+
+}  // namespace pose_wall::tools

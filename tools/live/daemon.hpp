@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_walld as a whole: a source, the runtime and the sinks, from start to a clean stop.
+
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "config_file/load_config.hpp"
+#include "live/edges.hpp"
+#include "live/images.hpp"
+#include "live/live_runtime.hpp"
+#include "live/log.hpp"
+#include "live/service_manager.hpp"
+#include "live/sink_thread.hpp"
+#include "live/source.hpp"
+
+namespace pose_wall::tools::live {
+
+class Daemon final : public HealthBoard {
+ public:
+  // replay: instead of the config's source. Throws EdgeMissing, and std::runtime_error as LiveRuntime.
+  Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& replay);
+  ~Daemon() override { stop(); }
+
+  // Until `stop` is true, or a recording is through. Throws what the starts of source and sinks throw.
+  void run(const std::atomic<bool>& stop);
+
+  std::vector<PartHealth> all() const override;
+
+ private:
+  void make_edges(const std::optional<ReplayPlan>& replay);
+  void add(std::unique_ptr<Sink> sink);
+  void add(RosEdge edge);
+  void post(const std::shared_ptr<const LiveResult>& result);
+  void log_start() const;
+  void start();
+  void stop();
+  void look_around();
+
+  LoadedConfig loaded_;
+  LiveRuntime runtime_;
+  std::unique_ptr<Source> source_;
+  std::vector<std::unique_ptr<SinkThread>> sinks_;
+  ServiceManager service_;
+  HealthLog health_log_;
+};
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// How a part of the daemon is doing, in the words of /diagnostics: a grade, a summary and facts. The same go into the
+// log, the page and the diagnostics of ROS.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pose_wall::tools::live {
+
+// As diagnostic_msgs/DiagnosticStatus numbers them.
+enum class Grade : std::uint8_t { kGood = 0, kWarning = 1, kBad = 2, kStale = 3 };
+
+const char* grade_name(Grade grade);
+
+struct PartHealth {
+  std::string part;  // "source udp 127.0.0.1:2368", "sink modbus 127.0.0.1:502"
+  Grade grade = Grade::kGood;
+  std::string summary;  // one sentence; it changes only when something happens, for each change is a line of the log
+  std::vector<std::pair<std::string, std::string>> facts;  // names and values: "frames" "1203"
+
+  void add(const std::string& name, std::uint64_t count) { facts.emplace_back(name, std::to_string(count)); }
+  void add(const std::string& name, const std::string& value) { facts.emplace_back(name, value); }
+};
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "live/live_runtime.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+#include <utility>
+
+#include "angles.hpp"
+#include "live/log.hpp"
+#include "quantities.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+// A result comes at most this many pushes after its frame: those that wait, the one in work, the one being copied.
+constexpr std::uint64_t kFramesKept = 8;
+// A frame takes 0.2 s at most on the slowest controller (bench/README.md); a worker that is at one thing for so much
+// longer does not come back.
+constexpr std::int64_t kHangs_ns = 10'000'000'000;
+// A transform that moved less is the same one with rounding: reopening costs what the engine remembers.
+constexpr double kSamePlace_m = 1e-4, kSameAngle_rad = 1e-5;
+
+std::string text_of(const api::Config& config, const char* key) {
+  char text[POSE_WALL_TEXT_MAX] = {};
+  pose_wall_config_get_text(config.get(), key, text, sizeof text);
+  return text;
+}
+
+void require(std::int32_t status, const char* what) {
+  if (status == POSE_WALL_OK) return;
+  throw std::runtime_error(fmt::format("{}: {}", what, pose_wall_runtime_status_text(status)));
+}
+
+bool is_same(const Extrinsic& a, const Extrinsic& b) {
+  const auto near = [](double p, double q, double within) { return std::abs(p - q) <= within; };
+  return near(a.x_m, b.x_m, kSamePlace_m) && near(a.y_m, b.y_m, kSamePlace_m) && near(a.z_m, b.z_m, kSamePlace_m) &&
+         near(a.roll_rad, b.roll_rad, kSameAngle_rad) && near(a.pitch_rad, b.pitch_rad, kSameAngle_rad) &&
+         near(a.yaw_rad, b.yaw_rad, kSameAngle_rad);
+}
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+std::string milliseconds(std::int64_t ns) {
+  return fmt::format("{:.1f}", static_cast<double>(ns) * 1e-6);
+}
+
+}  // namespace
+
+LiveRuntime::LiveRuntime(const LoadedConfig& loaded, std::function<BlackBox()> open_box, Post post,
+                         std::function<bool()> wants_points)
+    : config_(loaded.config),
+      open_box_(std::move(open_box)),
+      post_(std::move(post)),
+      wants_points_(std::move(wants_points)) {
+  settings_.lidar_frame = text_of(config_, "lidar_frame");
+  settings_.extrinsic_by_tf = loaded.live.extrinsic_from == "tf";
+  settings_.frame_points_max = static_cast<std::uint32_t>(loaded.live.frame_points_max);
+  open();
+}
+
+LiveRuntime::~LiveRuntime() {
+  stop();
+  close();
+}
+
+void LiveRuntime::open() {
+  open_box();
+  pose_wall_runtime_options options{};
+  require(pose_wall_runtime_options_init(&options), "the runtime's options");
+  options.cloud_points_max = settings_.frame_points_max;
+  options.callback = called_back;
+  options.callback_user = this;
+  options.sink = box_.write;
+  options.sink_user = box_.user;
+  options.box_bytes = box_.bytes;
+  // Clouds are in the box only where one fits beside the rest.
+  options.box_clouds = box_.bytes > 2 * std::uint64_t{options.cloud_points_max} * options.point_bytes_max ? 1 : 0;
+  if (config_.number("intensity_weight") > 0.0) options.point_bytes_max = std::max(options.point_bytes_max, 32U);
+  std::uint64_t bytes = 0;
+  require(pose_wall_runtime_memory_needed(config_.get(), &options, &bytes), "the runtime's memory");
+  block_.resize(static_cast<std::size_t>((bytes + sizeof(Line) - 1) / sizeof(Line)));
+  require(pose_wall_runtime_open(config_.get(), &options, block_.data(), block_.size() * sizeof(Line), &runtime_),
+          "opening the runtime");
+  ++opened_;
+}
+
+// At the start a folder that cannot be written is a fault of the settings; later the machine goes on without a box.
+void LiveRuntime::open_box() {
+  try {
+    box_ = {};
+    box_ = open_box_();
+  } catch (const std::exception& fault) {
+    if (opened_ == 0) throw;
+    log_line(Grade::kBad, "black box", fault.what());
+  }
+}
+
+void LiveRuntime::close() {
+  if (runtime_ == nullptr) return;
+  const std::int32_t status = pose_wall_runtime_close(runtime_);
+  if (status != POSE_WALL_OK) log_line(Grade::kBad, "runtime", pose_wall_runtime_status_text(status));
+  runtime_ = nullptr;
+}
+
+void LiveRuntime::start() {
+  const std::unique_lock<std::shared_mutex> locked(handle_lock_);
+  require(pose_wall_runtime_start(runtime_), "starting the runtime");
+  started_ = true;
+}
+
+void LiveRuntime::stop() {
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  if (runtime_ == nullptr) return;
+  const std::int32_t status = pose_wall_runtime_stop(runtime_);
+  if (status != POSE_WALL_OK) log_line(Grade::kBad, "runtime", pose_wall_runtime_status_text(status));
+}
+
+void LiveRuntime::take(LiveFrame frame) {
+  const std::lock_guard<std::mutex> in_row(take_lock_);
+  if (settings_.extrinsic_by_tf && !extrinsic_) {
+    ++without_extrinsic_;
+    return;
+  }
+  if (frame.frame_id.empty()) frame.frame_id = settings_.lidar_frame;
+  const auto shared = std::make_shared<const LiveFrame>(std::move(frame));
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  {
+    const std::lock_guard<std::mutex> frames_locked(frames_lock_);
+    frames_[next_number_] = shared;
+    while (frames_.begin()->first + kFramesKept < next_number_) frames_.erase(frames_.begin());
+  }
+  const std::int32_t status = pose_wall_runtime_push(runtime_, &shared->frame.cloud);
+  // What is not running counts no push (pose_wall_runtime_push).
+  if (status != POSE_WALL_RUNTIME_E_STATE) ++next_number_;
+  if (status != POSE_WALL_OK) {
+    ++refused_;
+    last_refusal_ = status;
+  }
+}
+
+void LiveRuntime::set_extrinsic(const std::optional<Extrinsic>& extrinsic) {
+  const std::lock_guard<std::mutex> in_row(take_lock_);
+  if (!settings_.extrinsic_by_tf) return;
+  const bool is_new = extrinsic && !(extrinsic_ && is_same(*extrinsic_, *extrinsic));
+  if (!extrinsic && extrinsic_) log_line(Grade::kWarning, "tf", "the transform is gone; nothing is measured");
+  if (extrinsic_ && !is_new && extrinsic) return;
+  extrinsic_ = extrinsic;
+  if (is_new) reopen(*extrinsic);
+}
+
+void LiveRuntime::reopen(const Extrinsic& extrinsic) {
+  const std::unique_lock<std::shared_mutex> locked(handle_lock_);
+  require(pose_wall_runtime_stop(runtime_), "stopping the runtime");
+  close();
+  const std::pair<const char*, double> values[] = {
+      {"extrinsic_x", extrinsic.x_m},           {"extrinsic_y", extrinsic.y_m},
+      {"extrinsic_z", extrinsic.z_m},           {"extrinsic_roll", extrinsic.roll_rad},
+      {"extrinsic_pitch", extrinsic.pitch_rad}, {"extrinsic_yaw", extrinsic.yaw_rad}};
+  bool is_set = true;
+  for (const auto& [key, value] : values) is_set = config_.set(key, value) == POSE_WALL_OK && is_set;
+  if (!is_set) {
+    log_line(Grade::kBad, "tf",
+             "the transform is out of the range of extrinsic_x to extrinsic_yaw; nothing is measured");
+    extrinsic_.reset();
+  }
+  {
+    const std::lock_guard<std::mutex> frames_locked(frames_lock_);
+    frames_.clear();
+    next_number_ = 0;
+  }
+  open();
+  if (started_) require(pose_wall_runtime_start(runtime_), "starting the runtime");
+  if (!is_set) return;
+  log_line(Grade::kGood, "tf",
+           fmt::format("sensor in base: x {:.3f}, y {:.3f}, z {:.3f} m, roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg",
+                       extrinsic.x_m, extrinsic.y_m, extrinsic.z_m, extrinsic.roll_rad * kDegPerRad,
+                       extrinsic.pitch_rad * kDegPerRad, extrinsic.yaw_rad * kDegPerRad));
+}
+
+void LiveRuntime::wait_idle() {
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  pose_wall_runtime_wait_idle(runtime_);
+}
+
+void LiveRuntime::called_back(void* user, const pose_wall_publication* publication) {
+  static_cast<LiveRuntime*>(user)->publish(*publication);
+}
+
+void LiveRuntime::publish(const pose_wall_publication& publication) {
+  auto result = std::make_shared<LiveResult>();
+  result->publication = publication;
+  result->config = *config_.get();
+  if (publication.cause == POSE_WALL_RUNTIME_FRAME) {
+    result->frame = frame_of(publication.frame);
+    if (result->frame) header_stamp_ns_ = result->frame->stamp_ns;
+    if (wants_points_()) result->points = points();
+  }
+  result->header_stamp_ns = header_stamp_ns_;
+  post_(result);
+}
+
+std::shared_ptr<const LiveFrame> LiveRuntime::frame_of(std::uint64_t number) {
+  const std::lock_guard<std::mutex> locked(frames_lock_);
+  const auto found = frames_.find(number);
+  if (found == frames_.end()) return nullptr;
+  std::shared_ptr<const LiveFrame> frame = found->second;
+  frames_.erase(frames_.begin(), std::next(found));
+  return frame;
+}
+
+std::shared_ptr<const LabelledPoints> LiveRuntime::points() const {
+  pose_wall_points points{};
+  if (pose_wall_runtime_last_points(runtime_, &points) != POSE_WALL_OK) return nullptr;
+  auto copy = std::make_shared<LabelledPoints>();
+  copy->x_base_m.assign(points.x_base_m, points.x_base_m + points.count);
+  copy->y_base_m.assign(points.y_base_m, points.y_base_m + points.count);
+  copy->z_base_m.assign(points.z_base_m, points.z_base_m + points.count);
+  copy->label.assign(points.label, points.label + points.count);
+  return copy;
+}
+
+pose_wall_image LiveRuntime::image() const {
+  pose_wall_image image = api::make_image();
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  // Written whatever the status: what is stale or missing is invalid in it.
+  static_cast<void>(pose_wall_runtime_image(runtime_, &image));
+  return image;
+}
+
+pose_wall_image2 LiveRuntime::image2() const {
+  pose_wall_image2 image = api::make_image2();
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  static_cast<void>(pose_wall_runtime_image2(runtime_, &image));
+  return image;
+}
+
+pose_wall_publication LiveRuntime::latest() const {
+  pose_wall_publication publication{};
+  publication.struct_size = sizeof publication;
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  static_cast<void>(pose_wall_runtime_latest(runtime_, &publication));
+  return publication;
+}
+
+pose_wall_runtime_statistics LiveRuntime::statistics() const {
+  pose_wall_runtime_statistics statistics{};
+  statistics.struct_size = sizeof statistics;
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  pose_wall_runtime_statistics_now(runtime_, &statistics);
+  return statistics;
+}
+
+bool LiveRuntime::is_alive() const {
+  const pose_wall_runtime_statistics now = statistics();
+  if (now.activity == POSE_WALL_RUNTIME_AT_NOTHING || now.activity == POSE_WALL_RUNTIME_AT_WAIT) return true;
+  return monotonic_ns() - now.activity_since_ns < kHangs_ns;
+}
+
+PartHealth LiveRuntime::health() const {
+  const pose_wall_publication publication = latest();
+  PartHealth health;
+  health.part = "runtime";
+  std::uint32_t usable = 0;
+  for (const pose_wall_value& value : publication.result.quantity) usable += value.state >= POSE_WALL_DEGRADED ? 1 : 0;
+  const bool is_fresh = publication.cause == POSE_WALL_RUNTIME_FRAME;
+  if (settings_.extrinsic_by_tf && without_extrinsic_ > 0 && publication.cause == 0) {
+    health.grade = Grade::kBad;
+    health.summary = "waits for the transform from " + settings_.lidar_frame + "; nothing is measured";
+  } else if (!is_fresh) {
+    health.grade = Grade::kBad;
+    health.summary = publication.cause == 0 ? "no frame yet" : "no frame comes";
+  } else {
+    health.grade = usable == POSE_WALL_QUANTITIES ? Grade::kGood : Grade::kWarning;
+    health.summary = usable == 0 ? "frames come, nothing is measured" : "measures";
+  }
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    health.add(pose_wall_quantity_name(q), pose_wall_state_name(publication.result.quantity[q].state));
+  }
+  add_runtime_facts(&health);
+  return health;
+}
+
+void LiveRuntime::add_runtime_facts(PartHealth* health) const {
+  const pose_wall_runtime_statistics now = statistics();
+  health->add("frames pushed", now.pushed);
+  health->add("frames measured", now.processed);
+  for (std::uint32_t why = 0; why < POSE_WALL_RUNTIME_DROPS; ++why) {
+    if (now.dropped[why] > 0)
+      health->add(fmt::format("dropped, {}", pose_wall_runtime_drop_name(why)), now.dropped[why]);
+  }
+  if (without_extrinsic_ > 0) health->add("dropped, no transform yet", without_extrinsic_.load());
+  if (last_refusal_ != POSE_WALL_OK) health->add("last refusal", pose_wall_runtime_status_text(last_refusal_));
+  health->add("silences", now.silences);
+  health->add("age ms", now.newest_age_ns < 0 ? "-" : milliseconds(now.newest_age_ns));
+  health->add("latency p50 ms", milliseconds(now.latency.p50_ns));
+  health->add("latency p99 ms", milliseconds(now.latency.p99_ns));
+  health->add("latency worst ms", milliseconds(now.latency.worst_ns));
+  health->add("activity", pose_wall_runtime_activity_name(now.activity));
+  health->add("opened", opened_.load());
+  if (box_.write == nullptr) return;
+  health->add("black box written", now.box_written);
+  health->add("black box lost", now.box_lost);
+  health->add("black box failed", now.box_failed);
+}
+
+}  // namespace pose_wall::tools::live

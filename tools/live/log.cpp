@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "live/log.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+
+namespace pose_wall::tools::live {
+namespace {
+
+// sd-daemon(3): a line may begin with its syslog level.
+const char* journal_level(Grade grade) {
+  switch (grade) {
+    case Grade::kGood:
+      return "<6>";
+    case Grade::kWarning:
+      return "<4>";
+    default:
+      return "<3>";
+  }
+}
+
+// Of today, in UTC, to the millisecond.
+std::string time_text() {
+  const auto now = std::chrono::system_clock::now();
+  const auto since_epoch_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count();
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z ", parts, since_epoch_ms % 1000);
+}
+
+// How many bytes the UTF-8 character at `at` has; 0 where there is none (RFC 3629, 4, but for the overlong ones).
+std::size_t character_bytes(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(at);
+  const std::size_t bytes = first < 0x80                    ? 1
+                            : first >= 0xC2 && first < 0xE0 ? 2
+                            : first >= 0xE0 && first < 0xF0 ? 3
+                            : first >= 0xF0 && first < 0xF5 ? 4
+                                                            : 0;
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(at + i) & 0xC0U) != 0x80U) return 0;
+  }
+  return bytes;
+}
+
+// Names and messages of others must not forge lines, nor break who reads the log as text.
+std::string one_line(const std::string& text) {
+  std::string line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t bytes = character_bytes(text, at);
+    const bool is_control = static_cast<unsigned char>(text[at]) < 0x20 || text[at] == 0x7F;
+    if (bytes == 0 || is_control) {
+      line += bytes == 0 ? '?' : ' ';
+      ++at;
+    } else {
+      line.append(text, at, bytes);
+      at += bytes;
+    }
+  }
+  return line;
+}
+
+}  // namespace
+
+const char* grade_name(Grade grade) {
+  switch (grade) {
+    case Grade::kGood:
+      return "ok";
+    case Grade::kWarning:
+      return "warning";
+    case Grade::kBad:
+      return "error";
+    case Grade::kStale:
+      return "stale";
+  }
+  return "?";
+}
+
+void log_line(Grade grade, const std::string& part, const std::string& fact) {
+  static const bool to_journal = std::getenv("JOURNAL_STREAM") != nullptr;
+  const std::string line =
+      fmt::format("{}{}{}: {}\n", to_journal ? journal_level(grade) : time_text(),
+                  to_journal ? "" : fmt::format("{:7} ", grade_name(grade)), one_line(part), one_line(fact));
+  // One call, so that threads do not mix their lines. A log that cannot be written is nothing to stop for.
+  const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+  static_cast<void>(written);
+}
+
+void HealthLog::note(const std::vector<PartHealth>& parts) {
+  for (const PartHealth& part : parts) {
+    const auto known =
+        std::find_if(last_.begin(), last_.end(), [&](const PartHealth& before) { return before.part == part.part; });
+    const bool is_news = known == last_.end() || known->grade != part.grade || known->summary != part.summary;
+    if (is_news) log_line(part.grade, part.part, part.summary);
+  }
+  last_ = parts;
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "live/ros_messages/ros_publisher.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <ctime>
+#include <utility>
+#include <vector>
+
+namespace pose_wall::tools::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kDiagnosticsEvery = std::chrono::seconds(1);
+
+std::string text_of(const LoadedConfig& loaded, const char* key) {
+  char text[POSE_WALL_TEXT_MAX] = {};
+  pose_wall_config_get_text(loaded.config.get(), key, text, sizeof text);
+  return text;
+}
+
+std::int64_t wall_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+class RosPublisher final : public Sink {
+ public:
+  RosPublisher(std::string part, const LoadedConfig& loaded, const HealthBoard& board, MessageEncoding encoding,
+               std::unique_ptr<RosOut> out)
+      : part_(std::move(part)),
+        board_(board),
+        out_(std::move(out)),
+        messages_(encoding, text_of(loaded, "base_frame")),
+        attitude_(out_->advertise("/pose_wall/attitude", kVector3StampedType)),
+        distances_(out_->advertise("/pose_wall/distances", kFloat32MultiArrayType)),
+        state_(out_->advertise("/pose_wall/state", kStateType)),
+        points_(out_->advertise("/pose_wall/points", kPointCloud2Type)),
+        diagnostics_(out_->advertise("/diagnostics", kDiagnosticArrayType)),
+        transforms_(out_->advertise("/tf", kTfMessageType)) {}
+  ~RosPublisher() override { out_->stop(); }
+
+  void start() override { out_->start(); }
+  void stop() override { out_->stop(); }
+
+  void take(const LiveResult& result) override {
+    out_->publish(attitude_, messages_.attitude(result));
+    out_->publish(distances_, messages_.distances(result));
+    out_->publish(state_, messages_.state(result));
+    if (RosMessages::has_level(result)) out_->publish(transforms_, messages_.level_transform(result));
+    wants_points_ = out_->subscribers(points_) > 0;
+    if (result.points && wants_points_) out_->publish(points_, messages_.points(result));
+    ++published_;
+    tell_health();
+  }
+
+  PartHealth health() const override {
+    PartHealth health;
+    health.part = part_;
+    const std::string trouble = out_->trouble();
+    health.grade = trouble.empty() ? Grade::kGood : Grade::kWarning;
+    health.summary = trouble.empty() ? "publishes" : trouble;
+    health.add("results published", published_.load());
+    std::uint64_t subscribers = 0;
+    for (const std::size_t topic : {attitude_, distances_, state_}) subscribers += out_->subscribers(topic);
+    health.add("subscribers", subscribers);
+    return health;
+  }
+
+  bool wants_points() const override { return wants_points_; }
+
+ private:
+  // Once a second, and at once where a part fares otherwise than it did.
+  void tell_health() {
+    std::vector<PartHealth> parts = board_.all();
+    const auto fares_alike = [](const PartHealth& a, const PartHealth& b) {
+      return a.part == b.part && a.grade == b.grade && a.summary == b.summary;
+    };
+    const bool is_news = !std::equal(parts.begin(), parts.end(), told_.begin(), told_.end(), fares_alike);
+    if (!is_news && Clock::now() - diagnostics_last_ < kDiagnosticsEvery) return;
+    diagnostics_last_ = Clock::now();
+    out_->publish(diagnostics_, messages_.diagnostics(parts, wall_ns()));
+    told_ = std::move(parts);
+  }
+
+  std::string part_;
+  const HealthBoard& board_;
+  std::unique_ptr<RosOut> out_;
+  RosMessages messages_;
+  std::size_t attitude_, distances_, state_, points_, diagnostics_, transforms_;
+  Clock::time_point diagnostics_last_{};
+  std::vector<PartHealth> told_;
+  std::atomic<bool> wants_points_{false};
+  std::atomic<std::uint64_t> published_{0};
+};
+
+}  // namespace
+
+std::unique_ptr<Sink> make_ros_publisher(const std::string& part, const LoadedConfig& loaded, const HealthBoard& health,
+                                         MessageEncoding encoding, std::unique_ptr<RosOut> out) {
+  return std::make_unique<RosPublisher>(part, loaded, health, encoding, std::move(out));
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "live/sink_thread.hpp"
+
+namespace pose_wall::tools::live {
+
+void SinkThread::start() {
+  sink_->start();
+  ending_ = false;
+  thread_ = std::thread([this] { run(); });
+}
+
+void SinkThread::post(const std::shared_ptr<const LiveResult>& result) {
+  std::shared_ptr<const LiveResult> oldest;  // its memory is given back outside of the lock
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    if (ending_) return;
+    if (waiting_.size() >= sink_->backlog()) {
+      oldest = std::move(waiting_.front());
+      waiting_.pop_front();
+      ++lost_;
+    }
+    waiting_.push_back(result);
+  }
+  changed_.notify_one();
+}
+
+void SinkThread::run() {
+  std::unique_lock<std::mutex> locked(lock_);
+  while (true) {
+    changed_.wait(locked, [this] { return ending_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    const std::shared_ptr<const LiveResult> result = std::move(waiting_.front());
+    waiting_.pop_front();
+    locked.unlock();
+    sink_->take(*result);
+    locked.lock();
+    ++taken_;
+  }
+}
+
+void SinkThread::stop() {
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    ending_ = true;
+  }
+  changed_.notify_one();
+  if (!thread_.joinable()) return;
+  thread_.join();
+  sink_->stop();
+}
+
+PartHealth SinkThread::health() const {
+  PartHealth health = sink_->health();
+  const std::lock_guard<std::mutex> locked(lock_);
+  health.add("results taken", taken_);
+  health.add("results lost to slowness", lost_);
+  return health;
+}
+
+}  // namespace pose_wall::tools::live

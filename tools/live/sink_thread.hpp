@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A sink with a thread and a mailbox of its own: posting never waits for it.
+
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "live/sink.hpp"
+
+namespace pose_wall::tools::live {
+
+class SinkThread {
+ public:
+  explicit SinkThread(std::unique_ptr<Sink> sink) : sink_(std::move(sink)) {}
+  SinkThread(const SinkThread&) = delete;
+  SinkThread& operator=(const SinkThread&) = delete;
+  ~SinkThread() { stop(); }
+
+  // Throws what the sink's start throws.
+  void start();
+  // Copies a pointer under a short lock; where the mailbox is full, the oldest result is lost and counted.
+  void post(const std::shared_ptr<const LiveResult>& result);
+  // Takes what waits, then ends the thread and the sink. May be called twice.
+  void stop();
+
+  bool wants_points() const { return sink_->wants_points(); }
+  // The sink's, with what its mailbox lost.
+  PartHealth health() const;
+
+ private:
+  void run();
+
+  std::unique_ptr<Sink> sink_;
+  std::thread thread_;
+  mutable std::mutex lock_;
+  std::condition_variable changed_;
+  std::deque<std::shared_ptr<const LiveResult>> waiting_;
+  bool ending_ = false;
+  std::uint64_t taken_ = 0, lost_ = 0;
+};
+
+}  // namespace pose_wall::tools::live

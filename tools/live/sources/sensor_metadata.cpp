@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "live/sources/sensor_metadata.hpp"
+
+#include <fmt/format.h>
+
+#ifdef POSE_WALL_LIVE_HAS_HTTP
+#include <httplib.h>
+#endif
+
+#include <chrono>
+#include <stdexcept>
+
+#include "packets/ouster.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+constexpr const char* kHttp = "http://";
+// Ouster's HTTP API of firmware 2.1 and later.
+constexpr const char* kPath = "/api/v1/sensor/metadata";
+constexpr auto kAskEvery = std::chrono::milliseconds(1000);
+constexpr auto kLook = std::chrono::milliseconds(50);
+
+// What is wrong stands in *trouble.
+std::string ask(const std::string& host, std::string* trouble) {
+#ifdef POSE_WALL_LIVE_HAS_HTTP
+  httplib::Client client(host);
+  client.set_connection_timeout(0, 500'000);
+  client.set_read_timeout(1, 0);
+  const auto answer = client.Get(kPath);
+  if (answer && answer->status == 200) return answer->body;
+  *trouble = fmt::format("the sensor's metadata: {}{}: {}", host, kPath,
+                         answer ? fmt::format("answered {}", answer->status) : httplib::to_string(answer.error()));
+  return "";
+#else
+  *trouble = fmt::format(
+      "the sensor's metadata: {}: this build has no HTTP: install libcpp-httplib-dev, configure and "
+      "build again, or give the metadata as a file",
+      host);
+  return "";
+#endif
+}
+
+}  // namespace
+
+SensorMetadata::SensorMetadata(const std::string& sensor, const std::string& place)
+    : place_(place), by_http_(place.rfind(kHttp, 0) == 0) {
+  try {
+    choice_ = choose_sensor({sensor, by_http_ ? "" : place_});
+  } catch (const FrameError& fault) {
+    throw std::runtime_error(fault.what());
+  }
+  if (by_http_) ask_again();
+}
+
+SensorMetadata::~SensorMetadata() {
+  end();
+}
+
+void SensorMetadata::end() {
+  ending_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void SensorMetadata::ask_again() {
+  if (!by_http_ || asking_) return;
+  end();
+  ending_ = false;
+  asking_ = true;
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    choice_.metadata.clear();
+  }
+  thread_ = std::thread([this] { ask_until_told(); });
+}
+
+void SensorMetadata::ask_until_told() {
+  while (!ending_) {
+    std::string trouble, text = ask(place_, &trouble);
+    if (!text.empty()) {
+      try {
+        parse_ouster_metadata(text);
+      } catch (const FrameError& fault) {
+        trouble = fmt::format("the sensor's metadata: {}: {}", place_, fault.what());
+        text.clear();
+      }
+    }
+    {
+      const std::lock_guard<std::mutex> locked(lock_);
+      choice_.metadata = text;
+      trouble_ = trouble;
+    }
+    if (!text.empty()) break;
+    for (auto waited = kLook; waited < kAskEvery && !ending_; waited += kLook) std::this_thread::sleep_for(kLook);
+  }
+  asking_ = false;
+}
+
+std::unique_ptr<ScanAssembler> SensorMetadata::assembler() {
+  const std::lock_guard<std::mutex> locked(lock_);
+  if (by_http_ && choice_.metadata.empty()) return nullptr;
+  return make_assembler(choice_);
+}
+
+std::uint16_t SensorMetadata::usual_port() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  if (by_http_ || (choice_.metadata.find('{') < choice_.metadata.find_first_not_of(" \t\r\n{"))) {
+    return known_sensor(SensorKind::kOuster).port;
+  }
+  const std::uint16_t port = known_sensor(choice_.kind).port;
+  return port != 0 ? port : known_sensor(SensorKind::kVlp16).port;
+}
+
+std::string SensorMetadata::trouble() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  return trouble_;
+}
+
+}  // namespace pose_wall::tools::live

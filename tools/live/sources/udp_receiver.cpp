@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "live/sources/udp_receiver.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <stdexcept>
+
+namespace pose_wall::tools::live {
+namespace {
+
+[[noreturn]] void fail(const std::string& address, std::uint16_t port, const char* what) {
+  throw std::runtime_error(
+      fmt::format("udp_address {}, udp_port {}: {}: {}", address, port, what, std::strerror(errno)));
+}
+
+void turn_on(int file, int option) {
+  const int on = 1;
+  // Both only make the counts and times better; the receiver works without.
+  static_cast<void>(setsockopt(file, SOL_SOCKET, option, &on, sizeof on));
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> parse_ipv4(const std::string& text) {
+  in_addr address{};
+  if (inet_pton(AF_INET, text.c_str(), &address) != 1) return std::nullopt;
+  return ntohl(address.s_addr);
+}
+
+std::string ipv4_text(std::uint32_t address) {
+  return fmt::format("{}.{}.{}.{}", address >> 24U, (address >> 16U) & 255U, (address >> 8U) & 255U, address & 255U);
+}
+
+UdpReceiver::UdpReceiver(const std::string& address, std::uint16_t port) {
+  const std::optional<std::uint32_t> host = parse_ipv4(address);
+  if (!host) {
+    throw std::runtime_error(
+        fmt::format("udp_address: '{}' is no IPv4 address; allowed: this machine's on the sensor's network, as "
+                    "192.168.1.100, or 0.0.0.0 for all of them",
+                    address));
+  }
+  file_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (file_ < 0) fail(address, port, "no socket");
+  const int wished = kBufferWished;
+  static_cast<void>(setsockopt(file_, SOL_SOCKET, SO_RCVBUF, &wished, sizeof wished));
+  socklen_t size = sizeof buffer_bytes_;
+  getsockopt(file_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes_, &size);
+  turn_on(file_, SO_TIMESTAMPNS);
+  turn_on(file_, SO_RXQ_OVFL);
+  sockaddr_in own{};
+  own.sin_family = AF_INET;
+  own.sin_addr.s_addr = htonl(*host);
+  own.sin_port = htons(port);
+  size = sizeof own;
+  if (bind(file_, reinterpret_cast<const sockaddr*>(&own), size) != 0 ||
+      getsockname(file_, reinterpret_cast<sockaddr*>(&own), &size) != 0) {
+    const int why = errno;
+    close(file_);
+    errno = why;
+    fail(address, port, "cannot listen there");
+  }
+  port_ = ntohs(own.sin_port);
+}
+
+UdpReceiver::~UdpReceiver() {
+  close(file_);
+}
+
+std::optional<Datagram> UdpReceiver::next(int timeout_ms) {
+  pollfd readable{file_, POLLIN, 0};
+  if (poll(&readable, 1, timeout_ms) <= 0) return std::nullopt;
+  sockaddr_in sender{};
+  iovec place{payload_.data(), payload_.size()};
+  alignas(cmsghdr) std::array<std::byte, 256> control{};
+  msghdr message{};
+  message.msg_name = &sender;
+  message.msg_namelen = sizeof sender;
+  message.msg_iov = &place;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  const ssize_t bytes = recvmsg(file_, &message, MSG_DONTWAIT);
+  if (bytes < 0) return std::nullopt;
+
+  timespec arrived{};
+  clock_gettime(CLOCK_REALTIME, &arrived);
+  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
+    if (part->cmsg_level != SOL_SOCKET) continue;
+    if (part->cmsg_type == SCM_TIMESTAMPNS) std::memcpy(&arrived, CMSG_DATA(part), sizeof arrived);
+    if (part->cmsg_type == SO_RXQ_OVFL) std::memcpy(&lost_, CMSG_DATA(part), sizeof lost_);
+  }
+  Datagram datagram;
+  datagram.captured_ns = std::int64_t{arrived.tv_sec} * 1'000'000'000 + arrived.tv_nsec;
+  datagram.source_address = ntohl(sender.sin_addr.s_addr);
+  datagram.payload = {payload_.data(), static_cast<std::size_t>(bytes)};
+  return datagram;
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Datagrams of one UDP port, with the kernel's time of arrival and its count of those it had no room for.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "packets/udp_capture.hpp"
+
+namespace pose_wall::tools::live {
+
+// "192.168.1.201" as captures number it (Datagram::source_address); nothing where it is no IPv4 address.
+std::optional<std::uint32_t> parse_ipv4(const std::string& text);
+std::string ipv4_text(std::uint32_t address);
+
+class UdpReceiver {
+ public:
+  // Throws std::runtime_error that names address and port: not this machine's, taken, not allowed.
+  UdpReceiver(const std::string& address, std::uint16_t port);
+  ~UdpReceiver();
+  UdpReceiver(const UdpReceiver&) = delete;
+  UdpReceiver& operator=(const UdpReceiver&) = delete;
+
+  // The next one; its payload lasts until the next call. Nothing after timeout_ms.
+  std::optional<Datagram> next(int timeout_ms);
+
+  std::uint16_t port() const { return port_; }
+  // By the kernel, since the socket was opened.
+  std::uint32_t lost() const { return lost_; }
+  // What the kernel granted; less than kBufferWished loses packets while the machine is busy.
+  int buffer_bytes() const { return buffer_bytes_; }
+
+  // A 128-beam sensor sends 30 MB/s: a quarter of a second of it.
+  static constexpr int kBufferWished = 8 * 1024 * 1024;
+
+ private:
+  // The largest datagram that UDP over IPv4 carries.
+  static constexpr std::size_t kDatagramMax = 65507;
+
+  int file_ = -1;
+  std::uint16_t port_ = 0;
+  int buffer_bytes_ = 0;
+  std::uint32_t lost_ = 0;
+  std::array<std::byte, kDatagramMax> payload_{};
+};
+
+}  // namespace pose_wall::tools::live

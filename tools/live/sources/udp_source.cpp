@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A sensor's packets by UDP as a source: received, put together into turns and handed on, in one thread.
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <ctime>
+#include <mutex>
+#include <thread>
+
+#include "live/edges.hpp"
+#include "live/log.hpp"
+#include "live/sources/sensor_metadata.hpp"
+#include "live/sources/udp_receiver.hpp"
+#include "packets/sensors.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+// Ten turns of the slowest sensor: what comes after it is another run of the sensor, and half a turn from before the
+// silence must not be joined to half of one after it.
+constexpr std::int64_t kSilent_ns = 1'000'000'000;
+constexpr int kLook_ms = 100;
+
+std::int64_t clock_ns(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+class UdpSource final : public Source {
+ public:
+  explicit UdpSource(const LoadedConfig& loaded) : live_(loaded.live), metadata_(live_.sensor, live_.sensor_metadata) {
+    if (live_.udp_sender.empty()) return;
+    sender_ = parse_ipv4(live_.udp_sender);
+    if (!sender_) {
+      throw std::runtime_error(fmt::format(
+          "udp_sender: '{}' is no IPv4 address; allowed: the sensor's, as 192.168.1.201", live_.udp_sender));
+    }
+  }
+  ~UdpSource() override { stop(); }
+
+  void start(FrameTaker& taker) override {
+    const auto port = static_cast<std::uint16_t>(live_.udp_port);
+    receiver_ = std::make_unique<UdpReceiver>(live_.udp_address, port != 0 ? port : metadata_.usual_port());
+    set_part(fmt::format("source udp {}:{}", live_.udp_address, receiver_->port()));
+    log_line(Grade::kGood, part(), "listens; whoever reaches this address can send packets, others are dropped");
+    if (receiver_->buffer_bytes() < UdpReceiver::kBufferWished) {
+      log_line(Grade::kWarning, part(),
+               fmt::format("the kernel grants a receive buffer of {} bytes, {} were wished: packets will be lost while "
+                           "the machine is busy. Remedy: sysctl -w net.core.rmem_max={}",
+                           receiver_->buffer_bytes(), UdpReceiver::kBufferWished, UdpReceiver::kBufferWished));
+    }
+    ending_ = false;
+    thread_ = std::thread([this, &taker] { run(taker); });
+  }
+
+  void stop() override {
+    ending_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  PartHealth health() const override {
+    PartHealth health;
+    health.part = part();
+    const bool is_silent = clock_ns(CLOCK_MONOTONIC) - last_packet_ns_ > kSilent_ns;
+    health.grade = is_silent || frames_ == 0 ? Grade::kBad : Grade::kGood;
+    const std::string trouble = metadata_.trouble(), contradicted = contradiction();
+    if (!trouble.empty() || !contradicted.empty()) {
+      health.grade = Grade::kBad;
+      health.summary = !trouble.empty() ? trouble : contradicted;
+    } else if (packets_ == 0) {
+      health.summary = "waits for the sensor: no packet yet";
+    } else {
+      health.summary = is_silent ? "the sensor is silent" : frames_ == 0 ? "packets come, no turn yet" : "receives";
+    }
+    health.add("frames", frames_.load());
+    health.add("packets", packets_.load());
+    health.add("packets of no use", useless_.load());
+    health.add("packets of others", of_others_.load());
+    health.add("packets lost by the kernel", lost_.load());
+    health.add("silences", silences_.load());
+    return health;
+  }
+
+ private:
+  std::string part() const {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    return part_;
+  }
+  void set_part(const std::string& part) {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    part_ = part;
+  }
+  std::string contradiction() const {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    return contradiction_;
+  }
+  void say(const std::string& contradiction) {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    contradiction_ = contradiction;
+  }
+
+  void run(FrameTaker& taker) {
+    while (!ending_) {
+      const std::optional<Datagram> datagram = receiver_->next(kLook_ms);
+      lost_ = receiver_->lost();
+      const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
+      if (!datagram) continue;
+      if (is_of_other(*datagram)) continue;
+      if (packets_ > 0 && now_ns - last_packet_ns_ > kSilent_ns) begin_anew();
+      last_packet_ns_ = now_ns;
+      ++packets_;
+      if (!add(*datagram)) {
+        ++useless_;
+        continue;
+      }
+      while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
+    }
+  }
+
+  // Packets that contradict the sensor that was chosen say so in the health, and are of no use.
+  bool add(const Datagram& datagram) {
+    try {
+      if (!assembler_) assembler_ = metadata_.assembler();
+      const bool is_data = assembler_ && assembler_->add(datagram);
+      if (is_data) say("");
+      return is_data;
+    } catch (const FrameError& fault) {
+      say(fault.what());
+      return false;
+    }
+  }
+
+  bool is_of_other(const Datagram& datagram) {
+    if (!sender_) sender_ = datagram.source_address;
+    const bool is_other = *sender_ != datagram.source_address;
+    if (is_other) ++of_others_;
+    return is_other;
+  }
+
+  void begin_anew() {
+    ++silences_;
+    assembler_.reset();
+    metadata_.ask_again();
+    is_first_turn_ = true;
+    if (live_.udp_sender.empty()) sender_.reset();
+  }
+
+  // The first turn began before it was listened to.
+  void hand_on(const Scan& scan, FrameTaker& taker) {
+    if (std::exchange(is_first_turn_, false) && !scan.is_complete) return;
+    LiveFrame frame;
+    frame.frame = frame_of(scan);
+    frame.stamp_ns = scan.stamp_ns;
+    // The engine's ages go by a clock that nobody sets; stamps of arrival are of one that people do set.
+    const std::int64_t set_ns = clock_ns(CLOCK_REALTIME) - clock_ns(CLOCK_MONOTONIC);
+    frame.frame.cloud.stamp_ns = assembler_->stamps_are_of_arrival() ? scan.stamp_ns - set_ns : scan.stamp_ns;
+    ++frames_;
+    taker.take(std::move(frame));
+  }
+
+  LiveSettings live_;
+  SensorMetadata metadata_;
+  std::unique_ptr<UdpReceiver> receiver_;
+  std::unique_ptr<ScanAssembler> assembler_;
+  std::optional<std::uint32_t> sender_;
+  bool is_first_turn_ = true;
+  std::thread thread_;
+  mutable std::mutex words_lock_;
+  std::string part_ = "source udp", contradiction_;
+  std::atomic<bool> ending_{false};
+  std::atomic<std::uint64_t> frames_{0}, packets_{0}, useless_{0}, of_others_{0}, silences_{0};
+  std::atomic<std::uint32_t> lost_{0};
+  std::atomic<std::int64_t> last_packet_ns_{0};
+};
+
+}  // namespace
+
+std::unique_ptr<Source> make_udp_source(const LoadedConfig& loaded) {
+  return std::make_unique<UdpSource>(loaded);
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,231 @@
+// The live page: frames come one by one as events; the last ones are kept for the trends.
+
+Object.assign(WORDS.en, {
+  pause_live: '❚❚ Pause', resume_live: '▶ Live', trends: 'The last minutes', parts_of_daemon: 'Sensor, runtime and outputs',
+  trends_help: 'Line: the value to act on. Band: its protection level. Dotted: the alert limit about it. Below: the state.',
+  live_top_caption: 'From above, the road to the right; machine, planes and lines are drawn by raw, as this frame alone measured. Dashed boxes: the machine\'s own body, left out. Wheel or drag: zoom and move, double click: back.',
+  live_section_caption: 'Across the road at the machine (± 1.5 m), looking ahead; drawn by raw, too.',
+  mount: 'How the machine and the sensor are described', details: 'All numbers of this frame',
+  mount_help: 'Walk round the machine with this table: the sampling points must lie where the distances are wanted, the boxes round all that belongs to the machine.',
+  no_link: (s) => `Connection lost ${s} s ago: nothing below is current. It comes back by itself.`,
+  no_link_yet: 'Not connected yet.', paused: 'Paused: the picture stands still, the machine goes on.',
+  live: (r) => `Live: frame ${r.frame}, ${r.rate} frames per second, result ${r.age} ms after its cloud`,
+  silent: (s) => `No frame from the sensor for ${s} s: values age and become invalid.`,
+  part: 'part', grade: 'state', summary_of: 'what it does', facts: 'counts', what: 'what', where: 'where (base)',
+  forward: 'ahead', left_axis: 'left', sensor_at: 'sensor', sensor_turned: 'sensor turned by', sampling: 'sampling point', box: 'body box', none: 'none',
+  grades: { ok: 'good', warning: 'warning', error: 'fault', stale: 'old' },
+});
+Object.assign(WORDS.zh, {
+  pause_live: '❚❚ 暂停', resume_live: '▶ 实时', trends: '最近几分钟', parts_of_daemon: '传感器、运行时与输出',
+  trends_help: '线：供控制使用的值。色带：保护级。点线：告警限。下方色条：状态。',
+  live_top_caption: '俯视图，巷道方向向右；机器、平面与连线按原始值（仅本帧测得）绘制。虚线框：被滤除的机身。滚轮缩放，拖动平移，双击复位。',
+  live_section_caption: '机身处横断面（± 1.5 m），面向前方；同样按原始值绘制。',
+  mount: '机器与传感器的描述', details: '本帧全部数值',
+  mount_help: '请对照本表绕机器一周检查：采样点应位于需要测距之处，机身框应包住机器的全部部件。',
+  no_link: (s) => `连接已中断 ${s} 秒：以下内容均非当前值。将自动重连。`,
+  no_link_yet: '尚未连接。', paused: '已暂停：画面静止，机器仍在运行。',
+  live: (r) => `实时：第 ${r.frame} 帧，每秒 ${r.rate} 帧，结果滞后点云 ${r.age} 毫秒`,
+  silent: (s) => `传感器已 ${s} 秒没有新帧：数值正在老化并将失效。`,
+  part: '部分', grade: '状态', summary_of: '情况', facts: '计数', what: '项目', where: '位置（base 坐标）',
+  forward: '前方', left_axis: '左方', sensor_at: '传感器', sensor_turned: '传感器转角', sampling: '采样点', box: '机身框', none: '无',
+  grades: { ok: '正常', warning: '警告', error: '故障', stale: '过期' },
+});
+
+// A recording whose frames come one by one. When its room is full the older half goes.
+class LiveRecording extends Recording {
+  constructor(hello, first) {
+    super({ ...first, head: hello.head, words: hello.words });
+    this.room = LiveRecording.kRoom;
+    for (const name of LiveRecording.kSeries) {
+      const one = this[name];
+      this[name] = new one.constructor(this.room * one.length);
+      this[name].set(one);
+      this[`${name}_width`] = one.length;
+    }
+  }
+
+  append(data) {
+    if (this.frames === this.room) {
+      const kept = this.room / 2;
+      for (const name of LiveRecording.kSeries) this[name].copyWithin(0, (this.frames - kept) * this[`${name}_width`]);
+      this.frames = kept;
+      this.source = this.source.slice(-kept);
+      this.error = this.error.slice(-kept);
+    }
+    const one = new Recording({ ...data, head: this.head, words: this.words });
+    for (const name of LiveRecording.kSeries) this[name].set(one[name], this.frames * this[`${name}_width`]);
+    this.source.push(data.source[0]);
+    this.error.push(data.error[0]);
+    this.positive_means = one.positive_means;
+    if (one.point_label.length) Object.assign(this, { point_cm: one.point_cm, point_label: one.point_label });
+    ++this.frames;
+  }
+
+  // One cloud is kept, the newest.
+  cloud_at() { return this.point_label.length ? 0 : -1; }
+  cloud_range() { return [0, this.point_label.length]; }
+}
+LiveRecording.kRoom = 6000;  // five minutes at 10 Hz stay when the older half goes
+LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor', 'machine',
+  'stage_ms', 'reasons', 'frame_reasons', 'counts', 'state', 'cause', 'stamp_s'];
+
+// Silence of a sensor is told ten times a second, health once: so long without either is a break.
+const kLost_ms = 2000, kChartsEvery_ms = 400;
+const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0 };
+let recording = null, viewer = null, charts = null;
+
+function show_link() {
+  const w = words(), link = document.getElementById('link'), now = performance.now();
+  const away_s = Math.round((now - page.heard_ms) / 1000);
+  const is_lost = now - page.heard_ms > kLost_ms;
+  document.body.classList.toggle('waiting', is_lost || !recording);
+  const say = (grade, text) => { link.className = `panel ${grade}`; if (link.textContent !== text) link.textContent = text; };
+  if (!page.heard_ms) return say('fair', w.no_link_yet);
+  if (is_lost) return say('bad', w.no_link(away_s));
+  if (page.paused) return say('fair', w.paused);
+  if (!page.told) return say('fair', w.no_link_yet);
+  if (page.told.told_by === 'silence') return say('bad', w.silent((page.told.age_ms / 1000).toFixed(1)));
+  const span_ms = page.arrivals.length > 1 ? page.arrivals[page.arrivals.length - 1] - page.arrivals[0] : NaN;
+  return say('good', w.live({ frame: page.told.frame, rate: number_text(1000 * (page.arrivals.length - 1) / span_ms, 1), age: number_text(page.told.age_ms, 0) }));
+}
+
+function show_tiles(f) {
+  const w = words();
+  fill('tiles', ...QUANTITIES.map((name, q) => {
+    const i = recording.at(f, q), state = STATES[recording.state[i]], tile = element('div', undefined, `tile ${state}`);
+    const digits = recording.is_angle(q) ? 2 : 3, unit = recording.is_angle(q) ? '°' : ' m', factor = recording.unit(q);
+    const known = state !== 'invalid' && Number.isFinite(recording.value[i]);
+    const rounded = (recording.value[i] * factor).toFixed(digits).replace(/^-(0\.0*)$/, '$1');  // no sign for nothing
+    const number = element('div', known ? rounded + unit : '–', 'number');
+    if (known) number.append(element('small', ` ± ${(recording.level[i] * factor).toFixed(digits)}`));
+    const age = recording.age_s[i] > 0 ? `, ${number_text(recording.age_s[i], 1)} s` : '';
+    tile.append(element('div', name_text(q), 'name'), number, element('div', w.states[state] + age, `state ${state}`), element('div', why_text(f, q), 'why'));
+    return tile;
+  }));
+}
+
+function show_mount() {
+  const w = words(), at = (p, digits) => p.map((v) => v.toFixed(digits)).join(', '), m = page.hello.mount, rows = [];
+  const axis = (v) => `${v[0] < 0 || v[1] < 0 ? '-' : '+'}${v[0] ? 'X' : 'Y'}`;
+  rows.push([w.forward, axis(recording.head.machine.forward)], [w.left_axis, axis(recording.head.machine.left)]);
+  rows.push([w.sensor_at, `${at(m.position_m, 3)} m`], [w.sensor_turned, `roll, pitch, yaw ${at(m.roll_pitch_yaw_deg, 2)}°`]);
+  m.sampling_points_m.forEach((p, k) => rows.push([`${w.sampling} ${w.names[QUANTITIES[3 + k]]}`, `${at(p, 3)} m`]));
+  recording.head.body_boxes.forEach((b, k) => rows.push([`${w.box} ${k + 1}`,
+    `x ${b[0].toFixed(2)} … ${b[1].toFixed(2)}, y ${b[2].toFixed(2)} … ${b[3].toFixed(2)}, z ${b[4].toFixed(2)} … ${b[5].toFixed(2)} m`]));
+  if (!recording.head.body_boxes.length) rows.push([w.box, w.none]);
+  fill('mount', table([w.what, w.where], rows));
+}
+
+function show_health(parts) {
+  const w = words();
+  page.parts = parts;
+  fill('health', table([w.part, w.grade, w.summary_of, w.facts], parts.map((part) => [part.part, element('td', w.grades[part.grade], `grade ${part.grade}`),
+    part.summary, element('td', Object.entries(part.facts).map(([name, value]) => `${name} ${value}`).join(' · '), 'facts')])));
+}
+
+function show_settings() {
+  const w = words(), rows = recording.head.settings;
+  fill('settings', rows.length ? table([w.key, w.set_to, w.default_is], rows) : element('p', w.all_default, 'faint'));
+}
+
+// What is drawn with every frame, and the rest a few times a second.
+function show_frame() {
+  const f = page.frame = recording.frames - 1, w = words();
+  show_tiles(f);
+  viewer.draw(f);
+  const notes = [w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
+  for (const bit of recording.reason_bits(recording.frame_reasons[f])) notes.push(reason_text(bit));
+  document.getElementById('frame-note').textContent = notes.join(' · ');
+  ++page.shown;
+  if (performance.now() - page.drawn_charts_ms > kChartsEvery_ms) show_slowly();
+}
+
+function show_slowly() {
+  page.drawn_charts_ms = performance.now();
+  const f = recording.frames - 1;
+  charts.ranges = QUANTITIES.map((_, q) => charts.range_of(q));
+  charts.show(Math.max(0, f - LiveRecording.kRoom / 2), f);
+  show_values(f);
+  show_levels(f);
+}
+
+function show_all() {
+  const w = words();
+  document.documentElement.lang = page.language;
+  document.querySelectorAll('[data-word]').forEach((node) => { node.textContent = w[node.dataset.word]; });
+  document.getElementById('language').textContent = w.other_language;
+  document.getElementById('theme').textContent = w.theme;
+  document.getElementById('pause').textContent = page.paused ? w.resume_live : w.pause_live;
+  show_link();
+  if (!recording) return;
+  document.getElementById('subtitle').textContent = recording.head.title;
+  show_layers();
+  show_mount();
+  show_settings();
+  if (page.parts) show_health(page.parts);
+  show_frame();
+  show_slowly();
+}
+
+function take_frame(event) {
+  const told = JSON.parse(event.data);
+  page.told = told;
+  page.heard_ms = performance.now();
+  if (told.told_by === 'frame') {
+    page.arrivals.push(page.heard_ms);
+    if (page.arrivals.length > 20) page.arrivals.shift();
+  }
+  if (!page.hello) return;
+  const is_first = !recording;
+  if (is_first) {
+    recording = new LiveRecording(page.hello, told.data);
+    viewer = new Viewer(recording);
+    charts = new Charts(recording, document.getElementById('charts'), () => {});
+    show_all();
+  } else {
+    recording.append(told.data);
+  }
+  // Frames that came together are drawn once.
+  if (!page.paused && !page.drawing) {
+    page.drawing = true;
+    requestAnimationFrame(() => { page.drawing = false; show_frame(); show_link(); });
+  }
+}
+
+function take_hello(event) {
+  page.hello = JSON.parse(event.data);
+  page.heard_ms = performance.now();
+  if (!recording) return;
+  Object.assign(recording, { head: page.hello.head, words: page.hello.words });
+  show_all();
+}
+
+function connect() {
+  const events = new EventSource('/events');
+  events.addEventListener('hello', take_hello);
+  events.addEventListener('frame', take_frame);
+  events.addEventListener('health', (event) => {
+    page.heard_ms = performance.now();
+    if (!page.paused) show_health(JSON.parse(event.data).parts);
+  });
+  // A daemon that is being started anew refuses; then the browser gives up unless it is asked again.
+  events.onerror = () => {
+    if (events.readyState !== EventSource.CLOSED) return;
+    events.close();
+    setTimeout(connect, 1000);
+  };
+}
+
+document.getElementById('language').addEventListener('click', () => { page.language = page.language === 'en' ? 'zh' : 'en'; show_all(); });
+document.getElementById('pause').addEventListener('click', () => { page.paused = !page.paused; show_all(); });
+document.getElementById('theme').addEventListener('click', () => {
+  const root = document.documentElement;
+  root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
+  if (recording) { show_frame(); show_slowly(); }
+});
+window.addEventListener('resize', () => { if (recording) { viewer.draw(page.frame); charts.draw(); } });
+setInterval(show_link, 250);
+page.language = (navigator.language || 'en').startsWith('zh') ? 'zh' : 'en';
+document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+show_all();
+connect();
