@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Recordings to begin with, as small as they can be: one cloud in a ROS 1 bag and in an MCAP, one packet of a Velodyne
-// in a capture, metadata of an Ouster.
+// Recordings to begin with, as small as they can be: one cloud in a ROS 1 bag and in an MCAP, messages of clouds and
+// packets, packets of sensors, metadata of an Ouster.
 
 #pragma once
 
@@ -68,13 +68,13 @@ inline Text mcap_record(char op, const Text& content) {
   return op + number(static_cast<std::uint64_t>(content.size())) + content;
 }
 
-inline Text mcap() {
+inline Text mcap(const Text& type = "sensor_msgs/msg/PointCloud2", const Text& content = point_cloud2(true)) {
   const auto id = number<std::uint16_t>(1);
   const Text time = number<std::uint64_t>(9), none = counted("");
   const Text magic = "\x89MCAP0\r\n";
-  const Text schema = id + counted("sensor_msgs/msg/PointCloud2") + counted("ros2msg") + none;
+  const Text schema = id + counted(type) + counted("ros2msg") + none;
   const Text channel = id + id + counted("/points") + counted("cdr") + none;
-  const Text message = id + number<std::uint32_t>(0) + time + time + point_cloud2(true);
+  const Text message = id + number<std::uint32_t>(0) + time + time + content;
   return magic + mcap_record(1, none + none) + mcap_record(3, schema) + mcap_record(4, channel) +
          mcap_record(5, message) + mcap_record(15, number<std::uint32_t>(0)) + mcap_record(2, Text(20, '\0')) + magic;
 }
@@ -86,6 +86,63 @@ inline Text velodyne_payload() {
     for (int beam = 0; beam < 32; ++beam) payload += number(static_cast<std::uint16_t>(500 + 20 * beam)) + '\x40';
   }
   return payload + number<std::uint32_t>(1000000) + "\x37\x22";
+}
+
+// One block after another; `blocks` of a Hesai with a head, or of a Pandar40P without one.
+inline Text hesai_payload(std::size_t lasers, std::size_t blocks) {
+  const bool is_40p = lasers == 40;
+  Text payload = is_40p ? ""
+                        : Text("\xEE\xFF\6\1\0\0", 6) + Text(1, static_cast<char>(lasers)) +
+                              Text(1, static_cast<char>(blocks)) + Text("\0\4\2\1", 4);
+  for (std::size_t block = 0; block < blocks; ++block) {
+    payload += (is_40p ? "\xFF\xEE" : "") + number(static_cast<std::uint16_t>(4000 * block));
+    for (std::size_t i = 0; i < lasers; ++i) {
+      payload += number(static_cast<std::uint16_t>(400 + 9 * i)) + Text(is_40p ? 1 : 2, '\x20');
+    }
+  }
+  if (is_40p) return payload + Text(14, '\0') + "\x37" + Text(7, '\1');
+  return payload + Text(10, '\0') + (lasers == 64 ? Text(6, '\0') : Text()) + "\x37" +
+         Text(lasers == 64 ? 11 : 17, '\1');
+}
+
+inline Text mid360_payload(char type, std::size_t point_bytes) {
+  Text points;
+  for (std::size_t i = 0; i < 6; ++i) points += Text(point_bytes, static_cast<char>(17 * i));
+  return Text(1, '\0') + number(static_cast<std::uint16_t>(36 + points.size())) + number<std::uint16_t>(4800) +
+         number<std::uint16_t>(6) + Text(3, '\0') + type + Text(17, '\0') + number<std::uint64_t>(1'000'000'000) +
+         points;
+}
+
+// As the target `packets` takes them: length, milliseconds, bytes.
+inline Text datagrams(const Text& payload, int count) {
+  Text text;
+  for (int i = 0; i < count; ++i) text += number(static_cast<std::uint16_t>(payload.size())) + '\2' + payload;
+  return text;
+}
+
+inline Text message_head(bool cdr) {
+  const Text stamp = number<std::uint32_t>(5) + number<std::uint32_t>(7);
+  return cdr ? Text("\0\1\0\0", 4) + stamp + counted(Text("l\0", 2)) + Text(2, '\0')
+             : number<std::uint32_t>(1) + stamp + counted("l");
+}
+
+// A livox_ros_driver2/CustomMsg of two points.
+inline Text livox_custom(bool cdr) {
+  const Text point = number<std::uint32_t>(9) + number(1.0F) + number(-2.0F) + number(0.5F) + "\x20\x10\1";
+  Text text = message_head(cdr);
+  while (cdr && text.size() % 8 != 4) text += '\0';
+  return text + number<std::uint64_t>(5) + number<std::uint32_t>(2) + Text(4, '\0') + number<std::uint32_t>(2) + point +
+         (cdr ? Text(1, '\0') : Text()) + point;
+}
+
+// Of one packet: VelodyneScan, NebulaPackets or PandarScan.
+inline Text packet_message(const Text& payload, bool cdr, bool counted_before, bool counted_behind) {
+  const auto size = number(static_cast<std::uint32_t>(payload.size()));
+  Text text = message_head(cdr) + number<std::uint32_t>(1) + number<std::uint32_t>(5) + number<std::uint32_t>(7);
+  if (counted_before) text += size;
+  text += payload;
+  if (counted_behind) text += Text(1500 - payload.size(), '\0') + size;
+  return text;
 }
 
 // Ethernet, IPv4, UDP; checksums left at zero.

@@ -188,6 +188,35 @@ void recordings() {
   write("capture", ouster_metadata() + capture(Text(32 + 16 * 12 + 2 * 16 * 4 + 32, '\1')));
 }
 
+void packets() {
+  using namespace pose_wall::test::seeds;
+  const Text automatic("\0\x63", 2);
+  for (const char product : {'\x22', '\x24', '\x21', '\x28', '\0'}) {
+    Text payload = velodyne_payload();
+    payload.back() = product;
+    write("packets", automatic + datagrams(payload, 2));
+  }
+  write("packets", automatic + datagrams(hesai_payload(32, 8), 2));
+  write("packets", automatic + datagrams(hesai_payload(40, 10), 2));
+  write("packets", automatic + datagrams(hesai_payload(64, 4), 2));
+  write("packets", automatic + datagrams(mid360_payload('\1', 14), 3));
+  write("packets", automatic + datagrams(mid360_payload('\2', 8), 3));
+  write("packets", automatic + datagrams(mid360_payload('\3', 10), 3));
+  for (char kind = 1; kind < 10; ++kind) write("packets", kind + Text("\0", 1) + datagrams(mid360_payload('\2', 8), 1));
+  for (const bool cdr : {false, true}) {
+    const char form = cdr ? '\1' : '\0';
+    write("message", Text(1, '\0') + form + point_cloud2(cdr));
+    write("message", Text(1, '\1') + form + livox_custom(cdr));
+    write("message", Text(1, '\2') + form + packet_message(velodyne_payload(), cdr, false, false));
+    write("message", Text(1, '\3') + form + packet_message("some packet.", cdr, true, false));
+    write("message", Text(1, '\4') + form + packet_message(hesai_payload(40, 10), cdr, false, true));
+  }
+  write("bag", mcap("velodyne_msgs/msg/VelodyneScan", packet_message(velodyne_payload(), true, false, false)));
+  write("bag", mcap("livox_ros_driver2/msg/CustomMsg", livox_custom(true)));
+  write("hesai_angles", "Laser id,Elevation,Azimuth\n1,15.0,-1.042\n2,0,3.1\r\n3,-25,0\n");
+  write("hesai_angles", "Channel,Elevation,Azimuth\n3,1,1\n3,1,1\n");
+}
+
 void texts() {
   write("config_file",
         "# comment\nforward_axis: \"-X\"\nbody_box_1: [-2.3, 2.3, -0.6, 0.6, -1.5, 0.4]\nrange_max: 40\n");
@@ -216,5 +245,6 @@ int main(int argc, char** argv) {
   readers();
   recordings();
   texts();
+  packets();
   return 0;
 }
