@@ -60,7 +60,7 @@ LiveRuntime::LiveRuntime(const LoadedConfig& loaded, std::function<BlackBox()> o
   settings_.lidar_frame = config_text(*config_.get(), "lidar_frame");
   settings_.extrinsic_by_tf = loaded.live.extrinsic_from == "tf";
   settings_.frame_points_max = static_cast<std::uint32_t>(loaded.live.frame_points_max);
-  open_box();
+  prepare_box();
   open();
 }
 
@@ -98,7 +98,7 @@ void LiveRuntime::open() {
 }
 
 // At the start a folder that cannot be written is a fault of the settings; later the machine goes on without a box.
-void LiveRuntime::open_box() {
+void LiveRuntime::prepare_box() {
   try {
     spare_box_ = {};
     spare_box_ = open_box_();
@@ -203,7 +203,7 @@ std::optional<api::Config> LiveRuntime::with_extrinsic(const Extrinsic& extrinsi
 // Who asks for images waits for neither the frame in work nor the disk of the black box.
 void LiveRuntime::reopen(const api::Config& config) {
   stop();
-  open_box();
+  prepare_box();
   const std::unique_lock<std::shared_mutex> locked(handle_lock_);
   close();
   config_ = config;

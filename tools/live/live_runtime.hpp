@@ -60,7 +60,7 @@ class LiveRuntime final : public FrameTaker, public Images {
   static void called_back(void* user, const pose_wall_publication* publication);
   void publish(const pose_wall_publication& publication);
   void open();
-  void open_box();
+  void prepare_box();
   void close();
   std::optional<api::Config> with_extrinsic(const Extrinsic& extrinsic) const;
   void reopen(const api::Config& config);
