@@ -150,6 +150,7 @@ TEST(UdpSource, TurnsBecomeFramesAndTheStampsOfTheEngineAreOfAClockThatNobodySet
   const LoopbackSender sender(port);
   Pace(*source).send(sender, vlp16_turns(4));
   ASSERT_TRUE(catcher.wait_for_frames(3));
+  ASSERT_TRUE(becomes_true([&] { return fact(source->health(), "packets") == "300"; }));
   source->stop();
   EXPECT_EQ(catcher.frames().size(), 3U) << "the fourth has no end yet";
   timespec up{};
@@ -178,6 +179,7 @@ TEST(UdpSource, PacketsOfOthersAndWhatIsNoPacketAreCountedAndDropped) {
     pace.send(sender, "");
   }
   ASSERT_TRUE(catcher.wait_for_frames(2));
+  ASSERT_TRUE(becomes_true([&] { return fact(source->health(), "packets of no use") == "450"; }));
   source->stop();
   EXPECT_EQ(fact(source->health(), "packets of others"), "225");
   EXPECT_EQ(fact(source->health(), "packets of no use"), "450");
