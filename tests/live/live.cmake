@@ -16,7 +16,7 @@ function(pose_wall_live_peer name)
       $<TARGET_FILE:pose_wall_cli> $<TARGET_FILE:pose_walld> ${ARGN})
   # One at a time: they measure rates, and a busy machine drops frames.
   set_tests_properties(live.${name}_peer PROPERTIES
-    LABELS live TIMEOUT 300 RUN_SERIAL ON SKIP_REGULAR_EXPRESSION "SKIPPED:")
+    LABELS live TIMEOUT 600 RUN_SERIAL ON SKIP_REGULAR_EXPRESSION "SKIPPED:")
 endfunction()
 
 pose_wall_live_peer(daemon $<TARGET_FILE:pose_wall_sensor>)
