@@ -54,7 +54,6 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
     source_ = make_udp_source(loaded_);
   }
   const bool reads_ros1 = !replay && live.source == "ros1", reads_ros2 = !replay && live.source == "ros2";
-  // The transform comes by ROS, wherever the clouds come from.
   if (live.ros1 || reads_ros1) add(make_ros1_edge(loaded_, *this, reads_ros1, live.ros1));
   if (live.ros2 || reads_ros2) add(make_ros2_edge(loaded_, *this, reads_ros2, live.ros2));
   if (!live.modbus.empty()) add(make_modbus_sink(loaded_, runtime_));
@@ -86,6 +85,10 @@ void Daemon::log_start() const {
   for (const pose_wall_key_info& key : config_keys()) tell(key.name, config_written_text(*loaded_.config.get(), key));
   for (const LiveKeyInfo& key : live_keys()) tell(key.name, live_value_text(loaded_.live, key));
   log_line(Grade::kGood, "config", "all other keys have their defaults; `pose_wall check-config` lists them");
+}
+
+void Daemon::log_status() const {
+  for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(part));
 }
 
 void Daemon::start() {
@@ -122,13 +125,13 @@ void Daemon::run(const std::atomic<bool>& stop_asked) {
     look_around();
     if (Clock::now() - status_last >= status_every) {
       status_last = Clock::now();
-      for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(part));
+      log_status();
     }
     std::this_thread::sleep_for(kLook);
   }
   service_.stopping();
   log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
-  for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(part));
+  log_status();
   stop();
 }
 

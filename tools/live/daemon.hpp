@@ -38,6 +38,7 @@ class Daemon final : public HealthBoard {
   void add(RosEdge edge);
   void post(const std::shared_ptr<const LiveResult>& result);
   void log_start() const;
+  void log_status() const;
   void start();
   void stop();
   void look_around();

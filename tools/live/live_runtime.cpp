@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <stdexcept>
 #include <utility>
 
@@ -145,10 +143,7 @@ void LiveRuntime::take(LiveFrame frame) {
   const std::int32_t status = pose_wall_runtime_push(runtime_, &shared->frame.cloud);
   // What is not running counts no push (pose_wall_runtime_push).
   if (status != POSE_WALL_RUNTIME_E_STATE) ++next_number_;
-  if (status != POSE_WALL_OK) {
-    ++refused_;
-    last_refusal_ = status;
-  }
+  if (status != POSE_WALL_OK) last_refusal_ = status;
 }
 
 void LiveRuntime::set_extrinsic(const std::optional<Extrinsic>& extrinsic) {

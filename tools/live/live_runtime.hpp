@@ -92,7 +92,7 @@ class LiveRuntime final : public FrameTaker, public Images {
 
   std::int64_t header_stamp_ns_ = 0;  // of the last measured frame; of the worker's thread
 
-  std::atomic<std::uint64_t> without_extrinsic_{0}, refused_{0}, opened_{0};
+  std::atomic<std::uint64_t> without_extrinsic_{0}, opened_{0};
   std::atomic<std::int32_t> last_refusal_{POSE_WALL_OK};
 };
 

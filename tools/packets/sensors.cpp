@@ -96,11 +96,6 @@ class AutomaticAssembler : public ScanAssembler {
   std::unique_ptr<ScanAssembler> inner_;
 };
 
-bool is_json(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin != std::string::npos && text[begin] == '{';
-}
-
 // Angles for sensors of so many lasers are metadata; anything else is a mistake that is better told at once.
 void check_angles(const std::string& text) {
   std::string why;
@@ -136,18 +131,23 @@ void check_metadata(const SensorChoice& choice) {
   }
   if (choice.metadata.empty()) return;
   if (choice.kind == SensorKind::kAutomatic) {
-    if (!is_json(choice.metadata)) check_angles(choice.metadata);
+    if (!is_ouster_metadata(choice.metadata)) check_angles(choice.metadata);
     return;
   }
   if (sensor.metadata == SensorMetadata::kNone) {
     throw FrameError(fmt::format("metadata is given, but a {} ({}) has none", sensor.title, sensor.name));
   }
-  if (sensor.metadata == SensorMetadata::kHesaiAngles && is_json(choice.metadata)) {
+  if (sensor.metadata == SensorMetadata::kHesaiAngles && is_ouster_metadata(choice.metadata)) {
     throw FrameError(fmt::format("the metadata is JSON, as of an Ouster; a {} takes a table of angles", sensor.title));
   }
 }
 
 }  // namespace
+
+bool is_ouster_metadata(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  return begin != std::string::npos && text[begin] == '{';
+}
 
 const std::vector<KnownSensor>& known_sensors() {
   // Ports: the makers' manuals.
@@ -211,7 +211,7 @@ std::unique_ptr<ScanAssembler> make_assembler(const SensorChoice& choice) {
     return std::make_unique<HesaiAssembler>(model, choice.metadata);
   }
   if (choice.kind == SensorKind::kMid360) return std::make_unique<Mid360Assembler>(choice.frame_ns);
-  if (choice.kind == SensorKind::kOuster || is_json(choice.metadata)) {
+  if (choice.kind == SensorKind::kOuster || is_ouster_metadata(choice.metadata)) {
     return std::make_unique<OusterAssembler>(parse_ouster_metadata(choice.metadata));
   }
   return std::make_unique<AutomaticAssembler>(choice);

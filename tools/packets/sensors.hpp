@@ -48,6 +48,9 @@ const KnownSensor& known_sensor(SensorKind kind);
 std::vector<std::string> sensor_names();
 std::optional<SensorKind> sensor_by_name(std::string_view name);
 
+// Whether this metadata is JSON, as an Ouster has it, and no table of angles of a Hesai.
+bool is_ouster_metadata(const std::string& text);
+
 struct SensorChoice {
   SensorKind kind = SensorKind::kAutomatic;
   std::string metadata;                     // text: JSON of an Ouster, table of angles of a Hesai; "": none

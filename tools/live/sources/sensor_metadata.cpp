@@ -114,9 +114,7 @@ std::unique_ptr<ScanAssembler> SensorMetadata::assembler() {
 
 std::uint16_t SensorMetadata::usual_port() const {
   const std::lock_guard<std::mutex> locked(lock_);
-  if (by_http_ || (choice_.metadata.find('{') < choice_.metadata.find_first_not_of(" \t\r\n{"))) {
-    return known_sensor(SensorKind::kOuster).port;
-  }
+  if (by_http_ || is_ouster_metadata(choice_.metadata)) return known_sensor(SensorKind::kOuster).port;
   const std::uint16_t port = known_sensor(choice_.kind).port;
   return port != 0 ? port : known_sensor(SensorKind::kVlp16).port;
 }

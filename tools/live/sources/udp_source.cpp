@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <ctime>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "live/clocks.hpp"
 #include "live/edges.hpp"
