@@ -48,7 +48,8 @@ def build_plugin(folder):
 def run(plugin, program, sensor, folder, points=0, arguments=""):
     """What the program prints of each frame, and the lines the plugin writes."""
     log = pathlib.Path(folder) / "marks"
-    command = ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", "-plugin", f"{plugin}{arguments}", "-d", "plugin"]
+    command = ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", "-E", "LD_LIBRARY_PATH=/usr/aarch64-linux-gnu/lib"]
+    command += ["-plugin", f"{plugin}{arguments}", "-d", "plugin"]
     command += ["-D", log, program, sensor, str(FRAMES), str(points)]
     out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     return [[int(x) for x in line.split()] for line in out.splitlines()], log.read_text().splitlines()

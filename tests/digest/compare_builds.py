@@ -27,9 +27,10 @@ GCC, CLANG = ([f"-DCMAKE_C_COMPILER={c}", f"-DCMAKE_CXX_COMPILER={cpp}"]
 ARM_GCC, ARM_CLANG, BARE, ARMV7_GCC = ([f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/toolchains/{name}.cmake"] for name in (
     "aarch64-linux-gnu", "aarch64-linux-gnu-clang", "aarch64-none-elf",
     "arm-linux-gnueabihf"))
-ON_ARM = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu"]
+ON_ARM = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu", "-E", "LD_LIBRARY_PATH=/usr/aarch64-linux-gnu/lib"]
 ON_A53 = ON_ARM + ["-cpu", "cortex-a53"]
-ON_A8 = ["qemu-arm-static", "-L", "/usr/arm-linux-gnueabihf", "-cpu", "cortex-a8"]
+ON_A8 = ["qemu-arm-static", "-L", "/usr/arm-linux-gnueabihf", "-E", "LD_LIBRARY_PATH=/usr/arm-linux-gnueabihf/lib",
+         "-cpu", "cortex-a8"]
 
 # Name, how to configure, flags, how to run; AVX2 and FMA are there for the taking on a haswell.
 BUILDS = [
