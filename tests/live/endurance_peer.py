@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""pose_walld for long: an OS0-128 of 131,072 points at 20 Hz that disappears ten times, and every sink at work with one
+who takes from it: page, ROS 1, ROS 2, Modbus TCP, MQTT, recording with clouds, black box. Each frame is accounted for
+from the sensor to the end of each sink; memory stays flat; the latency is printed.
+
+usage: endurance_peer.py ROOT POSE_WALL POSE_WALLD SENSOR ROS2_PEER [MINUTES [HZ]]        default: a third of one, 20
+The long run, of an hour: tests/live/endurance_peer.py . build/release/pose_wall build/release/pose_walld
+build/release/pose_wall_sensor build/release/tests/pose_wall_ros2_peer 60"""
+
+import contextlib
+import json
+import os
+import pathlib
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+ROOT, POSE_WALL, POSE_WALLD, SENSOR, ROS2_PEER = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(5))
+MINUTES = float(sys.argv.pop(1)) if sys.argv[1:] else 1 / 3
+RATE_HZ = float(sys.argv.pop(1)) if sys.argv[1:] else 20.0
+sys.path[:0] = [str(ROOT / "tests/live")]
+
+import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+
+LOSSES = 10 if MINUTES >= 10 else 2
+PERIOD_S = 60 * MINUTES / LOSSES
+ABSENT_S = min(20.0, PERIOD_S / 4)
+WARM_UP_S = min(300.0, 60 * MINUTES / 4)  # buffers of the system and of the libraries fill meanwhile
+LOOK_EVERY_S = 5.0
+ROOM_MB = 2000  # the recording's, which an hour fills many times over
+ALL_ARRIVED_S = 2.0
+PACKETS_A_TURN = 64  # 1,024 columns, 16 a packet
+SILENCES_MEANWHILE = 20  # come between the looks at two parts: ten a second
+MEMORY_GROWTH_MB = 64.0  # within what the waiting clouds of all sinks take, 2 MB each; a leak of one a minute shows
+
+
+def memory_kb(pid):
+    """What is the process's own: clouds that it wrote to a file are the system's cache."""
+    for line in pathlib.Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="ascii").splitlines():
+        if line.startswith("Private_Dirty:"):
+            return int(line.split()[1])
+    return 0
+
+
+def processor_s(pid):
+    words = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rsplit(")", 1)[1].split()
+    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class Facts(dict):
+    """Those facts of a part that are numbers."""
+
+    def __init__(self, part):
+        super().__init__()
+        for name, text in part["facts"].items():
+            try:
+                self[name] = float(text) if "." in text else int(text)
+            except ValueError:
+                continue
+
+
+class Page(threading.Thread):
+    """A viewer that counts the events it gets."""
+
+    def __init__(self, port):
+        super().__init__(daemon=True)
+        self.port, self.frames = port, 0
+
+    def run(self):
+        with contextlib.suppress(ConnectionError), socket.create_connection(("127.0.0.1", self.port)) as link:
+            link.sendall(b"GET /events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+            tail = b""
+            while True:
+                part = link.recv(1 << 16)
+                if not part:
+                    return
+                tail += part
+                self.frames += tail.count(b"event: frame")
+                tail = tail[-len(b"event: frame") + 1:]
+
+
+class Controller(threading.Thread):
+    """Reads image 2 ten times a second, as a controller does."""
+
+    def __init__(self, port):
+        super().__init__(daemon=True)
+        self.port, self.images, self.failures = port, 0, 0
+
+    def run(self):
+        request = bytes.fromhex("0001 0000 0006 01 04") + (1000).to_bytes(2, "big") + (124).to_bytes(2, "big")
+        with contextlib.suppress(ConnectionError), socket.create_connection(("127.0.0.1", self.port)) as link:
+            stream = link.makefile("rb")
+            while True:
+                link.sendall(request)
+                answer = stream.read(9 + 2 * 124)
+                if len(answer) < 9 + 2 * 124:
+                    return
+                self.images += 1
+                self.failures += answer[7] != 4
+                time.sleep(0.1)
+
+
+class Endurance(unittest.TestCase):
+    def start(self, *words, **options):
+        program = live_peer.Program(*words, **options)
+        self.addCleanup(program.kill)
+        return program
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
+        self.addCleanup(place.cleanup)
+        self.folder = pathlib.Path(place.name)
+        ports = {name: live_peer.free_port() for name in ("http", "modbus", "mqtt", "ros", "metadata")}
+        udp = live_peer.free_port(socket.SOCK_DGRAM)
+        domain = 100 + os.getpid() % 100
+        environment = os.environ | {"ROS_MASTER_URI": f"http://127.0.0.1:{ports['ros']}", "ROS_IP": "127.0.0.1",
+                                    "ROS_DOMAIN_ID": str(domain), "ROS_LOCALHOST_ONLY": "1"}
+        self.start("rosmaster", "--core", "-p", ports["ros"])
+        settings = self.folder / "mosquitto.conf"
+        settings.write_text(f"listener {ports['mqtt']} 127.0.0.1\nallow_anonymous true\n", encoding="utf-8")
+        self.start("/usr/sbin/mosquitto", "-c", settings)
+        config = self.folder / "pose_wall.yaml"
+        self.sensor = self.start(SENSOR, "--sensor", "os0-128", "--frames", 40, "--rate", RATE_HZ, "--to",
+                                 f"127.0.0.1:{udp}", "--http", f"127.0.0.1:{ports['metadata']}", "--present",
+                                 PERIOD_S - ABSENT_S, "--absent", ABSENT_S, "--config-to", config)
+        self.assertTrue(live_peer.becomes_true(lambda: config.exists() and config.stat().st_size > 0))
+        sets = {"udp_port": udp, "sensor_metadata": f"http://127.0.0.1:{ports['metadata']}", "ros1": 1, "ros2": 1,
+                "mqtt": f"127.0.0.1:{ports['mqtt']}", "recording": self.folder / "recordings", "recording_clouds": 1,
+                "recording_mb": ROOM_MB, "black_box": self.folder / "boxes", "black_box_mb": ROOM_MB}
+        self.daemon = self.start(POSE_WALLD, "--config", config, "--http", f"127.0.0.1:{ports['http']}", "--modbus",
+                                 f"127.0.0.1:{ports['modbus']}",
+                                 *(word for name, value in sets.items() for word in ("--set", f"{name}={value}")),
+                                 env=environment)
+        self.http = ports["http"]
+        self.assertTrue(self.daemon.says("runtime: measures", 90), self.daemon.log())
+        self.page, self.controller = Page(self.http), Controller(ports["modbus"])
+        self.page.start()
+        self.controller.start()
+        self.ros1 = self.start("/usr/bin/rostopic", "echo", "-p", "/pose_wall/attitude", env=environment)
+        self.ros2 = self.start(ROS2_PEER, domain, "results=1", "count=0", "points=0", stdin=subprocess.PIPE)
+        self.mqtt = self.start("mosquitto_sub", "-h", "127.0.0.1", "-p", ports["mqtt"], "-t", "pose_wall/#")
+
+    def parts(self):
+        try:
+            answer = urllib.request.urlopen(f"http://127.0.0.1:{self.http}/health", timeout=30)
+        except urllib.error.HTTPError as unwell:  # 503: the sensor is gone
+            answer = unwell
+        with answer:
+            return {part["part"]: part for part in json.load(answer)["parts"]}
+
+    def watch(self):
+        """(seconds, memory) now and then, until the time is over; and the processor's share."""
+        pid, looks, begin = self.daemon.process.pid, [], time.monotonic()
+        cpu_begin_s = processor_s(pid)
+        while time.monotonic() - begin < 60 * MINUTES:
+            time.sleep(LOOK_EVERY_S)
+            self.assertIsNone(self.daemon.process.poll(), self.daemon.log())
+            looks.append((time.monotonic() - begin, memory_kb(pid)))
+            if len(looks) % 60 == 0:
+                print(f"{looks[-1][0]:6.0f} s, {looks[-1][1] / 1024:.0f} MB", file=sys.stderr, flush=True)
+        return looks, (processor_s(pid) - cpu_begin_s) / (time.monotonic() - begin)
+
+    def test_nothing_is_lost_unaccounted_for_and_memory_stays_flat(self):
+        looks, share = self.watch()
+        self.sensor.stop()
+        time.sleep(ALL_ARRIVED_S)
+        parts = {name: Facts(part) for name, part in self.parts().items()}
+        runtime, source = parts.pop("runtime"), parts.pop(next(name for name in parts if name.startswith("source")))
+        turns = int(self.sensor.lines[-1].split()[1])
+        self.ros2.process.stdin.write("report\n")
+        self.ros2.process.stdin.flush()
+        self.assertTrue(self.ros2.says('"report"'), self.ros2.log())
+        ros2 = json.loads(self.ros2.lines[-1])
+        late = [memory / 1024 for at_s, memory in looks if at_s >= WARM_UP_S]
+        lost = {name: count for name, count in runtime.items() if name.startswith("dropped")}
+        print(f"{turns} turns sent, {source['frames']} frames received, {runtime['frames measured']} measured; {lost}")
+        print(f"{source['packets']} packets, {source['packets lost by the kernel']} lost by the kernel, "
+              f"{source['packets of no use']} of no use; {source['silences']} silences of the sensor")
+        print(f"latency median {runtime['latency p50 ms']} ms, 99 % {runtime['latency p99 ms']}, worst "
+              f"{runtime['latency worst ms']}; processor {share:.2f} s/s; memory {late[0]:.0f} MB after "
+              f"{WARM_UP_S:.0f} s, {late[-1]:.0f} at the end, most {max(late):.0f}")
+        print(f"takers: page {self.page.frames}, Modbus {self.controller.images}, MQTT {len(self.mqtt.lines)}, "
+              f"ROS 1 {len(self.ros1.lines) - 1}, ROS 2 {ros2['attitudes']}")
+        for name, sink in parts.items():
+            print(f"{name}: {sink['results taken']} taken, {sink['results lost to slowness']} lost to slowness")
+
+        # From the sensor to the runtime. What the kernel dropped, it counts; of a turn nothing is left when all of its
+        # packets are lost, when they come before the metadata, or when the sensor falls silent in its midst.
+        packets = source["packets"] + source["packets lost by the kernel"]
+        self.assertAlmostEqual(packets / (turns * PACKETS_A_TURN), 1.0, delta=0.01)
+        partial = LOSSES + 2 + (source["packets lost by the kernel"] + source["packets of no use"]) / PACKETS_A_TURN
+        self.assertLessEqual(turns - source["frames"], partial)
+        self.assertEqual(source["frames"], runtime["frames pushed"])
+        self.assertEqual(runtime["frames pushed"], runtime["frames measured"] + sum(lost.values()))
+        self.assertGreaterEqual(source["silences"], LOSSES - 1)
+        # From the runtime to each sink, and to who takes from it.
+        published = runtime["frames measured"] + runtime["silences"]
+        self.assertEqual(len(parts), 6)
+        for name, sink in parts.items():
+            told = sink["results taken"] + sink["results lost to slowness"]
+            self.assertTrue(published <= told <= published + SILENCES_MEANWHILE, f"{name}: {told} of {published}")
+        for count in (self.page.frames, self.controller.images, len(self.mqtt.lines), len(self.ros1.lines),
+                      ros2["attitudes"]):
+            self.assertGreater(count, 10)
+        self.assertLess(late[-1] - late[0], MEMORY_GROWTH_MB, looks)
+        self.assertLess(self.daemon.stop(), 10.0)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
