@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves, byte for byte: registers are the words of the image of that moment, low word of a number first; each wrong
-// request has its exception; requests that come in parts, in rows or beside garbage get the answers they would have got
-// alone; a client that is turned away makes room; the port is free after a stop.
+// Proves, byte for byte: registers are the words of the image of that moment, low word of a number first. Each wrong
+// request has its exception. Requests that come in parts, in rows or beside garbage get the answers they would have got
+// alone. A client that is turned away makes room. The port is free after a stop.
 // Does not prove: what clients of others make of it, modbus_peer.py.
 
 #include <arpa/inet.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: what a result is as messages, read field by field as the definitions have them; NaN for what is invalid, held
-// values as they are told, the levelled frame only where it was measured, and that it turns the way the header says.
+// Proves: a result as messages, read field by field as the definitions have them. What is invalid is NaN, and held
+// values are as they are told. The levelled frame comes only where it was measured, and turns the way the header says.
 
 #include "live/ros_messages/ros_messages.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: where the sensor stands by /tf and /tf_static, against answers worked out by hand and against tf2; nothing is
-// told by links that are missing, old, rings or no rotations, and other machines' links do not matter.
+// Proves: where the sensor stands by /tf and /tf_static, against answers worked out by hand and against tf2. Nothing is
+// told by links that are missing, old, rings or no rotations. Other machines' links do not matter.
 
 #include "live/ros_messages/transform_tree.hpp"
 

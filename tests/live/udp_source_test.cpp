@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets that arrive by UDP become the frames that a capture of them gives, bit for bit; what comes from
-// others, what is no packet and what the sensor sent before it fell silent gets into no frame; what no waiting mends is
+// Proves: packets that arrive by UDP become the frames that a capture of them gives, bit for bit. Into no frame gets
+// what comes from others, what is no packet, and what the sensor sent before it fell silent. What no waiting mends is
 // refused with words that help. The simulated sensor's packets give back the ranges that they were made from.
 
 #include <gtest/gtest.h>
