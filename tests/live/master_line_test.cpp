@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <thread>
 #include <utility>
@@ -27,7 +28,8 @@ namespace {
 
 using pose_wall::test::becomes_true;
 
-constexpr int kPatience_ms = 20000;
+// As poll takes it.
+constexpr int kPatience_ms = static_cast<int>(std::chrono::milliseconds(pose_wall::test::kPatience).count());
 
 class Socket {
  public:

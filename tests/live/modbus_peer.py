@@ -29,7 +29,7 @@ import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_run  # noqa: E402  pylint: disable=wrong-import-position
 
-IMAGES = 10_000
+IMAGES = 10_000  # half of them of either version
 PLACE = {1: (0, 120), 2: (1000, 124)}  # version: first register, registers
 STRUCTS = description.read_structs()
 WORDS = {version: description.image_words(version, STRUCTS) for version in PLACE}

@@ -25,7 +25,7 @@ sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tests/checks")]
 import check_report_page  # noqa: E402  pylint: disable=wrong-import-position
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
-RATE_HZ = 10
+RATE_HZ = 10  # of the simulated road's stamps
 
 
 def words(port, *more):

@@ -28,7 +28,7 @@ sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
-KILLS = 8
+KILLS = 8  # each takes some three seconds
 HAS_READER = bool(shutil.which("node")) and (MODULES / "@mcap/core").exists()
 
 

@@ -154,6 +154,7 @@ TEST(BoundedFolder, TheOldestGoesFirstAndOthersFilesStay) {
 // Results of a recorder in a folder, with clouds of `points` points where asked.
 class RecorderTest : public ::testing::Test {
  protected:
+  // x, y, z as floats and four bytes beside them: 65,536 points are a megabyte.
   static constexpr std::uint32_t kPointBytes = 16;
 
   void open(const std::string& room_mb, bool clouds = true) {
@@ -192,6 +193,7 @@ class RecorderTest : public ::testing::Test {
 };
 
 TEST_F(RecorderTest, TheFolderNeverHoldsMoreThanItsRoom) {
+  // A quarter of what is recorded, so that files go.
   constexpr std::uint64_t kRoom = 20'000'000;
   open("20");
   recorder_->start();

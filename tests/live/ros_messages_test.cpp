@@ -20,6 +20,7 @@ namespace {
 
 using pose_wall::test::view_of;
 
+// A day of 2023, odd to the nanosecond: a double would lose the 7.
 constexpr std::int64_t kStamp_ns = 1'700'000'000'000'000'007;
 
 class RosMessagesOf : public testing::TestWithParam<MessageEncoding> {

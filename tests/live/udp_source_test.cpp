@@ -33,6 +33,7 @@ using pose_wall::test::FrameCatcher;
 using pose_wall::test::free_udp_port;
 using pose_wall::test::LoopbackSender;
 
+// Ten turns a second, as sensors leave the factory.
 constexpr std::int64_t kTurn_ns = 100'000'000;
 
 LoadedConfig live_config(std::uint16_t port, std::vector<std::string> more = {}) {
@@ -89,6 +90,7 @@ class Pace {
   }
 
  private:
+  // At most twice so many wait: 48 kB of a VLP-16's packets, 0.5 MB of an OS1-64's.
   static constexpr std::uint64_t kAhead = 20;
 
   std::uint64_t taken() const {
