@@ -20,7 +20,8 @@ class Image(BrokenProject):
         super().setUp()
         source = CHECKS.parent.parent
         shutil.copytree(source / "tools/plc", self.root / "tools/plc")
-        for path in ("include/pose_wall.h", "tests/checks/image_members.def", "tests/checks/abi_layout.txt"):
+        for path in ("include/pose_wall.h", "tests/checks/image_members.def", "tests/checks/abi_layout.txt",
+                     "tools/live/modbus/README.md", "tools/live/modbus/modbus_registers.hpp"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source / path, self.root / path)
 
@@ -38,6 +39,14 @@ class Image(BrokenProject):
     def test_header_edited_by_hand(self):
         self.change("include/pose_wall.h", "int32_t value_mm;", "uint32_t value_mm;")
         self.fails("include/pose_wall.h is not what", *self.check())
+
+    def test_register_table_edited_by_hand(self):
+        self.change("tools/live/modbus/README.md", "| 1062, 1063 |", "| 1064, 1065 |")
+        self.fails("tools/live/modbus/README.md is not what", *self.check())
+
+    def test_image_moved_to_another_register(self):
+        self.change("tools/live/modbus/modbus_registers.hpp", "kImage2Register = 1000", "kImage2Register = 2000")
+        self.fails("tools/live/modbus/README.md is not what", *self.check())
 
     def test_structured_text_edited_by_hand(self):
         for ending in ("st", "scl", "xml"):

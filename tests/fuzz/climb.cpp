@@ -19,6 +19,7 @@
 namespace pose_wall::test {
 namespace {
 
+// The first frame finds all anew, the second has what is remembered, the third tells what a steady frame costs.
 constexpr int kFrames = 3;
 
 struct Costs {

@@ -25,6 +25,7 @@ inline void require_kept(const std::string& broken) {
   require(broken.empty(), broken.c_str());
 }
 
+// The largest scanner that an input can ask for has to fit; scan_road asserts it.
 constexpr std::uint32_t kRoadPointsMax = 8192;
 
 inline float (*road_points())[3] {

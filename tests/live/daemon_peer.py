@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""pose_walld as the service manager and people at the terminal meet it: starts before its sensor, survives its loss and
-a restart of either side, stops within a second, tells what is wrong with words or settings; what is recorded is
-readable after a kill at any moment.
+"""pose_walld as the service manager and people at the terminal meet it. It starts before its sensor, and survives its
+loss and a restart of either side. It stops within a second. It tells what is wrong with words or settings. What is
+recorded is readable after a kill at any moment.
 
 usage: daemon_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR"""
 

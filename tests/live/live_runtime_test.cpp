@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: each result comes with the very frame that it measures, with its stamp and labelled points; with the
-// extrinsic from tf nothing is measured before it is known, it is measured anew when it changes and no more when it is
-// gone; images can be asked for at any time; a recording played as fast as possible loses nothing.
+// Proves: each result comes with the very frame that it measures, with its stamp and labelled points. With the
+// extrinsic from tf nothing is measured before it is known. It is measured anew when the extrinsic changes, and no more
+// when it is gone. Images can be asked for at any time. A recording played as fast as possible loses nothing.
 
 #include <gtest/gtest.h>
 

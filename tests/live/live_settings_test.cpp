@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: keys of pose_walld stand in the same file and have the same errors as the engine's: place, value, what is
-// allowed, and the nearest name; the written form of each default reads back.
+// Proves: keys of pose_walld stand in the same file as the engine's. Their errors are alike: place, value, what is
+// allowed, and the nearest name. The written form of each default reads back.
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the line to the master of ROS 1 passes on what both sides say, hangs up where nobody answers and where nobody
-// is, ends every call when it is told to, and takes no more of them than it has room for.
+// Proves: the line to the master of ROS 1 passes on what both sides say. It hangs up where nobody answers and where
+// nobody is. It ends every call when it is told to. It takes no more calls than it has room for.
 
 #ifdef POSE_WALL_LIVE_HAS_ROS1
 
@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <thread>
 #include <utility>
@@ -27,7 +28,8 @@ namespace {
 
 using pose_wall::test::becomes_true;
 
-constexpr int kPatience_ms = 20000;
+// As poll takes it.
+constexpr int kPatience_ms = static_cast<int>(std::chrono::milliseconds(pose_wall::test::kPatience).count());
 
 class Socket {
  public:

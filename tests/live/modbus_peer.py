@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Modbus TCP of pose_walld, read by a client that others wrote (pymodbus): 10,000 images under load, none torn; the
-structured text of the project decodes what was read; writes and wrong ranges get exceptions; a client that sends
+"""Modbus TCP of pose_walld, read by a client that others wrote (pymodbus). Of 10,000 images under load none is torn.
+The structured text of the project decodes what was read. Writes and wrong ranges get exceptions. A client that sends
 garbage, half a request or nothing holds up nobody.
 
 usage: modbus_peer.py ROOT POSE_WALL POSE_WALLD"""
@@ -29,7 +29,7 @@ import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_run  # noqa: E402  pylint: disable=wrong-import-position
 
-IMAGES = 10_000
+IMAGES = 10_000  # half of them of either version
 PLACE = {1: (0, 120), 2: (1000, 124)}  # version: first register, registers
 STRUCTS = description.read_structs()
 WORDS = {version: description.image_words(version, STRUCTS) for version in PLACE}

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves, byte for byte: registers are the words of the image of that moment, low word of a number first; each wrong
-// request has its exception; requests that come in parts, in rows or beside garbage get the answers they would have got
-// alone; a client that is turned away makes room; the port is free after a stop.
+// Proves, byte for byte: registers are the words of the image of that moment, low word of a number first. Each wrong
+// request has its exception. Requests that come in parts, in rows or beside garbage get the answers they would have got
+// alone. A client that is turned away makes room. The port is free after a stop.
 // Does not prove: what clients of others make of it, modbus_peer.py.
 
 #include <arpa/inet.h>
@@ -100,6 +100,8 @@ Text read_request(unsigned transaction, unsigned first, unsigned count) {
 Text exception(unsigned transaction, unsigned function, char code) {
   return adu(transaction, Text{static_cast<char>(function | 0x80U), code});
 }
+// Header of seven bytes, function, and what follows: the code of the exception, or a count of bytes and the registers
+// (Modbus Application Protocol V1.1b3, 6.4 and 7).
 constexpr std::size_t kExceptionBytes = 9;
 constexpr std::size_t answer_bytes(std::size_t registers) {
   return 9 + 2 * registers;
@@ -151,6 +153,7 @@ TEST_F(ModbusServerTest, OneReadIsOneImageAndEachIsNew) {
 }
 
 TEST_F(ModbusServerTest, EachWrongRequestHasItsException) {
+  // Illegal function, data address and data value (Modbus Application Protocol V1.1b3, 7).
   constexpr char kFunction = 1, kAddress = 2, kValue = 3;
   for (const auto& [first, count] : {std::pair(1U, 120U),
                                      {120U, 1U},

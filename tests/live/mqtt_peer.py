@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""MQTT telemetry of pose_walld with a broker and a subscriber that others wrote (mosquitto): the broker comes late, is
-started anew, is frozen, never answers or answers garbage; results come once a second and when a state changes; who dies
+"""MQTT telemetry of pose_walld with a broker and a subscriber that others wrote (mosquitto). The broker comes late, is
+started anew, is frozen, never answers or answers garbage. Results come once a second and when a state changes. Who dies
 is told offline. Whatever the broker does, frames are measured and the daemon stops cleanly.
 
 usage: mqtt_peer.py ROOT POSE_WALL POSE_WALLD"""

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: topics that a broker would throw us out for are refused with their reason; without a broker, or with one that
-// takes connections and says nothing, the sink warns, takes results and stops. Brokers of others: mqtt_peer.py.
+// Proves: topics that a broker would throw us out for are refused with their reason. A broker may be away, or take
+// connections and say nothing: then the sink warns, takes results and stops. Brokers of others: mqtt_peer.py.
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

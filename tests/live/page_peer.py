@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The page of pose_walld as people and machines meet it: in a real browser it shows live frames at their rate, in both
-languages, says at once when nothing comes any more and comes back after a restart; four viewers and one that takes
-nothing hold up nobody; by HTTP nothing can be changed, and what is malformed gets an answer or a closed connection.
+"""The page of pose_walld as people and machines meet it. In a real browser it shows live frames at their rate, in both
+languages. It says at once when nothing comes any more, and comes back after a restart. Four viewers and one that takes
+nothing hold up nobody. By HTTP nothing can be changed. What is malformed gets an answer or a closed connection.
 
 usage: page_peer.py ROOT POSE_WALL POSE_WALLD [SCREENSHOT_PREFIX]"""
 
@@ -25,7 +25,7 @@ sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tests/checks")]
 import check_report_page  # noqa: E402  pylint: disable=wrong-import-position
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
-RATE_HZ = 10
+RATE_HZ = 10  # of the simulated road's stamps
 
 
 def words(port, *more):

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Recordings and black boxes of pose_walld from outside: killed at random moments, or copied while it writes, they are
-read by our reader, by replay-box and by a reader that others wrote (@mcap/core); the clouds of a recording measure as
-those they came from; a disk that is full, also at the start, stops neither the measuring nor, later, the recording.
+"""Recordings and black boxes of pose_walld from outside. The daemon is killed at random moments, or its files are
+copied while it writes. Then our reader, replay-box and a reader that others wrote (@mcap/core) read the files. The
+clouds of a recording measure as those they came from. A disk that is full, also at the start, stops neither the
+measuring nor, later, the recording.
 
 usage: recorder_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
 
@@ -27,7 +28,7 @@ sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
-KILLS = 8
+KILLS = 8  # each takes some three seconds
 HAS_READER = bool(shutil.which("node")) and (MODULES / "@mcap/core").exists()
 
 

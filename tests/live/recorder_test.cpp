@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: a recording that is cut anywhere gives back every message of its whole chunks; folders never hold more than
-// their room, the oldest goes first, names are never used twice whatever the clock says; a disk that takes nothing and
-// a folder that vanishes make a pause that says so, costs neither descriptors nor files, and ends by itself; each
-// result is counted as recorded or as not; black boxes of earlier starts stay and can be computed again. Does not
-// prove: that the disk keeps what fdatasync promised. Tools of others and kill -9: recorder_peer.py.
+// Proves: a recording that is cut anywhere gives back every message of its whole chunks. Folders never hold more than
+// their room, and the oldest goes first. Names are never used twice, whatever the clock says. A disk that takes nothing
+// and a folder that vanishes make a pause. The pause says so, costs neither descriptors nor files, and ends by itself.
+// Each result is counted as recorded or as not. Black boxes of earlier starts stay and can be computed again.
+// Does not prove: that the disk keeps what fdatasync promised. Tools of others and kill -9: recorder_peer.py.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -154,6 +154,7 @@ TEST(BoundedFolder, TheOldestGoesFirstAndOthersFilesStay) {
 // Results of a recorder in a folder, with clouds of `points` points where asked.
 class RecorderTest : public ::testing::Test {
  protected:
+  // x, y, z as floats and four bytes beside them: 65,536 points are a megabyte.
   static constexpr std::uint32_t kPointBytes = 16;
 
   void open(const std::string& room_mb, bool clouds = true) {
@@ -192,6 +193,7 @@ class RecorderTest : public ::testing::Test {
 };
 
 TEST_F(RecorderTest, TheFolderNeverHoldsMoreThanItsRoom) {
+  // A quarter of what is recorded, so that files go.
   constexpr std::uint64_t kRoom = 20'000'000;
   open("20");
   recorder_->start();

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""pose_walld as a node of ROS 1, with peers that others wrote: a JavaScript client publishes clouds of 512 kB and 4 MB
-at 10 and 20 Hz and reads the results under the clouds' stamps; rostopic and rosbag read them; the master comes late and
-is started anew; the transform comes late, is missing and changes.
+"""pose_walld as a node of ROS 1, with peers that others wrote. A JavaScript client publishes clouds of 512 kB and 4 MB
+at 10 and 20 Hz. It reads the results under the clouds' stamps, and so do rostopic and rosbag. The master comes late and
+is started anew. The transform comes late, is missing and changes.
 
 usage: ros1_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
 

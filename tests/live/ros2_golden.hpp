@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The message ros_discovery_info as real nodes sent it: a component container with a listener and a talker, of Humble
-// and of Iron. The bytes are from zenoh-plugin-ros2dds, src/ros_discovery.rs.
+// The message ros_discovery_info as real nodes sent it: a component container with a listener and a talker. There is
+// one of Humble and one of Iron. The bytes are from zenoh-plugin-ros2dds, src/ros_discovery.rs.
 
 #pragma once
 

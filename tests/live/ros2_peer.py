@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""pose_walld as a node of ROS 2, seen by another make of DDS (ros2_peer/: Fast DDS) and by tshark: clouds of 512 kB and
-4 MB and the results under their stamps; either side first, gone and back; what is no cloud, other types, qualities of
-service that do not match; transforms late, missing, changed and old; what is said of the node in discovery.
+"""pose_walld as a node of ROS 2, seen by another make of DDS (ros2_peer/: Fast DDS) and by tshark. Clouds have 512 kB
+and 4 MB, and results come under their stamps. Either side is first, gone and back. Some messages are no clouds, some
+types are others, some qualities of service do not match. Transforms are late, missing, changed and old. Discovery says
+of the node what it should.
 
 usage: ros2_peer.py ROOT POSE_WALL POSE_WALLD PEER"""
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the graph message has the very bytes that nodes of Humble and Iron sent; names, hashes and USER_DATA are
-// those of ROS; its environment variables are read as ROS reads them, and what is none is refused by name; the settings
-// for Cyclone follow; a mismatch names each policy with what either side has.
+// Proves: the graph message has the very bytes that nodes of Humble and Iron sent. Names, hashes and USER_DATA are
+// those of ROS. Its environment variables are read as ROS reads them, and what is none is refused by name. The settings
+// for Cyclone follow. A mismatch names each policy with what either side has.
 
 #ifdef POSE_WALL_LIVE_HAS_ROS2
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: what a result is as messages, read field by field as the definitions have them; NaN for what is invalid, held
-// values as they are told, the levelled frame only where it was measured, and that it turns the way the header says.
+// Proves: a result as messages, read field by field as the definitions have them. What is invalid is NaN, and held
+// values are as they are told. The levelled frame comes only where it was measured, and turns the way the header says.
 
 #include "live/ros_messages/ros_messages.hpp"
 
@@ -20,6 +20,7 @@ namespace {
 
 using pose_wall::test::view_of;
 
+// A day of 2023, odd to the nanosecond: a double would lose the 7.
 constexpr std::int64_t kStamp_ns = 1'700'000'000'000'000'007;
 
 class RosMessagesOf : public testing::TestWithParam<MessageEncoding> {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: what messages of ROS become frames, and under which stamp and frame; that nothing of others' bytes is thrown,
-// and none of two sensors on one topic is taken for the other; when the extrinsic is told, and when it is told gone.
+// Proves: what messages of ROS become frames, and under which stamp and frame. Whatever bytes others send, nothing is
+// thrown. Of two sensors on one topic none is taken for the other. The extrinsic is told when it is known, and when it
+// is gone.
 
 #include "live/ros_messages/ros_reader.hpp"
 

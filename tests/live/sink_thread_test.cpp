@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: a sink that hangs loses its own results, counted, and holds up neither who posts nor other sinks; what
-// waits at a stop is still taken.
+// Proves: a sink that hangs loses its own results, counted. It holds up neither who posts nor other sinks. What waits
+// at a stop is still taken.
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: where the sensor stands by /tf and /tf_static, against answers worked out by hand and against tf2; nothing is
-// told by links that are missing, old, rings or no rotations, and other machines' links do not matter.
+// Proves: where the sensor stands by /tf and /tf_static, against answers worked out by hand and against tf2. Nothing is
+// told by links that are missing, old, rings or no rotations. Other machines' links do not matter.
 
 #include "live/ros_messages/transform_tree.hpp"
 
@@ -25,9 +25,11 @@ using pose_wall::test::TfLink;
 using pose_wall::test::view_of;
 
 constexpr double kTurn = 1.5707963267948966;  // a quarter
+// Of 1/2: cosine and sine of half of kTurn, as a quaternion has them.
 constexpr double kRoot = 0.70710678118654757;
 // Rounding of a few products of numbers near 1.
 constexpr double kRounding = 1e-12;
+// When a link of /tf has just become too old.
 constexpr std::int64_t kLater_ns = TransformTree::kOld_ns + 1;
 
 void take(TransformTree* tree, const std::vector<TfLink>& links, bool is_static = true, std::int64_t now_ns = 0) {

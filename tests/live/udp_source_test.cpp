@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets that arrive by UDP become the frames that a capture of them gives, bit for bit; what comes from
-// others, what is no packet and what the sensor sent before it fell silent gets into no frame; what no waiting mends is
+// Proves: packets that arrive by UDP become the frames that a capture of them gives, bit for bit. Into no frame gets
+// what comes from others, what is no packet, and what the sensor sent before it fell silent. What no waiting mends is
 // refused with words that help. The simulated sensor's packets give back the ranges that they were made from.
 
 #include <gtest/gtest.h>
@@ -33,6 +33,7 @@ using pose_wall::test::FrameCatcher;
 using pose_wall::test::free_udp_port;
 using pose_wall::test::LoopbackSender;
 
+// Ten turns a second, as sensors leave the factory.
 constexpr std::int64_t kTurn_ns = 100'000'000;
 
 LoadedConfig live_config(std::uint16_t port, std::vector<std::string> more = {}) {
@@ -89,6 +90,7 @@ class Pace {
   }
 
  private:
+  // At most twice so many wait: 48 kB of a VLP-16's packets, 0.5 MB of an OS1-64's.
   static constexpr std::uint64_t kAhead = 20;
 
   std::uint64_t taken() const {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""What Python believes of the C ABI is what was compiled: every struct's size and offsets, the symbols, the texts; and
-the generator refuses what it does not understand. It does not prove that the engine is right: others do."""
+"""What Python believes of the C ABI is what was compiled: every struct's size and offsets, the symbols, the texts. The
+generator refuses what it does not understand. It does not prove that the engine is right: others do."""
 
 import ctypes
 import os

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Layouts of NumPy: whatever strides, order of bytes, types and fields an array has, the engine gives the same bits as
-of the plain one, and nothing is read outside of it; what it cannot be is refused by name."""
+"""Layouts of NumPy: strides, order of bytes, types and fields. Whatever an array has of them, the engine gives the same
+bits as of the plain one. Nothing is read outside of it. What an array cannot be is refused by name."""
 
 import ctypes
 import mmap

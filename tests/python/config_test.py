@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Settings by name: every key is read back as it was written, what is refused says why and changes nothing, and a
+"""Settings by name. Every key is read back as it was written. What is refused says why and changes nothing. A
 pose_wall.yaml comes to the same as for the command."""
 
 import copy

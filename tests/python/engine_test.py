@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The engine in Python gives what `pose_wall run` gives, to the last bit; mementos, copies and threads do what the
+"""The engine in Python gives what `pose_wall run` gives, to the last bit. Mementos, copies and threads do what the
 header says. What the engine measures is proven elsewhere."""
 
 import copy

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""`pip install ./tools/python` in an environment of its own, as a user of Debian does without a network; the example
-there, with and without matplotlib; and the README's quick start by copy and paste. The objects of this build are
-taken; with POSE_WALL_TEST_PIP_ALONE=1 pip has CMake build everything, which takes minutes."""
+"""`pip install ./tools/python` in an environment of its own, as a user of Debian does without a network. The example
+runs there, with and without matplotlib, and so does the README's quick start by copy and paste. The objects of this
+build are taken. With POSE_WALL_TEST_PIP_ALONE=1 pip has CMake build everything, which takes minutes."""
 
 import functools
 import importlib.util

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""PCD files: every encoding gives the points that were written, stamps are those of the command, and a file that lies
-or was damaged is refused by name, within the memory that it is large."""
+"""PCD files. Every encoding gives the points that were written, and stamps are those of the command. A file that lies
+or was damaged is refused by name. Reading it takes no more memory than the file is large."""
 
 import random
 import tracemalloc

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The runtime in Python: the same bits as the engine, from several threads; callbacks that raise, objects that are
+"""The runtime in Python gives the same bits as the engine, from several threads. Callbacks that raise, objects that are
 collected in odd orders, forks and the end of the program neither crash nor hang. No test asserts a time."""
 
 import dataclasses

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """Writes what follows from image.def and blocks.def: the images' structs in include/pose_wall.h, the members that
-tests/checks/abi_layout.c looks at, and FB_PoseWall as plain text, PLCopen XML and SCL. States and numbers are those of
-pose_wall.h.
+tests/checks/abi_layout.c looks at, the tables of registers in tools/live/modbus/README.md, and FB_PoseWall as plain
+text, PLCopen XML and SCL. States and numbers are those of pose_wall.h.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
                                        tests/checks/abi_layout.txt pins other offsets than image.def gives"""
@@ -19,6 +19,7 @@ import blocks_reader  # noqa: E402  pylint: disable=wrong-import-position
 import dialects  # noqa: E402  pylint: disable=wrong-import-position
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 import plcopen  # noqa: E402  pylint: disable=wrong-import-position
+import register_table  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_words as words  # noqa: E402  pylint: disable=wrong-import-position
 
 BEGIN = "/* From here on written by tools/plc/generate.py from tools/plc/image.def. */\n"
@@ -71,7 +72,9 @@ def layout_faults(structs, pinned_text):
 def outputs(root):
     structs = description.read_structs()
     header_text = (root / "include/pose_wall.h").read_text(encoding="utf-8")
-    plc = root / "tools/plc"
+    plc, modbus = root / "tools/plc", root / "tools/live/modbus"
+    registers_hpp = (modbus / "modbus_registers.hpp").read_text(encoding="utf-8")
+    page = (modbus / "README.md").read_text(encoding="utf-8")
     read = blocks_reader.Reader(words.description_text(header_text, (plc / "blocks.def").read_text(encoding="utf-8")))
     return {
         root / "include/pose_wall.h": header(structs, header_text),
@@ -79,6 +82,7 @@ def outputs(root):
         plc / "FB_PoseWall.scl": dialects.scl(read),
         plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),
         root / "tests/checks/image_members.def": layout_members(structs),
+        modbus / "README.md": register_table.with_tables(structs, registers_hpp, page),
     }
 
 

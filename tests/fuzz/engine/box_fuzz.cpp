@@ -12,6 +12,8 @@ namespace {
 
 using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one target, one file
 
+// An input's config may ask for any memory, and its records for any time: larger engines are not opened, and of the
+// records that are read only these are computed.
 constexpr std::uint64_t kBlockToOpen = 4ULL << 20U;
 constexpr int kRecordsMax = 8;
 

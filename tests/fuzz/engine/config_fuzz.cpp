@@ -16,6 +16,8 @@ namespace {
 
 using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one target, one file
 
+// No config that passes its check may ask for more than kBlockMax. Those up to kBlockToOpen also take a frame: larger
+// blocks cost the fuzzer its rounds.
 constexpr std::uint64_t kBlockMax = 256ULL << 20U, kBlockToOpen = 2ULL << 20U;
 
 // The next word of the input, as a text of at most that many bytes; ends at a zero or line end.

@@ -15,6 +15,7 @@ namespace {
 
 using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one target, one file
 
+// Above pose_wall_memento_bytes(); checked where it is used.
 constexpr std::uint64_t kRoom = 4096;
 
 std::uint64_t checksum(const unsigned char* bytes, std::uint64_t count) {

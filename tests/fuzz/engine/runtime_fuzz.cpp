@@ -20,7 +20,9 @@ namespace {
 
 using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one target, one file
 
+// The largest box_bytes that an input can choose fits.
 constexpr std::uint64_t kDiskBytes = 1U << 20U;
+// Bounds the time of an input.
 constexpr int kEventsMax = 12;
 constexpr std::int64_t kMs = 1000000;
 

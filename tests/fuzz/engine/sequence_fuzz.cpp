@@ -19,7 +19,9 @@ namespace {
 
 using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one target, one file
 
+// Bounds the time of an input.
 constexpr int kEventsMax = 6;
+// Above pose_wall_memento_bytes(); checked where it is used.
 constexpr std::uint64_t kMementoRoom = 4096;
 
 struct Pair {

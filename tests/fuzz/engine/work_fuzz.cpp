@@ -14,6 +14,7 @@ namespace {
 
 using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one target, one file
 
+// Together 12.8 million steps, twice what a simulated road by an OS1-64 takes.
 constexpr std::uint32_t kCounters = 256;
 constexpr std::uint64_t kStepsPerCounter = 50'000;
 

@@ -13,6 +13,7 @@
 namespace pose_wall::test {
 namespace {
 
+// The engine takes milliseconds a scan, the reader microseconds a datagram. All scans are looked at, some are measured.
 constexpr std::size_t kScansToProcess = 8;
 
 void take_scans(tools::ScanAssembler& assembler, std::size_t& taken) {

@@ -16,6 +16,7 @@
 
 namespace pose_wall::test {
 
+// Larger frames cost the fuzzer its rounds. The number is the largest points_max of config_from_input.hpp.
 constexpr std::uint64_t kPointsToProcess = 20000;
 
 // The engine reads what the reader promises, with all of a frame's fields.

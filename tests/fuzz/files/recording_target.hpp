@@ -15,7 +15,8 @@
 
 namespace pose_wall::test {
 
-constexpr int kFramesMax = 64;  // that are looked at
+// That are looked at. A recording of a few bytes may tell of any number of frames.
+constexpr int kFramesMax = 64;
 
 inline void take_frames(const std::string& path, const std::string& metadata) {
   tools::InputOptions options;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// A peer of pose_walld's ROS 2 edge by Fast DDS, which shares no code with it: publishes clouds of a road and
-// transforms, reads the results. One line of JSON on standard output for all it sees, commands on standard input.
+// A peer of pose_walld's ROS 2 edge by Fast DDS, which shares no code with it. It publishes clouds of a road and
+// transforms, and reads the results. Standard output has one line of JSON for all it sees. Commands come on standard
+// input.
 //
 // usage: pose_wall_ros2_peer DOMAIN [WORD=VALUE]...
 //   points=N hz=H count=N   clouds, once both sides found each other; count=0: until the end
@@ -54,6 +55,7 @@ using pose_wall::test::RawType;
 
 namespace {
 
+// Twice the largest cloud of the tests, 4 MB: Fast DDS wants to know it of a type.
 constexpr std::uint32_t kBytesMost = 8'000'000;
 
 std::int64_t now_ns() {

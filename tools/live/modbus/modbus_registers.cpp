@@ -9,6 +9,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
+// Of a request (Modbus Messaging on TCP/IP V1.0b, 3.1.3; Modbus Application Protocol V1.1b3, 6.4).
 constexpr std::size_t kHeaderBytes = 7, kFunctionAt = 7, kAddressAt = 8, kCountAt = 10;
 constexpr int kReadInputRegisters = 0x04;
 
@@ -64,7 +65,7 @@ bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes,
     copy_words(images_.image(), image_.get());
     sent = modbus_reply(context_.get(), request, bytes, image_.get());
   }
-  constexpr int kExceptionBytes = 9;
+  constexpr int kExceptionBytes = 9;  // header, function, code; the shortest other answer has 11
   *was_refused = sent == kExceptionBytes;
   modbus_set_socket(context_.get(), -1);
   return sent > 0;

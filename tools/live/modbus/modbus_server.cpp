@@ -33,7 +33,9 @@ using Clock = std::chrono::steady_clock;
 
 // A controller, a second one, a panel, somebody with a laptop: then the one that is silent longest makes room.
 constexpr std::size_t kClientsMost = 32;
+// How long a stop may wait for the thread.
 constexpr int kLook_ms = 100;
+// Where there are no descriptors: a hundred looks a second cost nothing.
 constexpr auto kRest = std::chrono::milliseconds(10);
 // A controller that was switched off leaves its connection open for ever.
 constexpr auto kIdleMost = std::chrono::minutes(5);

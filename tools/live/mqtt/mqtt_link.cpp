@@ -20,6 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// At least once: a repeated result harms nobody, a lost last one does.
 constexpr int kQos = 1;
 // A connection that died without a word is noticed after one and a half of them (MQTT 3.1.1, 3.1.2.10).
 constexpr int kKeepAlive_s = 10, kConnect_s = 5;

@@ -33,9 +33,12 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kViewersMost = 16, kThreads = kViewersMost + 4;
 // A viewer that takes nothing for so long is cut off; its browser comes back by itself.
 constexpr int kWriteTimeout_us = 400'000;
+// Of a request: whoever is slower holds a thread for nothing.
 constexpr int kReadTimeout_s = 5;
 constexpr std::size_t kRequestMost = 4096;  // a body is never wanted
+// A viewer hears something at least so often, so that one that is gone is noticed.
 constexpr int kWait_ms = 500;
+// Ten publications of silence.
 constexpr std::int64_t kOld_ns = 1'000'000'000;
 constexpr auto kHealthEvery = std::chrono::seconds(1);
 

@@ -16,6 +16,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
+// Of a number in a name, with zeros before it, so that names sort as numbers do up to a million files.
 constexpr std::size_t kDigits = 6;
 
 // Of a name that we gave.

@@ -88,7 +88,7 @@ std::string RosMessages::attitude(const LiveResult& result) const {
 }
 
 std::string RosMessages::distances(const LiveResult& result) const {
-  constexpr std::uint32_t kDistances = 4;
+  constexpr std::uint32_t kDistances = 4;  // d_lf, d_lb, d_rf, d_rb
   std::string labels;
   for (std::uint32_t i = 0; i < kDistances; ++i) {
     labels += std::string(i > 0 ? " " : "") + pose_wall_quantity_name(POSE_WALL_D_LF + i);
@@ -178,7 +178,7 @@ std::string RosMessages::level_transform(const LiveResult& result) const {
 }
 
 std::string RosMessages::points(const LiveResult& result) const {
-  constexpr std::uint32_t kStep = 16;
+  constexpr std::uint32_t kStep = 16;  // three floats, the label, and three bytes to keep floats aligned
   const LabelledPoints& points = *result.points;
   const auto count = static_cast<std::uint32_t>(points.label.size());
   Writer message = begin(result.header_stamp_ns, base_frame_);

@@ -17,6 +17,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
+// As the source by UDP: ten turns of the slowest sensor.
 constexpr std::int64_t kSilent_ns = 1'000'000'000;
 // Garbage may be another one each time; the journal shall not be filled by who sends it.
 constexpr std::int64_t kRefusalsLoggedEvery_ns = 10'000'000'000;

@@ -33,6 +33,7 @@ class TransformTree {
 
   void clear() { links_.clear(); }
 
+  // As long as a buffer of tf2 keeps transforms by default.
   static constexpr std::int64_t kOld_ns = 10'000'000'000;
   // Who sends other names all the time must not fill the memory.
   static constexpr std::size_t kLinksMost = 10'000;

@@ -54,8 +54,10 @@ RangeImage range_image(const sim::Sensor& sensor, const sim::Frame& frame) {
 }
 
 std::vector<std::string> Vlp16Encoder::packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) {
+  // Of a data packet, each block with two firings (VLP-16 user manual, 63-9243).
   constexpr std::uint32_t kBlocks = 12, kRings = 16;
   constexpr double kUnit_m = 0.002;
+  // Packets tell the microseconds since the full hour.
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
   if (image.rings != kRings) throw std::invalid_argument("a VLP-16 has 16 rings");
   std::vector<std::string> packets;

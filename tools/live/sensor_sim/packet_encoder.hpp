@@ -52,6 +52,7 @@ class OusterEncoder final : public PacketEncoder {
   std::string metadata() const;
 
  private:
+  // As an Ouster leaves the factory; its metadata tells it, too.
   static constexpr std::uint32_t kColumnsPerPacket = 16;
   std::string column(const RangeImage& image, std::uint32_t column, std::int64_t time_ns) const;
 

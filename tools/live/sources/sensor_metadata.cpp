@@ -24,6 +24,7 @@ constexpr const char* kPath = "/api/v1/sensor/metadata";
 constexpr std::size_t kMetadataMost = 1'000'000;
 constexpr auto kAnswerWithin = std::chrono::seconds(3);
 constexpr auto kAskEvery = std::chrono::milliseconds(1000);
+// How long a stop may wait between two questions.
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 // What is wrong stands in *trouble.
