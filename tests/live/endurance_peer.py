@@ -13,6 +13,7 @@ import contextlib
 import json
 import os
 import pathlib
+import shutil
 import socket
 import subprocess
 import sys
@@ -31,6 +32,12 @@ sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
+BROKER = shutil.which("mosquitto") or shutil.which("mosquitto", path="/usr/sbin")
+for peer in (BROKER, *map(shutil.which, ("mosquitto_sub", "rosmaster", "rostopic"))):
+    if not peer:
+        print("SKIPPED: packages mosquitto mosquitto-clients python3-rosmaster python3-rostopic are needed")
+        sys.exit(0)
+
 LOSSES = 10 if MINUTES >= 10 else 2
 PERIOD_S = 60 * MINUTES / LOSSES
 ABSENT_S = min(20.0, PERIOD_S / 4)
@@ -40,7 +47,8 @@ ROOM_MB = 2000  # the recording's, which an hour fills many times over
 ALL_ARRIVED_S = 2.0
 PACKETS_A_TURN = 64  # 1,024 columns, 16 a packet
 SILENCES_MEANWHILE = 20  # come between the looks at two parts: ten a second
-MEMORY_GROWTH_MB = 64.0  # within what the waiting clouds of all sinks take, 2 MB each; a leak of one a minute shows
+# Some 20 clouds of 5 MB may wait at the end where none waited at first; in an hour a leak of 1 kB a frame shows.
+MEMORY_GROWTH_MB = 64.0 if MINUTES >= 10 else 128.0
 
 
 def memory_kb(pid):
@@ -127,7 +135,7 @@ class Endurance(unittest.TestCase):
         self.start("rosmaster", "--core", "-p", ports["ros"])
         settings = self.folder / "mosquitto.conf"
         settings.write_text(f"listener {ports['mqtt']} 127.0.0.1\nallow_anonymous true\n", encoding="utf-8")
-        self.start("/usr/sbin/mosquitto", "-c", settings)
+        self.start(BROKER, "-c", settings)
         config = self.folder / "pose_wall.yaml"
         self.sensor = self.start(SENSOR, "--sensor", "os0-128", "--frames", 40, "--rate", RATE_HZ, "--to",
                                  f"127.0.0.1:{udp}", "--http", f"127.0.0.1:{ports['metadata']}", "--present",
@@ -145,7 +153,7 @@ class Endurance(unittest.TestCase):
         self.page, self.controller = Page(self.http), Controller(ports["modbus"])
         self.page.start()
         self.controller.start()
-        self.ros1 = self.start("/usr/bin/rostopic", "echo", "-p", "/pose_wall/attitude", env=environment)
+        self.ros1 = self.start("rostopic", "echo", "-p", "/pose_wall/attitude", env=environment)
         self.ros2 = self.start(ROS2_PEER, domain, "results=1", "count=0", "points=0", stdin=subprocess.PIPE)
         self.mqtt = self.start("mosquitto_sub", "-h", "127.0.0.1", "-p", ports["mqtt"], "-t", "pose_wall/#")
 
@@ -194,10 +202,11 @@ class Endurance(unittest.TestCase):
             print(f"{name}: {sink['results taken']} taken, {sink['results lost to slowness']} lost to slowness")
 
         # From the sensor to the runtime. What the kernel dropped, it counts; of a turn nothing is left when all of its
-        # packets are lost, when they come before the metadata, or when the sensor falls silent in its midst.
+        # packets are lost or come before the metadata. Of each presence of the sensor the first turn is dropped, which
+        # began before it was listened to, and the last, which no packet ends.
         packets = source["packets"] + source["packets lost by the kernel"]
         self.assertAlmostEqual(packets / (turns * PACKETS_A_TURN), 1.0, delta=0.01)
-        partial = LOSSES + 2 + (source["packets lost by the kernel"] + source["packets of no use"]) / PACKETS_A_TURN
+        partial = 2 * (LOSSES + 1) + (source["packets lost by the kernel"] + source["packets of no use"]) / PACKETS_A_TURN
         self.assertLessEqual(turns - source["frames"], partial)
         self.assertEqual(source["frames"], runtime["frames pushed"])
         self.assertEqual(runtime["frames pushed"], runtime["frames measured"] + sum(lost.values()))

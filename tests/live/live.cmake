@@ -14,9 +14,14 @@ function(pose_wall_live_peer name)
   add_test(NAME live.${name}_peer
     COMMAND ${POSE_WALL_PEER_PYTHON} -W ignore ${CMAKE_CURRENT_SOURCE_DIR}/live/${name}_peer.py ${PROJECT_SOURCE_DIR}
       $<TARGET_FILE:pose_wall_cli> $<TARGET_FILE:pose_walld> ${ARGN})
-  # One at a time: they measure rates, and a busy machine drops frames.
-  set_tests_properties(live.${name}_peer PROPERTIES
-    LABELS live TIMEOUT 600 RUN_SERIAL ON SKIP_REGULAR_EXPRESSION "SKIPPED:")
+  set_tests_properties(live.${name}_peer PROPERTIES LABELS live TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED:")
+  if(name MATCHES "^(page|ros1|ros2|endurance)$")
+    # They measure rates, and a busy machine drops frames.
+    set_tests_properties(live.${name}_peer PROPERTIES RUN_SERIAL ON)
+  else()
+    # They wait more than they work: one of them at a time, beside tests that work.
+    set_tests_properties(live.${name}_peer PROPERTIES RESOURCE_LOCK live_peers COST 1000)
+  endif()
 endfunction()
 
 pose_wall_live_peer(daemon $<TARGET_FILE:pose_wall_sensor>)
@@ -50,6 +55,9 @@ if(POSE_WALL_HAS_LIVE_ros2)
     target_link_libraries(pose_wall_ros2_peer PRIVATE ${FASTRTPS_LIBRARY} ${FASTCDR_LIBRARY} Threads::Threads)
     add_dependencies(pose_wall_live_peers pose_wall_ros2_peer)
     pose_wall_live_peer(ros2 $<TARGET_FILE:pose_wall_ros2_peer>)
+    if(POSE_WALL_HAS_LIVE_ros1 AND POSE_WALL_HAS_LIVE_page AND POSE_WALL_HAS_LIVE_modbus AND POSE_WALL_HAS_LIVE_mqtt)
+      pose_wall_live_peer(endurance $<TARGET_FILE:pose_wall_sensor> $<TARGET_FILE:pose_wall_ros2_peer>)
+    endif()
   else()
     message(STATUS "Test live.ros2_peer left out: it takes libfastrtps-dev and libfastcdr-dev")
   endif()

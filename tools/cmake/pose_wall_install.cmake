@@ -66,8 +66,10 @@ if(TARGET pose_walld)
     COMPONENT daemon)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld RENAME copyright
     COMPONENT daemon)
-  install(FILES ${pose_wall_daemon_dir}/README.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld
-    COMPONENT daemon)
+  foreach(place . modbus mqtt recorder ros1 ros2)
+    install(FILES ${pose_wall_daemon_dir}/${place}/README.md
+      DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/${place} COMPONENT daemon)
+  endforeach()
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   include(pose_wall_package)
