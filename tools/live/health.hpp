@@ -24,6 +24,10 @@ struct PartHealth {
   std::string summary;  // one sentence; it changes only when something happens, for each change is a line of the log
   std::vector<std::pair<std::string, std::string>> facts;  // names and values: "frames" "1203"
 
+  // Facts aside, which change all the time.
+  bool fares_as(const PartHealth& other) const {
+    return part == other.part && grade == other.grade && summary == other.summary;
+  }
   void add(const std::string& name, std::uint64_t count) { facts.emplace_back(name, std::to_string(count)); }
   void add(const std::string& name, const std::string& value) { facts.emplace_back(name, value); }
 };

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "live/clocks.hpp"
 #include "live/edges.hpp"
 #include "live/ros2/endpoint_watch.hpp"
 #include "live/ros2/ros2_node.hpp"
@@ -18,6 +19,9 @@
 
 namespace pose_wall::tools::live {
 namespace {
+
+// A subscriber that lost a result is told as slow for so long: whoever looks now and then still sees it.
+constexpr std::int64_t kSlowFor_ns = 10'000'000'000;
 
 constexpr const char* kNodeName = "pose_walld";
 // Reliable, the newest, and nothing for who comes later.
@@ -54,7 +58,7 @@ class Ros2Out final : public RosOut {
   // One thread publishes, the same that stops.
   void publish(std::size_t number, const std::string& message) override {
     const Ros2Node::Endpoint* writer = topics_[number].writer.get();
-    if (writer != nullptr && !writer->write(message)) ++not_sent_;
+    if (writer != nullptr && !writer->write(message)) last_not_sent_ns_ = monotonic_ns();
   }
 
   std::uint32_t subscribers(std::size_t number) const override {
@@ -72,7 +76,9 @@ class Ros2Out final : public RosOut {
       }
     }
     if (trouble_.empty() && !node_->trouble().empty()) return node_->trouble();
-    if (trouble_.empty() && not_sent_ > 0) return "a subscriber does not keep up: results were not sent to it";
+    if (trouble_.empty() && monotonic_ns() - last_not_sent_ns_ < kSlowFor_ns) {
+      return "a subscriber does not keep up: results were not sent to it";
+    }
     return trouble_;
   }
 
@@ -88,7 +94,7 @@ class Ros2Out final : public RosOut {
   std::vector<Topic> topics_;
   std::unique_ptr<EndpointWatch> readers_;
   mutable std::string trouble_;
-  std::atomic<std::uint64_t> not_sent_{0};
+  std::atomic<std::int64_t> last_not_sent_ns_{-kSlowFor_ns};
 };
 
 CycloneLimits limits_of(const LoadedConfig& loaded) {

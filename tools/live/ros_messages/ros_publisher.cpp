@@ -67,9 +67,7 @@ class RosPublisher final : public Sink {
   // Once a second, and at once where a part fares otherwise than it did.
   void tell_health() {
     std::vector<PartHealth> parts = board_.all();
-    const auto fares_alike = [](const PartHealth& a, const PartHealth& b) {
-      return a.part == b.part && a.grade == b.grade && a.summary == b.summary;
-    };
+    const auto fares_alike = [](const PartHealth& a, const PartHealth& b) { return a.fares_as(b); };
     const bool is_news = !std::equal(parts.begin(), parts.end(), told_.begin(), told_.end(), fares_alike);
     if (!is_news && Clock::now() - diagnostics_last_ < kDiagnosticsEvery) return;
     diagnostics_last_ = Clock::now();
