@@ -5,6 +5,7 @@
 // others, what is no packet and what the sensor sent before it fell silent gets into no frame; what no waiting mends is
 // refused with words that help. The simulated sensor's packets give back the ranges that they were made from.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -245,18 +246,35 @@ TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
 #endif
 
 TEST(UdpSource, WhatNoWaitingMendsIsRefusedWithWordsThatHelp) {
-  EXPECT_NE(
-      refusal_of(live_config(0, {"udp_address=sensor"})).find("udp_address: 'sensor' is no IPv4 address; allowed:"),
-      std::string::npos);
-  EXPECT_NE(refusal_of(live_config(2368, {"udp_address=192.0.2.1"})).find("udp_address 192.0.2.1, udp_port 2368"),
-            std::string::npos);
-  EXPECT_NE(refusal_of(live_config(0, {"udp_sender=x"})).find("udp_sender: 'x' is no IPv4 address"), std::string::npos);
   EXPECT_NE(refusal_of(live_config(0, {"sensor_metadata=/nowhere.json"})).find("/nowhere.json"), std::string::npos);
   const std::uint16_t port = free_udp_port();
   FrameCatcher catcher;
   const auto first = make_udp_source(live_config(port));
   first->start(catcher);
-  EXPECT_NE(refusal_of(live_config(port)).find("cannot listen there"), std::string::npos);
+  EXPECT_NE(refusal_of(live_config(port)).find(fmt::format("udp_address 127.0.0.1, udp_port {}: cannot listen", port)),
+            std::string::npos);
+}
+
+// 192.0.2.0/24 is for documentation (RFC 5737): no machine has it. That it receives once it is there: daemon_peer.py.
+TEST(UdpSource, AnAddressThatNoInterfaceHasYetIsWaitedFor) {
+  const auto source = make_udp_source(live_config(free_udp_port(), {"udp_address=192.0.2.1"}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const PartHealth health = source->health();
+  EXPECT_EQ(health.grade, Grade::kBad);
+  EXPECT_NE(health.summary.find("no interface of this machine has udp_address 192.0.2.1"), std::string::npos)
+      << health.summary;
+  source->stop();
+}
+
+TEST(UdpSource, AnAddressOfThisMachineIsNotMissed) {
+  for (const char* here : {"127.0.0.1", "127.9.9.9", "0.0.0.0"}) {
+    const auto source = make_udp_source(live_config(free_udp_port(), {std::string("udp_address=") + here}));
+    FrameCatcher catcher;
+    source->start(catcher);
+    EXPECT_EQ(source->health().summary, "waits for the sensor: no packet yet") << here;
+    source->stop();
+  }
 }
 
 TEST(UdpSource, StopsTwiceAndBeforeItBegan) {
