@@ -55,6 +55,10 @@ class Sink {
   // How many results may wait for a slow sink; then the oldest is lost, and counted. 1: only the newest matters.
   virtual std::size_t backlog() const { return 1; }
 
+  // Whether it reads the clouds of results. One that does not is given results without them (LiveResult::frame without
+  // its points), so that its backlog holds no clouds. Asked before each result, from any thread.
+  virtual bool wants_clouds() const { return false; }
+
   // Whether somebody looks at labelled points just now; they cost a millisecond a frame. From any thread.
   virtual bool wants_points() const { return false; }
 };
