@@ -16,7 +16,7 @@ std::string result_json(const LiveResult& result) {
   const pose_wall_publication& publication = result.publication;
   FrameOutcome outcome;
   outcome.frame = publication.frame;
-  outcome.source = result.frame ? result.frame->frame_id : "";
+  outcome.source = result.frame_id;
   outcome.stamp_ns = publication.result.stamp_ns;
   outcome.result = publication.result;
   Json line = result_as_json(outcome);
