@@ -123,7 +123,12 @@ class Words(Folder):
         self.refused(["--http", "8080"], 2, "http: '8080' is refused; allowed: HOST:PORT")
         self.refused(["--config", self.folder / "none.yaml"], 2, "none.yaml: cannot be opened")
         self.refused(["--replay", self.folder / "none.pcd"], 1, "none.pcd: is not there")
+        empty = self.folder / "empty"
+        empty.mkdir()
+        (empty / "broken.pcd").write_text("no cloud")
+        self.refused(["--replay", empty], 1, "the inputs hold no cloud that can be read (1 are unreadable)", str(empty))
         self.refused(["--speed", "2"], 2, "--replay")
+        self.refused(["--sped", "2"], 2, "--sped")
         self.refused(["--set", "udp_address=sensor"], 2, "udp_address: 'sensor' is refused; allowed: an IPv4 address")
         self.refused(["--set", "sensor=vlp61"], 2, "sensor: 'vlp61' is refused; allowed: ", "did you mean 'vlp16'?")
         blocked = self.folder / "file"
