@@ -226,11 +226,16 @@ TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
   OusterEncoder encoder(setup.sensor);
   const std::uint16_t port = free_udp_port();
   const std::string web = "127.0.0.1:" + std::to_string(free_udp_port());
-  const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web}));
+  const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web + "/"}));
   FrameCatcher catcher;
   source->start(catcher);
   ASSERT_TRUE(becomes_true([&] { return source->health().summary.find("metadata") != std::string::npos; }))
       << source->health().summary;
+  for (const std::string& word : {"host 127.0.0.1, port " + web.substr(web.find(':') + 1),
+                                  std::string("path /api/v1/sensor/metadata: no connection; is the sensor on"),
+                                  "curl http://" + web + "/api/v1/sensor/metadata"}) {
+    EXPECT_NE(source->health().summary.find(word), std::string::npos) << source->health().summary;
+  }
   const MetadataServer server(web, encoder.metadata());
   ASSERT_TRUE(becomes_true([&] { return source->health().summary.find("metadata") == std::string::npos; }));
   const LoopbackSender sender(port);
