@@ -97,14 +97,26 @@ void OusterAssembler::add_column(ByteCursor column, std::uint32_t frame) {
   if (metadata_.profile == OusterProfile::kLegacy) {
     is_valid = column.number<std::uint32_t>("status of a column") == 0xFFFFFFFFU;
   }
-  if (!is_valid || index >= metadata_.columns_per_frame) return;
+  if (!is_valid) return;
   if (frame_ && *frame_ != frame) end_frame();
+  if (index >= metadata_.columns_per_frame) {
+    // A damaged packet has at most its own columns beyond the turn; a turn of another mode has half of its columns
+    // there.
+    if (++beyond_ * 4 > metadata_.columns_per_frame) {
+      throw FrameError(
+          fmt::format("the packets have a column {}, but the metadata's columns_per_frame is {}: it is of "
+                      "another lidar_mode; read it from the sensor again",
+                      index, metadata_.columns_per_frame));
+    }
+    return;
+  }
   if (!frame_) {
     frame_ = frame;
     scan_.stamp_ns = static_cast<std::int64_t>(time_ns & std::numeric_limits<std::int64_t>::max());
     scan_.rings = metadata_.rings;
     scan_.points.assign(std::size_t{metadata_.rings} * metadata_.columns_per_frame, ScanPoint{});
     columns_ = 0;
+    beyond_ = 0;
   }
   ++columns_;
   for (std::uint32_t ring = 0; ring < metadata_.rings; ++ring) {

@@ -45,6 +45,7 @@ class OusterAssembler : public ScanAssembler {
   std::optional<std::uint32_t> sensor_;
   Scan scan_;
   std::uint32_t columns_ = 0;  // of the frame, that came
+  std::uint32_t beyond_ = 0;   // of the frame, beyond the metadata's
 };
 
 }  // namespace pose_wall::tools
