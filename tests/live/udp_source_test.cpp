@@ -141,6 +141,24 @@ TEST(SimulatedSensor, MetadataOfFewerColumnsThanThePacketsHaveIsRefused) {
   EXPECT_NE(why.find("have a column 640, but the metadata's columns_per_frame is 512"), std::string::npos) << why;
 }
 
+TEST(SimulatedSensor, MetadataOfOtherPixelsThanThePacketsHaveIsRefused) {
+  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterEncoder encoder(setup.sensor);
+  OusterMetadata metadata = parse_ouster_metadata(encoder.metadata());
+  metadata.rings = 128;
+  OusterAssembler assembler(metadata);
+  std::string why;
+  try {
+    for (const std::string& packet : encoder.packets(image_of(64, 1024), 0, kTurn_ns)) {
+      const Bytes bytes = test::bytes_of(packet);
+      assembler.add({0, 1, {bytes.data(), bytes.size()}});
+    }
+  } catch (const FrameError& fault) {
+    why = fault.what();
+  }
+  EXPECT_NE(why.find("have 64 pixels a column, but the metadata's pixels_per_column is 128"), std::string::npos) << why;
+}
+
 TEST(SimulatedSensor, PacketsOfAnOusterGiveTheRangesBack) {
   const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
   OusterEncoder encoder(setup.sensor);
