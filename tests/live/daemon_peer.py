@@ -10,6 +10,7 @@ usage: daemon_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR"""
 import os
 import pathlib
 import random
+import shlex
 import shutil
 import signal
 import socket
@@ -72,6 +73,28 @@ class Sensor(Folder):
         self.assertEqual(again.process.returncode, 0)
         self.assertIsNone(second.process.poll(), "the sensor cares for nobody")
 
+    def test_an_address_that_comes_later_is_waited_for(self):
+        inside = ["unshare", "--user", "--map-root-user", "--net", "--pid", "--fork", "--kill-child"]
+        if subprocess.run([*inside, "ip", "link", "set", "lo", "up"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("no network of its own can be had here (unshare --net, ip)")
+        words = [POSE_WALLD, "--config", ROOT / "config/vlp16.yaml", "--set", "udp_address=192.0.2.1", "--set",
+                 "udp_port=2368"]
+        sensor = [SENSOR, "--sensor", "vlp16", "--frames", "6", "--to", "192.0.2.1:2368", "--config-to",
+                  self.folder / "sensor.yaml"]
+        script = (f"ip link set lo up; {shlex.join(map(str, words))} & daemon=$!; read go; "
+                  f"ip address add 192.0.2.1/32 dev lo; {shlex.join(map(str, sensor))} & "
+                  "read go; kill $daemon $!; wait")
+        both = self.start(*inside, "sh", "-c", script, stdin=subprocess.PIPE)
+        missed = "no interface of this machine has udp_address 192.0.2.1"
+        self.assertTrue(both.says(missed), both.log())
+        time.sleep(0.5)
+        both.process.stdin.write("go\n")
+        both.process.stdin.flush()
+        self.assertTrue(both.says("runtime: measures"), both.log())
+        self.assertEqual(sum(missed in line for line in both.lines), 1, "told once")
+        both.process.stdin.close()
+        both.process.wait(live_peer.PATIENCE_S)
+
     def test_nothing_is_lost_unaccounted_for(self):
         port = live_peer.free_port(socket.SOCK_DGRAM)
         daemon = self.start(POSE_WALLD, "--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={port}", "--set",
@@ -100,8 +123,14 @@ class Words(Folder):
         self.refused(["--http", "8080"], 2, "http: '8080' is refused; allowed: HOST:PORT")
         self.refused(["--config", self.folder / "none.yaml"], 2, "none.yaml: cannot be opened")
         self.refused(["--replay", self.folder / "none.pcd"], 1, "none.pcd: is not there")
+        empty = self.folder / "empty"
+        empty.mkdir()
+        (empty / "broken.pcd").write_text("no cloud")
+        self.refused(["--replay", empty], 1, "the inputs hold no cloud that can be read (1 are unreadable)", str(empty))
         self.refused(["--speed", "2"], 2, "--replay")
-        self.refused(["--set", "udp_address=192.0.2.1"], 1, "udp_address 192.0.2.1")
+        self.refused(["--sped", "2"], 2, "--sped")
+        self.refused(["--set", "udp_address=sensor"], 2, "udp_address: 'sensor' is refused; allowed: an IPv4 address")
+        self.refused(["--set", "sensor=vlp61"], 2, "sensor: 'vlp61' is refused; allowed: ", "did you mean 'vlp16'?")
         blocked = self.folder / "file"
         blocked.write_text("")
         self.refused(["--set", f"recording={blocked}/x"], 1, f"{blocked}/x: ")

@@ -4,9 +4,12 @@
 // Proves: keys of pose_walld stand in the same file as the engine's. Their errors are alike: place, value, what is
 // allowed, and the nearest name. The written form of each default reads back.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "config_file/load_config.hpp"
+#include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -21,15 +24,33 @@ std::string fault_of(const std::string& setting) {
 }
 
 TEST(LiveSettings, AreRefusedWithWhatIsAllowed) {
-  EXPECT_EQ(fault_of("source=usb"), "--set: source: 'usb' is refused; allowed: one of udp, ros1, ros2");
+  EXPECT_EQ(fault_of("source=usb"),
+            "--set: source: 'usb' is refused; allowed: one of udp, ros1, ros2; did you mean 'udp'?");
   EXPECT_EQ(fault_of("udp_port=65536"), "--set: udp_port: '65536' is refused; allowed: a whole number from 0 to 65535");
   for (const char* wrong : {"udp_port=1.5", "udp_port=", "udp_port=x", "udp_port=nan", "ros1=yes", "ros1=2",
                             "black_box_mb=0.5", "status_every_s=1e9", "http=8080", "http=:80", "http=a:0", "modbus=a:b",
                             "mqtt=::1:1883", "modbus=a:65536", "http=[]:80"}) {
     EXPECT_NE(fault_of(wrong).find("is refused; allowed: "), std::string::npos) << wrong;
   }
+  EXPECT_EQ(fault_of("sensor=vlp61"),
+            fmt::format("--set: sensor: 'vlp61' is refused; allowed: one of {}; did you mean 'vlp16'?",
+                        fmt::join(sensor_names(), ", ")));
+  EXPECT_EQ(fault_of("udp_address=sensor"),
+            "--set: udp_address: 'sensor' is refused; allowed: an IPv4 address, as 192.168.1.100");
+  for (const char* wrong : {"udp_address=", "udp_address=::1", "udp_address=127.1", "udp_address=1.2.3.256",
+                            "udp_address=1.2.3.4 ", "udp_sender=x", "udp_sender=192.168.1.201:2368"}) {
+    EXPECT_NE(fault_of(wrong).find("is refused; allowed: an IPv4 address"), std::string::npos) << wrong;
+  }
+  EXPECT_NE(fault_of(std::string("udp_address=1.2.3.4\0x", 21)), "") << "a zero byte ends no address";
+  EXPECT_EQ(fault_of("udp_sender="), "");
   EXPECT_NE(fault_of("modbsu=127.0.0.1:502").find("did you mean 'modbus'?"), std::string::npos);
   EXPECT_NE(fault_of("extrinsic_from=tf").find("source (default) must be ros1 or ros2"), std::string::npos);
+}
+
+TEST(LiveSettings, EverySensorThatIsKnownCanBeChosen) {
+  for (const std::string& name : sensor_names()) {
+    EXPECT_EQ(load_config("", {"sensor=" + name}).live.sensor, name);
+  }
 }
 
 TEST(LiveSettings, AreTakenWithTheirOrigin) {

@@ -83,6 +83,57 @@ TEST(SinkThread, WhatWaitsAtAStopIsTakenAndNothingAfterIt) {
   EXPECT_TRUE(seen->stopped);
 }
 
+// A gate holds the sink, so that all results wait; what the mailbox holds alive is told by the clouds' own counts.
+class CloudSink final : public Sink {
+ public:
+  explicit CloudSink(bool wants) : wants_(wants) {}
+  void start() override {}
+  void take(const LiveResult& result) override {
+    if (result.frame) ++clouds;
+    if (result.points) ++points;
+    frame_id = result.frame_id;
+  }
+  void stop() override {}
+  PartHealth health() const override {
+    PartHealth health;
+    health.add("clouds", clouds);
+    health.add("points", points);
+    health.add("frame_id", frame_id);
+    return health;
+  }
+  std::size_t backlog() const override { return 20; }
+  bool wants_clouds() const override { return wants_; }
+  bool wants_points() const override { return wants_; }
+
+  std::uint64_t clouds = 0, points = 0;
+  std::string frame_id;
+
+ private:
+  bool wants_;
+};
+
+TEST(SinkThread, WhatASinkDoesNotWantIsNotKeptForIt) {
+  for (const bool wants : {false, true}) {
+    SinkThread sink(std::make_unique<CloudSink>(wants));  // not started: all that is posted waits
+    const auto cloud = std::make_shared<const LiveFrame>();
+    const auto points = std::make_shared<const LabelledPoints>();
+    for (std::uint64_t i = 0; i < 20; ++i) {
+      auto result = std::make_shared<LiveResult>();
+      result->frame_id = "lidar";
+      result->frame = cloud;
+      result->points = points;
+      sink.post(result);
+    }
+    EXPECT_EQ(cloud.use_count(), wants ? 21 : 1);
+    EXPECT_EQ(points.use_count(), wants ? 21 : 1);
+    sink.start();
+    sink.stop();
+    EXPECT_EQ(fact(sink.health(), "clouds"), wants ? "20" : "0");
+    EXPECT_EQ(fact(sink.health(), "points"), wants ? "20" : "0");
+    EXPECT_EQ(fact(sink.health(), "frame_id"), "lidar") << "what is small stays";
+  }
+}
+
 TEST(SinkThread, OneThatNeverBeganIsNotStopped) {
   std::mutex gate;
   const auto seen = std::make_shared<Seen>();

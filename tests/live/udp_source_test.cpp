@@ -5,6 +5,7 @@
 // what comes from others, what is no packet, and what the sensor sent before it fell silent. What no waiting mends is
 // refused with words that help. The simulated sensor's packets give back the ranges that they were made from.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -124,6 +125,42 @@ TEST(SimulatedSensor, PacketsOfAVlp16GiveTheRangesBack) {
   }
 }
 
+TEST(SimulatedSensor, MetadataOfFewerColumnsThanThePacketsHaveIsRefused) {
+  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterEncoder encoder(setup.sensor);
+  OusterMetadata metadata = parse_ouster_metadata(encoder.metadata());
+  metadata.columns_per_frame = 512;
+  OusterAssembler assembler(metadata);
+  std::string why;
+  try {
+    for (const std::string& packet : encoder.packets(image_of(64, 1024), 0, kTurn_ns)) {
+      const Bytes bytes = test::bytes_of(packet);
+      assembler.add({0, 1, {bytes.data(), bytes.size()}});
+    }
+  } catch (const FrameError& fault) {
+    why = fault.what();
+  }
+  EXPECT_NE(why.find("have a column 640, but the metadata's columns_per_frame is 512"), std::string::npos) << why;
+}
+
+TEST(SimulatedSensor, MetadataOfOtherPixelsThanThePacketsHaveIsRefused) {
+  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterEncoder encoder(setup.sensor);
+  OusterMetadata metadata = parse_ouster_metadata(encoder.metadata());
+  metadata.rings = 128;
+  OusterAssembler assembler(metadata);
+  std::string why;
+  try {
+    for (const std::string& packet : encoder.packets(image_of(64, 1024), 0, kTurn_ns)) {
+      const Bytes bytes = test::bytes_of(packet);
+      assembler.add({0, 1, {bytes.data(), bytes.size()}});
+    }
+  } catch (const FrameError& fault) {
+    why = fault.what();
+  }
+  EXPECT_NE(why.find("have 64 pixels a column, but the metadata's pixels_per_column is 128"), std::string::npos) << why;
+}
+
 TEST(SimulatedSensor, PacketsOfAnOusterGiveTheRangesBack) {
   const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
   OusterEncoder encoder(setup.sensor);
@@ -227,11 +264,16 @@ TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
   OusterEncoder encoder(setup.sensor);
   const std::uint16_t port = free_udp_port();
   const std::string web = "127.0.0.1:" + std::to_string(free_udp_port());
-  const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web}));
+  const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web + "/"}));
   FrameCatcher catcher;
   source->start(catcher);
   ASSERT_TRUE(becomes_true([&] { return source->health().summary.find("metadata") != std::string::npos; }))
       << source->health().summary;
+  for (const std::string& word : {"host 127.0.0.1, port " + web.substr(web.find(':') + 1),
+                                  std::string("path /api/v1/sensor/metadata: no connection; is the sensor on"),
+                                  "curl http://" + web + "/api/v1/sensor/metadata"}) {
+    EXPECT_NE(source->health().summary.find(word), std::string::npos) << source->health().summary;
+  }
   const MetadataServer server(web, encoder.metadata());
   ASSERT_TRUE(becomes_true([&] { return source->health().summary.find("metadata") == std::string::npos; }));
   const LoopbackSender sender(port);
@@ -247,18 +289,35 @@ TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
 #endif
 
 TEST(UdpSource, WhatNoWaitingMendsIsRefusedWithWordsThatHelp) {
-  EXPECT_NE(
-      refusal_of(live_config(0, {"udp_address=sensor"})).find("udp_address: 'sensor' is no IPv4 address; allowed:"),
-      std::string::npos);
-  EXPECT_NE(refusal_of(live_config(2368, {"udp_address=192.0.2.1"})).find("udp_address 192.0.2.1, udp_port 2368"),
-            std::string::npos);
-  EXPECT_NE(refusal_of(live_config(0, {"udp_sender=x"})).find("udp_sender: 'x' is no IPv4 address"), std::string::npos);
   EXPECT_NE(refusal_of(live_config(0, {"sensor_metadata=/nowhere.json"})).find("/nowhere.json"), std::string::npos);
   const std::uint16_t port = free_udp_port();
   FrameCatcher catcher;
   const auto first = make_udp_source(live_config(port));
   first->start(catcher);
-  EXPECT_NE(refusal_of(live_config(port)).find("cannot listen there"), std::string::npos);
+  EXPECT_NE(refusal_of(live_config(port)).find(fmt::format("udp_address 127.0.0.1, udp_port {}: cannot listen", port)),
+            std::string::npos);
+}
+
+// 192.0.2.0/24 is for documentation (RFC 5737): no machine has it. That it receives once it is there: daemon_peer.py.
+TEST(UdpSource, AnAddressThatNoInterfaceHasYetIsWaitedFor) {
+  const auto source = make_udp_source(live_config(free_udp_port(), {"udp_address=192.0.2.1"}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const PartHealth health = source->health();
+  EXPECT_EQ(health.grade, Grade::kBad);
+  EXPECT_NE(health.summary.find("no interface of this machine has udp_address 192.0.2.1"), std::string::npos)
+      << health.summary;
+  source->stop();
+}
+
+TEST(UdpSource, AnAddressOfThisMachineIsNotMissed) {
+  for (const char* here : {"127.0.0.1", "127.9.9.9", "0.0.0.0"}) {
+    const auto source = make_udp_source(live_config(free_udp_port(), {std::string("udp_address=") + here}));
+    FrameCatcher catcher;
+    source->start(catcher);
+    EXPECT_EQ(source->health().summary, "waits for the sensor: no packet yet") << here;
+    source->stop();
+  }
 }
 
 TEST(UdpSource, StopsTwiceAndBeforeItBegan) {

@@ -5,11 +5,16 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 #include <variant>
+
+#include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -26,6 +31,7 @@ constexpr const char* kSources = "Live: where pose_walld takes clouds from";
 constexpr const char* kSinks = "Live: where pose_walld puts results";
 
 const std::vector<Row>& rows() {
+  static const std::string sensors = fmt::format("{}", fmt::join(sensor_names(), ", "));
   static const std::vector<Row> table = {
       {{"source", kSources, Type::kChoice, "", 0, 0, "udp, ros1, ros2",
         "where clouds come from: a sensor's packets by UDP, or pointcloud_topic of ROS 1 or ROS 2"},
@@ -34,7 +40,7 @@ const std::vector<Row>& rows() {
         "config: extrinsic_x to extrinsic_yaw. tf: the transform from lidar_frame to base_frame, of ROS alone; nothing "
         "is measured before it is there"},
        &LiveSettings::extrinsic_from},
-      {{"sensor", kSources, Type::kText, "", 0, 0, "",
+      {{"sensor", kSources, Type::kChoice, "", 0, 0, sensors.c_str(),
         "which sensor sends the packets: auto (the packets tell), vlp16, vlp16_hires, hdl32e, vlp32c, ouster, "
         "hesai_xt32, "
         "hesai_40p, hesai_qt64, mid360. One that contradicts its packets is refused"},
@@ -44,12 +50,12 @@ const std::vector<Row>& rows() {
         "an "
         "Ouster; empty: not needed"},
        &LiveSettings::sensor_metadata},
-      {{"udp_address", kSources, Type::kText, "", 0, 0, "",
+      {{"udp_address", kSources, Type::kIpv4, "", 0, 0, "",
         "this machine's address on the sensor's network; 0.0.0.0 listens on all. Anybody there can then send packets"},
        &LiveSettings::udp_address},
       {{"udp_port", kSources, Type::kInteger, "1", 0, 65535, "", "port the sensor sends to; 0: its usual one"},
        &LiveSettings::udp_port},
-      {{"udp_sender", kSources, Type::kText, "", 0, 0, "",
+      {{"udp_sender", kSources, Type::kIpv4OrNone, "", 0, 0, "",
         "address of the sensor; packets of others are counted and dropped. Empty: whoever sends first"},
        &LiveSettings::udp_sender},
       {{"frame_points_max", kSources, Type::kInteger, "points", 1, 67108864, "",
@@ -100,12 +106,22 @@ const Row* find_row(const std::string& name) {
   return nullptr;
 }
 
-bool is_choice(const LiveKeyInfo& key, const std::string& value) {
-  std::istringstream choices(key.choices);
-  for (std::string choice; std::getline(choices >> std::ws, choice, ',');) {
-    if (choice == value) return true;
+// Of what is written as a text.
+bool is_text_allowed(const LiveKeyInfo& key, const std::string& value) {
+  switch (key.type) {
+    case Type::kChoice: {
+      const std::vector<std::string> choices = choices_of(key);
+      return std::find(choices.begin(), choices.end(), value) != choices.end();
+    }
+    case Type::kHostPort:
+      return value.empty() || parse_host_port(value);
+    case Type::kIpv4:
+      return parse_ipv4(value).has_value();
+    case Type::kIpv4OrNone:
+      return value.empty() || parse_ipv4(value);
+    default:
+      return true;
   }
-  return false;
 }
 
 std::optional<double> number_of(const LiveKeyInfo& key, const std::string& text) {
@@ -133,6 +149,13 @@ const LiveKeyInfo* find_live_key(const std::string& name) {
   return row != nullptr ? &row->info : nullptr;
 }
 
+std::vector<std::string> choices_of(const LiveKeyInfo& key) {
+  std::vector<std::string> words;
+  std::istringstream choices(key.choices);
+  for (std::string word; std::getline(choices >> std::ws, word, ',');) words.push_back(word);
+  return words;
+}
+
 std::string allowed_text(const LiveKeyInfo& key) {
   const std::string unit = key.unit == std::string("1") || *key.unit == '\0' ? "" : std::string(" ") + key.unit;
   switch (key.type) {
@@ -148,6 +171,10 @@ std::string allowed_text(const LiveKeyInfo& key) {
       return "0 or 1";
     case Type::kHostPort:
       return "HOST:PORT, as 127.0.0.1:8080, or nothing";
+    case Type::kIpv4:
+      return "an IPv4 address, as 192.168.1.100";
+    case Type::kIpv4OrNone:
+      return "an IPv4 address, as 192.168.1.201, or nothing";
   }
   return "";
 }
@@ -160,8 +187,7 @@ std::string live_value_text(const LiveSettings& settings, const LiveKeyInfo& key
 }
 
 bool set_live_value(LiveSettings* settings, const LiveKeyInfo& key, const std::string& value) {
-  if (key.type == Type::kChoice && !is_choice(key, value)) return false;
-  if (key.type == Type::kHostPort && !value.empty() && !parse_host_port(value)) return false;
+  if (!is_text_allowed(key, value)) return false;
   const Member member = find_row(key.name)->member;
   if (const auto text = std::get_if<std::string LiveSettings::*>(&member)) {
     settings->** text = value;
@@ -193,6 +219,13 @@ std::optional<HostPort> parse_host_port(const std::string& text) {
   const auto [stop, error] = std::from_chars(begin, end, parts.port);
   if (error != std::errc() || stop != end || parts.port < 1 || parts.port > 65535) return std::nullopt;
   return parts;
+}
+
+std::optional<std::uint32_t> parse_ipv4(const std::string& text) {
+  in_addr address{};
+  // A text may hold a zero byte, at which C's ends.
+  if (text.size() != std::strlen(text.c_str()) || inet_pton(AF_INET, text.c_str(), &address) != 1) return std::nullopt;
+  return ntohl(address.s_addr);
 }
 
 bool is_loopback(const std::string& host) {

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ struct LiveSettings {
 
 // One row of the table of live keys.
 struct LiveKeyInfo {
-  enum class Type { kText, kChoice, kNumber, kInteger, kSwitch, kHostPort };
+  enum class Type { kText, kChoice, kNumber, kInteger, kSwitch, kHostPort, kIpv4, kIpv4OrNone };
 
   const char* name;
   const char* group;
@@ -48,6 +49,9 @@ struct LiveKeyInfo {
 // All rows, in the table's order.
 const std::vector<LiveKeyInfo>& live_keys();
 const LiveKeyInfo* find_live_key(const std::string& name);
+
+// Of kChoice, each for itself.
+std::vector<std::string> choices_of(const LiveKeyInfo& key);
 
 // "one of udp, ros1, ros2", "a number from 0 to 65535", ...
 std::string allowed_text(const LiveKeyInfo& key);
@@ -63,6 +67,9 @@ struct HostPort {
   int port = 0;
 };
 std::optional<HostPort> parse_host_port(const std::string& text);
+
+// "192.168.1.201" as captures number it (Datagram::source_address); nothing where it is no IPv4 address.
+std::optional<std::uint32_t> parse_ipv4(const std::string& text);
 
 // "localhost" and addresses of 127.0.0.0/8 and ::1. A name that begins as such an address is none.
 bool is_loopback(const std::string& host);

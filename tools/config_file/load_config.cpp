@@ -119,7 +119,8 @@ class ConfigLoader {
     if (!is_sequence && set_live_value(&loaded_.live, key, value)) {
       loaded_.origins[key.name] = where;
     } else {
-      fault("{}: {}: '{}' is refused; allowed: {}", where, key.name, value, allowed_text(key));
+      fault("{}: {}: '{}' is refused; allowed: {}{}", where, key.name, value, allowed_text(key),
+            did_you_mean(value, choices_of(key)));
     }
   }
 

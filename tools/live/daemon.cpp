@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "config_file/key_table.hpp"
@@ -132,7 +133,9 @@ void Daemon::run(const std::atomic<bool>& stop_asked) {
   service_.stopping();
   log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
   log_status();
+  const std::string failure = stop_asked ? "" : source_->failure();
   stop();
+  if (!failure.empty()) throw std::runtime_error(failure);
 }
 
 }  // namespace pose_wall::tools::live

@@ -27,7 +27,8 @@ class Daemon final : public HealthBoard {
   Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& replay);
   ~Daemon() override { stop(); }
 
-  // Until `stop` is true, or a recording is through. Throws what the starts of source and sinks throw.
+  // Until `stop` is true, or a recording is through. Throws what the starts of source and sinks throw, and
+  // std::runtime_error for a recording without a cloud.
   void run(const std::atomic<bool>& stop);
 
   std::vector<PartHealth> all() const override;

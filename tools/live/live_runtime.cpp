@@ -226,7 +226,10 @@ void LiveRuntime::publish(const pose_wall_publication& publication) {
   result->config = *config_.get();
   if (publication.cause == POSE_WALL_RUNTIME_FRAME) {
     result->frame = frame_of(publication.frame);
-    if (result->frame) header_stamp_ns_ = result->frame->stamp_ns;
+    if (result->frame) {
+      header_stamp_ns_ = result->frame->stamp_ns;
+      result->frame_id = result->frame->frame_id;
+    }
     if (wants_points_()) result->points = points();
   }
   result->header_stamp_ns = header_stamp_ns_;

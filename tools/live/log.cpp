@@ -7,13 +7,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
 
 namespace pose_wall::tools::live {
 namespace {
+
+// Of one part in one window: a start and a short loss are told whole, a machine that cannot keep up is not.
+constexpr int kSameMost = 3;
+constexpr std::size_t kSummariesMost = 8;
 
 // sd-daemon(3): a line may begin with its syslog level.
 const char* journal_level(Grade grade) {
@@ -95,14 +98,45 @@ void log_line(Grade grade, const std::string& part, const std::string& fact) {
   static_cast<void>(written);
 }
 
-void HealthLog::note(const std::vector<PartHealth>& parts) {
+void HealthLog::note(const std::vector<PartHealth>& parts, Clock::time_point now) {
   for (const PartHealth& part : parts) {
-    const auto known =
-        std::find_if(last_.begin(), last_.end(), [&](const PartHealth& before) { return before.part == part.part; });
-    const bool is_news = known == last_.end() || known->grade != part.grade || known->summary != part.summary;
-    if (is_news) log_line(part.grade, part.part, part.summary);
+    const auto [known, is_new] = stories_.try_emplace(part.part);
+    Story& story = known->second;
+    if (is_new) story.window_began = now;
+    if (now - story.window_began >= kWindow) end_window(&story, now);
+    if (is_new || story.last.grade != part.grade || story.last.summary != part.summary) note_change(part, &story);
+    story.last = part;
   }
-  last_ = parts;
+}
+
+void HealthLog::note_change(const PartHealth& part, Story* story) {
+  const auto said = story->told.find(part.summary);
+  const bool is_new = said == story->told.end() && story->told.size() < kSummariesMost;
+  const bool is_told = is_new || (said != story->told.end() && !story->is_damped && said->second < kSameMost);
+  if (is_told) {
+    ++story->told[part.summary];
+    write_(part.grade, part.part, part.summary);
+    return;
+  }
+  ++story->untold;
+  if (std::exchange(story->is_damped, true)) return;
+  write_(part.grade, part.part,
+         fmt::format("{}; it goes to and fro: from here on one line sums up {} s", part.summary, kWindow.count()));
+}
+
+// A window without a change ends the damping; what was said stays known as long as it lasts.
+void HealthLog::end_window(Story* story, Clock::time_point now) {
+  story->window_began = now;
+  const std::uint64_t untold = std::exchange(story->untold, 0);
+  if (untold > 0) {
+    write_(story->last.grade, story->last.part,
+           fmt::format("{}; changed {} more times in {} s", story->last.summary, untold, kWindow.count()));
+    return;
+  }
+  if (std::exchange(story->is_damped, false)) {
+    write_(story->last.grade, story->last.part, fmt::format("{}; it rests", story->last.summary));
+  }
+  story->told.clear();
 }
 
 }  // namespace pose_wall::tools::live

@@ -5,7 +5,13 @@
 
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "live/health.hpp"
 
@@ -14,13 +20,34 @@ namespace pose_wall::tools::live {
 // From any thread; a line is written whole.
 void log_line(Grade grade, const std::string& part, const std::string& fact);
 
-// Writes only what changed: a part's grade or summary.
+// Writes only what changed: a part's grade or summary. A part that goes to and fro, as on a machine that is too slow,
+// is told of until it has said the same a few times within kWindow; then one line says so, and one a window sums up
+// what changed, until it rests. What it has not said before is told at once all the same.
 class HealthLog {
  public:
-  void note(const std::vector<PartHealth>& parts);
+  using Clock = std::chrono::steady_clock;
+  using Write = std::function<void(Grade grade, const std::string& part, const std::string& fact)>;
+
+  static constexpr auto kWindow = std::chrono::seconds(30);
+
+  explicit HealthLog(Write write = log_line) : write_(std::move(write)) {}
+
+  void note(const std::vector<PartHealth>& parts, Clock::time_point now = Clock::now());
 
  private:
-  std::vector<PartHealth> last_;
+  struct Story {
+    PartHealth last;
+    Clock::time_point window_began;
+    std::map<std::string, int> told;  // summaries of this window, and how often
+    std::uint64_t untold = 0;         // changes of this window that were not written
+    bool is_damped = false;
+  };
+
+  void note_change(const PartHealth& part, Story* story);
+  void end_window(Story* story, Clock::time_point now);
+
+  Write write_;
+  std::map<std::string, Story> stories_;  // of each part
 };
 
 }  // namespace pose_wall::tools::live

@@ -107,7 +107,8 @@ void add_options(CLI::App* app, Words* words) {
       "  pose_walld --replay road.bag --http 127.0.0.1:8080 --modbus 127.0.0.1:1502\n"
       "  pose_walld --config pose_wall.yaml --set source=ros1 --set ros1=1\n"
       "It listens on loopback unless another address is given. `pose_wall check-config FILE` shows every key.\n"
-      "Exit status: 0 stopped as asked or the recording is through, 1 a part failed, 2 wrong words or settings.");
+      "Exit status: 0 stopped as asked or the recording is through, 1 a part failed or is not in this build, "
+      "a recording holds no cloud, 2 wrong words or settings.");
 }
 
 int complain(const std::exception& fault, int status) {
@@ -127,8 +128,6 @@ int main_of(int argc, char** argv) {
   } catch (const CLI::ParseError& fault) {
     return app.exit(fault) == 0 ? kExitDone : kExitUsage;
   } catch (const ConfigError& fault) {
-    return complain(fault, kExitUsage);
-  } catch (const EdgeMissing& fault) {
     return complain(fault, kExitUsage);
   } catch (const std::exception& fault) {
     return complain(fault, kExitFailed);

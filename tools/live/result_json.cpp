@@ -16,13 +16,12 @@ std::string result_json(const LiveResult& result) {
   const pose_wall_publication& publication = result.publication;
   FrameOutcome outcome;
   outcome.frame = publication.frame;
-  if (result.frame) outcome.source = result.frame->frame_id;
+  outcome.source = result.frame_id;
   outcome.stamp_ns = publication.result.stamp_ns;
   outcome.result = publication.result;
   Json line = result_as_json(outcome);
   line.erase("times_ms");
   line.erase("error");
-  if (!result.frame) line.erase("source");
   line["told_by"] = publication.cause == POSE_WALL_RUNTIME_FRAME ? "frame" : "silence";
   line["header_stamp_ns"] = result.header_stamp_ns;
   line["publication"] = publication.index;

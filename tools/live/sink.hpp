@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "live/health.hpp"
@@ -26,7 +27,8 @@ struct LabelledPoints {
 // One publication of the runtime with what it came from. Nobody changes it; all sinks share it.
 struct LiveResult {
   pose_wall_publication publication{};
-  std::shared_ptr<const LiveFrame> frame;        // the cloud that was measured; none for silence
+  std::string frame_id;                          // of the cloud that was measured; empty for silence
+  std::shared_ptr<const LiveFrame> frame;        // that cloud, where the sink wants clouds; none for silence
   std::shared_ptr<const LabelledPoints> points;  // where a sink wanted them
   std::int64_t header_stamp_ns = 0;              // of that cloud; of silence: of the last one that was measured
   pose_wall_config config{};                     // with which it was measured: the extrinsic may come from tf
@@ -55,7 +57,12 @@ class Sink {
   // How many results may wait for a slow sink; then the oldest is lost, and counted. 1: only the newest matters.
   virtual std::size_t backlog() const { return 1; }
 
-  // Whether somebody looks at labelled points just now; they cost a millisecond a frame. From any thread.
+  // Whether it reads the clouds of results. One that does not is given results without them, so that its backlog holds
+  // none. From any thread.
+  virtual bool wants_clouds() const { return false; }
+
+  // Whether somebody looks at labelled points just now; they cost a millisecond a frame. Else it is given none. From
+  // any thread.
   virtual bool wants_points() const { return false; }
 };
 

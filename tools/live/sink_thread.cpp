@@ -11,7 +11,19 @@ void SinkThread::start() {
   thread_ = std::thread([this] { run(); });
 }
 
-void SinkThread::post(const std::shared_ptr<const LiveResult>& result) {
+// A cloud is megabytes, and a mailbox keeps what it is given for as long as its sink is slow.
+std::shared_ptr<const LiveResult> SinkThread::as_wanted(const std::shared_ptr<const LiveResult>& result) const {
+  const bool drops_cloud = result->frame && !sink_->wants_clouds();
+  const bool drops_points = result->points && !sink_->wants_points();
+  if (!drops_cloud && !drops_points) return result;
+  auto lighter = std::make_shared<LiveResult>(*result);
+  if (drops_cloud) lighter->frame.reset();
+  if (drops_points) lighter->points.reset();
+  return lighter;
+}
+
+void SinkThread::post(const std::shared_ptr<const LiveResult>& whole_result) {
+  std::shared_ptr<const LiveResult> result = as_wanted(whole_result);
   std::shared_ptr<const LiveResult> oldest;  // its memory is given back outside of the lock
   {
     const std::lock_guard<std::mutex> locked(lock_);
@@ -21,7 +33,7 @@ void SinkThread::post(const std::shared_ptr<const LiveResult>& result) {
       waiting_.pop_front();
       ++lost_;
     }
-    waiting_.push_back(result);
+    waiting_.push_back(std::move(result));
   }
   changed_.notify_one();
 }

@@ -24,8 +24,9 @@ class SinkThread {
 
   // Throws what the sink's start throws.
   void start();
-  // Copies a pointer under a short lock; where the mailbox is full, the oldest result is lost and counted.
-  void post(const std::shared_ptr<const LiveResult>& result);
+  // Puts it into the mailbox under a short lock, without the clouds and points that the sink does not want. Where the
+  // mailbox is full, the oldest result is lost and counted.
+  void post(const std::shared_ptr<const LiveResult>& whole_result);
   // Takes what waits, then ends the thread and the sink. May be called twice.
   void stop();
 
@@ -35,6 +36,7 @@ class SinkThread {
 
  private:
   void run();
+  std::shared_ptr<const LiveResult> as_wanted(const std::shared_ptr<const LiveResult>& result) const;
 
   std::unique_ptr<Sink> sink_;
   std::thread thread_;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "live/health.hpp"
 #include "live/live_frame.hpp"
@@ -48,6 +49,9 @@ class Source {
 
   // A recording that is through.
   virtual bool is_finished() const { return false; }
+
+  // Why it was for nothing, once it is finished; empty when all is well.
+  virtual std::string failure() const { return ""; }
 };
 
 }  // namespace pose_wall::tools::live

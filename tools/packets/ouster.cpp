@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kTurn_rad = 6.283185307179586;
 constexpr double kUnit_m = 1e-3;
+constexpr std::uint32_t kEnoughPackets = 50;
 
 struct Pixel {
   double range_m;
@@ -58,13 +59,27 @@ OusterAssembler::OusterAssembler(OusterMetadata metadata)
       layout_(layout_of(metadata_.profile)),
       kind_(fmt::format("packets of an Ouster {}", metadata_.product)) {}
 
-std::size_t OusterAssembler::packet_bytes() const {
-  const std::size_t column = layout_.column_head + metadata_.rings * layout_.pixel + layout_.column_tail;
+std::size_t OusterAssembler::packet_bytes(std::uint32_t rings) const {
+  const std::size_t column = layout_.column_head + rings * layout_.pixel + layout_.column_tail;
   return layout_.packet_head + metadata_.columns_per_packet * column + layout_.packet_tail;
 }
 
+// One packet of such a size may be anybody's; so many without one that fits are the sensor's.
+void OusterAssembler::look_for_other_pixels(std::size_t bytes) {
+  for (const std::uint32_t rings : {16U, 32U, 64U, 128U}) {
+    if (bytes != packet_bytes(rings) || ++of_other_pixels_ < kEnoughPackets) continue;
+    throw FrameError(
+        fmt::format("the packets have {} pixels a column, but the metadata's pixels_per_column is {}: it is "
+                    "of another sensor or mode; read it from the sensor again",
+                    rings, metadata_.rings));
+  }
+}
+
 bool OusterAssembler::add(const Datagram& datagram) {
-  if (datagram.payload.size != packet_bytes()) return false;
+  if (datagram.payload.size != packet_bytes()) {
+    if (!sensor_) look_for_other_pixels(datagram.payload.size);
+    return false;
+  }
   if (!sensor_) sensor_ = datagram.source_address;
   if (*sensor_ != datagram.source_address) return false;  // of another sensor on the same wire
   ByteCursor packet(datagram.payload);
@@ -97,14 +112,26 @@ void OusterAssembler::add_column(ByteCursor column, std::uint32_t frame) {
   if (metadata_.profile == OusterProfile::kLegacy) {
     is_valid = column.number<std::uint32_t>("status of a column") == 0xFFFFFFFFU;
   }
-  if (!is_valid || index >= metadata_.columns_per_frame) return;
+  if (!is_valid) return;
   if (frame_ && *frame_ != frame) end_frame();
+  if (index >= metadata_.columns_per_frame) {
+    // A damaged packet has at most its own columns beyond the turn; a turn of another mode has half of its columns
+    // there.
+    if (++beyond_ * 4 > metadata_.columns_per_frame) {
+      throw FrameError(
+          fmt::format("the packets have a column {}, but the metadata's columns_per_frame is {}: it is of "
+                      "another lidar_mode; read it from the sensor again",
+                      index, metadata_.columns_per_frame));
+    }
+    return;
+  }
   if (!frame_) {
     frame_ = frame;
     scan_.stamp_ns = static_cast<std::int64_t>(time_ns & std::numeric_limits<std::int64_t>::max());
     scan_.rings = metadata_.rings;
     scan_.points.assign(std::size_t{metadata_.rings} * metadata_.columns_per_frame, ScanPoint{});
     columns_ = 0;
+    beyond_ = 0;
   }
   ++columns_;
   for (std::uint32_t ring = 0; ring < metadata_.rings; ++ring) {

@@ -26,7 +26,7 @@ class OusterAssembler : public ScanAssembler {
   const char* kind() const override { return kind_.c_str(); }
   bool stamps_are_of_arrival() const override { return false; }
 
-  std::size_t packet_bytes() const;
+  std::size_t packet_bytes() const { return packet_bytes(metadata_.rings); }
 
  private:
   struct Layout {
@@ -37,14 +37,18 @@ class OusterAssembler : public ScanAssembler {
   void add_column(ByteCursor column, std::uint32_t frame);
   void add_pixel(ByteView pixel, std::uint32_t ring, std::uint32_t column, std::uint64_t time_ns);
   void end_frame();
+  std::size_t packet_bytes(std::uint32_t rings) const;
+  void look_for_other_pixels(std::size_t bytes);
 
   OusterMetadata metadata_;
   Layout layout_;
   std::string kind_;
   std::optional<std::uint32_t> frame_;
   std::optional<std::uint32_t> sensor_;
+  std::uint32_t of_other_pixels_ = 0;  // packets, before the first that fits
   Scan scan_;
   std::uint32_t columns_ = 0;  // of the frame, that came
+  std::uint32_t beyond_ = 0;   // of the frame, beyond the metadata's
 };
 
 }  // namespace pose_wall::tools

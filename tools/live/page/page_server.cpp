@@ -112,6 +112,7 @@ class PageServer final : public Sink {
   }
 
   bool wants_points() const override { return viewers_ > 0; }
+  bool wants_clouds() const override { return viewers_ > 0; }
 
  private:
   std::string part() const { return "sink page " + loaded_.live.http; }

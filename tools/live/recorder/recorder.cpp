@@ -109,6 +109,7 @@ class Recorder final : public Sink {
 
   // A disk that stalls for a second costs nothing.
   std::size_t backlog() const override { return 20; }
+  bool wants_clouds() const override { return with_clouds_; }
 
  private:
   std::uint64_t file_bytes_most() const { return folder_.room_bytes() / kFiles; }

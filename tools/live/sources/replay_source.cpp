@@ -4,6 +4,7 @@
 // A recording as a source: in its own time, faster, step by step, or as fast as its frames are measured.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -51,6 +52,7 @@ class ReplaySource final : public Source {
 
   void stop() override { end(); }
   bool is_finished() const override { return finished_; }
+  std::string failure() const override { return finished_ ? failure_ : ""; }
 
   PartHealth health() const override {
     PartHealth health;
@@ -81,8 +83,12 @@ class ReplaySource final : public Source {
         // A round without a frame is one for ever.
       } while (plan_.repeat && !ending_ && frames_ > before);
       taker.wait_idle();
+      if (frames_ == 0 && !ending_) {
+        failure_ = fmt::format("--replay: the inputs hold no cloud that can be read ({} are unreadable): {}",
+                               unreadable_.load(), fmt::join(plan_.inputs, ", "));
+      }
     } catch (const std::exception& fault) {
-      log_line(Grade::kBad, "source replay", fault.what());
+      failure_ = fmt::format("--replay: {}", fault.what());
     }
     finished_ = true;
   }
@@ -150,6 +156,7 @@ class ReplaySource final : public Source {
   std::thread thread_;
   std::mutex lock_;
   std::condition_variable changed_;
+  std::string failure_;  // written before finished_, read after it
   std::atomic<bool> ending_{false}, finished_{false};
   std::atomic<std::uint64_t> frames_{0}, unreadable_{0}, sequence_frames_{0};
   std::optional<std::int64_t> last_ns_;

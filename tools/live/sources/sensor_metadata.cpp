@@ -12,12 +12,14 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "config_file/live_settings.hpp"
 #include "packets/ouster.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
 constexpr const char* kHttp = "http://";
+constexpr int kHttpPort = 80;
 // Ouster's HTTP API of firmware 2.1 and later.
 constexpr const char* kPath = "/api/v1/sensor/metadata";
 // Metadata of 128 beams has 20 kB.
@@ -26,6 +28,31 @@ constexpr auto kAnswerWithin = std::chrono::seconds(3);
 constexpr auto kAskEvery = std::chrono::milliseconds(1000);
 // How long a stop may wait between two questions.
 constexpr auto kLook = std::chrono::milliseconds(50);
+
+// "http://192.168.1.201/" is what people copy from a browser.
+std::string without_slashes(std::string place) {
+  while (place.size() > std::string(kHttp).size() && place.back() == '/') place.pop_back();
+  return place;
+}
+
+#ifdef POSE_WALL_LIVE_HAS_HTTP
+// What failed, and what to try.
+std::string words_of(const httplib::Result& answer, bool is_cut) {
+  if (is_cut)
+    return fmt::format("its answer is longer than {} bytes or takes too long; is this the sensor?", kMetadataMost);
+  if (answer) {
+    return fmt::format("it answered with status {}; is this an Ouster with firmware 2.1 or later?", answer->status);
+  }
+  switch (answer.error()) {
+    case httplib::Error::Connection:
+      return "no connection; is the sensor on, its cable in and its address right?";
+    case httplib::Error::Read:
+      return "connected, but no answer came; is the sensor still starting, and is this its web server?";
+    default:
+      return fmt::format("failed ({}); is the address right?", httplib::to_string(answer.error()));
+  }
+}
+#endif
 
 // What is wrong stands in *trouble.
 std::string ask(const std::string& host, std::string* trouble) {
@@ -40,8 +67,12 @@ std::string ask(const std::string& host, std::string* trouble) {
     return body.size() <= kMetadataMost && std::chrono::steady_clock::now() < until;
   });
   if (answer && answer->status == 200) return body;
-  *trouble = fmt::format("the sensor's metadata: {}{}: {}", host, kPath,
-                         answer ? fmt::format("answered {}", answer->status) : httplib::to_string(answer.error()));
+  const std::string named = host.substr(std::string(kHttp).size());
+  const std::optional<HostPort> at = parse_host_port(named);
+  const bool is_cut = !answer && answer.error() == httplib::Error::Canceled;
+  *trouble =
+      fmt::format("the sensor's metadata: host {}, port {}, path {}: {} It is asked again; try: curl {}{}",
+                  at ? at->host : named, at ? at->port : kHttpPort, kPath, words_of(answer, is_cut), host, kPath);
   return "";
 #else
   *trouble = fmt::format(
@@ -55,7 +86,7 @@ std::string ask(const std::string& host, std::string* trouble) {
 }  // namespace
 
 SensorMetadata::SensorMetadata(const std::string& sensor, const std::string& place)
-    : place_(place), by_http_(place.rfind(kHttp, 0) == 0) {
+    : place_(without_slashes(place)), by_http_(place.rfind(kHttp, 0) == 0) {
   try {
     choice_ = choose_sensor({sensor, by_http_ ? "" : place_});
   } catch (const FrameError& fault) {

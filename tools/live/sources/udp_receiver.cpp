@@ -18,49 +18,43 @@
 namespace pose_wall::tools::live {
 namespace {
 
-[[noreturn]] void fail(const std::string& address, std::uint16_t port, const char* what) {
-  throw std::runtime_error(
-      fmt::format("udp_address {}, udp_port {}: {}: {}", address, port, what, std::strerror(errno)));
-}
-
-void turn_on(int file, int option) {
-  const int on = 1;
-  // Both only make the counts and times better; the receiver works without.
-  static_cast<void>(setsockopt(file, SOL_SOCKET, option, &on, sizeof on));
-}
-
-}  // namespace
-
-std::optional<std::uint32_t> parse_ipv4(const std::string& text) {
-  in_addr address{};
-  if (inet_pton(AF_INET, text.c_str(), &address) != 1) return std::nullopt;
-  return ntohl(address.s_addr);
-}
-
 std::string ipv4_text(std::uint32_t address) {
   return fmt::format("{}.{}.{}.{}", address >> 24U, (address >> 16U) & 255U, (address >> 8U) & 255U, address & 255U);
 }
 
-UdpReceiver::UdpReceiver(const std::string& address, std::uint16_t port) {
-  const std::optional<std::uint32_t> host = parse_ipv4(address);
-  if (!host) {
-    throw std::runtime_error(
-        fmt::format("udp_address: '{}' is no IPv4 address; allowed: this machine's on the sensor's network, as "
-                    "192.168.1.100, or 0.0.0.0 for all of them",
-                    address));
-  }
+[[noreturn]] void fail(std::uint32_t address, std::uint16_t port, const char* what) {
+  throw std::runtime_error(
+      fmt::format("udp_address {}, udp_port {}: {}: {}", ipv4_text(address), port, what, std::strerror(errno)));
+}
+
+sockaddr_in place_of(std::uint32_t address, std::uint16_t port) {
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(address);
+  place.sin_port = htons(port);
+  return place;
+}
+
+// What only makes counts, times or the start better: the receiver works without.
+void turn_on(int file, int level, int option) {
+  const int on = 1;
+  static_cast<void>(setsockopt(file, level, option, &on, sizeof on));
+}
+
+}  // namespace
+
+UdpReceiver::UdpReceiver(std::uint32_t address, std::uint16_t port) : address_(address) {
   file_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (file_ < 0) fail(address, port, "no socket");
   const int wished = kBufferWished;
   static_cast<void>(setsockopt(file_, SOL_SOCKET, SO_RCVBUF, &wished, sizeof wished));
   socklen_t size = sizeof buffer_bytes_;
   getsockopt(file_, SOL_SOCKET, SO_RCVBUF, &buffer_bytes_, &size);
-  turn_on(file_, SO_TIMESTAMPNS);
-  turn_on(file_, SO_RXQ_OVFL);
-  sockaddr_in own{};
-  own.sin_family = AF_INET;
-  own.sin_addr.s_addr = htonl(*host);
-  own.sin_port = htons(port);
+  turn_on(file_, SOL_SOCKET, SO_TIMESTAMPNS);
+  turn_on(file_, SOL_SOCKET, SO_RXQ_OVFL);
+  // ip(7): an address that no interface has yet may be bound to. The sensor's cable may come after power-on.
+  turn_on(file_, IPPROTO_IP, IP_FREEBIND);
+  sockaddr_in own = place_of(address, port);
   size = sizeof own;
   if (bind(file_, reinterpret_cast<const sockaddr*>(&own), size) != 0 ||
       getsockname(file_, reinterpret_cast<sockaddr*>(&own), &size) != 0) {
@@ -74,6 +68,16 @@ UdpReceiver::UdpReceiver(const std::string& address, std::uint16_t port) {
 
 UdpReceiver::~UdpReceiver() {
   close(file_);
+}
+
+// The kernel refuses to bind to what no interface has, unless it is asked not to.
+bool UdpReceiver::has_address() const {
+  const int file = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (file < 0) return true;  // nobody knows; the receiver itself has its socket
+  const sockaddr_in own = place_of(address_, 0);
+  const bool is_absent = bind(file, reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0 && errno == EADDRNOTAVAIL;
+  close(file);
+  return !is_absent;
 }
 
 std::optional<Datagram> UdpReceiver::next(int timeout_ms) {

@@ -9,20 +9,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "packets/udp_capture.hpp"
 
 namespace pose_wall::tools::live {
 
-// "192.168.1.201" as captures number it (Datagram::source_address); nothing where it is no IPv4 address.
-std::optional<std::uint32_t> parse_ipv4(const std::string& text);
-std::string ipv4_text(std::uint32_t address);
-
 class UdpReceiver {
  public:
-  // Throws std::runtime_error that names address and port: not this machine's, taken, not allowed.
-  UdpReceiver(const std::string& address, std::uint16_t port);
+  // The address as parse_ipv4 numbers it. One that no interface has is waited for: datagrams come as soon as one has
+  // it. Throws std::runtime_error that names address and port: taken, not allowed.
+  UdpReceiver(std::uint32_t address, std::uint16_t port);
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;
   UdpReceiver& operator=(const UdpReceiver&) = delete;
@@ -31,6 +27,8 @@ class UdpReceiver {
   std::optional<Datagram> next(int timeout_ms);
 
   std::uint16_t port() const { return port_; }
+  // Whether an interface of this machine has the address just now.
+  bool has_address() const;
   // By the kernel, since the socket was opened.
   std::uint32_t lost() const { return lost_; }
   // What the kernel granted; less than kBufferWished loses packets while the machine is busy.
@@ -43,6 +41,7 @@ class UdpReceiver {
   // The largest datagram that UDP over IPv4 carries.
   static constexpr std::size_t kDatagramMax = 65507;
 
+  std::uint32_t address_;
   int file_ = -1;
   std::uint16_t port_ = 0;
   int buffer_bytes_ = 0;

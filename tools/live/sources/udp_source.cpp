@@ -24,24 +24,20 @@ namespace {
 // silence must not be joined to half of one after it.
 constexpr std::int64_t kSilent_ns = 1'000'000'000;
 constexpr int kLook_ms = 100;
+constexpr std::int64_t kAddressEvery_ns = 1'000'000'000;
 // So many packets without one of use are no accident.
 constexpr std::uint64_t kEnoughPackets = 50;
 
 class UdpSource final : public Source {
  public:
-  explicit UdpSource(const LoadedConfig& loaded) : live_(loaded.live), metadata_(live_.sensor, live_.sensor_metadata) {
-    if (live_.udp_sender.empty()) return;
-    sender_ = parse_ipv4(live_.udp_sender);
-    if (!sender_) {
-      throw std::runtime_error(fmt::format(
-          "udp_sender: '{}' is no IPv4 address; allowed: the sensor's, as 192.168.1.201", live_.udp_sender));
-    }
-  }
+  explicit UdpSource(const LoadedConfig& loaded)
+      : live_(loaded.live), metadata_(live_.sensor, live_.sensor_metadata), sender_(parse_ipv4(live_.udp_sender)) {}
   ~UdpSource() override { stop(); }
 
   void start(FrameTaker& taker) override {
     const auto port = static_cast<std::uint16_t>(live_.udp_port);
-    receiver_ = std::make_unique<UdpReceiver>(live_.udp_address, port != 0 ? port : metadata_.usual_port());
+    receiver_ =
+        std::make_unique<UdpReceiver>(parse_ipv4(live_.udp_address).value(), port != 0 ? port : metadata_.usual_port());
     set_part(fmt::format("source udp {}:{}", live_.udp_address, receiver_->port()));
     log_line(Grade::kGood, part(), "listens; whoever reaches this address can send packets, others are dropped");
     if (receiver_->buffer_bytes() < UdpReceiver::kBufferWished) {
@@ -51,6 +47,7 @@ class UdpSource final : public Source {
                            receiver_->buffer_bytes(), UdpReceiver::kBufferWished, UdpReceiver::kBufferWished));
     }
     ending_ = false;
+    look_for_address();
     thread_ = std::thread([this, &taker] { run(taker); });
   }
 
@@ -68,6 +65,11 @@ class UdpSource final : public Source {
     if (!trouble.empty() || !contradicted.empty()) {
       health.grade = Grade::kBad;
       health.summary = !trouble.empty() ? trouble : contradicted;
+    } else if (silent && !has_address_) {
+      health.summary = fmt::format(
+          "no interface of this machine has udp_address {}; waits for it. Is the sensor's cable in, and its interface "
+          "set up?",
+          live_.udp_address);
     } else if (packets_ == 0) {
       health.summary = of_others_ == 0 ? "waits for the sensor: no packet yet"
                                        : "packets come, but none from udp_sender " + live_.udp_sender;
@@ -110,7 +112,10 @@ class UdpSource final : public Source {
     while (!ending_) {
       const std::optional<Datagram> datagram = receiver_->next(kLook_ms);
       lost_ = receiver_->lost();
-      if (!datagram) continue;
+      if (!datagram) {
+        if (is_silent() && monotonic_ns() - looked_ns_ > kAddressEvery_ns) look_for_address();
+        continue;
+      }
       if (is_of_other(*datagram)) continue;
       ++packets_;
       // Only what is of use counts as the sensor: anybody may send anything.
@@ -124,6 +129,11 @@ class UdpSource final : public Source {
       ++packets_of_use_;
       while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
     }
+  }
+
+  void look_for_address() {
+    looked_ns_ = monotonic_ns();
+    has_address_ = receiver_->has_address();
   }
 
   // Packets that contradict the sensor that was chosen say so in the health, and are of no use.
@@ -178,7 +188,8 @@ class UdpSource final : public Source {
   std::thread thread_;
   mutable std::mutex words_lock_;
   std::string part_ = "source udp", contradiction_;
-  std::atomic<bool> ending_{false};
+  std::int64_t looked_ns_ = 0;  // for the address
+  std::atomic<bool> ending_{false}, has_address_{true};
   std::atomic<std::uint64_t> frames_{0}, packets_{0}, useless_{0}, of_others_{0}, silences_{0};
   std::atomic<std::uint32_t> lost_{0};
   std::atomic<std::int64_t> last_packet_ns_{0};
