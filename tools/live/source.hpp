@@ -38,7 +38,7 @@ class Source {
   virtual ~Source() = default;
 
   // Begins to deliver, in a thread of its own. A sensor or master that is not there yet is waited for. Throws
-  // std::runtime_error for what no waiting mends: an address that this machine does not have, a port that is taken.
+  // std::runtime_error for what no waiting mends: a port that is taken.
   virtual void start(FrameTaker& taker) = 0;
 
   // Ends within a fraction of a second; after it nothing is delivered. May be called twice, and without start.
