@@ -125,40 +125,53 @@ TEST(SimulatedSensor, PacketsOfAVlp16GiveTheRangesBack) {
   }
 }
 
-TEST(SimulatedSensor, MetadataOfFewerColumnsThanThePacketsHaveIsRefused) {
-  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
-  OusterEncoder encoder(setup.sensor);
-  OusterMetadata metadata = parse_ouster_metadata(encoder.metadata());
-  metadata.columns_per_frame = 512;
-  OusterAssembler assembler(metadata);
-  std::string why;
-  try {
-    for (const std::string& packet : encoder.packets(image_of(64, 1024), 0, kTurn_ns)) {
-      const Bytes bytes = test::bytes_of(packet);
-      assembler.add({0, 1, {bytes.data(), bytes.size()}});
+// Turns of an OS1-64 of 1,024 columns, until they are contradicted.
+struct Contradicted {
+  explicit Contradicted(OusterMetadata metadata, const sim::Setup& setup) : assembler(std::move(metadata)) {
+    OusterEncoder encoder(setup.sensor);
+    for (int turn = 0; turn < 3; ++turn) {
+      for (const std::string& packet : encoder.packets(image_of(64, 1024), turn * kTurn_ns, kTurn_ns)) {
+        const Bytes bytes = test::bytes_of(packet);
+        try {
+          assembler.add({0, 1, {bytes.data(), bytes.size()}});
+        } catch (const FrameError& fault) {
+          why = fault.what();
+          ++times;
+        }
+      }
     }
-  } catch (const FrameError& fault) {
-    why = fault.what();
+    assembler.finish();
   }
-  EXPECT_NE(why.find("have a column 640, but the metadata's columns_per_frame is 512"), std::string::npos) << why;
+
+  OusterAssembler assembler;
+  std::string why;
+  int times = 0;
+};
+
+TEST(SimulatedSensor, MetadataOfAnotherModeIsRefusedBeforeAScanAndFromThenOn) {
+  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterMetadata metadata = parse_ouster_metadata(OusterEncoder(setup.sensor).metadata());
+  for (const std::uint32_t columns : {512U, 2048U, 4096U}) {
+    metadata.columns_per_frame = columns;
+    Contradicted seen(metadata, setup);
+    EXPECT_EQ(seen.why, fmt::format("the sensor turns in 1024 columns, but the metadata's columns_per_frame is {}: it "
+                                    "is of another lidar_mode; read it from the sensor again",
+                                    columns));
+    EXPECT_EQ(seen.times, 2 * 64) << "all packets of the turns after the first";
+    EXPECT_FALSE(seen.assembler.take()) << "nothing is handed on whose directions are wrong";
+  }
 }
 
-TEST(SimulatedSensor, MetadataOfOtherPixelsThanThePacketsHaveIsRefused) {
+TEST(SimulatedSensor, MetadataOfOtherPixelsThanThePacketsHaveIsHintedAt) {
   const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
-  OusterEncoder encoder(setup.sensor);
-  OusterMetadata metadata = parse_ouster_metadata(encoder.metadata());
+  OusterMetadata metadata = parse_ouster_metadata(OusterEncoder(setup.sensor).metadata());
   metadata.rings = 128;
-  OusterAssembler assembler(metadata);
-  std::string why;
-  try {
-    for (const std::string& packet : encoder.packets(image_of(64, 1024), 0, kTurn_ns)) {
-      const Bytes bytes = test::bytes_of(packet);
-      assembler.add({0, 1, {bytes.data(), bytes.size()}});
-    }
-  } catch (const FrameError& fault) {
-    why = fault.what();
-  }
-  EXPECT_NE(why.find("have 64 pixels a column, but the metadata's pixels_per_column is 128"), std::string::npos) << why;
+  Contradicted seen(metadata, setup);
+  EXPECT_NE(seen.assembler.hint().find("have 64 pixels a column, but the metadata's pixels_per_column is 128"),
+            std::string::npos)
+      << seen.assembler.hint();
+  EXPECT_EQ(seen.times, 0) << "they may be of another sensor";
+  EXPECT_FALSE(seen.assembler.take());
 }
 
 TEST(SimulatedSensor, PacketsOfAnOusterGiveTheRangesBack) {
@@ -285,6 +298,55 @@ TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
   source->stop();
   EXPECT_EQ(catcher.frames()[0].frame.cloud.width * catcher.frames()[0].frame.cloud.height, 64U * 1024U);
   EXPECT_EQ(catcher.frames()[1].stamp_ns - catcher.frames()[0].stamp_ns, kTurn_ns) << "the sensor's own clock";
+}
+#endif
+
+TEST(UdpSource, ASensorThatComesBackUnderAnotherAddressIsHeard) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port));
+  FrameCatcher catcher;
+  source->start(catcher);
+  Pace pace(*source);
+  pace.send(LoopbackSender(port), vlp16_turns(3));
+  ASSERT_TRUE(catcher.wait_for_frames(2));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+  pace.send(LoopbackSender(port, "127.0.0.2"), vlp16_turns(3, 20));
+  EXPECT_TRUE(catcher.wait_for_frames(4)) << source->health().summary;
+  source->stop();
+  EXPECT_EQ(fact(source->health(), "packets of others"), "0");
+}
+
+#ifdef POSE_WALL_LIVE_HAS_HTTP
+TEST(UdpSource, AnOusterThatIsSetUpAnewIsAskedAnew) {
+  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterEncoder encoder(setup.sensor);
+  const std::uint16_t port = free_udp_port();
+  const std::string web = "127.0.0.1:" + std::to_string(free_udp_port());
+  std::string other_mode = encoder.metadata();
+  const std::string columns = "\"columns_per_frame\": 1024";
+  ASSERT_NE(other_mode.find(columns), std::string::npos) << other_mode;
+  other_mode.replace(other_mode.find(columns), columns.size(), "\"columns_per_frame\": 2048");
+  auto server = std::make_unique<MetadataServer>(web, other_mode);
+  const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port);
+  Pace pace(*source);
+  int turn = 0;
+  const auto send_turn = [&] { pace.send(sender, encoder.packets(image_of(64, 1024), turn++ * kTurn_ns, kTurn_ns)); };
+  ASSERT_TRUE(becomes_true([&] {
+    send_turn();
+    return source->health().summary.find("another lidar_mode") != std::string::npos;
+  })) << source->health().summary;
+  EXPECT_EQ(catcher.frames().size(), 0U);
+  server.reset();
+  server = std::make_unique<MetadataServer>(web, encoder.metadata());
+  ASSERT_TRUE(becomes_true([&] {
+    send_turn();
+    return !catcher.frames().empty();
+  })) << source->health().summary;
+  source->stop();
+  EXPECT_EQ(catcher.frames()[0].frame.cloud.width * catcher.frames()[0].frame.cloud.height, 64U * 1024U);
 }
 #endif
 

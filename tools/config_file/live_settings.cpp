@@ -41,9 +41,7 @@ const std::vector<Row>& rows() {
         "is measured before it is there"},
        &LiveSettings::extrinsic_from},
       {{"sensor", kSources, Type::kChoice, "", 0, 0, sensors.c_str(),
-        "which sensor sends the packets: auto (the packets tell), vlp16, vlp16_hires, hdl32e, vlp32c, ouster, "
-        "hesai_xt32, "
-        "hesai_40p, hesai_qt64, mid360. One that contradicts its packets is refused"},
+        "which sensor sends the packets; auto: the packets tell. One that contradicts its packets is refused"},
        &LiveSettings::sensor},
       {{"sensor_metadata", kSources, Type::kText, "", 0, 0, "",
         "what the sensor says of itself: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for "

@@ -131,9 +131,13 @@ void Daemon::run(const std::atomic<bool>& stop_asked) {
     std::this_thread::sleep_for(kLook);
   }
   service_.stopping();
-  log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
-  log_status();
   const std::string failure = stop_asked ? "" : source_->failure();
+  if (failure.empty()) {
+    log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
+  } else {
+    log_line(Grade::kBad, "pose_walld", failure);
+  }
+  log_status();
   stop();
   if (!failure.empty()) throw std::runtime_error(failure);
 }

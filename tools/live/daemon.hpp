@@ -28,7 +28,7 @@ class Daemon final : public HealthBoard {
   ~Daemon() override { stop(); }
 
   // Until `stop` is true, or a recording is through. Throws what the starts of source and sinks throw, and
-  // std::runtime_error for a recording without a cloud.
+  // std::runtime_error for a recording that could not be played to its end or holds no cloud.
   void run(const std::atomic<bool>& stop);
 
   std::vector<PartHealth> all() const override;

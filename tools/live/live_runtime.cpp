@@ -148,6 +148,11 @@ void LiveRuntime::take(LiveFrame frame) {
 
 void LiveRuntime::set_extrinsic(const std::optional<Extrinsic>& extrinsic) {
   const std::lock_guard<std::mutex> in_row(take_lock_);
+  take_extrinsic(extrinsic);
+  has_extrinsic_ = extrinsic_.has_value();
+}
+
+void LiveRuntime::take_extrinsic(const std::optional<Extrinsic>& extrinsic) {
   if (!settings_.extrinsic_by_tf) return;
   if (!extrinsic) {
     if (extrinsic_) log_line(Grade::kWarning, "tf", "the transform is gone; nothing is measured");
@@ -301,7 +306,7 @@ PartHealth LiveRuntime::health() const {
   std::uint32_t usable = 0;
   for (const pose_wall_value& value : publication.result.quantity) usable += value.state >= POSE_WALL_DEGRADED ? 1 : 0;
   const bool is_fresh = publication.cause == POSE_WALL_RUNTIME_FRAME;
-  if (settings_.extrinsic_by_tf && without_extrinsic_ > 0 && publication.cause == 0) {
+  if (settings_.extrinsic_by_tf && !has_extrinsic_ && without_extrinsic_ > 0 && !is_fresh) {
     health.grade = Grade::kBad;
     health.summary = "waits for the transform from " + settings_.lidar_frame + "; nothing is measured";
   } else if (is_stale) {

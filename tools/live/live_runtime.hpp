@@ -48,6 +48,7 @@ class LiveRuntime final : public FrameTaker, public Images {
   PartHealth health() const;
 
  private:
+  void take_extrinsic(const std::optional<Extrinsic>& extrinsic);
   struct alignas(POSE_WALL_BLOCK_ALIGNMENT) Line {
     unsigned char bytes[POSE_WALL_BLOCK_ALIGNMENT];
   };
@@ -92,6 +93,7 @@ class LiveRuntime final : public FrameTaker, public Images {
 
   std::int64_t header_stamp_ns_ = 0;  // of the last measured frame; of the worker's thread
 
+  std::atomic<bool> has_extrinsic_{false};
   std::atomic<std::uint64_t> without_extrinsic_{0}, opened_{0};
   std::atomic<std::int32_t> last_refusal_{POSE_WALL_OK};
 };

@@ -104,12 +104,13 @@ void HealthLog::note(const std::vector<PartHealth>& parts, Clock::time_point now
     Story& story = known->second;
     if (is_new) story.window_began = now;
     if (now - story.window_began >= kWindow) end_window(&story, now);
-    if (is_new || story.last.grade != part.grade || story.last.summary != part.summary) note_change(part, &story);
+    if (is_new || !story.last.fares_as(part)) note_change(part, &story);
     story.last = part;
   }
 }
 
 void HealthLog::note_change(const PartHealth& part, Story* story) {
+  story->has_changed = true;
   const auto said = story->told.find(part.summary);
   const bool is_new = said == story->told.end() && story->told.size() < kSummariesMost;
   const bool is_told = is_new || (said != story->told.end() && !story->is_damped && said->second < kSameMost);
@@ -127,12 +128,14 @@ void HealthLog::note_change(const PartHealth& part, Story* story) {
 // A window without a change ends the damping; what was said stays known as long as it lasts.
 void HealthLog::end_window(Story* story, Clock::time_point now) {
   story->window_began = now;
+  const bool rests = !std::exchange(story->has_changed, false);
   const std::uint64_t untold = std::exchange(story->untold, 0);
   if (untold > 0) {
     write_(story->last.grade, story->last.part,
            fmt::format("{}; changed {} more times in {} s", story->last.summary, untold, kWindow.count()));
     return;
   }
+  if (!rests) return;
   if (std::exchange(story->is_damped, false)) {
     write_(story->last.grade, story->last.part, fmt::format("{}; it rests", story->last.summary));
   }

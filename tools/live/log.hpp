@@ -22,7 +22,8 @@ void log_line(Grade grade, const std::string& part, const std::string& fact);
 
 // Writes only what changed: a part's grade or summary. A part that goes to and fro, as on a machine that is too slow,
 // is told of until it has said the same a few times within kWindow; then one line says so, and one a window sums up
-// what changed, until it rests. What it has not said before is told at once all the same.
+// what changed, until a window passes without a change. What it has not said before is told at once all the same, up
+// to a few sayings a window.
 class HealthLog {
  public:
   using Clock = std::chrono::steady_clock;
@@ -40,6 +41,7 @@ class HealthLog {
     Clock::time_point window_began;
     std::map<std::string, int> told;  // summaries of this window, and how often
     std::uint64_t untold = 0;         // changes of this window that were not written
+    bool has_changed = false;         // in this window
     bool is_damped = false;
   };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,7 +18,10 @@ namespace {
 
 constexpr double kTurn_rad = 6.283185307179586;
 constexpr double kUnit_m = 1e-3;
-constexpr std::uint32_t kEnoughPackets = 50;
+// Of Ouster's lidar modes, by the manual of the sensor's firmware.
+constexpr std::array<std::uint32_t, 4> kColumnsOfModes = {512, 1024, 2048, 4096};
+// Turns and columns are as even as this, and modes differ by half and more.
+constexpr double kEvenness = 0.1;
 
 struct Pixel {
   double range_m;
@@ -64,23 +68,26 @@ std::size_t OusterAssembler::packet_bytes(std::uint32_t rings) const {
   return layout_.packet_head + metadata_.columns_per_packet * column + layout_.packet_tail;
 }
 
-// One packet of such a size may be anybody's; so many without one that fits are the sensor's.
 void OusterAssembler::look_for_other_pixels(std::size_t bytes) {
   for (const std::uint32_t rings : {16U, 32U, 64U, 128U}) {
-    if (bytes != packet_bytes(rings) || ++of_other_pixels_ < kEnoughPackets) continue;
-    throw FrameError(
-        fmt::format("the packets have {} pixels a column, but the metadata's pixels_per_column is {}: it is "
-                    "of another sensor or mode; read it from the sensor again",
-                    rings, metadata_.rings));
+    if (bytes != packet_bytes(rings)) continue;
+    hint_ = fmt::format(
+        "the packets have {} pixels a column, but the metadata's pixels_per_column is {}: it is of another sensor or "
+        "mode; read it from the sensor again",
+        rings, metadata_.rings);
   }
 }
 
 bool OusterAssembler::add(const Datagram& datagram) {
+  if (!contradiction_.empty()) throw FrameError(contradiction_);
   if (datagram.payload.size != packet_bytes()) {
     if (!sensor_) look_for_other_pixels(datagram.payload.size);
     return false;
   }
-  if (!sensor_) sensor_ = datagram.source_address;
+  if (!sensor_) {
+    sensor_ = datagram.source_address;
+    hint_.clear();
+  }
   if (*sensor_ != datagram.source_address) return false;  // of another sensor on the same wire
   ByteCursor packet(datagram.payload);
   std::uint32_t frame = 0;
@@ -113,27 +120,21 @@ void OusterAssembler::add_column(ByteCursor column, std::uint32_t frame) {
     is_valid = column.number<std::uint32_t>("status of a column") == 0xFFFFFFFFU;
   }
   if (!is_valid) return;
-  if (frame_ && *frame_ != frame) end_frame();
-  if (index >= metadata_.columns_per_frame) {
-    // A damaged packet has at most its own columns beyond the turn; a turn of another mode has half of its columns
-    // there.
-    if (++beyond_ * 4 > metadata_.columns_per_frame) {
-      throw FrameError(
-          fmt::format("the packets have a column {}, but the metadata's columns_per_frame is {}: it is of "
-                      "another lidar_mode; read it from the sensor again",
-                      index, metadata_.columns_per_frame));
-    }
-    return;
+  if (frame_ && *frame_ != frame) {
+    check_mode(frame, index, time_ns);
+    end_frame();
   }
+  if (index >= metadata_.columns_per_frame) return;
   if (!frame_) {
     frame_ = frame;
     scan_.stamp_ns = static_cast<std::int64_t>(time_ns & std::numeric_limits<std::int64_t>::max());
     scan_.rings = metadata_.rings;
     scan_.points.assign(std::size_t{metadata_.rings} * metadata_.columns_per_frame, ScanPoint{});
     columns_ = 0;
-    beyond_ = 0;
+    first_ = {index, time_ns};
   }
   ++columns_;
+  last_ = {index, time_ns};
   for (std::uint32_t ring = 0; ring < metadata_.rings; ++ring) {
     add_pixel({pixels.data + ring * layout_.pixel, layout_.pixel}, ring, index, time_ns);
   }
@@ -162,6 +163,25 @@ void OusterAssembler::add_pixel(ByteView bytes, std::uint32_t ring, std::uint32_
   point.x_m = row(0);
   point.y_m = row(4);
   point.z_m = row(8);
+}
+
+// A turn's time over a column's is the sensor's number of columns, whatever part of them came.
+void OusterAssembler::check_mode(std::uint32_t next_frame, std::uint32_t next_index, std::uint64_t next_time_ns) {
+  const bool is_next = static_cast<std::uint16_t>(*frame_ + 1) == static_cast<std::uint16_t>(next_frame);
+  if (!is_next || last_.index <= first_.index || last_.time_ns <= first_.time_ns || next_time_ns <= last_.time_ns)
+    return;
+  const double column_ns = static_cast<double>(last_.time_ns - first_.time_ns) / (last_.index - first_.index);
+  const double columns = static_cast<double>(next_time_ns - first_.time_ns) / column_ns + first_.index - next_index;
+  for (const std::uint32_t of_mode : kColumnsOfModes) {
+    if (of_mode == metadata_.columns_per_frame || std::abs(columns - of_mode) > kEvenness * of_mode) continue;
+    contradiction_ = fmt::format(
+        "the sensor turns in {} columns, but the metadata's columns_per_frame is {}: it is of another lidar_mode; read "
+        "it from the sensor again",
+        of_mode, metadata_.columns_per_frame);
+    scan_ = Scan{};
+    frame_.reset();
+    throw FrameError(contradiction_);
+  }
 }
 
 void OusterAssembler::end_frame() {

@@ -16,7 +16,8 @@
 namespace pose_wall::tools {
 
 // Frames by the number that the sensor gives them; a column that did not come has no returns. Points in the sensor's
-// frame, x towards the front. Of two returns the first is taken. Stamps are the sensor's own.
+// frame, x towards the front. Of two returns the first is taken. Stamps are the sensor's own. Metadata of another
+// lidar_mode than the packets' is a contradiction, told by the sensor's clock: then add() throws, from there on always.
 class OusterAssembler : public ScanAssembler {
  public:
   explicit OusterAssembler(OusterMetadata metadata);
@@ -25,6 +26,7 @@ class OusterAssembler : public ScanAssembler {
   void finish() override;
   const char* kind() const override { return kind_.c_str(); }
   bool stamps_are_of_arrival() const override { return false; }
+  std::string hint() const override { return hint_; }
 
   std::size_t packet_bytes() const { return packet_bytes(metadata_.rings); }
 
@@ -36,6 +38,7 @@ class OusterAssembler : public ScanAssembler {
   static Layout layout_of(OusterProfile profile);
   void add_column(ByteCursor column, std::uint32_t frame);
   void add_pixel(ByteView pixel, std::uint32_t ring, std::uint32_t column, std::uint64_t time_ns);
+  void check_mode(std::uint32_t next_frame, std::uint32_t next_index, std::uint64_t next_time_ns);
   void end_frame();
   std::size_t packet_bytes(std::uint32_t rings) const;
   void look_for_other_pixels(std::size_t bytes);
@@ -45,10 +48,14 @@ class OusterAssembler : public ScanAssembler {
   std::string kind_;
   std::optional<std::uint32_t> frame_;
   std::optional<std::uint32_t> sensor_;
-  std::uint32_t of_other_pixels_ = 0;  // packets, before the first that fits
+  std::string hint_, contradiction_;
   Scan scan_;
+  struct Column {
+    std::uint32_t index = 0;
+    std::uint64_t time_ns = 0;
+  };
+  Column first_, last_;        // of the frame, so far
   std::uint32_t columns_ = 0;  // of the frame, that came
-  std::uint32_t beyond_ = 0;   // of the frame, beyond the metadata's
 };
 
 }  // namespace pose_wall::tools

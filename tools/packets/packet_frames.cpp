@@ -106,6 +106,8 @@ void PacketFrames::refuse_empty(const ScanWalk& survey, const SensorChoice& choi
   std::string there;
   if (survey.other()) there = fmt::format("; there are packets of a {}", known_sensor(*survey.other()).title);
   if (!survey.unread().empty()) there += fmt::format("; there is data of {}, which is not read", survey.unread());
+  const std::string hint = survey.assembler().hint();
+  if (!hint.empty()) there += "; " + hint;
   throw FrameError(fmt::format("no data packets {}{}", wanted, there));
 }
 

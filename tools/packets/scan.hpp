@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "frames/frame.hpp"
@@ -51,6 +52,9 @@ class ScanAssembler {
 
   // True where the sensor's own clock tells no date: scans are stamped with the time at which their packets arrived.
   virtual bool stamps_are_of_arrival() const = 0;
+
+  // What is odd about the datagrams of which none was this sensor's so far, in words; "" where nothing is known.
+  virtual std::string hint() const { return ""; }
 
   std::optional<Scan> take();
 

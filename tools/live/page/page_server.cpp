@@ -27,8 +27,6 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Each viewer takes a thread; some are left for those who only ask once.
 constexpr std::size_t kViewersMost = 16, kThreads = kViewersMost + 4;
 // A viewer that takes nothing for so long is cut off; its browser comes back by itself.
@@ -40,7 +38,7 @@ constexpr std::size_t kRequestMost = 4096;  // a body is never wanted
 constexpr int kWait_ms = 500;
 // Ten publications of silence.
 constexpr std::int64_t kOld_ns = 1'000'000'000;
-constexpr auto kHealthEvery = std::chrono::seconds(1);
+constexpr std::int64_t kHealthEvery_ns = 1'000'000'000;
 
 // Everything comes from this server, nothing is framed, nothing else is asked.
 constexpr const char* kPolicy =
@@ -89,9 +87,7 @@ class PageServer final : public Sink {
     tell_new_config(result.config);
     if (viewers_ == 0) return;
     broadcast_.post(Broadcast::kFrame, frame_event(result));
-    if (Clock::now() - health_last_ < kHealthEvery) return;
-    health_last_ = Clock::now();
-    broadcast_.post(Broadcast::kHealth, health_event(board_.all()));
+    tell_health_now_and_then();
   }
 
   void stop() override {
@@ -198,11 +194,21 @@ class PageServer final : public Sink {
         });
   }
 
+  // From any thread; one of those that come at once tells it.
+  void tell_health_now_and_then() {
+    std::int64_t last_ns = health_last_ns_;
+    const std::int64_t now_ns = monotonic_ns();
+    if (now_ns - last_ns < kHealthEvery_ns || !health_last_ns_.compare_exchange_strong(last_ns, now_ns)) return;
+    broadcast_.post(Broadcast::kHealth, health_event(board_.all()));
+  }
+
   // One round for one viewer; false at its end.
   bool send_news(Broadcast::Seen* seen, httplib::DataSink* sink) {
     const auto news = broadcast_.next(seen, kWait_ms);
     if (broadcast_.is_ending()) return false;
     static const std::string kAlive = ": here\n\n";
+    // A worker that hangs publishes nothing; its health says so.
+    tell_health_now_and_then();
     if (news.empty()) return sink->write(kAlive.data(), kAlive.size());
     for (const auto& event : news) {
       if (!sink->write(event->data(), event->size())) {
@@ -244,7 +250,7 @@ class PageServer final : public Sink {
   std::thread thread_;
   std::atomic<std::size_t> viewers_{0};
   std::atomic<std::uint64_t> turned_away_{0}, sent_{0}, cut_off_{0};
-  Clock::time_point health_last_;
+  std::atomic<std::int64_t> health_last_ns_{-kHealthEvery_ns};
   std::mutex newest_lock_;
   LiveResult newest_;
   bool has_newest_ = false;

@@ -118,7 +118,6 @@ class Recorder final : public Sink {
     writer_ = std::make_unique<McapWriter>(folder_.next(file_bytes_most()).string(), channels_);
     chunk_began_ = Clock::now();
     ++files_;
-    say("");
   }
 
   void record(const LiveResult& result) {
@@ -146,18 +145,20 @@ class Recorder final : public Sink {
     writer_->flush();
     chunk_began_ = Clock::now();
     recorded_ += std::exchange(in_chunk_, 0);
+    set_trouble("");
   }
 
   void pause(const std::string& why) {
     writer_.reset();
     not_recorded_ += std::exchange(in_chunk_, 0);
     try_again_ = Clock::now() + kTryAgain;
-    say(why);
+    set_trouble(why);
   }
 
-  void say(const std::string& trouble) {
+  // The first stays until something is on the disk: a try that fails again is no news.
+  void set_trouble(const std::string& why) {
     const std::lock_guard<std::mutex> locked(trouble_lock_);
-    trouble_ = trouble;
+    if (why.empty() || trouble_.empty()) trouble_ = why;
   }
 
   const HealthBoard& board_;

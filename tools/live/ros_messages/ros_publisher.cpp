@@ -67,8 +67,8 @@ class RosPublisher final : public Sink {
   // Once a second, and at once where a part fares otherwise than it did.
   void tell_health() {
     std::vector<PartHealth> parts = board_.all();
-    const auto fares_alike = [](const PartHealth& a, const PartHealth& b) { return a.fares_as(b); };
-    const bool is_news = !std::equal(parts.begin(), parts.end(), told_.begin(), told_.end(), fares_alike);
+    const bool is_news = !std::equal(parts.begin(), parts.end(), told_.begin(), told_.end(),
+                                     [](const PartHealth& now, const PartHealth& told) { return now.fares_as(told); });
     if (!is_news && Clock::now() - diagnostics_last_ < kDiagnosticsEvery) return;
     diagnostics_last_ = Clock::now();
     out_->publish(diagnostics_, messages_.diagnostics(parts, wall_ns()));

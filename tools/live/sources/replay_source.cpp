@@ -8,11 +8,11 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
-#include <iostream>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -31,6 +31,8 @@ constexpr double kUsualRate_hz = 10.0;
 constexpr double kGapMost_s = 5.0;
 // From the last frame of one round to the first of the next.
 constexpr std::int64_t kBetweenRounds_ns = 100'000'000;
+// How long a stop may wait for somebody who types.
+constexpr int kLook_ms = 100;
 
 class ReplaySource final : public Source {
  public:
@@ -57,8 +59,9 @@ class ReplaySource final : public Source {
   PartHealth health() const override {
     PartHealth health;
     health.part = "source replay";
-    health.grade = unreadable_ > 0 ? Grade::kWarning : Grade::kGood;
-    health.summary = finished_ ? "through" : "plays";
+    const std::string failed = failure();
+    health.grade = !failed.empty() ? Grade::kBad : unreadable_ > 0 ? Grade::kWarning : Grade::kGood;
+    health.summary = !failed.empty() ? failed : finished_ ? "through" : "plays";
     health.add("frames", frames_.load());
     health.add("unreadable", unreadable_.load());
     health.add("of", sequence_frames_.load());
@@ -83,7 +86,7 @@ class ReplaySource final : public Source {
         // A round without a frame is one for ever.
       } while (plan_.repeat && !ending_ && frames_ > before);
       taker.wait_idle();
-      if (frames_ == 0 && !ending_) {
+      if (readable_ == 0 && !ending_) {
         failure_ = fmt::format("--replay: the inputs hold no cloud that can be read ({} are unreadable): {}",
                                unreadable_.load(), fmt::join(plan_.inputs, ", "));
       }
@@ -103,6 +106,7 @@ class ReplaySource final : public Source {
         log_line(Grade::kWarning, "source replay", sourced->name + ": " + sourced->error);
         continue;
       }
+      ++readable_;
       LiveFrame frame;
       frame.frame = std::move(*sourced->frame);
       frame.stamp_ns = stamps.next(sourced->stamp_ns);
@@ -131,12 +135,20 @@ class ReplaySource final : public Source {
     return !changed_.wait_until(locked, due_, [this] { return ending_.load(); });
   }
 
+  // Half a line is no line yet, and nothing to wait for: it may end before the other half comes.
   bool wait_for_line() {
     while (!ending_) {
+      const std::size_t end = typed_.find('\n');
+      if (end != std::string::npos) {
+        typed_.erase(0, end + 1);
+        return true;
+      }
       pollfd input{STDIN_FILENO, POLLIN, 0};
-      if (poll(&input, 1, 100) <= 0) continue;
-      std::string line;
-      return static_cast<bool>(std::getline(std::cin, line));
+      if (poll(&input, 1, kLook_ms) <= 0) continue;
+      std::array<char, 256> bytes{};
+      const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+      if (count <= 0) return false;
+      typed_.append(bytes.data(), static_cast<std::size_t>(count));
     }
     return false;
   }
@@ -159,6 +171,8 @@ class ReplaySource final : public Source {
   std::string failure_;  // written before finished_, read after it
   std::atomic<bool> ending_{false}, finished_{false};
   std::atomic<std::uint64_t> frames_{0}, unreadable_{0}, sequence_frames_{0};
+  std::uint64_t readable_ = 0;  // clouds, handed on or not
+  std::string typed_;           // at standard input, and not used yet
   std::optional<std::int64_t> last_ns_;
   Clock::time_point due_ = Clock::now();
   std::int64_t shift_ns_ = 0;  // of stamps, after rounds

@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include "config_file/live_settings.hpp"
 #include "packets/ouster.hpp"
@@ -29,9 +30,11 @@ constexpr auto kAskEvery = std::chrono::milliseconds(1000);
 // How long a stop may wait between two questions.
 constexpr auto kLook = std::chrono::milliseconds(50);
 
-// "http://192.168.1.201/" is what people copy from a browser.
+// "http://192.168.1.201/" is what people copy from a browser. Files keep their names.
 std::string without_slashes(std::string place) {
-  while (place.size() > std::string(kHttp).size() && place.back() == '/') place.pop_back();
+  const std::size_t head = std::string(kHttp).size();
+  if (place.rfind(kHttp, 0) != 0) return place;
+  while (place.size() > head && place.back() == '/') place.pop_back();
   return place;
 }
 
@@ -45,6 +48,7 @@ std::string words_of(const httplib::Result& answer, bool is_cut) {
   }
   switch (answer.error()) {
     case httplib::Error::Connection:
+    case httplib::Error::ConnectionTimeout:
       return "no connection; is the sensor on, its cable in and its address right?";
     case httplib::Error::Read:
       return "connected, but no answer came; is the sensor still starting, and is this its web server?";
@@ -54,39 +58,60 @@ std::string words_of(const httplib::Result& answer, bool is_cut) {
 }
 #endif
 
+// What can never work, in words; "" for what can.
+std::string refusal(const std::string& sensor, const std::string& place, bool by_http) {
+  const auto kind = sensor_by_name(sensor);
+  if (place.rfind("https://", 0) == 0) return "an Ouster answers by http:// alone";
+  if (by_http && place.find('/', std::string(kHttp).size()) != std::string::npos) {
+    return fmt::format("http://HOST or http://HOST:PORT is expected; the path {} is added", kPath);
+  }
+  if (by_http && kind && *kind != SensorKind::kAutomatic && *kind != SensorKind::kOuster) {
+    return fmt::format("an Ouster tells it by HTTP, a {} does not", known_sensor(*kind).title);
+  }
+  return "";
+}
+
+}  // namespace
+
 // What is wrong stands in *trouble.
-std::string ask(const std::string& host, std::string* trouble) {
+std::string SensorMetadata::ask(std::string* trouble) {
 #ifdef POSE_WALL_LIVE_HAS_HTTP
-  httplib::Client client(host);
+  httplib::Client client(place_);
   client.set_connection_timeout(0, 500'000);
   client.set_read_timeout(1, 0);
+  const auto set_cancel = [this](std::function<void()> cancel) {
+    const std::lock_guard<std::mutex> locked(lock_);
+    cancel_ = std::move(cancel);
+  };
+  set_cancel([&client] { client.stop(); });
   std::string body;
   const auto until = std::chrono::steady_clock::now() + kAnswerWithin;
   const auto answer = client.Get(kPath, [&](const char* bytes, std::size_t count) {
     body.append(bytes, count);
-    return body.size() <= kMetadataMost && std::chrono::steady_clock::now() < until;
+    return body.size() <= kMetadataMost && std::chrono::steady_clock::now() < until && !ending_;
   });
+  set_cancel(nullptr);
   if (answer && answer->status == 200) return body;
-  const std::string named = host.substr(std::string(kHttp).size());
+  const std::string named = place_.substr(std::string(kHttp).size());
   const std::optional<HostPort> at = parse_host_port(named);
   const bool is_cut = !answer && answer.error() == httplib::Error::Canceled;
   *trouble =
       fmt::format("the sensor's metadata: host {}, port {}, path {}: {} It is asked again; try: curl {}{}",
-                  at ? at->host : named, at ? at->port : kHttpPort, kPath, words_of(answer, is_cut), host, kPath);
+                  at ? at->host : named, at ? at->port : kHttpPort, kPath, words_of(answer, is_cut), place_, kPath);
   return "";
 #else
   *trouble = fmt::format(
       "the sensor's metadata: {}: this build has no HTTP: install libcpp-httplib-dev, configure and "
       "build again, or give the metadata as a file",
-      host);
+      place_);
   return "";
 #endif
 }
 
-}  // namespace
-
 SensorMetadata::SensorMetadata(const std::string& sensor, const std::string& place)
     : place_(without_slashes(place)), by_http_(place.rfind(kHttp, 0) == 0) {
+  const std::string refused = refusal(sensor, place_, by_http_);
+  if (!refused.empty()) throw std::runtime_error(fmt::format("sensor_metadata: {}: {}", place, refused));
   try {
     choice_ = choose_sensor({sensor, by_http_ ? "" : place_});
   } catch (const FrameError& fault) {
@@ -96,17 +121,21 @@ SensorMetadata::SensorMetadata(const std::string& sensor, const std::string& pla
 }
 
 SensorMetadata::~SensorMetadata() {
-  end();
+  stop();
 }
 
-void SensorMetadata::end() {
+void SensorMetadata::stop() {
   ending_ = true;
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    if (cancel_) cancel_();
+  }
   if (thread_.joinable()) thread_.join();
 }
 
 void SensorMetadata::ask_again() {
   if (!by_http_ || asking_) return;
-  end();
+  stop();
   ending_ = false;
   asking_ = true;
   {
@@ -118,7 +147,7 @@ void SensorMetadata::ask_again() {
 
 void SensorMetadata::ask_until_told() {
   while (!ending_) {
-    std::string trouble, text = ask(place_, &trouble);
+    std::string trouble, text = ask(&trouble);
     if (!text.empty()) {
       try {
         parse_ouster_metadata(text);

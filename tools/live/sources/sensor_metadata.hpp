@@ -7,6 +7,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -18,8 +19,8 @@ namespace pose_wall::tools::live {
 
 class SensorMetadata {
  public:
-  // sensor: a name of known_sensors(). place: a file, http://HOST of an Ouster, or nothing. A file is read at once:
-  // throws std::runtime_error for it, and for a sensor that is not known.
+  // sensor: a name of known_sensors(). place: a file, http://HOST or http://HOST:PORT of an Ouster, or nothing. A file
+  // is read at once: throws std::runtime_error for it, and for what never goes together.
   SensorMetadata(const std::string& sensor, const std::string& place);
   ~SensorMetadata();
   SensorMetadata(const SensorMetadata&) = delete;
@@ -30,19 +31,23 @@ class SensorMetadata {
   // After the sensor was gone: it may tell something else now.
   void ask_again();
 
+  // Asks no more, at once.
+  void stop();
+
   std::uint16_t usual_port() const;
   // Why it is not known, in words; empty when all is well. From any thread.
   std::string trouble() const;
 
  private:
   void ask_until_told();
-  void end();
+  std::string ask(std::string* trouble);
 
   std::string place_;
   bool by_http_ = false;
   mutable std::mutex lock_;
   SensorChoice choice_;
   std::string trouble_;
+  std::function<void()> cancel_;  // the question under way, if any
   std::thread thread_;
   std::atomic<bool> ending_{false}, asking_{false};
 };

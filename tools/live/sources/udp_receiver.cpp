@@ -10,10 +10,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <stdexcept>
+
+#include "live/clocks.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -21,6 +24,9 @@ namespace {
 std::string ipv4_text(std::uint32_t address) {
   return fmt::format("{}.{}.{}.{}", address >> 24U, (address >> 16U) & 255U, (address >> 8U) & 255U, address & 255U);
 }
+
+// More than a receive buffer ever holds. What seems to have waited longer was stamped before the clock was set.
+constexpr std::int64_t kWaitedMost_ns = 1'000'000'000;
 
 [[noreturn]] void fail(std::uint32_t address, std::uint16_t port, const char* what) {
   throw std::runtime_error(
@@ -104,7 +110,9 @@ std::optional<Datagram> UdpReceiver::next(int timeout_ms) {
     if (part->cmsg_type == SO_RXQ_OVFL) std::memcpy(&lost_, CMSG_DATA(part), sizeof lost_);
   }
   Datagram datagram;
-  datagram.captured_ns = std::int64_t{arrived.tv_sec} * 1'000'000'000 + arrived.tv_nsec;
+  // The kernel stamps by the clock that people set. How long ago that was, no setting meanwhile changes by much.
+  const std::int64_t waited_ns = wall_ns() - (std::int64_t{arrived.tv_sec} * 1'000'000'000 + arrived.tv_nsec);
+  datagram.captured_ns = monotonic_ns() - std::clamp<std::int64_t>(waited_ns, 0, kWaitedMost_ns);
   datagram.source_address = ntohl(sender.sin_addr.s_addr);
   datagram.payload = {payload_.data(), static_cast<std::size_t>(bytes)};
   return datagram;

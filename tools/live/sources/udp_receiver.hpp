@@ -23,7 +23,7 @@ class UdpReceiver {
   UdpReceiver(const UdpReceiver&) = delete;
   UdpReceiver& operator=(const UdpReceiver&) = delete;
 
-  // The next one; its payload lasts until the next call. Nothing after timeout_ms.
+  // The next one, captured_ns by the monotonic clock; its payload lasts until the next call. Nothing after timeout_ms.
   std::optional<Datagram> next(int timeout_ms);
 
   std::uint16_t port() const { return port_; }

@@ -24,7 +24,7 @@ namespace {
 // silence must not be joined to half of one after it.
 constexpr std::int64_t kSilent_ns = 1'000'000'000;
 constexpr int kLook_ms = 100;
-constexpr std::int64_t kAddressEvery_ns = 1'000'000'000;
+constexpr std::int64_t kLookAround_ns = 1'000'000'000;
 // So many packets without one of use are no accident.
 constexpr std::uint64_t kEnoughPackets = 50;
 
@@ -47,6 +47,7 @@ class UdpSource final : public Source {
                            receiver_->buffer_bytes(), UdpReceiver::kBufferWished, UdpReceiver::kBufferWished));
     }
     ending_ = false;
+    began_ns_ = monotonic_ns();
     look_for_address();
     thread_ = std::thread([this, &taker] { run(taker); });
   }
@@ -54,6 +55,7 @@ class UdpSource final : public Source {
   void stop() override {
     ending_ = true;
     if (thread_.joinable()) thread_.join();
+    metadata_.stop();
   }
 
   PartHealth health() const override {
@@ -74,10 +76,10 @@ class UdpSource final : public Source {
       health.summary = of_others_ == 0 ? "waits for the sensor: no packet yet"
                                        : "packets come, but none from udp_sender " + live_.udp_sender;
     } else if (packets_ == useless_ && packets_ > kEnoughPackets) {
-      health.summary =
-          fmt::format("packets come, none is of sensor '{}'{}", live_.sensor,
-                      live_.sensor == "auto" ? "; an Ouster tells nothing of itself: it needs sensor_metadata"
-                                             : ": is another one there?");
+      health.summary = fmt::format("packets come, none is of sensor '{}'{}", live_.sensor,
+                                   live_.sensor_metadata.empty() && live_.sensor == "auto"
+                                       ? "; an Ouster tells nothing of itself: it needs sensor_metadata"
+                                       : ": is another one there?");
     } else {
       health.summary = silent ? "the sensor is silent" : frames_ == 0 ? "packets come, no turn yet" : "receives";
     }
@@ -99,27 +101,28 @@ class UdpSource final : public Source {
     const std::lock_guard<std::mutex> locked(words_lock_);
     part_ = part;
   }
+  // Of the last second: what was odd before is over.
   std::string contradiction() const {
     const std::lock_guard<std::mutex> locked(words_lock_);
-    return contradiction_;
+    return monotonic_ns() - contradicted_ns_ < kSilent_ns ? contradiction_ : "";
   }
   void say(const std::string& contradiction) {
+    if (contradiction.empty()) return;
     const std::lock_guard<std::mutex> locked(words_lock_);
     contradiction_ = contradiction;
+    contradicted_ns_ = monotonic_ns();
   }
 
   void run(FrameTaker& taker) {
     while (!ending_) {
       const std::optional<Datagram> datagram = receiver_->next(kLook_ms);
       lost_ = receiver_->lost();
-      if (!datagram) {
-        if (is_silent() && monotonic_ns() - looked_ns_ > kAddressEvery_ns) look_for_address();
-        continue;
-      }
+      if (is_silent() && monotonic_ns() - looked_ns_ > kLookAround_ns) look_for_address();
+      if (!datagram) continue;
+      if (is_silent() && monotonic_ns() - began_ns_ > kSilent_ns) begin_anew();
       if (is_of_other(*datagram)) continue;
       ++packets_;
       // Only what is of use counts as the sensor: anybody may send anything.
-      if (is_silent() && packets_of_use_ > 0) begin_anew();
       if (!add(*datagram)) {
         ++useless_;
         continue;
@@ -140,7 +143,10 @@ class UdpSource final : public Source {
   bool add(const Datagram& datagram) {
     try {
       if (!assembler_) assembler_ = metadata_.assembler();
-      return assembler_ && assembler_->add(datagram);
+      if (!assembler_) return false;
+      if (assembler_->add(datagram)) return true;
+      say(assembler_->hint());
+      return false;
     } catch (const FrameError& fault) {
       say(fault.what());
       return false;
@@ -155,8 +161,11 @@ class UdpSource final : public Source {
 
   bool is_silent() const { return monotonic_ns() - last_packet_ns_ > kSilent_ns; }
 
+  // For a second nothing of use came. What comes now may be of another run of the sensor, of another sensor, or of one
+  // that was set up anew: then what was learned of it is wrong.
   void begin_anew() {
-    ++silences_;
+    began_ns_ = monotonic_ns();
+    if (packets_of_use_ > 0) ++silences_;
     packets_of_use_ = 0;
     assembler_.reset();
     metadata_.ask_again();
@@ -170,11 +179,10 @@ class UdpSource final : public Source {
     LiveFrame frame;
     frame.frame = frame_of(scan);
     frame.stamp_ns = scan.stamp_ns;
-    // The engine's ages go by a clock that nobody sets; stamps of arrival are of one that people do set.
-    const std::int64_t set_ns = wall_ns() - monotonic_ns();
-    frame.frame.cloud.stamp_ns = assembler_->stamps_are_of_arrival() ? scan.stamp_ns - set_ns : scan.stamp_ns;
+    frame.frame.cloud.stamp_ns = scan.stamp_ns;
+    // Times of arrival are of the clock that nobody sets, for ages go by it; headers are of the one that people set.
+    if (assembler_->stamps_are_of_arrival()) frame.stamp_ns += wall_ns() - monotonic_ns();
     ++frames_;
-    say("");
     taker.take(std::move(frame));
   }
 
@@ -184,11 +192,11 @@ class UdpSource final : public Source {
   std::unique_ptr<ScanAssembler> assembler_;
   std::optional<std::uint32_t> sender_;
   bool is_first_turn_ = true;
-  std::uint64_t packets_of_use_ = 0;  // since the last silence
+  std::uint64_t packets_of_use_ = 0;  // since it began anew
   std::thread thread_;
   mutable std::mutex words_lock_;
   std::string part_ = "source udp", contradiction_;
-  std::int64_t looked_ns_ = 0;  // for the address
+  std::int64_t contradicted_ns_ = -kSilent_ns, looked_ns_ = 0, began_ns_ = 0;
   std::atomic<bool> ending_{false}, has_address_{true};
   std::atomic<std::uint64_t> frames_{0}, packets_{0}, useless_{0}, of_others_{0}, silences_{0};
   std::atomic<std::uint32_t> lost_{0};
