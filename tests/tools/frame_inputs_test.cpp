@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "frames/frame_stamps.hpp"
@@ -84,6 +85,25 @@ TEST(LoadFrame, APcdMayCarryAStampInAComment) {
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n";
   for (const char* comment : {"# stamp_ns\n", "# stamp_ns soon\n", "# stamp_ns 1 2\n", "# 12\n"}) {
     EXPECT_FALSE(load_frame(folder.write("b.pcd", comment + header)).stamp_ns) << comment;
+  }
+}
+
+TEST(LoadFrame, ATimedPcdHasTheSamePointsTheirTimesAndRings) {
+  const TempFolder folder;
+  const float points[] = {1.0F, 2.0F, 3.0F, 0.5F, 4.0F, 5.0F, 6.0F, 0.25F};
+  const std::uint32_t time_ns[] = {0, 99'000'000};
+  const std::uint16_t ring[] = {7, 63};
+  const std::string file = folder.file("a.pcd");
+  write_timed_pcd_binary(file, points, time_ns, ring, 2, 5);
+  const Frame frame = load_frame(file);
+  EXPECT_EQ(frame.cloud.width, 2U);
+  EXPECT_EQ(frame.stamp_ns.value_or(0), 5);
+  const auto* data = static_cast<const std::byte*>(frame.cloud.data);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::byte* point = data + i * frame.cloud.point_step;
+    EXPECT_EQ(std::memcmp(point + frame.cloud.x.offset, &points[4 * i], 16), 0);
+    EXPECT_EQ(std::memcmp(point + 16, &time_ns[i], 4), 0);
+    EXPECT_EQ(std::memcmp(point + 20, &ring[i], 2), 0);
   }
 }
 

@@ -77,7 +77,7 @@ TEST(SimRender, EverySceneOnEverySensorIsFiniteAndFull) {
       SceneSetup setup = make_setup(scene.name, model.sensor.name, false, 1);
       setup.sensor.columns = std::ceil(setup.sensor.columns / 8.0);
       const Frame frame = Simulator(setup, 1).render(12);
-      const std::size_t beams = beam_directions(setup.sensor, 0).size();
+      const std::size_t beams = beams_of(setup.sensor, 0).size();
       EXPECT_EQ(frame.xyz_intensity.size(), 4 * frame.count());
       EXPECT_GT(frame.count(), beams / 10) << scene.name << " " << model.sensor.name;
       EXPECT_LE(frame.count(), 2 * beams) << scene.name << " " << model.sensor.name;

@@ -15,4 +15,8 @@ namespace pose_wall::tools {
 void write_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, std::size_t count,
                       std::int64_t stamp_ns);
 
+// The same with the fields t (uint32, nanoseconds from the stamp on) and ring (uint16), as drivers name them.
+void write_timed_pcd_binary(const std::filesystem::path& file, const float* xyz_intensity, const std::uint32_t* time_ns,
+                            const std::uint16_t* ring, std::size_t count, std::int64_t stamp_ns);
+
 }  // namespace pose_wall::tools

@@ -14,7 +14,7 @@ namespace {
 constexpr double kEdgeStep_m = 0.05;  // ranges nearer to each other than this are one surface
 
 std::vector<Primitive> things_of(const Setup& setup, const World& world, const MachinePose& pose) {
-  std::vector<Primitive> things = world.objects();
+  std::vector<Primitive> things = world.objects_at(pose.time_s);
   const std::vector<Primitive> body = machine_body(setup, pose, place(setup, pose));
   things.insert(things.end(), body.begin(), body.end());
   return things;
@@ -50,17 +50,23 @@ BeamCaster::BeamCaster(const Setup& setup, const World& world, const MachinePose
     : setup_(setup),
       world_(world),
       random_(frame_seed),
-      R_road_lidar_(place(setup, pose).R_road_base * R_base_lidar(setup.mount)),
       R_machine_lidar_(R_machine_base(setup.machine) * R_base_lidar(setup.mount)),
-      origin_(place(setup, pose).R_road_base * lidar_origin_base(setup.mount) + place(setup, pose).origin_road),
-      things_(things_of(setup, world, pose)),
-      index_(things_, origin_),
       water_below_(normal_quantile(setup.floor.puddle_coverage)),
-      grazing_cosine_(std::sin(setup.sensor.grazing_limit_deg * kRadPerDeg)),
-      dust_(dust_at(setup.faults, pose.time_s)),
-      wall_lost_(within(pose.time_s, setup.faults.lost_from_s, setup.faults.lost_to_s)),
-      partial_(within(pose.time_s, setup.sequence.partial_from_s, setup.sequence.partial_to_s)),
-      needs_azimuth_(partial_ || has_sectors(setup.faults)) {}
+      grazing_cosine_(std::sin(setup.sensor.grazing_limit_deg * kRadPerDeg)) {
+  move_to(pose);
+}
+
+void BeamCaster::move_to(const MachinePose& pose) {
+  const Placement at = place(setup_, pose);
+  R_road_lidar_ = at.R_road_base * R_base_lidar(setup_.mount);
+  origin_ = at.R_road_base * lidar_origin_base(setup_.mount) + at.origin_road;
+  things_ = things_of(setup_, world_, pose);
+  index_ = SectorIndex(things_, origin_);
+  dust_ = dust_at(setup_.faults, pose.time_s);
+  wall_lost_ = within(pose.time_s, setup_.faults.lost_from_s, setup_.faults.lost_to_s);
+  partial_ = within(pose.time_s, setup_.sequence.partial_from_s, setup_.sequence.partial_to_s);
+  needs_azimuth_ = partial_ || has_sectors(setup_.faults);
+}
 
 BeamCaster::Returns BeamCaster::cast(const Vector& direction_lidar) {
   const Faults& f = setup_.faults;
@@ -84,8 +90,9 @@ BeamCaster::Returns BeamCaster::cast(const Vector& direction_lidar) {
 
 Return BeamCaster::meet(const Ray& ray) {
   const Hit hit = world_.trace(ray, setup_.sensor.range_ceiling_m, things_, index_);
-  const Return r{hit.t_m, hit.cosine, hit.label, hit.side};
+  Return r{hit.t_m, hit.cosine, 1.0, hit.label, hit.side};
   if (r.label == Label::kNone || r.cosine < grazing_cosine_) return {};
+  if (r.label != Label::kObject && r.label != Label::kBody) r.brightness = world_.brightness(ray.at(r.range_m));
   if (r.label == Label::kFloor) return meet_floor(ray, r);
   return r;
 }
@@ -111,7 +118,7 @@ Return BeamCaster::mirrored(const Ray& ray, double range_m) const {
     if (t < hit.t_m) hit = {t, cosine, thing.label, 0};
   }
   if (hit.label == Label::kNone || hit.label == Label::kFloor) return {};
-  return {range_m + hit.t_m, hit.cosine, Label::kGhost, hit.side};
+  return {range_m + hit.t_m, hit.cosine, 1.0, Label::kGhost, hit.side};
 }
 
 // A second ray near the edge of the beam: at edges, the beam's energy falls on both surfaces.
@@ -145,7 +152,7 @@ void BeamCaster::disturb(double azimuth_deg, Return* r) {
   for (const auto& [share, reach_m] : {std::pair{dust_, f.dust_range_m}, std::pair{f.drops, f.drops_range_m}}) {
     if (!random_.chance(share)) continue;
     const double range_m = -reach_m * std::log(1.0 - random_.uniform());
-    if (range_m < r->range_m) *r = {range_m, 0.1, Label::kDust, 0};
+    if (range_m < r->range_m) *r = {range_m, 0.1, 1.0, Label::kDust, 0};
   }
   if (r->label == Label::kNone) return;
   const bool shimmer = needs_azimuth_ && in_sector(azimuth_deg, f.shimmer_from_deg, f.shimmer_to_deg);

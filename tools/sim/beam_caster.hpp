@@ -16,6 +16,7 @@ namespace pose_wall::tools::sim {
 struct Return {
   double range_m = kNever;
   double cosine = 1.0;
+  double brightness = 1.0;  // of the rock there, relative
   Label label = Label::kNone;
   int side = 0;
 };
@@ -23,6 +24,9 @@ struct Return {
 class BeamCaster {
  public:
   BeamCaster(const Setup& setup, const World& world, const MachinePose& pose, std::uint64_t frame_seed);
+
+  // The machine stands elsewhere, and it is another time.
+  void move_to(const MachinePose& pose);
 
   // One return, or two with dual_returns; label kNone for none. Directions in the lidar frame.
   struct Returns {
@@ -42,17 +46,18 @@ class BeamCaster {
   const Setup& setup_;
   const World& world_;
   Random random_;
-  Matrix R_road_lidar_;
   Matrix R_machine_lidar_;  // x forward, y left
+  double water_below_;
+  double grazing_cosine_;
+  // Of the moment:
+  Matrix R_road_lidar_;
   Vector origin_;
   std::vector<Primitive> things_;
   SectorIndex index_;
-  double water_below_;
-  double grazing_cosine_;
-  double dust_;
-  bool wall_lost_;
-  bool partial_;
-  bool needs_azimuth_;
+  double dust_ = 0.0;
+  bool wall_lost_ = false;
+  bool partial_ = false;
+  bool needs_azimuth_ = false;
 };
 
 }  // namespace pose_wall::tools::sim

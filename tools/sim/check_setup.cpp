@@ -80,6 +80,7 @@ const Setup& checked(const Setup& setup) {
          "lateral_m, or near_distance_m, must leave the machine between the walls");
   demand_room_for_the_machine(setup);
   demand_sensor_in_the_road(setup);
+  demand(setup.sequence.scan_s <= 1.0 / setup.sequence.rate_hz, "scan_s must not exceed 1 / rate_hz");
   demand(setup.sensor.elevation_min_deg < setup.sensor.elevation_max_deg,
          "elevation_min_deg must be below elevation_max_deg");
   return setup;

@@ -102,16 +102,23 @@ void add_fixtures(const Setup& setup, const Wallside& wall, int side, std::vecto
 
 void add_visitors(const Setup& setup, const Wallside& wall, int side, Random& random, std::vector<Primitive>& out) {
   const Objects& o = setup.objects;
+  const auto moves = [&](std::size_t from, double speed_mps) {
+    for (std::size_t i = from; i < out.size(); ++i) out[i].velocity_mps.x() = speed_mps;
+  };
+  std::size_t first = out.size();
   if (has_side(o.vehicle_side, side)) {
     wall.add_solid(Label::kObject, o.vehicle_at_m - 0.5 * o.vehicle_length_m, o.vehicle_at_m + 0.5 * o.vehicle_length_m,
                    o.vehicle_standoff_m, o.vehicle_standoff_m + o.vehicle_width_m, 0.2, o.vehicle_height_m, out);
   }
+  moves(first, o.vehicle_speed_mps);
+  first = out.size();
   if (has_side(o.people_side, side)) {
     for (int i = 0; i < static_cast<int>(o.people_count); ++i) {
       const double s = random.uniform(o.people_from_m, o.people_to_m);
       wall.add_post(s, o.people_standoff_m + random.uniform(-0.2, 0.2), 0.25, random.uniform(1.6, 1.9), out);
     }
   }
+  moves(first, o.people_speed_mps);
   if (has_side(o.curtain_side, side)) {
     const double standoff = 0.5 * setup.road.width_m - o.curtain_distance_m;
     wall.add_solid(Label::kObject, o.curtain_from_m, o.curtain_to_m, standoff - 0.01, standoff + 0.01, 0.0,

@@ -11,7 +11,7 @@
 
 namespace pose_wall::tools::sim {
 
-// What stands in the road and stays there.
+// What stands in the road at the start.
 std::vector<Primitive> road_objects(const Setup& setup, std::uint64_t seed);
 // The narrow place: part of the rock, though built of boxes.
 std::vector<Primitive> narrow_place(const Setup& setup);

@@ -20,6 +20,8 @@ const std::vector<Parameter> kMachineRows = {
     MACHINE(roll_deg, "deg", -60.0, 60.0, "as reported: about base X, whatever forward_axis is"),
     MACHINE(pitch_deg, "deg", -60.0, 60.0, "as reported: about base Y, whatever forward_axis is"),
     MACHINE(speed_mps, "m/s", -10.0, 10.0, "along the road"),
+    MACHINE(speed_change_at_s, "s", 0.0, 1e5, "from here on it drives at speed_after_mps; 0: never"),
+    MACHINE(speed_after_mps, "m/s", -10.0, 10.0, "see speed_change_at_s"),
     MACHINE(drift_mps, "m/s", -5.0, 5.0, "to the left"),
     MACHINE(turn_rate_dps, "deg/s", -90.0, 90.0, "to the left"),
     MACHINE(sway_roll_deg, "deg", 0.0, 30.0, "amplitude added to roll_deg"),

@@ -47,6 +47,8 @@ const std::vector<Parameter> kSensorRows = {
     FAULT(lost_to_s, "s", 0.0, 1e5, "to this time"),
 
     SEQUENCE(rate_hz, "Hz", 0.1, 1000.0, "frames per second"),
+    SEQUENCE(scan_s, "s", 0.0, 1.0,
+             "the beams of a frame fire over this time, from its stamp on, while the machine moves; 0: at one instant"),
     SEQUENCE(stamp_jitter_s, "s", 0.0, 1.0, "standard deviation of the stamps"),
     SEQUENCE(stamp_jump_s, "s", -1e5, 1e5, "added to the stamps from stamp_jump_at_s on"),
     SEQUENCE(stamp_jump_at_s, "s", 0.0, 1e5, "see stamp_jump_s"),

@@ -63,7 +63,9 @@ MachinePose pose_at(const Setup& setup, double time_s) {
   const double step_deg = time_s >= m.turn_step_at_s ? m.turn_step_deg : 0.0;
   MachinePose pose;
   pose.time_s = time_s;
+  const bool changed = m.speed_change_at_s > 0.0 && time_s > m.speed_change_at_s;
   pose.along_m = m.speed_mps * time_s;
+  if (changed) pose.along_m += (m.speed_after_mps - m.speed_mps) * (time_s - m.speed_change_at_s);
   pose.lateral_m = start_lateral_m(setup) + m.drift_mps * time_s;
   pose.base_height_m = m.base_height_m;
   pose.turned_left_rad = (m.turned_left_deg + m.turn_rate_dps * time_s + step_deg) * kRadPerDeg;

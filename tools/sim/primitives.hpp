@@ -17,8 +17,9 @@ struct Primitive {
   enum class Kind { kBox, kCapsule } kind;
   Label label;
   Vector centre;
-  Matrix axes;  // columns: box axes in the road frame; capsule: the first is its axis
-  Vector half;  // half lengths; capsule: half length, radius, radius
+  Matrix axes;                           // columns: box axes in the road frame; capsule: the first is its axis
+  Vector half;                           // half lengths; capsule: half length, radius, radius
+  Vector velocity_mps = Vector::Zero();  // in the road frame
 
   static Primitive box(Label label, const Vector& centre, const Matrix& axes, const Vector& half);
   static Primitive capsule(Label label, const Vector& from, const Vector& to, double radius_m);
@@ -31,6 +32,7 @@ struct Primitive {
 // Which primitives a ray can meet, by the sector of its direction seen from one point.
 class SectorIndex {
  public:
+  SectorIndex() = default;
   SectorIndex(const std::vector<Primitive>& primitives, const Vector& origin);
   bool empty() const { return empty_; }
   const std::vector<std::uint16_t>& candidates(const Vector& direction) const {
@@ -41,7 +43,7 @@ class SectorIndex {
   static constexpr std::size_t kSectors = 256;
   static std::size_t sector(double x, double y);
   std::array<std::vector<std::uint16_t>, kSectors> sectors_;
-  bool empty_;
+  bool empty_ = true;
 };
 
 }  // namespace pose_wall::tools::sim

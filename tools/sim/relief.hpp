@@ -19,15 +19,22 @@ struct NoiseLayer {
   double cells_per_m = 1.0;
   double u_cells = 0.0;  // where on the tile the surface's origin lies: surfaces share a tile without looking alike
   double v_cells = 0.0;
+  double slant = 0.0;  // rows of the tile that one column along the surface leads up
 
-  static NoiseLayer make(double sigma_m, double length_m, std::uint64_t identity) {
+  // After a turn of the tile the surface is 92 of its 256 rows higher, and at the same height after 64 turns.
+  static constexpr double kSlantUnrepeated = 92.0 / NoiseTile::kColumns;
+
+  static NoiseLayer make(double sigma_m, double length_m, bool repeats, std::uint64_t identity) {
     Random random(identity, 0x1a7e);
     const double u = random.uniform(0.0, NoiseTile::kColumns);
-    return {sigma_m, NoiseTile::kCellsPerLength / length_m, u, random.uniform(0.0, NoiseTile::kRows)};
+    const double v = random.uniform(0.0, NoiseTile::kRows);
+    return {sigma_m, NoiseTile::kCellsPerLength / length_m, u, v, repeats ? 0.0 : kSlantUnrepeated};
   }
   double length_m() const { return NoiseTile::kCellsPerLength / cells_per_m; }
   double at(const NoiseTile& tile, double u_m, double v_m) const {
-    return sigma_m * static_cast<double>(tile.at(u_m * cells_per_m + u_cells, v_m * cells_per_m + v_cells));
+    double v = v_m * cells_per_m + v_cells;
+    if (slant != 0.0) v += slant * u_m * cells_per_m;
+    return sigma_m * static_cast<double>(tile.at(u_m * cells_per_m + u_cells, v));
   }
 };
 

@@ -12,18 +12,18 @@ Relief rock_relief(const Rock& rock, const NoiseTile* tile, std::uint64_t identi
   Relief relief;
   if (tile == nullptr) return relief;
   relief.tile = tile;
-  relief.rough = NoiseLayer::make(rock.roughness_m, rock.roughness_length_m, identity);
+  relief.rough = NoiseLayer::make(rock.roughness_m, rock.roughness_length_m, rock.rock_repeats != 0.0, identity);
   relief.wave_m = rock.wave_m;
   relief.wave_per_m = 2.0 * M_PI / rock.wave_length_m;
   return relief;
 }
 
-Relief floor_relief(const Floor& floor, const NoiseTile* tile, std::uint64_t identity) {
+Relief floor_relief(const Floor& floor, bool repeats, const NoiseTile* tile, std::uint64_t identity) {
   Relief relief;
   if (tile == nullptr) return relief;
   relief.tile = tile;
-  relief.rough = NoiseLayer::make(floor.floor_roughness_m, floor.floor_roughness_length_m, identity);
-  relief.hump = NoiseLayer::make(floor.hump_m, floor.hump_length_m, mix(identity));
+  relief.rough = NoiseLayer::make(floor.floor_roughness_m, floor.floor_roughness_length_m, repeats, identity);
+  relief.hump = NoiseLayer::make(floor.hump_m, floor.hump_length_m, repeats, mix(identity));
   relief.rut_depth_m = floor.rut_depth_m;
   relief.rut_at_m = 0.5 * floor.rut_gauge_m;
   relief.rut_half_width_m = 0.5 * floor.rut_width_m;
@@ -31,12 +31,12 @@ Relief floor_relief(const Floor& floor, const NoiseTile* tile, std::uint64_t ide
 }
 
 // Heaps along a wall: high and low in turn, with rubble on them.
-Relief muck_relief(const Floor& floor, const NoiseTile* tile, std::uint64_t identity) {
+Relief muck_relief(const Floor& floor, bool repeats, const NoiseTile* tile, std::uint64_t identity) {
   Relief relief;
   if (tile == nullptr) return relief;
   relief.tile = tile;
-  relief.rough = NoiseLayer::make(floor.muck_roughness_m, 0.3, identity);
-  relief.hump = NoiseLayer::make(0.15 * floor.muck_height_m, 2.5, mix(identity));
+  relief.rough = NoiseLayer::make(floor.muck_roughness_m, 0.3, repeats, identity);
+  relief.hump = NoiseLayer::make(0.15 * floor.muck_height_m, 2.5, repeats, mix(identity));
   return relief;
 }
 
@@ -68,7 +68,8 @@ void add_walls(const Setup& setup, const NoiseTile* tile, std::uint64_t seed, st
     if (!has_side(setup.floor.muck_side, side)) continue;
     const double repose = setup.floor.muck_width_m / setup.floor.muck_height_m;
     Surface muck = wall_mean(setup.road, side, half_width - setup.floor.muck_width_m, repose + lean);
-    muck.relief = muck_relief(setup.floor, tile, mix(seed + 20u + static_cast<unsigned>(side)));
+    muck.relief =
+        muck_relief(setup.floor, setup.rock.rock_repeats != 0.0, tile, mix(seed + 20u + static_cast<unsigned>(side)));
     out.push_back({muck, Label::kMuck, 0, false});
   }
 }
@@ -131,7 +132,10 @@ std::vector<RoadSurface> road_surfaces(const Setup& setup, const NoiseTile* tile
   const Road& road = setup.road;
   std::vector<RoadSurface> out;
   add_walls(setup, tile, seed, out);
-  out.push_back({{floor_plane(road), floor_relief(setup.floor, tile, mix(seed + 1u))}, Label::kFloor, 0, false});
+  out.push_back({{floor_plane(road), floor_relief(setup.floor, setup.rock.rock_repeats != 0.0, tile, mix(seed + 1u))},
+                 Label::kFloor,
+                 0,
+                 false});
   add_roof(setup, tile, seed, out);
   if (road.face_distance_m > 0.0) {
     const Plane face = face_plane(road, road.face_distance_m, road.face_oblique_deg * kRadPerDeg, -1.0);

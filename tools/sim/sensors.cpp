@@ -8,6 +8,9 @@
 namespace pose_wall::tools::sim {
 namespace {
 
+// A pattern's points fire one by one; within a thousandth of a scan nothing moves.
+constexpr std::uint32_t kPatternSteps = 1000;
+
 Sensor rotating(const char* name, double rings, double columns, double elevation_deg, double noise_m, double reach_m) {
   Sensor sensor;
   sensor.name = name;
@@ -42,36 +45,38 @@ Vector direction(double azimuth_rad, double elevation_rad) {
           std::sin(elevation_rad)};
 }
 
-std::vector<Vector> ring_beams(const Sensor& sensor) {
+std::vector<Beam> ring_beams(const Sensor& sensor) {
   const auto rings = static_cast<int>(sensor.rings);
   const auto columns = static_cast<int>(sensor.columns);
   const double span_deg = sensor.elevation_max_deg - sensor.elevation_min_deg;
-  std::vector<Vector> beams;
+  std::vector<Beam> beams;
   beams.reserve(static_cast<std::size_t>(rings) * static_cast<std::size_t>(columns));
   for (int ring = 0; ring < rings; ++ring) {
     const double elevation_deg =
         sensor.elevation_min_deg + (rings > 1 ? span_deg * ring / (rings - 1) : 0.5 * span_deg);
     for (int column = 0; column < columns; ++column) {
-      beams.push_back(direction(-2.0 * M_PI * column / columns, elevation_deg * kRadPerDeg));
+      beams.push_back({direction(-2.0 * M_PI * column / columns, elevation_deg * kRadPerDeg),
+                       static_cast<std::uint16_t>(ring), static_cast<std::uint16_t>(column)});
     }
   }
   return beams;
 }
 
 // The R2 low-discrepancy sequence (Roberts 2018): even cover in every frame, never the same twice.
-std::vector<Vector> pattern_beams(const Sensor& sensor, std::uint32_t frame_index) {
+std::vector<Beam> pattern_beams(const Sensor& sensor, std::uint32_t frame_index) {
   constexpr double kStepAzimuth = 0.7548776662466927;
   constexpr double kStepElevation = 0.5698402909980532;
   const auto count = static_cast<std::size_t>(sensor.pattern_points);
   const double span_deg = sensor.elevation_max_deg - sensor.elevation_min_deg;
-  std::vector<Vector> beams;
+  std::vector<Beam> beams;
   beams.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto n = static_cast<double>(frame_index % 10000u) * static_cast<double>(count) + static_cast<double>(i);
     double whole = 0.0;
     const double azimuth = 2.0 * M_PI * std::modf(n * kStepAzimuth, &whole);
     const double elevation_deg = sensor.elevation_min_deg + span_deg * std::modf(n * kStepElevation, &whole);
-    beams.push_back(direction(azimuth, elevation_deg * kRadPerDeg));
+    beams.push_back(
+        {direction(azimuth, elevation_deg * kRadPerDeg), 0, static_cast<std::uint16_t>(i * kPatternSteps / count)});
   }
   return beams;
 }
@@ -106,8 +111,12 @@ const SensorModel* find_sensor(std::string_view name) {
   return nullptr;
 }
 
-std::vector<Vector> beam_directions(const Sensor& sensor, std::uint32_t frame_index) {
+std::vector<Beam> beams_of(const Sensor& sensor, std::uint32_t frame_index) {
   return sensor.rings > 0.0 ? ring_beams(sensor) : pattern_beams(sensor, frame_index);
+}
+
+std::uint32_t scan_steps(const Sensor& sensor) {
+  return sensor.rings > 0.0 ? static_cast<std::uint32_t>(sensor.columns) : kPatternSteps;
 }
 
 }  // namespace pose_wall::tools::sim

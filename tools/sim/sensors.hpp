@@ -32,8 +32,16 @@ const std::vector<SensorModel>& sensor_models();
 // nullptr if there is none of this name.
 const SensorModel* find_sensor(std::string_view name);
 
-// Unit directions of a frame's beams in the lidar frame. Ring by ring for rotating sensors, where every frame has the
-// same; a non-repetitive pattern goes on where the last frame ended.
-std::vector<Vector> beam_directions(const Sensor& sensor, std::uint32_t frame_index);
+struct Beam {
+  Vector direction;  // unit, lidar frame
+  std::uint16_t ring = 0;
+  std::uint16_t step = 0;  // beams of one step fire at once, and the steps evenly over the scan
+};
+
+// Of a frame, ring by ring for rotating sensors, where every frame has the same; a non-repetitive pattern goes on where
+// the last frame ended.
+std::vector<Beam> beams_of(const Sensor& sensor, std::uint32_t frame_index);
+// How many steps a scan has: the columns of a rotating sensor.
+std::uint32_t scan_steps(const Sensor& sensor);
 
 }  // namespace pose_wall::tools::sim

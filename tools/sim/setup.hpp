@@ -46,6 +46,9 @@ struct Rock {
   double steel_pitch_m = 0.0;  // 0: no steel sets
   double steel_depth_m = 0.12;
   double steel_width_m = 0.12;
+  double rock_repeats = 1.0;  // 0: no stretch of rough rock comes again within kilometres
+  double texture = 0.0;       // standard deviation of how much light comes back, relative
+  double texture_length_m = 0.4;
 };
 
 struct Floor {
@@ -108,11 +111,13 @@ struct Objects {
   double vehicle_length_m = 4.0;
   double vehicle_width_m = 1.4;
   double vehicle_height_m = 1.7;
+  double vehicle_speed_mps = 0.0;  // + ahead; straight on, whatever the road does
   double people_side = kSideNone;
   double people_count = 3.0;
   double people_from_m = -4.0;
   double people_to_m = 4.0;
   double people_standoff_m = 0.6;
+  double people_speed_mps = 0.0;  // + ahead; straight on, whatever the road does
   double curtain_side = kSideNone;
   double curtain_distance_m = 0.5;  // from the centre line
   double curtain_from_m = -2.0;
@@ -131,6 +136,8 @@ struct Machine {
   double roll_deg = 0.0;         // as reported: about base X and Y, whatever forward_axis is
   double pitch_deg = 0.0;
   double speed_mps = 0.0;
+  double speed_change_at_s = 0.0;  // 0: never
+  double speed_after_mps = 0.0;    // from speed_change_at_s on
   double drift_mps = 0.0;
   double turn_rate_dps = 0.0;
   double sway_roll_deg = 0.0;
@@ -209,6 +216,7 @@ struct Faults {
 
 struct Sequence {
   double rate_hz = 10.0;
+  double scan_s = 0.0;  // the beams of a frame fire evenly over this time, from its stamp on; 0: at one instant
   double stamp_jitter_s = 0.0;
   double stamp_jump_s = 0.0;
   double stamp_jump_at_s = 1.0;

@@ -3,6 +3,8 @@
 
 #include "sim/simulator.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/beam_caster.hpp"
@@ -16,15 +18,22 @@ constexpr double kFirstStamp_s = 1000.0;
 
 float intensity(const Return& r) {
   const double albedo = r.label == Label::kDust ? 0.1 : (r.label == Label::kSteel || r.side == 0 ? 0.6 : 0.45);
-  return static_cast<float>(std::round(255.0 * albedo * (0.2 + 0.8 * r.cosine)));
+  return static_cast<float>(std::min(255.0, std::round(255.0 * albedo * r.brightness * (0.2 + 0.8 * r.cosine))));
 }
 
-void append(const Return& r, const Vector& direction, double unit_scale, Frame* frame) {
+void append(const Return& r, const Beam& beam, std::uint32_t time_ns, double unit_scale, Frame* frame) {
   if (r.label == Label::kNone) return;
-  const Vector p = r.range_m * unit_scale * direction;
+  const Vector p = r.range_m * unit_scale * beam.direction;
   for (int axis = 0; axis < 3; ++axis) frame->xyz_intensity.push_back(static_cast<float>(p[axis]));
   frame->xyz_intensity.push_back(intensity(r));
   frame->labels.push_back(r.label);
+  frame->time_ns.push_back(time_ns);
+  frame->ring.push_back(beam.ring);
+}
+
+// As they fire. Those that fire at one instant stay as they are.
+void sort_by_step(std::vector<Beam>* beams) {
+  std::stable_sort(beams->begin(), beams->end(), [](const Beam& a, const Beam& b) { return a.step < b.step; });
 }
 
 // Which of the sensor's frames is delivered at this place, after what was dropped and sent twice.
@@ -50,7 +59,9 @@ Simulator::Simulator(const Setup& setup, std::uint64_t seed)
       seed_(seed),
       world_(setup, mix(seed)),
       mean_rock_(World::mean(setup)),
-      beams_(beam_directions(setup.sensor, 0)) {}
+      beams_(beams_of(setup.sensor, 0)) {
+  if (setup.sequence.scan_s > 0.0) sort_by_step(&beams_);
+}
 
 MachinePose Simulator::pose(std::uint32_t frame_index) const {
   return pose_at(setup_, sensor_frame(setup_.sequence, frame_index) / setup_.sequence.rate_hz);
@@ -58,25 +69,37 @@ MachinePose Simulator::pose(std::uint32_t frame_index) const {
 
 Frame Simulator::render(std::uint32_t frame_index) const {
   const std::uint32_t seen = seen_frame(setup_.sequence, sensor_frame(setup_.sequence, frame_index));
+  const Sequence& sequence = setup_.sequence;
   const bool repeats = setup_.sensor.rings > 0.0;
-  const std::vector<Vector> own_beams = repeats ? std::vector<Vector>{} : beam_directions(setup_.sensor, seen);
-  const std::vector<Vector>& beams = repeats ? beams_ : own_beams;
+  std::vector<Beam> own_beams;
+  if (!repeats) own_beams = beams_of(setup_.sensor, seen);
+  const std::vector<Beam>& beams = repeats ? beams_ : own_beams;
 
   Frame frame;
   frame.stamp_ns = stamp_ns(frame_index);
   frame.xyz_intensity.reserve(4 * beams.size());
   frame.labels.reserve(beams.size());
-  BeamCaster caster(setup_, world_, pose_at(setup_, seen / setup_.sequence.rate_hz), mix(seed_) ^ mix(seen + 1u));
-  for (const Vector& direction : beams) {
-    const BeamCaster::Returns returns = caster.cast(direction);
-    append(returns.first, direction, setup_.sensor.unit_scale, &frame);
-    append(returns.second, direction, setup_.sensor.unit_scale, &frame);
+  const double begin_s = seen / sequence.rate_hz, step_s = sequence.scan_s / scan_steps(setup_.sensor);
+  BeamCaster caster(setup_, world_, pose_at(setup_, begin_s), mix(seed_) ^ mix(seen + 1u));
+  std::uint32_t step = 0;
+  for (const Beam& beam : beams) {
+    if (step_s > 0.0 && beam.step != step) caster.move_to(pose_at(setup_, begin_s + beam.step * step_s));
+    step = beam.step;
+    const auto time_ns = static_cast<std::uint32_t>(std::lround(beam.step * step_s * 1e9));
+    const BeamCaster::Returns returns = caster.cast(beam.direction);
+    append(returns.first, beam, time_ns, setup_.sensor.unit_scale, &frame);
+    append(returns.second, beam, time_ns, setup_.sensor.unit_scale, &frame);
   }
   return frame;
 }
 
 TruthRow Simulator::truth(std::uint32_t frame_index, StepRule rule) const {
-  TruthRow row = truth_of(setup_, mean_rock_, pose(frame_index), rule);
+  const MachinePose at = pose(frame_index);
+  TruthRow row = truth_of(setup_, mean_rock_, at, rule);
+  const Placement placement = place(setup_, at);
+  const Eigen::Quaterniond q(placement.R_road_base);
+  const Vector& p = placement.origin_road;
+  row.pose = BasePose{p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
   row.frame = frame_index;
   row.stamp_ns = stamp_ns(frame_index);
   return row;

@@ -7,13 +7,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/sensors.hpp"
 #include "sim/truth.hpp"
 
 namespace pose_wall::tools::sim {
 
 struct Frame {
-  std::vector<float> xyz_intensity;  // lidar frame, four floats per point; no-returns are left out
-  std::vector<Label> labels;         // one per point
+  std::vector<float> xyz_intensity;    // lidar frame, four floats per point; no-returns are left out
+  std::vector<Label> labels;           // one per point
+  std::vector<std::uint32_t> time_ns;  // likewise: when its beam fired, from the stamp on; all 0 without scan_s
+  std::vector<std::uint16_t> ring;     // likewise: counted from the lowest; all 0 for a pattern
   std::int64_t stamp_ns = 0;
   std::size_t count() const { return labels.size(); }
 };
@@ -36,7 +39,7 @@ class Simulator {
   std::uint64_t seed_;
   World world_;
   World mean_rock_;
-  std::vector<Vector> beams_;  // of the first frame; all frames' for rotating sensors
+  std::vector<Beam> beams_;  // of the first frame; all frames' for rotating sensors
 };
 
 }  // namespace pose_wall::tools::sim

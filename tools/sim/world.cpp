@@ -15,7 +15,8 @@ constexpr std::size_t kMostSurfaces = 10;
 bool needs_tile(const Setup& setup) {
   const Floor& f = setup.floor;
   return setup.rock.roughness_m > 0.0 || setup.rock.wave_m > 0.0 || f.floor_roughness_m > 0.0 || f.hump_m > 0.0 ||
-         f.rut_depth_m > 0.0 || f.muck_side != static_cast<double>(kSideNone) || f.puddle_coverage > 0.0;
+         f.rut_depth_m > 0.0 || setup.rock.texture > 0.0 || f.muck_side != static_cast<double>(kSideNone) ||
+         f.puddle_coverage > 0.0;
 }
 
 void hit_things(const Ray& ray, const std::vector<Primitive>& things, const SectorIndex& index, Hit* best) {
@@ -56,7 +57,8 @@ double smallest_bound(const Recess& recess, const Ray& ray, double t_mouth, doub
 World::World(const Setup& setup, std::uint64_t seed)
     : line_(setup.road.curve_radius_m), rock_(setup.rock), floor_(floor_plane(setup.road)) {
   if (needs_tile(setup)) tile_ = std::make_unique<NoiseTile>(seed);
-  puddles_ = NoiseLayer::make(1.0, setup.floor.puddle_size_m, mix(seed + 60u));
+  puddles_ = NoiseLayer::make(1.0, setup.floor.puddle_size_m, true, mix(seed + 60u));
+  texture_ = NoiseLayer::make(setup.rock.texture, setup.rock.texture_length_m, false, mix(seed + 61u));
   surfaces_ = road_surfaces(setup, tile_.get(), seed);
   recesses_ = road_recesses(setup, tile_.get(), seed);
   objects_ = road_objects(setup, seed);
@@ -84,6 +86,17 @@ World World::mean(const Setup& setup) {
 
 double World::wetness(const Vector& p) const {
   return tile_ ? puddles_.at(*tile_, p.x(), p.y()) : 0.0;
+}
+
+double World::brightness(const Vector& p) const {
+  if (texture_.sigma_m <= 0.0) return 1.0;
+  return std::max(0.0, 1.0 + texture_.at(*tile_, line_.s_of(p), p.y() + p.z()));
+}
+
+std::vector<Primitive> World::objects_at(double time_s) const {
+  std::vector<Primitive> moved = objects_;
+  for (Primitive& thing : moved) thing.centre += time_s * thing.velocity_mps;
+  return moved;
 }
 
 Hit World::trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const {

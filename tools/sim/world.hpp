@@ -17,7 +17,7 @@ struct Hit {
   int side = 0;  // of the wall that was hit
 };
 
-// All that stays where it is in the road frame.
+// The road, and what stands or walks in it.
 class World {
  public:
   World(const Setup& setup, std::uint64_t seed);
@@ -25,12 +25,16 @@ class World {
   // The bare rock without relief, objects, crosscuts, heaps and faces: what truth is measured to.
   static World mean(const Setup& setup);
 
+  // As they stand at the start.
   const std::vector<Primitive>& objects() const { return objects_; }
+  std::vector<Primitive> objects_at(double time_s) const;
   Hit trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const;
   Hit trace_rock(const Ray& ray, double t_max_m) const;
   const Plane& floor() const { return floor_; }
   // Smooth field over the floor, normally distributed, that decides where water stands.
   double wetness(const Vector& p) const;
+  // How much light a point of the rock gives back: 1 in the mean, and nowhere in the road the same pattern.
+  double brightness(const Vector& p) const;
 
  private:
   World() = default;
@@ -41,7 +45,7 @@ class World {
   Rock rock_;
   Plane floor_{};
   std::unique_ptr<NoiseTile> tile_;
-  NoiseLayer puddles_;
+  NoiseLayer puddles_, texture_;
   std::vector<RoadSurface> surfaces_;
   std::vector<Recess> recesses_;
   std::vector<Primitive> objects_;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::array<const char*, kTruthQuantities> kNames = {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"};
 
+constexpr std::array<const char*, kPoseNumbers> kPoseNames = {"x", "y", "z", "qx", "qy", "qz", "qw"};
+
 std::size_t column_of(const CsvTable& table, const char* name) {
   const auto column = table.find_column(name);
   if (!column) throw CsvError(fmt::format("no column '{}'", name));
@@ -40,12 +42,16 @@ std::vector<TruthRow> rows_of(const CsvTable& table) {
   const std::size_t frame = column_of(table, "frame");
   const std::size_t stamp = column_of(table, "stamp_ns");
   std::vector<TruthRow> rows(table.rows());
+  const bool has_pose = table.find_column(kPoseNames.front()).has_value();
   std::set<std::uint64_t> seen;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].frame = integer_of<std::uint64_t>(table.cell(i, frame), "frame");
     if (!seen.insert(rows[i].frame).second) throw CsvError(fmt::format("frame {} appears twice", rows[i].frame));
     rows[i].stamp_ns = integer_of<std::int64_t>(table.cell(i, stamp), "stamp_ns");
     for (std::size_t q = 0; q < kTruthQuantities; ++q) rows[i].value[q] = table.number(i, column_of(table, kNames[q]));
+    if (!has_pose) continue;
+    BasePose& pose = rows[i].pose.emplace();
+    for (std::size_t k = 0; k < kPoseNumbers; ++k) pose[k] = table.number(i, column_of(table, kPoseNames[k]));
   }
   return rows;
 }
@@ -55,10 +61,15 @@ std::vector<TruthRow> rows_of(const CsvTable& table) {
 void write_truth_csv(const std::filesystem::path& file, const std::vector<TruthRow>& rows) {
   std::vector<std::string> cells = {"frame", "stamp_ns"};
   cells.insert(cells.end(), kNames.begin(), kNames.end());
+  const bool has_pose = !rows.empty() && rows.front().pose.has_value();
+  if (has_pose) cells.insert(cells.end(), kPoseNames.begin(), kPoseNames.end());
   std::string text = csv_line(cells);
   for (const TruthRow& row : rows) {
     cells = {std::to_string(row.frame), std::to_string(row.stamp_ns)};
     for (const double value : row.value) cells.push_back(csv_number(value));
+    if (has_pose) {
+      for (const double number : row.pose.value()) cells.push_back(csv_number(number));
+    }
     text += csv_line(cells);
   }
   write_whole_file(file, text);

@@ -115,7 +115,12 @@ Written write_frames(const SimOptions& options, const sim::Simulator& simulator)
   for (; i < options.frames && !InterruptWatch::is_interrupted(); ++i) {
     const sim::Frame frame = simulator.render(i);
     const std::filesystem::path file = sim::frame_file(options.output, i);
-    write_pcd_binary(file, frame.xyz_intensity.data(), frame.count(), frame.stamp_ns);
+    if (simulator.setup().sequence.scan_s > 0.0) {
+      write_timed_pcd_binary(file, frame.xyz_intensity.data(), frame.time_ns.data(), frame.ring.data(), frame.count(),
+                             frame.stamp_ns);
+    } else {
+      write_pcd_binary(file, frame.xyz_intensity.data(), frame.count(), frame.stamp_ns);
+    }
     truth.push_back(simulator.truth(i));
     bar.advance(file.filename().string());
   }
