@@ -20,7 +20,8 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-SceneSetup quiet_setup() {
+// Without noise, and with fewer columns.
+SceneSetup still_setup() {
   SceneSetup setup;
   setup.sensor.range_noise_m = 0.0;
   setup.sensor.columns = 256.0;
@@ -48,7 +49,7 @@ double mean_x_m(const Frame& frame, Label label) {
 }
 
 TEST(SimMotion, EachPointLiesWhereItsBeamWasWhenItFired) {
-  SceneSetup setup = quiet_setup();
+  SceneSetup setup = still_setup();
   setup.sequence.scan_s = 0.1;
   setup.machine.speed_mps = 1.0;
   setup.machine.turn_rate_dps = 20.0;
@@ -84,7 +85,7 @@ TEST(SimMotion, PointsComeAsTheyFire) {
 
 TEST(SimMotion, OfAMachineThatStandsTheSamePointsComeInAnotherOrder) {
   const auto sorted_points = [](double scan_s) {
-    SceneSetup setup = quiet_setup();
+    SceneSetup setup = still_setup();
     setup.sequence.scan_s = scan_s;
     const Frame frame = Simulator(setup, 1).render(2);
     std::vector<std::array<float, 4>> points(frame.count());
@@ -98,12 +99,12 @@ TEST(SimMotion, OfAMachineThatStandsTheSamePointsComeInAnotherOrder) {
 }
 
 TEST(SimMotion, AtOneInstantAllTimesAreZero) {
-  const Frame frame = Simulator(quiet_setup(), 1).render(1);
+  const Frame frame = Simulator(still_setup(), 1).render(1);
   EXPECT_TRUE(std::all_of(frame.time_ns.begin(), frame.time_ns.end(), [](std::uint32_t t) { return t == 0; }));
 }
 
 TEST(SimMotion, AScanLongerThanAPeriodIsRefused) {
-  SceneSetup setup = quiet_setup();
+  SceneSetup setup = still_setup();
   setup.sequence.rate_hz = 20.0;
   setup.sequence.scan_s = 0.051;
   EXPECT_THROW(Simulator(setup, 1), std::invalid_argument);
@@ -113,7 +114,7 @@ TEST(SimMotion, AScanLongerThanAPeriodIsRefused) {
 
 TEST(SimMotion, RockComesAgainAfterATurnOfTheTileOrNot) {
   for (const bool repeats : {true, false}) {
-    SceneSetup setup = quiet_setup();
+    SceneSetup setup = still_setup();
     setup.rock.roughness_m = 0.05;
     setup.rock.rock_repeats = repeats ? 1.0 : 0.0;
     setup.sequence.rate_hz = 1.0;
@@ -135,7 +136,7 @@ TEST(SimMotion, RockComesAgainAfterATurnOfTheTileOrNot) {
 }
 
 TEST(SimMotion, RockThatDoesNotRepeatIsAsRough) {
-  SceneSetup setup = quiet_setup();
+  SceneSetup setup = still_setup();
   setup.rock.roughness_m = 0.05;
   setup.rock.rock_repeats = 0.0;
   double squares_m2 = 0.0;
@@ -152,8 +153,9 @@ TEST(SimMotion, RockThatDoesNotRepeatIsAsRough) {
 }
 
 TEST(SimMotion, PeopleWalkAndVehiclesDrive) {
-  SceneSetup setup = quiet_setup();
+  SceneSetup setup = still_setup();
   setup.objects.people_side = kSideLeft;
+  setup.objects.people_count = 1.0;
   setup.objects.people_speed_mps = -1.5;
   const Simulator people(setup, 1);
   // Seen from the side, the points of a person shift a little over it as it passes.
@@ -170,7 +172,7 @@ TEST(SimMotion, PeopleWalkAndVehiclesDrive) {
 }
 
 TEST(SimMotion, TheMachineTurnsBack) {
-  SceneSetup setup = quiet_setup();
+  SceneSetup setup = still_setup();
   setup.machine.speed_mps = 1.0;
   setup.machine.speed_change_at_s = 2.0;
   setup.machine.speed_after_mps = -0.5;
@@ -179,7 +181,7 @@ TEST(SimMotion, TheMachineTurnsBack) {
 }
 
 TEST(SimMotion, TextureChangesIntensitiesAlone) {
-  SceneSetup setup = quiet_setup();
+  SceneSetup setup = still_setup();
   setup.rock.roughness_m = 0.03;
   const Frame even = Simulator(setup, 5).render(0);
   setup.rock.texture = 0.2;
@@ -201,7 +203,7 @@ TEST(SimMotion, TextureChangesIntensitiesAlone) {
 }
 
 TEST(SimMotion, TruthHasThePoseOfBase) {
-  SceneSetup setup = quiet_setup();
+  SceneSetup setup = still_setup();
   setup.machine.speed_mps = 2.0;
   setup.machine.turned_left_deg = 30.0;
   setup.machine.lateral_m = 0.25;
