@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: truth.csv gives back every number to nine digits, stamps whole, with poses and without; what it lacks is named.
+// Proves: truth.csv gives back every number to nine digits, with poses and without; what it lacks is named.
 // named.
 
 #include "truth/truth_csv.hpp"
