@@ -397,6 +397,12 @@ TEST_F(BlackBoxTest, TheSmallestRoomServesTheRuntimeAndCanBeComputedAgain) {
   EXPECT_EQ(replay.different, 0U);
 }
 
+TEST_F(BlackBoxTest, AStartThatFailsLeavesNoFile) {
+  const LoadedConfig loaded = settings("1");
+  for (int start = 0; start < 3; ++start) open_black_box(loaded);
+  EXPECT_EQ(files_in(folder_.file("boxes")), 0U);
+}
+
 TEST_F(BlackBoxTest, NoFolderIsNoBox) {
   EXPECT_EQ(open_black_box(load_config("", {})).write, nullptr);
 }

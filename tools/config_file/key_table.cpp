@@ -87,6 +87,12 @@ std::string config_text(const pose_wall_config& config, const char* key) {
   return text;
 }
 
+std::string config_crc_text(const pose_wall_config& config) {
+  std::uint32_t crc = 0;
+  pose_wall_config_crc(&config, &crc);
+  return fmt::format("settings' CRC: 16#{:08X}", crc);
+}
+
 std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key) {
   const std::string value = config_value_text(config, key);
   if (!value.empty()) return value;

@@ -181,10 +181,11 @@ void LiveRuntime::take_extrinsic(const std::optional<Extrinsic>& extrinsic) {
     log_line(Grade::kBad, "runtime", fmt::format("{}; nothing is measured", fault.what()));
     return;
   }
-  log_line(Grade::kGood, "tf",
-           fmt::format("sensor in base: x {:.3f}, y {:.3f}, z {:.3f} m, roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg",
-                       extrinsic->x_m, extrinsic->y_m, extrinsic->z_m, extrinsic->roll_rad * kDegPerRad,
-                       extrinsic->pitch_rad * kDegPerRad, extrinsic->yaw_rad * kDegPerRad));
+  log_line(
+      Grade::kGood, "tf",
+      fmt::format("sensor in base: x {:.3f}, y {:.3f}, z {:.3f} m, roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg; {}",
+                  extrinsic->x_m, extrinsic->y_m, extrinsic->z_m, extrinsic->roll_rad * kDegPerRad,
+                  extrinsic->pitch_rad * kDegPerRad, extrinsic->yaw_rad * kDegPerRad, config_crc_text(*config->get())));
 }
 
 // The settings with this mount; nothing where it is out of their range.

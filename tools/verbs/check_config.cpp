@@ -68,9 +68,8 @@ void print_memory(const LoadedConfig& loaded) {
 
 // What a controller compares with the image's config_crc32.
 void print_crc(const LoadedConfig& loaded) {
-  uint32_t crc = 0;
-  pose_wall_config_crc(loaded.config.get(), &crc);
-  fmt::print("settings' CRC: 16#{:08X} (dwConfigCrc of FB_PoseWall, config_crc32 of the process image)\n", crc);
+  fmt::print("{} (dwConfigCrc of FB_PoseWall, config_crc32 of the process image)\n",
+             config_crc_text(*loaded.config.get()));
 }
 
 // The manual of all keys, under the headings of the tables.

@@ -3,6 +3,9 @@
 
 // The runtime's black box in a folder of bounded size: a ring file for each time that the runtime is opened.
 
+#include <filesystem>
+#include <system_error>
+
 #include "box/file_sink.hpp"
 #include "live/edges.hpp"
 #include "live/log.hpp"
@@ -25,7 +28,12 @@ BlackBox open_black_box(const LoadedConfig& loaded) {
   BlackBox box;
   box.bytes = folder.room_bytes() / kFilesKept / kAlignment * kAlignment;
   const std::string file = folder.next(box.bytes).string();
-  const auto sink = std::make_shared<FileSink>(file);
+  // A start that fails leaves no file: once a second for a night, there would be thousands without a byte.
+  const std::shared_ptr<FileSink> sink(new FileSink(file), [file](FileSink* written) {
+    delete written;
+    std::error_code gone;
+    if (std::filesystem::file_size(file, gone) == 0 && !gone) std::filesystem::remove(file, gone);
+  });
   box.write = FileSink::write;
   box.user = sink.get();
   box.keeper = sink;

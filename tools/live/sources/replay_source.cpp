@@ -87,8 +87,11 @@ class ReplaySource final : public Source {
       } while (plan_.repeat && !ending_ && frames_ > before);
       taker.wait_idle();
       if (readable_ == 0 && !ending_) {
-        failure_ = fmt::format("--replay: the inputs hold no cloud that can be read ({} are unreadable): {}",
-                               unreadable_.load(), fmt::join(plan_.inputs, ", "));
+        failure_ = fmt::format(
+            "--replay: the inputs hold no cloud that can be read ({} are unreadable): {}. A recording of pose_walld "
+            "holds "
+            "clouds with recording_clouds: 1 alone",
+            unreadable_.load(), fmt::join(plan_.inputs, ", "));
       }
     } catch (const std::exception& fault) {
       failure_ = fmt::format("--replay: {}", fault.what());
