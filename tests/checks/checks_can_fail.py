@@ -451,7 +451,7 @@ class CompareBuilds(BrokenProject):
         self.script("program", f'[ $# -gt 0 ] || exec cat {noted}\ncat "$(dirname "$0")/../recorded"')
         self.script("cmake", f'[ "$1" = -G ] || exit 0\nmkdir -p "$6/tests"\n'
                     f'cp {self.root}/bin/program "$6/tests/pose_wall_digest"')
-        self.script("qemu-aarch64-static", 'shift 4; exec "$@"')
+        self.script("qemu-aarch64-static", 'shift 2; exec "$@"')
 
     def script(self, name, text):
         self.write(f"bin/{name}", f"#!/bin/sh\n{text}\n")

@@ -233,7 +233,7 @@ TEST(Completion, BashOffersValuesOfOptions) {
   EXPECT_EQ(offered(folder, {"run", "--set", "forward_axis", "=", "-"}), "-X -Y");
   EXPECT_EQ(offered(folder, {"run", "--set", "=", "forward_axis", "=", "-"}), "-X -Y");
   EXPECT_EQ(offered(folder, {"run", "-s", "forward_axis=+"}), "forward_axis=+X forward_axis=+Y");
-  EXPECT_EQ(offered(folder, {"sim", "--set", "spee"}), "speed_mps=") << "a key of the simulator";
+  EXPECT_EQ(offered(folder, {"sim", "--set", "turn_r"}), "turn_rate_dps=") << "a key of the simulator";
   EXPECT_EQ(offered(folder, {"sim", "--set", "voxel_l"}), "");
   EXPECT_EQ(offered(folder, {"sim", "--scene", "clea"}), "clean");
   EXPECT_EQ(offered(folder, {"campaign", "--scenes", "rough,clea"}), "rough,clean");
