@@ -159,12 +159,13 @@ class Endurance(unittest.TestCase):
         self.mqtt = self.start("mosquitto_sub", "-h", "127.0.0.1", "-p", ports["mqtt"], "-t", "pose_wall/#")
 
     def parts(self):
+        """The facts of each part."""
         try:
             answer = urllib.request.urlopen(f"http://127.0.0.1:{self.http}/health", timeout=30)
         except urllib.error.HTTPError as unwell:  # 503: the sensor is gone
             answer = unwell
         with answer:
-            return {part["part"]: part for part in json.load(answer)["parts"]}
+            return {part["part"]: Facts(part) for part in json.load(answer)["parts"]}
 
     def watch(self):
         """(seconds, memory) now and then, until the time is over; and the processor's share."""
@@ -182,7 +183,7 @@ class Endurance(unittest.TestCase):
         looks, share = self.watch()
         self.sensor.stop()
         time.sleep(ALL_ARRIVED_S)
-        parts = {name: Facts(part) for name, part in self.parts().items()}
+        parts = self.parts()
         runtime, source = parts.pop("runtime"), parts.pop(next(name for name in parts if name.startswith("source")))
         turns = int(self.sensor.lines[-1].split()[1])
         self.ros2.process.stdin.write("report\n")
@@ -231,9 +232,8 @@ class Endurance(unittest.TestCase):
 
     def all_told(self):
         """Whether each sink took or lost what was published; silences go on ten times a second meanwhile."""
-        parts = {name: Facts(part) for name, part in self.parts().items()}
-        runtime = parts.pop("runtime")
-        published = runtime["frames measured"] + runtime["silences"]
+        parts = self.parts()
+        published = parts["runtime"]["frames measured"] + parts["runtime"]["silences"]
         told = [sink["results taken"] + sink["results lost to slowness"] for name, sink in parts.items()
                 if name.startswith("sink")]
         return all(published <= one <= published + 5 for one in told)

@@ -272,11 +272,17 @@ TEST(UdpSource, HalfATurnBeforeASilenceIsNotJoinedToHalfOfOneAfterIt) {
 }
 
 #ifdef POSE_WALL_LIVE_HAS_HTTP
+// An OS1-64, and where it tells its metadata and sends to.
+struct Ouster {
+  sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
+  OusterEncoder encoder{setup.sensor};
+  std::string web = fmt::format("127.0.0.1:{}", pose_wall::test::free_tcp_port());
+  std::uint16_t port = free_udp_port();
+};
+
 TEST(UdpSource, AnOusterThatStartsLaterIsAskedForItsMetadata) {
-  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
-  OusterEncoder encoder(setup.sensor);
-  const std::uint16_t port = free_udp_port();
-  const std::string web = "127.0.0.1:" + std::to_string(free_udp_port());
+  Ouster ouster;
+  auto& [setup, encoder, web, port] = ouster;
   const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web + "/"}));
   FrameCatcher catcher;
   source->start(catcher);
@@ -318,10 +324,8 @@ TEST(UdpSource, ASensorThatComesBackUnderAnotherAddressIsHeard) {
 
 #ifdef POSE_WALL_LIVE_HAS_HTTP
 TEST(UdpSource, AnOusterThatIsSetUpAnewIsAskedAnew) {
-  const sim::Setup setup = sim::make_setup("clean", "os1-64", false, 1);
-  OusterEncoder encoder(setup.sensor);
-  const std::uint16_t port = free_udp_port();
-  const std::string web = "127.0.0.1:" + std::to_string(free_udp_port());
+  Ouster ouster;
+  auto& [setup, encoder, web, port] = ouster;
   std::string other_mode = encoder.metadata();
   const std::string columns = "\"columns_per_frame\": 1024";
   ASSERT_NE(other_mode.find(columns), std::string::npos) << other_mode;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: scans that take time are distorted by the machine's motion as a real sensor's are, beam by beam; people walk,
-// the machine changes its speed, rock need not repeat and may be uneven in brightness; and truth has the pose. Whatever
-// of it is off changes nothing.
+// Proves: scans that take time are distorted by the machine's motion, beam by beam, as a real sensor's are. People walk
+// and the machine changes its speed. Rock need not repeat and may be uneven in brightness. Truth has the pose.
 
 #include <gtest/gtest.h>
 

@@ -45,8 +45,7 @@ const std::vector<Row>& rows() {
        &LiveSettings::sensor},
       {{"sensor_metadata", kSources, Type::kText, "", 0, 0, "",
         "what the sensor says of itself: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for "
-        "an "
-        "Ouster; empty: not needed"},
+        "an Ouster; empty: not needed"},
        &LiveSettings::sensor_metadata},
       {{"udp_address", kSources, Type::kIpv4, "", 0, 0, "",
         "this machine's address on the sensor's network; 0.0.0.0 listens on all. Anybody there can then send packets"},

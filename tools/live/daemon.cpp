@@ -133,10 +133,9 @@ void Daemon::run(const std::atomic<bool>& stop_asked) {
   }
   service_.stopping();
   const std::string failure = stop_asked ? "" : source_->failure();
+  // What failed stands in the source's line of status.
   if (failure.empty()) {
     log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
-  } else {
-    log_line(Grade::kBad, "pose_walld", failure);
   }
   log_status();
   stop();

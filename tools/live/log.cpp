@@ -16,6 +16,7 @@ namespace {
 
 // Of one part in one window: a start and a short loss are told whole, a machine that cannot keep up is not.
 constexpr int kSameMost = 3;
+// A part has some five ways to fare; words that are always others, as of errors with a number, stop here.
 constexpr std::size_t kSummariesMost = 8;
 
 // sd-daemon(3): a line may begin with its syslog level.

@@ -20,10 +20,9 @@ namespace pose_wall::tools::live {
 // From any thread; a line is written whole.
 void log_line(Grade grade, const std::string& part, const std::string& fact);
 
-// Writes only what changed: a part's grade or summary. A part that goes to and fro, as on a machine that is too slow,
-// is told of until it has said the same a few times within kWindow; then one line says so, and one a window sums up
-// what changed, until a window passes without a change. What it has not said before is told at once all the same, up
-// to a few sayings a window.
+// Writes only what changed: a part's grade or summary. A part may go to and fro, as on a machine that is too slow. When
+// it has said the same a few times within kWindow, one line says so. From then on one line a window sums up, until a
+// window passes without a change. A summary that is new is told at once all the same, up to a few a window.
 class HealthLog {
  public:
   using Clock = std::chrono::steady_clock;

@@ -69,6 +69,7 @@ std::size_t OusterAssembler::packet_bytes(std::uint32_t rings) const {
 }
 
 void OusterAssembler::look_for_other_pixels(std::size_t bytes) {
+  if (!hint_.empty()) return;
   for (const std::uint32_t rings : {16U, 32U, 64U, 128U}) {
     if (bytes != packet_bytes(rings)) continue;
     hint_ = fmt::format(

@@ -82,7 +82,7 @@ def outputs(root):
         plc / "FB_PoseWall.scl": dialects.scl(read),
         plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),
         root / "tests/checks/image_members.def": layout_members(structs),
-        modbus / "README.md": register_table.with_tables(structs, registers_hpp, page),
+        modbus / "README.md": register_table.with_tables(structs, header_text, registers_hpp, page),
     }
 
 

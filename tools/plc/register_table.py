@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The table of Modbus registers in tools/live/modbus/README.md, from image.def and the daemon's first registers."""
+"""The tables of tools/live/modbus/README.md: registers, from image.def and the daemon's first ones; bits of reasons."""
 
 import re
 
@@ -40,10 +40,17 @@ def image_table(structs, registers_hpp, version, name):
     return "\n".join(lines)
 
 
-def with_tables(structs, registers_hpp, text):
+def reason_table(header_text):
+    bits = re.findall(r"\bPOSE_WALL_R_(\w+) =\s*1 << (\d+)", header_text)
+    return "\n".join(["### Bits of `reasons` and `frame_reasons`", "", "| bit | reason |", "| ---: | --- |"] +
+                     [f"| {bit} | `{name.lower()}` |" for name, bit in bits])
+
+
+def with_tables(structs, header_text, registers_hpp, text):
     """The page with its tables written anew; image 2 first, for new controllers take it."""
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
     tables = [image_table(structs, registers_hpp, version, name)
               for version, name in sorted(description.images(structs).items(), reverse=True)]
+    tables.append(reason_table(header_text))
     return before + BEGIN + "\n" + "\n\n".join(tables) + "\n\n" + END + after

@@ -19,8 +19,8 @@ namespace pose_wall::tools {
 inline constexpr std::size_t kTruthQuantities = 7;
 inline constexpr double kNoTruth = std::numeric_limits<double>::quiet_NaN();
 
-inline constexpr std::size_t kPoseNumbers = 7;
-using BasePose = std::array<double, kPoseNumbers>;  // x, y, z, qx, qy, qz, qw
+inline constexpr std::size_t kPoseNumbers = 7;  // x, y, z, qx, qy, qz, qw
+using BasePose = std::array<double, kPoseNumbers>;
 
 struct TruthRow {
   std::uint64_t frame = 0;

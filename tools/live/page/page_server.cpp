@@ -38,6 +38,7 @@ constexpr std::size_t kRequestMost = 4096;  // a body is never wanted
 constexpr int kWait_ms = 500;
 // Ten publications of silence.
 constexpr std::int64_t kOld_ns = 1'000'000'000;
+// As /diagnostics of ROS.
 constexpr std::int64_t kHealthEvery_ns = 1'000'000'000;
 
 // Everything comes from this server, nothing is framed, nothing else is asked.
@@ -87,7 +88,6 @@ class PageServer final : public Sink {
     tell_new_config(result.config);
     if (viewers_ == 0) return;
     broadcast_.post(Broadcast::kFrame, frame_event(result));
-    tell_health_now_and_then();
   }
 
   void stop() override {
@@ -194,7 +194,7 @@ class PageServer final : public Sink {
         });
   }
 
-  // From any thread; one of those that come at once tells it.
+  // By the threads of the viewers, for a worker that hangs publishes nothing; one of those that come at once tells it.
   void tell_health_now_and_then() {
     std::int64_t last_ns = health_last_ns_;
     const std::int64_t now_ns = monotonic_ns();
@@ -207,7 +207,6 @@ class PageServer final : public Sink {
     const auto news = broadcast_.next(seen, kWait_ms);
     if (broadcast_.is_ending()) return false;
     static const std::string kAlive = ": here\n\n";
-    // A worker that hangs publishes nothing; its health says so.
     tell_health_now_and_then();
     if (news.empty()) return sink->write(kAlive.data(), kAlive.size());
     for (const auto& event : news) {

@@ -88,9 +88,8 @@ class ReplaySource final : public Source {
       taker.wait_idle();
       if (readable_ == 0 && !ending_) {
         failure_ = fmt::format(
-            "--replay: the inputs hold no cloud that can be read ({} are unreadable): {}. A recording of pose_walld "
-            "holds "
-            "clouds with recording_clouds: 1 alone",
+            "--replay: the inputs hold no cloud that can be read ({} are unreadable): {}. pose_walld records clouds "
+            "with recording_clouds: 1 alone",
             unreadable_.load(), fmt::join(plan_.inputs, ", "));
       }
     } catch (const std::exception& fault) {

@@ -20,7 +20,7 @@ namespace pose_wall::tools::live {
 namespace {
 
 constexpr const char* kHttp = "http://";
-constexpr int kHttpPort = 80;
+constexpr int kHttpPort = 80;  // of http:// without a port (RFC 9110, 4.2.1)
 // Ouster's HTTP API of firmware 2.1 and later.
 constexpr const char* kPath = "/api/v1/sensor/metadata";
 // Metadata of 128 beams has 20 kB.

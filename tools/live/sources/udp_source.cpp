@@ -24,7 +24,8 @@ namespace {
 // silence must not be joined to half of one after it.
 constexpr std::int64_t kSilent_ns = 1'000'000'000;
 constexpr int kLook_ms = 100;
-constexpr std::int64_t kLookAround_ns = 1'000'000'000;
+// A cable is plugged in by hand: who waits a second does not mind.
+constexpr std::int64_t kAddressEvery_ns = 1'000'000'000;
 // So many packets without one of use are no accident.
 constexpr std::uint64_t kEnoughPackets = 50;
 
@@ -117,7 +118,7 @@ class UdpSource final : public Source {
     while (!ending_) {
       const std::optional<Datagram> datagram = receiver_->next(kLook_ms);
       lost_ = receiver_->lost();
-      if (is_silent() && monotonic_ns() - looked_ns_ > kLookAround_ns) look_for_address();
+      if (is_silent() && monotonic_ns() - looked_ns_ > kAddressEvery_ns) look_for_address();
       if (!datagram) continue;
       if (is_silent() && monotonic_ns() - began_ns_ > kSilent_ns) begin_anew();
       if (is_of_other(*datagram)) continue;
