@@ -274,8 +274,11 @@ typedef struct pose_wall_cloud {
   pose_wall_field y;
   pose_wall_field z;
   pose_wall_field intensity;             /* any type; used only with intensity_weight > 0 */
-  pose_wall_field time;                  /* reserved: not read by this version */
+  pose_wall_field time;                  /* when each point was measured, any type; pose_wall_motion reads it. Counts
+                                            from the smallest of the cloud, in the one of s, ms, us and ns by which
+                                            the scan takes 0.01 to 1 s */
   const struct pose_wall_inputs* inputs; /* what the machine knows of itself in this frame, or NULL */
+  pose_wall_field ring;                  /* which of the sensor's rings, any type, from 0. Read by pose_wall_motion */
 } pose_wall_cloud;
 
 /* Bits of pose_wall_inputs.given. */
@@ -308,12 +311,15 @@ typedef struct pose_wall_inputs {
 
 /* Describes `count` points of three consecutive native floats each, `point_step` bytes apart. Fails iff: cloud NULL,
  * or data NULL with count > 0. */
+int32_t pose_wall_cloud_xyz32_3(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
+                                int64_t stamp_ns);
+/* The same for programs built against a header whose cloud ends with inputs: writes so far. */
 int32_t pose_wall_cloud_xyz32_2(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
                                 int64_t stamp_ns);
 /* For programs built against ABI 1, whose cloud is shorter: writes nothing, and always gives POSE_WALL_E_ABI. */
 int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
                               int64_t stamp_ns);
-#define pose_wall_cloud_xyz32 pose_wall_cloud_xyz32_2
+#define pose_wall_cloud_xyz32 pose_wall_cloud_xyz32_3
 
 /* Whether pose_wall_process would take this cloud: looks at the description only, at no point. Fails as it does: NULL,
  * struct_size of cloud or inputs, POSE_WALL_E_CLOUD_*, POSE_WALL_E_INPUT. */

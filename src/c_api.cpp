@@ -76,7 +76,8 @@ std::int32_t check_moment(const pose_wall_moment* moment) {
 // Struct size, description, inputs: all that is wrong with a cloud before a point is looked at.
 std::int32_t check_whole_cloud(const pose_wall_cloud& cloud) {
   std::int32_t status = pose_wall::check_struct_size(cloud.struct_size, pose_wall::kCloudSizes);
-  if (status == POSE_WALL_OK) status = pose_wall::check_cloud(cloud);
+  if (status != POSE_WALL_OK) return status;
+  status = pose_wall::check_cloud(pose_wall::read_struct<pose_wall_cloud>(&cloud, cloud.struct_size));
   return status == POSE_WALL_OK ? check_inputs(cloud.inputs) : status;
 }
 
@@ -190,6 +191,15 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* /*cloud*/, const
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32_2(pose_wall_cloud* cloud, const void* data, uint32_t count,
+                                                 uint32_t point_step, int64_t stamp_ns) {
+  pose_wall_cloud whole;
+  const std::int32_t status = cloud != nullptr ? pose_wall_cloud_xyz32_3(&whole, data, count, point_step, stamp_ns)
+                                               : std::int32_t{POSE_WALL_E_NULL};
+  if (status == POSE_WALL_OK) pose_wall::write_struct(whole, pose_wall::kCloudSizes.first, cloud);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32_3(pose_wall_cloud* cloud, const void* data, uint32_t count,
                                                  uint32_t point_step, int64_t stamp_ns) {
   if (cloud == nullptr || (data == nullptr && count > 0)) return POSE_WALL_E_NULL;
   *cloud = pose_wall_cloud{};

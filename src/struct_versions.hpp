@@ -11,7 +11,7 @@
 
 namespace pose_wall {
 
-constexpr StructSizes kCloudSizes = {offsetof(pose_wall_cloud, inputs), sizeof(pose_wall_cloud),
+constexpr StructSizes kCloudSizes = {offsetof(pose_wall_cloud, inputs), offsetof(pose_wall_cloud, ring),
                                      sizeof(pose_wall_cloud)};
 constexpr StructSizes kResultSizes = {864, sizeof(pose_wall_result), sizeof(pose_wall_result)};
 constexpr StructSizes kInputsSizes = {0, sizeof(pose_wall_inputs), sizeof(pose_wall_inputs)};

@@ -106,9 +106,11 @@ std::int32_t check_cloud(const pose_wall_cloud& cloud) {
     if (!is_floating(field->type)) return POSE_WALL_E_CLOUD_FIELD;
     if (!fits_point(*field, cloud.point_step)) return POSE_WALL_E_CLOUD_STEP;
   }
-  if (cloud.intensity.type != POSE_WALL_FIELD_NONE) {
-    if (field_bytes(cloud.intensity.type) == 0) return POSE_WALL_E_CLOUD_FIELD;
-    if (!fits_point(cloud.intensity, cloud.point_step)) return POSE_WALL_E_CLOUD_STEP;
+  const pose_wall_field* optional[] = {&cloud.intensity, &cloud.time, &cloud.ring};
+  for (const pose_wall_field* field : optional) {
+    if (field->type == POSE_WALL_FIELD_NONE) continue;
+    if (field_bytes(field->type) == 0) return POSE_WALL_E_CLOUD_FIELD;
+    if (!fits_point(*field, cloud.point_step)) return POSE_WALL_E_CLOUD_STEP;
   }
   if (cloud.big_endian > 1) return POSE_WALL_E_CLOUD_FIELD;
   const std::uint64_t packed_row = static_cast<std::uint64_t>(cloud.width) * cloud.point_step;

@@ -30,10 +30,11 @@ const auto config_init_of_abi1 = pose_wall_config_init;
 #define pose_wall_config_init pose_wall_config_init_2
 #undef pose_wall_cloud_xyz32
 const auto cloud_xyz32_of_abi1 = pose_wall_cloud_xyz32;
-#define pose_wall_cloud_xyz32 pose_wall_cloud_xyz32_2
+#define pose_wall_cloud_xyz32 pose_wall_cloud_xyz32_3
 
 constexpr std::int64_t kPeriod_ns = 100000000;
-constexpr std::uint32_t kResultBytesOfAbi1 = 864, kCloudBytesOfAbi1 = offsetof(pose_wall_cloud, inputs);
+constexpr std::uint32_t kResultBytesOfAbi1 = 864, kCloudBytesOfAbi1 = offsetof(pose_wall_cloud, inputs),
+                        kCloudBytesBeforeRing = offsetof(pose_wall_cloud, ring);
 
 pose_wall_result blank_result() {
   pose_wall_result result{};
@@ -71,6 +72,57 @@ TEST(Abi1, ItsStructsAreRefusedByName) {
   cloud.struct_size = kCloudBytesOfAbi1;
   EXPECT_EQ(pose_wall_process(engine.get(), &cloud, &result), POSE_WALL_E_ABI);
   EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_E_ABI);
+}
+
+// A program that was compiled before ring was there has room for no more than this.
+TEST(ShorterCloud, IsFilledUpToItsEndAndNoFurther) {
+  struct {
+    unsigned char cloud[kCloudBytesBeforeRing], behind[64];
+  } memory, before;
+  std::memset(&memory, 0x5A, sizeof memory);
+  before = memory;
+  const float point[3] = {1.0F, 2.0F, 3.0F};
+  auto* const cloud = reinterpret_cast<pose_wall_cloud*>(memory.cloud);
+  ASSERT_EQ(pose_wall_cloud_xyz32_2(cloud, point, 1, sizeof point, 7), POSE_WALL_OK);
+  EXPECT_EQ(std::memcmp(memory.behind, before.behind, sizeof memory.behind), 0);
+  std::uint32_t size = 0;
+  std::memcpy(&size, memory.cloud, sizeof size);
+  EXPECT_EQ(size, kCloudBytesBeforeRing);
+  pose_wall_cloud now;
+  ASSERT_EQ(pose_wall_cloud_xyz32(&now, point, 1, sizeof point, 7), POSE_WALL_OK);
+  EXPECT_EQ(now.struct_size, sizeof now);
+  EXPECT_EQ(now.ring.type, static_cast<std::uint32_t>(POSE_WALL_FIELD_NONE));
+  now.struct_size = size;
+  EXPECT_EQ(std::memcmp(&now, memory.cloud, sizeof memory.cloud), 0) << "what it knows is the same";
+  EXPECT_EQ(pose_wall_cloud_xyz32_2(nullptr, point, 1, sizeof point, 7), POSE_WALL_E_NULL);
+  const auto untouched = memory;
+  EXPECT_EQ(pose_wall_cloud_xyz32_2(cloud, nullptr, 1, sizeof point, 7), POSE_WALL_E_NULL);
+  EXPECT_EQ(std::memcmp(&memory, &untouched, sizeof memory), 0);
+}
+
+TEST(ShorterCloud, GivesTheSameBitsAndNothingBehindItIsRead) {
+  const Points points = room_points(1);
+  EngineUnderTest whole(small_config()), shorter(small_config());
+  pose_wall_cloud cloud = cloud_of(points, 0);
+  const pose_wall_result expected = whole.process(cloud);
+  cloud.struct_size = kCloudBytesBeforeRing;
+  cloud.ring = {0xFFFFFFFFU, 77};  // what happens to lie there
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_OK);
+  const pose_wall_result found = shorter.process(cloud);
+  EXPECT_EQ(std::memcmp(&found, &expected, sizeof found), 0);
+  cloud.struct_size = sizeof cloud;
+  EXPECT_NE(pose_wall_cloud_check(&cloud), POSE_WALL_OK) << "in the whole struct it is no field";
+}
+
+TEST(ShorterCloud, ARingThatLiesBehindThePointIsRefused) {
+  const Points points = room_points(1);
+  pose_wall_cloud cloud = cloud_of(points, 0);
+  cloud.ring = {8, POSE_WALL_FIELD_UINT32};
+  EXPECT_EQ(pose_wall_cloud_check(&cloud), POSE_WALL_OK);
+  for (const std::uint32_t offset : {9U, 12U, 0xFFFFFFFEU}) {
+    cloud.ring.offset = offset;
+    EXPECT_NE(pose_wall_cloud_check(&cloud), POSE_WALL_OK) << offset;
+  }
 }
 
 TEST(StructSizes, OfANewerHeaderAreRefusedByNameAndOthersAsUnknown) {

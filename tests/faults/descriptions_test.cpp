@@ -50,7 +50,10 @@ constexpr std::uint32_t kMost = 0xFFFFFFFF;
 
 const DescriptionCase kDescriptions[] = {
     {"struct_size_0", kStruct, "", [](auto* d) { d->cloud.struct_size = 0; }},
-    {"struct_size_one_less", kStruct, "", [](auto* d) { --d->cloud.struct_size; }},
+    {"struct_size_of_a_cloud_without_ring", kOk, "V",
+     [](auto* d) { d->cloud.struct_size = offsetof(pose_wall_cloud, ring); }},
+    {"struct_size_one_less_than_that", kStruct, "",
+     [](auto* d) { d->cloud.struct_size = offsetof(pose_wall_cloud, ring) - 1; }},
     {"struct_size_8_more", kNewer, "", [](auto* d) { d->cloud.struct_size += 8; }},
     {"struct_size_most", kStruct, "", [](auto* d) { d->cloud.struct_size = kMost; }},
 
@@ -156,9 +159,17 @@ const DescriptionCase kDescriptions[] = {
      [](auto* d) {
        d->cloud.intensity = {0, POSE_WALL_FIELD_FLOAT32};
      }},
-    {"time_is_garbage", kOk, "V",
+    {"time_is_garbage", kField, "",
      [](auto* d) {
        d->cloud.time = {kMost, kMost};
+     }},
+    {"time_beyond_the_point", kStep, "",
+     [](auto* d) {
+       d->cloud.time = {d->cloud.point_step - 3, POSE_WALL_FIELD_UINT32};
+     }},
+    {"ring_is_garbage", kField, "",
+     [](auto* d) {
+       d->cloud.ring = {kMost, kMost};
      }},
 };
 

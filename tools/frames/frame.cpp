@@ -89,6 +89,7 @@ Frame describe_frame(Bytes bytes, const PointLayout& layout) {
   cloud.z = required_coordinate(layout.fields, "z");
   cloud.intensity = field_of(FieldRole::kIntensity, layout.fields);
   cloud.time = field_of(FieldRole::kTime, layout.fields);
+  cloud.ring = field_of(FieldRole::kRing, layout.fields);
   for (const PointField& field : layout.fields) frame.fields.push_back({std::string(field.name), field.where});
   return frame;
 }

@@ -367,6 +367,7 @@ pose_wall_cloud._fields_ = [
     ("intensity", pose_wall_field),
     ("time", pose_wall_field),
     ("inputs", POINTER(pose_wall_inputs)),
+    ("ring", pose_wall_field),
 ]
 
 pose_wall_inputs._fields_ = [
@@ -693,6 +694,7 @@ FUNCTIONS = {
     "pose_wall_config_key": (c_int32, (c_uint32, POINTER(pose_wall_key_info))),
     "pose_wall_config_check": (c_int32, (POINTER(pose_wall_config), POINTER(pose_wall_rule_fault))),
     "pose_wall_config_crc": (c_int32, (POINTER(pose_wall_config), POINTER(c_uint32))),
+    "pose_wall_cloud_xyz32_3": (c_int32, (POINTER(pose_wall_cloud), c_void_p, c_uint32, c_uint32, c_int64)),
     "pose_wall_cloud_xyz32_2": (c_int32, (POINTER(pose_wall_cloud), c_void_p, c_uint32, c_uint32, c_int64)),
     "pose_wall_cloud_xyz32": (c_int32, (POINTER(pose_wall_cloud), c_void_p, c_uint32, c_uint32, c_int64)),
     "pose_wall_cloud_check": (c_int32, (POINTER(pose_wall_cloud),)),
@@ -749,6 +751,6 @@ FUNCTIONS = {
 # What a name of the header stands for.
 RENAMED = {
     "pose_wall_config_init": "pose_wall_config_init_2",
-    "pose_wall_cloud_xyz32": "pose_wall_cloud_xyz32_2",
+    "pose_wall_cloud_xyz32": "pose_wall_cloud_xyz32_3",
     "pose_wall_runtime_options_init": "pose_wall_runtime_options_init_3",
 }
