@@ -10,6 +10,7 @@
 
 #include "pose_wall.h"
 #include "pose_wall_box.h"
+#include "pose_wall_motion.h"
 #include "pose_wall_runtime.h"
 
 static size_t filled = 0;
@@ -61,6 +62,7 @@ static int cloud_layout(void) {
   MEMBER(pose_wall_cloud, intensity);
   MEMBER(pose_wall_cloud, time);
   MEMBER(pose_wall_cloud, inputs);
+  MEMBER(pose_wall_cloud, ring);
   padded += struct_with_pointers_end("pose_wall_cloud", sizeof(pose_wall_cloud));
   MEMBER(pose_wall_inputs, struct_size);
   MEMBER(pose_wall_inputs, given);
@@ -317,10 +319,57 @@ static int self_test_layout(void) {
   return struct_end("pose_wall_self_test_report", sizeof(pose_wall_self_test_report));
 }
 
+static int motion_layout(void) {
+  int padded = 0;
+  MEMBER(pose_wall_motion_settings, struct_size);
+  MEMBER(pose_wall_motion_settings, reserved);
+  MEMBER(pose_wall_motion_settings, speed_max_m_s);
+  MEMBER(pose_wall_motion_settings, turn_max_rad_s);
+  MEMBER(pose_wall_motion_settings, range_max_m);
+  MEMBER(pose_wall_motion_settings, keyframe_m);
+  padded += struct_end("pose_wall_motion_settings", sizeof(pose_wall_motion_settings));
+  MEMBER(pose_wall_motion_fault, member);
+  MEMBER(pose_wall_motion_fault, rule);
+  padded += struct_with_pointers_end("pose_wall_motion_fault", sizeof(pose_wall_motion_fault));
+  MEMBER(pose_wall_motion_result, struct_size);
+  MEMBER(pose_wall_motion_result, along_state);
+  MEMBER(pose_wall_motion_result, reasons);
+  MEMBER(pose_wall_motion_result, mark);
+  MEMBER(pose_wall_motion_result, stamp_ns);
+  MEMBER(pose_wall_motion_result, frame_index);
+  MEMBER(pose_wall_motion_result, position_m);
+  MEMBER(pose_wall_motion_result, quaternion);
+  MEMBER(pose_wall_motion_result, sigma);
+  MEMBER(pose_wall_motion_result, protection_level);
+  MEMBER(pose_wall_motion_result, road_axis);
+  MEMBER(pose_wall_motion_result, along_m);
+  MEMBER(pose_wall_motion_result, step_m);
+  MEMBER(pose_wall_motion_result, step_rad);
+  MEMBER(pose_wall_motion_result, step_s);
+  MEMBER(pose_wall_motion_result, step_sigma);
+  MEMBER(pose_wall_motion_result, step_protection_level);
+  MEMBER(pose_wall_motion_result, contrast);
+  MEMBER(pose_wall_motion_result, patches);
+  MEMBER(pose_wall_motion_result, halves_m);
+  MEMBER(pose_wall_motion_result, second_m);
+  MEMBER(pose_wall_motion_result, second_gain);
+  MEMBER(pose_wall_motion_result, points_in);
+  MEMBER(pose_wall_motion_result, points_used);
+  MEMBER(pose_wall_motion_result, ground_points);
+  MEMBER(pose_wall_motion_result, clusters);
+  MEMBER(pose_wall_motion_result, edge_points);
+  MEMBER(pose_wall_motion_result, plane_points);
+  MEMBER(pose_wall_motion_result, matched);
+  MEMBER(pose_wall_motion_result, tiles);
+  MEMBER(pose_wall_motion_result, keyframes);
+  MEMBER(pose_wall_motion_result, wide_start);
+  return padded + struct_end("pose_wall_motion_result", sizeof(pose_wall_motion_result));
+}
+
 int main(void) {
   int padded = config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout();
   padded += pointers_layout() + image_layout();
   padded += publication_layout() + runtime_options_layout() + runtime_times_layout() + runtime_statistics_layout() +
-            box_info_layout() + box_record_layout() + self_test_layout();
+            box_info_layout() + box_record_layout() + self_test_layout() + motion_layout();
   return padded == 0 ? 0 : 1;
 }

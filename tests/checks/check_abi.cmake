@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# cmake -DPROGRAM=<file> [-DEMULATOR=<words>] -DEXPECTED=<file> -DHEADER=<file> -P check_abi.cmake
-# Runs the program and compares what it prints with the file, which must hold every struct of the header.
+# cmake -DPROGRAM=<file> [-DEMULATOR=<words>] -DEXPECTED=<file> "-DHEADERS=<file>;..." -P check_abi.cmake
+# Runs the program and compares what it prints with the file, which must hold every struct of the headers.
 separate_arguments(EMULATOR)
 execute_process(COMMAND ${EMULATOR} ${PROGRAM} OUTPUT_VARIABLE printed RESULT_VARIABLE status)
 file(READ ${EXPECTED} expected)
-file(STRINGS ${HEADER} structs REGEX "^typedef struct pose_wall_[a-z0-9_]+ {")
+set(structs)
+foreach(header IN LISTS HEADERS)
+  file(STRINGS ${header} more REGEX "^typedef struct pose_wall_[a-z0-9_]+ {")
+  list(APPEND structs ${more})
+endforeach()
 list(TRANSFORM structs REPLACE "typedef struct ([a-z0-9_]+).*" "\\1")
 foreach(struct IN LISTS structs)
   if(NOT "\n${expected}" MATCHES "\n${struct} [0-9]+\n")

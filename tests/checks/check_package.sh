@@ -77,7 +77,8 @@ dpkg-deb -x "$deb" "$work/deb"
 tar -xzf "$tgz" -C "$work/tgz/some"
 diff -r "$work/deb/usr" "$work/tgz/some" || complain "DEB and TGZ hold different files"
 mv "$work/deb/usr" "$work/a/b/moved"
-for file in lib/libpose_wall.a include/pose_wall.h include/pose_wall.hpp lib/pkgconfig/pose_wall.pc \
+for file in lib/libpose_wall.a lib/libpose_wall_motion.a include/pose_wall.h include/pose_wall.hpp \
+  include/pose_wall_motion.h lib/pkgconfig/pose_wall.pc lib/pkgconfig/pose_wall_motion.pc \
   lib/cmake/pose_wall/pose_wall-config.cmake share/doc/libpose-wall-dev/copyright \
   share/doc/libpose-wall-dev/pose_wall.spdx.json share/doc/libpose-wall-dev/plc/FB_PoseWall.st; do
   [ -s "$work/a/b/moved/$file" ] || complain "the package has no $file"
@@ -90,8 +91,10 @@ case $architecture in
   arm64) machine=AArch64 ;;
   *) complain "architecture $architecture is not known here" ;;
 esac
-readelf -h "$work/a/b/moved/lib/libpose_wall.a" | grep -q "Machine:.*$machine" ||
-  complain "the archive is not for $machine"
+for archive in pose_wall pose_wall_motion; do
+  readelf -h "$work/a/b/moved/lib/lib$archive.a" | grep -q "Machine:.*$machine" ||
+    complain "lib$archive.a is not for $machine"
+done
 
 for prefix in "$work/a/b/moved" "$work/tgz/some"; do
   "$source/tests/checks/consume.sh" "$cmake" "$source" "$prefix" "$cc" "$cxx" "$toolchain" "$@"

@@ -99,6 +99,13 @@ class Checks:
         self.hold(what, self.browser.run(INK % canvas) != before)
 
 
+def check_quiet(browser, checks):
+    errors = [entry["message"] for entry in browser.log("browser") if entry["level"] == "SEVERE"]
+    checks.hold(f"the page logs no error {errors}", not errors)
+    asked = [address for address in requests_made(browser) if not address.startswith(("file:", "data:"))]
+    checks.hold(f"the page asks the network for nothing {asked}", not asked)
+
+
 def check(browser, frames, prefix):
     run, checks = browser.run, Checks(browser)
     text = lambda name: run(f"return document.getElementById('{name}').textContent")
@@ -169,10 +176,7 @@ def check(browser, frames, prefix):
                 "NaN" not in run("return document.body.innerText"))
     if prefix:
         browser.screenshot(f"{prefix}_dark_zh.png")
-    errors = [entry["message"] for entry in browser.log("browser") if entry["level"] == "SEVERE"]
-    checks.hold(f"the page logs no error {errors}", not errors)
-    asked = [address for address in requests_made(browser) if not address.startswith(("file:", "data:"))]
-    checks.hold(f"the page asks the network for nothing {asked}", not asked)
+    check_quiet(browser, checks)
     return checks.failed
 
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The bill of materials has what SPDX 2.3 asks for, names the archive by its digest, and Eigen by the version that the
-compiler finds in its headers.
+"""The bill of materials has what SPDX 2.3 asks for, names the archives by their digests, and Eigen by the version that
+the compiler finds in its headers.
 
-usage: check_sbom.py SPDX_JSON ARCHIVE VERSION CXX EIGEN_INCLUDE_DIR"""
+usage: check_sbom.py SPDX_JSON VERSION CXX EIGEN_INCLUDE_DIR ARCHIVE..."""
 
 import hashlib
 import json
@@ -17,7 +17,8 @@ DOCUMENT = {"spdxVersion": r"SPDX-2\.3", "dataLicense": r"CC0-1\.0", "SPDXID": "
             "name": r"pose_wall-\d+\.\d+\.\d+", "documentNamespace": r"https?://[^#\s]+"}
 PACKAGE = {"SPDXID": r"SPDXRef-[A-Za-z0-9.-]+", "name": r".+", "downloadLocation": r"NOASSERTION|https://.+",
            "versionInfo": r"\d+\.\d+.*"}
-LICENCES = {"pose_wall": ("BSD-3-Clause", "BSD-3-Clause AND MPL-2.0"), "Eigen": ("MPL-2.0", "MPL-2.0")}
+LICENCES = {"Eigen": ("MPL-2.0", "MPL-2.0")}
+OWN_LICENCES = ("BSD-3-Clause", "BSD-3-Clause AND MPL-2.0")
 
 
 def field_faults(where, found, rules):
@@ -42,7 +43,7 @@ def document_faults(document):
         yield f"relationships are {sorted(kinds)}"
 
 
-def package_faults(packages, expected_versions, digest):
+def package_faults(packages, expected_versions, digests):
     for package in packages.values():
         yield from field_faults(package["name"], package, PACKAGE)
     for name, version in expected_versions.items():
@@ -52,11 +53,11 @@ def package_faults(packages, expected_versions, digest):
             continue
         if package["versionInfo"] != version:
             yield f"{name} is {version}, the bill says {package['versionInfo']}"
-        if (package["licenseDeclared"], package["licenseConcluded"]) != LICENCES[name]:
+        if (package["licenseDeclared"], package["licenseConcluded"]) != LICENCES.get(name, OWN_LICENCES):
             yield f"licences of {name}"
-    sums = packages.get("pose_wall", {}).get("checksums", [])
-    if {"algorithm": "SHA256", "checksumValue": digest} not in sums:
-        yield "the digest is not that of the archive"
+    for name, digest in digests.items():
+        if {"algorithm": "SHA256", "checksumValue": digest} not in packages.get(name, {}).get("checksums", []):
+            yield f"{name}: the digest is not that of the archive"
 
 
 def eigen_version(compiler, folder):
@@ -67,12 +68,15 @@ def eigen_version(compiler, folder):
 
 
 def main():
-    file, archive, version, compiler, folder = sys.argv[1:]
+    file, version, compiler, folder, *archives = sys.argv[1:]
+    if not archives:
+        sys.exit(__doc__)
     document = json.loads(pathlib.Path(file).read_text(encoding="utf-8"))
     packages = {package["name"]: package for package in document.get("packages", [])}
-    versions = {"pose_wall": version, "Eigen": eigen_version(compiler, folder)}
-    digest = hashlib.sha256(pathlib.Path(archive).read_bytes()).hexdigest()
-    faults = [*document_faults(document), *package_faults(packages, versions, digest)]
+    digests = {re.sub(r"^lib(.*)\.a$", r"\1", path.name): hashlib.sha256(path.read_bytes()).hexdigest()
+               for path in map(pathlib.Path, archives)}
+    versions = {**{name: version for name in digests}, "Eigen": eigen_version(compiler, folder)}
+    faults = [*document_faults(document), *package_faults(packages, versions, digests)]
     print("\n".join(faults) or "; ".join(f"{name} {package['versionInfo']}" for name, package in packages.items()))
     sys.exit(1 if faults else 0)
 

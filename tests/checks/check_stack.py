@@ -4,17 +4,19 @@
 """The most stack that any function of the C ABI can need, from the call graph: no recursion, no frame of unknown size,
 and at most so many bytes.
 
-    check_stack.py FOLDER LIMIT [README.md ROW]  FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
+    check_stack.py FOLDER LIMIT [--readme README.md ROW] [--of PREFIX]
 
+FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
 README.md: what its table of archives says of this machine's stack has to be so.
+PREFIX: looks at the functions that begin so; pose_wall_ where none is given.
 
 What the engine asks of the C library (memcpy, memset, sqrt) is counted as LIBRARY bytes each; the caller's own clock is
 not counted.
 """
 
+import argparse
 import pathlib
 import re
-import sys
 
 NODE = re.compile(r'^node: \{ title: "([^"]+)" label: "([^"]*)"', re.MULTILINE)
 EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.MULTILINE)
@@ -67,13 +69,17 @@ def differs_from(readme, row_name, worst):
 
 
 def main():
-    if len(sys.argv) not in (3, 5):
-        raise SystemExit(__doc__)
-    limit = int(sys.argv[2])
-    sizes, calls, faults = read(sys.argv[1])
-    roots = sorted(name for name in sizes if name.startswith("pose_wall_"))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("limit", type=int)
+    parser.add_argument("--readme", nargs=2, metavar=("README", "ROW"))
+    parser.add_argument("--of", default="pose_wall_", metavar="PREFIX")
+    options = parser.parse_args()
+    limit = options.limit
+    sizes, calls, faults = read(options.folder)
+    roots = sorted(name for name in sizes if name.startswith(options.of))
     if not roots:
-        raise SystemExit(f"{sys.argv[1]}: no call graph of any pose_wall_* function: nothing was checked")
+        raise SystemExit(f"{options.folder}: no call graph of any {options.of}* function: nothing was checked")
     known = {}
     worst, chain = max(deepest(root, sizes, calls, known, []) for root in roots)
     for function, own in chain:
@@ -81,8 +87,8 @@ def main():
     print(f"{worst:7d} bytes at most, of {limit}; {len(roots)} functions looked at")
     if worst > limit:
         faults.append(f"{worst} bytes of stack are more than {limit}")
-    if len(sys.argv) == 5:
-        faults += differs_from(sys.argv[3], sys.argv[4], worst)
+    if options.readme:
+        faults += differs_from(*options.readme, worst)
     for fault in faults:
         print(fault)
     raise SystemExit(1 if faults else 0)

@@ -129,6 +129,31 @@ class Layers(BrokenProject):
         self.include("src/runtime/worker.cpp", '#include "worker.hpp"')
         self.passes(*self.check())
 
+    def test_motion_passes(self):
+        self.include("src/stages/voxel_cloud_reader.hpp", "")
+        self.include("src/struct_versions.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "travel.hpp"\n#include "stages/voxel_cloud_reader.hpp"\n'
+                     '#include "struct_versions.hpp"\n#include "pose_wall_motion.h"')
+        self.include("src/motion/travel.hpp", "#include <Eigen/Core>")
+        self.passes(*self.check())
+
+    def test_motion_includes_a_stage(self):
+        self.include("src/stages/walls.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "stages/walls.hpp"')
+        self.fails("motion includes", *self.check())
+
+    def test_motion_includes_the_engine(self):
+        self.include("src/engine.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "engine.hpp"')
+        self.fails("motion includes", *self.check())
+
+    def test_engine_includes_motion(self):
+        self.include("src/motion/travel.hpp", "")
+        self.include("src/engine.cpp", '#include "motion/travel.hpp"')
+        self.fails('engine includes "motion/travel.hpp"', *self.check())
+        self.include("src/engine.cpp", '#include "pose_wall_motion.h"')
+        self.fails("src/engine.cpp", *self.check())
+
     def test_public_header_includes_more(self):
         self.write("include/pose_wall.h", HEADER + "#include <stdio.h>\n")
         self.fails("includes stdio.h", *self.check())
@@ -182,12 +207,13 @@ class Stack(BrokenProject):
     def test_readme(self):
         self.graph("a", [("pose_wall_open", "512 bytes (static)")], [])
         self.write("README.md", "| aarch64 | 1 KiB | 0.5 KiB |\n")
-        self.passes(*self.check(), self.root / "README.md", "aarch64")
-        self.fails("no row '| armv7", *self.check(), self.root / "README.md", "armv7")
+        noted = (*self.check(), "--readme", self.root / "README.md")
+        self.passes(*noted, "aarch64")
+        self.fails("no row '| armv7", *noted, "armv7")
         self.write("README.md", "| aarch64 | 1 KiB | 0.8 KiB |\n")
-        self.fails("README.md says 0.8 KiB of stack; it is 0.5", *self.check(), self.root / "README.md", "aarch64")
+        self.fails("README.md says 0.8 KiB of stack; it is 0.5", *noted, "aarch64")
         self.write("README.md", "")
-        self.fails("no row", *self.check(), self.root / "README.md", "aarch64")
+        self.fails("no row", *noted, "aarch64")
 
     def test_recursion(self):
         sizes = [("pose_wall_open", "1 bytes (static)"), ("b", "1 bytes (static)")]
@@ -197,6 +223,14 @@ class Stack(BrokenProject):
     def test_a_frame_of_unknown_size(self):
         self.graph("a", [("pose_wall_open", "100 bytes (dynamic)")], [])
         self.fails("its frame is dynamic", *self.check())
+
+    def test_of_one_library(self):
+        roots = [("pose_wall_open", "2000 bytes (static)"), ("pose_wall_motion_open", "9 bytes (static)")]
+        self.graph("a", roots, [("pose_wall_motion_open", "inner")])
+        self.graph("b", [("inner", "400 bytes (static)")], [])
+        self.passes(*self.check(), "--of", "pose_wall_motion_")
+        self.fails("2000 bytes of stack", *self.check())
+        self.fails("nothing was checked", *self.check(), "--of", "pose_wall_runtime_")
 
     def test_nothing_to_check(self):
         self.graph("a", [("other", "1 bytes (static)")], [])
@@ -280,6 +314,16 @@ class Archive(BrokenProject):
     def test_not_declared(self):
         extra = SOURCE + "void pose_wall_secret(void);\nvoid pose_wall_secret(void) {}\n"
         self.fails("defined but not declared in pose_wall.h: pose_wall_secret", *self.symbols(extra))
+
+    def test_motion_takes_what_it_may_not(self):
+        self.write("include/pose_wall_motion.h", HEADER.replace("abi_version", "motion_abi_version"))
+        motion = SOURCE.replace("pose_wall.h", "pose_wall_motion.h").replace("abi_version", "motion_abi_version")
+        command = list(self.symbols(motion))
+        command[-2:] = self.root / "include/pose_wall_motion.h", CHECKS / "symbols_allowed_motion.txt"
+        self.passes(*command)
+        asks = "extern unsigned pose_wall_process(void);\n" + motion.replace("return 1;", "return pose_wall_process();")
+        command[2] = self.archive(asks)
+        self.fails("imported but not on the list of allowed symbols: pose_wall_process", *command)
 
     def test_needs_more_than_c(self):
         runtime = SOURCE.replace("return 1;", "return (uint32_t)_ZSt9terminatev();")
@@ -517,7 +561,7 @@ class Abi(BrokenProject):
         self.write("printed", printed)
         self.write("expected", expected)
         program, file = f"-DPROGRAM={self.root}/printed", f"-DEXPECTED={self.root}/expected"
-        header = f"-DHEADER={self.root}/include/pose_wall.h"
+        header = f"-DHEADERS={self.root}/include/pose_wall.h"
         return tool("CMAKE", "cmake"), program, file, "-DEMULATOR=cat", header, "-P", CHECKS / "check_abi.cmake"
 
     def test_passes(self):

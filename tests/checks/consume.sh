@@ -40,7 +40,11 @@ quietly "$cc" -std=c99 "$source/tools/example.c" $flags -o "$work/pc/c"
 # shellcheck disable=SC2086
 quietly "$cxx" -std=c++17 "$consumer/consumer.cpp" $flags -o "$work/pc/cpp"
 
-programs="c/consumer cpp/consumer pc/c pc/cpp"
+by_cmake motion "$consumer/motion.c" OFF pose_wall_motion
+# shellcheck disable=SC2046  # words
+quietly "$cc" -std=c99 "$consumer/motion.c" $(pkg-config --cflags --libs pose_wall_motion) -o "$work/pc/motion"
+
+programs="c/consumer cpp/consumer pc/c pc/cpp motion/consumer pc/motion"
 if [ -e "$prefix/lib/libpose_wall_runtime.a" ]; then
   by_cmake runtime "$consumer/runtime.c" OFF pose_wall_runtime
   # shellcheck disable=SC2046  # words

@@ -84,8 +84,10 @@ class BillOfMaterials(BrokenProject):
         super().setUp()
         self.write("eigen/Eigen/Core", '#include "src/Core/util/Macros.h"\n')
         self.eigen("3.4.0")
-        self.write("lib.a", "archive")
-        self.passes(tool("CMAKE", "cmake"), f"-DOUTPUT={self.root}/bill.json", f"-DLIBRARY={self.root}/lib.a",
+        self.write("libpose_wall.a", "archive")
+        self.write("libpose_wall_motion.a", "another")
+        archives = f"{self.root}/libpose_wall.a;{self.root}/libpose_wall_motion.a"
+        self.passes(tool("CMAKE", "cmake"), f"-DOUTPUT={self.root}/bill.json", f"-DLIBRARIES={archives}",
                     "-DVERSION=0.1.0", f"-DEIGEN={self.root}/eigen", "-DCOMPILER=GNU 12.2.0", "-P",
                     CHECKS.parent.parent / "tools/cmake/write_sbom.cmake")
 
@@ -95,8 +97,8 @@ class BillOfMaterials(BrokenProject):
         self.write("eigen/Eigen/src/Core/util/Macros.h", text)
 
     def check(self, version="0.1.0"):
-        return (CHECKS / "check_sbom.py", self.root / "bill.json", self.root / "lib.a", version, tool("CC", "cc"),
-                self.root / "eigen")
+        return (CHECKS / "check_sbom.py", self.root / "bill.json", version, tool("CC", "cc"), self.root / "eigen",
+                self.root / "libpose_wall.a", self.root / "libpose_wall_motion.a")
 
     def change(self, old, new):
         text = (self.root / "bill.json").read_text(encoding="utf-8")
@@ -114,8 +116,14 @@ class BillOfMaterials(BrokenProject):
         self.fails("pose_wall is 0.2.0, the bill says 0.1.0", *self.check("0.2.0"))
 
     def test_other_archive(self):
-        self.write("lib.a", "another archive")
-        self.fails("the digest is not that of the archive", *self.check())
+        for name in ("pose_wall", "pose_wall_motion"):
+            self.setUp()
+            self.write(f"lib{name}.a", "one that came later")
+            self.fails(f"{name}: the digest is not that of the archive", *self.check())
+
+    def test_an_archive_that_it_does_not_name(self):
+        self.write("libpose_wall_more.a", "archive")
+        self.fails("no package pose_wall_more", *self.check(), self.root / "libpose_wall_more.a")
 
     def test_licence(self):
         self.change("MPL-2.0", "MIT")

@@ -48,7 +48,8 @@ def main():
         sys.exit(__doc__)
     path, printed = pathlib.Path(words[0]), run(words[1:])
     if note:
-        path.write_text("".join(f"# {text}\n" for text in HEAD) + printed, encoding="utf-8")
+        head = [*HEAD, f"tests/digest/check_digests.py --note tests/digest/{path.name} {words[-1]}"]
+        path.write_text("".join(f"# {text}\n" for text in head) + printed, encoding="utf-8")
         return
     worse = differences(lines_of(path.read_text(encoding="utf-8")), lines_of(printed))
     print("\n".join(worse) or f"{len(lines_of(printed))} sequences, the same bits as noted")
@@ -56,8 +57,7 @@ def main():
 
 
 HEAD = ["Sequence, frames, points, digest of the points, digest of the results, values measured of those asked for.",
-        "The same from every build. After a change of the engine that is meant to change results, note them anew:",
-        "tests/digest/check_digests.py --note tests/digest/digests.txt build/release/tests/pose_wall_digest"]
+        "The same from every build. After a change of the engine that is meant to change results, note them anew:"]
 
 if __name__ == "__main__":
     main()

@@ -22,7 +22,7 @@ mkdir -p $build/logs
 # The largest input that is tried: as much as a target can use, no more.
 max_len_of() {
   case $1 in
-    sequence | memento) echo 400 ;;
+    sequence | motion | memento) echo 400 ;;
     config) echo 512 ;;
     work) echo 64 ;;
     image | frame) echo 2048 ;;

@@ -83,6 +83,26 @@ void sequences() {
   write("sequence", Text("\0", 1) + frame + frame + Text("\6\0", 2) + frame + Text("\5\0\4\0", 4));
 }
 
+// Drives along roads of any kind, with what may befall a frame.
+void motions() {
+  const Text rough("\x01\x60\x60\xff\x80\x60\x80\x40\x18");  // with bumps, a step of 5 cm
+  const Text begin = Text("\0\0", 2) + rough + Text("\0", 1), on("\1\0\0", 3), empty("\6\0\0", 3), again("\5\0\0", 3);
+  const Text plain("\0\0", 2);  // config and settings
+  write("motion", plain + begin + on + on + on + on + on + on);
+  write("motion", plain + begin + on + empty + on + again + on + Text("\7\0", 2));
+  write("motion", plain + empty + begin + on + Text("\1\xe0", 2) + raw<std::int64_t>(INT64_MIN) + Text("\0", 1) + on);
+  write("motion", plain + begin + Text("\1\0\2\3\0\3\4\2", 8) + on + Text("\1\0\1\7\x90\x20\x90\x20", 8) + on);
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Text bytes = Text(1, static_cast<char>(seed % 4)) + chance(seed, 2 * (seed % 4) + 5);
+    for (std::uint64_t event = 0; event < 6; ++event) {
+      bytes += static_cast<char>((seed * 3 + event) % 7);
+      bytes += '\0';
+      bytes += chance(seed * 32 + event, 14);
+    }
+    write("motion", bytes);
+  }
+}
+
 void mementos() {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) write("memento", Text(1, char(seed % 2)) + chance(seed, 12));
   write("memento", Text("\x02", 1) + chance(3, 512));
@@ -237,6 +257,7 @@ int main(int argc, char** argv) {
   g_folder = argv[1];
   frames();
   sequences();
+  motions();
   mementos();
   runtimes();
   images();

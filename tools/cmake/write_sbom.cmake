@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 
-# cmake -DOUTPUT= -DLIBRARY= -DVERSION= -DEIGEN=<include folders> -DCOMPILER="GNU 12.2.0" -P write_sbom.cmake
-# With SOURCE_DATE_EPOCH set, the same library gives the same file.
+# cmake -DOUTPUT= "-DLIBRARIES=<archive>;..." -DVERSION= -DEIGEN=<include folders> -DCOMPILER="GNU 12.2.0"
+#   -P write_sbom.cmake
+# With SOURCE_DATE_EPOCH set, the same archives give the same file.
 foreach(folder IN LISTS EIGEN)
   if(EXISTS ${folder}/Eigen/src/Core/util/Macros.h)
     file(STRINGS ${folder}/Eigen/src/Core/util/Macros.h lines REGEX "#define EIGEN_(WORLD|MAJOR|MINOR)_VERSION [0-9]+")
@@ -13,7 +14,40 @@ list(JOIN lines "." eigen_version)
 if(NOT eigen_version MATCHES "^[0-9]+\\.[0-9]+\\.[0-9]+$")
   message(FATAL_ERROR "Eigen's version is not to be found in its headers in '${EIGEN}'")
 endif()
-file(SHA256 ${LIBRARY} digest)
+set(packages)
+set(relationships)
+set(files)
+set(digests)
+foreach(library IN LISTS LIBRARIES)
+  get_filename_component(file ${library} NAME)
+  string(REGEX REPLACE "^lib(.*)\\.a$" "\\1" name ${file})
+  string(REPLACE "_" "-" id ${name})
+  file(SHA256 ${library} digest)
+  list(APPEND files ${file})
+  string(APPEND digests ${digest})
+  string(APPEND packages "    {
+      \"SPDXID\": \"SPDXRef-${id}\",
+      \"name\": \"${name}\",
+      \"versionInfo\": \"${VERSION}\",
+      \"primaryPackagePurpose\": \"LIBRARY\",
+      \"supplier\": \"Organization: the pose_wall authors\",
+      \"downloadLocation\": \"NOASSERTION\",
+      \"filesAnalyzed\": false,
+      \"packageFileName\": \"${file}\",
+      \"checksums\": [ { \"algorithm\": \"SHA256\", \"checksumValue\": \"${digest}\" } ],
+      \"licenseConcluded\": \"BSD-3-Clause AND MPL-2.0\",
+      \"licenseDeclared\": \"BSD-3-Clause\",
+      \"copyrightText\": \"Copyright (c) 2026 the pose_wall authors\"
+    },
+")
+  string(APPEND relationships "    { \"spdxElementId\": \"SPDXRef-DOCUMENT\", \"relationshipType\": \"DESCRIBES\",
+      \"relatedSpdxElement\": \"SPDXRef-${id}\" },
+    { \"spdxElementId\": \"SPDXRef-${id}\", \"relationshipType\": \"STATIC_LINK\",
+      \"relatedSpdxElement\": \"SPDXRef-Eigen\" },
+")
+endforeach()
+list(JOIN files " and " files)
+string(SHA256 digest "${digests}")  # of the document
 string(TIMESTAMP created "%Y-%m-%dT%H:%M:%SZ" UTC)
 string(REPLACE " " ";" compiler ${COMPILER})
 list(GET compiler 0 compiler_name)
@@ -26,21 +60,7 @@ file(WRITE ${OUTPUT} "{
   \"documentNamespace\": \"https://spdx.org/spdxdocs/pose_wall-${VERSION}-${digest}\",
   \"creationInfo\": { \"created\": \"${created}\", \"creators\": [ \"Organization: the pose_wall authors\" ] },
   \"packages\": [
-    {
-      \"SPDXID\": \"SPDXRef-pose-wall\",
-      \"name\": \"pose_wall\",
-      \"versionInfo\": \"${VERSION}\",
-      \"primaryPackagePurpose\": \"LIBRARY\",
-      \"supplier\": \"Organization: the pose_wall authors\",
-      \"downloadLocation\": \"NOASSERTION\",
-      \"filesAnalyzed\": false,
-      \"packageFileName\": \"libpose_wall.a\",
-      \"checksums\": [ { \"algorithm\": \"SHA256\", \"checksumValue\": \"${digest}\" } ],
-      \"licenseConcluded\": \"BSD-3-Clause AND MPL-2.0\",
-      \"licenseDeclared\": \"BSD-3-Clause\",
-      \"copyrightText\": \"Copyright (c) 2026 the pose_wall authors\"
-    },
-    {
+${packages}    {
       \"SPDXID\": \"SPDXRef-Eigen\",
       \"name\": \"Eigen\",
       \"versionInfo\": \"${eigen_version}\",
@@ -50,7 +70,7 @@ file(WRITE ${OUTPUT} "{
       \"licenseConcluded\": \"MPL-2.0\",
       \"licenseDeclared\": \"MPL-2.0\",
       \"copyrightText\": \"NOASSERTION\",
-      \"comment\": \"Header-only; its instantiations are compiled into libpose_wall.a.\"
+      \"comment\": \"Header-only; its instantiations are compiled into ${files}.\"
     },
     {
       \"SPDXID\": \"SPDXRef-compiler\",
@@ -64,11 +84,7 @@ file(WRITE ${OUTPUT} "{
     }
   ],
   \"relationships\": [
-    { \"spdxElementId\": \"SPDXRef-DOCUMENT\", \"relationshipType\": \"DESCRIBES\",
-      \"relatedSpdxElement\": \"SPDXRef-pose-wall\" },
-    { \"spdxElementId\": \"SPDXRef-pose-wall\", \"relationshipType\": \"STATIC_LINK\",
-      \"relatedSpdxElement\": \"SPDXRef-Eigen\" },
-    { \"spdxElementId\": \"SPDXRef-compiler\", \"relationshipType\": \"BUILD_TOOL_OF\",
+${relationships}    { \"spdxElementId\": \"SPDXRef-compiler\", \"relationshipType\": \"BUILD_TOOL_OF\",
       \"relatedSpdxElement\": \"SPDXRef-pose-wall\" }
   ]
 }

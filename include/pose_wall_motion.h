@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/* clang-format off */
+/*
+ * pose_wall_motion: how the machine moves along its roadway, from the same LiDAR frames.
+ *
+ * Per frame: the pose of base, how far it went along the road, and for each of six directions a standard deviation and
+ * a protection level. Along a road most odometries stand still or slip and do not say so; this one reads the relief of
+ * the rock, and tells a state along the road of its own: measured, ambiguous, unobservable or lost.
+ *
+ *     pose_wall_motion_settings settings;
+ *     pose_wall_motion_settings_init(&settings);
+ *     uint64_t bytes = pose_wall_motion_memory_needed();
+ *     pose_wall_motion *motion;
+ *     pose_wall_motion_open(&config, &settings, block, bytes, &motion);
+ *     for every frame: pose_wall_motion_process(motion, &cloud, &result);
+ *
+ * FRAMES    base as in pose_wall.h. start: base as it stood at the first frame; poses are in it. Pose: a point p of
+ *           base lies at R p + position in start, with R of the quaternion. road: the axis along which the road gives
+ *           least hold, horizontal in the main; along is positive where forward_axis points at the first frame.
+ * TIME      a pose is that of the frame's stamp_ns. Where the cloud has a time field, each point is taken to be
+ *           measured so long after it, and the machine's motion is taken out of the scan.
+ * UNITS     metres, radians, seconds, nanoseconds (stamps). NaN where there is no number.
+ * MEMORY    only the caller's block, and less than 32 kB of stack. No call allocates, blocks, prints, reads a clock or
+ *           throws.
+ * THREADS   one motion belongs to one thread at a time; different ones are independent.
+ * STRUCTS   begin with struct_size and grow at their end only, as in pose_wall.h.
+ * FLOATS    IEEE 754 without fast-math; the same version and input give the same bits on x86-64 and AArch64.
+ * LINKING   libpose_wall_motion.a needs libpose_wall.a for the config.
+ *
+ * METHOD    the stages of Shan and Englot, LeGO-LOAM, IROS 2018: range image, ground, clusters, features, and two steps
+ *           of Levenberg-Marquardt, roll, pitch and height before yaw and the place across. Along the road, where those
+ *           tell nothing, heights of the rock about its own planes are matched with a map of them. src/motion/README.md
+ *           has the method and what it costs.
+ */
+/* clang-format on */
+
+#ifndef POSE_WALL_MOTION_H
+#define POSE_WALL_MOTION_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "pose_wall.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Raised when a struct or function of this header changes incompatibly. */
+#define POSE_WALL_MOTION_ABI_VERSION 1
+/* POSE_WALL_MOTION_ABI_VERSION of the library that is linked. */
+uint32_t pose_wall_motion_abi_version(void);
+
+/* ---------------------------------------------------------------------------------------------- settings */
+
+/* What the config of the engine does not hold. Extrinsic, forward_axis, range_min, body boxes and protection_factor are
+ * read from there. */
+typedef struct pose_wall_motion_settings {
+  uint32_t struct_size;  /* set by pose_wall_motion_settings_init */
+  uint32_t reserved;     /* 0 */
+  double speed_max_m_s;  /* 0.01 to 30: no machine is faster. How far a frame is searched for, and how fast the level
+                            along the road widens while nothing tells the way */
+  double turn_max_rad_s; /* 0.01 to 10: no machine turns faster */
+  double range_max_m;    /* 3 to 100: returns further away are not used */
+  double keyframe_m;     /* 0.05 to 1: the map takes a scan in after so much travel */
+} pose_wall_motion_settings;
+
+/* 2 m/s, a quarter turn a second, 30 m, 0.2 m. Fails iff: NULL. */
+int32_t pose_wall_motion_settings_init(pose_wall_motion_settings* settings);
+
+/* What is wrong with settings: the member's name and what it takes, static storage. */
+typedef struct pose_wall_motion_fault {
+  const char* member;
+  const char* rule; /* "speed_max_m_s must be from 0.01 to 30" */
+} pose_wall_motion_fault;
+/* Fails iff: settings NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_VALUE_RANGE (*fault is written then,
+ * unless fault is NULL). */
+POSE_WALL_CHECKED int32_t pose_wall_motion_settings_check(const pose_wall_motion_settings* settings,
+                                                          pose_wall_motion_fault* fault);
+
+/* ---------------------------------------------------------------------------------------------- result */
+
+/* Of the way along the road in this frame. */
+enum pose_wall_along_state {
+  POSE_WALL_ALONG_LOST = 0,         /* the scan fits the map nowhere: no pose. The map begins anew with this scan */
+  POSE_WALL_ALONG_UNOBSERVABLE = 1, /* nothing tells the way along the road: dead reckoning by the last speed that was
+                                       measured or given, and the level widens by the top speed */
+  POSE_WALL_ALONG_AMBIGUOUS = 2,    /* two places fit alike, as periodic sets do: the nearer to the expected one, and
+                                       the level covers both */
+  POSE_WALL_ALONG_MEASURED = 3
+};
+/* "measured"; static storage. */
+const char* pose_wall_motion_along_state_name(uint32_t state);
+
+/* Why, in bits; pinned by a test. */
+enum pose_wall_motion_reason {
+  POSE_WALL_MOTION_R_FIRST = 1 << 0,       /* the map begins with this frame */
+  POSE_WALL_MOTION_R_FEW_POINTS = 1 << 1,  /* too few points with a surface around them */
+  POSE_WALL_MOTION_R_FEW_MATCHES = 1 << 2, /* too few of them lie on the map */
+  POSE_WALL_MOTION_R_SMOOTH = 1 << 3,      /* the relief tells no place from its neighbours */
+  POSE_WALL_MOTION_R_FEW_PATCHES = 1 << 4, /* what tells the place are too few patches of rock: one person, one prop */
+  POSE_WALL_MOTION_R_HALVES_DIFFER = 1 << 5, /* two halves of the rock tell different places */
+  POSE_WALL_MOTION_R_SECOND_PEAK = 1 << 6,   /* another place fits nearly as well */
+  POSE_WALL_MOTION_R_AT_EDGE = 1 << 7,       /* the best place lies at the edge of what was searched */
+  POSE_WALL_MOTION_R_NO_GROUND = 1 << 8,     /* roll, pitch and height are told by walls and roof alone */
+  POSE_WALL_MOTION_R_STAMP = 1 << 9,  /* the stamp stood still or went back: nothing is taken from this frame, its pose
+                                          is the last one. The second stamp in a row that went back is believed */
+  POSE_WALL_MOTION_R_GAP = 1 << 10,   /* frames are missing before this one: it was searched for in a wide start */
+  POSE_WALL_MOTION_R_PRIOR = 1 << 11, /* the frame's inputs contradict what was measured, and were not used */
+  POSE_WALL_MOTION_R_MAP_FULL = 1 << 12 /* the oldest part of the map gave way to the newest */
+};
+#define POSE_WALL_MOTION_REASON_COUNT 13
+/* "halves_differ", and one English sentence; static storage. */
+const char* pose_wall_motion_reason_name(uint32_t bit_index);
+const char* pose_wall_motion_reason_text(uint32_t bit_index);
+
+/* Directions of sigma and protection_level: in the road, about the axes of start. */
+enum pose_wall_motion_direction {
+  POSE_WALL_MOTION_ALONG = 0,
+  POSE_WALL_MOTION_ACROSS = 1,
+  POSE_WALL_MOTION_UP = 2,
+  POSE_WALL_MOTION_ROLL = 3,
+  POSE_WALL_MOTION_PITCH = 4,
+  POSE_WALL_MOTION_YAW = 5,
+  POSE_WALL_MOTION_DIRECTIONS = 6
+};
+/* "along"; static storage. */
+const char* pose_wall_motion_direction_name(uint32_t direction);
+
+typedef struct pose_wall_motion_result {
+  uint32_t struct_size; /* set by the caller to sizeof(pose_wall_motion_result) before the call */
+  uint32_t along_state; /* pose_wall_along_state */
+  uint32_t reasons;     /* pose_wall_motion_reason bits */
+  uint32_t mark;        /* the library's: tells a result from memory that nobody wrote */
+  int64_t stamp_ns;     /* the frame's */
+  uint64_t frame_index; /* counts processed frames from 0 */
+
+  /* the pose of base in start; NaN while lost */
+  double position_m[3];
+  double quaternion[4]; /* x, y, z, w; unit, w >= 0 */
+  /* of that pose, accumulated since the first frame. |pose - truth| stays within protection_level */
+  double sigma[POSE_WALL_MOTION_DIRECTIONS];
+  double protection_level[POSE_WALL_MOTION_DIRECTIONS]; /* infinite while lost */
+  double road_axis[3]; /* unit, in start: the direction that along means in this frame */
+  double along_m;      /* travel along the road since the first frame, backwards subtracts; NaN while lost */
+
+  /* from the last frame that had a pose to this one, in base of that frame; NaN in the first and while lost */
+  double step_m[3];
+  double step_rad[3]; /* rotation vector */
+  double step_s;
+  double step_sigma[POSE_WALL_MOTION_DIRECTIONS];
+  double step_protection_level[POSE_WALL_MOTION_DIRECTIONS];
+
+  /* what tells the way along; NaN where nothing was searched */
+  double contrast;    /* how much worse other places fit: (median - best) / best of the search curve */
+  double patches;     /* how many patches of rock agree: their mean gain over its own standard error */
+  double halves_m;    /* by how much two halves of the rock differ */
+  double second_m;    /* where the second best place lies from the best */
+  double second_gain; /* how much of the best one's gain it has, 0 to 1 */
+
+  uint32_t points_in;
+  uint32_t points_used;   /* in the range image */
+  uint32_t ground_points; /* marked as ground */
+  uint32_t clusters;      /* of 30 points or more */
+  uint32_t edge_points;
+  uint32_t plane_points;
+  uint32_t matched; /* plane points on the map's surfaces */
+  uint32_t tiles;   /* square metres of surface in the map */
+  uint32_t keyframes;
+  uint32_t wide_start; /* 1: the frame was searched for without a guess */
+} pose_wall_motion_result;
+
+/* ---------------------------------------------------------------------------------------------- motion */
+
+typedef struct pose_wall_motion pose_wall_motion;
+
+/* Bytes of the block, at most 6 MiB. */
+uint64_t pose_wall_motion_memory_needed(void);
+
+/* Places a motion in block, which may hold anything, stays the caller's and must not move. settings may be NULL:
+ * defaults. Fails iff: config or motion or block NULL, config or settings not initialised (POSE_WALL_E_STRUCT_SIZE),
+ * POSE_WALL_E_CONFIG_RULE, POSE_WALL_E_VALUE_RANGE, POSE_WALL_E_BLOCK_SMALL, POSE_WALL_E_BLOCK_ALIGN. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_open(const pose_wall_config* config,
+                                                const pose_wall_motion_settings* settings, void* block,
+                                                uint64_t block_bytes, pose_wall_motion** motion);
+
+/* Forgets map and pose, as if just opened. Fails iff: NULL, not open (POSE_WALL_E_ENGINE). */
+POSE_WALL_CHECKED int32_t pose_wall_motion_reset(pose_wall_motion* motion);
+
+/* One frame in, one result out. Set result->struct_size first. The cloud's time and ring fields are used where they are
+ * there, and so are the speed, the turn rate and standing of its inputs. Fails as pose_wall_process does, with the
+ * result unchanged. Cost: reading the cloud plus a bounded part. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_process(pose_wall_motion* motion, const pose_wall_cloud* cloud,
+                                                   pose_wall_motion_result* result);
+
+/* The map's surface points, in start, for pictures: writes up to `capacity` of them from the first-th on as x, y, z and
+ * gives how many there are in all. Fails iff: motion or total NULL, xyz_m NULL with capacity > 0, not open. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,
+                                               uint32_t capacity, uint32_t* total);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_MOTION_H */

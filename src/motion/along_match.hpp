@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The way along the road, by the relief of the rock: how well the scan fits the map when it is shifted along, and what
+// that curve is worth. The other five directions are fitted anew at every shift, so that a bend or a slope of a smooth
+// road is no evidence.
+
+#pragma once
+
+#include "motion/registration.hpp"
+
+namespace pose_wall::motion {
+
+constexpr std::uint32_t kShiftsMost = 33;
+constexpr std::uint32_t kRowsMost = 2048;  // observations of the curve
+
+struct Curve {
+  double best_m = 0.0;    // shift of the scan along the road that fits best, to a part of a step
+  double bottom = 0.0;    // mean squared misfit there, in variances
+  double contrast = 0.0;  // (median - bottom) / bottom
+  double patches = 0.0;   // how clearly the patches of rock agree that it fits better there than elsewhere
+  // Which other shifts the patches do not exclude: up to so far about the best, and apart from these.
+  double around_m = 0.0, apart_m = 0.0;
+  double second_m = 0.0, second_gain = 0.0;
+  bool open = false;  // as far as was searched nothing is excluded, on one side at least
+  bool told = false;  // a curve could be drawn
+};
+
+// Whether the curve tells a place: the patches agree, and exclude the ends of the search.
+bool is_evidence(const Curve& curve);
+
+struct CurveScratch {
+  void lay_out(Arena& arena);
+  Span<float> misfit;    // [shift][row], in deviations; NaN where the map knows nothing
+  Span<float> jacobian;  // [row][5]
+  Span<std::uint16_t> tile;
+  Span<float> gain;  // [tile]
+  Span<std::uint8_t> gains;
+};
+
+// What the rows say about a shift so small that the curve is a parabola: the place of its bottom, and its standard
+// deviation by patches of rock, which err together.
+struct FinePlace {
+  double best_m = 0.0, sigma_m = 0.0;
+  double halves_m = 0.0;  // by how much two halves of the patches differ
+  bool told = false;
+};
+FinePlace refine_along(const Scan& scan, const Alignment& alignment, CurveScratch* scratch);
+
+// Shifts from -reach_m to reach_m in equal steps about the alignment.
+Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, std::uint32_t shifts,
+                  CurveScratch* scratch);
+
+}  // namespace pose_wall::motion

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "motion/features.hpp"
+
+#include <cmath>
+
+namespace pose_wall::motion {
+namespace {
+
+constexpr std::int32_t kAround = 5;  // neighbours on each side (Zhang and Singh, LOAM, RSS 2014)
+// More is an edge, less a plane. Steel sets stretched the way by 0.25 % with LeGO-LOAM's 0.1, by 0.16 % with this.
+constexpr float kEdgeCurvature = 0.03F;
+constexpr float kOcclusion_m = 0.1F;    // neighbours that differ by more: one of them stands before the other
+constexpr float kBaseline_m = 0.25F;    // to each side, for normals: half of the rock's usual roughness length
+constexpr std::uint32_t kCubes = 8192;  // hashed cubic metres
+constexpr std::uint8_t kPerCube = 24;
+constexpr std::int32_t kTries = 4;
+
+// The ranges of one row, in the order of directions, 0 where no point was kept; its ends go round.
+struct RowOfRanges {
+  float range[kImageColumnsMost + 2 * kAround];
+  std::uint32_t columns;
+
+  void read(const RangeImage& image, std::uint32_t row) {
+    columns = image.columns;
+    const Span<std::uint16_t> cell(image.cell.data() + row * columns, columns);
+    for (std::uint32_t k = 0; k < columns; ++k) {
+      const bool kept = cell[k] != kNoPoint && (image.flags[cell[k]] & kKept) != 0;
+      range[k + kAround] = kept ? image.range[cell[k]] : 0.0F;
+    }
+    for (std::int32_t k = 0; k < kAround; ++k) {
+      range[k] = range[static_cast<std::int32_t>(columns) + k];
+      range[static_cast<std::int32_t>(columns) + kAround + k] = range[kAround + k];
+    }
+  }
+
+  // Whether the nearest neighbours hide the point: what lies behind an edge moves with the sensor.
+  bool is_hidden(std::uint32_t column) const {
+    const float* const at = range + column + kAround;
+    const float least = *at - kOcclusion_m - 0.1F * *at;
+    for (const int k : {-2, -1, 1, 2}) {
+      if (at[k] > 0.0F && at[k] < least) return true;
+    }
+    return false;
+  }
+};
+
+// Sums over the neighbours on both sides, kept as the column goes on.
+struct Window {
+  float sum = 0.0F;
+  std::int32_t found = 0;
+
+  explicit Window(const RowOfRanges& row) {
+    for (std::int32_t k = 0; k < 2 * kAround; ++k) take(row.range[k], 1);
+  }
+  void take(float range, std::int32_t sign) {
+    sum += static_cast<float>(sign) * range;
+    found += range > 0.0F ? sign : 0;
+  }
+  // |sum of (r_j - r_i)| / (n r_i), the document's smoothness.
+  float curvature(float r) const {
+    const float n = static_cast<float>(found);
+    return std::fabs(sum - n * r) / (n * r);
+  }
+};
+
+// The first point in a direction that lies on the same surface.
+std::uint16_t neighbour(const RangeImage& image, std::int32_t row, std::int32_t column, std::int32_t row_step,
+                        std::int32_t column_step, float range) {
+  for (std::int32_t k = 0; k < kTries; ++k, row += row_step, column += column_step) {
+    const std::uint16_t j = image.at(row, column);
+    if (j != kNoPoint && std::fabs(image.range[j] - range) < 0.3F + 0.3F * range) return j;
+  }
+  return kNoPoint;
+}
+
+std::uint32_t cube_of(const Eigen::Vector3f& p) {
+  const auto whole = [](float v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(v))); };
+  const std::uint32_t key = whole(p.x()) * 0x9E3779B1U ^ whole(p.y()) * 0x85EBCA77U ^ whole(p.z()) * 0xC2B2AE3DU;
+  return ((key * 0x27D4EB2FU) >> 16) & (kCubes - 1);
+}
+
+std::uint32_t common_divisor(std::uint32_t a, std::uint32_t b) {
+  while (b != 0) {
+    const std::uint32_t rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
+}  // namespace
+
+FeatureCounts mark_features(RangeImage* image) {
+  FeatureCounts counts;
+  RowOfRanges line;
+  for (std::uint32_t row = 0; row < image->rows; ++row) {
+    line.read(*image, row);
+    Window window(line);
+    for (std::uint32_t column = 0; column < image->columns; ++column) {
+      window.take(line.range[column + 2 * kAround], 1);
+      const float r = line.range[column + kAround];
+      if (r > 0.0F && window.found > kAround && !line.is_hidden(column)) {
+        const bool flat = window.curvature(r) < kEdgeCurvature;
+        image->flags[image->cell[row * image->columns + column]] |= flat ? kPlane : kEdge;
+        ++(flat ? counts.planes : counts.edges);
+      }
+      window.take(line.range[column], -1);
+    }
+  }
+  return counts;
+}
+
+bool normal_about(const RangeImage& image, std::uint32_t i, Eigen::Vector3f* normal) {
+  const std::int32_t row = image.row_of(i), column = image.column_of(i);
+  const float r = image.range[i];
+  const float spacing_m = r * (6.2831853F / static_cast<float>(image.columns));
+  std::int32_t far = static_cast<std::int32_t>(kBaseline_m / spacing_m + 0.5F);
+  far = far < 1 ? 1 : far > 16 ? 16 : far;
+  std::uint16_t right = neighbour(image, row, column + far, 0, 1, r);
+  std::uint16_t left = neighbour(image, row, column - far, 0, -1, r);
+  const std::int32_t up_by = image.rows > 40 ? (r < 3.0F ? 4 : 2) : 1;
+  std::uint16_t above = neighbour(image, row + up_by, column, 1, 0, r);
+  std::uint16_t below = neighbour(image, row - up_by, column, -1, 0, r);
+  const std::uint16_t self = static_cast<std::uint16_t>(i);
+  if (right == kNoPoint) right = self;
+  if (left == kNoPoint) left = self;
+  if (above == kNoPoint) above = self;
+  if (below == kNoPoint) below = self;
+  if (right == left || above == below) return false;
+  const Eigen::Vector3f p = image.point(i);
+  Eigen::Vector3f n = (image.point(right) - image.point(left)).cross(image.point(above) - image.point(below));
+  const float length2 = n.squaredNorm();
+  if (!(length2 > 1e-12F)) return false;
+  n /= std::sqrt(length2);
+  *normal = n.dot(p) > 0.0F ? Eigen::Vector3f(-n) : n;
+  return true;
+}
+
+bool facing_of(const Eigen::Vector3f& n, std::uint8_t* facing) {
+  const float ax = std::fabs(n.x()), ay = std::fabs(n.y()), az = std::fabs(n.z());
+  const float most = ax > ay ? (ax > az ? ax : az) : (ay > az ? ay : az);
+  if (!(most > 0.6F)) return false;
+  *facing = most == az ? kFacesZ : most == ay ? kFacesY : kFacesX;
+  return true;
+}
+
+void ObservationScratch::lay_out(Arena& arena) {
+  taken = arena.take<std::uint8_t>(kCubes);
+}
+
+std::uint32_t choose_observations(const RangeImage& image, const Pose& expected, ObservationScratch* scratch,
+                                  Span<Observation> out) {
+  scratch->taken.fill(0);
+  const Eigen::Matrix3f R = expected.R.cast<float>();
+  const Eigen::Vector3f t = (expected.t - expected.t.array().floor().matrix()).cast<float>();
+  std::uint32_t count = 0;
+  // In steps of the golden ratio, so that where the cubes are full what is left out is left out evenly.
+  std::uint32_t step = static_cast<std::uint32_t>(0.618034 * image.count) | 1U;
+  while (common_divisor(image.count, step) != 1) step += 2;
+  std::uint32_t i = 0;
+  for (std::uint32_t k = 0; k < image.count && count < out.size(); ++k) {
+    i += step;
+    if (i >= image.count) i -= image.count;
+    if ((image.flags[i] & kPlane) == 0) continue;
+    const Eigen::Vector3f p = image.point(i);
+    std::uint8_t& taken = scratch->taken[cube_of(R * p + t)];
+    Eigen::Vector3f normal;
+    std::uint8_t facing;
+    if (taken >= kPerCube || !normal_about(image, i, &normal) || !facing_of(R * normal, &facing)) continue;
+    ++taken;
+    out[count++] = {p.x(),  p.y(),
+                    p.z(),  {normal.x(), normal.y(), normal.z()},
+                    facing, static_cast<std::uint8_t>(facing == kFacesZ ? image.flags[i] & kGround : 0)};
+  }
+  return count;
+}
+
+void face(const Eigen::Matrix3d& R_map_base, Span<Observation> observations) {
+  const Eigen::Matrix3f R = R_map_base.cast<float>();
+  for (Observation& o : observations) {
+    facing_of(R * Eigen::Vector3f(o.normal[0], o.normal[1], o.normal[2]), &o.facing);
+  }
+}
+
+}  // namespace pose_wall::motion

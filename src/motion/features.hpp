@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Curvature features (the document's section 2): edges, planes, and which points an occlusion makes worthless. And the
+// observations: plane points spread evenly over the surfaces, each with the axis that its surface faces.
+
+#pragma once
+
+#include "motion/range_image.hpp"
+#include "motion/relief_map.hpp"
+
+namespace pose_wall::motion {
+
+constexpr std::uint32_t kObservationsMost = 4096;
+
+struct Observation {
+  float x, y, z;        // base, m
+  float normal[3];      // of the surface about it, base, towards the sensor
+  std::uint8_t facing;  // Facing, in the map
+  std::uint8_t ground;
+};
+
+struct FeatureCounts {
+  std::uint32_t edges = 0, planes = 0;
+};
+
+// Sets kEdge and kPlane on kept points.
+FeatureCounts mark_features(RangeImage* image);
+
+// The normal of the surface about a point, base, towards the sensor; by neighbours some decimetres away, so that
+// neither noise nor the rock's roughness turns it over. False where there are none.
+bool normal_about(const RangeImage& image, std::uint32_t point, Eigen::Vector3f* normal);
+
+// The axis of the map that a normal faces; false where it faces none by 53 degrees.
+bool facing_of(const Eigen::Vector3f& normal_map, std::uint8_t* facing);
+
+struct ObservationScratch {
+  void lay_out(Arena& arena);
+  Span<std::uint8_t> taken;  // of each cubic metre
+};
+
+// At most a few a cubic metre, so that near rock does not outweigh far rock. Gives how many.
+std::uint32_t choose_observations(const RangeImage& image, const Pose& expected, ObservationScratch* scratch,
+                                  Span<Observation> out);
+
+// Anew for another attitude; what faces no axis keeps what it had.
+void face(const Eigen::Matrix3d& R_map_base, Span<Observation> observations);
+
+}  // namespace pose_wall::motion

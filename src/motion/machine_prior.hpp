@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the machine knows of itself since the last frame (pose_wall_inputs), as one more measurement of motion.
+
+#pragma once
+
+#include "motion/registration.hpp"
+#include "pose_wall.h"
+
+namespace pose_wall::motion {
+
+struct MachinePrior {
+  // The way along forward_axis and the turn to the left, and their deviations; negative: not given.
+  double way_m = 0.0, way_sigma_m = -1.0, turn_rad = 0.0, turn_sigma_rad = -1.0;
+  bool sound = true;  // false: out of range, and nothing is given
+
+  bool has_way() const { return way_sigma_m >= 0.0; }
+  bool has_turn() const { return turn_sigma_rad >= 0.0; }
+};
+
+MachinePrior ask_machine(const pose_wall_inputs* inputs, double dt_s);
+
+// Weighs the given way into one that the rock told; way_m is that of the alignment along its axis, towards the cosine
+// between forward_axis and the axis. False where they contradict each other by more than factor deviations: then the
+// alignment is unchanged.
+bool weigh_in(const MachinePrior& prior, double towards, double way_m, double factor, Alignment* alignment);
+
+}  // namespace pose_wall::motion

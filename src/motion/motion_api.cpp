@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The only extern "C" file of pose_wall_motion: checks arguments, translates, calls.
+
+#include <cstring>
+
+#include "math/rotation.hpp"
+#include "motion/odometry.hpp"
+#include "pose_wall_motion.h"
+#include "struct_versions.hpp"
+
+#if defined(__GNUC__)
+#define POSE_WALL_EXPORT __attribute__((visibility("default")))
+#else
+#define POSE_WALL_EXPORT
+#endif
+
+namespace {
+
+using pose_wall::Arena;
+using pose_wall::StructSizes;
+using pose_wall::motion::MotionSettings;
+using pose_wall::motion::Odometry;
+using pose_wall::motion::Reading;
+
+constexpr StructSizes kSettingsSizes = {0, sizeof(pose_wall_motion_settings), sizeof(pose_wall_motion_settings)};
+constexpr StructSizes kMotionResultSizes = {0, sizeof(pose_wall_motion_result), sizeof(pose_wall_motion_result)};
+constexpr std::uint32_t kMark = 0x4E544F4DU;
+
+constexpr const char* kStates[] = {"lost", "unobservable", "ambiguous", "measured"};
+constexpr const char* kDirections[POSE_WALL_MOTION_DIRECTIONS] = {"along", "across", "up", "roll", "pitch", "yaw"};
+constexpr const char* kReasons[POSE_WALL_MOTION_REASON_COUNT][2] = {
+    {"first", "The map begins with this frame."},
+    {"few_points", "Too few points have a surface around them."},
+    {"few_matches", "Too few points lie on the surfaces of the map."},
+    {"smooth", "The relief of the rock tells no place along the road from its neighbours."},
+    {"few_patches", "Too few patches of rock tell the place along the road."},
+    {"halves_differ", "Two halves of the rock tell different places along the road."},
+    {"second_peak", "Another place along the road fits nearly as well."},
+    {"at_edge", "The best place along the road lies at the edge of what was searched."},
+    {"no_ground", "Walls and roof alone tell roll, pitch and height, for little ground is seen."},
+    {"stamp", "The stamp stood still or went back, so nothing is taken from this frame."},
+    {"gap", "Frames are missing before this one."},
+    {"prior", "The machine's own inputs contradict what was measured, and were not used."},
+    {"map_full", "The oldest part of the map gave way to the newest."}};
+
+// What lives at the start of a motion's block.
+struct Holder {
+  static constexpr std::uint64_t kMagic = 0x6E6F69746F6D5750ULL;
+
+  std::uint64_t magic;
+  const Holder* self;
+  mutable std::uint64_t inside;
+  Odometry odometry;
+};
+
+Holder* holder_of(pose_wall_motion* motion) {
+  return reinterpret_cast<Holder*>(motion);
+}
+const Holder* holder_of(const pose_wall_motion* motion) {
+  return reinterpret_cast<const Holder*>(motion);
+}
+
+// One call inside a motion, as long as this lives.
+class Inside {
+ public:
+  explicit Inside(const Holder* holder) : holder_(holder), status_(enter()) {}
+  ~Inside() {
+    if (status_ == POSE_WALL_OK) __atomic_store_n(&holder_->inside, std::uint64_t{0}, __ATOMIC_RELEASE);
+  }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+
+  std::int32_t status() const { return status_; }
+
+ private:
+  std::int32_t enter() const {
+    if (holder_->magic != Holder::kMagic || holder_->self != holder_) return POSE_WALL_E_ENGINE;
+    std::uint64_t nobody = 0;
+    const bool entered = __atomic_compare_exchange_n(&holder_->inside, &nobody, std::uint64_t{1}, false,
+                                                     __ATOMIC_ACQUIRE, __ATOMIC_RELAXED);
+    return entered ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_BUSY;
+  }
+
+  const Holder* holder_;
+  std::int32_t status_;
+};
+
+// One walk both measures and places.
+std::uint64_t lay_out(void* block, Holder** out) {
+  Arena arena(block);
+  Holder* const holder = arena.take_one<Holder>();
+  Odometry measured;
+  (holder != nullptr ? holder->odometry : measured).lay_out(arena);
+  if (out != nullptr) *out = holder;
+  return arena.bytes();
+}
+
+double number_of(const pose_wall_config& config, const char* key) {
+  double value = 0.0;
+  (void)pose_wall_config_get_number(&config, key, &value);
+  return value;
+}
+
+Reading reading_of(const pose_wall_config& config, const pose_wall_motion_settings& settings) {
+  Reading reading;
+  reading.R_base_lidar = pose_wall::rotation_zyx(
+      number_of(config, "extrinsic_roll"), number_of(config, "extrinsic_pitch"), number_of(config, "extrinsic_yaw"));
+  reading.lidar_base_m = Eigen::Vector3d(number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
+                                         number_of(config, "extrinsic_z"));
+  reading.range_min_m = number_of(config, "range_min");
+  reading.range_max_m = settings.range_max_m;
+  static constexpr const char* boxes[] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};
+  for (int i = 0; i < 4; ++i) {
+    double edges_m[6] = {};
+    (void)pose_wall_config_get_box(&config, boxes[i], edges_m);
+    reading.body[i] = pose_wall::box_of(edges_m);
+  }
+  return reading;
+}
+
+MotionSettings settings_of(const pose_wall_config& config, const pose_wall_motion_settings& settings) {
+  MotionSettings out;
+  out.speed_max_m_s = settings.speed_max_m_s;
+  out.turn_max_rad_s = settings.turn_max_rad_s;
+  out.keyframe_m = settings.keyframe_m;
+  out.protection_factor = number_of(config, "protection_factor");
+  char axis[POSE_WALL_TEXT_MAX] = {};
+  (void)pose_wall_config_get_text(&config, "forward_axis", axis, sizeof(axis));
+  out.forward_base =
+      (axis[0] == '-' ? -1.0 : 1.0) * (axis[1] == 'Y' ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX()).eval();
+  return out;
+}
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT uint32_t pose_wall_motion_abi_version(void) {
+  return POSE_WALL_MOTION_ABI_VERSION;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_settings_init(pose_wall_motion_settings* settings) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  *settings = {sizeof(*settings), 0, 2.0, 0.5 * pose_wall::kPi, 30.0, 0.2};
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_settings_check(const pose_wall_motion_settings* settings,
+                                                         pose_wall_motion_fault* fault) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  const std::int32_t status = pose_wall::check_struct_size(settings->struct_size, kSettingsSizes);
+  if (status != POSE_WALL_OK) return status;
+  const struct {
+    double value, least, most;
+    pose_wall_motion_fault fault;
+  } rows[] = {{settings->speed_max_m_s, 0.01, 30.0, {"speed_max_m_s", "speed_max_m_s must be from 0.01 to 30"}},
+              {settings->turn_max_rad_s, 0.01, 10.0, {"turn_max_rad_s", "turn_max_rad_s must be from 0.01 to 10"}},
+              {settings->range_max_m, 3.0, 100.0, {"range_max_m", "range_max_m must be from 3 to 100"}},
+              {settings->keyframe_m, 0.05, 1.0, {"keyframe_m", "keyframe_m must be from 0.05 to 1"}}};
+  if (settings->reserved != 0) {
+    if (fault != nullptr) *fault = {"reserved", "reserved must be 0"};
+    return POSE_WALL_E_VALUE_RANGE;
+  }
+  for (const auto& row : rows) {
+    if (row.value >= row.least && row.value <= row.most) continue;
+    if (fault != nullptr) *fault = row.fault;
+    return POSE_WALL_E_VALUE_RANGE;
+  }
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT const char* pose_wall_motion_along_state_name(uint32_t state) {
+  return state <= POSE_WALL_ALONG_MEASURED ? kStates[state] : "unknown";
+}
+POSE_WALL_EXPORT const char* pose_wall_motion_reason_name(uint32_t bit_index) {
+  return bit_index < POSE_WALL_MOTION_REASON_COUNT ? kReasons[bit_index][0] : "unknown";
+}
+POSE_WALL_EXPORT const char* pose_wall_motion_reason_text(uint32_t bit_index) {
+  return bit_index < POSE_WALL_MOTION_REASON_COUNT ? kReasons[bit_index][1] : "unknown reason";
+}
+POSE_WALL_EXPORT const char* pose_wall_motion_direction_name(uint32_t direction) {
+  return direction < POSE_WALL_MOTION_DIRECTIONS ? kDirections[direction] : "unknown";
+}
+
+POSE_WALL_EXPORT uint64_t pose_wall_motion_memory_needed(void) {
+  return lay_out(nullptr, nullptr);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_open(const pose_wall_config* config,
+                                               const pose_wall_motion_settings* settings, void* block,
+                                               uint64_t block_bytes, pose_wall_motion** motion) {
+  if (config == nullptr || block == nullptr || motion == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_motion_settings chosen;
+  std::int32_t status = pose_wall_config_check(config, nullptr);
+  if (status == POSE_WALL_OK) status = pose_wall_motion_settings_init(&chosen);
+  if (status == POSE_WALL_OK && settings != nullptr) status = pose_wall_motion_settings_check(settings, nullptr);
+  if (status != POSE_WALL_OK) return status;
+  if (settings != nullptr) chosen = *settings;
+  if (reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT != 0) return POSE_WALL_E_BLOCK_ALIGN;
+  if (block_bytes < pose_wall_motion_memory_needed()) return POSE_WALL_E_BLOCK_SMALL;
+  Holder* holder = nullptr;
+  lay_out(block, &holder);
+  holder->odometry.open(reading_of(*config, chosen), settings_of(*config, chosen));
+  holder->inside = 0;
+  holder->self = holder;
+  holder->magic = Holder::kMagic;
+  *motion = reinterpret_cast<pose_wall_motion*>(holder);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_reset(pose_wall_motion* motion) {
+  if (motion == nullptr) return POSE_WALL_E_NULL;
+  const Inside inside(holder_of(motion));
+  if (inside.status() == POSE_WALL_OK) holder_of(motion)->odometry.reset();
+  return inside.status();
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_process(pose_wall_motion* motion, const pose_wall_cloud* cloud,
+                                                  pose_wall_motion_result* result) {
+  if (motion == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  const Inside inside(holder_of(motion));
+  std::int32_t status = inside.status();
+  if (status == POSE_WALL_OK) status = pose_wall_cloud_check(cloud);
+  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(result->struct_size, kMotionResultSizes);
+  if (status != POSE_WALL_OK) return status;
+  const auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
+  pose_wall_motion_result found{};
+  found.mark = kMark;
+  holder_of(motion)->odometry.process(whole, &found);
+  pose_wall::write_struct(found, result->struct_size, result);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,
+                                              uint32_t capacity, uint32_t* total) {
+  if (motion == nullptr || total == nullptr || (xyz_m == nullptr && capacity > 0)) return POSE_WALL_E_NULL;
+  const Inside inside(holder_of(motion));
+  if (inside.status() == POSE_WALL_OK) *total = holder_of(motion)->odometry.map_points(first, capacity, xyz_m);
+  return inside.status();
+}
+
+}  // extern "C"

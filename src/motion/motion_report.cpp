@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "motion/motion_report.hpp"
+
+#include <limits>
+
+#include "math/finite.hpp"
+
+namespace pose_wall::motion {
+namespace {
+
+double told(bool is_told, double value) {
+  return is_told ? value : not_a_number();
+}
+
+void report_pose(const Frame& frame, const Pose& start, pose_wall_motion_result* out) {
+  const bool has_pose = !frame.is(POSE_WALL_ALONG_LOST);
+  const Pose& at = frame.alignment.pose;
+  const Eigen::Vector3d position = start.R.transpose() * (at.t - start.t);
+  const Eigen::Vector3d axis = start.R.transpose() * frame.alignment.axes.along;
+  // The first frame stands at the start, without a rounding of the last bit.
+  Eigen::Quaterniond q =
+      frame.first ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(orthonormal(start.R.transpose() * at.R));
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  for (int k = 0; k < 3; ++k) {
+    out->position_m[k] = told(has_pose, position[k]);
+    out->road_axis[k] = axis[k];
+  }
+  for (int k = 0; k < 4; ++k) out->quaternion[k] = told(has_pose, q.coeffs()[k]);
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    out->sigma[k] = told(has_pose, frame.whole.sigma[k]);
+    out->protection_level[k] = has_pose ? frame.whole.level[k] : std::numeric_limits<double>::infinity();
+  }
+}
+
+void report_step(const Frame& frame, pose_wall_motion_result* out) {
+  const bool stepped = !frame.is(POSE_WALL_ALONG_LOST) && !frame.first && frame.has_stamp();
+  for (int k = 0; k < 3; ++k) {
+    out->step_m[k] = told(stepped, frame.step_m[k]);
+    out->step_rad[k] = told(stepped, frame.step_rad[k]);
+  }
+  out->step_s = told(stepped, frame.step_s);
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    out->step_sigma[k] = told(stepped, frame.step.sigma[k]);
+    out->step_protection_level[k] = told(stepped, frame.step.level[k]);
+  }
+}
+
+}  // namespace
+
+void report(const Frame& frame, const Pose& start, pose_wall_motion_result* out) {
+  out->along_state = frame.state;
+  out->reasons = frame.reasons;
+  out->stamp_ns = frame.cloud.stamp_ns;
+  report_pose(frame, start, out);
+  report_step(frame, out);
+  const Curve& curve = frame.curve;
+  out->contrast = told(curve.told, curve.contrast);
+  out->patches = told(curve.told, curve.patches);
+  out->halves_m = told(frame.halves_m >= 0.0, frame.halves_m);
+  out->second_m = told(curve.told && curve.second_gain > 0.0, curve.second_m);
+  out->second_gain = told(curve.told, curve.second_gain);
+  out->points_in = static_cast<std::uint32_t>(static_cast<std::uint64_t>(frame.cloud.width) * frame.cloud.height);
+  out->ground_points = frame.segments.ground;
+  out->clusters = frame.segments.clusters;
+  out->edge_points = frame.features.edges;
+  out->plane_points = frame.features.planes;
+  out->matched = frame.alignment.matched + frame.alignment.ground;
+  out->wide_start = frame.wide ? 1U : 0U;
+}
+
+}  // namespace pose_wall::motion

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// A frame's findings as the C ABI tells them.
+
+#pragma once
+
+#include "motion/frame.hpp"
+#include "motion/range_image.hpp"
+
+namespace pose_wall::motion {
+
+// start: base of the first frame in the map.
+void report(const Frame& frame, const Pose& start, pose_wall_motion_result* out);
+
+}  // namespace pose_wall::motion

@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "motion/odometry.hpp"
+
+#include <cmath>
+
+#include "math/finite.hpp"
+#include "motion/motion_report.hpp"
+#include "motion/wide_start.hpp"
+
+namespace pose_wall::motion {
+namespace {
+
+constexpr double kTwistLasts_s = 1.0, kPeriodMost_s = 10.0;
+constexpr double kSameStamp_s = 1e-3;  // as the engine's POSE_WALL_R_STAMP_STILL
+constexpr std::uint32_t kObservationsLeast = 150;
+constexpr std::uint32_t kMatchedLeast = 80;
+constexpr double kShareLost = 0.2;    // of the observations on the map: less, and the scan is elsewhere
+constexpr double kShareFound = 0.45;  // more, and a guess needs no wide start
+constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by the last speed is none
+// Without evidence: what tells smooth rock from few patches, and a guess from nothing.
+constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
+// Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
+constexpr double kHalvesMost_m = 0.12;
+constexpr double kRoad = 0.05;  // hold along the axis: less, and no plane tells the way
+constexpr double kHall = 0.3;   // hold along the axis: its own planes tell the way
+constexpr double kCurveStep_m = 0.025;
+constexpr double kFirstReach = 1.5;  // of what the top speed allows: its own place is not the edge of the search
+constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
+constexpr int kWindowsMost = 4;                       // to each side
+constexpr double kWindowStep_m = 1.5 * kReachMost_m;  // each overlaps the next by a quarter
+constexpr double kRivalCost = 1.5;                    // of the best place's misfit: a place that fits worse is none
+constexpr double kSlipMost_m = 0.8;                   // more, and the map's rock is somewhere else
+constexpr double kBentShare = 0.1;  // of a step, while scans are bent: what near rock and far rock differ by
+constexpr double kBent_m = 0.02, kBentAt_m = 5.0;  // a scan that its motion bends by less, so far off, is straight
+// Slopes of a steady bend that spread by s over 20 m of map turn by 0.17 s a metre.
+constexpr double kBendOfSpread = 0.17;
+constexpr double kKeyframeTurn_rad = 0.1;
+constexpr float kRockRange_m = 14.0F;  // further away only what is met at 17 degrees and more makes surfaces
+constexpr float kFarIncidence = 0.3F;
+
+std::uint32_t bit(bool is_set, std::uint32_t reason) {
+  return is_set ? reason : 0U;
+}
+
+}  // namespace
+
+void Odometry::lay_out(Arena& arena) {
+  image_.lay_out(arena);
+  segment_.lay_out(arena);
+  choice_.lay_out(arena);
+  observation_ = arena.take<Observation>(kObservationsMost);
+  patches_.lay_out(arena);
+  curve_.lay_out(arena);
+  map_.lay_out(arena);
+}
+
+void Odometry::open(const Reading& reading, const MotionSettings& settings) {
+  reading_ = reading;
+  settings_ = settings;
+  reset();
+}
+
+void Odometry::reset() {
+  map_.clear();
+  pose_ = start_ = keyframe_ = Pose{};
+  twist_ = Twist{};
+  axes_ = RoadAxes{};
+  travel_.reset();
+  last_covariance_.setZero();
+  stamp_ns_ = 0;
+  period_s_ = 0.0;
+  frames_ = 0;
+  back_ = 0;
+  since_start_ = 0;
+  slipped_m_ = lost_s_ = 0.0;
+  has_map_ = guesses_ = is_bent_ = false;
+}
+
+// The first scan stands upright and square to the map's axes, so that surfaces face them.
+void Odometry::begin_map(Frame* frame) {
+  const Eigen::Matrix3d R = frame->expected.R;
+  const Eigen::Matrix3d level = upright(frame->observations, R, reading_.lidar_base_m) * R;
+  const Eigen::Matrix3d square =
+      turn_by(Eigen::Vector3d(0.0, 0.0, squaring_yaw_rad(frame->observations, level))) * level;
+  if (!has_map_) {  // not where the map begins anew
+    frame->expected.R = square;
+    start_ = frame->expected;
+  }
+  face(frame->expected.R, frame->observations);
+  pose_ = frame->expected;
+  frame->alignment.pose = pose_;
+  axes_.along = pose_.R * settings_.forward_base;
+  axes_.hold = 0.0;
+  frame->alignment.axes = axes_;
+  map_.clear();
+  map_.set_corner(pose_.t);
+  take_in(pose_);
+  has_map_ = true;
+  is_bent_ = frame->cloud.time.type != POSE_WALL_FIELD_NONE;
+  since_start_ = 0;
+}
+
+void Odometry::take_in(const Pose& pose) {
+  keyframe_ = pose;
+  map_.begin_keyframe();
+  const LocalPose local(pose, map_.corner());
+  const Eigen::Vector3f sensor = reading_.lidar_base_m.cast<float>();
+  for (std::uint32_t i = 0; i < image_.count; ++i) {
+    if ((image_.flags[i] & kPlane) == 0) continue;
+    Eigen::Vector3f normal;
+    std::uint8_t facing;
+    if (!normal_about(image_, i, &normal) || !facing_of(local.R * normal, &facing)) continue;
+    const float range = image_.range[i];
+    if (range > kRockRange_m && !(-normal.dot(image_.point(i) - sensor) > kFarIncidence * range)) continue;
+    map_.add(local(image_.point(i)), facing);
+  }
+  map_.end_keyframe();
+}
+
+// The expected place, or after a gap the one that a wide search finds. False: the scan fits nowhere.
+bool Odometry::place_scan(Frame* frame) {
+  Pose& at = frame->expected;
+  const std::uint32_t stride = frame->observations.size() / 400 + 1;
+  const bool gap = frame->dt_s > kGap_s;
+  frame->reasons |= bit(gap && frame->dt_s > 2.5 * period_s_ && period_s_ > 0.0, POSE_WALL_MOTION_R_GAP);
+  const double share = share_on_map(map_, frame->observations, at, stride);
+  if (share > (gap ? kShareFound : kShareLost)) return true;
+  frame->wide = true;
+  at.R = orthonormal(upright(frame->observations, at.R, reading_.lidar_base_m) * at.R);
+  face(at.R, frame->observations);
+  const double dt = frame->dt_s < 5.0 ? frame->dt_s : 5.0;
+  return search_wide(map_, frame->observations, {settings_.turn_max_rad_s * dt, settings_.speed_max_m_s * dt}, &at);
+}
+
+void Odometry::align(Frame* frame) {
+  Alignment& a = frame->alignment;
+  a.pose = frame->expected;
+  a.axes = axes_;
+  const Scan scan = {&map_, frame->observations, reading_.lidar_base_m.cast<float>()};
+  const Eigen::Vector3d forward = a.pose.R * settings_.forward_base;
+  find_axes(scan, forward, &a);
+  StepOptions coarse;
+  coarse.with_along = a.axes.hold > kHall;
+  const int passes = frame->wide ? 4 : 1;
+  coarse.every = frame->wide ? 1 : 4;
+  for (int pass = 0; pass < passes; ++pass) {
+    step_one(scan, coarse, &patches_, &a);
+    step_two(scan, coarse, &patches_, &a);
+  }
+  find_axes(scan, forward, &a);
+  match_way(frame);
+  StepOptions fine;
+  fine.use_relief = true;
+  fine.rounds = 3;
+  step_one(scan, fine, &patches_, &a);
+  fine.every = 2;  // walls are many, ground may be little
+  step_two(scan, fine, &patches_, &a);
+  if (!frame->is(POSE_WALL_ALONG_UNOBSERVABLE)) refine(scan, frame);
+  frame->reasons |= bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND);
+  if (a.matched >= kMatchedLeast) return;
+  frame->reasons |= POSE_WALL_MOTION_R_FEW_MATCHES;
+  frame->state = POSE_WALL_ALONG_LOST;
+}
+
+// The last centimetres along the road, and their sigma.
+void Odometry::refine(const Scan& scan, Frame* frame) {
+  Alignment& a = frame->alignment;
+  const FinePlace place = refine_along(scan, a, &curve_);
+  if (!(place.told && place.halves_m < kHalvesMost_m)) {
+    frame->reasons |= POSE_WALL_MOTION_R_HALVES_DIFFER;
+    frame->state = POSE_WALL_ALONG_UNOBSERVABLE;
+    return;
+  }
+  a.pose.t += place.best_m * a.axes.along;
+  // Shifts further off than the curve's own steps resolve, which the patches do not exclude, are within the level.
+  const double around_m = frame->curve.around_m > 2.5 * kCurveStep_m ? frame->curve.around_m : 0.0;
+  const double sigma_m = around_m / settings_.protection_factor;
+  a.covariance(0, 0) = sigma_m > place.sigma_m ? sigma_m * sigma_m : place.sigma_m * place.sigma_m;
+  frame->halves_m = place.halves_m;
+}
+
+// The curve about the expected place.
+Curve Odometry::match_near(const Frame& frame) {
+  double reach = slipped_m_ + (since_start_ == 0 ? kFirstReach * settings_.speed_max_m_s * frame.dt_s : 0.0);
+  reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
+  const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
+  const Scan scan = {&map_, frame.observations, reading_.lidar_base_m.cast<float>()};
+  return match_along(scan, frame.alignment, reach, shifts, &curve_);
+}
+
+// After a gap: the best of curves one beside the other, as far as the machine can have gone. Moves the alignment to
+// its middle. Where another that is not its neighbour tells a place, too, that is a second place.
+Curve Odometry::match_far(Frame* frame) {
+  const Alignment middle = frame->alignment;
+  const double far_m = settings_.speed_max_m_s * frame->dt_s;
+  int windows = static_cast<int>(far_m / (2.0 * kReachMost_m)) + 1;
+  if (windows > kWindowsMost) windows = kWindowsMost;
+  const Scan scan = {&map_, frame->observations, reading_.lidar_base_m.cast<float>()};
+  Curve found[2 * kWindowsMost + 1];
+  int best = 0;
+  for (int k = -windows; k <= windows; ++k) {
+    Alignment there = middle;
+    there.pose.t += kWindowStep_m * k * there.axes.along;
+    Curve& curve = found[k + windows];
+    curve = match_along(scan, there, kReachMost_m, kShiftsMost, &curve_);
+    const Curve& so_far = found[best];
+    const bool better = is_evidence(curve) == is_evidence(so_far)
+                            ? curve.told && (!so_far.told || curve.bottom < so_far.bottom)
+                            : is_evidence(curve);
+    if (better) best = k + windows;
+  }
+  for (int k = 0; k <= 2 * windows; ++k) {
+    const double away_m = kWindowStep_m * std::fabs(static_cast<double>(k - best));
+    const bool rivals = is_evidence(found[k]) && found[k].bottom < kRivalCost * found[best].bottom;
+    if (rivals && away_m > 2.0 * kReachMost_m) found[best].apart_m = away_m + kReachMost_m;
+  }
+  const double best_at_m = kWindowStep_m * (best - windows);
+  frame->alignment.pose.t += best_at_m * frame->alignment.axes.along;
+  return found[best];
+}
+
+// The place along the road, and what it is worth.
+void Odometry::match_way(Frame* frame) {
+  Alignment& a = frame->alignment;
+  // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
+  const bool far = frame->dt_s > kGap_s && a.axes.hold < kRoad;
+  const Curve curve = far ? match_far(frame) : match_near(*frame);
+  frame->curve = curve;
+  if (!is_evidence(curve)) {
+    const bool smooth = !(curve.contrast > kContrastLeast);
+    frame->reasons |= smooth ? POSE_WALL_MOTION_R_SMOOTH : POSE_WALL_MOTION_R_FEW_PATCHES;
+    frame->state = POSE_WALL_ALONG_UNOBSERVABLE;
+    // Not worth a claim, but a better guess than the last speed: without it a sparse sensor that starts on the move
+    // never gets a map to claim by.
+    frame->guessed = !smooth && curve.patches > kGuessPatchesLeast;
+    if (frame->guessed) a.pose.t += curve.best_m * a.axes.along;
+    return;
+  }
+  if (curve.apart_m > 0.0) {
+    frame->reasons |= POSE_WALL_MOTION_R_SECOND_PEAK;
+    frame->state = POSE_WALL_ALONG_AMBIGUOUS;
+  }
+  a.pose.t += curve.best_m * a.axes.along;
+}
+
+// The turn since the last frame, each of its parts about the road's axes as far as it stands out of its own noise: a
+// few rings of ground tell pitch to 0.1 degrees, and ten times that a second would bend the next scan.
+Eigen::Vector3d Odometry::shrunk_turn(const Frame& frame) const {
+  const RoadAxes& axes = frame.alignment.axes;
+  const Eigen::Vector3d turn_map = pose_.R * frame.step_rad;
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d* const about[] = {&axes.along, &axes.left, &axes.up};
+  for (int k = 0; k < 3; ++k) {
+    const double turn = about[k]->dot(turn_map);
+    const double noise = frame.step.sigma[POSE_WALL_MOTION_ROLL + k];
+    out += *about[k] * (turn * turn * turn / (turn * turn + noise * noise + 1e-12));
+  }
+  return pose_.R.transpose() * out;
+}
+
+// The given way stands alone where the rock tells nothing; where it does, it is weighed in or refused.
+void Odometry::use_prior(Frame* frame) const {
+  if (!frame->prior.has_way()) return;
+  Alignment& a = frame->alignment;
+  const double towards = (pose_.R * settings_.forward_base).dot(a.axes.along);
+  const double way_m = (a.pose.t - pose_.t).dot(a.axes.along);
+  if (!frame->is(POSE_WALL_ALONG_MEASURED)) {
+    a.pose.t += (frame->prior.way_m * towards - way_m) * a.axes.along;
+  } else if (!weigh_in(frame->prior, towards, way_m, settings_.protection_factor, &a)) {
+    frame->reasons |= POSE_WALL_MOTION_R_PRIOR;
+  }
+}
+
+// What is not known of the way along, beyond sigma.
+double Odometry::slip_of(const Frame& frame, double along_m) const {
+  if (frame.is(POSE_WALL_ALONG_MEASURED)) return 0.0;
+  if (frame.prior.has_way()) return settings_.protection_factor * frame.prior.way_sigma_m;
+  if (frame.is(POSE_WALL_ALONG_AMBIGUOUS)) return frame.curve.apart_m;
+  return settings_.speed_max_m_s * frame.dt_s + std::fabs(along_m);
+}
+
+void Odometry::learn_twist(const Frame& frame) {
+  Twist now = {frame.step_m / frame.dt_s, shrunk_turn(frame) / frame.dt_s};
+  if (!frame.is(POSE_WALL_ALONG_MEASURED)) {
+    const Eigen::Vector3d axis = pose_.R.transpose() * frame.alignment.axes.along;
+    now.velocity_m_s += axis * axis.dot(twist_.velocity_m_s - now.velocity_m_s);
+  }
+  // Half of what this frame says: single steps are noisy, and machines are heavy.
+  const double share = since_start_ < 2 ? 1.0 : 0.5;
+  twist_.velocity_m_s += share * (now.velocity_m_s - twist_.velocity_m_s);
+  twist_.turn_rad_s += share * (now.turn_rad_s - twist_.turn_rad_s);
+}
+
+void Odometry::conclude(Frame* frame) {
+  Alignment& a = frame->alignment;
+  const bool measured = frame->is(POSE_WALL_ALONG_MEASURED);
+  use_prior(frame);
+  frame->step_s = frame->dt_s;
+  frame->step_m = pose_.R.transpose() * (a.pose.t - pose_.t);
+  frame->step_rad = turn_of(pose_.R.transpose() * a.pose.R);
+  const double along_m = (a.pose.t - pose_.t).dot(a.axes.along);
+  frame->slip_m = slip_of(*frame, along_m);
+  if (is_bent_) a.covariance(0, 0) += kBentShare * kBentShare * along_m * along_m;
+  if (!measured) {
+    a.covariance.row(0).setZero();
+    a.covariance.col(0).setZero();
+    // Where the road bends or dips, so does the machine with what it slipped.
+    const double bend_rad = kBendOfSpread * map_.unevenness() * frame->slip_m;
+    a.covariance(POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_PITCH) += bend_rad * bend_rad;
+    a.covariance(POSE_WALL_MOTION_YAW, POSE_WALL_MOTION_YAW) += bend_rad * bend_rad;
+  }
+  travel_.go(along_m);
+  const double step_slip_m = measured ? slipped_m_ : frame->slip_m;  // the first that is told makes up for the others
+  frame->step = Travel::of_step(last_covariance_, a.covariance, step_slip_m, settings_.protection_factor);
+  if (lost_s_ > 0.0) {
+    frame->step.widen(settings_.speed_max_m_s * lost_s_, settings_.turn_max_rad_s * lost_s_);
+    frame->step_s += lost_s_;
+    lost_s_ = 0.0;
+  }
+  learn_twist(*frame);
+  // A place that the map tells again undoes what slipped since, unless guesses went into the map.
+  if (measured && guesses_) travel_.slip(slipped_m_, 0.0);
+  slipped_m_ = measured ? 0.0 : slipped_m_ + frame->slip_m;
+  guesses_ = !measured && (guesses_ || frame->guessed);
+  pose_ = a.pose;
+  axes_ = a.axes;
+  last_covariance_ = a.covariance;
+  ++since_start_;
+  frame->whole = travel_.bounds(a.covariance, slipped_m_, settings_.protection_factor);
+  keep_map(*frame);
+}
+
+// A keyframe where the machine went or turned far enough; a new relief where nobody knows any more where the old is.
+void Odometry::keep_map(const Frame& frame) {
+  if (slipped_m_ > kSlipMost_m) {
+    map_.forget_relief();
+    take_in(pose_);
+    travel_.take_in(frame.alignment.covariance);
+    travel_.slip(slipped_m_, map_.unevenness());
+    slipped_m_ = 0.0;
+    guesses_ = false;
+    return;
+  }
+  const double moved_m = std::sqrt((pose_.t - keyframe_.t).squaredNorm());
+  const double turned_rad = std::sqrt(turn_of(keyframe_.R.transpose() * pose_.R).squaredNorm());
+  const bool known = frame.is(POSE_WALL_ALONG_MEASURED) || frame.guessed;
+  if (known && (moved_m > settings_.keyframe_m || turned_rad > kKeyframeTurn_rad)) {
+    take_in(pose_);
+    travel_.take_in(frame.alignment.covariance);
+  }
+}
+
+bool Odometry::was_bent(const Frame& frame) const {
+  const double speed_m_s = std::sqrt(twist_.velocity_m_s.squaredNorm());
+  const double turn_rad_s = std::sqrt(twist_.turn_rad_s.squaredNorm());
+  return frame.dt_s * (speed_m_s + kBentAt_m * turn_rad_s) > kBent_m;
+}
+
+// The first scans were taken before anybody knew how the machine moves; the map begins anew with one that is freed of
+// its motion. Where it stands, two scans that were bent alike have told.
+void Odometry::begin_unbent(const Frame& frame) {
+  project(frame.cloud, reading_, twist_, &image_);
+  segment(pose_.R, reading_, &segment_, &image_);
+  mark_features(&image_);
+  map_.clear();
+  map_.set_corner(pose_.t);
+  take_in(pose_);
+  travel_.begin_with(frame.alignment.covariance);
+}
+
+// Where the frame is expected, by the last twist and by what the machine says.
+void Odometry::expect(Frame* frame) const {
+  frame->prior = ask_machine(frame->cloud.inputs, frame->dt_s);
+  if (!frame->prior.sound) frame->reasons |= POSE_WALL_MOTION_R_PRIOR;
+  // Of a twist nobody knows how long it lasts.
+  const double lasts_s = frame->dt_s < kTwistLasts_s ? frame->dt_s : kTwistLasts_s;
+  Eigen::Vector3d step_m = twist_.velocity_m_s * lasts_s, step_rad = twist_.turn_rad_s * lasts_s;
+  if (frame->prior.has_way()) {
+    step_m += (frame->prior.way_m - settings_.forward_base.dot(step_m)) * settings_.forward_base;
+  }
+  if (frame->prior.has_turn()) step_rad.z() = frame->prior.turn_rad;
+  frame->expected.t = pose_.t + pose_.R * step_m;
+  frame->expected.R = orthonormal(pose_.R * turn_by(step_rad));
+}
+
+void Odometry::look(Frame* frame) {
+  project(frame->cloud, reading_, twist_, &image_);
+  frame->segments = segment(frame->expected.R, reading_, &segment_, &image_);
+  frame->features = mark_features(&image_);
+  const std::uint32_t count = choose_observations(image_, frame->expected, &choice_, observation_);
+  frame->observations = observation_.first(count);
+}
+
+// The scan's place in the map and what follows from it; where it has none, the frame is lost.
+void Odometry::measure(Frame* frame) {
+  map_.set_corner(frame->expected.t);
+  if (frame->observations.size() < kObservationsLeast) {
+    frame->reasons |= POSE_WALL_MOTION_R_FEW_POINTS;
+    frame->state = POSE_WALL_ALONG_LOST;
+  } else if (!has_map_) {
+    begin_map(frame);
+    frame->reasons |= POSE_WALL_MOTION_R_FIRST;
+    frame->whole = travel_.bounds(SixBySix::Zero(), slipped_m_, settings_.protection_factor);
+  } else if (place_scan(frame)) {
+    align(frame);
+    if (!frame->is(POSE_WALL_ALONG_LOST)) conclude(frame);
+    if (!frame->is(POSE_WALL_ALONG_MEASURED)) return;
+    if (is_bent_ && was_bent(*frame)) begin_unbent(*frame);
+    is_bent_ = false;
+  } else {
+    frame->reasons |= POSE_WALL_MOTION_R_FEW_MATCHES;
+    frame->state = POSE_WALL_ALONG_LOST;
+  }
+}
+
+// Time counts from the last frame that had a pose: what was seen of nothing is as if it had not come.
+void Odometry::keep_time(const Frame& frame) {
+  if (has_map_ && frame.observations.size() < kObservationsLeast) return;
+  const bool usual = frame.dt_s > 0.0 && frame.dt_s < kPeriodMost_s;
+  if (usual) period_s_ = period_s_ > 0.0 ? period_s_ + 0.1 * (frame.dt_s - period_s_) : frame.dt_s;
+  stamp_ns_ = frame.cloud.stamp_ns;
+}
+
+// Where the machine is now, nobody knows better than it can have moved; the map begins anew there.
+void Odometry::begin_anew(Frame* frame) {
+  if (frame->observations.size() < kObservationsLeast) return;
+  const double place_m = settings_.speed_max_m_s * frame->dt_s, turn_rad = settings_.turn_max_rad_s * frame->dt_s;
+  travel_.lose(place_m, turn_rad);
+  lost_s_ += frame->dt_s;
+  twist_ = Twist{};
+  frame->expected = pose_;
+  begin_map(frame);
+}
+
+void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* result) {
+  Frame frame(cloud);
+  frame.first = !has_map_;
+  frame.dt_s = frames_ == 0 ? 0.0 : (static_cast<double>(cloud.stamp_ns) - static_cast<double>(stamp_ns_)) * 1e-9;
+  if (frames_ == 0 || frame.dt_s > kSameStamp_s) {
+    expect(&frame);
+    look(&frame);
+    measure(&frame);
+    if (frame.is(POSE_WALL_ALONG_LOST) && has_map_) begin_anew(&frame);
+    if (map_.gave_way()) frame.reasons |= POSE_WALL_MOTION_R_MAP_FULL;
+    keep_time(frame);
+    back_ = 0;
+  } else {
+    frame.reasons |= POSE_WALL_MOTION_R_STAMP;
+    frame.state = has_map_ ? POSE_WALL_ALONG_UNOBSERVABLE : POSE_WALL_ALONG_LOST;
+    frame.alignment.pose = pose_;
+    frame.alignment.axes = axes_;
+    frame.whole = travel_.bounds(last_covariance_, slipped_m_, settings_.protection_factor);
+    image_.count = 0;
+    // One frame out of order, or a clock that was set back: the second tells. How long ago the last pose was, its usual
+    // period tells best.
+    if (frame.dt_s < -kSameStamp_s && ++back_ > 1) {
+      // by whole numbers that wrap: a stamp may be the least there is
+      stamp_ns_ = static_cast<std::int64_t>(static_cast<std::uint64_t>(cloud.stamp_ns) -
+                                            static_cast<std::uint64_t>(period_s_ * 1e9));
+    }
+  }
+  report(frame, start_, result);
+  result->frame_index = frames_++;
+  result->along_m = frame.is(POSE_WALL_ALONG_LOST) ? not_a_number() : travel_.along_m();
+  result->points_used = image_.count;
+  result->tiles = map_.tiles();
+  result->keyframes = map_.keyframes();
+}
+
+std::uint32_t Odometry::map_points(std::uint32_t first, std::uint32_t capacity, float* xyz) const {
+  const std::uint32_t total = map_.points(first, capacity, xyz);
+  const std::uint32_t written = first >= total ? 0U : total - first < capacity ? total - first : capacity;
+  for (std::uint32_t i = 0; i < written; ++i) {
+    float* const p = xyz + std::size_t{3} * i;
+    const Eigen::Vector3d q =
+        start_.R.transpose() *
+        (Eigen::Vector3d(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])) - start_.t);
+    for (int k = 0; k < 3; ++k) p[k] = static_cast<float>(q[k]);
+  }
+  return total;
+}
+
+}  // namespace pose_wall::motion

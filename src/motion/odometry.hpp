@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The story of a frame: image, segments, features, two steps, the match along the road, the map. All that lives from
+// frame to frame is here.
+
+#pragma once
+
+#include "motion/frame.hpp"
+#include "motion/range_image.hpp"
+#include "motion/relief_map.hpp"
+
+namespace pose_wall::motion {
+
+struct MotionSettings {
+  double speed_max_m_s = 2.0, turn_max_rad_s = 1.5, keyframe_m = 0.2;
+  double protection_factor = 5.0;
+  Eigen::Vector3d forward_base = Eigen::Vector3d::UnitX();
+};
+
+class Odometry {
+ public:
+  void lay_out(Arena& arena);
+  void open(const Reading& reading, const MotionSettings& settings);
+  void reset();
+  void process(const pose_wall_cloud& cloud, pose_wall_motion_result* result);
+  std::uint32_t map_points(std::uint32_t first, std::uint32_t capacity, float* xyz_start_m) const;
+
+ private:
+  void expect(Frame* frame) const;
+  void look(Frame* frame);
+  void measure(Frame* frame);
+  void begin_map(Frame* frame);
+  void begin_anew(Frame* frame);
+  void keep_time(const Frame& frame);
+  bool place_scan(Frame* frame);
+  void align(Frame* frame);
+  void match_way(Frame* frame);
+  Curve match_near(const Frame& frame);
+  Curve match_far(Frame* frame);
+  void refine(const Scan& scan, Frame* frame);
+  void use_prior(Frame* frame) const;
+  double slip_of(const Frame& frame, double along_m) const;
+  void learn_twist(const Frame& frame);
+  void keep_map(const Frame& frame);
+  void conclude(Frame* frame);
+  Eigen::Vector3d shrunk_turn(const Frame& frame) const;
+  bool was_bent(const Frame& frame) const;
+  void begin_unbent(const Frame& frame);
+  void take_in(const Pose& pose);
+
+  Reading reading_;
+  MotionSettings settings_;
+  // scratch
+  RangeImage image_;
+  SegmentScratch segment_;
+  ObservationScratch choice_;
+  Span<Observation> observation_;
+  PatchSums patches_;
+  CurveScratch curve_;
+  // memory
+  ReliefMap map_;
+  Pose pose_, start_, keyframe_;
+  Twist twist_;
+  RoadAxes axes_;
+  Travel travel_;
+  SixBySix last_covariance_;
+  std::int64_t stamp_ns_ = 0;
+  double period_s_ = 0.0;  // usual time between frames
+  std::uint64_t frames_ = 0;
+  std::uint32_t back_ = 0;         // stamps in a row that went back
+  std::uint32_t since_start_ = 0;  // frames on this map
+  double slipped_m_ = 0.0;         // since something told the way
+  double lost_s_ = 0.0;            // since the last pose, where the map began anew
+  bool has_map_ = false;
+  bool is_bent_ = false;  // the map's scans, by motion that nobody knew
+  bool guesses_ = false;  // keyframes that nothing told the place of, since then
+};
+
+}  // namespace pose_wall::motion

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// How an observation lies on the map, and the two steps of Levenberg-Marquardt on that (the document's section 3):
+// roll, pitch and height by the ground, then the place across and yaw by the rest; along only where asked for.
+
+#pragma once
+
+#include "motion/features.hpp"
+#include "motion/relief_map.hpp"
+
+namespace pose_wall::motion {
+
+// One scan against the map.
+struct Scan {
+  const ReliefMap* map;
+  Span<const Observation> observation;
+  Eigen::Vector3f sensor_base_m;
+};
+
+// How one observation lies.
+struct Fit {
+  Surface surface;
+  Eigen::Vector3f p;       // in the map, from its corner
+  Eigen::Vector3f normal;  // of the tile's plane
+  float distance_m;        // of the point from the rock, along the normal; from the plane where has_relief is false
+  float variance_m2;       // that noise alone gives the distance
+  float incidence2;        // squared cosine between ray and normal
+  bool has_relief;
+};
+bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit);
+// The same for a pose that is shifted a little: misfit in deviations, of a fit that holds incidence and tile. False
+// where the map does not know the rock.
+bool fit_shifted(const Scan& scan, const Eigen::Vector3f& p, const Fit& before, bool by_plane, float* misfit);
+
+// The road's axes in the map: along is where the surfaces give least hold.
+struct RoadAxes {
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX(), left = Eigen::Vector3d::UnitY(), up = Eigen::Vector3d::UnitZ();
+  double hold = 0.0;  // information of the surfaces' normals along it, over that across; 1: a hall, 0: a smooth road
+};
+
+struct Alignment {
+  Pose pose;
+  RoadAxes axes;
+  std::uint32_t matched = 0, ground = 0;  // observations that count
+  bool ground_alone = false;              // the ground is seen well enough to do without the roof
+  // Of along, across, up, and turns about these axes; by patches of rock, so that neighbours that err together count
+  // once. The along row is zero where it was not asked for.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+struct PatchSums {
+  void lay_out(Arena& arena);
+  Span<float> sum[3];
+  Span<std::uint8_t> is_touched;
+};
+
+// From surfaces that lie within cut_m, by their planes, or within a few deviations of the rock where the relief is
+// known. with_along: the step across takes the way along, too.
+struct StepOptions {
+  float cut_m = 0.3F;
+  bool use_relief = false;
+  bool with_along = false;
+  int rounds = 3;
+  std::uint32_t every = 1;  // of so many observations one is asked
+};
+void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* alignment);
+void step_one(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* alignment);
+void step_two(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* alignment);
+
+}  // namespace pose_wall::motion

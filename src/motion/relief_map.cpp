@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "motion/relief_map.hpp"
+
+#include <cmath>
+
+#include "estimation/small_cholesky.hpp"
+
+namespace pose_wall::motion {
+namespace {
+
+constexpr float kUnit_m = 1e-4F;
+constexpr float kAlong_m = 1.0F / kAlongCells;
+constexpr float kAcross_m = 1.0F / kAcrossCells;
+constexpr float kPlaceUnit_m = kAlong_m / 256.0F;
+// About the first point of a surface whose slope is not known yet: 45 degrees over half a tile, and some relief.
+constexpr float kFreshLayer_m = 0.6F;
+constexpr double kRidge = 0.05;  // m2: some flat plane goes into a tile's own, so that a line of points tilts nothing
+
+// u and v of a facing.
+constexpr int kU[] = {1, 0, 0}, kV[] = {2, 2, 1};
+
+struct Place {
+  std::int32_t u, v;       // tile
+  float at_u, at_v, at_k;  // from its middle; along the axis, from the corner
+};
+
+inline std::int32_t whole(float value) {
+  const std::int32_t cut = static_cast<std::int32_t>(value);
+  return cut - (value < static_cast<float>(cut) ? 1 : 0);
+}
+
+inline Place place_of(const Eigen::Vector3f& p, std::uint8_t facing, const std::int32_t (&corner)[3]) {
+  const int iu = kU[facing], iv = kV[facing];
+  const std::int32_t u = whole(p[iu]), v = whole(p[iv]);
+  return {u + corner[iu], v + corner[iv], p[iu] - static_cast<float>(u) - 0.5F, p[iv] - static_cast<float>(v) - 0.5F,
+          p[facing]};
+}
+
+std::int32_t along_cell(float u) {
+  const std::int32_t i = static_cast<std::int32_t>((u + 0.5F) * kAlongCells);
+  return i < 0 ? 0 : i >= kAlongCells ? kAlongCells - 1 : i;
+}
+std::int32_t across_cell(float v) {
+  const std::int32_t i = static_cast<std::int32_t>((v + 0.5F) * kAcrossCells);
+  return i < 0 ? 0 : i >= kAcrossCells ? kAcrossCells - 1 : i;
+}
+
+float middle_along(std::int32_t i) {
+  return (static_cast<float>(i) + 0.5F) * kAlong_m - 0.5F;
+}
+float middle_across(std::int32_t j) {
+  return (static_cast<float>(j) + 0.5F) * kAcross_m - 0.5F;
+}
+
+// Where a cell's points lie along u.
+float along_of(const Cell& cell, std::int32_t i) {
+  return middle_along(i) + static_cast<float>(cell.along) * kPlaceUnit_m;
+}
+float height_of(const Cell& cell) {
+  return static_cast<float>(cell.height_um100) * kUnit_m;
+}
+
+std::int16_t rounded(float value, float most) {
+  const float r = std::floor(value + 0.5F);
+  return static_cast<std::int16_t>(r > most ? most : r < -most ? -most : r);
+}
+
+}  // namespace
+
+void ReliefMap::lay_out(Arena& arena) {
+  tile_ = arena.take<Tile>(kTilesMost);
+  bucket_ = arena.take<std::int16_t>(2 * kTilesMost);
+  fresh_ = arena.take<std::int16_t>(kTilesMost);
+}
+
+void ReliefMap::clear() {
+  bucket_.fill(-1);
+  used_ = fresh_count_ = keyframe_ = 0;
+  gave_way_ = false;
+}
+
+void ReliefMap::set_corner(const Eigen::Vector3d& near_map) {
+  constexpr double kAway_m = 128.0;  // so that what is near counts from zero upwards
+  for (int k = 0; k < 3; ++k) corner_[k] = static_cast<std::int32_t>(std::floor(near_map[k] - kAway_m));
+}
+
+std::uint32_t ReliefMap::bucket_of(std::int32_t u, std::int32_t v, std::uint8_t facing) const {
+  std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(u)) << 32U | static_cast<std::uint32_t>(v);
+  key = (key + facing) * 0x9E3779B97F4A7C15ULL;
+  return static_cast<std::uint32_t>(key >> 40U) & (bucket_.size() - 1);
+}
+
+bool ReliefMap::find(const Eigen::Vector3f& p, std::uint8_t facing, Surface* out) const {
+  const Place at = place_of(p, facing, corner_);
+  const float base = static_cast<float>(corner_[facing]);
+  float best = kLayer_m;
+  bool found = false;
+  for (std::int32_t i = bucket_[bucket_of(at.u, at.v, facing)]; i >= 0;) {
+    const Tile& tile = tile_[static_cast<std::uint32_t>(i)];
+    i = tile.next;
+    if (tile.u != at.u || tile.v != at.v || tile.facing != facing || tile.fresh != 0) continue;
+    const float above = at.at_k - (tile.height_m - base) - tile.slope_u * at.at_u - tile.slope_v * at.at_v;
+    if (!(std::fabs(above) < best)) continue;
+    best = std::fabs(above);
+    *out = {&tile, at.at_u, at.at_v, above};
+    found = true;
+  }
+  return found;
+}
+
+bool ReliefMap::find_again(const Eigen::Vector3f& p, const Tile* before, Surface* out) const {
+  const Tile& tile = *before;
+  const int iu = kU[tile.facing], iv = kV[tile.facing];
+  const float u = p[iu] - static_cast<float>(tile.u - corner_[iu]) - 0.5F;
+  const float v = p[iv] - static_cast<float>(tile.v - corner_[iv]) - 0.5F;
+  if (!(std::fabs(u) <= 0.5F && std::fabs(v) <= 0.5F)) return find(p, tile.facing, out);
+  const float above =
+      p[tile.facing] - (tile.height_m - static_cast<float>(corner_[tile.facing])) - tile.slope_u * u - tile.slope_v * v;
+  *out = {before, u, v, above};
+  return std::fabs(above) < kLayer_m;
+}
+
+bool ReliefMap::relief(const Surface& at, Relief* out) {
+  const Cell* const cells = at.tile->cell + across_cell(at.v) * kAlongCells;
+  const std::int32_t i = along_cell(at.u);
+  if (cells[i].count == 0) return false;
+  const float here = along_of(cells[i], i);
+  const std::int32_t j = at.u > here ? i + 1 : i - 1;
+  if (j < 0 || j >= kAlongCells || cells[j].count == 0) return false;
+  const float there = along_of(cells[j], j);
+  const float h0 = height_of(cells[i]), h1 = height_of(cells[j]);
+  const float w = (at.u - here) / (there - here);
+  out->spread =
+      1.0F + (1.0F - w) * (1.0F - w) / static_cast<float>(cells[i].count) + w * w / static_cast<float>(cells[j].count);
+  if (!(std::fabs(h1 - h0) > kAlong_m)) {
+    out->height_m = h0 + w * (h1 - h0);
+    return true;
+  }
+  // Steeper than 45 degrees cells cannot tell where the step is, and which side of it is seen hangs on the sensor's
+  // place: anything between the two heights agrees. Steel sets stretched the way by 0.6 % when a slope was drawn here.
+  const float low = h0 < h1 ? h0 : h1, high = h0 < h1 ? h1 : h0;
+  out->height_m = at.above_m < low ? low : at.above_m > high ? high : at.above_m;
+  return true;
+}
+
+std::int32_t ReliefMap::take_tile() {
+  if (used_ < tile_.size()) return static_cast<std::int32_t>(used_++);
+  std::uint32_t oldest = 0;
+  for (std::uint32_t i = 1; i < tile_.size(); ++i) {
+    if (tile_[i].seen < tile_[oldest].seen) oldest = i;
+  }
+  const Tile& tile = tile_[oldest];
+  if (tile.seen == keyframe_) return -1;  // one scan fills the map
+  gave_way_ = true;
+  std::int16_t* link = &bucket_[bucket_of(tile.u, tile.v, tile.facing)];
+  while (*link != static_cast<std::int16_t>(oldest)) link = &tile_[static_cast<std::uint32_t>(*link)].next;
+  *link = tile.next;
+  return static_cast<std::int32_t>(oldest);
+}
+
+Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) {
+  if (find(p, facing, at)) return &tile_[index_of(at->tile)];
+  const Place place = place_of(p, facing, corner_);
+  const float base = static_cast<float>(corner_[facing]);
+  const std::uint32_t bucket = bucket_of(place.u, place.v, facing);
+  for (std::int32_t i = bucket_[bucket]; i >= 0; i = tile_[static_cast<std::uint32_t>(i)].next) {
+    Tile& tile = tile_[static_cast<std::uint32_t>(i)];
+    if (tile.u != place.u || tile.v != place.v || tile.facing != facing || tile.fresh == 0) continue;
+    const float above = place.at_k - (tile.height_m - base);
+    if (!(std::fabs(above) < kFreshLayer_m)) continue;
+    *at = {&tile, place.at_u, place.at_v, above};
+    return &tile;
+  }
+  const std::int32_t index = fresh_count_ < fresh_.size() ? take_tile() : -1;
+  if (index < 0) return nullptr;
+  Tile& tile = tile_[static_cast<std::uint32_t>(index)];
+  tile = {place.u, place.v, place.at_k + base, 0.0F, 0.0F, 1.0F, keyframe_, bucket_[bucket], facing, 1, {}};
+  bucket_[bucket] = static_cast<std::int16_t>(index);
+  fresh_[fresh_count_++] = static_cast<std::int16_t>(index);
+  *at = {&tile, place.at_u, place.at_v, 0.0F};
+  return &tile;
+}
+
+void ReliefMap::add(const Eigen::Vector3f& p, std::uint8_t facing) {
+  Surface at;
+  Tile* const tile = tile_for(p, facing, &at);
+  if (tile == nullptr) return;
+  tile->seen = keyframe_;
+  const std::int32_t i = along_cell(at.u);
+  Cell& cell = tile->cell[across_cell(at.v) * kAlongCells + i];
+  if (cell.count < 255) ++cell.count;
+  const float share = 1.0F / static_cast<float>(cell.count);
+  const float height = height_of(cell), along = static_cast<float>(cell.along);
+  const float place = (at.u - middle_along(i)) / kPlaceUnit_m;
+  cell.height_um100 = rounded((height + (at.above_m - height) * share) / kUnit_m, 32767.0F);
+  cell.along = static_cast<std::int8_t>(rounded(along + (place - along) * share, 127.0F));
+}
+
+// The plane of a surface that began in this keyframe, by least squares over its cells; heights count from it then.
+void ReliefMap::settle(Tile* tile) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  A(0, 0) = 1e-6;
+  A(1, 1) = A(2, 2) = kRidge;
+  for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
+    const Cell& cell = tile->cell[k];
+    if (cell.count == 0) continue;
+    const Eigen::Vector3d row(1.0, static_cast<double>(along_of(cell, k % kAlongCells)),
+                              static_cast<double>(middle_across(k / kAlongCells)));
+    A += row * row.transpose();
+    b += row * static_cast<double>(height_of(cell));
+  }
+  const SmallCholesky<3> factor(A);
+  const Eigen::Vector3f plane = (factor.solved() ? factor.solve(b) : Eigen::Vector3d::Zero()).cast<float>();
+  for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
+    Cell& cell = tile->cell[k];
+    if (cell.count == 0) continue;
+    const float height = height_of(cell) - plane[0] - plane[1] * along_of(cell, k % kAlongCells) -
+                         plane[2] * middle_across(k / kAlongCells);
+    if (std::fabs(height) < kLayer_m) {
+      cell.height_um100 = rounded(height / kUnit_m, 32767.0F);
+    } else {
+      cell = Cell{};
+    }
+  }
+  tile->height_m += plane[0];
+  tile->slope_u = plane[1];
+  tile->slope_v = plane[2];
+  tile->cosine = 1.0F / std::sqrt(1.0F + plane[1] * plane[1] + plane[2] * plane[2]);
+  tile->fresh = 0;
+}
+
+void ReliefMap::end_keyframe() {
+  for (std::uint32_t f = 0; f < fresh_count_; ++f) settle(&tile_[static_cast<std::uint32_t>(fresh_[f])]);
+  fresh_count_ = 0;
+}
+
+void ReliefMap::forget_relief() {
+  for (std::uint32_t t = 0; t < used_; ++t) {
+    for (Cell& cell : tile_[t].cell) cell = Cell{};
+  }
+}
+
+double ReliefMap::unevenness() const {
+  double worst = 0.0;
+  for (const std::uint8_t facing : {kFacesY, kFacesZ}) {
+    double n = 0.0, su = 0.0, squares = 0.0;
+    for (std::uint32_t t = 0; t < used_; ++t) {
+      if (tile_[t].facing != facing) continue;
+      const double u = static_cast<double>(tile_[t].slope_u);
+      n += 1.0;
+      su += u;
+      squares += u * u;
+    }
+    const double variance = n > 0.0 ? (squares - su * su / n) / n : 0.0;
+    if (variance > worst) worst = variance;
+  }
+  return std::sqrt(worst);
+}
+
+std::uint32_t ReliefMap::points(std::uint32_t first, std::uint32_t capacity, float* xyz_m) const {
+  std::uint32_t count = 0;
+  for (std::uint32_t t = 0; t < used_; ++t) {
+    const Tile& tile = tile_[t];
+    for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
+      const Cell& cell = tile.cell[k];
+      if (cell.count == 0) continue;
+      if (count >= first && count - first < capacity) {
+        const float u = along_of(cell, k % kAlongCells), v = middle_across(k / kAlongCells);
+        float* const out = xyz_m + std::size_t{3} * (count - first);
+        out[kU[tile.facing]] = static_cast<float>(tile.u) + 0.5F + u;
+        out[kV[tile.facing]] = static_cast<float>(tile.v) + 0.5F + v;
+        out[tile.facing] = tile.height_m + tile.slope_u * u + tile.slope_v * v + height_of(cell);
+      }
+      ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace pose_wall::motion

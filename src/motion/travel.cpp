@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "motion/travel.hpp"
+
+#include <cmath>
+
+namespace pose_wall::motion {
+namespace {
+
+// Which part of a keyframe's own error stays in the map. Keyframes see the same rock again, so their errors are partly
+// one another's: measured by z2 on rough roads.
+constexpr double kStays = 0.6, kStaysAlong = 0.3;
+// Metres a metre that cells and steps of the rock stretch the way by, at most: steel sets 0.2 %.
+constexpr double kStretch = 0.005;
+// Neighbouring patches of ground err together along a sensor's rings: turns were off by twice what patches tell where
+// rings are few (VLP-16 on rough floors).
+constexpr double kTurnDoubt = 2.0;
+// Places and turns that no patch tells: what cells leave of the rock.
+constexpr double kPlaceFloor_m = 0.0005, kTurnFloor_rad = 0.00005;
+
+bool is_turn(int k) {
+  return k >= POSE_WALL_MOTION_ROLL;
+}
+
+SixBySix doubted(const SixBySix& C) {
+  SixBySix out = C;
+  for (int i = 0; i < POSE_WALL_MOTION_DIRECTIONS; ++i) {
+    for (int j = 0; j < POSE_WALL_MOTION_DIRECTIONS; ++j) {
+      out(i, j) *= (is_turn(i) ? kTurnDoubt : 1.0) * (is_turn(j) ? kTurnDoubt : 1.0);
+    }
+    const double least = is_turn(i) ? kTurnFloor_rad : kPlaceFloor_m;
+    out(i, i) += least * least;
+  }
+  return out;
+}
+
+}  // namespace
+
+void Bounds::widen(double place_m, double turn_rad) {
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    const double by = is_turn(k) ? turn_rad : place_m;
+    sigma[k] = std::sqrt(sigma[k] * sigma[k] + by * by / 3.0);
+    level[k] += by;
+  }
+}
+
+void Travel::go(double along_m) {
+  along_m_ += along_m;
+  way_m_ += std::fabs(along_m);
+  lost_m_ += lost_rad_ * std::fabs(along_m);
+  SixBySix F = SixBySix::Identity();
+  F(POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_YAW) = along_m;
+  F(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH) = -along_m;
+  of_map_ = (F * of_map_ * F.transpose()).eval();
+}
+
+void Travel::take_in(const SixBySix& of_alignment) {
+  Six stays = Six::Constant(kStays);
+  stays[POSE_WALL_MOTION_ALONG] = kStaysAlong;
+  of_map_ += stays.asDiagonal() * doubted(of_alignment) * stays.asDiagonal();
+}
+
+void Travel::begin_with(const SixBySix& of_alignment) {
+  of_map_ += doubted(of_alignment);
+}
+
+void Travel::slip(double along_m, double unevenness) {
+  slip_m_ += along_m;
+  const double turn2 = unevenness * unevenness, place2 = turn2 * along_m * along_m;
+  for (int k = POSE_WALL_MOTION_ACROSS; k < POSE_WALL_MOTION_DIRECTIONS; ++k)
+    of_map_(k, k) += is_turn(k) ? turn2 : place2;
+}
+
+Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double factor) const {
+  const Six variance = (of_map_ + doubted(of_alignment)).diagonal();
+  Bounds out;
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    const double lost = is_turn(k) ? lost_rad_ : lost_m_;
+    const double slip = k == POSE_WALL_MOTION_ALONG ? slip_m_ + slipping_m : 0.0;
+    out.sigma[k] = std::sqrt(variance[k] + (slip + lost) * (slip + lost) / 3.0);
+    out.level[k] = factor * std::sqrt(variance[k]) + slip + lost;
+  }
+  out.level[POSE_WALL_MOTION_ALONG] += kStretch * way_m_;
+  return out;
+}
+
+Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor) {
+  const Six variance = (doubted(before) + doubted(now)).diagonal();
+  Bounds out;
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    const double slip = k == POSE_WALL_MOTION_ALONG ? slip_m : 0.0;
+    out.sigma[k] = std::sqrt(variance[k] + slip * slip / 3.0);
+    out.level[k] = factor * std::sqrt(variance[k]) + slip;
+  }
+  return out;
+}
+
+}  // namespace pose_wall::motion

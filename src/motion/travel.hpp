@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What a pose is worth: the covariance of the map's place that adds up keyframe by keyframe, and the levels.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "pose_wall_motion.h"
+
+namespace pose_wall::motion {
+
+using Six = Eigen::Matrix<double, POSE_WALL_MOTION_DIRECTIONS, 1>;
+using SixBySix = Eigen::Matrix<double, POSE_WALL_MOTION_DIRECTIONS, POSE_WALL_MOTION_DIRECTIONS>;
+
+struct Bounds {
+  Six sigma = Six::Zero(), level = Six::Zero();
+
+  // By what is not known at all, evenly over its range.
+  void widen(double place_m, double turn_rad);
+};
+
+class Travel {
+ public:
+  void reset() { *this = Travel{}; }
+  // The machine went so far along the road; the map's turns become its place.
+  void go(double along_m);
+  // A keyframe enters the map with the errors of its own alignment.
+  void take_in(const SixBySix& of_alignment);
+  // A new map begins with a frame: all of its errors are the map's.
+  void begin_with(const SixBySix& of_alignment);
+  // Nothing told the way: known to within so many metres. The map's surfaces are those of another place then, whose
+  // slopes differ by the unevenness.
+  void slip(double along_m, double unevenness);
+  // Everything is known to within so much only: after a frame that was lost.
+  void lose(double place_m, double turn_rad) {
+    lost_m_ += place_m;
+    lost_rad_ += turn_rad;
+  }
+  // slipping_m: what slipped and may yet be told again.
+  Bounds bounds(const SixBySix& of_alignment, double slipping_m, double factor) const;
+  // Of the way from one frame to the next, each against the same map.
+  static Bounds of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor);
+
+  double along_m() const { return along_m_; }
+  double way_m() const { return way_m_; }
+
+ private:
+  SixBySix of_map_ = SixBySix::Zero();
+  double along_m_ = 0.0, way_m_ = 0.0;
+  double slip_m_ = 0.0, lost_m_ = 0.0, lost_rad_ = 0.0;
+};
+
+}  // namespace pose_wall::motion

@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: pose_wall_motion.h refuses what it says it refuses, with the status it says, and writes nothing then; a block
+// may hold anything and two motions do not meet; a reset motion is a fresh one; no call takes memory.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "soak/heap_count.hpp"
+#include "support/clouds.hpp"
+#include "support/engine_under_test.hpp"
+#include "support/motion_contract.hpp"
+#include "support/motion_under_test.hpp"
+#include "support/room.hpp"
+
+namespace pose_wall::test {
+namespace {
+
+constexpr std::int64_t kMotionPeriod_ns = 100000000;
+
+// A ribbed road, seen from a place that moves.
+std::vector<Points> ribbed_frames(std::uint32_t count) {
+  std::vector<Points> frames;
+  for (std::uint32_t i = 0; i < count; ++i) frames.push_back(ribbed_room_points(i + 1));
+  return frames;
+}
+
+std::vector<pose_wall_motion_result> results_of(MotionUnderTest& motion, const std::vector<Points>& frames) {
+  std::vector<pose_wall_motion_result> results;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    results.push_back(motion.process(cloud_of(frames[i], static_cast<std::int64_t>(i) * kMotionPeriod_ns)));
+  }
+  return results;
+}
+
+bool same_bits(const std::vector<pose_wall_motion_result>& a, const std::vector<pose_wall_motion_result>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+// ------------------------------------------------------------------------------------------ words
+
+TEST(MotionWords, AreThoseOfTheHeader) {
+  EXPECT_EQ(pose_wall_motion_abi_version(), static_cast<std::uint32_t>(POSE_WALL_MOTION_ABI_VERSION));
+  const char* const states[] = {"lost", "unobservable", "ambiguous", "measured"};
+  for (std::uint32_t s = 0; s < 4; ++s) EXPECT_STREQ(pose_wall_motion_along_state_name(s), states[s]);
+  const char* const directions[] = {"along", "across", "up", "roll", "pitch", "yaw"};
+  for (std::uint32_t d = 0; d < 6; ++d) EXPECT_STREQ(pose_wall_motion_direction_name(d), directions[d]);
+  const char* const reasons[] = {"first",         "few_points",  "few_matches", "smooth",    "few_patches",
+                                 "halves_differ", "second_peak", "at_edge",     "no_ground", "stamp",
+                                 "gap",           "prior",       "map_full"};
+  static_assert(std::size(reasons) == POSE_WALL_MOTION_REASON_COUNT);
+  std::set<std::string> texts;
+  for (std::uint32_t r = 0; r < POSE_WALL_MOTION_REASON_COUNT; ++r) {
+    EXPECT_STREQ(pose_wall_motion_reason_name(r), reasons[r]);
+    const std::string text = pose_wall_motion_reason_text(r);
+    EXPECT_EQ(text.back(), '.') << text;
+    EXPECT_TRUE(texts.insert(text).second) << text;
+  }
+  for (const std::uint32_t none : {4U, 6U, 13U, 31U, 32U, 0xFFFFFFFFU}) {
+    if (none >= 4) {
+      EXPECT_STREQ(pose_wall_motion_along_state_name(none), "unknown");
+    }
+    if (none >= 6) {
+      EXPECT_STREQ(pose_wall_motion_direction_name(none), "unknown");
+    }
+    if (none >= 13) {
+      EXPECT_STREQ(pose_wall_motion_reason_name(none), "unknown");
+      EXPECT_STREQ(pose_wall_motion_reason_text(none), "unknown reason");
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------------ settings
+
+TEST(MotionSettings, DefaultsAreThoseOfTheHeader) {
+  pose_wall_motion_settings settings;
+  std::memset(&settings, 0x5A, sizeof settings);
+  ASSERT_EQ(pose_wall_motion_settings_init(&settings), POSE_WALL_OK);
+  EXPECT_EQ(settings.struct_size, sizeof settings);
+  EXPECT_EQ(settings.reserved, 0U);
+  EXPECT_EQ(settings.speed_max_m_s, 2.0);
+  EXPECT_NEAR(settings.turn_max_rad_s, M_PI / 2, 1e-12);
+  EXPECT_EQ(settings.range_max_m, 30.0);
+  EXPECT_EQ(settings.keyframe_m, 0.2);
+  EXPECT_EQ(pose_wall_motion_settings_check(&settings, nullptr), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_motion_settings_init(nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_motion_settings_check(nullptr, nullptr), POSE_WALL_E_NULL);
+}
+
+struct SettingRange {
+  const char* name;
+  double pose_wall_motion_settings::*member;
+  double least, most;
+};
+constexpr SettingRange kRanges[] = {{"speed_max_m_s", &pose_wall_motion_settings::speed_max_m_s, 0.01, 30.0},
+                                    {"turn_max_rad_s", &pose_wall_motion_settings::turn_max_rad_s, 0.01, 10.0},
+                                    {"range_max_m", &pose_wall_motion_settings::range_max_m, 3.0, 100.0},
+                                    {"keyframe_m", &pose_wall_motion_settings::keyframe_m, 0.05, 1.0}};
+
+TEST(MotionSettings, EachOutOfItsRangeIsRefusedByName) {
+  for (const SettingRange& range : kRanges) {
+    pose_wall_motion_settings settings = motion_settings();
+    for (const double good : {range.least, range.most}) {
+      settings.*range.member = good;
+      EXPECT_EQ(pose_wall_motion_settings_check(&settings, nullptr), POSE_WALL_OK) << range.name << " " << good;
+      MotionUnderTest opens(config_with(), Dirt::kRandom, settings);
+    }
+    const double inf = std::numeric_limits<double>::infinity();
+    for (const double bad :
+         {std::nextafter(range.least, 0.0), std::nextafter(range.most, 1e9), 0.0, -1.0, inf, -inf, std::nan("")}) {
+      settings.*range.member = bad;
+      pose_wall_motion_fault fault = {"", ""};
+      EXPECT_EQ(pose_wall_motion_settings_check(&settings, &fault), POSE_WALL_E_VALUE_RANGE)
+          << range.name << " " << bad;
+      EXPECT_STREQ(fault.member, range.name);
+      EXPECT_EQ(std::string(fault.rule).find(range.name), 0U) << fault.rule;
+      EXPECT_EQ(pose_wall_motion_settings_check(&settings, nullptr), POSE_WALL_E_VALUE_RANGE);
+    }
+  }
+}
+
+TEST(MotionSettings, OfAnotherSizeAreRefused) {
+  pose_wall_motion_settings settings = motion_settings();
+  pose_wall_motion_fault fault = {"untouched", nullptr};
+  for (const std::uint32_t size : {0U, 4U, static_cast<std::uint32_t>(sizeof settings) - 8U, 0x5A5A5A5AU}) {
+    settings.struct_size = size;
+    EXPECT_EQ(pose_wall_motion_settings_check(&settings, &fault), POSE_WALL_E_STRUCT_SIZE) << size;
+  }
+  settings.struct_size = sizeof settings + 8;
+  EXPECT_EQ(pose_wall_motion_settings_check(&settings, &fault), POSE_WALL_E_STRUCT_NEWER);
+  EXPECT_STREQ(fault.member, "untouched");
+}
+
+// ------------------------------------------------------------------------------------------ open
+
+class MotionOpen : public ::testing::Test {
+ protected:
+  std::int32_t open(const pose_wall_config* config, const pose_wall_motion_settings* settings, void* block,
+                    std::uint64_t bytes) {
+    return pose_wall_motion_open(config, settings, block, bytes, &motion_);
+  }
+  void TearDown() override { EXPECT_EQ(motion_, nullptr) << "a refusal wrote"; }
+
+  pose_wall_config config_ = config_with();
+  AlignedBlock block_{pose_wall_motion_memory_needed() + 64, Dirt::kRandom};
+  const std::uint64_t bytes_ = pose_wall_motion_memory_needed();
+  pose_wall_motion* motion_ = nullptr;
+};
+
+TEST_F(MotionOpen, RefusesWhatTheHeaderSays) {
+  EXPECT_EQ(open(nullptr, nullptr, block_.data(), bytes_), POSE_WALL_E_NULL);
+  EXPECT_EQ(open(&config_, nullptr, nullptr, bytes_), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_motion_open(&config_, nullptr, block_.data(), bytes_, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(open(&config_, nullptr, block_.data(), bytes_ - 1), POSE_WALL_E_BLOCK_SMALL);
+  EXPECT_EQ(open(&config_, nullptr, block_.data(), 0), POSE_WALL_E_BLOCK_SMALL);
+  EXPECT_EQ(open(&config_, nullptr, static_cast<char*>(block_.data()) + 8, bytes_), POSE_WALL_E_BLOCK_ALIGN);
+  pose_wall_motion_settings settings = motion_settings();
+  settings.speed_max_m_s = 0.0;
+  EXPECT_EQ(open(&config_, &settings, block_.data(), bytes_), POSE_WALL_E_VALUE_RANGE);
+  settings = motion_settings();
+  settings.struct_size = 3;
+  EXPECT_EQ(open(&config_, &settings, block_.data(), bytes_), POSE_WALL_E_STRUCT_SIZE);
+  pose_wall_config none;
+  std::memset(&none, 0, sizeof none);
+  EXPECT_EQ(open(&none, nullptr, block_.data(), bytes_), POSE_WALL_E_STRUCT_SIZE);
+}
+
+TEST(MotionMemory, StaysWithinItsBound) {
+  EXPECT_LE(pose_wall_motion_memory_needed(), 6U << 20U);
+  EXPECT_GT(pose_wall_motion_memory_needed(), 1U << 20U);
+  EXPECT_EQ(pose_wall_motion_memory_needed() % POSE_WALL_BLOCK_ALIGNMENT, 0U);
+}
+
+TEST(MotionMemory, NullSettingsAreTheDefaults) {
+  const std::vector<Points> frames = ribbed_frames(4);
+  const pose_wall_config config = config_with();
+  MotionUnderTest with(config);
+  AlignedBlock block(pose_wall_motion_memory_needed(), Dirt::kRandom);
+  pose_wall_motion* motion = nullptr;
+  ASSERT_EQ(pose_wall_motion_open(&config, nullptr, block.data(), block.size(), &motion), POSE_WALL_OK);
+  const auto expected = results_of(with, frames);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    pose_wall_motion_result result = blank_motion_result();
+    const pose_wall_cloud cloud = cloud_of(frames[i], static_cast<std::int64_t>(i) * kMotionPeriod_ns);
+    ASSERT_EQ(pose_wall_motion_process(motion, &cloud, &result), POSE_WALL_OK);
+    EXPECT_EQ(std::memcmp(&result, &expected[i], sizeof result), 0) << i;
+  }
+}
+
+TEST(MotionMemory, WhatTheBlockHeldChangesNoBit) {
+  const std::vector<Points> frames = ribbed_frames(8);
+  MotionUnderTest zeros(config_with(), Dirt::kZeros);
+  const auto expected = results_of(zeros, frames);
+  for (const Dirt dirt : {Dirt::kOnes, Dirt::kRandom}) {
+    MotionUnderTest other(config_with(), dirt);
+    EXPECT_TRUE(same_bits(results_of(other, frames), expected));
+  }
+  AlignedBlock block(pose_wall_motion_memory_needed(), Dirt::kZeros);
+  std::memset(block.data(), 0x5A, block.size());
+  const pose_wall_config config = config_with();
+  pose_wall_motion* motion = nullptr;
+  for (int again = 0; again < 2; ++again) {  // the second time over the first one's own memory
+    ASSERT_EQ(pose_wall_motion_open(&config, nullptr, block.data(), block.size(), &motion), POSE_WALL_OK);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      pose_wall_motion_result result = blank_motion_result();
+      const pose_wall_cloud cloud = cloud_of(frames[i], static_cast<std::int64_t>(i) * kMotionPeriod_ns);
+      ASSERT_EQ(pose_wall_motion_process(motion, &cloud, &result), POSE_WALL_OK);
+      ASSERT_EQ(std::memcmp(&result, &expected[i], sizeof result), 0) << again << " " << i;
+    }
+  }
+}
+
+TEST(MotionMemory, TwoInterleavedAreTwoAlone) {
+  const std::vector<Points> some = ribbed_frames(6);
+  std::vector<Points> others;
+  for (std::uint32_t i = 0; i < 6; ++i) others.push_back(room_points(40 + i, 0.5));
+  MotionUnderTest a(config_with()), b(config_with());
+  const auto expected_a = results_of(a, some), expected_b = results_of(b, others);
+  MotionUnderTest c(config_with()), d(config_with());
+  std::vector<pose_wall_motion_result> found_c, found_d;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const auto stamp = static_cast<std::int64_t>(i) * kMotionPeriod_ns;
+    found_c.push_back(c.process(cloud_of(some[i], stamp)));
+    found_d.push_back(d.process(cloud_of(others[i], stamp)));
+  }
+  EXPECT_TRUE(same_bits(found_c, expected_a));
+  EXPECT_TRUE(same_bits(found_d, expected_b));
+}
+
+TEST(MotionMemory, AResetMotionIsAFreshOne) {
+  const std::vector<Points> frames = ribbed_frames(6);
+  MotionUnderTest fresh(config_with()), used(config_with());
+  const auto expected = results_of(fresh, frames);
+  results_of(used, {room_points(70, 0.8), Points(), room_points(71, -0.8), frames[3], frames[4]});
+  used.reset();
+  EXPECT_TRUE(same_bits(results_of(used, frames), expected));
+  used.reset();
+  used.reset();
+  EXPECT_TRUE(same_bits(results_of(used, frames), expected));
+}
+
+// ------------------------------------------------------------------------------------------ process
+
+class MotionProcess : public ::testing::Test {
+ protected:
+  // Its status; a refusal must leave the result as it was.
+  std::int32_t status(const pose_wall_cloud& cloud, std::uint32_t result_size = sizeof(pose_wall_motion_result)) {
+    pose_wall_motion_result result, before;
+    std::memset(&result, 0x5A, sizeof result);
+    result.struct_size = result_size;
+    before = result;
+    const std::int32_t status = pose_wall_motion_process(motion_.get(), &cloud, &result);
+    if (status != POSE_WALL_OK) {
+      EXPECT_EQ(std::memcmp(&result, &before, sizeof result), 0) << "a refusal wrote";
+    }
+    return status;
+  }
+
+  MotionUnderTest motion_{config_with()};
+  const Points points_ = room_points(1);
+};
+
+TEST_F(MotionProcess, RefusesNulls) {
+  const pose_wall_cloud cloud = cloud_of(points_, 0);
+  pose_wall_motion_result result = blank_motion_result();
+  EXPECT_EQ(pose_wall_motion_process(nullptr, &cloud, &result), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_motion_process(motion_.get(), nullptr, &result), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_motion_process(motion_.get(), &cloud, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_motion_reset(nullptr), POSE_WALL_E_NULL);
+}
+
+TEST_F(MotionProcess, RefusesWhatIsNoMotion) {
+  AlignedBlock garbage(pose_wall_motion_memory_needed(), Dirt::kRandom);
+  auto* const none = static_cast<pose_wall_motion*>(garbage.data());
+  const pose_wall_cloud cloud = cloud_of(points_, 0);
+  pose_wall_motion_result result = blank_motion_result();
+  std::uint32_t total = 7;
+  EXPECT_EQ(pose_wall_motion_process(none, &cloud, &result), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_motion_reset(none), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_motion_map(none, 0, nullptr, 0, &total), POSE_WALL_E_ENGINE);
+  std::memcpy(garbage.data(), motion_.get(), garbage.size());  // it was moved, and must not
+  EXPECT_EQ(pose_wall_motion_process(none, &cloud, &result), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(pose_wall_motion_map(none, 0, nullptr, 0, &total), POSE_WALL_E_ENGINE);
+  EXPECT_EQ(total, 7U);
+}
+
+TEST_F(MotionProcess, RefusesWhatTheEngineRefuses) {
+  EngineUnderTest engine(small_config());
+  pose_wall_result of_engine{};
+  of_engine.struct_size = sizeof of_engine;
+  const pose_wall_cloud good = cloud_of(points_, 0);
+  std::vector<pose_wall_cloud> bad(9, good);
+  bad[0].struct_size = 4;
+  bad[1].struct_size = sizeof good + 8;
+  bad[2].struct_size = offsetof(pose_wall_cloud, inputs);
+  bad[3].data = nullptr;
+  bad[4].data_bytes -= 1;
+  bad[5].x.type = POSE_WALL_FIELD_NONE;
+  bad[6].z.offset = 9;
+  bad[7].time = {12, POSE_WALL_FIELD_UINT32};
+  bad[8].ring = {0, 99};
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    const std::int32_t expected = pose_wall_process(engine.get(), &bad[i], &of_engine);
+    EXPECT_NE(expected, POSE_WALL_OK) << i;
+    EXPECT_EQ(status(bad[i]), expected) << i;
+  }
+  EXPECT_EQ(status(good), POSE_WALL_OK);
+}
+
+TEST_F(MotionProcess, RefusesResultsOfOtherSizes) {
+  const pose_wall_cloud cloud = cloud_of(points_, 0);
+  const auto whole = static_cast<std::uint32_t>(sizeof(pose_wall_motion_result));
+  for (const std::uint32_t size : {0U, 8U, whole - 8U, 0x5A5A5A5AU})
+    EXPECT_EQ(status(cloud, size), POSE_WALL_E_STRUCT_SIZE);
+  for (const std::uint32_t size : {whole + 8U, whole + 400U}) EXPECT_EQ(status(cloud, size), POSE_WALL_E_STRUCT_NEWER);
+  const pose_wall_motion_result first = motion_.process(cloud);
+  EXPECT_EQ(first.frame_index, 0U) << "what was refused is no frame";
+}
+
+TEST_F(MotionProcess, RefusesInputsThatAreNone) {
+  pose_wall_cloud cloud = cloud_of(points_, 0);
+  pose_wall_inputs inputs{};
+  cloud.inputs = &inputs;
+  EXPECT_EQ(status(cloud), POSE_WALL_E_STRUCT_SIZE);
+  inputs.struct_size = sizeof inputs;
+  inputs.given = 64;
+  EXPECT_EQ(status(cloud), POSE_WALL_E_INPUT);
+  inputs.given = 0;
+  EXPECT_EQ(status(cloud), POSE_WALL_OK);
+}
+
+// A cloud of before there was a ring ends where the memory ends.
+TEST_F(MotionProcess, TakesAShorterCloudAndReadsNothingBehindIt) {
+  constexpr std::size_t kShort = offsetof(pose_wall_cloud, ring);
+  std::vector<unsigned char> memory(kShort);
+  pose_wall_cloud whole = cloud_of(points_, 0);
+  whole.struct_size = kShort;
+  std::memcpy(memory.data(), &whole, kShort);
+  pose_wall_motion_result result = blank_motion_result();
+  const auto* const cloud = reinterpret_cast<const pose_wall_cloud*>(memory.data());
+  EXPECT_EQ(pose_wall_motion_process(motion_.get(), cloud, &result), POSE_WALL_OK);
+  whole.ring = {0xFFFFFFFFU, 77};  // what happens to lie behind it
+  EXPECT_EQ(pose_wall_motion_process(motion_.get(), &whole, &result), POSE_WALL_OK);
+}
+
+TEST_F(MotionProcess, ResultsAreMarkedAndCounted) {
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    const auto stamp = static_cast<std::int64_t>(i) * kMotionPeriod_ns;
+    const pose_wall_motion_result r = motion_.process(cloud_of(points_, stamp));
+    EXPECT_EQ(r.frame_index, i);
+    EXPECT_EQ(r.stamp_ns, stamp);
+    EXPECT_NE(r.mark, 0U);
+    EXPECT_EQ(r.points_in, points_.size());
+    EXPECT_EQ(broken_motion(r), nullptr) << broken_motion(r);
+  }
+}
+
+TEST_F(MotionProcess, ASecondCallMeanwhileIsRefused) {
+  std::vector<Points> frames;
+  for (std::uint32_t i = 0; i < 4; ++i) frames.push_back(room_points(i));
+  MotionUnderTest alone(config_with());
+  const auto expected = results_of(alone, frames);
+  std::atomic<bool> done{false};
+  std::atomic<std::uint32_t> busy{0}, other{0};
+  std::thread asks([&] {
+    while (!done) {
+      std::uint32_t total = 0;
+      const std::int32_t status = pose_wall_motion_map(motion_.get(), 0, nullptr, 0, &total);
+      if (status == POSE_WALL_E_BUSY) ++busy;
+      if (status != POSE_WALL_E_BUSY && status != POSE_WALL_OK) ++other;
+    }
+  });
+  // Whichever of the two was inside first, the other is refused; who is refused asks again.
+  std::vector<pose_wall_motion_result> found;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    pose_wall_motion_result result = blank_motion_result();
+    const pose_wall_cloud cloud = cloud_of(frames[i], static_cast<std::int64_t>(i) * kMotionPeriod_ns);
+    std::int32_t status = POSE_WALL_E_BUSY;
+    while (status == POSE_WALL_E_BUSY) status = pose_wall_motion_process(motion_.get(), &cloud, &result);
+    EXPECT_EQ(status, POSE_WALL_OK);
+    found.push_back(result);
+  }
+  done = true;
+  asks.join();
+  EXPECT_TRUE(same_bits(found, expected));
+  EXPECT_GT(busy.load(), 0U);
+  EXPECT_EQ(other.load(), 0U);
+}
+
+// ------------------------------------------------------------------------------------------ map
+
+TEST_F(MotionProcess, TheMapComesInParts) {
+  results_of(motion_, ribbed_frames(3));
+  std::uint32_t total = 0;
+  ASSERT_EQ(pose_wall_motion_map(motion_.get(), 0, nullptr, 0, &total), POSE_WALL_OK);
+  ASSERT_GT(total, 100U);
+  std::vector<float> all(3 * total), part(30, 1e9F);
+  ASSERT_EQ(pose_wall_motion_map(motion_.get(), 0, all.data(), total, &total), POSE_WALL_OK);
+  std::uint32_t on_walls = 0;
+  for (std::uint32_t i = 0; i < total; ++i) {
+    ASSERT_TRUE(std::isfinite(all[3 * i]) && std::isfinite(all[3 * i + 1]) && std::isfinite(all[3 * i + 2]));
+    on_walls += std::fabs(std::fabs(all[3 * i + 1]) - 2.45F) < 0.2F ? 1U : 0U;
+  }
+  EXPECT_GT(on_walls, total / 5);
+  ASSERT_EQ(pose_wall_motion_map(motion_.get(), 11, part.data(), 5, &total), POSE_WALL_OK);
+  EXPECT_TRUE(std::equal(part.begin(), part.begin() + 15, all.begin() + 33));
+  EXPECT_EQ(part[15], 1e9F);
+  for (const std::uint32_t first : {total, 0xFFFFFFFFU}) {
+    part[0] = 1e9F;
+    EXPECT_EQ(pose_wall_motion_map(motion_.get(), first, part.data(), 10, &total), POSE_WALL_OK);
+    EXPECT_EQ(part[0], 1e9F);
+  }
+  EXPECT_EQ(pose_wall_motion_map(motion_.get(), 0, nullptr, 1, &total), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_motion_map(motion_.get(), 0, part.data(), 1, nullptr), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_motion_map(nullptr, 0, part.data(), 1, &total), POSE_WALL_E_NULL);
+  motion_.reset();
+  EXPECT_EQ(pose_wall_motion_map(motion_.get(), 0, nullptr, 0, &total), POSE_WALL_OK);
+  EXPECT_EQ(total, 0U);
+}
+
+// ------------------------------------------------------------------------------------------ heap
+
+TEST(MotionHeap, NoCallAllocates) {
+  std::vector<Points> frames = ribbed_frames(5);
+  frames.insert(frames.begin() + 3, Points());
+  Points garbage(20000);
+  std::mt19937 random(3);
+  for (auto& p : garbage) {
+    for (float& c : p) {
+      const auto bits = static_cast<std::uint32_t>(random());
+      std::memcpy(&c, &bits, sizeof c);
+    }
+  }
+  frames.push_back(garbage);
+  const pose_wall_config config = config_with();
+  AlignedBlock block(pose_wall_motion_memory_needed(), Dirt::kRandom);
+  std::vector<float> map(3000);
+  std::int32_t worst = POSE_WALL_OK;
+  const auto note = [&](std::int32_t status) { worst = status < worst ? status : worst; };
+  tools::start_counting_heap_calls();
+  pose_wall_motion_settings settings;
+  pose_wall_motion* motion = nullptr;
+  pose_wall_motion_result result = blank_motion_result();
+  std::uint32_t total = 0;
+  note(pose_wall_motion_settings_init(&settings));
+  note(pose_wall_motion_settings_check(&settings, nullptr));
+  note(pose_wall_motion_open(&config, &settings, block.data(), block.size(), &motion));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const pose_wall_cloud cloud = cloud_of(frames[i], static_cast<std::int64_t>(i) * kMotionPeriod_ns);
+    note(pose_wall_motion_process(motion, &cloud, &result));
+  }
+  note(pose_wall_motion_map(motion, 0, map.data(), 1000, &total));
+  note(pose_wall_motion_reset(motion));
+  EXPECT_EQ(tools::stop_counting_heap_calls(), 0U);
+  EXPECT_EQ(worst, POSE_WALL_OK);
+}
+
+}  // namespace
+}  // namespace pose_wall::test

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: what a pose is worth grows with the way and never shrinks by it; a turn that is off becomes a place that is
+// off with the length of its lever; what slipped and what was lost adds to the levels in full.
+
+#include "motion/travel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pose_wall::motion {
+namespace {
+
+constexpr double kFactor = 5.0;
+
+SixBySix only(int k, double sigma) {
+  SixBySix C = SixBySix::Zero();
+  C(k, k) = sigma * sigma;
+  return C;
+}
+
+Bounds bounds_of(const Travel& travel, double slipping_m = 0.0) {
+  return travel.bounds(SixBySix::Zero(), slipping_m, kFactor);
+}
+
+// By how much a variance grew.
+double grown(const Travel& travel, const Bounds& before, int k) {
+  const double now = bounds_of(travel).sigma[k];
+  return now * now - before.sigma[k] * before.sigma[k];
+}
+
+TEST(Travel, CountsTheWayAndTheWayBack) {
+  Travel travel;
+  travel.go(3.0);
+  travel.go(-1.0);
+  EXPECT_DOUBLE_EQ(travel.along_m(), 2.0);
+  EXPECT_DOUBLE_EQ(travel.way_m(), 4.0);
+  travel.reset();
+  EXPECT_EQ(travel.along_m(), 0.0);
+  EXPECT_EQ(travel.way_m(), 0.0);
+}
+
+// Across by yaw, up by pitch: L times the angle.
+TEST(Travel, ATurnThatIsOffBecomesAPlaceThatIsOff) {
+  const struct {
+    int turn, place;
+  } levers[] = {{POSE_WALL_MOTION_YAW, POSE_WALL_MOTION_ACROSS}, {POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_UP}};
+  for (const auto& lever : levers) {
+    Travel travel;
+    const Bounds fresh = bounds_of(travel);
+    travel.take_in(SixBySix::Zero());
+    const Bounds floor = bounds_of(travel);
+    Travel turned;
+    turned.take_in(only(lever.turn, 0.01));
+    const Bounds before = bounds_of(turned);
+    const double variance = before.sigma[lever.turn] * before.sigma[lever.turn] -
+                            fresh.sigma[lever.turn] * fresh.sigma[lever.turn];  // of the map's turn
+    turned.go(10.0);
+    EXPECT_NEAR(grown(turned, before, lever.place), 100.0 * variance, 1e-9 + 1e-6 * 100.0 * variance);
+    EXPECT_NEAR(grown(turned, before, lever.turn), 0.0, 1e-15);
+    turned.go(-10.0);
+    EXPECT_NEAR(grown(turned, before, lever.place), 0.0, 1e-12) << "back where it was";
+    EXPECT_GT(before.sigma[lever.turn], floor.sigma[lever.turn]);
+  }
+}
+
+// Two keyframes on the way: the first turn has the whole lever, the second one half of it.
+TEST(Travel, LeversAddUpKeyframeByKeyframe) {
+  Travel once, twice;
+  once.take_in(only(POSE_WALL_MOTION_YAW, 0.01));
+  const double turn2 = std::pow(bounds_of(once).sigma[POSE_WALL_MOTION_YAW], 2) -
+                       std::pow(bounds_of(Travel()).sigma[POSE_WALL_MOTION_YAW], 2);
+  twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01));
+  twice.go(5.0);
+  const Bounds before = bounds_of(twice);
+  twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01));
+  const double by_keyframe = grown(twice, before, POSE_WALL_MOTION_ACROSS);
+  const double start = std::pow(bounds_of(once).sigma[POSE_WALL_MOTION_ACROSS], 2);
+  twice.go(5.0);
+  const double across2 = std::pow(bounds_of(twice).sigma[POSE_WALL_MOTION_ACROSS], 2);
+  EXPECT_NEAR(across2, start + by_keyframe + (100.0 + 25.0) * turn2, 1e-6 * across2);
+}
+
+TEST(Travel, LevelsGrowWithTheWay) {
+  Travel travel;
+  SixBySix C = SixBySix::Identity() * 1e-6;
+  Bounds before = bounds_of(travel);
+  for (int i = 0; i < 200; ++i) {
+    travel.go(0.2);
+    travel.take_in(C);
+    const Bounds now = bounds_of(travel);
+    for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+      ASSERT_GT(now.sigma[k], before.sigma[k]) << k;
+      ASSERT_GT(now.level[k], before.level[k]) << k;
+      ASSERT_GE(now.level[k], now.sigma[k]) << k;
+    }
+    before = now;
+  }
+}
+
+TEST(Travel, WhatSlippedAddsToTheLevelAlongInFull) {
+  Travel travel;
+  const double before = bounds_of(travel).level[POSE_WALL_MOTION_ALONG];
+  EXPECT_NEAR(bounds_of(travel, 0.3).level[POSE_WALL_MOTION_ALONG], before + 0.3, 1e-12) << "and may be told again";
+  EXPECT_NEAR(bounds_of(travel).level[POSE_WALL_MOTION_ALONG], before, 1e-12);
+  travel.slip(0.3, 0.0);
+  EXPECT_NEAR(bounds_of(travel).level[POSE_WALL_MOTION_ALONG], before + 0.3, 1e-12);
+  travel.slip(0.2, 0.0);
+  EXPECT_NEAR(bounds_of(travel).level[POSE_WALL_MOTION_ALONG], before + 0.5, 1e-12);
+  EXPECT_GE(bounds_of(travel).sigma[POSE_WALL_MOTION_ALONG], 0.5 / std::sqrt(3.0)) << "even within its bounds";
+}
+
+// Surfaces of another place slope otherwise: by the unevenness, with the way as lever.
+TEST(Travel, ASlipOnUnevenGroundWidensTheOthersToo) {
+  Travel travel;
+  const Bounds before = bounds_of(travel);
+  travel.slip(0.5, 0.01);
+  for (const int k : {POSE_WALL_MOTION_ROLL, POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_YAW}) {
+    EXPECT_NEAR(grown(travel, before, k), 1e-4, 1e-12);
+  }
+  for (const int k : {POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_UP}) {
+    EXPECT_NEAR(grown(travel, before, k), 0.25 * 1e-4, 1e-12);
+  }
+}
+
+TEST(Travel, WhatWasLostAddsToEveryLevelInFull) {
+  Travel travel;
+  const Bounds before = bounds_of(travel);
+  travel.lose(0.2, 0.05);
+  travel.lose(0.3, 0.01);
+  const Bounds now = bounds_of(travel);
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    EXPECT_NEAR(now.level[k], before.level[k] + (k >= POSE_WALL_MOTION_ROLL ? 0.06 : 0.5), 1e-12) << k;
+  }
+  travel.reset();
+  EXPECT_EQ(bounds_of(travel).level, before.level);
+}
+
+// A turn that was lost has a lever as well: what lies ahead of it is off by the way times the turn.
+TEST(Travel, ATurnThatWasLostBecomesAPlaceThatIsLost) {
+  Travel travel;
+  travel.lose(0.0, 0.1);
+  const double before = bounds_of(travel).level[POSE_WALL_MOTION_ACROSS];
+  travel.go(10.0);
+  EXPECT_GE(bounds_of(travel).level[POSE_WALL_MOTION_ACROSS], before + 10.0 * 0.1 * 0.99);
+}
+
+TEST(Travel, AStepIsWorthItsTwoEndsAndItsSlip) {
+  const Bounds still = Travel::of_step(SixBySix::Zero(), SixBySix::Zero(), 0.0, kFactor);
+  const Bounds both = Travel::of_step(only(1, 0.03), only(1, 0.04), 0.0, kFactor);
+  const double floor2 = still.sigma[1] * still.sigma[1];
+  EXPECT_NEAR(both.sigma[1] * both.sigma[1], floor2 + 0.0025, 1e-12) << "3, 4, 5";
+  EXPECT_NEAR(both.level[1], kFactor * both.sigma[1], 1e-12);
+  const Bounds slipped = Travel::of_step(SixBySix::Zero(), SixBySix::Zero(), 0.2, kFactor);
+  EXPECT_NEAR(slipped.level[POSE_WALL_MOTION_ALONG], still.level[POSE_WALL_MOTION_ALONG] + 0.2, 1e-12);
+  EXPECT_EQ(slipped.level[POSE_WALL_MOTION_ACROSS], still.level[POSE_WALL_MOTION_ACROSS]);
+}
+
+}  // namespace
+}  // namespace pose_wall::motion
