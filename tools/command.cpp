@@ -72,6 +72,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("pose_wall {} (ABI {})", pose_wall_version(), pose_wall_abi_version()));
   add_run(app, exit_code);
+  add_motion(app, exit_code);
   add_doctor(app, exit_code);
   add_sim(app, exit_code);
   add_demo(app, exit_code);
@@ -91,6 +92,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene clean --frames 50 --output road        frames with their truth\n"
       "  pose_wall doctor -o pose_wall.yaml frames                    settings for frames of your own\n"
       "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
+      "  pose_wall motion -c road/pose_wall.yaml -o motion.csv road/frames    how far the machine went\n"
       "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page to look at\n"
       "  pose_wall info road.bag                                      what a recording holds\n"
       "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"

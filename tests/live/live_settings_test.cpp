@@ -67,7 +67,7 @@ TEST(LiveSettings, AreTakenWithTheirOrigin) {
 TEST(LiveSettings, EveryDefaultReadsBack) {
   const LiveSettings defaults;
   EXPECT_GT(live_keys().size(), 15U);
-  for (const LiveKeyInfo& key : live_keys()) {
+  for (const OutsideKey& key : live_keys()) {
     LiveSettings changed;
     const std::string written = live_value_text(defaults, key);
     EXPECT_TRUE(set_live_value(&changed, key, written)) << key.name;

@@ -102,6 +102,17 @@ TEST(Interrupt, LinesOfJsonAreWhole) {
   EXPECT_LT(count, 2000U);
 }
 
+TEST(Interrupt, MotionLeavesWholeRowsAndItsMap) {
+  const TempFolder folder;
+  const std::string csv = folder.file("m.csv"), map = folder.file("m.ply");
+  const auto words = long_run(folder, {"motion", "-q", "-o", csv, "--tum", folder.file("m.tum"), "--map", map});
+  EXPECT_EQ(interrupted_status(words, folder.file("said"), [&] { return lines_of(csv) > 4; }), 130);
+  EXPECT_EQ(text_of(csv).back(), '\n');
+  const CsvTable table = table_of(csv);  // throws where a row has too few cells
+  EXPECT_LT(table.rows(), 2000U);
+  EXPECT_TRUE(contains(text_of(map), "end_header\n"));
+}
+
 TEST(Interrupt, SimLeavesFramesWithTheirTruth) {
   const TempFolder folder;
   const auto frame = [&](int i) { return folder.file("road/frames/00000" + std::to_string(i) + ".pcd"); };

@@ -21,18 +21,7 @@ std::string head_of(const Card& card) {
                       counted(card.judged.frames.frames + card.unobservable.frames.frames, "frame"), card.runs,
                       counted(card.manifest.runs, "run"), counted(card.classes.size(), "class", "classes"),
                       amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
-  text += fmt::format("Made again by `{} --output DIR`.\n\n", card.manifest.command());
-  for (const auto& [name, value] : card.manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
-  return text + "\n";
-}
-
-std::string gate_of(const Card& card) {
-  const std::vector<std::string> faults = gate_faults(card);
-  if (faults.empty()) return "**Gate passed.**\n\n";
-  std::string text = fmt::format("**Gate not passed: {}.**\n\n",
-                                 counted(faults.size(), "demand does not hold", "demands do not hold"));
-  for (const std::string& fault : faults) text += "- " + fault + "\n";
-  return text + "\n";
+  return text + origin_text(card.manifest);
 }
 
 std::string totals_of(const Card& card) {
@@ -144,7 +133,7 @@ std::string events_of(const Card& card) {
 }  // namespace
 
 std::string card_page(const Card& card) {
-  return head_of(card) + gate_of(card) + totals_of(card) + sigma_of(card) +
+  return head_of(card) + gate_text(gate_faults(card)) + totals_of(card) + sigma_of(card) +
          "## Stanford diagrams\n\n![angles](stanford_angles.svg)\n\n![distances](stanford_distances.svg)\n\n" +
          classes_of(card) + quantities_of(card) + events_of(card);
 }

@@ -10,6 +10,7 @@
 
 #include "angles.hpp"
 #include "campaign/rate_bound.hpp"
+#include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -66,6 +67,20 @@ std::string reasons_text(const ClassCard& card) {
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", pose_wall_reason_name(counts[i].second), percent(share));
   }
   return text.empty() ? "-" : text;
+}
+
+std::string gate_text(const std::vector<std::string>& faults) {
+  if (faults.empty()) return "**Gate passed.**\n\n";
+  std::string text = fmt::format("**Gate not passed: {}.**\n\n",
+                                 counted(faults.size(), "demand does not hold", "demands do not hold"));
+  for (const std::string& fault : faults) text += "- " + fault + "\n";
+  return text + "\n";
+}
+
+std::string origin_text(const Manifest& manifest) {
+  std::string text = fmt::format("Made again by `{} --output DIR`.\n\n", manifest.command());
+  for (const auto& [name, value] : manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
+  return text + "\n";
 }
 
 }  // namespace pose_wall::tools::campaign

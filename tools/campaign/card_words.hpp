@@ -25,5 +25,9 @@ std::string count_with_bound(std::size_t events, std::size_t frames);
 std::string times_text(std::vector<std::size_t> times, std::size_t never);
 // The most frequent reasons of values that are not valid, each with its share of them all.
 std::string reasons_text(const ClassCard& card);
+// Whether the gate is passed, and a point for each demand that does not hold.
+std::string gate_text(const std::vector<std::string>& faults);
+// The command that makes the campaign again, and what decided its records.
+std::string origin_text(const Manifest& manifest);
 
 }  // namespace pose_wall::tools::campaign

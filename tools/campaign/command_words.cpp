@@ -37,8 +37,12 @@ std::string engine_words(const EngineChoice& choice) {
   return words;
 }
 
+std::string verb_words(const PlanRequest& request) {
+  return request.motion ? "pose_wall campaign --motion" : "pose_wall campaign";
+}
+
 std::string campaign_command(const PlanRequest& request, const EngineChoice& choice) {
-  std::string words = fmt::format("pose_wall campaign --size {} --seed {}", request.size, request.seed);
+  std::string words = fmt::format("{} --size {} --seed {}", verb_words(request), request.size, request.seed);
   if (request.kind != "all") words += " --kind " + request.kind;
   if (!request.scenes.empty()) words += fmt::format(" --scenes {}", fmt::join(request.scenes, ","));
   if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
@@ -49,7 +53,8 @@ std::string campaign_command(const PlanRequest& request, const EngineChoice& cho
 }
 
 std::vector<std::pair<std::string, std::string>> request_words(const PlanRequest& request) {
-  return {{"size", request.size},
+  return {{"library", request.motion ? "motion" : "engine"},
+          {"size", request.size},
           {"scenes", names_or(request.scenes, "all")},
           {"kind", request.kind},
           {"sensors", names_or(request.sensors, "those of the size")},

@@ -25,6 +25,9 @@ std::string shell_word(const std::string& word);
 // " --config FILE" and " --set KEY=VALUE" as often as they are there.
 std::string engine_words(const EngineChoice& choice);
 
+// "pose_wall campaign", and whose.
+std::string verb_words(const PlanRequest& request);
+
 // Makes the campaign again, but for its folder.
 std::string campaign_command(const PlanRequest& request, const EngineChoice& choice);
 

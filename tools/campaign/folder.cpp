@@ -26,12 +26,6 @@ std::size_t scene_rank(const std::string& name) {
       std::find_if(all.begin(), all.end(), [&](const auto& scene) { return scene.name == name; }) - all.begin());
 }
 
-std::size_t sensor_rank(const std::string& name) {
-  const auto& all = sim::sensor_models();
-  return static_cast<std::size_t>(
-      std::find_if(all.begin(), all.end(), [&](const auto& model) { return model.sensor.name == name; }) - all.begin());
-}
-
 auto rank(const RunRecord& record) {
   return std::tuple(scene_rank(record.run.scene), sensor_rank(record.run.sensor), record.run.draw);
 }
@@ -75,12 +69,26 @@ std::vector<Run> pending_runs(const std::filesystem::path& folder, const std::ve
   return pending;
 }
 
+std::size_t sensor_rank(const std::string& name) {
+  const auto& all = sim::sensor_models();
+  return static_cast<std::size_t>(
+      std::find_if(all.begin(), all.end(), [&](const auto& model) { return model.sensor.name == name; }) - all.begin());
+}
+
+std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(records_in(folder))) {
+    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  }
+  if (files.empty()) throw std::runtime_error(fmt::format("{}: no record in it", records_in(folder).string()));
+  return files;
+}
+
 std::vector<RunRecord> read_records(const std::filesystem::path& folder, const Manifest& manifest) {
   std::vector<RunRecord> records;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(records_in(folder))) {
-    if (entry.path().extension() == ".csv") records.push_back(read_record(entry.path(), manifest.fingerprint()));
+  for (const std::filesystem::path& file : record_files(folder)) {
+    records.push_back(read_record(file, manifest.fingerprint()));
   }
-  if (records.empty()) throw std::runtime_error(fmt::format("{}: no record in it", records_in(folder).string()));
   std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return rank(a) < rank(b); });
   return records;
 }

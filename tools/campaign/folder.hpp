@@ -29,8 +29,14 @@ void prepare_folder(const std::filesystem::path& folder, const Manifest& manifes
 // Runs without a record.
 std::vector<Run> pending_runs(const std::filesystem::path& folder, const std::vector<Run>& runs);
 
+// The files of all finished runs, in no order. Throws std::runtime_error where there is none.
+std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder);
+
 // All there are, by scene (in the order of the table), sensor and draw.
 std::vector<RunRecord> read_records(const std::filesystem::path& folder, const Manifest& manifest);
+
+// The sensor's place in the simulator's table.
+std::size_t sensor_rank(const std::string& name);
 
 // frames.csv: the rows of all records under one head.
 void write_frames(const std::filesystem::path& folder, const std::vector<RunRecord>& records);

@@ -3,7 +3,7 @@
 
 #include "campaign/gate.hpp"
 
-#include <fmt/format.h>
+#include "campaign/faults.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -11,18 +11,6 @@ namespace {
 double rate(std::size_t events, std::size_t frames) {
   return frames == 0 ? 0.0 : static_cast<double>(events) / static_cast<double>(frames);
 }
-
-class Faults {
- public:
-  template <typename... Values>
-  void demand(bool holds, fmt::format_string<Values...> form, Values&&... values) {
-    if (!holds) lines_.push_back(fmt::format(form, std::forward<Values>(values)...));
-  }
-  std::vector<std::string> take() { return std::move(lines_); }
-
- private:
-  std::vector<std::string> lines_;
-};
 
 void demand_bounds(Faults& faults, const Card& card) {
   const FrameCounts& nominal = card.nominal.frames;

@@ -28,6 +28,10 @@ std::string settings_text(const LoadedConfig& loaded) {
     const std::string value = config_value_text(*loaded.config.get(), key);
     if (value != config_value_text(*defaults.get(), key)) text += fmt::format("{}={} ", key.name, value);
   }
+  for (const OutsideKey& key : motion_keys()) {
+    const std::string value = motion_value_text(loaded.motion, key);
+    if (value != motion_value_text(default_motion_settings(), key)) text += fmt::format("{}={} ", key.name, value);
+  }
   return text.empty() ? "defaults" : text.substr(0, text.size() - 1);
 }
 
@@ -51,7 +55,8 @@ std::optional<std::uint32_t> number_from(const Json& page) {
 }
 
 Json plan_page(const PlanRequest& plan) {
-  return {{"size", plan.size},
+  return {{"motion", plan.motion},
+          {"size", plan.size},
           {"scenes", plan.scenes},
           {"kind", plan.kind},
           {"sensors", plan.sensors},
@@ -63,6 +68,7 @@ Json plan_page(const PlanRequest& plan) {
 
 PlanRequest plan_from(const Json& page) {
   PlanRequest plan;
+  plan.motion = page.at("motion");
   plan.size = page.at("size");
   page.at("scenes").get_to(plan.scenes);
   plan.kind = page.at("kind");

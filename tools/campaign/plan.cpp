@@ -66,12 +66,6 @@ std::vector<std::string> scenes_of(const PlanRequest& request) {
   return wanted;
 }
 
-// Short enough to be typed again, and another one for every run of a campaign.
-std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, const std::string& sensor,
-                       std::uint32_t draw) {
-  return fingerprint(fmt::format("{}/{}/{}/{}", campaign_seed, scene, sensor, draw)) % 1000000000U;
-}
-
 Run make_run(const PlanRequest& request, const Size& size, const std::string& scene, const std::string& sensor,
              std::uint32_t draw) {
   Run run{scene, sensor, draw, run_seed(request.seed, scene, sensor, draw), request.frames.value_or(size.frames)};
@@ -102,6 +96,11 @@ std::vector<std::string> size_names() {
   std::vector<std::string> names;
   for (const Size& size : sizes()) names.emplace_back(size.name);
   return names;
+}
+
+std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, const std::string& sensor,
+                       std::uint32_t draw) {
+  return fingerprint(fmt::format("{}/{}/{}/{}", campaign_seed, scene, sensor, draw)) % 1000000000U;
 }
 
 std::vector<Run> make_plan(const PlanRequest& request) {

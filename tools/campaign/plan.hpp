@@ -22,6 +22,7 @@ struct Run {
 };
 
 struct PlanRequest {
+  bool motion = false;               // of the motion library, its classes for scenes: see motion_plan
   std::vector<std::string> scenes;   // empty: all
   std::vector<std::string> sensors;  // empty: those of the size
   std::string kind = "all";          // or the name of a scene kind
@@ -37,6 +38,10 @@ std::vector<std::string> size_names();
 // Scene by scene, sensor by sensor, draw by draw. The same request gives the same runs. Throws std::invalid_argument
 // for names that do not exist, with the nearest one.
 std::vector<Run> make_plan(const PlanRequest& request);
+
+// Short enough to be typed again, and another one for every run of a campaign.
+std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, const std::string& sensor,
+                       std::uint32_t draw);
 
 std::size_t frames_of(const std::vector<Run>& runs);
 

@@ -15,19 +15,18 @@ std::string by_files(const WorstEvent& event, const Manifest& manifest) {
       event.run.scene, event.run.sensor, event.run.seed, event.frame + 1, engine_words(manifest.engine));
 }
 
-std::string by_campaign(const WorstEvent& event, const Manifest& manifest) {
-  return fmt::format(
-      "pose_wall campaign --seed {} --scenes {} --sensors {} --first-draw {} --draws 1 --frames {}{} --output DIR",
-      manifest.plan.seed, event.run.scene, event.run.sensor, event.run.draw, event.frame + 1,
-      engine_words(manifest.engine));
-}
-
 }  // namespace
+
+std::string run_recipe(const Run& run, std::uint32_t frames, const Manifest& manifest) {
+  return fmt::format("{} --seed {} --scenes {} --sensors {} --first-draw {} --draws 1 --frames {}{} --output DIR",
+                     verb_words(manifest.plan), manifest.plan.seed, run.scene, run.sensor, run.draw, frames,
+                     engine_words(manifest.engine));
+}
 
 std::string recipe(const WorstEvent& event, const Manifest& manifest) {
   // `run` takes one file of settings, and that is the scene's.
   const bool files_do = event.stamps_are_steady && manifest.engine.config_file.empty();
-  return files_do ? by_files(event, manifest) : by_campaign(event, manifest);
+  return files_do ? by_files(event, manifest) : run_recipe(event.run, event.frame + 1, manifest);
 }
 
 }  // namespace pose_wall::tools::campaign

@@ -16,4 +16,7 @@ namespace pose_wall::tools::campaign {
 // the campaign's stamps and settings from them, else by the run itself as a campaign of its own.
 std::string recipe(const WorstEvent& event, const Manifest& manifest);
 
+// Of the run itself, so many frames of it.
+std::string run_recipe(const Run& run, std::uint32_t frames, const Manifest& manifest);
+
 }  // namespace pose_wall::tools::campaign

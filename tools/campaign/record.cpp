@@ -5,13 +5,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "campaign/record_file.hpp"
 #include "csv/csv_table.hpp"
-#include "frames/whole_file.hpp"
 #include "quantities.hpp"
 #include "results/result_csv.hpp"
 
@@ -19,7 +17,6 @@ namespace pose_wall::tools::campaign {
 namespace {
 
 constexpr std::array<const char*, 4> kPhases = {"", "before", "event", "after"};
-constexpr const char* kFirstWords = "# pose_wall campaign ";
 
 std::uint32_t bit_of(const std::string& reason) {
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -49,24 +46,13 @@ Phase phase_of(const std::string& name) {
   throw CsvError(fmt::format("'{}' is no phase of an event", name));
 }
 
-// Stamps and seeds need all their digits: not by way of a double.
-template <typename Integer>
-Integer integer_of(const std::string& cell) {
-  Integer value{};
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size()) {
-    throw CsvError(fmt::format("'{}' is no whole number", cell));
-  }
-  return value;
-}
-
 constexpr std::size_t kFirstQuantity = 7;  // columns before it
 constexpr std::size_t kPerQuantity = 7;
 
 FrameRecord frame_of(const CsvTable& table, std::size_t row) {
   FrameRecord frame;
-  frame.frame = integer_of<std::uint32_t>(table.cell(row, 4));
-  frame.stamp_ns = integer_of<std::int64_t>(table.cell(row, 5));
+  frame.frame = whole_number<std::uint32_t>(table.cell(row, 4));
+  frame.stamp_ns = whole_number<std::int64_t>(table.cell(row, 5));
   frame.phase = phase_of(table.cell(row, 6));
   std::size_t column = kFirstQuantity;
   for (QuantityRecord& q : frame.quantity) {
@@ -83,8 +69,8 @@ RunRecord record_of(const CsvTable& table) {
   if (table.head() != record_head()) throw CsvError("not the columns of a record");
   if (table.rows() == 0) throw CsvError("no frame in it");
   RunRecord record;
-  record.run = {table.cell(0, 0), table.cell(0, 1), integer_of<std::uint32_t>(table.cell(0, 2)),
-                integer_of<std::uint64_t>(table.cell(0, 3)), static_cast<std::uint32_t>(table.rows())};
+  record.run = {table.cell(0, 0), table.cell(0, 1), whole_number<std::uint32_t>(table.cell(0, 2)),
+                whole_number<std::uint64_t>(table.cell(0, 3)), static_cast<std::uint32_t>(table.rows())};
   for (std::size_t row = 0; row < table.rows(); ++row) record.frames.push_back(frame_of(table, row));
   return record;
 }
@@ -129,23 +115,13 @@ std::string record_lines(const RunRecord& record) {
 }
 
 void write_record(const std::filesystem::path& file, const RunRecord& record, const std::string& campaign) {
-  write_whole_file(file, kFirstWords + campaign + "\n" + csv_line(record_head()) + record_lines(record));
+  write_record_file(file, csv_line(record_head()) + record_lines(record), campaign);
 }
 
 RunRecord read_record(const std::filesystem::path& file, const std::string& campaign) {
-  std::ifstream in(file, std::ios::binary);
-  std::string first;
-  if (!in || !std::getline(in, first)) throw std::runtime_error(fmt::format("{}: cannot be read", file.string()));
-  if (first != kFirstWords + campaign) {
-    throw std::runtime_error(fmt::format("{}: a record of another campaign: it begins with '{}', not '{}{}'",
-                                         file.string(), first, kFirstWords, campaign));
-  }
-  try {
-    return record_of(CsvTable::parse(in));
-  } catch (const CsvError& error) {
-    throw std::runtime_error(
-        fmt::format("{}: {}; without this file the same command measures it again", file.string(), error.what()));
-  }
+  RunRecord record;
+  read_record_file(file, campaign, [&record](const CsvTable& table) { record = record_of(table); });
+  return record;
 }
 
 }  // namespace pose_wall::tools::campaign

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "config_file/key_table.hpp"
+#include "config_file/motion_settings.hpp"
 #include "sim/parameters.hpp"
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
@@ -119,6 +120,13 @@ std::vector<std::string> names_of(const Rows& rows, const char* ending = "") {
   return names;
 }
 
+// Those of pose_walld have no command here that would heed them.
+std::vector<std::string> config_words() {
+  std::vector<std::string> names = names_of(config_keys(), "=");
+  for (const std::string& name : names_of(motion_keys(), "=")) names.push_back(name);
+  return names;
+}
+
 }  // namespace
 
 void name_values(CLI::App& app) {
@@ -151,7 +159,7 @@ std::vector<std::string> value_words(const OptionGrammar& option) {
     case ValueKind::kChoice:
       return option.choices;
     case ValueKind::kEngineKey:
-      return names_of(config_keys(), "=");
+      return config_words();
     case ValueKind::kSimulatorKey:
       return names_of(sim::parameters(), "=");
     case ValueKind::kScene:

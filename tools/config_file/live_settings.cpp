@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstring>
-#include <sstream>
 #include <variant>
 
 #include "packets/sensors.hpp"
@@ -19,11 +17,11 @@
 namespace pose_wall::tools {
 namespace {
 
-using Type = LiveKeyInfo::Type;
+using Type = OutsideKey::Type;
 using Member = std::variant<std::string LiveSettings::*, double LiveSettings::*, bool LiveSettings::*>;
 
 struct Row {
-  LiveKeyInfo info;
+  OutsideKey info;
   Member member;
 };
 
@@ -104,7 +102,7 @@ const Row* find_row(const std::string& name) {
 }
 
 // Of what is written as a text.
-bool is_text_allowed(const LiveKeyInfo& key, const std::string& value) {
+bool is_text_allowed(const OutsideKey& key, const std::string& value) {
   switch (key.type) {
     case Type::kChoice: {
       const std::vector<std::string> choices = choices_of(key);
@@ -121,69 +119,30 @@ bool is_text_allowed(const LiveKeyInfo& key, const std::string& value) {
   }
 }
 
-std::optional<double> number_of(const LiveKeyInfo& key, const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if (!(number >= key.minimum && number <= key.maximum)) return std::nullopt;
-  if (key.type == Type::kInteger && number != std::floor(number)) return std::nullopt;
-  return number;
-}
-
 }  // namespace
 
-const std::vector<LiveKeyInfo>& live_keys() {
-  static const std::vector<LiveKeyInfo> keys = [] {
-    std::vector<LiveKeyInfo> infos;
+const std::vector<OutsideKey>& live_keys() {
+  static const std::vector<OutsideKey> keys = [] {
+    std::vector<OutsideKey> infos;
     for (const Row& row : rows()) infos.push_back(row.info);
     return infos;
   }();
   return keys;
 }
 
-const LiveKeyInfo* find_live_key(const std::string& name) {
+const OutsideKey* find_live_key(const std::string& name) {
   const Row* row = find_row(name);
   return row != nullptr ? &row->info : nullptr;
 }
 
-std::vector<std::string> choices_of(const LiveKeyInfo& key) {
-  std::vector<std::string> words;
-  std::istringstream choices(key.choices);
-  for (std::string word; std::getline(choices >> std::ws, word, ',');) words.push_back(word);
-  return words;
-}
-
-std::string allowed_text(const LiveKeyInfo& key) {
-  const std::string unit = key.unit == std::string("1") || *key.unit == '\0' ? "" : std::string(" ") + key.unit;
-  switch (key.type) {
-    case Type::kText:
-      return "text";
-    case Type::kChoice:
-      return fmt::format("one of {}", key.choices);
-    case Type::kNumber:
-      return fmt::format("a number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
-    case Type::kInteger:
-      return fmt::format("a whole number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
-    case Type::kSwitch:
-      return "0 or 1";
-    case Type::kHostPort:
-      return "HOST:PORT, as 127.0.0.1:8080, or nothing";
-    case Type::kIpv4:
-      return "an IPv4 address, as 192.168.1.100";
-    case Type::kIpv4OrNone:
-      return "an IPv4 address, as 192.168.1.201, or nothing";
-  }
-  return "";
-}
-
-std::string live_value_text(const LiveSettings& settings, const LiveKeyInfo& key) {
+std::string live_value_text(const LiveSettings& settings, const OutsideKey& key) {
   const Member member = find_row(key.name)->member;
   if (const auto text = std::get_if<std::string LiveSettings::*>(&member)) return settings.**text;
   if (const auto number = std::get_if<double LiveSettings::*>(&member)) return fmt::format("{:.9g}", settings.**number);
   return settings.*std::get<bool LiveSettings::*>(member) ? "1" : "0";
 }
 
-bool set_live_value(LiveSettings* settings, const LiveKeyInfo& key, const std::string& value) {
+bool set_live_value(LiveSettings* settings, const OutsideKey& key, const std::string& value) {
   if (!is_text_allowed(key, value)) return false;
   const Member member = find_row(key.name)->member;
   if (const auto text = std::get_if<std::string LiveSettings::*>(&member)) {

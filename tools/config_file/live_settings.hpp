@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "config_file/outside_key.hpp"
+
 namespace pose_wall::tools {
 
 struct LiveSettings {
@@ -33,33 +35,15 @@ struct LiveSettings {
   double status_every_s = 60;
 };
 
-// One row of the table of live keys.
-struct LiveKeyInfo {
-  enum class Type { kText, kChoice, kNumber, kInteger, kSwitch, kHostPort, kIpv4, kIpv4OrNone };
-
-  const char* name;
-  const char* group;
-  Type type;
-  const char* unit;
-  double minimum, maximum;  // of numbers
-  const char* choices;      // of kChoice: "udp, ros1, ros2"
-  const char* help;
-};
-
 // All rows, in the table's order.
-const std::vector<LiveKeyInfo>& live_keys();
-const LiveKeyInfo* find_live_key(const std::string& name);
+const std::vector<OutsideKey>& live_keys();
+const OutsideKey* find_live_key(const std::string& name);
 
-// Of kChoice, each for itself.
-std::vector<std::string> choices_of(const LiveKeyInfo& key);
-
-// "one of udp, ros1, ros2", "a number from 0 to 65535", ...
-std::string allowed_text(const LiveKeyInfo& key);
 // As it would be written in pose_wall.yaml.
-std::string live_value_text(const LiveSettings& settings, const LiveKeyInfo& key);
+std::string live_value_text(const LiveSettings& settings, const OutsideKey& key);
 
 // False where the value is not allowed; the settings are then as before.
-bool set_live_value(LiveSettings* settings, const LiveKeyInfo& key, const std::string& value);
+bool set_live_value(LiveSettings* settings, const OutsideKey& key, const std::string& value);
 
 // "HOST:PORT" in its parts; nothing where it is none. [::1]:502 is one.
 struct HostPort {

@@ -94,7 +94,12 @@ class ConfigLoader {
   }
 
   void apply(const std::string& where, const std::string& key, const std::string& value, bool is_sequence) {
-    if (const LiveKeyInfo* live_key = find_live_key(key)) return apply_live(where, *live_key, value, is_sequence);
+    if (const OutsideKey* live_key = find_live_key(key)) {
+      return note(where, *live_key, value, !is_sequence && set_live_value(&loaded_.live, *live_key, value));
+    }
+    if (const OutsideKey* motion_key = find_motion_key(key)) {
+      return note(where, *motion_key, value, !is_sequence && set_motion_value(&loaded_.motion, *motion_key, value));
+    }
     const std::optional<pose_wall_key_info> known = find_config_key(key);
     if (!known) {
       fault("{}: unknown key '{}'{}", where, key, did_you_mean(key, all_key_names()));
@@ -115,8 +120,9 @@ class ConfigLoader {
     }
   }
 
-  void apply_live(const std::string& where, const LiveKeyInfo& key, const std::string& value, bool is_sequence) {
-    if (!is_sequence && set_live_value(&loaded_.live, key, value)) {
+  // Of keys that the engine does not read.
+  void note(const std::string& where, const OutsideKey& key, const std::string& value, bool is_taken) {
+    if (is_taken) {
       loaded_.origins[key.name] = where;
     } else {
       fault("{}: {}: '{}' is refused; allowed: {}{}", where, key.name, value, allowed_text(key),
@@ -126,7 +132,8 @@ class ConfigLoader {
 
   static std::vector<std::string> all_key_names() {
     std::vector<std::string> names = config_key_names();
-    for (const LiveKeyInfo& key : live_keys()) names.emplace_back(key.name);
+    for (const OutsideKey& key : motion_keys()) names.emplace_back(key.name);
+    for (const OutsideKey& key : live_keys()) names.emplace_back(key.name);
     return names;
   }
 

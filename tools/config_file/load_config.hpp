@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Settings of the engine and of pose_walld from a pose_wall.yaml and from --set KEY=VALUE, each with where it came
-// from.
+// Settings of the engine, of the motion library and of pose_walld from a pose_wall.yaml and from --set KEY=VALUE, each
+// with where it came from.
 
 #pragma once
 
@@ -12,13 +12,15 @@
 #include <vector>
 
 #include "config_file/live_settings.hpp"
+#include "config_file/motion_settings.hpp"
 #include "pose_wall.hpp"
 
 namespace pose_wall::tools {
 
 struct LoadedConfig {
   api::Config config;
-  LiveSettings live;                           // of pose_walld; the engine does not read them
+  LiveSettings live;  // of pose_walld; the engine does not read them
+  pose_wall_motion_settings motion = default_motion_settings();
   std::map<std::string, std::string> origins;  // keys that were set: "pose_wall.yaml:12" or "--set"
 
   // Where a key's value comes from; "default" for a key that was not set.

@@ -43,6 +43,9 @@ class CsvTable {
 
   const std::string& cell(std::size_t row, std::size_t column) const { return cells_[row][column]; }
 
+  // Of the file, from 1: where the row begins.
+  std::size_t line(std::size_t row) const { return lines_[row]; }
+
   // NaN for an empty cell. Throws CsvError for a cell that is no number.
   double number(std::size_t row, std::size_t column) const;
 

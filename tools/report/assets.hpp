@@ -12,7 +12,8 @@ namespace pose_wall::tools::report {
 struct Assets {
   std::string_view html, style, script;
 };
-Assets assets();       // of a report
-Assets live_assets();  // of the page of pose_walld, which shares most scripts
+Assets assets();         // of a report
+Assets live_assets();    // of the page of pose_walld, which shares most scripts
+Assets motion_assets();  // of the report on a motion table
 
 }  // namespace pose_wall::tools::report

@@ -4,35 +4,15 @@
 #include "report/page.hpp"
 
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "config_file/key_table.hpp"
 #include "config_file/resolved_frames.hpp"
 #include "picture/parts.hpp"
-#include "picture/svg.hpp"
 #include "report/assets.hpp"
+#include "report/filled_page.hpp"
 #include "results/json_words.hpp"
 
 namespace pose_wall::tools::report {
-namespace {
-
-// Each name stands once in the HTML.
-void put_in(std::string* text, std::string_view name, std::string_view content) {
-  const std::size_t at = text->find(name);
-  if (at == std::string::npos) throw std::logic_error("the page has no place for " + std::string(name));
-  text->replace(at, name.size(), content);
-}
-
-// A "</script>" in a file's name must not end the data.
-std::string script_safe(std::string text) {
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
-    text.replace(at, 1, "\\u003c");
-  }
-  return text;
-}
-
-}  // namespace
-
 Json words_json() {
   Json words;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -102,14 +82,7 @@ std::string page(const PageHead& head, const LoadedConfig& loaded, const PageDat
   Json all = data.json();
   all["head"] = head_json(head, loaded);
   all["words"] = words_json();
-  const Assets parts = assets();
-  std::string text(parts.html);
-  put_in(&text, "/*@style@*/", parts.style);
-  put_in(&text, "/*@script@*/", parts.script);
-  // From the end on: what a name was replaced by is not looked at for names again.
-  put_in(&text, "@data@", script_safe(json_text(all)));
-  put_in(&text, "@title@", picture::escaped(head.title));
-  return text;
+  return filled_page(assets(), json_text(all), head.title);
 }
 
 }  // namespace pose_wall::tools::report

@@ -105,27 +105,32 @@ void apply_scene_at_random(Setup& setup, const SceneChoice& scene, std::uint64_t
   }
 }
 
-Setup make_setup(std::string_view scene, std::string_view sensor, bool random, std::uint64_t seed) {
+Setup make_setup(const SceneChoice& scene, std::string_view sensor, bool random, std::uint64_t seed) {
   const SensorModel* const model = find_sensor(sensor);
-  const SceneChoice* const choice = find_scene(scene);
-  std::vector<std::string> names;
   if (model == nullptr) {
+    std::vector<std::string> names;
     for (const SensorModel& m : sensor_models()) names.push_back(m.sensor.name);
     unknown("sensor", sensor, names);
-  }
-  if (choice == nullptr) {
-    for (const SceneChoice& s : scenes()) names.emplace_back(s.name);
-    unknown("scene", scene, names);
   }
   Setup setup;
   setup.sensor = model->sensor;
   setup.mount.mount_roll_deg = model->mount_roll_deg;
   if (random) {
-    apply_scene_at_random(setup, *choice, seed);
+    apply_scene_at_random(setup, scene, seed);
   } else {
-    apply_scene(setup, *choice);
+    apply_scene(setup, scene);
   }
   return setup;
+}
+
+Setup make_setup(std::string_view scene, std::string_view sensor, bool random, std::uint64_t seed) {
+  const SceneChoice* const choice = find_scene(scene);
+  if (choice == nullptr) {
+    std::vector<std::string> names;
+    for (const SceneChoice& s : scenes()) names.emplace_back(s.name);
+    unknown("scene", scene, names);
+  }
+  return make_setup(*choice, sensor, random, seed);
 }
 
 }  // namespace pose_wall::tools::sim

@@ -56,5 +56,7 @@ void apply_scene_at_random(Setup& setup, const SceneChoice& scene, std::uint64_t
 // Both by name; throw std::invalid_argument for unknown names, with the nearest one. The random draw is made when
 // random is true.
 Setup make_setup(std::string_view scene, std::string_view sensor, bool random, std::uint64_t seed);
+// Of a scene that is not in the table.
+Setup make_setup(const SceneChoice& scene, std::string_view sensor, bool random, std::uint64_t seed);
 
 }  // namespace pose_wall::tools::sim

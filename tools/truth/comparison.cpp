@@ -31,18 +31,6 @@ ResultColumns result_columns(const CsvTable& results, const std::string& name) {
   return {column(""), column("_raw"), column("_sigma"), column("_pl"), column("_state")};
 }
 
-RowKeys::Column cells_of(const CsvTable& table, const char* name) {
-  const std::optional<std::size_t> column = table.find_column(name);
-  if (!column) return std::nullopt;
-  std::vector<std::string> cells;
-  for (std::size_t row = 0; row < table.rows(); ++row) cells.push_back(table.cell(row, *column));
-  return cells;
-}
-
-RowKeys keys_of(const CsvTable& table) {
-  return {cells_of(table, "frame"), cells_of(table, "stamp_ns")};
-}
-
 // A row of a frame that could not be read has no state; it counts as not measured.
 std::uint32_t state_number(const std::string& name) {
   for (std::uint32_t state = POSE_WALL_INVALID; state <= POSE_WALL_VALID; ++state) {
@@ -58,7 +46,7 @@ Measured measured_at(const CsvTable& results, std::size_t row, const ResultColum
 }
 
 void match_rows(const CsvTable& results, const CsvTable& truth, Comparison& comparison) {
-  RowPairs pairs = pair_rows(keys_of(results), keys_of(truth));
+  RowPairs pairs = pair_rows(row_keys(results), row_keys(truth));
   if (pairs.rows.empty()) {
     throw CsvError(fmt::format("no row in common: {} result rows and {} truth rows share no {}", results.rows(),
                                truth.rows(), pairs.by));

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <map>
 
-#include "csv/csv_table.hpp"
-
 namespace pose_wall::tools {
 namespace {
 
@@ -47,11 +45,23 @@ RowPairs pairs_of(const char* by, const Rows& results, const Rows& truth) {
   return pairs;
 }
 
+RowKeys::Column cells_of(const CsvTable& table, const char* name) {
+  const std::optional<std::size_t> column = table.find_column(name);
+  if (!column) return std::nullopt;
+  std::vector<std::string> cells;
+  for (std::size_t row = 0; row < table.rows(); ++row) cells.push_back(table.cell(row, *column));
+  return cells;
+}
+
 RowPairs pairs_by(const char* by, const RowKeys::Column& results, const RowKeys::Column& truth) {
   return pairs_of(by, rows_by(results, "results", by), rows_by(truth, "truth rows", by));
 }
 
 }  // namespace
+
+RowKeys row_keys(const CsvTable& table) {
+  return {cells_of(table, "frame"), cells_of(table, "stamp_ns")};
+}
 
 RowPairs pair_rows(const RowKeys& results, const RowKeys& truth) {
   const bool have_frames = results.frame && truth.frame;

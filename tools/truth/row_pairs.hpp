@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "csv/csv_table.hpp"
+
 namespace pose_wall::tools {
 
 // What a table's rows are told apart by, as it is written; nothing where the table has no such column.
@@ -19,6 +21,9 @@ struct RowKeys {
   Column frame;
   Column stamp_ns;
 };
+
+// By the table's columns `frame` and `stamp_ns`.
+RowKeys row_keys(const CsvTable& table);
 
 struct RowPairs {
   std::string by;                                         // "stamp_ns" or "frame"

@@ -21,6 +21,10 @@
 #include "campaign/folder.hpp"
 #include "campaign/gate.hpp"
 #include "campaign/manifest.hpp"
+#include "campaign/motion_card_files.hpp"
+#include "campaign/motion_gate.hpp"
+#include "campaign/motion_plan.hpp"
+#include "campaign/motion_runs.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
 #include "config_file/load_config.hpp"
@@ -41,6 +45,7 @@ struct CampaignOptions {
   std::string output;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   std::size_t events = 30;
+  bool list = false;
   bool fresh = false;
   bool card_only = false;
   bool gate = false;
@@ -58,9 +63,13 @@ void check_settings(const campaign::EngineChoice& engine) {
   load_config(engine.config_file, engine.settings);
 }
 
+std::vector<campaign::Run> plan_of(const campaign::PlanRequest& request) {
+  return request.motion ? campaign::make_motion_plan(request) : campaign::make_plan(request);
+}
+
 campaign::Manifest run_campaign(const CampaignOptions& options) {
   check_settings(options.engine);
-  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  const std::vector<campaign::Run> runs = plan_of(options.plan);
   campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
   make_output_folder(options.output);
   campaign::prepare_folder(options.output, manifest, options.fresh);
@@ -69,27 +78,42 @@ campaign::Manifest run_campaign(const CampaignOptions& options) {
     fmt::print(stderr, "{}, {}; done already: {}\n", counted(runs.size(), "run"),
                counted(campaign::frames_of(runs), "frame"), counted(runs.size() - pending.size(), "run"));
   }
-  campaign::run_all(pending, {options.output, options.engine, manifest.fingerprint(), options.jobs, !options.quiet});
+  const campaign::Work work{options.output, options.engine, manifest.fingerprint(), {options.jobs, !options.quiet}};
+  if (options.plan.motion) {
+    campaign::run_all_motion(pending, work);
+  } else {
+    campaign::run_all(pending, work);
+  }
   return manifest;
 }
 
-int pass_gate(const campaign::Card& card) {
-  const std::vector<std::string> faults = campaign::gate_faults(card);
+int pass_gate(const std::vector<std::string>& faults) {
   for (const std::string& fault : faults) fmt::print(stderr, "gate: {}\n", fault);
   return faults.empty() ? kExitDone : kExitGate;
 }
 
+int make_motion_card(const CampaignOptions& options, const campaign::Manifest& manifest) {
+  campaign::MotionCard card{manifest, 0, {}, {}};
+  campaign::for_each_motion_record(options.output, manifest,
+                                   [&card](const campaign::MotionRecord& record) { card.add(record); });
+  card.keep_events(options.events);
+  campaign::write_motion_card(options.output, card);
+  if (!options.quiet) fmt::print("{}\n{}/card.md\n", campaign::motion_card_summary(card), options.output);
+  return options.gate ? pass_gate(campaign::motion_gate_faults(card)) : kExitDone;
+}
+
 int make_card(const CampaignOptions& options, const campaign::Manifest& manifest) {
+  if (manifest.plan.motion) return make_motion_card(options, manifest);
   const std::vector<campaign::RunRecord> records = campaign::read_records(options.output, manifest);
   campaign::write_frames(options.output, records);
   const campaign::Card card = campaign::make_card(manifest, records, options.events);
   campaign::write_card(options.output, card);
   if (!options.quiet) fmt::print("{}\n{}/card.md\n", campaign::card_summary(card), options.output);
-  return options.gate ? pass_gate(card) : kExitDone;
+  return options.gate ? pass_gate(campaign::gate_faults(card)) : kExitDone;
 }
 
 int tell_interrupted(const CampaignOptions& options) {
-  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  const std::vector<campaign::Run> runs = plan_of(options.plan);
   fmt::print(stderr, "interrupted: {} of {} done; the same command{} goes on\n",
              runs.size() - campaign::pending_runs(options.output, runs).size(),
              counted(runs.size(), "run is", "runs are"), options.fresh ? " without --fresh" : "");
@@ -127,6 +151,17 @@ void demand_nothing_beside_card_only(const CLI::App& verb) {
                   fmt::join(refused, ", "), fmt::join(allowed, ", ")));
 }
 
+// What an option is nothing without, or with.
+void demand_motion_words_go_together(const CLI::App& verb, const CampaignOptions& options) {
+  if (options.plan.motion && verb.get_option("--kind")->count() > 0) {
+    throw std::invalid_argument("--kind is of scenes; --motion has classes: name them by --scenes");
+  }
+  if (options.list && !options.plan.motion) {
+    throw std::invalid_argument("--list is of --motion; `pose_wall sim --list` has the scenes");
+  }
+  if (!options.list && options.output.empty()) throw std::invalid_argument("--output is required: a folder");
+}
+
 // "rough, props" is two names, and no blank in front of the second.
 std::string trimmed(std::string name) {
   const char* const blanks = " \t\n";
@@ -139,7 +174,8 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
       ->type_name("SIZE")
       ->capture_default_str();
-  verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list")
+  verb.add_flag("--motion", plan.motion, "Measure the motion library, on classes of motion instead of scenes");
+  verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list, and --motion --list")
       ->delimiter(',')
       ->transform(trimmed);
   verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial, unobservable or all")
@@ -163,8 +199,8 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
 void add_campaign(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CampaignOptions>();
   CLI::App* verb = app.add_subcommand("campaign", "Measure thousands of random scenes; write the integrity card");
-  verb->add_option("-o,--output", options->output, "Folder for records and card; an interrupted campaign goes on there")
-      ->required();
+  verb->add_option("-o,--output", options->output,
+                   "Folder for records and card; an interrupted campaign goes on there");
   add_plan_options(*verb, options->plan);
   verb->add_option("-j,--jobs", options->jobs, "Runs at a time")->capture_default_str()->check(CLI::Range(1, 1024));
   verb->add_option("-c,--config", options->engine.config_file,
@@ -174,6 +210,8 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_option("--events", options->events, "How many of the worst events the card lists")
       ->capture_default_str()
       ->check(whole_number());
+  verb->add_flag("--list", options->list,
+                 "With --motion: print its classes and what is right in each, and run nothing");
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
   verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records, and run nothing");
   verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");
@@ -182,10 +220,16 @@ void add_campaign(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  pose_wall campaign --size small --gate --output /tmp/card\n"
       "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
+      "  pose_wall campaign --motion --size small --gate --output /tmp/motion\n"
       "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
       "another\n"
       "campaign in the folder, 3 the gate is not passed, 130 interrupted by Ctrl-C (the same command goes on).");
   verb->callback([options, verb, &exit_code] {
+    demand_motion_words_go_together(*verb, *options);
+    if (options->list) {
+      fmt::print("{}", campaign::motion_class_list());
+      return;
+    }
     if (options->card_only) demand_nothing_beside_card_only(*verb);
     sort_names(&options->plan.scenes);
     sort_names(&options->plan.sensors);

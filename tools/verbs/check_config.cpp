@@ -37,8 +37,8 @@ std::string range_text(const pose_wall_key_info& key) {
   }
 }
 
-std::string range_text(const LiveKeyInfo& key) {
-  using Type = LiveKeyInfo::Type;
+std::string range_text(const OutsideKey& key) {
+  using Type = OutsideKey::Type;
   if (key.type == Type::kNumber || key.type == Type::kInteger) {
     return fmt::format("{:.9g} .. {:.9g}", key.minimum, key.maximum);
   }
@@ -51,7 +51,11 @@ void print_values(const LoadedConfig& loaded) {
     table.add_row(
         {key.name, config_written_text(*loaded.config.get(), key), key.unit, range_text(key), loaded.origin(key.name)});
   }
-  for (const LiveKeyInfo& key : live_keys()) {
+  for (const OutsideKey& key : motion_keys()) {
+    table.add_row(
+        {key.name, motion_value_text(loaded.motion, key), key.unit, range_text(key), loaded.origin(key.name)});
+  }
+  for (const OutsideKey& key : live_keys()) {
     const std::string value = live_value_text(loaded.live, key);
     table.add_row({key.name, value.empty() ? "''" : value, key.unit, range_text(key), loaded.origin(key.name)});
   }
@@ -84,8 +88,9 @@ void print_keys() {
   };
   const api::Config defaults;
   for (const pose_wall_key_info& key : config_keys()) print(key, config_written_text(*defaults.get(), key));
+  for (const OutsideKey& key : motion_keys()) print(key, motion_value_text(default_motion_settings(), key));
   const LiveSettings live_defaults;
-  for (const LiveKeyInfo& key : live_keys()) {
+  for (const OutsideKey& key : live_keys()) {
     const std::string value = live_value_text(live_defaults, key);
     print(key, value.empty() ? "''" : value);
   }

@@ -5,24 +5,24 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "angles.hpp"
 #include "config_file/load_config.hpp"
+#include "csv/csv_file.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
+#include "motion/comparison_words.hpp"
+#include "motion/motion_comparison.hpp"
+#include "motion/motion_table.hpp"
+#include "motion/pose_truth.hpp"
 #include "results/json_words.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
@@ -43,29 +43,6 @@ struct EvalOptions {
   std::optional<double> range_noise_m;
   bool json = false;
 };
-
-// Names the file in front of what is wrong with it.
-template <typename Step>
-auto in_file(const std::string& file, Step step) {
-  try {
-    return step();
-  } catch (const CsvError& error) {
-    throw CsvError(fmt::format("{}: {}", file, error.what()));
-  }
-}
-
-CsvTable read_table(const std::string& file) {
-  return in_file(file, [&file] {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) throw CsvError("this is a folder; a table of CSV is allowed");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) {
-      throw CsvError(fmt::format("cannot be opened for reading: {}{}", std::strerror(errno),
-                                 file == "-" ? "; standard input is /dev/stdin" : ""));
-    }
-    return CsvTable::parse(stream);
-  });
-}
 
 std::string amount(const QuantityComparison& quantity, double value) {
   if (!std::isfinite(value)) return "-";
@@ -171,7 +148,8 @@ std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedCon
                                      const CsvTable& truth, const Comparison& comparison) {
   if (options.frames.empty()) return std::nullopt;
   const CramerRao bounds(loaded.config, *options.range_noise_m);
-  return in_file(options.results, [&] { return efficiency_of(results, truth, comparison, options.frames, bounds); });
+  return in_csv_file(options.results,
+                     [&] { return efficiency_of(results, truth, comparison, options.frames, bounds); });
 }
 
 // Axes and mounting decide where the points lie: with the defaults of another road the bound would be a number of
@@ -184,23 +162,43 @@ void demand_settings_for_bound(const EvalOptions& options) {
 }
 
 // Rows with the same number may be of two runs; only their stamps can tell.
-void tell_other_stamps(const EvalOptions& options, const Comparison& comparison) {
-  if (comparison.other_stamps == 0) return;
+void tell_other_stamps(const EvalOptions& options, std::size_t other_stamps, std::size_t matched) {
+  if (other_stamps == 0) return;
   fmt::print(stderr,
              "pose_wall eval: {} against {}: matched by frame, but in {} of {} the stamps differ; where the frames of "
              "RESULT are not the first ones of TRUTH, in its order, these errors mean nothing\n",
-             options.results, options.truth, comparison.other_stamps, counted(comparison.matched, "pair"));
+             options.results, options.truth, other_stamps, counted(matched, "pair"));
+}
+
+// Of a table of `pose_wall motion`.
+int eval_motion(const EvalOptions& options, const CsvTable& results, const CsvTable& truth) {
+  if (!options.frames.empty()) {
+    throw std::invalid_argument("--frames: the bound is that of a table of run; " + options.results +
+                                " is one of motion");
+  }
+  const MotionTable table = in_csv_file(options.results, [&] { return read_motion_table(results); });
+  const PoseTruth poses = in_csv_file(options.truth, [&] { return read_pose_truth(truth); });
+  const MotionComparison comparison = in_csv_file(fmt::format("{} against {}", options.results, options.truth),
+                                                  [&] { return compare_motion(table, poses); });
+  tell_other_stamps(options, comparison.other_stamps, comparison.matched);
+  if (options.json) {
+    fmt::print("{}\n", json_text(motion_comparison_json(comparison), 2));
+  } else {
+    fmt::print("{}", motion_comparison_text(comparison));
+  }
+  return kExitDone;
 }
 
 int eval(const EvalOptions& options) {
   demand_settings_for_bound(options);
   const LoadedConfig loaded = load_config(options.config_file, options.settings);
   const AlertLimits limits = alert_limits_of(loaded.config);
-  const CsvTable results = read_table(options.results);
-  const CsvTable truth = read_table(options.truth);
-  const Comparison comparison = in_file(fmt::format("{} against {}", options.results, options.truth),
-                                        [&] { return compare_with_truth(results, truth, limits); });
-  tell_other_stamps(options, comparison);
+  const CsvTable results = read_csv_file(options.results);
+  const CsvTable truth = read_csv_file(options.truth);
+  if (is_motion_table(results)) return eval_motion(options, results, truth);
+  const Comparison comparison = in_csv_file(fmt::format("{} against {}", options.results, options.truth),
+                                            [&] { return compare_with_truth(results, truth, limits); });
+  tell_other_stamps(options, comparison.other_stamps, comparison.matched);
   const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
   options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
   return kExitDone;
@@ -218,10 +216,11 @@ std::string noise_fault(const std::string& word) {
 void add_eval(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<EvalOptions>();
   CLI::App* verb = app.add_subcommand("eval", "Compare results with the truth, per quantity");
-  verb->add_option("RESULT", options->results, "CSV written by pose_wall run")->required();
-  verb->add_option("TRUTH", options->truth,
-                   "CSV with frame or stamp_ns and any of roll, pitch, yaw (rad), d_lf, d_lb, "
-                   "d_rf, d_rb (m)")
+  verb->add_option("RESULT", options->results, "CSV written by pose_wall run or pose_wall motion")->required();
+  verb->add_option(
+          "TRUTH", options->truth,
+          "CSV with frame or stamp_ns and any of roll, pitch, yaw (rad), d_lf, d_lb, d_rf, d_rb (m); of motion: "
+          "x, y, z, qx, qy, qz, qw, or r00 to r22 and tx, ty, tz")
       ->required();
   verb->add_option("-c,--config", options->config_file, "Settings the results were made with: gives the alert limits");
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
@@ -238,7 +237,10 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->footer(
       "Examples:\n  pose_wall eval out.csv truth.csv\n"
       "  pose_wall eval out.csv clean/truth.csv -c clean/pose_wall.yaml --frames clean/frames --range-noise 0.012\n"
-      "the second on a road of `pose_wall sim --scene clean`.\n"
+      "  pose_wall eval motion.csv road/truth.csv\n"
+      "the second on a road of `pose_wall sim --scene clean`, the third of a table of `pose_wall motion`: its poses "
+      "are "
+      "laid on\nthe truth at the first frame of both, and nothing is fitted.\n"
       "Rows belong together by stamp_ns where it tells the rows of either table apart and some are in both, by frame "
       "else.\n"
       "raw: this frame's own measurement. value: what a controller acts on, held values included.\n"

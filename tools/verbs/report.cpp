@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -16,7 +17,12 @@
 #include <vector>
 
 #include "config_file/load_config.hpp"
+#include "csv/csv_file.hpp"
 #include "inputs/frame_sequence.hpp"
+#include "motion/motion_comparison.hpp"
+#include "motion/motion_table.hpp"
+#include "motion/pose_truth.hpp"
+#include "report/motion_page.hpp"
 #include "report/page.hpp"
 #include "results/frame_runner.hpp"
 #include "results/run_summary.hpp"
@@ -143,6 +149,40 @@ int report_frames(const ReportOptions& options) {
   return inputs.errors().empty() && shown.summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
 
+bool is_table(const std::string& input) {
+  return std::filesystem::path(input).extension() == ".csv";
+}
+
+// Of a table of `pose_wall motion` instead of frames.
+int report_motion(const ReportOptions& options) {
+  const std::string& input = options.frames.inputs.front();
+  if (options.frames.inputs.size() > 1) throw std::invalid_argument(input + ": a table is reported on alone");
+  const CsvTable cells = read_csv_file(input);
+  const MotionTable table = in_csv_file(input, [&] { return read_motion_table(cells); });
+  if (table.rows.empty()) throw std::runtime_error(input + ": the table has no row");
+  std::optional<MotionComparison> comparison;
+  if (!options.truth.empty()) {
+    const CsvTable true_cells = read_csv_file(options.truth);
+    const PoseTruth truth = in_csv_file(options.truth, [&] { return read_pose_truth(true_cells); });
+    comparison = in_csv_file(input + " against " + options.truth, [&] { return compare_motion(table, truth); });
+  }
+  std::vector<std::filesystem::path> read = {input};
+  if (!options.truth.empty()) read.emplace_back(options.truth);
+  OutputFile output(options.output, read);
+  const std::string page = report::motion_page({title_of(options), options.language, options.truth}, table, comparison);
+  output.write(page);
+  if (!options.frames.quiet) {
+    fmt::print(stderr, "{}: {:.1f} MB, {}. Open it in a browser.\n", options.output,
+               1e-6 * static_cast<double>(page.size()), counted(table.rows.size(), "frame"));
+  }
+  return kExitDone;
+}
+
+int report_inputs(const ReportOptions& options) {
+  const std::vector<std::string>& inputs = options.frames.inputs;
+  return std::any_of(inputs.begin(), inputs.end(), is_table) ? report_motion(options) : report_frames(options);
+}
+
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
@@ -166,6 +206,9 @@ void add_report(CLI::App& app, int& exit_code) {
       "Example:\n"
       "  pose_wall sim --scene nominal --frames 100 --output road\n"
       "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
+      "  pose_wall report --truth road/truth.csv -o way.html motion.csv\n"
+      "The last is of a table of `pose_wall motion` (.csv): its path from above, states along the road, travel, "
+      "steps.\n"
       "The page is one file and needs no network: time series with protection levels and states, every frame from\n"
       "above and in section, summary and verdict, in English and Chinese. Of long recordings it keeps the points of\n"
       "some 400 frames and of those in which a state changes. Ctrl-C ends it early; the page then shows what was "
@@ -174,7 +217,7 @@ void add_report(CLI::App& app, int& exit_code) {
       "or config, 130 "
       "interrupted.");
   verb->callback(
-      [options, &exit_code] { exit_code = done_or_complaint("report", [&] { return report_frames(*options); }); });
+      [options, &exit_code] { exit_code = done_or_complaint("report", [&] { return report_inputs(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -26,6 +25,7 @@
 #include "terminal/progress_bar.hpp"
 #include "verbs/annotated_folder.hpp"
 #include "verbs/frame_options.hpp"
+#include "verbs/frame_work.hpp"
 #include "verbs/one_of.hpp"
 #include "verbs/verbs.hpp"
 
@@ -92,29 +92,12 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
   return "";
 }
 
-// A mistyped input must not cost the results of the last run.
-bool nothing_to_read(const FrameSequence& inputs) {
-  std::error_code ignored;
-  return std::none_of(inputs.files().begin(), inputs.files().end(),
-                      [&](const std::filesystem::path& file) { return std::filesystem::exists(file, ignored); });
-}
-
-int tell_interrupted(std::size_t frames) {
-  fmt::print(stderr, "interrupted after {}, each with its whole row\n", counted(frames, "frame"));
-  return kExitInterrupted;
-}
-
 int run(const RunOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
   FrameRunner runner(loaded.config, options.frames.rate_hz);
   std::optional<AnnotatedFolder> annotated = annotated_folder(options);
-  if (nothing_to_read(inputs) && std::filesystem::exists(options.output)) {
-    for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
-    for (const auto& file : inputs.files()) fmt::print(stderr, "pose_wall run: {}: not there\n", file.string());
-    fmt::print(stderr, "pose_wall run: there is no input; {} is left as it was\n", options.output);
-    return kExitUnreadable;
-  }
+  if (would_cost_the_last_results("run", inputs, options.output)) return kExitUnreadable;
   ResultOutput output(options.output, options.frames.files_read(inputs),
                       options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv,
                       options.parts ? PartColumns::kAll : PartColumns::kNone);

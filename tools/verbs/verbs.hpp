@@ -18,6 +18,7 @@ constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 
 void add_doctor(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
+void add_motion(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);
 void add_demo(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);

@@ -87,13 +87,7 @@ function play(on) {
 }
 
 function show_all() {
-  const w = words();
-  document.documentElement.lang = page.language;
-  document.querySelectorAll('[data-word]').forEach((node) => { node.textContent = w[node.dataset.word]; });
-  document.getElementById('title').textContent = recording.head.title;
-  document.getElementById('subtitle').textContent = w.subtitle(recording);
-  document.getElementById('language').textContent = w.other_language;
-  document.getElementById('theme').textContent = w.theme;
+  show_heading(recording.head.title, words().subtitle(recording));
   play(page.timer !== null);
   show_layers();
   show_verdict();
@@ -103,33 +97,22 @@ function show_all() {
 }
 
 function listen() {
-  const slider = document.getElementById('slider'), on = (id, event, act) => document.getElementById(id).addEventListener(event, act);
-  slider.max = recording.frames - 1;
-  slider.addEventListener('input', () => show_frame(Number(slider.value)));
+  listen_to_reader(recording.frames);
   on('play', 'click', () => {
     if (page.timer === null && page.frame + 1 >= recording.frames) show_frame(0);
     play(page.timer === null);
   });
-  on('language', 'click', () => { page.language = page.language === 'en' ? 'zh' : 'en'; show_all(); });
-  on('theme', 'click', () => {
-    const root = document.documentElement;
-    root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
-    show_frame(page.frame);
-  });
   document.addEventListener('keydown', (event) => {
-    if (event.target.tagName === 'INPUT') return;
-    const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: -10, PageDown: 10 }[event.key];
-    if (step) { event.preventDefault(); show_frame(page.frame + step); }
-    if (event.key === ' ' && event.target.tagName !== 'BUTTON') { event.preventDefault(); play(page.timer === null); }
+    if (event.key !== ' ' || ['INPUT', 'BUTTON'].includes(event.target.tagName)) return;
+    event.preventDefault();
+    play(page.timer === null);
   });
-  window.addEventListener('resize', () => show_frame(page.frame));
 }
 
 const recording = new Recording(JSON.parse(document.getElementById('data').textContent));
 const summary = summarise(recording);
 const viewer = new Viewer(recording);
 const charts = new Charts(recording, document.getElementById('charts'), (f) => show_frame(f));
-page.language = recording.head.language;
-document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+begin_page(recording.head.language);
 listen();
 show_all();

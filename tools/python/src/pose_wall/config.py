@@ -74,9 +74,10 @@ def _read_table() -> "dict[str, KeyInfo]":
 KEYS: "dict[str, KeyInfo]" = _read_table()
 
 
-# Of pose_walld (tools/config_file/live_settings.cpp): a file for both is a good file. A test compares them with what
-# the command prints.
-LIVE_KEYS = frozenset((
+# Of motion and of pose_walld (tools/config_file/motion_settings.cpp, live_settings.cpp): a file for all is a good file.
+# A test compares them with what the command prints.
+OUTSIDE_KEYS = frozenset((
+    "motion_speed_max", "motion_turn_max_deg", "motion_range_max", "motion_keyframe",
     "source", "extrinsic_from", "sensor", "sensor_metadata", "udp_address", "udp_port", "udp_sender",
     "frame_points_max", "ros1", "ros2", "ros_distro", "http", "modbus", "mqtt", "mqtt_topic", "black_box",
     "black_box_mb", "recording", "recording_mb", "recording_clouds", "status_every_s"))
@@ -132,7 +133,7 @@ class Config(Mapping):  # type: ignore[type-arg]
                 refused.append((where, again))
             else:
                 origins[key] = where
-                refused += [] if key in LIVE_KEYS else config._refusals(where, key, value)
+                refused += [] if key in OUTSIDE_KEYS else config._refusals(where, key, value)
         for key, value in (set or {}).items():
             origins[key] = "set"
             refused += config._refusals("set", key, value)

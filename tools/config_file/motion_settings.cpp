@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "config_file/motion_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "angles.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+struct MotionKeyRow {
+  OutsideKey info;
+  double pose_wall_motion_settings::*member;
+  double per_unit;  // of the member, in one unit of the key
+};
+
+constexpr const char* kMotion = "Motion along the road";
+
+// The ranges of pose_wall_motion.h; those in degrees lie within them.
+const std::vector<MotionKeyRow>& motion_key_rows() {
+  static const std::vector<MotionKeyRow> table = {
+      {{"motion_speed_max", kMotion, OutsideKey::Type::kNumber, "m/s", 0.01, 30, "",
+        "no machine drives faster: how far each frame is searched for, and how fast the level along the road widens "
+        "while nothing tells the way"},
+       &pose_wall_motion_settings::speed_max_m_s,
+       1.0},
+      {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "", "no machine turns faster"},
+       &pose_wall_motion_settings::turn_max_rad_s,
+       kRadPerDeg},
+      {{"motion_range_max", kMotion, OutsideKey::Type::kNumber, "m", 3, 100, "",
+        "returns further away do not tell motion; range_max does not count here"},
+       &pose_wall_motion_settings::range_max_m,
+       1.0},
+      {{"motion_keyframe", kMotion, OutsideKey::Type::kNumber, "m", 0.05, 1, "",
+        "the map takes a scan in after so much travel; smaller follows rough rock better and fills the map sooner"},
+       &pose_wall_motion_settings::keyframe_m,
+       1.0},
+  };
+  return table;
+}
+
+const MotionKeyRow* find_motion_row(const std::string& name) {
+  for (const MotionKeyRow& row : motion_key_rows()) {
+    if (name == row.info.name) return &row;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+pose_wall_motion_settings default_motion_settings() {
+  pose_wall_motion_settings settings{};
+  pose_wall_motion_settings_init(&settings);
+  return settings;
+}
+
+const std::vector<OutsideKey>& motion_keys() {
+  static const std::vector<OutsideKey> keys = [] {
+    std::vector<OutsideKey> keys_alone;
+    for (const MotionKeyRow& row : motion_key_rows()) keys_alone.push_back(row.info);
+    return keys_alone;
+  }();
+  return keys;
+}
+
+const OutsideKey* find_motion_key(const std::string& name) {
+  const MotionKeyRow* row = find_motion_row(name);
+  return row != nullptr ? &row->info : nullptr;
+}
+
+std::string motion_value_text(const pose_wall_motion_settings& settings, const OutsideKey& key) {
+  const MotionKeyRow* row = find_motion_row(key.name);
+  return fmt::format("{:.9g}", settings.*row->member / row->per_unit);
+}
+
+bool set_motion_value(pose_wall_motion_settings* settings, const OutsideKey& key, const std::string& value) {
+  const std::optional<double> read = number_of(key, value);
+  if (!read) return false;
+  const MotionKeyRow* row = find_motion_row(key.name);
+  settings->*row->member = *read * row->per_unit;
+  return true;
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What a comparison of motion with the truth came to: tables for people, JSON for scripts.
+
+#pragma once
+
+#include <string>
+
+#include "motion/motion_comparison.hpp"
+#include "results/json_words.hpp"
+
+namespace pose_wall::tools {
+
+std::string motion_comparison_text(const MotionComparison& comparison);
+
+// In m and rad; null where there is no number.
+Json motion_comparison_json(const MotionComparison& comparison);
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,37 @@
+// How a reader goes through the frames of a report. The page has the globals page, show_frame and show_all.
+
+function show_heading(title, subtitle) {
+  const w = words();
+  document.documentElement.lang = page.language;
+  document.querySelectorAll('[data-word]').forEach((node) => { node.textContent = w[node.dataset.word]; });
+  document.getElementById('title').textContent = title;
+  document.getElementById('subtitle').textContent = subtitle;
+  document.getElementById('language').textContent = w.other_language;
+  document.getElementById('theme').textContent = w.theme;
+}
+
+function on(id, event, act) { document.getElementById(id).addEventListener(event, act); }
+
+function listen_to_reader(frames) {
+  const slider = document.getElementById('slider');
+  slider.max = frames - 1;
+  slider.addEventListener('input', () => show_frame(Number(slider.value)));
+  on('language', 'click', () => { page.language = page.language === 'en' ? 'zh' : 'en'; show_all(); });
+  on('theme', 'click', () => {
+    const root = document.documentElement;
+    root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
+    show_frame(page.frame);
+  });
+  document.addEventListener('keydown', (event) => {
+    if (event.target.tagName === 'INPUT') return;
+    const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: -10, PageDown: 10 }[event.key];
+    if (step) { event.preventDefault(); show_frame(page.frame + step); }
+  });
+  window.addEventListener('resize', () => show_frame(page.frame));
+}
+
+// What it opens in.
+function begin_page(language) {
+  page.language = language;
+  document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "verbs/frame_work.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "terminal/counted.hpp"
+#include "verbs/verbs.hpp"
+
+namespace pose_wall::tools {
+
+bool would_cost_the_last_results(const char* verb, const FrameSequence& inputs, const std::string& output) {
+  std::error_code ignored;
+  const bool nothing_to_read =
+      std::none_of(inputs.files().begin(), inputs.files().end(),
+                   [&](const std::filesystem::path& file) { return std::filesystem::exists(file, ignored); });
+  if (!nothing_to_read || !std::filesystem::exists(output)) return false;
+  for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall {}: {}\n", verb, error);
+  for (const auto& file : inputs.files()) fmt::print(stderr, "pose_wall {}: {}: not there\n", verb, file.string());
+  fmt::print(stderr, "pose_wall {}: there is no input; {} is left as it was\n", verb, output);
+  return true;
+}
+
+int tell_interrupted(std::size_t frames) {
+  fmt::print(stderr, "interrupted after {}, each with its whole row\n", counted(frames, "frame"));
+  return kExitInterrupted;
+}
+
+}  // namespace pose_wall::tools
