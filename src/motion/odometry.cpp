@@ -36,6 +36,7 @@ constexpr double kBentShare = 0.1;  // of a step, while scans are bent: what nea
 constexpr double kBent_m = 0.02, kBentAt_m = 5.0;  // a scan that its motion bends by less, so far off, is straight
 // Slopes of a steady bend that spread by s over 20 m of map turn by 0.17 s a metre.
 constexpr double kBendOfSpread = 0.17;
+constexpr std::uint32_t kYoungFrames = 3;
 constexpr double kKeyframeTurn_rad = 0.1;
 constexpr float kRockRange_m = 14.0F;  // further away only what is met at 17 degrees and more makes surfaces
 constexpr float kFarIncidence = 0.3F;
@@ -346,7 +347,9 @@ void Odometry::keep_map(const Frame& frame) {
   const double moved_m = std::sqrt((pose_.t - keyframe_.t).squaredNorm());
   const double turned_rad = std::sqrt(turn_of(keyframe_.R.transpose() * pose_.R).squaredNorm());
   const bool known = frame.is(POSE_WALL_ALONG_MEASURED) || frame.guessed;
-  if (known && (moved_m > settings_.keyframe_m || turned_rad > kKeyframeTurn_rad)) {
+  // A map of one scan is thin: the first few go in wherever they are.
+  const bool young = since_start_ <= kYoungFrames;
+  if (known && (young || moved_m > settings_.keyframe_m || turned_rad > kKeyframeTurn_rad)) {
     take_in(pose_);
     travel_.take_in(frame.alignment.covariance);
   }
