@@ -20,8 +20,8 @@ constexpr std::uint32_t kShifts = 33;
 // Rock that comes again nowhere: heights by chance at corners 40 cm apart, smooth between them.
 double rock(int face, double u, double v) {
   const auto height = [face](int i, int j) {
-    std::uint32_t h = static_cast<std::uint32_t>(i * 73856093) ^ static_cast<std::uint32_t>(j * 19349663) ^
-                      static_cast<std::uint32_t>(face * 83492791);
+    std::uint32_t h = static_cast<std::uint32_t>(i) * 73856093U ^ static_cast<std::uint32_t>(j) * 19349663U ^
+                      static_cast<std::uint32_t>(face) * 83492791U;
     for (int k = 0; k < 2; ++k) h = (h ^ (h >> 15)) * 0x2C1B3C6DU;
     return 0.06 * ((h >> 8) / 16777216.0 - 0.5);
   };
