@@ -164,11 +164,7 @@ struct DriverPoint {
 
 std::vector<MotionFrame> run_as_driver(const SimulatedRun& run, std::uint32_t count, bool ring, bool time) {
   MotionUnderTest motion(config_for(run.simulator.setup()));
-  std::vector<MotionFrame> out;
-  const Pose start = true_pose(run.simulator.setup(), run.simulator.pose(0));
-  Pose before = start;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const sim::Frame frame = run.simulator.render(i);
+  return run.run_by(0, count, [&](std::uint32_t, const sim::Frame& frame, std::int64_t*) {
     std::vector<DriverPoint> points(frame.count());
     for (std::size_t k = 0; k < points.size(); ++k) {
       std::memcpy(points[k].xyz, &frame.xyz_intensity[4 * k], sizeof points[k].xyz);
@@ -181,16 +177,8 @@ std::vector<MotionFrame> run_as_driver(const SimulatedRun& run, std::uint32_t co
                           frame.stamp_ns);
     if (ring) cloud.ring = {offsetof(DriverPoint, ring), POSE_WALL_FIELD_UINT16};
     if (time) cloud.time = {offsetof(DriverPoint, time_ns), POSE_WALL_FIELD_UINT32};
-    const Pose now = true_pose(run.simulator.setup(), run.simulator.pose(i));
-    MotionFrame row;
-    row.result = motion.process(cloud);
-    row.truth = {start.R.transpose() * now.R, start.R.transpose() * (now.t - start.t)};
-    row.step = before.R.transpose() * (now.t - before.t);
-    row.stamp_ns = frame.stamp_ns;
-    before = now;
-    out.push_back(row);
-  }
-  return out;
+    return motion.process(cloud);
+  });
 }
 
 // Also where a sensor has fewer directions than the image has columns: 16 and 32 rings in 512, a VLP-16 at 20 Hz.

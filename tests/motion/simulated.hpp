@@ -77,25 +77,33 @@ struct SimulatedRun {
     return cloud;
   }
 
-  std::vector<MotionFrame> run(pose_wall::test::MotionUnderTest& motion, std::uint32_t count,
-                               const std::function<void(std::uint32_t, sim::Frame*)>& change = {},
-                               std::uint32_t from = 0) const {
+  // give: what the motion says of the i-th frame; it may change the stamp.
+  template <typename Give>
+  std::vector<MotionFrame> run_by(std::uint32_t from, std::uint32_t count, Give give) const {
     std::vector<MotionFrame> out;
     const Pose start = true_pose(simulator.setup(), simulator.pose(from));
     Pose before = start;
     for (std::uint32_t i = from; i < from + count; ++i) {
-      sim::Frame frame = simulator.render(i);
-      if (change) change(i, &frame);
+      const sim::Frame frame = simulator.render(i);
       const Pose now = true_pose(simulator.setup(), simulator.pose(i));
       MotionFrame row;
-      row.result = motion.process(cloud_of(frame));
+      row.stamp_ns = frame.stamp_ns;
+      row.result = give(i, frame, &row.stamp_ns);
       row.truth = {start.R.transpose() * now.R, start.R.transpose() * (now.t - start.t)};
       row.step = before.R.transpose() * (now.t - before.t);
-      row.stamp_ns = frame.stamp_ns;
       before = now;
       out.push_back(row);
     }
     return out;
+  }
+  std::vector<MotionFrame> run(pose_wall::test::MotionUnderTest& motion, std::uint32_t count,
+                               const std::function<void(std::uint32_t, sim::Frame*)>& change = {},
+                               std::uint32_t from = 0) const {
+    return run_by(from, count, [&](std::uint32_t i, sim::Frame frame, std::int64_t* stamp_ns) {
+      if (change) change(i, &frame);
+      *stamp_ns = frame.stamp_ns;
+      return motion.process(cloud_of(frame));
+    });
   }
   std::vector<MotionFrame> run(std::uint32_t count) const {
     pose_wall::test::MotionUnderTest motion(pose_wall::test::config_for(simulator.setup()));
