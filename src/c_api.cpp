@@ -8,6 +8,7 @@
 #include "config.hpp"
 #include "engine.hpp"
 #include "engine_memento.hpp"
+#include "export.hpp"
 #include "image.hpp"
 #include "names.hpp"
 #include "pose_wall.h"
@@ -18,12 +19,6 @@
 
 #define POSE_WALL_TEXT_OF(number) POSE_WALL_TEXT_OF_(number)
 #define POSE_WALL_TEXT_OF_(number) #number
-
-#if defined(__GNUC__)
-#define POSE_WALL_EXPORT __attribute__((visibility("default")))
-#else
-#define POSE_WALL_EXPORT
-#endif
 
 using pose_wall::Engine;
 

@@ -5,16 +5,11 @@
 
 #include <cstring>
 
+#include "export.hpp"
 #include "math/rotation.hpp"
 #include "motion/odometry.hpp"
 #include "pose_wall_motion.h"
 #include "struct_versions.hpp"
-
-#if defined(__GNUC__)
-#define POSE_WALL_EXPORT __attribute__((visibility("default")))
-#else
-#define POSE_WALL_EXPORT
-#endif
 
 namespace {
 

@@ -3,11 +3,11 @@
 //
 // Finds records in bytes that nobody vouches for. Every offset is checked in 64 bits before it is used.
 
+#include "../export.hpp"
 #include "box_layout.hpp"
 #include "checksums.hpp"
 #include "finish_result.hpp"
 #include "pose_wall_box.h"
-#include "runtime_export.hpp"
 #include "status.hpp"
 
 namespace pose_wall::runtime {

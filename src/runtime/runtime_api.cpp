@@ -5,11 +5,11 @@
 
 #include <new>
 
+#include "../export.hpp"
 #include "box_layout.hpp"
 #include "options.hpp"
 #include "pose_wall_runtime.h"
 #include "runtime.hpp"
-#include "runtime_export.hpp"
 #include "status.hpp"
 #include "struct_versions.hpp"
 

@@ -3,9 +3,9 @@
 //
 // Names and sentences.
 
+#include "../export.hpp"
 #include "pose_wall_box.h"
 #include "pose_wall_runtime.h"
-#include "runtime_export.hpp"
 
 extern "C" {
 

@@ -26,18 +26,22 @@ function(pose_wall_engine_library)
   if(POSE_WALL_QUICK_BUILD AND type AND NOT type STREQUAL "RELEASE")
     pose_wall_precompile_eigen(pose_wall_objects)
   endif()
-  if(POSE_WALL_CALL_GRAPH)
-    target_compile_options(pose_wall_objects PRIVATE -fcallgraph-info=su)  # beside the objects, for check_stack.py
-  endif()
-
-  pose_wall_one_object(pose_wall_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o pose_wall_*)
-  add_library(pose_wall STATIC ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_engine.o)
-  add_library(pose_wall::pose_wall ALIAS pose_wall)
-  # C: whoever links the archive needs no C++ runtime.
-  set_target_properties(pose_wall PROPERTIES LINKER_LANGUAGE C ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  pose_wall_delivered_archive(pose_wall pose_wall_engine.o pose_wall_*)
   target_include_directories(pose_wall INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(pose_wall INTERFACE m)
+endfunction()
+
+# The archive that users link, of the objects ${archive}_objects merged into one in which only `global` is global.
+function(pose_wall_delivered_archive archive object global)
+  if(POSE_WALL_CALL_GRAPH)
+    target_compile_options(${archive}_objects PRIVATE -fcallgraph-info=su)  # beside the objects, for check_stack.py
+  endif()
+  pose_wall_one_object(${archive}_objects ${CMAKE_CURRENT_BINARY_DIR}/${object} ${global})
+  add_library(${archive} STATIC ${CMAKE_CURRENT_BINARY_DIR}/${object})
+  add_library(pose_wall::${archive} ALIAS ${archive})
+  # C: whoever links the archive needs no C++ runtime.
+  set_target_properties(${archive} PROPERTIES LINKER_LANGUAGE C ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 endfunction()
 
 # The objects of the engine, compiled as every engine is.
