@@ -4,17 +4,15 @@
 #include "motion/along_match.hpp"
 
 #include <cmath>
-#include <cstring>
 
 #include "estimation/small_cholesky.hpp"
+#include "math/finite.hpp"
 
 namespace pose_wall::motion {
 namespace {
 
-constexpr float kCap = 16.0F;  // squared deviations: more is of another surface
-constexpr float kFacesAlong = 0.6F;
-constexpr double kHoldLeast = 0.05;  // less: what faces along are bumps of the rock, seen from one side only
-constexpr int kSweeps = 3;
+constexpr float kCap = 16.0F;         // squared deviations: more is of another surface
+constexpr int kSweeps = 3;            // of the curve against the rows' levels; judgement
 constexpr double kNobodyKnows = 1e3;  // cost of a shift at which the map knows no row
 // Standard deviations by which the patches must prefer the best shift for another one to be excluded.
 constexpr double kExcluded = 3.0;
@@ -23,13 +21,10 @@ constexpr double kExcluded = 3.0;
 constexpr double kPatchesLeast = 5.0;
 // A third of the 10 cm in which rock of half a metre's roughness length bends the curve.
 constexpr double kFineReach_m = 0.036;
-constexpr std::uint32_t kFineShifts = 7;
-constexpr std::uint32_t kUnknownBits = 0x7FC00000U;
+constexpr std::uint32_t kFineShifts = 7;  // a parabola has three numbers
 
 float unknown() {
-  float value;
-  std::memcpy(&value, &kUnknownBits, sizeof(value));
-  return value;
+  return static_cast<float>(not_a_number());
 }
 bool is_known(float value) {
   return value == value;
@@ -54,7 +49,6 @@ class CurveBuilder {
     Parabolas sum;
     const std::uint32_t tiles = scan_.map->tiles();
     s_->gain.first(tiles).fill(0.0F);
-    s_->gains.first(tiles).fill(0);
     double x2 = 0.0, x4 = 0.0;
     for (std::uint32_t k = 0; k < shifts_; ++k) {
       const double x = shift_m(k);
@@ -76,11 +70,10 @@ class CurveBuilder {
       sum.slope[half] += own;
       sum.bend[half] += own_bend;
       s_->gain[s_->tile[row]] += static_cast<float>(own);
-      s_->gains[s_->tile[row]] = 1;
     }
     for (std::uint32_t t = 0; t < tiles; ++t) {
       const double g = static_cast<double>(s_->gain[t]);
-      if (s_->gains[t] != 0) sum.slope_squares += g * g;
+      sum.slope_squares += g * g;
     }
     return sum;
   }
@@ -176,6 +169,7 @@ class CurveBuilder {
     for (std::uint32_t t = 0; t < tiles; ++t) {
       // By its root, with its sign: one prop that stands out of the rock is one patch's word, too.
       const double g = static_cast<double>(s_->gain[t]), size = std::fabs(g);
+      if (!(size > 0.0)) continue;  // most tiles are out of sight
       sum += g > 0.0 ? std::sqrt(size) : -std::sqrt(size);
       squares += size;
     }
@@ -210,8 +204,8 @@ class CurveBuilder {
     Fit fit;
     if (!fit_observation(scan_, local, o, &fit)) return false;
     // What faces along tells the way by its plane alone.
-    const bool faces = std::fabs(axis[0].dot(fit.normal)) > kFacesAlong;
-    if (faces && alignment_.axes.hold < kHoldLeast) return false;
+    const bool faces = faces_along(fit.normal, axis[0]);
+    if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
     float* const J = &s_->jacobian[5 * rows_];
@@ -290,7 +284,6 @@ void CurveScratch::lay_out(Arena& arena) {
   jacobian = arena.take<float>(5 * kRowsMost);
   tile = arena.take<std::uint16_t>(kRowsMost);
   gain = arena.take<float>(kTilesMost);
-  gains = arena.take<std::uint8_t>(kTilesMost);
 }
 
 namespace {

@@ -11,7 +11,7 @@
 
 namespace pose_wall::motion {
 
-constexpr std::uint32_t kShiftsMost = 33;
+constexpr std::uint32_t kShiftsMost = 33;  // 0.4 m to each side in steps of 25 mm
 constexpr std::uint32_t kRowsMost = 2048;  // observations of the curve
 
 struct Curve {
@@ -34,8 +34,7 @@ struct CurveScratch {
   Span<float> misfit;    // [shift][row], in deviations; NaN where the map knows nothing
   Span<float> jacobian;  // [row][5]
   Span<std::uint16_t> tile;
-  Span<float> gain;  // [tile]
-  Span<std::uint8_t> gains;
+  Span<float> gain;  // [tile]; 0 for one that no row lies on
 };
 
 // What the rows say about a shift so small that the curve is a parabola: the place of its bottom, and its standard

@@ -14,7 +14,7 @@ constexpr float kEdgeCurvature = 0.03F;
 constexpr float kOcclusion_m = 0.1F;    // neighbours that differ by more: one of them stands before the other
 constexpr float kBaseline_m = 0.25F;    // to each side, for normals: half of the rock's usual roughness length
 constexpr std::uint32_t kCubes = 8192;  // hashed cubic metres
-constexpr std::uint8_t kPerCube = 24;
+constexpr std::uint8_t kPerCube = 24;   // with 14, and fewer rows of the curve, a Mid-360 on the move found no start
 constexpr std::int32_t kTries = 4;
 
 // The ranges of one row, in the order of directions, 0 where no point was kept; its ends go round.

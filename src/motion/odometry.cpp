@@ -23,8 +23,7 @@ constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by
 constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
 // Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
 constexpr double kHalvesMost_m = 0.12;
-constexpr double kRoad = 0.05;  // hold along the axis: less, and no plane tells the way
-constexpr double kHall = 0.3;   // hold along the axis: its own planes tell the way
+constexpr double kHall = 0.3;  // hold along the axis: its own planes tell the way
 constexpr double kCurveStep_m = 0.025;
 constexpr double kFirstReach = 1.5;  // of what the top speed allows: its own place is not the edge of the search
 constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
@@ -81,12 +80,10 @@ void Odometry::reset() {
 
 // The first scan stands upright and square to the map's axes, so that surfaces face them.
 void Odometry::begin_map(Frame* frame) {
-  const Eigen::Matrix3d R = frame->expected.R;
-  const Eigen::Matrix3d level = upright(frame->observations, R, reading_.lidar_base_m) * R;
-  const Eigen::Matrix3d square =
-      turn_by(Eigen::Vector3d(0.0, 0.0, squaring_yaw_rad(frame->observations, level))) * level;
   if (!has_map_) {  // not where the map begins anew
-    frame->expected.R = square;
+    const Eigen::Matrix3d R = frame->expected.R;
+    const Eigen::Matrix3d level = upright(frame->observations, R, reading_.lidar_base_m) * R;
+    frame->expected.R = turn_by(Eigen::Vector3d(0.0, 0.0, squaring_yaw_rad(frame->observations, level))) * level;
     start_ = frame->expected;
   }
   face(frame->expected.R, frame->observations);
@@ -95,18 +92,22 @@ void Odometry::begin_map(Frame* frame) {
   axes_.along = pose_.R * settings_.forward_base;
   axes_.hold = 0.0;
   frame->alignment.axes = axes_;
-  map_.clear();
-  map_.set_corner(pose_.t);
-  take_in(pose_);
+  begin_map_here();
   has_map_ = true;
   is_bent_ = frame->cloud.time.type != POSE_WALL_FIELD_NONE;
   since_start_ = 0;
 }
 
-void Odometry::take_in(const Pose& pose) {
-  keyframe_ = pose;
+void Odometry::begin_map_here() {
+  map_.clear();
+  map_.set_corner(pose_.t);
+  take_in_scan();
+}
+
+void Odometry::take_in_scan() {
+  keyframe_ = pose_;
   map_.begin_keyframe();
-  const LocalPose local(pose, map_.corner());
+  const LocalPose local(pose_, map_.corner());
   const Eigen::Vector3f sensor = reading_.lidar_base_m.cast<float>();
   for (std::uint32_t i = 0; i < image_.count; ++i) {
     if ((image_.flags[i] & kPlane) == 0) continue;
@@ -135,11 +136,15 @@ bool Odometry::place_scan(Frame* frame) {
   return search_wide(map_, frame->observations, {settings_.turn_max_rad_s * dt, settings_.speed_max_m_s * dt}, &at);
 }
 
+Scan Odometry::scan_of(const Frame& frame) const {
+  return {&map_, frame.observations, reading_.lidar_base_m.cast<float>()};
+}
+
 void Odometry::align(Frame* frame) {
   Alignment& a = frame->alignment;
   a.pose = frame->expected;
   a.axes = axes_;
-  const Scan scan = {&map_, frame->observations, reading_.lidar_base_m.cast<float>()};
+  const Scan scan = scan_of(*frame);
   const Eigen::Vector3d forward = a.pose.R * settings_.forward_base;
   find_axes(scan, forward, &a);
   StepOptions coarse;
@@ -187,8 +192,7 @@ Curve Odometry::match_near(const Frame& frame) {
   double reach = slipped_m_ + (since_start_ == 0 ? kFirstReach * settings_.speed_max_m_s * frame.dt_s : 0.0);
   reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
   const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
-  const Scan scan = {&map_, frame.observations, reading_.lidar_base_m.cast<float>()};
-  return match_along(scan, frame.alignment, reach, shifts, &curve_);
+  return match_along(scan_of(frame), frame.alignment, reach, shifts, &curve_);
 }
 
 // After a gap: the best of curves one beside the other, as far as the machine can have gone. Moves the alignment to
@@ -198,7 +202,7 @@ Curve Odometry::match_far(Frame* frame) {
   const double far_m = settings_.speed_max_m_s * frame->dt_s;
   int windows = static_cast<int>(far_m / (2.0 * kReachMost_m)) + 1;
   if (windows > kWindowsMost) windows = kWindowsMost;
-  const Scan scan = {&map_, frame->observations, reading_.lidar_base_m.cast<float>()};
+  const Scan scan = scan_of(*frame);
   Curve found[2 * kWindowsMost + 1];
   int best = 0;
   for (int k = -windows; k <= windows; ++k) {
@@ -226,7 +230,7 @@ Curve Odometry::match_far(Frame* frame) {
 void Odometry::match_way(Frame* frame) {
   Alignment& a = frame->alignment;
   // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
-  const bool far = frame->dt_s > kGap_s && a.axes.hold < kRoad;
+  const bool far = frame->dt_s > kGap_s && a.axes.hold < kHoldOfRoad;
   const Curve curve = far ? match_far(frame) : match_near(*frame);
   frame->curve = curve;
   if (!is_evidence(curve)) {
@@ -337,7 +341,7 @@ void Odometry::conclude(Frame* frame) {
 void Odometry::keep_map(const Frame& frame) {
   if (slipped_m_ > kSlipMost_m) {
     map_.forget_relief();
-    take_in(pose_);
+    take_in_scan();
     travel_.take_in(frame.alignment.covariance);
     travel_.slip(slipped_m_, map_.unevenness());
     slipped_m_ = 0.0;
@@ -350,7 +354,7 @@ void Odometry::keep_map(const Frame& frame) {
   // A map of one scan is thin: the first few go in wherever they are.
   const bool young = since_start_ <= kYoungFrames;
   if (known && (young || moved_m > settings_.keyframe_m || turned_rad > kKeyframeTurn_rad)) {
-    take_in(pose_);
+    take_in_scan();
     travel_.take_in(frame.alignment.covariance);
   }
 }
@@ -367,9 +371,7 @@ void Odometry::begin_unbent(const Frame& frame) {
   project(frame.cloud, reading_, twist_, &image_);
   segment(pose_.R, reading_, &segment_, &image_);
   mark_features(&image_);
-  map_.clear();
-  map_.set_corner(pose_.t);
-  take_in(pose_);
+  begin_map_here();
   travel_.begin_with(frame.alignment.covariance);
 }
 

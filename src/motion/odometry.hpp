@@ -47,7 +47,9 @@ class Odometry {
   Eigen::Vector3d shrunk_turn(const Frame& frame) const;
   bool was_bent(const Frame& frame) const;
   void begin_unbent(const Frame& frame);
-  void take_in(const Pose& pose);
+  void begin_map_here();
+  void take_in_scan();
+  Scan scan_of(const Frame& frame) const;
 
   Reading reading_;
   MotionSettings settings_;

@@ -91,14 +91,15 @@ struct Layout {
   std::uint32_t share = 0xFFFFFFFFU;  // of the points that are looked at, of 2^32
 };
 
-Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
-  Layout layout;
-  layout.has_ring = cloud.ring.type != POSE_WALL_FIELD_NONE;
-  layout.has_time = cloud.time.type != POSE_WALL_FIELD_NONE;
-  double time_most = -1e300, ring_most = 0.0;
-  layout.time_least = 1e300;
-  float sine_most = -1.0F;
-  const std::uint64_t points = static_cast<std::uint64_t>(cloud.width) * rows_of(cloud);
+// What an even share of a cloud's points tells: how far rings, elevations and times reach.
+struct Extent {
+  double ring_most = 0.0, time_least = 1e300, time_most = -1e300;
+  float sine_least = 1.0F, sine_most = -1.0F;
+};
+
+Extent extent_of(const pose_wall_cloud& cloud, const Reader& reader, std::uint64_t points) {
+  const bool has_ring = cloud.ring.type != POSE_WALL_FIELD_NONE, has_time = cloud.time.type != POSE_WALL_FIELD_NONE;
+  Extent extent;
   const std::uint64_t stride = (points / kLooks) | 1U;  // odd, so that no ring of an even number is passed over
   for (std::uint64_t i = 0; i < points; i += stride) {
     const unsigned char* const point =
@@ -107,18 +108,26 @@ Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
     const float r2 = p.x * p.x + p.y * p.y + p.z * p.z;
     if (!(r2 > 0.01F && r2 < 1e6F)) continue;
     const float s = p.z / std::sqrt(r2);
-    if (s < layout.sine_least) layout.sine_least = s;
-    if (s > sine_most) sine_most = s;
-    const double ring = layout.has_ring ? reader.number(point, cloud.ring) : 0.0;
-    if (ring > ring_most && ring < 4096.0) ring_most = ring;
-    const double t = layout.has_time ? reader.number(point, cloud.time) : 0.0;
-    if (t < layout.time_least) layout.time_least = t;
-    if (t > time_most) time_most = t;
+    if (s < extent.sine_least) extent.sine_least = s;
+    if (s > extent.sine_most) extent.sine_most = s;
+    const double ring = has_ring ? reader.number(point, cloud.ring) : 0.0;
+    if (ring > extent.ring_most && ring < 4096.0) extent.ring_most = ring;
+    const double t = has_time ? reader.number(point, cloud.time) : 0.0;
+    if (t < extent.time_least) extent.time_least = t;
+    if (t > extent.time_most) extent.time_most = t;
   }
-  layout.time_unit_s = time_unit_s(time_most - layout.time_least);
-  layout.has_time = layout.has_time && layout.time_unit_s > 0.0;
-  layout.rings = ring_most + 1.0;
-  layout.has_ring = layout.has_ring && layout.rings >= kRingsLeast;
+  return extent;
+}
+
+Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
+  const std::uint64_t points = static_cast<std::uint64_t>(cloud.width) * rows_of(cloud);
+  const Extent extent = extent_of(cloud, reader, points);
+  Layout layout;
+  layout.time_least = extent.time_least;
+  layout.time_unit_s = time_unit_s(extent.time_most - extent.time_least);
+  layout.has_time = cloud.time.type != POSE_WALL_FIELD_NONE && layout.time_unit_s > 0.0;
+  layout.rings = extent.ring_most + 1.0;
+  layout.has_ring = cloud.ring.type != POSE_WALL_FIELD_NONE && layout.rings >= kRingsLeast;
   if (layout.has_ring && layout.rings < kImageRowsMost) layout.rows = static_cast<std::uint32_t>(layout.rings);
   // A little fewer than points of a row: where columns stay empty, neighbours are none.
   const double directions = 0.9 * static_cast<double>(points) / layout.rows;
@@ -130,7 +139,8 @@ Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
   if (static_cast<double>(points) > room) {
     layout.share = static_cast<std::uint32_t>(4294967295.0 * (room / static_cast<double>(points)));
   }
-  const float spread = sine_most - layout.sine_least;
+  layout.sine_least = extent.sine_least;
+  const float spread = extent.sine_most - extent.sine_least;
   layout.row_scale = spread > 0.0F ? static_cast<float>(layout.rows) * 0.9999F / spread : 0.0F;
   return layout;
 }

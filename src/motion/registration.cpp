@@ -20,10 +20,8 @@ constexpr float kRockSigma_m = 0.04F;
 constexpr float kTukey = 4.0F;              // deviations beyond which an observation says nothing
 constexpr std::uint32_t kGroundLeast = 60;  // observations of ground that settle roll, pitch and height
 constexpr double kDamping = 1e-3;           // Levenberg's, of the diagonal, at the start
-// A surface that faces along says where it stands along only where enough of the view does so.
-constexpr float kFacesAlong = 0.6F;
-
-constexpr int kU[] = {1, 0, 0}, kV[] = {2, 2, 1};
+constexpr float kNear_m = 0.3F;             // from a plane whose relief is not asked: most of a tile's layer
+constexpr float kFacesAlong = 0.6F;         // cosine: within 53 degrees, as facing_of has it
 
 // The three parameters of a step: each turns or moves the scan about the place of base.
 struct Parameters {
@@ -65,6 +63,16 @@ float tukey(float squares, float cut2) {
   return left > 0.0F ? left * left : 0.0F;
 }
 
+// How far the point lies from the rock, and what noise alone gives that; of a fit that holds surface and incidence.
+void measure(Fit* fit) {
+  Relief relief;
+  fit->has_relief = ReliefMap::relief(fit->surface, &relief);
+  const float above_rock_m = fit->surface.above_m - (fit->has_relief ? relief.height_m : 0.0F);
+  fit->distance_m = above_rock_m * fit->surface.tile->cosine;
+  fit->variance_m2 = kRangeSigma_m * kRangeSigma_m * fit->incidence2 * (fit->has_relief ? relief.spread : 1.0F) +
+                     kCellSigma_m * kCellSigma_m + (fit->has_relief ? 0.0F : kRockSigma_m * kRockSigma_m);
+}
+
 struct Context {
   const Scan& scan;
   const StepOptions& options;
@@ -81,16 +89,16 @@ void row_of_fit(const Context& c, const Fit& fit, const Eigen::Vector3f& arm, fl
 Sums sum_up(const Context& c, const Pose& pose, const Scales& scales, PatchSums* patches) {
   Sums sums;
   const LocalPose local(pose, c.scan.map->corner());
-  const float hold_cut = c.axes.hold < 0.05 ? kFacesAlong : 2.0F;
+  const bool is_road = c.axes.hold < kHoldOfRoad;
   const Eigen::Vector3f along = c.axes.along.cast<float>();
   for (std::uint32_t i = 0; i < c.scan.observation.size(); i += c.options.every) {
     const Observation& o = c.scan.observation[i];
     Fit fit;
     if (!counts(o, c.ground_step, c.ground_alone) || !fit_observation(c.scan, local, o, &fit)) continue;
-    if (std::fabs(along.dot(fit.normal)) > hold_cut) continue;
+    if (is_road && faces_along(fit.normal, along)) continue;
     const int kind = fit.has_relief ? 1 : 0;
     const float variance = fit.variance_m2 * scales.variance[kind];
-    const float cut2 = c.options.use_relief ? kTukey * kTukey * variance + 1e-4F : c.options.cut_m * c.options.cut_m;
+    const float cut2 = c.options.use_relief ? kTukey * kTukey * variance + 1e-4F : kNear_m * kNear_m;
     const float squares = fit.distance_m * fit.distance_m;
     const float trust = tukey(squares, cut2), weight = trust / variance;
     if (!(weight > 0.0F)) continue;
@@ -108,7 +116,6 @@ Sums sum_up(const Context& c, const Pose& pose, const Scales& scales, PatchSums*
     if (patches == nullptr) continue;
     const std::uint32_t tile = c.scan.map->index_of(fit.surface.tile);
     for (int k = 0; k < 3; ++k) patches->sum[k][tile] += weight * row[k] * fit.distance_m;
-    patches->is_touched[tile] = 1;
   }
   sums.A(0, 1) = sums.A(1, 0), sums.A(0, 2) = sums.A(2, 0), sums.A(1, 2) = sums.A(2, 1);
   return sums;
@@ -142,10 +149,9 @@ Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&free)[3]) {
 Eigen::Matrix3d covariance_of(const Sums& sums, const bool (&free)[3], PatchSums* patches, std::uint32_t tiles) {
   Eigen::Matrix3d B = Eigen::Matrix3d::Zero();
   for (std::uint32_t t = 0; t < tiles; ++t) {
-    if (patches->is_touched[t] == 0) continue;
     const Eigen::Vector3d g(static_cast<double>(patches->sum[0][t]), static_cast<double>(patches->sum[1][t]),
                             static_cast<double>(patches->sum[2][t]));
-    B += g * g.transpose();
+    if (g.squaredNorm() > 0.0) B += g * g.transpose();  // most tiles are out of sight
   }
   Eigen::Matrix3d inverse;
   for (int k = 0; k < 3; ++k) {
@@ -182,7 +188,6 @@ Eigen::Matrix3d iterate(const Context& c, const bool (&free)[3], PatchSums* patc
   if (!c.options.use_relief) return Eigen::Matrix3d::Zero();
   const std::uint32_t tiles = c.scan.map->tiles();
   for (int k = 0; k < 3; ++k) patches->sum[k].first(tiles).fill(0.0F);
-  patches->is_touched.first(tiles).fill(0);
   sums = sum_up(c, a->pose, scales, patches);
   (c.ground_step ? a->ground : a->matched) = sums.count;
   return covariance_of(sums, free, patches, tiles);
@@ -192,38 +197,31 @@ Eigen::Matrix3d iterate(const Context& c, const bool (&free)[3], PatchSums* patc
 
 void PatchSums::lay_out(Arena& arena) {
   for (Span<float>& s : sum) s = arena.take<float>(kTilesMost);
-  is_touched = arena.take<std::uint8_t>(kTilesMost);
+}
+
+bool faces_along(const Eigen::Vector3f& normal, const Eigen::Vector3f& along) {
+  return std::fabs(along.dot(normal)) > kFacesAlong;
 }
 
 bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit) {
   const Eigen::Vector3f base(o.x, o.y, o.z);
   fit->p = pose(base);
   if (!scan.map->find(fit->p, o.facing, &fit->surface)) return false;
-  const Tile& tile = *fit->surface.tile;
-  fit->normal[tile.facing] = tile.cosine;
-  fit->normal[kU[tile.facing]] = -tile.slope_u * tile.cosine;
-  fit->normal[kV[tile.facing]] = -tile.slope_v * tile.cosine;
+  fit->normal = fit->surface.tile->normal();
   const Eigen::Vector3f ray = base - scan.sensor_base_m;
   const float towards = (pose.R * ray).dot(fit->normal);
-  const float incidence2 = towards * towards / ray.squaredNorm();
-  fit->incidence2 = incidence2;
-  Relief relief;
-  fit->has_relief = ReliefMap::relief(fit->surface, &relief);
-  fit->distance_m = (fit->surface.above_m - (fit->has_relief ? relief.height_m : 0.0F)) * tile.cosine;
-  fit->variance_m2 = kRangeSigma_m * kRangeSigma_m * incidence2 * (fit->has_relief ? relief.spread : 1.0F) +
-                     kCellSigma_m * kCellSigma_m + (fit->has_relief ? 0.0F : kRockSigma_m * kRockSigma_m);
+  fit->incidence2 = towards * towards / ray.squaredNorm();
+  measure(fit);
   return true;
 }
 
 bool fit_shifted(const Scan& scan, const Eigen::Vector3f& p, const Fit& before, bool by_plane, float* misfit) {
-  Surface at;
-  if (!scan.map->find_again(p, before.surface.tile, &at)) return false;
-  Relief relief = {0.0F, 1.0F};
-  const bool has_relief = ReliefMap::relief(at, &relief);
-  if (!has_relief && !by_plane) return false;
-  const float variance = kRangeSigma_m * kRangeSigma_m * before.incidence2 * relief.spread +
-                         kCellSigma_m * kCellSigma_m + (has_relief ? 0.0F : kRockSigma_m * kRockSigma_m);
-  *misfit = (at.above_m - (has_relief ? relief.height_m : 0.0F)) * at.tile->cosine / std::sqrt(variance);
+  Fit fit;
+  if (!scan.map->find_again(p, before.surface.tile, &fit.surface)) return false;
+  fit.incidence2 = before.incidence2;
+  measure(&fit);
+  if (!fit.has_relief && !by_plane) return false;
+  *misfit = fit.distance_m / std::sqrt(fit.variance_m2);
   return true;
 }
 

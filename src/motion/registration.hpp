@@ -33,6 +33,11 @@ bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation&
 // where the map does not know the rock.
 bool fit_shifted(const Scan& scan, const Eigen::Vector3f& p, const Fit& before, bool by_plane, float* misfit);
 
+// Hold along the axis (RoadAxes): below it no plane tells the way. What faces along are bumps of the rock then, which
+// are seen from one side only; they drew steel sets by 30 mm (2026-11, simulated).
+constexpr double kHoldOfRoad = 0.05;
+bool faces_along(const Eigen::Vector3f& normal, const Eigen::Vector3f& along);
+
 // The road's axes in the map: along is where the surfaces give least hold.
 struct RoadAxes {
   Eigen::Vector3d along = Eigen::Vector3d::UnitX(), left = Eigen::Vector3d::UnitY(), up = Eigen::Vector3d::UnitZ();
@@ -52,13 +57,11 @@ struct Alignment {
 struct PatchSums {
   void lay_out(Arena& arena);
   Span<float> sum[3];
-  Span<std::uint8_t> is_touched;
 };
 
-// From surfaces that lie within cut_m, by their planes, or within a few deviations of the rock where the relief is
-// known. with_along: the step across takes the way along, too.
+// From surfaces nearby, or with use_relief from those within a few deviations of the rock. with_along: the step across
+// takes the way along, too.
 struct StepOptions {
-  float cut_m = 0.3F;
   bool use_relief = false;
   bool with_along = false;
   int rounds = 3;

@@ -18,9 +18,6 @@ constexpr float kPlaceUnit_m = kAlong_m / 256.0F;
 constexpr float kFreshLayer_m = 0.6F;
 constexpr double kRidge = 0.05;  // m2: some flat plane goes into a tile's own, so that a line of points tilts nothing
 
-// u and v of a facing.
-constexpr int kU[] = {1, 0, 0}, kV[] = {2, 2, 1};
-
 struct Place {
   std::int32_t u, v;       // tile
   float at_u, at_v, at_k;  // from its middle; along the axis, from the corner

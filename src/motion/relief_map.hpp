@@ -18,6 +18,7 @@ namespace pose_wall::motion {
 
 // The axis of the map that a surface faces. Heights are along it; u and v are the two others, in the order x, y, z.
 enum Facing : std::uint8_t { kFacesX = 0, kFacesY = 1, kFacesZ = 2 };
+constexpr int kU[] = {1, 0, 0}, kV[] = {2, 2, 1};  // by facing
 
 constexpr std::uint32_t kTilesMost = 4096;
 constexpr std::int32_t kAlongCells = 20;
@@ -39,6 +40,14 @@ struct Tile {
   std::uint8_t facing;
   std::uint8_t fresh;  // began in this keyframe: its slope is not known yet
   Cell cell[kAlongCells * kAcrossCells];
+
+  Eigen::Vector3f normal() const {
+    Eigen::Vector3f n;
+    n[facing] = cosine;
+    n[kU[facing]] = -slope_u * cosine;
+    n[kV[facing]] = -slope_v * cosine;
+    return n;
+  }
 };
 
 // A pose as the map counts: metres from a corner of its grid near the machine, so that floats are fine enough.
