@@ -285,9 +285,30 @@ typedef struct pose_wall_cloud {
 enum pose_wall_input {
   POSE_WALL_INPUT_STANDING = 1, /* the machine has not moved since the last frame. Its boom may have */
   POSE_WALL_INPUT_SPEED = 2,    /* speed_m_s and its sigma */
-  POSE_WALL_INPUT_TURN_RATE = 4 /* turn_rate_rad_s and its sigma */
+  POSE_WALL_INPUT_TURN_RATE = 4, /* turn_rate_rad_s and its sigma */
+  POSE_WALL_INPUT_ODOMETRY = 8   /* odometry */
 };
 #define POSE_WALL_INPUT_BOXES 4
+
+/* An odometry's levels: along the road, across it to the left, up, in m; turns about these three, in rad. In the order
+ * of pose_wall_motion_direction. */
+#define POSE_WALL_ODOMETRY_DIRECTIONS 6
+
+/* Where the machine stands at this frame's stamp, by an odometry that measures: pose_wall_motion_give fills it, and
+ * one of the caller's own may. What the engine uses is the difference between two frames of one run, so an odometry may
+ * drift and its origin is its own. The error of such a difference stays within
+ *     level (then) + level (now) + protection_factor sqrt(drift_variance (now) - (then)) + drift (now) - (then). */
+typedef struct pose_wall_odometry {
+  uint64_t run;                /* poses of one run are comparable; another number after each new start. Not 0 */
+  double position_m[3];        /* of base, in the run's frame */
+  double quaternion[4];        /* x, y, z, w: turns base into the run's frame; unit within 1e-6 */
+  double along[3], across[3];  /* unit, in the run's frame, at right angles: what the levels' directions mean here */
+  double level[POSE_WALL_ODOMETRY_DIRECTIONS];          /* what comes and goes with each frame: m, rad; 0 to infinite */
+  double drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS]; /* what stays, since the run began: m2, rad2; never falls */
+  double drift[POSE_WALL_ODOMETRY_DIRECTIONS];          /* likewise, in m and rad, of what has no variance; never falls */
+  double velocity_m_s[3];      /* in base, in the course of this scan: takes the skew out of a cloud with times */
+  double turn_rate_rad_s[3];   /* likewise */
+} pose_wall_odometry;
 
 /* What the machine knows of itself since the last frame. All of it is optional, and none is believed against what is
  * measured: motion that contradicts itself or the measurements, or is out of range, is not used, and neither is a box
@@ -297,6 +318,10 @@ enum pose_wall_input {
  * protection_factor sigma; roll and pitch are not in it. SPEED with TURN_RATE: distances grow no faster than the
  * sampling points move, |speed| + reach x |turn rate|, sigmas with it, where that is less than hold_rate_distance;
  * where a point moves to is not used. SPEED alone: nothing.
+ * ODOMETRY, which stands before the others where the last frame had one of the same run: held values move as the
+ * machine moved before the floor and the walls that were seen last, smoothed ones start from there, and a jump that it
+ * explains is none. Levels grow by its errors, and by 0.035 for each unit of the way, for roads bend. A cloud with times
+ * is freed of the scan's motion before anything else. The key `motion` switches this off.
  */
 typedef struct pose_wall_inputs {
   uint32_t struct_size;         /* sizeof(pose_wall_inputs) */
@@ -307,6 +332,7 @@ typedef struct pose_wall_inputs {
   double turn_rate_sigma_rad_s; /* its standard deviation; above 0, to 10 */
   double body_box[POSE_WALL_INPUT_BOXES][6]; /* beside the config's: where the boom is in this frame, in base, as
                                                 body_box_1: x_min x_max y_min y_max z_min z_max. All zero: none */
+  pose_wall_odometry odometry;
 } pose_wall_inputs;
 
 /* Describes `count` points of three consecutive native floats each, `point_step` bytes apart. Fails iff: cloud NULL,

@@ -195,6 +195,20 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_reset(pose_wall_motion* motion);
 POSE_WALL_CHECKED int32_t pose_wall_motion_process(pose_wall_motion* motion, const pose_wall_cloud* cloud,
                                                    pose_wall_motion_result* result);
 
+/* The last frame's pose as the engine takes it: sets POSE_WALL_INPUT_ODOMETRY and inputs->odometry, or clears the bit
+ * where that frame has no pose; the rest stays as it is. Set inputs->struct_size = sizeof *inputs first. The run's frame
+ * is that of the map. Fails iff: NULL, not open, struct_size. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs);
+
+/* Both at once, for one frame: pose_wall_motion_process, then pose_wall_process with the frame's inputs and this pose
+ * among them. So the engine's held values move with the machine, its smoothing does not lag, and a cloud with times is
+ * freed of the scan's motion. Give every frame to both. Fails as either does; where the motion refuses a frame the
+ * engine does not see it. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_process_both(pose_wall_motion* motion, pose_wall_engine* engine,
+                                                        const pose_wall_cloud* cloud,
+                                                        pose_wall_motion_result* motion_result,
+                                                        pose_wall_result* result);
+
 /* The map's surface points, in start, for pictures: writes up to `capacity` of them from the first-th on as x, y, z and
  * gives how many there are in all. Fails iff: motion or total NULL, xyz_m NULL with capacity > 0, not open. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,

@@ -21,6 +21,7 @@ namespace pose_wall {
 namespace {
 
 constexpr std::uint32_t kPointsMin = 100;
+constexpr std::int32_t kMotionOn = 0;  // of the key's choices
 
 Axes axes_of(std::int32_t forward_choice) {
   // In the order of the key's choices: +X, -X, +Y, -Y.
@@ -291,20 +292,44 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   share_direction(scene, &found->walls.side);
 }
 
-// By the inputs where they are sound and nothing that was measured speaks against them.
-MotionRates Engine::motion_rates(const pose_wall_inputs* inputs, const FrameTiming& timing,
+// An odometry counts where the key lets it, and not in a cloud that has come before: whoever looks at that sees a machine
+// that stands.
+const pose_wall_odometry* Engine::odometry_in(const pose_wall_inputs* inputs) const {
+  const bool given = inputs != nullptr && (inputs->given & POSE_WALL_INPUT_ODOMETRY) != 0;
+  return given && settings_.motion == kMotionOn ? &inputs->odometry : nullptr;
+}
+
+// By the odometry, else by the other inputs, where they are sound and nothing that was measured speaks against them.
+Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing,
                                  FrameFindings* found) const {
-  const MotionRates by_config = rates_by_config(settings_);
+  const double elapsed_s = elapsed_of(memory_.temporal, timing);
+  const Change by_config = change_by_config(settings_, elapsed_s);
   if (inputs == nullptr) return by_config;
-  MotionRates rates = by_config;
-  bool sound = rates_by_inputs(*inputs, settings_, &rates);
-  for (const auto& edges_m : inputs->body_box) sound = box_of(edges_m).is_sound() && sound;
-  sound = sound && !contradict(rates, found->measured, timing, memory_.temporal);
+  const auto believed = [&](const Change& change) {
+    return !contradict(change, found->measured, timing, memory_.temporal);
+  };
+  bool boxes = true;
+  for (const auto& edges_m : inputs->body_box) boxes = box_of(edges_m).is_sound() && boxes;
+  Change change = by_config;
+  bool sound = true, by_places = false;
+  if (const pose_wall_odometry* const odometry = odometry_in(inputs)) {
+    const bool readable = is_sound(*odometry);
+    const bool follows = readable && odometry->run == memory_.odometry.run && (found->reasons & POSE_WALL_R_FROZEN) == 0;
+    if (follows) change_by_odometry(*odometry, memory_.odometry, settings_, axes_, &change);
+    by_places = follows && believed(change);
+    sound = readable && (by_places || !follows);
+  }
+  if (!by_places) {
+    change = by_config;
+    const bool told = boxes && change_by_inputs(*inputs, settings_, elapsed_s, &change) && believed(change);
+    if (!told) change = by_config;
+    sound = sound && told;
+  }
+  sound = sound && boxes;
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_INPUTS, sound));
-  if (sound) return rates;
-  found->reasons |= POSE_WALL_R_PRIOR;
-  return by_config;
+  if (!sound) found->reasons |= POSE_WALL_R_PRIOR;
+  return change;
 }
 
 void Engine::conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result) {
@@ -312,12 +337,24 @@ void Engine::conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose
   found->reasons |= timing.reasons;
   found->measured = measure_quantities(found->floor, found->level, found->walls.side, settings_);
   doubt_repeats(timing, found);
-  const MotionRates rates = motion_rates(inputs, timing, found);
-  smooth_and_hold(found->measured, timing, found->stamp_ns, rates, settings_, &memory_.temporal, &result->quantity);
+  const Change change = change_since_last(inputs, timing, found);
+  smooth_and_hold(found->measured, timing, found->stamp_ns, change, settings_, &memory_.temporal, &result->quantity);
   report_findings(*found, result);
   result->frame_index = memory_.frames++;
   finish(result);
   remember(*found);
+  remember_place(inputs, *found);
+}
+
+// A frame without a place ends the run: what the machine did meanwhile only the config bounds.
+void Engine::remember_place(const pose_wall_inputs* inputs, const FrameFindings& found) {
+  const pose_wall_odometry* const odometry = odometry_in(inputs);
+  if (odometry == nullptr || !is_sound(*odometry) || (found.reasons & POSE_WALL_R_FROZEN) != 0) {
+    memory_.odometry.run = OdometryMemory::kNoRun;
+    return;
+  }
+  pose_wall::remember_place(*odometry, found.floor, found.level, found.walls.side, settings_, axes_,
+                            &memory_.odometry);
 }
 
 void Engine::finish(pose_wall_result* result) {
@@ -345,11 +382,11 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
       trace::gate(POSE_WALL_TRACE_FROZEN, repeat.is_one ? memory_.repeats : 0, settings_.frozen_frames, !too_often));
   const std::uint32_t reasons = timing.reasons | (frozen ? static_cast<std::uint32_t>(POSE_WALL_R_FROZEN) : 0U);
   found->reasons |= reasons;
-  const MotionRates fastest = rates_by_config(settings_);
+  const Change since_first = change_by_config(settings_, repeat.age_s);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Measurement& m = found->measured.quantity[q];
     // The cloud is as old as its first copy, and the machine may have moved since.
-    if (frozen) m.level[POSE_WALL_PART_AGE] += fastest.growth[q] * repeat.age_s;
+    if (frozen) m.level[POSE_WALL_PART_AGE] += since_first.growth[q];
     m.reasons |= reasons;
     m.weak = m.weak || frozen;
     if (timing.still || too_often) m.measured = false;

@@ -14,6 +14,7 @@
 #include "stages/ground.hpp"
 #include "stages/seen_clouds.hpp"
 #include "stages/temporal.hpp"
+#include "stages/temporal_odometry.hpp"
 #include "stages/walls.hpp"
 #include "types.hpp"
 
@@ -40,6 +41,7 @@ struct Memory {
   Surfaces last;
   LeafMemory leaf;
   SeenClouds seen;
+  OdometryMemory odometry;
   std::uint32_t repeats = 0;  // so many clouds in a row came before; what holds no points does not count
   std::uint64_t frames = 0;
   std::uint64_t publications = 0;  // results, those of age() too
@@ -93,7 +95,9 @@ class Engine {
   void find_walls_if_level(Random* random, FrameFindings* found);
   void conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result);
   void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
-  MotionRates motion_rates(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found) const;
+  Change change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found) const;
+  const pose_wall_odometry* odometry_in(const pose_wall_inputs* inputs) const;
+  void remember_place(const pose_wall_inputs* inputs, const FrameFindings& found);
   void finish(pose_wall_result* result);
   void remember(const FrameFindings& found);
   std::int64_t now() const { return clock_ != nullptr ? clock_(clock_user_) : 0; }

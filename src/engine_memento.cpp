@@ -9,7 +9,7 @@ namespace pose_wall {
 namespace {
 
 // To be changed with what visit() walks over.
-constexpr std::uint64_t kVersion = 0x706F73652D6D0004ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D0005ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version, checksum
 
 // Every member is one word of eight bytes, least significant first.
@@ -111,6 +111,31 @@ void visit(Way* way, LevelParts* level) {
 }
 
 template <typename Way>
+void visit(Way* way, Unknown* u) {
+  visit_all(way, &u->sum, &u->drift2, &u->place_level_then, &u->place_level, &u->steps_by_places);
+}
+
+template <typename Way>
+void visit(Way* way, Eigen::Vector3d* v) {
+  visit_all(way, &v->x(), &v->y(), &v->z());
+}
+
+template <typename Way>
+void visit(Way* way, SeenSurface* s) {
+  visit_all(way, &s->exists, &s->normal, &s->along, &s->from_m, &s->to_m, &s->centre_m, &s->radius_m, &s->slope_level);
+}
+
+template <typename Way>
+void visit(Way* way, OdometryMemory* m) {
+  visit_all(way, &m->run, &m->position_m);
+  for (int k = 0; k < 9; ++k) visit(way, m->R_run_base.data() + k);
+  for (double& level : m->place_level) visit(way, &level);
+  for (double& variance : m->drift_variance) visit(way, &variance);
+  for (double& drift : m->drift) visit(way, &drift);
+  visit_all(way, &m->floor, &m->wall[0], &m->wall[1]);
+}
+
+template <typename Way>
 void visit(Way* way, Track* t) {
   visit_all(way, &t->has_value, &t->value, &t->rate, &t->smoothed_frames, &t->raw, &t->raw_protection, &t->sigma,
             &t->level, &t->grown, &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
@@ -139,6 +164,7 @@ void visit(Way* way, Memory* m) {
   visit_all(way, &m->last.has_floor, &m->last.has_wall[0], &m->last.has_wall[1], &m->leaf.begin_with, &m->leaf.voxels,
             &m->repeats, &m->frames, &m->publications);
   for (SeenCloud& cloud : m->seen.cloud) visit_all(way, &cloud.fingerprint, &cloud.stamp_ns);
+  visit(way, &m->odometry);
 }
 
 // FNV-1a: for accidents, not for attackers. Begun with the config's, so that what was measured by another config, with

@@ -14,7 +14,7 @@ namespace pose_wall {
 constexpr StructSizes kCloudSizes = {offsetof(pose_wall_cloud, inputs), offsetof(pose_wall_cloud, ring),
                                      sizeof(pose_wall_cloud)};
 constexpr StructSizes kResultSizes = {864, sizeof(pose_wall_result), sizeof(pose_wall_result)};
-constexpr StructSizes kInputsSizes = {0, sizeof(pose_wall_inputs), sizeof(pose_wall_inputs)};
+constexpr StructSizes kInputsSizes = {0, offsetof(pose_wall_inputs, odometry), sizeof(pose_wall_inputs)};
 constexpr StructSizes kMomentSizes = {0, sizeof(pose_wall_moment), sizeof(pose_wall_moment)};
 constexpr StructSizes kSourceSizes = {0, sizeof(pose_wall_image_source), sizeof(pose_wall_image_source)};
 

@@ -228,6 +228,37 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_process(pose_wall_motion* motion, cons
   return POSE_WALL_OK;
 }
 
+POSE_WALL_EXPORT int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs) {
+  if (motion == nullptr || inputs == nullptr) return POSE_WALL_E_NULL;
+  if (inputs->struct_size != sizeof(*inputs)) return POSE_WALL_E_STRUCT_SIZE;
+  const Inside inside(holder_of(motion));
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  const bool told = holder_of(motion)->odometry.tell(&inputs->odometry);
+  const std::uint32_t bit = POSE_WALL_INPUT_ODOMETRY;
+  inputs->given = told ? inputs->given | bit : inputs->given & ~bit;
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_process_both(pose_wall_motion* motion, pose_wall_engine* engine,
+                                                       const pose_wall_cloud* cloud,
+                                                       pose_wall_motion_result* motion_result,
+                                                       pose_wall_result* result) {
+  if (engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  std::int32_t status = pose_wall_motion_process(motion, cloud, motion_result);
+  if (status != POSE_WALL_OK) return status;
+  auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
+  pose_wall_inputs inputs{};
+  if (whole.inputs != nullptr) {
+    inputs = pose_wall::read_struct<pose_wall_inputs>(whole.inputs, whole.inputs->struct_size);
+  }
+  inputs.struct_size = sizeof(inputs);
+  status = pose_wall_motion_give(motion, &inputs);
+  if (status != POSE_WALL_OK) return status;
+  whole.struct_size = sizeof(whole);
+  whole.inputs = &inputs;
+  return pose_wall_process(engine, &whole, result);
+}
+
 POSE_WALL_EXPORT int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,
                                               uint32_t capacity, uint32_t* total) {
   if (motion == nullptr || total == nullptr || (xyz_m == nullptr && capacity > 0)) return POSE_WALL_E_NULL;

@@ -65,7 +65,7 @@ void Odometry::open(const Reading& reading, const MotionSettings& settings) {
 void Odometry::reset() {
   map_.clear();
   pose_ = start_ = keyframe_ = Pose{};
-  twist_ = Twist{};
+  twist_ = seen_ = Twist{};
   axes_ = RoadAxes{};
   travel_.reset();
   last_covariance_.setZero();
@@ -75,7 +75,7 @@ void Odometry::reset() {
   back_ = 0;
   since_start_ = 0;
   slipped_m_ = lost_s_ = 0.0;
-  has_map_ = guesses_ = is_bent_ = false;
+  has_map_ = guesses_ = is_bent_ = has_pose_ = false;
 }
 
 // The first scan stands upright and square to the map's axes, so that surfaces face them.
@@ -92,10 +92,19 @@ void Odometry::begin_map(Frame* frame) {
   axes_.along = pose_.R * settings_.forward_base;
   axes_.hold = 0.0;
   frame->alignment.axes = axes_;
+  last_covariance_.setZero();
   begin_map_here();
+  begin_run(frame->cloud.stamp_ns);
   has_map_ = true;
   is_bent_ = frame->cloud.time.type != POSE_WALL_FIELD_NONE;
   since_start_ = 0;
+}
+
+// A number that no other map has, one of another motion that began at another time neither.
+void Odometry::begin_run(std::int64_t stamp_ns) {
+  constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;  // 2^64 over the golden ratio: spreads neighbours apart
+  run_ = (run_ + static_cast<std::uint64_t>(stamp_ns) + 1) * kGolden | 1U;
+  seen_ = Twist{};
 }
 
 void Odometry::begin_map_here() {
@@ -292,6 +301,7 @@ void Odometry::learn_twist(const Frame& frame) {
     const Eigen::Vector3d axis = pose_.R.transpose() * frame.alignment.axes.along;
     now.velocity_m_s += axis * axis.dot(twist_.velocity_m_s - now.velocity_m_s);
   }
+  seen_ = frame.dt_s < kTwistLasts_s ? now : Twist{};  // a mean over a gap is that of no scan
   // Half of what this frame says: single steps are noisy, and machines are heavy.
   const double share = since_start_ < 2 ? 1.0 : 0.5;
   twist_.velocity_m_s += share * (now.velocity_m_s - twist_.velocity_m_s);
@@ -466,12 +476,35 @@ void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* re
                                             static_cast<std::uint64_t>(period_s_ * 1e9));
     }
   }
+  has_pose_ = !frame.is(POSE_WALL_ALONG_LOST) && frame.has_stamp();
   report(frame, start_, result);
   result->frame_index = frames_++;
   result->along_m = frame.is(POSE_WALL_ALONG_LOST) ? not_a_number() : travel_.along_m();
   result->points_used = image_.count;
   result->tiles = map_.tiles();
   result->keyframes = map_.keyframes();
+}
+
+bool Odometry::tell(pose_wall_odometry* out) const {
+  if (!has_pose_) return false;
+  Eigen::Quaterniond q(pose_.R);
+  q.normalize();
+  out->run = run_;
+  const Six level = Travel::level_of(last_covariance_, slipped_m_, settings_.protection_factor);
+  for (int k = 0; k < 3; ++k) {
+    out->position_m[k] = pose_.t[k];
+    out->along[k] = axes_.along[k];
+    out->across[k] = axes_.left[k];
+    out->velocity_m_s[k] = seen_.velocity_m_s[k];
+    out->turn_rate_rad_s[k] = seen_.turn_rad_s[k];
+  }
+  for (int k = 0; k < 4; ++k) out->quaternion[k] = q.coeffs()[k];
+  for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
+    out->level[k] = level[k];
+    out->drift_variance[k] = travel_.drift_variance()[k];
+    out->drift[k] = travel_.drift()[k];
+  }
+  return true;
 }
 
 std::uint32_t Odometry::map_points(std::uint32_t first, std::uint32_t capacity, float* xyz) const {

@@ -24,6 +24,8 @@ class Odometry {
   void open(const Reading& reading, const MotionSettings& settings);
   void reset();
   void process(const pose_wall_cloud& cloud, pose_wall_motion_result* result);
+  // The last frame's pose as the engine takes it. False where it has none.
+  bool tell(pose_wall_odometry* out) const;
   std::uint32_t map_points(std::uint32_t first, std::uint32_t capacity, float* xyz_start_m) const;
 
  private:
@@ -48,6 +50,7 @@ class Odometry {
   bool was_bent(const Frame& frame) const;
   void begin_unbent(const Frame& frame);
   void begin_map_here();
+  void begin_run(std::int64_t stamp_ns);
   void take_in_scan();
   Scan scan_of(const Frame& frame) const;
 
@@ -64,12 +67,15 @@ class Odometry {
   ReliefMap map_;
   Pose pose_, start_, keyframe_;
   Twist twist_;
+  Twist seen_;  // in the last frame, as far as it tells
   RoadAxes axes_;
   Travel travel_;
   SixBySix last_covariance_;
   std::int64_t stamp_ns_ = 0;
   double period_s_ = 0.0;  // usual time between frames
   std::uint64_t frames_ = 0;
+  std::uint64_t run_ = 0;      // names the map that poses are comparable in
+  bool has_pose_ = false;      // of the last frame
   std::uint32_t back_ = 0;         // stamps in a row that went back
   std::uint32_t since_start_ = 0;  // frames on this map
   double slipped_m_ = 0.0;         // since something told the way

@@ -49,6 +49,7 @@ void Travel::go(double along_m) {
   along_m_ += along_m;
   way_m_ += std::fabs(along_m);
   lost_m_ += lost_rad_ * std::fabs(along_m);
+  drift_[POSE_WALL_MOTION_ALONG] += kStretch * std::fabs(along_m);
   SixBySix F = SixBySix::Identity();
   F(POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_YAW) = along_m;
   F(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH) = -along_m;
@@ -58,18 +59,26 @@ void Travel::go(double along_m) {
 void Travel::take_in(const SixBySix& of_alignment) {
   Six stays = Six::Constant(kStays);
   stays[POSE_WALL_MOTION_ALONG] = kStaysAlong;
-  of_map_ += stays.asDiagonal() * doubted(of_alignment) * stays.asDiagonal();
+  drift_by(stays.asDiagonal() * doubted(of_alignment) * stays.asDiagonal());
 }
 
 void Travel::begin_with(const SixBySix& of_alignment) {
-  of_map_ += doubted(of_alignment);
+  drift_by(doubted(of_alignment));
+}
+
+void Travel::drift_by(const SixBySix& covariance) {
+  of_map_ += covariance;
+  drift_variance_ += covariance.diagonal();
 }
 
 void Travel::slip(double along_m, double unevenness) {
   slip_m_ += along_m;
+  drift_[POSE_WALL_MOTION_ALONG] += along_m;
   const double turn2 = unevenness * unevenness, place2 = turn2 * along_m * along_m;
-  for (int k = POSE_WALL_MOTION_ACROSS; k < POSE_WALL_MOTION_DIRECTIONS; ++k)
-    of_map_(k, k) += is_turn(k) ? turn2 : place2;
+  Six variance = Six::Constant(place2);
+  variance[POSE_WALL_MOTION_ALONG] = 0.0;
+  for (int k = POSE_WALL_MOTION_ROLL; k < POSE_WALL_MOTION_DIRECTIONS; ++k) variance[k] = turn2;
+  drift_by(variance.asDiagonal());
 }
 
 Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double factor) const {
@@ -83,6 +92,12 @@ Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double fa
   }
   out.level[POSE_WALL_MOTION_ALONG] += kStretch * way_m_;
   return out;
+}
+
+Six Travel::level_of(const SixBySix& of_alignment, double slipping_m, double factor) {
+  Six level = factor * doubted(of_alignment).diagonal().cwiseSqrt();
+  level[POSE_WALL_MOTION_ALONG] += slipping_m;
+  return level;
 }
 
 Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor) {

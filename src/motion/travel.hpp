@@ -40,14 +40,24 @@ class Travel {
   }
   // slipping_m: what slipped and may yet be told again.
   Bounds bounds(const SixBySix& of_alignment, double slipping_m, double factor) const;
+  // What comes and goes with this alignment.
+  static Six level_of(const SixBySix& of_alignment, double slipping_m, double factor);
   // Of the way from one frame to the next, each against the same map.
   static Bounds of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor);
+
+  // What stays of each direction's errors, since reset, without lever arms: an error of two places in one map is that of
+  // either alignment and the difference of these two.
+  const Six& drift_variance() const { return drift_variance_; }
+  const Six& drift() const { return drift_; }
 
   double along_m() const { return along_m_; }
   double way_m() const { return way_m_; }
 
  private:
+  void drift_by(const SixBySix& covariance);
+
   SixBySix of_map_ = SixBySix::Zero();
+  Six drift_variance_ = Six::Zero(), drift_ = Six::Zero();
   double along_m_ = 0.0, way_m_ = 0.0;
   double slip_m_ = 0.0, lost_m_ = 0.0, lost_rad_ = 0.0;
 };

@@ -31,12 +31,12 @@ double larger_or_nan(double a, double b) {
 // were refused, the first that is not is one of several looks at the same thing, and the others said no.
 void check_innovation(const Measurement& m, Track* t) {
   const double level = m.level.sum();
-  const double from_good = level + t->good.raw_protection + t->good.grown;
+  const double from_good = level + t->good.raw_protection + t->good.grown.total();
   if (t->good.exists ? std::fabs(m.raw - t->good.raw) <= from_good : t->to_confirm == 0) {
     t->to_confirm = 0;
     return;
   }
-  const double from_last = level + t->raw_protection + t->grown;
+  const double from_last = level + t->raw_protection + t->grown.total();
   const bool comes_again = t->has_value && t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
   t->to_confirm = comes_again ? t->to_confirm - 1 : kConfirmations;
 }
@@ -52,7 +52,7 @@ void keep_doubts(Track* t, Measurement* m) {
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_DOUBTED, t->doubted_frames, 0.0, t->doubted_frames == 0));
   if (t->doubted_frames == 0) return;
   --t->doubted_frames;
-  m->level.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown, POSE_WALL_PART_RIVAL);
+  m->level.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown.total(), POSE_WALL_PART_RIVAL);
 }
 
 // Until a jump is confirmed the last good value may be the right one; where there was none, the level is no better than
@@ -60,7 +60,7 @@ void keep_doubts(Track* t, Measurement* m) {
 void reach_to_last_good(std::uint32_t quantity, const Settings& s, const Track& t, Measurement* m) {
   m->reasons |= POSE_WALL_R_INNOVATION;
   if (t.good.exists) {
-    m->level.reach(std::fabs(m->raw - t.good.raw) + t.good.raw_protection + t.good.grown, POSE_WALL_PART_RIVAL);
+    m->level.reach(std::fabs(m->raw - t.good.raw) + t.good.raw_protection + t.good.grown.total(), POSE_WALL_PART_RIVAL);
   } else {
     m->level[POSE_WALL_PART_RIVAL] += alert_limit(quantity, s);
   }
@@ -99,7 +99,7 @@ double smoothed(double raw, double trust, double tau_s, Track* t) {
 // Moves the smoothed value; true where the yaw limit held it back. A value that follows its raw is better than one that
 // is smooth: the limit acts only within lag_most().
 bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
-  const double level = m.level.sum(), known = t->level.sum() + t->grown, before = t->value;
+  const double level = m.level.sum(), known = t->level.sum() + t->grown.total(), before = t->value;
   const double trust =
       level > known ? known / level : 1.0;  // a measurement that is weaker than those before pulls less
   const double free = smoothed(m.raw, trust, s.temporal_smoothing_tau, t);
@@ -125,7 +125,7 @@ void note_innovation(const Measurement& m, const Track& t) {
     trace::gate(POSE_WALL_TRACE_CONFIRMED, t.to_confirm, 0.0, t.to_confirm == 0);
     return;
   }
-  const double reach = m.level.sum() + t.good.raw_protection + t.good.grown;
+  const double reach = m.level.sum() + t.good.raw_protection + t.good.grown.total();
   trace::gate(POSE_WALL_TRACE_INNOVATION, std::fabs(m.raw - t.good.raw), reach, t.to_confirm == 0);
 }
 
@@ -146,7 +146,7 @@ void keep_good(const Measurement& m, Track* t) {
   good.raw_protection = m.level.sum();
   good.value = t->value;
   good.level = t->level;
-  good.grown = 0.0;
+  good.grown = Unknown{};
   good.age_s = 0.0;
 }
 
@@ -179,7 +179,8 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   t->raw = m.raw;
   t->sigma = m.sigma;
   t->raw_protection = seen_protection;
-  t->age_s = t->grown = 0.0;
+  t->age_s = 0.0;
+  t->grown = Unknown{};
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
   t->level = m.level;
   t->level[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
@@ -207,8 +208,8 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
     return;
   }
   LevelParts last_level = t->level, good_level = t->good.level;
-  last_level[POSE_WALL_PART_AGE] += t->grown;
-  good_level[POSE_WALL_PART_AGE] += t->good.grown;
+  last_level[POSE_WALL_PART_AGE] += t->grown.total();
+  good_level[POSE_WALL_PART_AGE] += t->good.grown.total();
   // A jump that nobody has confirmed yet may be one: the level of what came last reaches to both.
   const bool hold_good = t->good.exists && t->to_confirm == 0 && good_level.sum() < last_level.sum();
   out->value = hold_good ? t->good.value : t->value;
@@ -225,7 +226,7 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
 // one in whose course the clock stopped, which may have cut it short.
 double time_while_still(const TemporalState& state) {
   const double period_s = larger_or_nan(state.last_dt_s, state.dt_before_s);
-  const double cut_off_s = state.still_frames == 1 ? period_s - state.last_dt_s : 0.0;
+  const double cut_off_s = state.still_frames == 0 ? period_s - state.last_dt_s : 0.0;
   return period_s + cut_off_s;
 }
 
@@ -237,14 +238,14 @@ pose_wall_value blank() {
   return v;
 }
 
-void pass_time(double elapsed_s, double growth_per_s, double carry_per_s, Track* t) {
+void pass_time(double elapsed_s, const Change& change, std::uint32_t quantity, Track* t) {
   if (!(elapsed_s > 0.0)) return;
   t->age_s += elapsed_s;
   t->good.age_s += elapsed_s;
-  t->grown += growth_per_s * elapsed_s;
-  t->good.grown += growth_per_s * elapsed_s;
-  if (carry_per_s == 0.0) return;
-  const double carried = carry_per_s * elapsed_s;
+  t->grown.grow(change, quantity);
+  t->good.grown.grow(change, quantity);
+  const double carried = change.carry[quantity];
+  if (carried == 0.0) return;
   for (double* number : {&t->value, &t->raw, &t->good.value, &t->good.raw}) *number += carried;
   t->rate = 0.0;  // the value has been moved
 }
@@ -279,27 +280,28 @@ double elapsed_of(const TemporalState& state, const FrameTiming& timing) {
   return timing.still ? time_while_still(state) : timing.dt_s;
 }
 
-bool contradict(const MotionRates& rates, const Measurements& measured, const FrameTiming& timing,
+bool contradict(const Change& change, const Measurements& measured, const FrameTiming& timing,
                 const TemporalState& state) {
   if (timing.leap || timing.back || timing.still) return false;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const Track& t = state.track[q];
     const Measurement& m = measured.quantity[q];
     if (!m.measured || !t.has_value || t.expired) continue;
-    const double expected = t.raw + rates.carry[q] * timing.dt_s;
-    const double reach = m.level.sum() + t.raw_protection + t.grown + rates.growth[q] * timing.dt_s;
+    Unknown grown = t.grown;
+    grown.grow(change, q);
+    const double expected = t.raw + change.carry[q], reach = m.level.sum() + t.raw_protection + grown.total();
     if (!(std::fabs(m.raw - expected) <= reach)) return true;
   }
   return false;
 }
 
 void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
-                     const MotionRates& rates, const Settings& settings, TemporalState* state,
+                     const Change& change, const Settings& settings, TemporalState* state,
                      pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
+  const double elapsed_s = elapsed_of(*state, timing);
   state->has_stamp = true;
   state->stamp_ns = stamp_ns;
   state->still_frames = timing.still ? state->still_frames + 1 : 0;
-  const double elapsed_s = elapsed_of(*state, timing);
   if (!timing.leap && !timing.still && timing.dt_s > 0.0) {
     state->dt_before_s = state->last_dt_s;
     state->last_dt_s = timing.dt_s;
@@ -309,7 +311,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     const Measurement& m = measured.quantity[q];
     pose_wall_value& out = (*values)[q];
     out = blank();
-    pass_time(elapsed_s, rates.growth[q], rates.carry[q], &t);
+    pass_time(elapsed_s, change, q, &t);
     POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
     // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
     // bound any more.
@@ -327,7 +329,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
 
 void age_values(double elapsed_s, std::uint32_t reasons, const Settings& settings, TemporalState* state,
                 pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
-  const MotionRates rates = rates_by_config(settings);
+  const Change change = change_by_config(settings, elapsed_s);
   Measurement nothing;
   nothing.reasons = reasons;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -335,7 +337,7 @@ void age_values(double elapsed_s, std::uint32_t reasons, const Settings& setting
     Track aged = state->track[q];
     pose_wall_value& out = (*values)[q];
     out = blank();
-    pass_time(elapsed_s, rates.growth[q], rates.carry[q], &aged);
+    pass_time(elapsed_s, change, q, &aged);
     set_held(nothing, q, settings, &aged, &out);
     set_confidence(aged, q, settings, &out);
     state->track[q].expired = aged.expired;
@@ -343,11 +345,11 @@ void age_values(double elapsed_s, std::uint32_t reasons, const Settings& setting
 }
 
 void rebase(double elapsed_s, std::int64_t stamp_ns, const Settings& settings, TemporalState* state) {
-  const MotionRates rates = rates_by_config(settings);
+  const Change change = change_by_config(settings, elapsed_s);
   const bool dated = elapsed_s >= 0.0;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Track& t = state->track[q];
-    pass_time(elapsed_s, rates.growth[q], rates.carry[q], &t);
+    pass_time(elapsed_s, change, q, &t);
     if (dated) continue;
     t.expired = true;
     t.good.exists = false;

@@ -19,7 +19,7 @@ struct LastGood {
   double raw_protection = 0.0;
   double value = 0.0;  // smoothed
   LevelParts level;    // of value
-  double grown = 0.0;  // what the machine may have moved since, and nobody knows
+  Unknown grown;       // what the machine may have moved since, and nobody knows
   double age_s = 0.0;
 };
 
@@ -33,7 +33,7 @@ struct Track {
   double raw_protection = 0.0;
   double sigma = 0.0;
   LevelParts level;      // of value in that frame
-  double grown = 0.0;    // what the machine may have moved since that frame, and nobody knows
+  Unknown grown;         // what the machine may have moved since that frame, and nobody knows
   double age_s = 0.0;    // since that frame
   bool expired = false;  // held for too long, or the clock jumped: the filter starts afresh
   LastGood good;
@@ -60,13 +60,13 @@ FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const 
 // Since the last frame: what its timing says, or as long as the last periods where its stamp stands still.
 double elapsed_of(const TemporalState& state, const FrameTiming& timing);
 
-// Whether a quantity was measured further from where these rates allow it than both levels bridge.
-bool contradict(const MotionRates& rates, const Measurements& measured, const FrameTiming& timing,
+// Whether a quantity was measured further from where this change allows it than both levels bridge.
+bool contradict(const Change& change, const Measurements& measured, const FrameTiming& timing,
                 const TemporalState& state);
 
 // Takes the frame's measurements into the state and fills values, one per quantity.
 void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
-                     const MotionRates& rates, const Settings& settings, TemporalState* state,
+                     const Change& change, const Settings& settings, TemporalState* state,
                      pose_wall_value (*values)[POSE_WALL_QUANTITIES]);
 
 // What a frame that measures nothing would give, elapsed_s after the last one. Of it only this is kept: what has

@@ -34,34 +34,55 @@ bool contradicts_standing(const Known& known) {
 }
 
 // A machine that turns left by an angle reports a yaw that is smaller by it.
-void turn_yaw(const Known& turn, MotionRates* rates) {
-  if (!turn.given || !(turn.uncertain < rates->growth[POSE_WALL_YAW])) return;
-  rates->growth[POSE_WALL_YAW] = turn.uncertain;
-  rates->carry[POSE_WALL_YAW] = -turn.rate;
+void turn_yaw(const Known& turn, double elapsed_s, Change* change) {
+  const double unknown = turn.uncertain * elapsed_s;
+  if (!turn.given || !(unknown < change->growth[POSE_WALL_YAW])) return;
+  change->growth[POSE_WALL_YAW] = unknown;
+  change->carry[POSE_WALL_YAW] = -turn.rate * elapsed_s;
 }
 
 // A distance changes no faster than its sampling point moves.
-void slow_distances(const Known& speed, const Known& turn, const Settings& s, MotionRates* rates) {
+void slow_distances(const Known& speed, const Known& turn, const Settings& s, double elapsed_s, Change* change) {
   if (!speed.given || !turn.given) return;
   const double reach_m = larger(std::fabs(s.s_front), std::fabs(s.s_back)) +
                          larger(std::fabs(s.lateral_offset_left), std::fabs(s.lateral_offset_right));
-  const double fastest_m_s = speed.most() + reach_m * turn.most();
+  const double most_m = (speed.most() + reach_m * turn.most()) * elapsed_s;
   for (int q = POSE_WALL_D_LF; q <= POSE_WALL_D_RB; ++q) {
-    if (fastest_m_s < rates->growth[q]) rates->growth[q] = fastest_m_s;
+    if (most_m < change->growth[q]) change->growth[q] = most_m;
   }
 }
 
 }  // namespace
 
-MotionRates rates_by_config(const Settings& s) {
-  MotionRates rates;
-  for (int q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    rates.growth[q] = q <= POSE_WALL_YAW ? s.hold_rate_angle : s.hold_rate_distance;
-  }
-  return rates;
+double Unknown::total() const {
+  return sum + place_level_then + place_level + std::sqrt(drift2);
 }
 
-bool rates_by_inputs(const pose_wall_inputs& in, const Settings& s, MotionRates* rates) {
+// Steps by places follow each other for as long as every frame has one; a step without ends that, and what was not known
+// until then adds up with what comes.
+void Unknown::grow(const Change& by, std::uint32_t q) {
+  if (!by.by_places[q]) {
+    sum = total() + by.growth[q];
+    drift2 = place_level_then = place_level = 0.0;
+    steps_by_places = 0;
+    return;
+  }
+  if (steps_by_places++ == 0) place_level_then = by.place_level_before[q];
+  place_level = by.place_level[q];
+  drift2 += by.drift2[q];
+  sum += by.growth[q];
+}
+
+Change change_by_config(const Settings& s, double elapsed_s) {
+  Change change;
+  if (!(elapsed_s > 0.0)) return change;
+  for (int q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    change.growth[q] = elapsed_s * (q <= POSE_WALL_YAW ? s.hold_rate_angle : s.hold_rate_distance);
+  }
+  return change;
+}
+
+bool change_by_inputs(const pose_wall_inputs& in, const Settings& s, double elapsed_s, Change* change) {
   const bool stands = (in.given & POSE_WALL_INPUT_STANDING) != 0;
   Known speed, turn;
   if (!read_known((in.given & POSE_WALL_INPUT_SPEED) != 0, in.speed_m_s, in.speed_sigma_m_s, kSpeedMost_m_s, s,
@@ -74,11 +95,12 @@ bool rates_by_inputs(const pose_wall_inputs& in, const Settings& s, MotionRates*
   }
   if (stands && (contradicts_standing(speed) || contradicts_standing(turn))) return false;
   if (stands) {
-    *rates = MotionRates{};
+    *change = Change{};
     return true;
   }
-  turn_yaw(turn, rates);
-  slow_distances(speed, turn, s, rates);
+  if (!(elapsed_s > 0.0)) return true;
+  turn_yaw(turn, elapsed_s, change);
+  slow_distances(speed, turn, s, elapsed_s, change);
   return true;
 }
 

@@ -63,13 +63,14 @@ class Life {
   pose_wall_value frame(std::int64_t stamp_ms, const Measurements& m) {
     const std::int64_t stamp = stamp_ms * kMs;
     timing_ = time_frame(state_, stamp, settings_);
-    MotionRates rates = rates_by_config(settings_);
+    const double elapsed_s = elapsed_of(state_, timing_);
+    Change change = change_by_config(settings_, elapsed_s);
     if (inputs_.given != 0) {
-      EXPECT_TRUE(rates_by_inputs(inputs_, settings_, &rates));
-      contradicted_ = contradict(rates, m, timing_, state_);
+      EXPECT_TRUE(change_by_inputs(inputs_, settings_, elapsed_s, &change));
+      contradicted_ = contradict(change, m, timing_, state_);
     }
     pose_wall_value values[POSE_WALL_QUANTITIES];
-    smooth_and_hold(m, timing_, stamp, rates, settings_, &state_, &values);
+    smooth_and_hold(m, timing_, stamp, change, settings_, &state_, &values);
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       if (q != quantity_) {
         EXPECT_EQ(values[q].state, POSE_WALL_INVALID) << "an untouched quantity came to life";
@@ -490,11 +491,12 @@ TEST(TemporalInputs, WhatIsMeasuredSpeaksAgainstThem) {
 TEST(TemporalInputs, ThoseThatContradictEachOtherOrAreNoNumbersAreRefused) {
   const Settings settings = test::settings_with();
   const auto refused = [&](const pose_wall_inputs& inputs) {
-    MotionRates rates = rates_by_config(settings);
-    const MotionRates before = rates;
-    const bool sound = rates_by_inputs(inputs, settings, &rates);
+    constexpr double kElapsed_s = 0.1;
+    Change change = change_by_config(settings, kElapsed_s);
+    const Change before = change;
+    const bool sound = change_by_inputs(inputs, settings, kElapsed_s, &change);
     if (!sound) {
-      EXPECT_EQ(rates.growth[0], before.growth[0]);
+      EXPECT_EQ(change.growth[0], before.growth[0]);
     }
     return !sound;
   };
