@@ -274,7 +274,7 @@ typedef struct pose_wall_cloud {
   pose_wall_field y;
   pose_wall_field z;
   pose_wall_field intensity;             /* any type; used only with intensity_weight > 0 */
-  pose_wall_field time;                  /* when each point was measured, any type; pose_wall_motion reads it. Counts
+  pose_wall_field time;                  /* when each point was measured, any type; read with an odometry, and by pose_wall_motion. Counts
                                             from the smallest of the cloud, in the one of s, ms, us and ns by which
                                             the scan takes 0.01 to 1 s */
   const struct pose_wall_inputs* inputs; /* what the machine knows of itself in this frame, or NULL */
@@ -283,8 +283,8 @@ typedef struct pose_wall_cloud {
 
 /* Bits of pose_wall_inputs.given. */
 enum pose_wall_input {
-  POSE_WALL_INPUT_STANDING = 1, /* the machine has not moved since the last frame. Its boom may have */
-  POSE_WALL_INPUT_SPEED = 2,    /* speed_m_s and its sigma */
+  POSE_WALL_INPUT_STANDING = 1,  /* the machine has not moved since the last frame. Its boom may have */
+  POSE_WALL_INPUT_SPEED = 2,     /* speed_m_s and its sigma */
   POSE_WALL_INPUT_TURN_RATE = 4, /* turn_rate_rad_s and its sigma */
   POSE_WALL_INPUT_ODOMETRY = 8   /* odometry */
 };
@@ -299,15 +299,16 @@ enum pose_wall_input {
  * drift and its origin is its own. The error of such a difference stays within
  *     level (then) + level (now) + protection_factor sqrt(drift_variance (now) - (then)) + drift (now) - (then). */
 typedef struct pose_wall_odometry {
-  uint64_t run;                /* poses of one run are comparable; another number after each new start. Not 0 */
-  double position_m[3];        /* of base, in the run's frame */
-  double quaternion[4];        /* x, y, z, w: turns base into the run's frame; unit within 1e-6 */
-  double along[3], across[3];  /* unit, in the run's frame, at right angles: what the levels' directions mean here */
+  uint64_t run;               /* poses of one run are comparable; another number after each new start. Not 0 */
+  double position_m[3];       /* of base, in the run's frame */
+  double quaternion[4];       /* x, y, z, w: turns base into the run's frame; unit within 1e-5 */
+  double along[3], across[3]; /* unit, in the run's frame, at right angles: what the levels' directions mean here */
   double level[POSE_WALL_ODOMETRY_DIRECTIONS];          /* what comes and goes with each frame: m, rad; 0 to infinite */
   double drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS]; /* what stays, since the run began: m2, rad2; never falls */
-  double drift[POSE_WALL_ODOMETRY_DIRECTIONS];          /* likewise, in m and rad, of what has no variance; never falls */
-  double velocity_m_s[3];      /* in base, in the course of this scan: takes the skew out of a cloud with times */
-  double turn_rate_rad_s[3];   /* likewise */
+  double drift[POSE_WALL_ODOMETRY_DIRECTIONS]; /* likewise, of what has no variance: m, rad; never falls */
+  double velocity_m_s[3];     /* in base, in the course of this scan: takes the skew out of a cloud with times */
+  double turn_rate_rad_s[3];  /* likewise */
+  double rate_level[POSE_WALL_ODOMETRY_DIRECTIONS]; /* how well these two are known: m/s, rad/s; 0 to infinite */
 } pose_wall_odometry;
 
 /* What the machine knows of itself since the last frame. All of it is optional, and none is believed against what is
@@ -320,8 +321,11 @@ typedef struct pose_wall_odometry {
  * where a point moves to is not used. SPEED alone: nothing.
  * ODOMETRY, which stands before the others where the last frame had one of the same run: held values move as the
  * machine moved before the floor and the walls that were seen last, smoothed ones start from there, and a jump that it
- * explains is none. Levels grow by its errors, and by 0.035 for each unit of the way, for roads bend. A cloud with times
- * is freed of the scan's motion before anything else. The key `motion` switches this off.
+ * explains is none. Their levels grow by the odometry's errors, and with the way by what is not known of a wall's own
+ * direction. Beyond the stretch of a wall that was seen a distance may change by as much as the way there, and angles
+ * as without odometry. hold_max does not count time through which a value was carried; one whose level passed the alert
+ * limit meanwhile may come back. A cloud with times is freed of the scan's motion before anything else. The key
+ * `motion` switches all this off.
  */
 typedef struct pose_wall_inputs {
   uint32_t struct_size;         /* sizeof(pose_wall_inputs) */
@@ -332,7 +336,7 @@ typedef struct pose_wall_inputs {
   double turn_rate_sigma_rad_s; /* its standard deviation; above 0, to 10 */
   double body_box[POSE_WALL_INPUT_BOXES][6]; /* beside the config's: where the boom is in this frame, in base, as
                                                 body_box_1: x_min x_max y_min y_max z_min z_max. All zero: none */
-  pose_wall_odometry odometry;
+  pose_wall_odometry odometry; /* measured, of this frame */
 } pose_wall_inputs;
 
 /* Describes `count` points of three consecutive native floats each, `point_step` bytes apart. Fails iff: cloud NULL,

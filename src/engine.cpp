@@ -191,7 +191,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   std::int64_t at[POSE_WALL_STAGES + 1] = {now()};
   const auto stage_done = [&](pose_wall_stage stage) { at[stage + 1] = now(); };
 
-  found.voxels = build_voxels(cloud, settings_, extrinsic_, axes_, memory_.leaf, &scratch_.grid,
+  found.voxels = build_voxels(cloud, odometry_in(cloud.inputs), settings_, extrinsic_, axes_, memory_.leaf, &scratch_.grid,
                               &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
@@ -292,43 +292,56 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   share_direction(scene, &found->walls.side);
 }
 
-// An odometry counts where the key lets it, and not in a cloud that has come before: whoever looks at that sees a machine
-// that stands.
+// An odometry counts where the key lets it and its numbers are sound.
 const pose_wall_odometry* Engine::odometry_in(const pose_wall_inputs* inputs) const {
   const bool given = inputs != nullptr && (inputs->given & POSE_WALL_INPUT_ODOMETRY) != 0;
-  return given && settings_.motion == kMotionOn ? &inputs->odometry : nullptr;
+  return given && settings_.motion == kMotionOn && is_sound(inputs->odometry) ? &inputs->odometry : nullptr;
+}
+
+// What it says of the change since the last frame; then this frame's place and surfaces are memory. A frame without a
+// place ends the run: what the machine did meanwhile only the config bounds. A cloud that has come before shows a
+// machine that stands, and tells no place.
+Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, const Change& by_config,
+                                             FrameFindings* found) {
+  OdometryStep step;
+  step.change = by_config;
+  const pose_wall_odometry* const odometry = odometry_in(inputs);
+  step.sound = odometry != nullptr || inputs == nullptr || (inputs->given & POSE_WALL_INPUT_ODOMETRY) == 0 ||
+               settings_.motion != kMotionOn;
+  OdometryMemory& memory = memory_.odometry;
+  if (odometry == nullptr || (found->reasons & POSE_WALL_R_FROZEN) != 0) {
+    memory.run = OdometryMemory::kNoRun;
+    return step;
+  }
+  step.follows = odometry->run == memory.run;
+  if (step.follows) change_by_odometry(*odometry, memory, settings_, axes_, &step.change);
+  remember_place(*odometry, found->floor, found->level, found->walls.side, settings_, axes_, &memory);
+  widen_by_skew(*odometry, found->voxels.scan_s, memory, settings_, axes_, &found->measured);
+  return step;
 }
 
 // By the odometry, else by the other inputs, where they are sound and nothing that was measured speaks against them.
-Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing,
-                                 FrameFindings* found) const {
+Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found) {
   const double elapsed_s = elapsed_of(memory_.temporal, timing);
   const Change by_config = change_by_config(settings_, elapsed_s);
+  const OdometryStep step = follow_odometry(inputs, by_config, found);
   if (inputs == nullptr) return by_config;
   const auto believed = [&](const Change& change) {
     return !contradict(change, found->measured, timing, memory_.temporal);
   };
   bool boxes = true;
   for (const auto& edges_m : inputs->body_box) boxes = box_of(edges_m).is_sound() && boxes;
-  Change change = by_config;
-  bool sound = true, by_places = false;
-  if (const pose_wall_odometry* const odometry = odometry_in(inputs)) {
-    const bool readable = is_sound(*odometry);
-    const bool follows = readable && odometry->run == memory_.odometry.run && (found->reasons & POSE_WALL_R_FROZEN) == 0;
-    if (follows) change_by_odometry(*odometry, memory_.odometry, settings_, axes_, &change);
-    by_places = follows && believed(change);
-    sound = readable && (by_places || !follows);
-  }
-  if (!by_places) {
-    change = by_config;
-    const bool told = boxes && change_by_inputs(*inputs, settings_, elapsed_s, &change) && believed(change);
+  const bool by_odometry = step.follows && believed(step.change);
+  Change change = by_odometry ? step.change : by_config;
+  bool told = by_odometry;
+  if (!by_odometry && boxes) {
+    told = change_by_inputs(*inputs, settings_, elapsed_s, &change) && believed(change);
     if (!told) change = by_config;
-    sound = sound && told;
   }
-  sound = sound && boxes;
+  const bool all_used = boxes && told && step.sound && by_odometry == step.follows;
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_INPUTS, sound));
-  if (!sound) found->reasons |= POSE_WALL_R_PRIOR;
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_INPUTS, all_used));
+  if (!all_used) found->reasons |= POSE_WALL_R_PRIOR;
   return change;
 }
 
@@ -343,18 +356,6 @@ void Engine::conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose
   result->frame_index = memory_.frames++;
   finish(result);
   remember(*found);
-  remember_place(inputs, *found);
-}
-
-// A frame without a place ends the run: what the machine did meanwhile only the config bounds.
-void Engine::remember_place(const pose_wall_inputs* inputs, const FrameFindings& found) {
-  const pose_wall_odometry* const odometry = odometry_in(inputs);
-  if (odometry == nullptr || !is_sound(*odometry) || (found.reasons & POSE_WALL_R_FROZEN) != 0) {
-    memory_.odometry.run = OdometryMemory::kNoRun;
-    return;
-  }
-  pose_wall::remember_place(*odometry, found.floor, found.level, found.walls.side, settings_, axes_,
-                            &memory_.odometry);
 }
 
 void Engine::finish(pose_wall_result* result) {

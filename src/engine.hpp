@@ -95,9 +95,14 @@ class Engine {
   void find_walls_if_level(Random* random, FrameFindings* found);
   void conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result);
   void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
-  Change change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found) const;
+  struct OdometryStep {
+    bool sound = true;     // or none was given
+    bool follows = false;  // the last frame's, in one run
+    Change change;
+  };
+  OdometryStep follow_odometry(const pose_wall_inputs* inputs, const Change& by_config, FrameFindings* found);
+  Change change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found);
   const pose_wall_odometry* odometry_in(const pose_wall_inputs* inputs) const;
-  void remember_place(const pose_wall_inputs* inputs, const FrameFindings& found);
   void finish(pose_wall_result* result);
   void remember(const FrameFindings& found);
   std::int64_t now() const { return clock_ != nullptr ? clock_(clock_user_) : 0; }

@@ -112,7 +112,7 @@ void visit(Way* way, LevelParts* level) {
 
 template <typename Way>
 void visit(Way* way, Unknown* u) {
-  visit_all(way, &u->sum, &u->drift2, &u->place_level_then, &u->place_level, &u->steps_by_places);
+  visit_all(way, &u->sum, &u->drift2, &u->place_level_then, &u->place_level, &u->steps_by_places, &u->blind_s);
 }
 
 template <typename Way>

@@ -59,6 +59,7 @@ struct VoxelResult {
   std::uint64_t work = 0;
   bool fits = false;  // false: points fill the air, or points_max is far too small; there are no voxels then
   std::uint64_t fingerprint = 0;
+  double scan_s = 0.0;  // that the machine's motion was taken out of; 0: of none
 };
 
 // A plane with all that its fit knows about itself.

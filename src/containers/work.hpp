@@ -38,7 +38,7 @@ namespace steps {
 
 // Reading: a return of the cloud, a pass of it through the table of voxels, by its slots; a voxel that is sorted and
 // written. What crowded keys cost more is not counted: it hangs on the order of points, and has a cap for each.
-constexpr std::uint64_t kPointRead = 11, kFourSlots = 2, kVoxelWritten = 15;
+constexpr std::uint64_t kPointRead = 11, kPointUnskewed = 16, kFourSlots = 2, kVoxelWritten = 15;
 // Outliers: a voxel; one whose neighbours are looked for, a column that is searched for its height, and four that are
 // looked at.
 constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kColumnSearched = 16, kFourLookedAt = 2;

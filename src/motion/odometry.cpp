@@ -65,7 +65,7 @@ void Odometry::open(const Reading& reading, const MotionSettings& settings) {
 void Odometry::reset() {
   map_.clear();
   pose_ = start_ = keyframe_ = Pose{};
-  twist_ = seen_ = Twist{};
+  twist_ = Twist{};
   axes_ = RoadAxes{};
   travel_.reset();
   last_covariance_.setZero();
@@ -76,6 +76,7 @@ void Odometry::reset() {
   since_start_ = 0;
   slipped_m_ = lost_s_ = 0.0;
   has_map_ = guesses_ = is_bent_ = has_pose_ = false;
+  forget_rates();
 }
 
 // The first scan stands upright and square to the map's axes, so that surfaces face them.
@@ -90,6 +91,7 @@ void Odometry::begin_map(Frame* frame) {
   pose_ = frame->expected;
   frame->alignment.pose = pose_;
   axes_.along = pose_.R * settings_.forward_base;
+  axes_.left = Eigen::Vector3d::UnitZ().cross(axes_.along).normalized();
   axes_.hold = 0.0;
   frame->alignment.axes = axes_;
   last_covariance_.setZero();
@@ -104,7 +106,13 @@ void Odometry::begin_map(Frame* frame) {
 void Odometry::begin_run(std::int64_t stamp_ns) {
   constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;  // 2^64 over the golden ratio: spreads neighbours apart
   run_ = (run_ + static_cast<std::uint64_t>(stamp_ns) + 1) * kGolden | 1U;
+  forget_rates();
+}
+
+void Odometry::forget_rates() {
+  const double speed = settings_.speed_max_m_s, turn = settings_.turn_max_rad_s;
   seen_ = Twist{};
+  rate_level_ << speed, speed, speed, turn, turn, turn;
 }
 
 void Odometry::begin_map_here() {
@@ -301,7 +309,12 @@ void Odometry::learn_twist(const Frame& frame) {
     const Eigen::Vector3d axis = pose_.R.transpose() * frame.alignment.axes.along;
     now.velocity_m_s += axis * axis.dot(twist_.velocity_m_s - now.velocity_m_s);
   }
-  seen_ = frame.dt_s < kTwistLasts_s ? now : Twist{};  // a mean over a gap is that of no scan
+  if (frame.dt_s < kTwistLasts_s) {
+    seen_ = now;
+    rate_level_ = frame.step.level / frame.dt_s;
+  } else {  // a mean over a gap is that of no scan
+    forget_rates();
+  }
   // Half of what this frame says: single steps are noisy, and machines are heavy.
   const double share = since_start_ < 2 ? 1.0 : 0.5;
   twist_.velocity_m_s += share * (now.velocity_m_s - twist_.velocity_m_s);
@@ -503,6 +516,7 @@ bool Odometry::tell(pose_wall_odometry* out) const {
     out->level[k] = level[k];
     out->drift_variance[k] = travel_.drift_variance()[k];
     out->drift[k] = travel_.drift()[k];
+    out->rate_level[k] = rate_level_[k];
   }
   return true;
 }

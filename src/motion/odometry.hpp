@@ -51,6 +51,7 @@ class Odometry {
   void begin_unbent(const Frame& frame);
   void begin_map_here();
   void begin_run(std::int64_t stamp_ns);
+  void forget_rates();
   void take_in_scan();
   Scan scan_of(const Frame& frame) const;
 
@@ -67,7 +68,8 @@ class Odometry {
   ReliefMap map_;
   Pose pose_, start_, keyframe_;
   Twist twist_;
-  Twist seen_;  // in the last frame, as far as it tells
+  Twist seen_;      // in the last frame, as far as it tells
+  Six rate_level_;  // of that
   RoadAxes axes_;
   Travel travel_;
   SixBySix last_covariance_;

@@ -129,10 +129,10 @@ void note_innovation(const Measurement& m, const Track& t) {
   trace::gate(POSE_WALL_TRACE_INNOVATION, std::fabs(m.raw - t.good.raw), reach, t.to_confirm == 0);
 }
 
-void note_held(const pose_wall_value& v, std::uint32_t quantity, const Settings& s, const Track& t) {
+void note_held(const pose_wall_value& v, double blind_s, std::uint32_t quantity, const Settings& s, const Track& t) {
   const double alert = alert_limit(quantity, s);
   trace::gate(POSE_WALL_TRACE_HELD_LEVEL, v.protection_level, alert, v.protection_level <= alert);
-  trace::gate(POSE_WALL_TRACE_HELD_AGE, v.age_s, s.hold_max, v.age_s <= s.hold_max);
+  trace::gate(POSE_WALL_TRACE_HELD_AGE, blind_s, s.hold_max, blind_s <= s.hold_max);
   trace::gate(POSE_WALL_TRACE_HELD_BEFORE, !t.expired);
 }
 #endif
@@ -215,11 +215,15 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   out->value = hold_good ? t->good.value : t->value;
   out->age_s = hold_good ? t->good.age_s : t->age_s;
   tell_level(hold_good ? good_level : last_level, out);
-  const bool within = out->protection_level <= alert_limit(quantity, s) && out->age_s <= s.hold_max;
-  POSE_WALL_NOTE(note_held(*out, quantity, s, *t));
-  t->expired = t->expired || !within;
-  if (t->expired) out->reasons |= POSE_WALL_R_HOLD_EXPIRED;
-  out->state = t->expired ? POSE_WALL_INVALID : POSE_WALL_HELD;
+  const Unknown& grown = hold_good ? t->good.grown : t->grown;
+  const double blind_s = grown.blind_s;
+  const bool within = out->protection_level <= alert_limit(quantity, s) && blind_s <= s.hold_max;
+  POSE_WALL_NOTE(note_held(*out, blind_s, quantity, s, *t));
+  // A place that is not known for a while may be known again, and the value with it.
+  t->expired = t->expired || (!within && grown.steps_by_places == 0);
+  const bool holds = within && !t->expired;
+  if (!holds) out->reasons |= POSE_WALL_R_HOLD_EXPIRED;
+  out->state = holds ? POSE_WALL_HELD : POSE_WALL_INVALID;
 }
 
 // While the clock stands still, the machine does not: a frame takes as long as the longer of the last two. So did the
@@ -242,8 +246,8 @@ void pass_time(double elapsed_s, const Change& change, std::uint32_t quantity, T
   if (!(elapsed_s > 0.0)) return;
   t->age_s += elapsed_s;
   t->good.age_s += elapsed_s;
-  t->grown.grow(change, quantity);
-  t->good.grown.grow(change, quantity);
+  t->grown.grow(change, quantity, elapsed_s);
+  t->good.grown.grow(change, quantity, elapsed_s);
   const double carried = change.carry[quantity];
   if (carried == 0.0) return;
   for (double* number : {&t->value, &t->raw, &t->good.value, &t->good.raw}) *number += carried;
@@ -288,7 +292,7 @@ bool contradict(const Change& change, const Measurements& measured, const FrameT
     const Measurement& m = measured.quantity[q];
     if (!m.measured || !t.has_value || t.expired) continue;
     Unknown grown = t.grown;
-    grown.grow(change, q);
+    grown.grow(change, q, timing.dt_s);
     const double expected = t.raw + change.carry[q], reach = m.level.sum() + t.raw_protection + grown.total();
     if (!(std::fabs(m.raw - expected) <= reach)) return true;
   }

@@ -60,8 +60,9 @@ double Unknown::total() const {
 
 // Steps by places follow each other for as long as every frame has one; a step without ends that, and what was not known
 // until then adds up with what comes.
-void Unknown::grow(const Change& by, std::uint32_t q) {
+void Unknown::grow(const Change& by, std::uint32_t q, double elapsed_s) {
   if (!by.by_places[q]) {
+    blind_s += elapsed_s;
     sum = total() + by.growth[q];
     drift2 = place_level_then = place_level = 0.0;
     steps_by_places = 0;

@@ -29,9 +29,10 @@ struct Unknown {
   double drift2 = 0.0;  // what adds up in squares
   double place_level_then = 0.0, place_level = 0.0;
   std::uint64_t steps_by_places = 0;  // in a row
+  double blind_s = 0.0;               // for so long no place told what changed
 
   double total() const;
-  void grow(const Change& by, std::uint32_t quantity);
+  void grow(const Change& by, std::uint32_t quantity, double elapsed_s);
 };
 
 Change change_by_config(const Settings& settings, double elapsed_s);

@@ -8,10 +8,13 @@
 #include <limits>
 
 #include "math/elementary.hpp"
+#include "math/larger.hpp"
 #include "math/rotation.hpp"
 
 namespace pose_wall {
 namespace {
+
+constexpr double kNobodyKnows = std::numeric_limits<double>::infinity();
 
 enum Direction { kAlong = 0, kAcross = 1, kUp = 2, kTurns = 3 };  // and turns about the three
 
@@ -72,19 +75,45 @@ int side_of(std::uint32_t quantity) {
   return quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_LB ? 0 : 1;
 }
 
-class Responses {
- public:
-  Responses(const pose_wall_odometry& o, const OdometryMemory& seen, const Settings& s, const Axes& axes)
-      : along_(vector_of(o.along)), across_(vector_of(o.across)), seen_(seen), settings_(s), axes_(axes) {
-    R_ = place_of(o).R_run_base;
-  }
+// How far a point may lie beyond what was seen of a surface, at most.
+double beyond_m(const SeenSurface& wall, const Eigen::Vector3d& at_m, double unknown_m) {
+  const double along_m = wall.along.dot(at_m);
+  return larger(0.0, larger(wall.from_m - along_m, along_m - wall.to_m) + unknown_m);
+}
 
-  Response of(std::uint32_t quantity) const {
+double beyond_floor_m(const SeenSurface& floor, const Eigen::Vector3d& at_m, double unknown_m) {
+  return larger(0.0, std::sqrt((at_m - floor.centre_m).squaredNorm()) + unknown_m - floor.radius_m);
+}
+
+// Yaw is before the walls as they were seen last: of two the one that was seen further.
+const SeenSurface* surface_of(std::uint32_t quantity, const OdometryMemory& seen) {
+  if (!seen.floor.exists) return nullptr;
+  if (quantity < POSE_WALL_YAW) return &seen.floor;
+  if (quantity != POSE_WALL_YAW) return &seen.wall[side_of(quantity)];
+  const SeenSurface &left = seen.wall[0], &right = seen.wall[1];
+  if (!left.exists || !right.exists) return left.exists ? &left : &right;
+  return left.to_m - left.from_m > right.to_m - right.from_m ? &left : &right;
+}
+
+// What one place tells of the quantities, before the surfaces that were seen.
+class View {
+ public:
+  View(const pose_wall_odometry& o, const OdometryMemory& seen, const Settings& s, const Axes& axes)
+      : odometry_(o),
+        along_(vector_of(o.along)),
+        across_(vector_of(o.across)),
+        at_(place_of(o)),
+        seen_(seen),
+        settings_(s),
+        axes_(axes) {}
+
+  // Errors of a place in the odometry's directions, and how they turn into one quantity's.
+  Response response(std::uint32_t quantity) const {
     Response r;
     if (quantity == POSE_WALL_YAW) {
       r.of[kTurns + kUp] = 1.0;
     } else if (quantity < POSE_WALL_YAW) {
-      const Eigen::Vector3d about = R_.col(quantity == POSE_WALL_ROLL ? 0 : 1);
+      const Eigen::Vector3d about = at_.R_run_base.col(quantity == POSE_WALL_ROLL ? 0 : 1);
       r.of[kTurns + kAlong] = std::fabs(about.dot(along_));
       r.of[kTurns + kAcross] = std::fabs(about.dot(across_));
     } else {
@@ -98,29 +127,33 @@ class Responses {
     return r;
   }
 
+  // Infinite where the place may lie beyond what was seen of the surface: a road may turn there by any angle. A distance
+  // changes by no more than the way beyond.
+  double level(std::uint32_t quantity) const {
+    const double unknown_m = odometry_.level[kAlong], told = response(quantity).level(odometry_.level);
+    if (quantity < POSE_WALL_YAW) {
+      return beyond_floor_m(seen_.floor, at_.position_m, unknown_m) > 0.0 ? kNobodyKnows : told;
+    }
+    const SeenSurface& wall = *surface_of(quantity, seen_);
+    const double beyond = beyond_m(wall, point_m(quantity), unknown_m);
+    if (quantity == POSE_WALL_YAW) return beyond > 0.0 ? kNobodyKnows : told;
+    return told + beyond;
+  }
+
+  // Of the machine, or of a quantity's sampling point, in the run's frame.
+  Eigen::Vector3d point_m(std::uint32_t quantity) const {
+    if (quantity < POSE_WALL_D_LF) return at_.position_m;
+    return at_.position_m + at_.R_run_base * sample_base(quantity, settings_, axes_);
+  }
+
  private:
+  const pose_wall_odometry& odometry_;
   Eigen::Vector3d along_, across_;
-  Eigen::Matrix3d R_;
+  Place at_;
   const OdometryMemory& seen_;
   const Settings& settings_;
   const Axes& axes_;
 };
-
-// The way of a point beside what was seen.
-struct Moved {
-  double by_m = 0.0;
-  bool is_seen = false;  // what lies there now was seen
-};
-
-Moved beside(const SeenSurface& wall, const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double unknown_m) {
-  const double at_m = wall.along.dot(to_m);
-  return {std::fabs(wall.along.dot(to_m - from_m)), at_m - unknown_m >= wall.from_m && at_m + unknown_m <= wall.to_m};
-}
-
-Moved over(const SeenSurface& floor, const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double unknown_m) {
-  return {std::sqrt((to_m - from_m).squaredNorm()),
-          std::sqrt((to_m - floor.centre_m).squaredNorm()) + unknown_m <= floor.radius_m};
-}
 
 double turn_about(const Eigen::Vector3d& up, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from - up * up.dot(from), b = to - up * up.dot(to);
@@ -145,14 +178,15 @@ double carry_of(std::uint32_t quantity, const Place& from, const Place& to, cons
   return seen.wall[side_of(quantity)].normal.dot(moved_m);
 }
 
-// Yaw is before the walls as they were seen last: of two the one that was seen further.
-const SeenSurface* surface_of(std::uint32_t quantity, const OdometryMemory& seen) {
-  if (!seen.floor.exists) return nullptr;
-  if (quantity < POSE_WALL_YAW) return &seen.floor;
-  if (quantity != POSE_WALL_YAW) return &seen.wall[side_of(quantity)];
-  const SeenSurface &left = seen.wall[0], &right = seen.wall[1];
-  if (!left.exists || !right.exists) return left.exists ? &left : &right;
-  return left.to_m - left.from_m > right.to_m - right.from_m ? &left : &right;
+// What a surface's own direction makes of the way before it: a floor is known one radius on as well as twice its level.
+double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& from, const Place& to,
+              const Eigen::Vector3d& to_m, const Settings& s, const Axes& axes) {
+  if (quantity == POSE_WALL_YAW) return 0.0;
+  if (quantity < POSE_WALL_YAW) {
+    return surface.slope_level * std::sqrt((to.position_m - from.position_m).squaredNorm()) / surface.radius_m;
+  }
+  const Eigen::Vector3d from_m = from.position_m + from.R_run_base * sample_base(quantity, s, axes);
+  return surface.slope_level * std::fabs(surface.along.dot(to_m - from_m));
 }
 
 }  // namespace
@@ -163,18 +197,18 @@ bool is_sound(const pose_wall_odometry& o) {
   const double norm2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   const Eigen::Vector3d along = vector_of(o.along), across = vector_of(o.across);
   constexpr int kAll = POSE_WALL_ODOMETRY_DIRECTIONS;
-  const double infinite = std::numeric_limits<double>::infinity();
   return o.run != OdometryMemory::kNoRun && all_within(o.position_m, 3, -kFar_m, kFar_m) &&
          std::fabs(norm2 - 1.0) < 1e-5 && is_unit(along) && is_unit(across) && std::fabs(along.dot(across)) < 1e-3 &&
-         all_within(o.level, kAll, 0.0, infinite) && all_within(o.drift_variance, kAll, 0.0, kLarge) &&
+         all_within(o.level, kAll, 0.0, kNobodyKnows) && all_within(o.drift_variance, kAll, 0.0, kLarge) &&
          all_within(o.drift, kAll, 0.0, kLarge) && all_within(o.velocity_m_s, 3, -kFast_m_s, kFast_m_s) &&
-         all_within(o.turn_rate_rad_s, 3, -kFast_rad_s, kFast_rad_s);
+         all_within(o.turn_rate_rad_s, 3, -kFast_rad_s, kFast_rad_s) &&
+         all_within(o.rate_level, kAll, 0.0, kNobodyKnows);
 }
 
 void change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memory, const Settings& s, const Axes& axes,
                         Change* change) {
   const Place from = {memory.position_m, memory.R_run_base}, to = place_of(o);
-  const Responses responses(o, memory, s, axes);
+  const View view(o, memory, s, axes);
   double drift[POSE_WALL_ODOMETRY_DIRECTIONS], variance[POSE_WALL_ODOMETRY_DIRECTIONS];
   for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
     drift[k] = o.drift[k] - memory.drift[k];
@@ -184,25 +218,25 @@ void change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const SeenSurface* const surface = surface_of(q, memory);
     if (surface == nullptr || !surface->exists) continue;
-    const Response response = responses.of(q);
-    const double unknown_m = o.level[kAlong];
-    const Eigen::Vector3d sample = q < POSE_WALL_D_LF ? Eigen::Vector3d::Zero().eval() : sample_base(q, s, axes);
-    const Eigen::Vector3d from_m = from.position_m + from.R_run_base * sample;
-    const Eigen::Vector3d to_m = to.position_m + to.R_run_base * sample;
-    const bool floor = q < POSE_WALL_YAW;
-    const Moved moved = floor ? over(*surface, from_m, to_m, unknown_m) : beside(*surface, from_m, to_m, unknown_m);
-    const double level = response.level(o.level);
-    if (!(level < std::numeric_limits<double>::infinity())) continue;
+    const double level = view.level(q);
+    if (!(level < kNobodyKnows && memory.place_level[q] < kNobodyKnows)) continue;
+    const Response response = view.response(q);
     change->carry[q] = carry_of(q, from, to, memory, s, axes);
-    // Where nothing was seen, surfaces may turn as fast as the config allows for; where they were, their own errors
-    // matter as far as the machine moved.
-    const double by_way = q == POSE_WALL_YAW ? 0.0 : floor ? surface->slope_level * moved.by_m / surface->radius_m
-                                                           : surface->slope_level * moved.by_m;
-    change->growth[q] = response.level(drift) + (moved.is_seen ? by_way : change->growth[q]);
+    change->growth[q] = response.level(drift) + by_way(q, *surface, from, to, view.point_m(q), s, axes);
     change->by_places[q] = true;
     change->place_level_before[q] = memory.place_level[q];
     change->place_level[q] = level;
     change->drift2[q] = s.protection_factor * s.protection_factor * response.variance(variance);
+  }
+}
+
+void widen_by_skew(const pose_wall_odometry& o, double scan_s, const OdometryMemory& memory, const Settings& s,
+                   const Axes& axes, Measurements* measured) {
+  if (!(scan_s > 0.0)) return;
+  const View view(o, memory, s, axes);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    Measurement& m = measured->quantity[q];
+    if (m.measured) m.level[POSE_WALL_PART_AGE] += scan_s * view.response(q).level(o.rate_level);
   }
 }
 
@@ -239,8 +273,11 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
     seen.slope_level = wall.yaw_bound_rad.sum() + s.protection_factor * wall.yaw_sigma_rad +
                        s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
   }
-  const Responses responses(o, *memory, s, axes);
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) memory->place_level[q] = responses.of(q).level(o.level);
+  const View view(o, *memory, s, axes);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const SeenSurface* const surface = surface_of(q, *memory);
+    memory->place_level[q] = surface != nullptr && surface->exists ? view.level(q) : kNobodyKnows;
+  }
   for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
     memory->drift_variance[k] = o.drift_variance[k];
     memory->drift[k] = o.drift[k];

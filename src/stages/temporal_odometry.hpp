@@ -48,6 +48,11 @@ bool is_sound(const pose_wall_odometry& odometry);
 void change_by_odometry(const pose_wall_odometry& odometry, const OdometryMemory& memory, const Settings& settings,
                         const Axes& axes, Change* change);
 
+// What is not known of the motion in the course of a scan that the motion was taken out of, in levels of what it
+// measured: at most as much as all of a surface was seen at the scan's end. The memory has this frame's surfaces.
+void widen_by_skew(const pose_wall_odometry& odometry, double scan_s, const OdometryMemory& memory,
+                   const Settings& settings, const Axes& axes, Measurements* measured);
+
 // The place and the surfaces that this frame measured become memory; a new run forgets those of the one before.
 void remember_place(const pose_wall_odometry& odometry, const FloorResult& floor, const LevelResult& level,
                     const WallResult (&walls)[2], const Settings& settings, const Axes& axes, OdometryMemory* memory);

@@ -12,6 +12,7 @@
 #include "math/four_turns.hpp"
 #include "stages/voxel_cloud_reader.hpp"
 #include "stages/voxel_leaf.hpp"
+#include "stages/voxel_skew.hpp"
 
 namespace pose_wall {
 namespace {
@@ -25,6 +26,7 @@ struct PointBlock {
   std::uint32_t count = 0;
   float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];
   float x_base[kSize], y_base[kSize], z_base[kSize];
+  float time_s[kSize];  // since the scan's first point, where there is skew to take out
   std::uint64_t key[kSize];  // of a voxel
   VoxelGrid::Sums sums[kSize];
   std::int32_t direction[kSize];  // cell of a DirectionGrid
@@ -61,8 +63,10 @@ double mean_intensity(const pose_wall_cloud& cloud, bool swap) {
 // One pass over a cloud into a grid.
 class Pass {
  public:
-  Pass(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic, const Axes& axes)
+  Pass(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic, const Axes& axes,
+       const Skew& skew)
       : cloud_(cloud),
+        skew_(skew),
         to_base_(extrinsic.R_base_lidar, extrinsic.sensor_base_m),
         range_min2_(static_cast<float>(settings.range_min * settings.range_min)),
         range_max2_(static_cast<float>(settings.range_max * settings.range_max)),
@@ -81,9 +85,11 @@ class Pass {
   }
 
   // False where the grid overflows: then counts are complete only if the pass goes on to the end all the same.
-  bool run(bool to_the_end, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
+  bool run(bool to_the_end, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts,
+           std::uint64_t* raw_fingerprint) const {
     bool fits = true;
     *counts = IngestCounts{};
+    *raw_fingerprint = 0;
     returns_lidar->clear();
     PointBlock block;
     for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
@@ -95,14 +101,31 @@ class Pass {
         column += count;
         point += static_cast<std::size_t>(count) * cloud_.point_step;
         if (block.count != PointBlock::kSize) continue;
+        if (skew_.is_there()) *raw_fingerprint += fingerprint_of(block);
         if (!take(&block, grid, returns_lidar, counts)) fits = false;
         if (!fits && !to_the_end) return false;
       }
     }
+    if (skew_.is_there()) *raw_fingerprint += fingerprint_of(block);
     return take(&block, grid, returns_lidar, counts) && fits;
   }
 
  private:
+  // Of the points as they came, in any order: freed of another motion the same cloud has other voxels.
+  static std::uint64_t fingerprint_of(const PointBlock& block) {
+    std::uint64_t sum = 0;
+    for (std::uint32_t k = 0; k < block.count; ++k) {
+      std::uint32_t x, y, z;
+      std::memcpy(&x, &block.x_lidar[k], sizeof(x));
+      std::memcpy(&y, &block.y_lidar[k], sizeof(y));
+      std::memcpy(&z, &block.z_lidar[k], sizeof(z));
+      std::uint64_t word = (static_cast<std::uint64_t>(x) << 32 | y) * 0x9E3779B97F4A7C15ULL ^ z;
+      word *= 0xD6E8FEB86659FD93ULL;
+      sum += word ^ word >> 32;
+    }
+    return sum;
+  }
+
   // Points of one row, side by side.
   void read(const unsigned char* point, std::uint32_t count, PointBlock* block) const {
     const std::uint32_t begin = block->count, end = begin + count;
@@ -116,6 +139,10 @@ class Pass {
         block->y_lidar[k] = to_float(read_field(at, cloud_.y, swap_));
         block->z_lidar[k] = to_float(read_field(at, cloud_.z, swap_));
       }
+    }
+    if (skew_.is_there()) {
+      const unsigned char* at = point;
+      for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) block->time_s[k] = skew_.seconds(at);
     }
     if (!(intensity_weight_ > 0.0)) {
       for (std::uint32_t k = begin; k < end; ++k) block->weight[k] = kWeightOne;
@@ -181,7 +208,9 @@ class Pass {
       y = there ? y : none;
       z = there ? z : none;
       store_four(DirectionGrid::cells_of(x, y, z, range2), &b->direction[k]);
-      const FourPlaces ray = to_base.turned(x, y, z), base = to_base.shifted(ray);
+      const FourPlaces ray = to_base.turned(x, y, z);
+      FourPlaces base = to_base.shifted(ray);
+      if (skew_.is_there()) base = skew_.taken_out(base, load_four(&b->time_s[k]));
       store_four(base.x, &b->x_base[k]);
       store_four(base.y, &b->y_base[k]);
       store_four(base.z, &b->z_base[k]);
@@ -219,6 +248,7 @@ class Pass {
     for (; end % kFour != 0; ++end) {
       block->x_lidar[end] = block->y_lidar[end] = block->z_lidar[end] = 0.0F;
       block->weight[end] = kWeightOne;
+      block->time_s[end] = 0.0F;
     }
     judge_and_turn(*grid, end, block);
     judge_bodies(end, block);
@@ -266,6 +296,7 @@ class Pass {
   }
 
   const pose_wall_cloud& cloud_;
+  const Skew& skew_;
   FourTurns to_base_;
   float range_min2_, range_max2_;
   Box boxes_[4 + POSE_WALL_INPUT_BOXES] = {};
@@ -286,17 +317,19 @@ std::uint32_t returns_of(const IngestCounts& counts) {
 
 }  // namespace
 
-VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
-                         const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
+VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
+                         const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
                          PointSet* cloud_base) {
   VoxelResult result;
   Work work;
-  const Pass pass(cloud, settings, extrinsic, axes);
+  const Skew skew(cloud, odometry);
+  const Pass pass(cloud, settings, extrinsic, axes, skew);
+  std::uint64_t raw_fingerprint = 0;
   LeafSearch leaf(settings.voxel_leaf, settings.points_max, last);
   do {
     grid->begin(leaf.leaf_m(), reach_of(settings));
-    result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts);
-    work.add(returns_of(result.counts), steps::kPointRead);
+    result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts, &raw_fingerprint);
+    work.add(returns_of(result.counts), skew.is_there() ? steps::kPointUnskewed : steps::kPointRead);
     work.add(grid->slots() / kFour, steps::kFourSlots);
   } while (leaf.goes_on(result.fits, grid->count()));
   result.leaf_m = leaf.leaf_m();
@@ -305,9 +338,10 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings,
   cloud_base->count = 0;
   if (result.fits) {
     grid->extract(cloud_base);
-    result.fingerprint = grid->fingerprint();
+    result.fingerprint = skew.is_there() ? raw_fingerprint : grid->fingerprint();
     work.add(cloud_base->count, steps::kVoxelWritten);
   }
+  result.scan_s = skew.scan_s();
   result.returns = returns_of(result.counts);
   result.work = work.done();
   return result;

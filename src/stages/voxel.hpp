@@ -17,9 +17,9 @@ namespace pose_wall {
 // averages them per voxel. When a frame needs more voxels than there is room for, it starts again with a larger leaf,
 // and with a smaller one where there are far fewer, up to three times: the leaf depends on the set of points and on
 // what the last cloud left behind, not on the points' order. returns_lidar counts all that was returned, before the
-// filters.
-VoxelResult build_voxels(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic,
-                         const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
+// filters. With an odometry the points of a cloud that has times lie where they were at the stamp (voxel_skew).
+VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
+                         const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
                          PointSet* cloud_base);
 
 }  // namespace pose_wall

@@ -68,9 +68,10 @@ using test::wraps::refuse;
   result name##_wrapped parameters
 
 POSE_WALL_WRAP(VoxelResult, BUILD_VOXELS, build_voxels,
-               (const pose_wall_cloud& cloud, const Settings& s, const Extrinsic& extrinsic, const Axes& axes,
-                const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns, PointSet* out)) {
-  VoxelResult r = build_voxels_for_real(cloud, s, extrinsic, axes, last, grid, returns, out);
+               (const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& s,
+                const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
+                ReturnsByDirection* returns, PointSet* out)) {
+  VoxelResult r = build_voxels_for_real(cloud, odometry, s, extrinsic, axes, last, grid, returns, out);
   const bool overflow = fails(Fault::kVoxelsDoNotFit);
   if (overflow || fails(Fault::kVoxelsNone)) out->count = 0;
   if (overflow) r.fits = false;

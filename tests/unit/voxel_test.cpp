@@ -48,7 +48,7 @@ Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const E
   test::Placed<ReturnsByDirection> returns;
   test::Placed<PointSet> out(settings.points_max);
   Voxels v;
-  v.result = build_voxels(cloud, settings, extrinsic, axes, last, grid.get(), returns.get(), out.get());
+  v.result = build_voxels(cloud, nullptr, settings, extrinsic, axes, last, grid.get(), returns.get(), out.get());
   v.filled = filled_cells(returns->all);
   for (std::uint32_t i = 0; i < out->count; ++i) v.points.push_back(out->at(i));
   for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {

@@ -11,6 +11,7 @@
 
 #include "campaign/event.hpp"
 #include "campaign/folder.hpp"
+#include "campaign/motion_runs.hpp"
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
@@ -49,21 +50,19 @@ LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
   return load_config(choice.config_file, settings);
 }
 
-RunRecord measure(const Run& run, const EngineChoice& choice, api::Engine& engine,
+RunRecord measure(const Run& run, const EngineChoice& choice, MovingEngine& engine,
                   const std::function<void()>& on_frame) {
   const sim::Simulator simulator(sim::make_setup(run.scene, run.sensor, true, run.seed), run.seed);
   const std::optional<Event> event = event_of(simulator.setup());
-  demand_ok(engine.open(config_for(simulator.setup(), choice).config), run);
+  const LoadedConfig loaded = config_for(simulator.setup(), choice);
+  demand_ok(engine.open(loaded.config, loaded.motion), run);
   RunRecord record{run, {}};
   for (std::uint32_t i = 0; i < run.frames; ++i) {
-    const sim::Frame frame = simulator.render(i);
-    pose_wall_cloud cloud;
-    constexpr std::uint32_t kPointStep = 4 * sizeof(float);
-    demand_ok(pose_wall_cloud_xyz32(&cloud, frame.xyz_intensity.data(), static_cast<std::uint32_t>(frame.count()),
-                                    kPointStep, frame.stamp_ns),
-              run);
+    const sim::Frame rendered = simulator.render(i);
+    Frame frame = motion_frame(rendered, simulator.setup().sequence.scan_s > 0.0);
+    frame.cloud.stamp_ns = rendered.stamp_ns;
     pose_wall_result result = api::make_result();
-    demand_ok(engine.process(cloud, result), run);
+    demand_ok(engine.process(frame.cloud, result), run);
     record.frames.push_back(record_of(result, simulator.truth(i)));
     record.frames.back().frame = i;
     record.frames.back().phase = phase_of(i, event);
@@ -74,7 +73,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, api::Engine& engin
 
 void run_all(const std::vector<Run>& runs, const Work& work) {
   work_on(runs, work.crew, [&work]() -> RunWork {
-    const auto engine = std::make_shared<api::Engine>();
+    const auto engine = std::make_shared<MovingEngine>();
     return [&work, engine](const Run& run, const std::function<void()>& on_frame) {
       write_record(record_file(work.folder, run), measure(run, work.choice, *engine, on_frame), work.campaign);
     };

@@ -14,7 +14,7 @@
 #include "campaign/record.hpp"
 #include "campaign/workers.hpp"
 #include "config_file/load_config.hpp"
-#include "pose_wall.hpp"
+#include "motion/moving_engine.hpp"
 #include "sim/setup.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -23,7 +23,7 @@ namespace pose_wall::tools::campaign {
 LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice);
 
 // One run. The engine is opened anew; `on_frame` is called after each frame.
-RunRecord measure(const Run& run, const EngineChoice& choice, api::Engine& engine,
+RunRecord measure(const Run& run, const EngineChoice& choice, MovingEngine& engine,
                   const std::function<void()>& on_frame);
 
 struct Work {

@@ -30,10 +30,11 @@ double processor_millis() {
 
 }  // namespace
 
-FrameRunner::FrameRunner(const api::Config& config, double rate_hz) : stamps_(rate_hz) {
-  const std::int32_t status = engine_.open(config);
+FrameRunner::FrameRunner(const api::Config& config, double rate_hz, const pose_wall_motion_settings& motion)
+    : stamps_(rate_hz) {
+  const std::int32_t status = engine_.open(config, motion);
   if (status != POSE_WALL_OK) throw ConfigError(std::string("the engine: ") + pose_wall_status_text(status));
-  engine_.set_clock(steady_ns);
+  engine_.engine().set_clock(steady_ns);
 }
 
 FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
@@ -59,8 +60,8 @@ FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
     outcome.result = result;
     if (look) {
       pose_wall_points points{};
-      engine_.last_points(points);
-      look(frame.cloud, points, result);
+      engine_.engine().last_points(points);
+      look(engine_.given(), points, result);
     }
   } catch (const std::exception& error) {
     outcome.result.reset();  // also where it was the look that failed

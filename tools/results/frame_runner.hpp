@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <functional>
 
+#include "config_file/motion_settings.hpp"
 #include "frames/frame_source.hpp"
 #include "frames/frame_stamps.hpp"
+#include "motion/moving_engine.hpp"
 #include "pose_wall.hpp"
 #include "results/result_csv.hpp"
 
@@ -17,22 +19,23 @@ namespace pose_wall::tools {
 
 class FrameRunner {
  public:
-  // Throws ConfigError when the engine refuses the config.
-  FrameRunner(const api::Config& config, double rate_hz);
+  // Throws ConfigError when the engine or the motion refuses the config.
+  FrameRunner(const api::Config& config, double rate_hz,
+              const pose_wall_motion_settings& motion = default_motion_settings());
 
-  // A processed frame: the points as they came and what became of them. For the call only.
+  // A processed frame: the cloud as the engine was given it and what became of its points. For the call only.
   using Look = std::function<void(const pose_wall_cloud&, const pose_wall_points&, const pose_wall_result&)>;
 
   // Frames are numbered in the order of the calls. Never throws: what is wrong with a frame stands in the outcome.
   FrameOutcome run(SourcedFrame sourced, const Look& look = {});
 
   // What it remembers can be saved before a frame.
-  pose_wall_engine* engine() { return engine_.get(); }
+  pose_wall_engine* engine() { return engine_.engine().get(); }
 
-  std::size_t block_bytes() const { return engine_.block_bytes(); }
+  std::size_t block_bytes() const { return engine_.engine().block_bytes(); }
 
  private:
-  api::Engine engine_;
+  MovingEngine engine_;
   FrameStamps stamps_;
   std::uint64_t next_frame_ = 0;
 };

@@ -78,7 +78,7 @@ void explain_points(const LoadedConfig& loaded, const Memento& before, const pos
 // The frames before count: they left states and held values behind. Nothing: interrupted.
 std::optional<Explained> run_to_frame(const ExplainOptions& options, const LoadedConfig& loaded,
                                       FrameSequence& inputs) {
-  FrameRunner runner(loaded.config, options.frames.rate_hz);
+  FrameRunner runner(loaded.config, options.frames.rate_hz, loaded.motion);
   const InterruptWatch watch;
   ProgressBar bar(static_cast<std::size_t>(options.frame) + 1, !options.frames.quiet && is_terminal(2));
   for (std::uint64_t i = 0; !InterruptWatch::is_interrupted(); ++i) {

@@ -123,7 +123,7 @@ int report_frames(const ReportOptions& options) {
   std::vector<std::filesystem::path> read = options.frames.files_read(inputs);
   if (!options.truth.empty()) read.emplace_back(options.truth);
   OutputFile output(options.output, read);
-  FrameRunner runner(loaded.config, options.frames.rate_hz);
+  FrameRunner runner(loaded.config, options.frames.rate_hz, loaded.motion);
   report::PageData data(loaded.config, inputs.frames(), options.points_max);
 
   const auto started = std::chrono::steady_clock::now();

@@ -95,7 +95,7 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
 int run(const RunOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
-  FrameRunner runner(loaded.config, options.frames.rate_hz);
+  FrameRunner runner(loaded.config, options.frames.rate_hz, loaded.motion);
   std::optional<AnnotatedFolder> annotated = annotated_folder(options);
   if (would_cost_the_last_results("run", inputs, options.output)) return kExitUnreadable;
   ResultOutput output(options.output, options.frames.files_read(inputs),

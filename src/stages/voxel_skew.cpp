@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "stages/voxel_skew.hpp"
+
+#include <cstring>
+
+#include "math/finite.hpp"
+#include "stages/voxel_cloud_reader.hpp"
+
+namespace pose_wall {
+namespace {
+
+double time_at(const unsigned char* point, const pose_wall_cloud& cloud, bool swap) {
+  if (!swap && cloud.time.type == POSE_WALL_FIELD_UINT32) {
+    std::uint32_t value;
+    std::memcpy(&value, point + cloud.time.offset, sizeof(value));
+    return static_cast<double>(value);
+  }
+  return read_field(point, cloud.time, swap);
+}
+
+struct Times {
+  double first = 0.0, last = 0.0;
+  bool any = false;
+};
+
+Times times_of(const pose_wall_cloud& cloud, bool swap) {
+  Times times;
+  for (std::uint32_t row = 0; row < rows_of(cloud); ++row) {
+    const unsigned char* point = row_of(cloud, row);
+    for (std::uint32_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
+      const double time = time_at(point, cloud, swap);
+      if (!is_finite(time)) continue;
+      if (!times.any || time < times.first) times.first = time;
+      if (!times.any || time > times.last) times.last = time;
+      times.any = true;
+    }
+  }
+  return times;
+}
+
+}  // namespace
+
+double time_unit_s(double spread) {
+  constexpr double kUnits_s[] = {1.0, 1e-3, 1e-6, 1e-9};
+  for (const double unit_s : kUnits_s) {
+    const double scan_s = spread * unit_s;
+    if (scan_s >= 0.01 && scan_s <= 1.0) return unit_s;
+  }
+  return 0.0;
+}
+
+Skew::Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry)
+    : cloud_(cloud), swap_(needs_swap(cloud)) {
+  if (odometry == nullptr || cloud.time.type == POSE_WALL_FIELD_NONE) return;
+  const Times times = times_of(cloud, swap_);
+  first_ = times.first;
+  unit_s_ = time_unit_s(times.last - times.first);
+  scan_s_ = (times.last - times.first) * unit_s_;
+  for (int k = 0; k < 3; ++k) {
+    velocity_[k] = static_cast<float>(odometry->velocity_m_s[k]);
+    turn_[k] = static_cast<float>(odometry->turn_rate_rad_s[k]);
+  }
+}
+
+float Skew::seconds(const unsigned char* point) const {
+  const double time = time_at(point, cloud_, swap_);
+  return is_finite(time) ? static_cast<float>((time - first_) * unit_s_) : 0.0F;
+}
+
+FourPlaces Skew::taken_out(const FourPlaces& base, FourFloats time_s) const {
+  const FourPlaces around = turned(base), twice = turned(around);
+  const FourFloats half_s2 = 0.5F * time_s * time_s;
+  return {base.x + time_s * (around.x + velocity_[0]) + half_s2 * twice.x,
+          base.y + time_s * (around.y + velocity_[1]) + half_s2 * twice.y,
+          base.z + time_s * (around.z + velocity_[2]) + half_s2 * twice.z};
+}
+
+}  // namespace pose_wall
