@@ -24,6 +24,7 @@ constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
 // Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
 constexpr double kHalvesMost_m = 0.12;
 constexpr double kHall = 0.3;  // hold along the axis: its own planes tell the way
+constexpr int kPassesMost = 4;  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
 constexpr double kFirstReach = 1.5;  // of what the top speed allows: its own place is not the edge of the search
 constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
@@ -51,7 +52,7 @@ void Odometry::lay_out(Arena& arena) {
   segment_.lay_out(arena);
   choice_.lay_out(arena);
   observation_ = arena.take<Observation>(kObservationsMost);
-  patches_.lay_out(arena);
+  steps_.lay_out(arena);
   curve_.lay_out(arena);
   map_.lay_out(arena);
 }
@@ -149,20 +150,15 @@ void Odometry::align(Frame* frame) {
   find_axes(scan, forward, &a);
   StepOptions coarse;
   coarse.with_along = a.axes.hold > kHall;
-  const int passes = frame->wide ? 4 : 1;
   coarse.every = frame->wide ? 1 : 4;
-  for (int pass = 0; pass < passes; ++pass) {
-    step_one(scan, coarse, &patches_, &a);
-    step_two(scan, coarse, &patches_, &a);
+  for (int pass = 0; pass < kPassesMost && take_steps(scan, coarse, &steps_, &a); ++pass) {
   }
   find_axes(scan, forward, &a);
   match_way(frame);
   StepOptions fine;
   fine.use_relief = true;
   fine.rounds = 3;
-  step_one(scan, fine, &patches_, &a);
-  fine.every = 2;  // walls are many, ground may be little
-  step_two(scan, fine, &patches_, &a);
+  take_steps(scan, fine, &steps_, &a);
   if (!frame->is(POSE_WALL_ALONG_UNOBSERVABLE)) refine(scan, frame);
   frame->reasons |= bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND);
   if (a.matched >= kMatchedLeast) return;

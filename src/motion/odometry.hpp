@@ -58,7 +58,7 @@ class Odometry {
   SegmentScratch segment_;
   ObservationScratch choice_;
   Span<Observation> observation_;
-  PatchSums patches_;
+  StepScratch steps_;
   CurveScratch curve_;
   // memory
   ReliefMap map_;

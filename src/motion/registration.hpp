@@ -54,9 +54,15 @@ struct Alignment {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-struct PatchSums {
+// The equations of a step, side by side: four are summed at once.
+struct StepScratch {
   void lay_out(Arena& arena);
-  Span<float> sum[3];
+  Span<float> by_move[6];  // how the distance goes along, across, up, and with turns about these axes
+  Span<float> distance, variance;
+  Span<float> known;  // 1 where the map knows the relief
+  Span<float> pull;   // distance by its weight, as last summed
+  Span<std::uint16_t> tile;
+  Span<float> sum[3];  // by tile
 };
 
 // From surfaces nearby, or with use_relief from those within a few deviations of the rock. with_along: the step across
@@ -68,7 +74,8 @@ struct StepOptions {
   std::uint32_t every = 1;  // of so many observations one is asked
 };
 void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* alignment);
-void step_one(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* alignment);
-void step_two(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* alignment);
+// Step one, by ground and walls: roll, pitch and height. Step two, by walls and roof: the place across and yaw. Whether
+// they went so far that others would follow.
+bool take_steps(const Scan& scan, const StepOptions& options, StepScratch* scratch, Alignment* alignment);
 
 }  // namespace pose_wall::motion
