@@ -213,16 +213,8 @@ class CurveBuilder {
     J[3] = axis[1].dot(fit.normal) * weight;
     J[4] = axis[2].dot(fit.normal) * weight;
     s_->tile[rows_] = static_cast<std::uint16_t>(scan_.map->index_of(fit.surface.tile));
-    std::uint32_t known = 0;
-    for (std::uint32_t k = 0; k < shifts_; ++k) {
-      float& misfit = s_->misfit[k * kRowsMost + rows_];
-      const Eigen::Vector3f shifted = fit.p + static_cast<float>(shift_m(k)) * axis[0];
-      if (fit_shifted(scan_, shifted, fit, faces, &misfit)) {
-        ++known;
-      } else {
-        misfit = unknown();
-      }
-    }
+    const Shifts shifts = {axis[0], static_cast<float>(shift_m(0)), static_cast<float>(step_m_), shifts_};
+    const std::uint32_t known = fit_shifted(scan_, fit, shifts, faces, kRowsMost, &s_->misfit[rows_]);
     return known > shifts_ / 2;
   }
 

@@ -29,9 +29,16 @@ struct Fit {
   bool has_relief;
 };
 bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit);
-// The same for a pose that is shifted a little: misfit in deviations, of a fit that holds incidence and tile. False
-// where the map does not know the rock.
-bool fit_shifted(const Scan& scan, const Eigen::Vector3f& p, const Fit& before, bool by_plane, float* misfit);
+// The same for poses that are shifted by equal steps.
+struct Shifts {
+  Eigen::Vector3f axis;
+  float first_m, step_m;
+  std::uint32_t count;
+};
+// Misfits in deviations, `apart` numbers apart, of a fit that holds incidence and tile; NaN where the map does not know
+// the rock, unless the plane will do. Gives at how many shifts the map knows it.
+std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts, bool by_plane, std::uint32_t apart,
+                          float* misfit);
 
 // Hold along the axis (RoadAxes): below it no plane tells the way. What faces along are bumps of the rock then, which
 // are seen from one side only; they drew steel sets by 30 mm (2026-11, simulated).

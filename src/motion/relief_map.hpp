@@ -12,6 +12,7 @@
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
+#include "math/four_floats.hpp"
 #include "motion/pose.hpp"
 
 namespace pose_wall::motion {
@@ -73,6 +74,15 @@ struct Relief {
   float spread;  // variance of a point's height against this, in variances of a single one
 };
 
+// Four points over one tile, and the rock there.
+struct FourSurfaces {
+  const Tile* tile;
+  FourFloats u, v, above_m;
+};
+struct FourReliefs {
+  FourFloats height_m, spread;
+};
+
 class ReliefMap {
  public:
   void lay_out(Arena& arena);
@@ -92,6 +102,7 @@ class ReliefMap {
 
   // By the two nearest cells along u; false where one of them is empty.
   static bool relief(const Surface& at, Relief* out);
+  static FourTruths relief(const FourSurfaces& at, FourReliefs* out);
 
   // A scan goes in between begin and end.
   void begin_keyframe() { ++keyframe_; }
