@@ -110,14 +110,12 @@ void Odometry::take_in_scan() {
   map_.begin_keyframe();
   const LocalPose local(pose_, map_.corner());
   const Eigen::Vector3f sensor = reading_.lidar_base_m.cast<float>();
-  for (std::uint32_t i = 0; i < image_.count; ++i) {
-    if ((image_.flags[i] & kPlane) == 0) continue;
-    Eigen::Vector3f normal;
-    std::uint8_t facing;
-    if (!normal_about(image_, i, &normal) || !facing_of(local.R * normal, &facing)) continue;
+  FacingWalk walk(image_, local.R);
+  for (const std::uint16_t i : image_.cell.first(image_.rows * image_.columns)) {
+    if (i == kNoPoint || (image_.flags[i] & kPlane) == 0 || !walk.go_to(i)) continue;
     const float range = image_.range[i];
-    if (range > kRockRange_m && !(-normal.dot(image_.point(i) - sensor) > kFarIncidence * range)) continue;
-    map_.add(local(image_.point(i)), facing);
+    if (range > kRockRange_m && !(-walk.normal().dot(image_.point(i) - sensor) > kFarIncidence * range)) continue;
+    map_.add(local(image_.point(i)), walk.facing());
   }
   map_.end_keyframe();
 }
@@ -157,6 +155,7 @@ void Odometry::align(Frame* frame) {
   match_way(frame);
   StepOptions fine;
   fine.use_relief = true;
+  fine.every = 2;
   fine.rounds = 3;
   take_steps(scan, fine, &steps_, &a);
   if (!frame->is(POSE_WALL_ALONG_UNOBSERVABLE)) refine(scan, frame);

@@ -201,6 +201,19 @@ std::int32_t ReliefMap::take_tile() {
   return static_cast<std::int32_t>(oldest);
 }
 
+// Points come one beside the other: most lie on the tile of the one before.
+bool ReliefMap::is_still_over(const Tile& tile, const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) const {
+  if (tile.facing != facing) return false;
+  const int iu = kU[facing], iv = kV[facing];
+  const float u = p[iu] - static_cast<float>(tile.u - corner_[iu]) - 0.5F;
+  const float v = p[iv] - static_cast<float>(tile.v - corner_[iv]) - 0.5F;
+  const float above =
+      p[facing] - (tile.height_m - static_cast<float>(corner_[facing])) - tile.slope_u * u - tile.slope_v * v;
+  *at = {&tile, u, v, above};
+  constexpr float kNoOther_m = 0.5F * kLayer_m;  // further off, another surface may be nearer
+  return std::fabs(u) < 0.5F && std::fabs(v) < 0.5F && std::fabs(above) < kNoOther_m;
+}
+
 Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) {
   if (find(p, facing, at)) return &tile_[index_of(at->tile)];
   const Place place = place_of(p, facing, corner_);
@@ -226,8 +239,10 @@ Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface
 
 void ReliefMap::add(const Eigen::Vector3f& p, std::uint8_t facing) {
   Surface at;
-  Tile* const tile = tile_for(p, facing, &at);
+  Tile* const tile =
+      last_ != nullptr && is_still_over(*last_, p, facing, &at) ? last_ : tile_for(p, facing, &at);
   if (tile == nullptr) return;
+  last_ = tile;
   tile->seen = keyframe_;
   const std::int32_t i = along_cell(at.u);
   Cell& cell = tile->cell[across_cell(at.v) * kAlongCells + i];
