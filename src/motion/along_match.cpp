@@ -7,6 +7,7 @@
 
 #include "estimation/small_cholesky.hpp"
 #include "math/finite.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -91,31 +92,44 @@ class CurveBuilder {
     for (std::uint32_t i = 0; i < count && rows_ < kRowsMost; i += stride) {
       if (measure_row(scan_.observation[i], local, axis)) ++rows_;
     }
+    fill_up();
   }
 
   // The best fit of the other five at each shift comes off the misfits.
   void fit_the_rest(std::uint32_t k) {
-    FiveByFive A = FiveByFive::Identity() * 1e-3;
-    Five b = Five::Zero();
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      const float misfit = s_->misfit[k * kRowsMost + row];
-      if (!(misfit * misfit < kCap)) continue;
-      const float* const J = &s_->jacobian[5 * row];
-      for (int i = 0; i < 5; ++i) {
-        for (int j = 0; j <= i; ++j) A(i, j) += static_cast<double>(J[i] * J[j]);
-        b[i] -= static_cast<double>(J[i] * misfit);
+    float* const misfits = &s_->misfit[k * kRowsMost];
+    const FourFloats zero = all_four(0.0F);
+    FourFloats sum[15], b_sum[5];
+    for (FourFloats& four : sum) four = zero;
+    for (FourFloats& four : b_sum) four = zero;
+    for (std::uint32_t row = 0; row < rows_; row += kFour) {
+      FourFloats J[5];
+      const FourFloats misfit = load_four(misfits + row);
+      const FourTruths counts = misfit * misfit < kCap;
+      for (std::uint32_t i = 0; i < 5; ++i) {
+        const FourFloats whole = load_four(&s_->jacobian[i * kRowsMost + row]);
+        J[i] = counts ? whole : zero;
+      }
+      const FourFloats known = counts ? misfit : zero;
+      for (int i = 0, n = 0; i < 5; ++i) {
+        for (int j = 0; j <= i; ++j) sum[n++] += J[i] * J[j];
+        b_sum[i] -= J[i] * known;
       }
     }
-    for (int i = 0; i < 5; ++i) {
+    FiveByFive A = FiveByFive::Identity() * 1e-3;
+    Five b;
+    for (int i = 0, n = 0; i < 5; ++i) {
+      for (int j = 0; j <= i; ++j) A(i, j) += sum_of_lanes(sum[n++]);
       for (int j = 0; j < i; ++j) A(j, i) = A(i, j);
+      b[i] = sum_of_lanes(b_sum[i]);
     }
     const SmallCholesky<5> factor(A);
     if (!factor.solved()) return;
     const Eigen::Matrix<float, 5, 1> by = factor.solve(b).cast<float>();
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      float& misfit = s_->misfit[k * kRowsMost + row];
-      const float* const J = &s_->jacobian[5 * row];
-      for (int i = 0; i < 5; ++i) misfit += J[i] * by[i];  // unknown stays so
+    for (std::uint32_t row = 0; row < rows_; row += kFour) {
+      FourFloats misfit = load_four(misfits + row);
+      for (std::uint32_t i = 0; i < 5; ++i) misfit += load_four(&s_->jacobian[i * kRowsMost + row]) * by[i];
+      store_four(misfit, misfits + row);  // unknown stays so
     }
   }
 
@@ -177,6 +191,14 @@ class CurveBuilder {
   }
 
  private:
+  // The last four rows are whole: those behind the last are known nowhere.
+  void fill_up() const {
+    for (std::uint32_t row = rows_; row % kFour != 0; ++row) {
+      for (std::uint32_t k = 0; k < shifts_; ++k) s_->misfit[k * kRowsMost + row] = unknown();
+      for (std::uint32_t i = 0; i < 5; ++i) s_->jacobian[i * kRowsMost + row] = 0.0F;
+    }
+  }
+
   int half_of(std::uint32_t row) const { return static_cast<int>((s_->tile[row] * 0x9E3779B1U) >> 31U); }
 
   // Its mean over the shifts at which the map knows it, with the curve taken off.
@@ -208,10 +230,10 @@ class CurveBuilder {
     if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
-    float* const J = &s_->jacobian[5 * rows_];
-    for (int k = 0; k < 3; ++k) J[k] = axis[k].dot(lever) * weight;
-    J[3] = axis[1].dot(fit.normal) * weight;
-    J[4] = axis[2].dot(fit.normal) * weight;
+    float* const J = &s_->jacobian[rows_];
+    for (std::uint32_t k = 0; k < 3; ++k) J[k * kRowsMost] = axis[k].dot(lever) * weight;
+    J[3 * kRowsMost] = axis[1].dot(fit.normal) * weight;
+    J[4 * kRowsMost] = axis[2].dot(fit.normal) * weight;
     s_->tile[rows_] = static_cast<std::uint16_t>(scan_.map->index_of(fit.surface.tile));
     const Shifts shifts = {axis[0], static_cast<float>(shift_m(0)), static_cast<float>(step_m_), shifts_};
     const std::uint32_t known = fit_shifted(scan_, fit, shifts, faces, kRowsMost, &s_->misfit[rows_]);

@@ -32,7 +32,7 @@ bool is_evidence(const Curve& curve);
 struct CurveScratch {
   void lay_out(Arena& arena);
   Span<float> misfit;    // [shift][row], in deviations; NaN where the map knows nothing
-  Span<float> jacobian;  // [row][5]
+  Span<float> jacobian;  // [5][row]
   Span<std::uint16_t> tile;
   Span<float> gain;  // [tile]; 0 for one that no row lies on
 };
