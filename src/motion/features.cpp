@@ -73,7 +73,8 @@ std::uint16_t neighbour(const RangeImage& image, std::int32_t row, std::int32_t 
 }
 
 std::uint32_t cube_of(const Eigen::Vector3f& p) {
-  const auto whole = [](float v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(v))); };
+  // cut off towards zero is down where all is positive
+  const auto whole = [](float v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(v)); };
   const std::uint32_t key = whole(p.x()) * 0x9E3779B1U ^ whole(p.y()) * 0x85EBCA77U ^ whole(p.z()) * 0xC2B2AE3DU;
   return ((key * 0x27D4EB2FU) >> 16) & (kCubes - 1);
 }
@@ -161,7 +162,8 @@ std::uint32_t choose_observations(const RangeImage& image, const Pose& expected,
                                   Span<Observation> out) {
   scratch->taken.fill(0);
   const Eigen::Matrix3f R = expected.R.cast<float>();
-  const Eigen::Vector3f t = (expected.t - expected.t.array().floor().matrix()).cast<float>();
+  constexpr float kAway_m = 128.0F;  // no point is so far off
+  const Eigen::Vector3f t = (expected.t - expected.t.array().floor().matrix()).cast<float>().array() + kAway_m;
   std::uint32_t count = 0;
   // In steps of the golden ratio, so that where the cubes are full what is left out is left out evenly.
   std::uint32_t step = static_cast<std::uint32_t>(0.618034 * image.count) | 1U;

@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t kLooks = 4096;  // points that tell a cloud's rings, elevations and times
 constexpr double kRingsLeast = 4.0;     // fewer: a driver of a pattern without rings that fills in the field
 constexpr float kTurn_rad = 6.2831853F;
+constexpr std::uint32_t kBodyBoxes = sizeof(Reading::body) / sizeof(Box);
 
 // Within 1e-3 rad: which column, no more (the odd polynomial of Hastings, Approximations for Digital Computers, 1955).
 FourFloats rough_arc_tangent2(FourFloats y, FourFloats x) {
@@ -146,19 +147,6 @@ Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
   return layout;
 }
 
-FourTruths is_of_body(const Reading& reading, const FourPlaces& p) {
-  FourTruths inside = all_four_ints(0);
-  for (const Box& box : reading.body) {
-    if (!box.holds_something()) continue;
-    const auto between = [](FourFloats v, double low, double high) {
-      return (v >= static_cast<float>(low)) & (v <= static_cast<float>(high));
-    };
-    inside |= between(p.x, box.x_min, box.x_max) & between(p.y, box.y_min, box.y_max) &
-              between(p.z, box.z_min, box.z_max);
-  }
-  return inside;
-}
-
 }  // namespace
 
 void RangeImage::lay_out(Arena& arena) {
@@ -186,7 +174,6 @@ class Projector {
       : reader_(cloud),
         layout_(look_at(cloud, reader_)),
         cloud_(cloud),
-        reading_(reading),
         R_(reading.R_base_lidar.cast<float>()),
         origin_(reading.lidar_base_m.cast<float>()),
         velocity_(twist.velocity_m_s.cast<float>()),
@@ -194,7 +181,12 @@ class Projector {
         near2_(static_cast<float>(reading.range_min_m * reading.range_min_m)),
         far2_(static_cast<float>(reading.range_max_m * reading.range_max_m)),
         image_(image) {
-    for (const Box& box : reading.body) has_body_ = has_body_ || box.holds_something();
+    for (const Box& box : reading.body) {
+      if (!box.holds_something()) continue;
+      const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
+      for (int k = 0; k < 6; ++k) body_[boxes_][k] = static_cast<float>(edges[k]);
+      ++boxes_;
+    }
   }
 
   const Layout& layout() const { return layout_; }
@@ -218,7 +210,7 @@ class Projector {
     FourInts cells;
     those &= cells_of(four, raw, range, &cells);
     const FourPlaces p = base_of(four, raw);
-    if (has_body_) those &= ~is_of_body(reading_, p);
+    if (boxes_ > 0) those &= ~is_of_body(p);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       const std::uint32_t place = static_cast<std::uint32_t>(cells[lane]);
       if (those[lane] == 0 || image_->cell[place] != kNoPoint) continue;
@@ -254,6 +246,16 @@ class Projector {
     return those;
   }
 
+  FourTruths is_of_body(const FourPlaces& p) const {
+    FourTruths inside = all_four_ints(0);
+    for (std::uint32_t k = 0; k < boxes_; ++k) {
+      const float(&edge)[6] = body_[k];
+      inside |= (p.x >= edge[0]) & (p.x <= edge[1]) & (p.y >= edge[2]) & (p.y <= edge[3]) & (p.z >= edge[4]) &
+                (p.z <= edge[5]);
+    }
+    return inside;
+  }
+
   // At the stamp, to second order of the turn.
   FourPlaces base_of(const Four& four, const FourPlaces& raw) const {
     FourPlaces p = {R_(0, 0) * raw.x + R_(0, 1) * raw.y + R_(0, 2) * raw.z + origin_[0],
@@ -275,11 +277,11 @@ class Projector {
   Reader reader_;
   Layout layout_;
   const pose_wall_cloud& cloud_;
-  const Reading& reading_;
   Eigen::Matrix3f R_;
   Eigen::Vector3f origin_, velocity_, turn_;
   float near2_, far2_;
-  bool has_body_ = false;
+  float body_[kBodyBoxes][6];  // edges of the boxes that hold something
+  std::uint32_t boxes_ = 0;
   RangeImage* image_;
 };
 

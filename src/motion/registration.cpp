@@ -359,7 +359,7 @@ std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts
 void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* a) {
   const LocalPose local(a->pose, scan.map->corner());
   Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
-  constexpr std::uint32_t kEvery = 4;  // an axis needs no more
+  constexpr std::uint32_t kEvery = 8;  // an axis needs no more
   for (std::uint32_t i = 0; i < scan.observation.size(); i += kEvery) {
     Fit fit;
     if (!fit_observation(scan, local, scan.observation[i], &fit) || !(std::fabs(fit.distance_m) < 0.15F)) continue;

@@ -74,9 +74,10 @@ class Clusters {
       if (is_rock(first)) look(first, left, but_one);
       if (is_rock(second) && !is_rock(first)) look(second, first, left);
     }
+    for (std::uint32_t k = 0; k < labels_; ++k) s_.leads_to[k] = root(static_cast<std::uint16_t>(k));
   }
 
-  std::uint16_t of(std::uint16_t point) const { return root(s_.label[point]); }
+  std::uint16_t of(std::uint32_t point) const { return s_.leads_to[s_.label[point]]; }
   std::uint32_t labels() const { return labels_; }
 
  private:
@@ -133,14 +134,14 @@ Segments segment(const Eigen::Matrix3d& R_map_base, const Reading& reading, Segm
   clusters.label_all();
   scratch->size.first(clusters.labels()).fill(0);
   for (std::uint32_t i = 0; i < image->count; ++i) {
-    if ((image->flags[i] & kGround) == 0) ++scratch->size[clusters.of(static_cast<std::uint16_t>(i))];
+    if ((image->flags[i] & kGround) == 0) ++scratch->size[clusters.of(i)];
   }
   for (std::uint32_t label = 0; label < clusters.labels(); ++label) {
     out.clusters += scratch->size[label] >= kClusterLeast ? 1U : 0U;
   }
   for (std::uint32_t i = 0; i < image->count; ++i) {
     if ((image->flags[i] & kGround) != 0) continue;
-    if (scratch->size[clusters.of(static_cast<std::uint16_t>(i))] >= kClusterLeast) image->flags[i] |= kKept;
+    if (scratch->size[clusters.of(i)] >= kClusterLeast) image->flags[i] |= kKept;
   }
   return out;
 }
