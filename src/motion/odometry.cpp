@@ -23,8 +23,9 @@ constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by
 constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
 // Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
 constexpr double kHalvesMost_m = 0.12;
-constexpr double kHall = 0.3;  // hold along the axis: its own planes tell the way
-constexpr int kPassesMost = 4;  // of coarse steps; judgement
+constexpr double kHall = 0.3;                   // hold along the axis: its own planes tell the way
+constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; a sparse sensor's are all asked
+constexpr int kPassesMost = 4;                  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
 constexpr double kFirstReach = 1.5;  // of what the top speed allows: its own place is not the edge of the search
 constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
@@ -155,7 +156,7 @@ void Odometry::align(Frame* frame) {
   match_way(frame);
   StepOptions fine;
   fine.use_relief = true;
-  fine.every = 2;
+  fine.every = (frame->observations.size() + kEquationsMost - 1) / kEquationsMost;
   fine.rounds = 3;
   take_steps(scan, fine, &steps_, &a);
   if (!frame->is(POSE_WALL_ALONG_UNOBSERVABLE)) refine(scan, frame);
@@ -343,6 +344,10 @@ void Odometry::keep_map(const Frame& frame) {
     guesses_ = false;
     return;
   }
+  if (begins_unbent(frame)) {  // the map begins anew with this very scan
+    travel_.take_in(frame.alignment.covariance);
+    return;
+  }
   const double moved_m = std::sqrt((pose_.t - keyframe_.t).squaredNorm());
   const double turned_rad = std::sqrt(turn_of(keyframe_.R.transpose() * pose_.R).squaredNorm());
   const bool known = frame.is(POSE_WALL_ALONG_MEASURED) || frame.guessed;
@@ -354,7 +359,8 @@ void Odometry::keep_map(const Frame& frame) {
   }
 }
 
-bool Odometry::was_bent(const Frame& frame) const {
+bool Odometry::begins_unbent(const Frame& frame) const {
+  if (!is_bent_ || !frame.is(POSE_WALL_ALONG_MEASURED)) return false;
   const double speed_m_s = std::sqrt(twist_.velocity_m_s.squaredNorm());
   const double turn_rad_s = std::sqrt(twist_.turn_rad_s.squaredNorm());
   return frame.dt_s * (speed_m_s + kBentAt_m * turn_rad_s) > kBent_m;
@@ -407,7 +413,7 @@ void Odometry::measure(Frame* frame) {
     align(frame);
     if (!frame->is(POSE_WALL_ALONG_LOST)) conclude(frame);
     if (!frame->is(POSE_WALL_ALONG_MEASURED)) return;
-    if (is_bent_ && was_bent(*frame)) begin_unbent(*frame);
+    if (begins_unbent(*frame)) begin_unbent(*frame);
     is_bent_ = false;
   } else {
     frame->reasons |= POSE_WALL_MOTION_R_FEW_MATCHES;

@@ -45,7 +45,7 @@ class Odometry {
   void keep_map(const Frame& frame);
   void conclude(Frame* frame);
   Eigen::Vector3d shrunk_turn(const Frame& frame) const;
-  bool was_bent(const Frame& frame) const;
+  bool begins_unbent(const Frame& frame) const;
   void begin_unbent(const Frame& frame);
   void begin_map_here();
   void take_in_scan();
