@@ -36,7 +36,6 @@ struct RowOfRanges {
       range[static_cast<std::int32_t>(columns) + kAround + k] = range[kAround + k];
     }
   }
-
 };
 
 // What a row says of four points that lie side by side, from the column on.
@@ -53,10 +52,10 @@ struct FourColumns {
       // The nearest neighbours hide a point: what lies behind an edge moves with the sensor.
       if (k >= -2 && k <= 2) hidden |= (near > zero) & (near < least);
     }
-    told = (r > zero) & (found > kAround + 1) & ~hidden;
-    // |sum of (r_j - r_i)| / (n r_i), the document's smoothness; the point itself adds nothing.
+    told = (r > zero) & (found > kAround) & ~hidden;
+    // |sum of (r_j - r_i)| / (n r_i), the document's smoothness.
     const FourFloats n = __builtin_convertvector(found, FourFloats);
-    flat = magnitude_of(sum - n * r) < kEdgeCurvature * (n - 1.0F) * r;
+    flat = magnitude_of(sum - n * r) < kEdgeCurvature * n * r;
   }
 
   FourTruths told, flat;

@@ -24,7 +24,7 @@ constexpr std::uint32_t kGroundLeast = 60;  // observations of ground that settl
 constexpr double kDamping = 1e-3;           // Levenberg's, of the diagonal, at the start
 constexpr double kStepLeast2 = 1e-9;        // a step of 0.03 mm and mrad is the last
 constexpr float kStill2 = 4e-6F;            // 2 mm and mrad: surfaces are found anew for more
-constexpr std::uint32_t kCountLeast = 12;    // observations for three unknowns
+constexpr std::uint32_t kCountLeast = 12;   // observations for three unknowns
 constexpr float kNear_m = 0.3F;             // from a plane whose relief is not asked: most of a tile's layer
 constexpr float kFacesAlong = 0.6F;         // cosine: within 53 degrees, as facing_of has it
 
@@ -105,8 +105,7 @@ class Equations {
       const FourTruths known = known_share > zero;
       const FourFloats variance =
           load_four(&s_.variance[i]) * (known ? all_four(scales.variance[1]) : all_four(scales.variance[0]));
-      const FourFloats cut2 =
-          use_relief ? kTukey * kTukey * variance + all_four(1e-4F) : all_four(kNear_m * kNear_m);
+      const FourFloats cut2 = use_relief ? kTukey * kTukey * variance + all_four(1e-4F) : all_four(kNear_m * kNear_m);
       const FourFloats squared = distance * distance;
       const FourFloats left = larger_of(one - squared / cut2, zero), trust = left * left;
       const FourFloats weight = trust / variance, pull = weight * distance;
@@ -222,7 +221,7 @@ struct Step {
 // Levenberg-Marquardt on three of the six moves. False where too little counts.
 bool iterate(const Equations& equations, const Step& step, const StepOptions& options, const Scales& scales,
              float (&by)[6], Sums* sums) {
-  const auto at = [&](const float (&moves)[6]) {
+  const auto at = [&](const float(&moves)[6]) {
     return equations.sum_up(step.first, step.last, step.free, moves, scales, options.use_relief);
   };
   double damping = kDamping;

@@ -239,8 +239,7 @@ Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface
 
 void ReliefMap::add(const Eigen::Vector3f& p, std::uint8_t facing) {
   Surface at;
-  Tile* const tile =
-      last_ != nullptr && is_still_over(*last_, p, facing, &at) ? last_ : tile_for(p, facing, &at);
+  Tile* const tile = last_ != nullptr && is_still_over(*last_, p, facing, &at) ? last_ : tile_for(p, facing, &at);
   if (tile == nullptr) return;
   last_ = tile;
   tile->seen = keyframe_;

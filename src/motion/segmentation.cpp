@@ -83,8 +83,8 @@ class Clusters {
  private:
   bool is_rock(std::uint16_t i) const { return i != kNoPoint && (image_.flags[i] & kGround) == 0; }
 
-  // The one of the two that is of the same surface; none where that is ground. Where the next is none of the surface, as
-  // between the lines of a pattern or in dust, the next but one is asked.
+  // The one of the two that is of the same surface; none where that is ground. Where the next is none of the surface,
+  // as between the lines of a pattern or in dust, the next but one is asked.
   std::uint16_t other_of(std::uint16_t at, std::uint16_t next, std::uint16_t but_one) const {
     for (const std::uint16_t other : {next, but_one}) {
       if (other == kNoPoint) continue;
