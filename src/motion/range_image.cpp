@@ -263,7 +263,8 @@ class Projector {
                     R_(2, 0) * raw.x + R_(2, 1) * raw.y + R_(2, 2) * raw.z + origin_[2]};
     if (!layout_.has_time) return p;
     const FourFloats time = load_four(four.time_s);
-    const FourFloats t = (time > -0.1F) & (time <= 1.0F) ? time : all_four(0.0F), half = 0.5F * t * t;
+    const FourTruths is_time = (time > -0.1F) & (time <= 1.0F);
+    const FourFloats t = is_time ? time : all_four(0.0F), half = 0.5F * t * t;
     const FourPlaces around = turned(p), twice = turned(around);
     p.x += t * (around.x + velocity_[0]) + half * twice.x;
     p.y += t * (around.y + velocity_[1]) + half * twice.y;
