@@ -11,7 +11,8 @@
     bench/instructions/count.py build/arm64 --motion   # frames of the motion library, against motion_figures.csv
     bench/instructions/count.py build/arm64 --functions --sensors os1-64   # which functions a frame's are spent in
 
-Fails where a stage costs more than 5 % above the noted figure, or a frame of motion more than twice the typical one. Needs qemu-aarch64 (package qemu-user) and a C compiler.
+Fails where a stage costs more than 5 % above the noted figure, or a frame of motion more than twice the typical one.
+Needs qemu-aarch64 (package qemu-user) and a C compiler.
 """
 
 import argparse

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "pose_wall.hpp"
+#include "pose_wall.h"
 #include "pose_wall_motion.h"
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
@@ -67,9 +67,10 @@ struct DriversCloud {
 int run(const std::string& scene, std::uint32_t count) {
   const tools::sim::Setup setup = driven(scene);
   const tools::sim::Simulator simulator(setup, kSeed);
-  api::Config config;
+  pose_wall_config config;
+  if (pose_wall_config_init(&config) != POSE_WALL_OK) return EXIT_FAILURE;
   for (const tools::sim::EngineSetting& s : tools::sim::engine_setting_list(setup)) {
-    if (config.set(s.key.c_str(), s.value.c_str()) != POSE_WALL_OK) return EXIT_FAILURE;
+    if (pose_wall_config_set(&config, s.key.c_str(), s.value.c_str()) != POSE_WALL_OK) return EXIT_FAILURE;
   }
   test::MotionUnderTest motion(config);
   for (std::uint32_t i = 0; i < count; ++i) {
