@@ -8,9 +8,11 @@
     bench/instructions/count.py build/arm64 --note     # and write figures.csv anew, on purpose
     bench/instructions/count.py build/arm64 --dear     # clouds that cost most, beside a road of as many points
     bench/instructions/count.py build/arm64 --growth   # how they grow with the points of a frame, and the worst frame
+    bench/instructions/count.py build/arm64 --motion   # frames of the motion library, against motion_figures.csv
     bench/instructions/count.py build/arm64 --functions --sensors os1-64   # which functions a frame's are spent in
 
-Fails where a stage costs more than 5 % above the noted figure. Needs qemu-aarch64 (package qemu-user) and a C compiler.
+Fails where a stage costs more than 5 % above the noted figure, or a frame of motion more than twice the typical one.
+Needs qemu-aarch64 (package qemu-user) and a C compiler.
 """
 
 import argparse
@@ -34,9 +36,13 @@ DEAR = ["road", "equal", "sphere", "ball03", "spread", "dense", "sheets", "rough
         "par4", "par15", "par1028", "climbed0", "climbed1"]
 DEAR_POINTS = [28800, 65536, 131072]
 DEAR_ROADS = 2.5
+MOTION_SCENES = ["rough", "nominal"]
+MOTION_FRAMES = 12
+MOTION_WORST = 2.0  # typical frames
 STEP_LEAST, STEP_MOST = 5, 20  # instructions
 HERE = pathlib.Path(__file__).resolve().parent
 FIGURES = HERE / "figures.csv"
+MOTION_FIGURES = HERE / "motion_figures.csv"
 
 
 def build_plugin(folder):
@@ -45,19 +51,19 @@ def build_plugin(folder):
     return plugin
 
 
-def run(plugin, program, sensor, folder, points=0, arguments=""):
+def run(plugin, program, words, folder, arguments=""):
     """What the program prints of each frame, and the lines the plugin writes."""
     log = pathlib.Path(folder) / "marks"
     command = ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu", "-E", "LD_LIBRARY_PATH=/usr/aarch64-linux-gnu/lib"]
     command += ["-plugin", f"{plugin}{arguments}", "-d", "plugin"]
-    command += ["-D", log, program, sensor, str(FRAMES), str(points)]
+    command += ["-D", log, program] + [str(word) for word in words]
     out = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     return [[int(x) for x in line.split()] for line in out.splitlines()], log.read_text().splitlines()
 
 
 def count(plugin, program, sensor, folder, points=0):
     """Of one sensor: points, voxels, values measured, and instructions by stage, means over the frames."""
-    frames, lines = run(plugin, program, sensor, folder, points)
+    frames, lines = run(plugin, program, [sensor, FRAMES, points], folder)
     marks = [int(line) for line in lines]
     per_frame = len(STAGES) + 1
     if len(frames) != FRAMES or len(marks) != FRAMES * per_frame:
@@ -130,7 +136,7 @@ def show_dear(plugin, program, folder):
 
 def show_functions(plugin, program, sensor, folder):
     """Functions by what they take of a frame, down to a hundredth."""
-    _, lines = run(plugin, program, sensor, folder, arguments=",functions=on")
+    _, lines = run(plugin, program, [sensor, FRAMES, 0], folder, ",functions=on")
     stages = collections.defaultdict(collections.Counter)
     of_mark = {}
     mark = 0
@@ -157,6 +163,41 @@ def show_functions(plugin, program, sensor, folder):
         print_row([millions(counter.total()), f"{counter.total() / frame:.1%}", f"`{name}`", where])
 
 
+def count_motion(plugin, program, scene, folder):
+    """Of one scene: instructions of the mean, the typical and the worst frame."""
+    frames, lines = run(plugin, program, [scene, MOTION_FRAMES], folder)
+    marks = [int(line) for line in lines]
+    if len(frames) != MOTION_FRAMES or len(marks) != 2 * MOTION_FRAMES:
+        sys.exit(f"{scene}: {len(frames)} frames, {len(marks)} marks")
+    costs = sorted(after - before for before, after in zip(marks[::2], marks[1::2]))
+    return {"scene": scene, "points": frames[0][0], "mean": sum(costs) // len(costs),
+            "typical": costs[len(costs) // 2], "worst": costs[-1]}
+
+
+def motion(plugin, program, folder, note):
+    rows = [count_motion(plugin, program, scene, folder) for scene in MOTION_SCENES]
+    print_head(["scene", "points", "mean", "typical", "worst"])
+    for r in rows:
+        print_row([r["scene"], r["points"]] + [millions(r[k]) for k in ("mean", "typical", "worst")])
+    if note:
+        write_figures(MOTION_FIGURES, rows)
+    with MOTION_FIGURES.open(newline="") as file:
+        noted = {r["scene"]: int(r["mean"]) for r in csv.DictReader(file)}
+    worse = [f"{r['scene']}: {millions(r['mean'])} a frame, noted are {millions(noted[r['scene']])}"
+             for r in rows if r["mean"] > noted[r["scene"]] * (1 + TOLERANCE)]
+    worse += [f"{r['scene']}: the worst frame is {r['worst'] / r['typical']:.2f} typical ones"
+              for r in rows if r["worst"] > MOTION_WORST * r["typical"]]
+    if worse:
+        sys.exit("\n".join(worse))
+
+
+def write_figures(path, rows):
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def compare(rows):
     with FIGURES.open(newline="") as file:
         noted = {r["sensor"]: r for r in csv.DictReader(file)}
@@ -176,14 +217,18 @@ def main():
     parser.add_argument("--note", action="store_true", help="write figures.csv anew")
     parser.add_argument("--growth", action="store_true", help="count frames of 5,000 to 260,000 points instead")
     parser.add_argument("--dear", action="store_true", help="count clouds that cost most instead")
+    parser.add_argument("--motion", action="store_true", help="count frames of the motion library instead")
     parser.add_argument("--functions", action="store_true", help="count by function instead, down to a hundredth")
     parser.add_argument("--sensors", default=",".join(SENSORS), help="names, separated by commas")
     options = parser.parse_args()
-    program = options.build / "pose_wall_marked_frames"
+    program = options.build / ("pose_wall_marked_motion" if options.motion else "pose_wall_marked_frames")
     if not program.exists():
         sys.exit(f"{program} is missing: configure with -DPOSE_WALL_BUILD_BENCH=ON")
     with tempfile.TemporaryDirectory() as folder:
         plugin = build_plugin(folder)
+        if options.motion:
+            motion(plugin, program, folder, options.note)
+            return
         if options.growth:
             show_growth(plugin, program, folder)
             return
@@ -197,10 +242,7 @@ def main():
         rows = [count(plugin, program, sensor, folder) for sensor in options.sensors.split(",")]
     show(rows)
     if options.note:
-        with FIGURES.open("w", newline="") as file:
-            writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        write_figures(FIGURES, rows)
         return
     worse = compare(rows)
     for line in worse:

@@ -7,6 +7,7 @@
 
 #include "estimation/small_cholesky.hpp"
 #include "math/finite.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -30,8 +31,8 @@ bool is_known(float value) {
   return value == value;
 }
 
-using Five = Eigen::Matrix<double, 5, 1>;
-using FiveByFive = Eigen::Matrix<double, 5, 5>;
+using Rest = Eigen::Matrix<double, kRest, 1>;
+using RestByRest = Eigen::Matrix<double, kRest, kRest>;
 
 class CurveBuilder {
  public:
@@ -91,32 +92,17 @@ class CurveBuilder {
     for (std::uint32_t i = 0; i < count && rows_ < kRowsMost; i += stride) {
       if (measure_row(scan_.observation[i], local, axis)) ++rows_;
     }
+    fill_up();
   }
 
   // The best fit of the other five at each shift comes off the misfits.
   void fit_the_rest(std::uint32_t k) {
-    FiveByFive A = FiveByFive::Identity() * 1e-3;
-    Five b = Five::Zero();
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      const float misfit = s_->misfit[k * kRowsMost + row];
-      if (!(misfit * misfit < kCap)) continue;
-      const float* const J = &s_->jacobian[5 * row];
-      for (int i = 0; i < 5; ++i) {
-        for (int j = 0; j <= i; ++j) A(i, j) += static_cast<double>(J[i] * J[j]);
-        b[i] -= static_cast<double>(J[i] * misfit);
-      }
-    }
-    for (int i = 0; i < 5; ++i) {
-      for (int j = 0; j < i; ++j) A(j, i) = A(i, j);
-    }
-    const SmallCholesky<5> factor(A);
-    if (!factor.solved()) return;
-    const Eigen::Matrix<float, 5, 1> by = factor.solve(b).cast<float>();
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      float& misfit = s_->misfit[k * kRowsMost + row];
-      const float* const J = &s_->jacobian[5 * row];
-      for (int i = 0; i < 5; ++i) misfit += J[i] * by[i];  // unknown stays so
-    }
+    float* const misfits = &s_->misfit[k * kRowsMost];
+    RestByRest A = RestByRest::Identity() * 1e-3;
+    Rest b = Rest::Zero();
+    sum_up(misfits, &A, &b);
+    const SmallCholesky<kRest> factor(A);
+    if (factor.solved()) take_off(factor.solve(b), misfits);
   }
 
   void square() {
@@ -177,6 +163,51 @@ class CurveBuilder {
   }
 
  private:
+  // Normal equations of the rest at one shift, four rows at once.
+  void sum_up(const float* misfits, RestByRest* A, Rest* b) const {
+    const FourFloats zero = all_four(0.0F);
+    FourFloats squares[kRest * (kRest + 1) / 2], pulls[kRest];
+    for (FourFloats& four : squares) four = zero;
+    for (FourFloats& four : pulls) four = zero;
+    for (std::uint32_t row = 0; row < rows_; row += kFour) {
+      const FourFloats misfit = load_four(misfits + row);
+      const FourTruths counts = misfit * misfit < kCap;
+      const FourFloats known = counts ? misfit : zero;
+      FourFloats J[kRest];
+      for (int i = 0, n = 0; i < kRest; ++i) {
+        const FourFloats all = load_four(jacobian(i) + row);
+        J[i] = counts ? all : zero;
+        for (int j = 0; j <= i; ++j) squares[n++] += J[i] * J[j];
+        pulls[i] -= J[i] * known;
+      }
+    }
+    for (int i = 0, n = 0; i < kRest; ++i) {
+      for (int j = 0; j <= i; ++j) (*A)(i, j) += sum_of_lanes(squares[n++]);
+      for (int j = 0; j < i; ++j) (*A)(j, i) = (*A)(i, j);
+      (*b)[i] += sum_of_lanes(pulls[i]);
+    }
+  }
+
+  void take_off(const Rest& rest, float* misfits) const {
+    const Eigen::Matrix<float, kRest, 1> by = rest.cast<float>();
+    for (std::uint32_t row = 0; row < rows_; row += kFour) {
+      FourFloats misfit = load_four(misfits + row);
+      for (int i = 0; i < kRest; ++i) misfit += load_four(jacobian(i) + row) * by[i];
+      store_four(misfit, misfits + row);  // unknown stays so
+    }
+  }
+
+  // How rows go with the i-th of the rest.
+  float* jacobian(int i) const { return &s_->jacobian[static_cast<std::uint32_t>(i) * kRowsMost]; }
+
+  // The last four rows are whole: those behind the last are known nowhere.
+  void fill_up() const {
+    for (std::uint32_t row = rows_; row % kFour != 0; ++row) {
+      for (std::uint32_t k = 0; k < shifts_; ++k) s_->misfit[k * kRowsMost + row] = unknown();
+      for (int i = 0; i < kRest; ++i) jacobian(i)[row] = 0.0F;
+    }
+  }
+
   int half_of(std::uint32_t row) const { return static_cast<int>((s_->tile[row] * 0x9E3779B1U) >> 31U); }
 
   // Its mean over the shifts at which the map knows it, with the curve taken off.
@@ -208,21 +239,12 @@ class CurveBuilder {
     if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
-    float* const J = &s_->jacobian[5 * rows_];
-    for (int k = 0; k < 3; ++k) J[k] = axis[k].dot(lever) * weight;
-    J[3] = axis[1].dot(fit.normal) * weight;
-    J[4] = axis[2].dot(fit.normal) * weight;
+    for (int k = 0; k < 3; ++k) jacobian(k)[rows_] = axis[k].dot(lever) * weight;
+    jacobian(3)[rows_] = axis[1].dot(fit.normal) * weight;
+    jacobian(4)[rows_] = axis[2].dot(fit.normal) * weight;
     s_->tile[rows_] = static_cast<std::uint16_t>(scan_.map->index_of(fit.surface.tile));
-    std::uint32_t known = 0;
-    for (std::uint32_t k = 0; k < shifts_; ++k) {
-      float& misfit = s_->misfit[k * kRowsMost + rows_];
-      const Eigen::Vector3f shifted = fit.p + static_cast<float>(shift_m(k)) * axis[0];
-      if (fit_shifted(scan_, shifted, fit, faces, &misfit)) {
-        ++known;
-      } else {
-        misfit = unknown();
-      }
-    }
+    const Shifts shifts = {axis[0], static_cast<float>(shift_m(0)), static_cast<float>(step_m_), shifts_};
+    const std::uint32_t known = fit_shifted(scan_, fit, shifts, faces, kRowsMost, &s_->misfit[rows_]);
     return known > shifts_ / 2;
   }
 
@@ -281,7 +303,7 @@ bool is_evidence(const Curve& curve) {
 
 void CurveScratch::lay_out(Arena& arena) {
   misfit = arena.take<float>(kShiftsMost * kRowsMost);
-  jacobian = arena.take<float>(5 * kRowsMost);
+  jacobian = arena.take<float>(kRest * kRowsMost);
   tile = arena.take<std::uint16_t>(kRowsMost);
   gain = arena.take<float>(kTilesMost);
 }

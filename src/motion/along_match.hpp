@@ -13,6 +13,7 @@ namespace pose_wall::motion {
 
 constexpr std::uint32_t kShiftsMost = 33;  // 0.4 m to each side in steps of 25 mm
 constexpr std::uint32_t kRowsMost = 2048;  // observations of the curve
+constexpr int kRest = 5;                   // turns about along, across and up, and moves across and up
 
 struct Curve {
   double best_m = 0.0;    // shift of the scan along the road that fits best, to a part of a step
@@ -32,7 +33,7 @@ bool is_evidence(const Curve& curve);
 struct CurveScratch {
   void lay_out(Arena& arena);
   Span<float> misfit;    // [shift][row], in deviations; NaN where the map knows nothing
-  Span<float> jacobian;  // [row][5]
+  Span<float> jacobian;  // [kRest][row]
   Span<std::uint16_t> tile;
   Span<float> gain;  // [tile]; 0 for one that no row lies on
 };

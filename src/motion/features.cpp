@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "math/four_floats.hpp"
+
 namespace pose_wall::motion {
 namespace {
 
@@ -19,7 +21,7 @@ constexpr std::int32_t kTries = 4;
 
 // The ranges of one row, in the order of directions, 0 where no point was kept; its ends go round.
 struct RowOfRanges {
-  float range[kImageColumnsMost + 2 * kAround];
+  float range[kImageColumnsMost + 2 * kAround + kFour] = {};
   std::uint32_t columns;
 
   void read(const RangeImage& image, std::uint32_t row) {
@@ -34,35 +36,29 @@ struct RowOfRanges {
       range[static_cast<std::int32_t>(columns) + kAround + k] = range[kAround + k];
     }
   }
-
-  // Whether the nearest neighbours hide the point: what lies behind an edge moves with the sensor.
-  bool is_hidden(std::uint32_t column) const {
-    const float* const at = range + column + kAround;
-    const float least = *at - kOcclusion_m - 0.1F * *at;
-    for (const int k : {-2, -1, 1, 2}) {
-      if (at[k] > 0.0F && at[k] < least) return true;
-    }
-    return false;
-  }
 };
 
-// Sums over the neighbours on both sides, kept as the column goes on.
-struct Window {
-  float sum = 0.0F;
-  std::int32_t found = 0;
+// What a row says of four points that lie side by side, from the column on.
+struct FourColumns {
+  explicit FourColumns(const float* at) {
+    const FourFloats r = load_four(at), zero = all_four(0.0F), least = 0.9F * r - kOcclusion_m;
+    FourFloats sum = zero;
+    FourInts found = all_four_ints(0);
+    FourTruths hidden = all_four_ints(0);
+    for (std::int32_t k = -kAround; k <= kAround; ++k) {
+      const FourFloats near = load_four(at + k);
+      sum += near;
+      found -= near > zero;
+      // The nearest neighbours hide a point: what lies behind an edge moves with the sensor.
+      if (k >= -2 && k <= 2) hidden |= (near > zero) & (near < least);
+    }
+    told = (r > zero) & (found > kAround) & ~hidden;
+    // |sum of (r_j - r_i)| / (n r_i), the document's smoothness.
+    const FourFloats n = __builtin_convertvector(found, FourFloats);
+    flat = magnitude_of(sum - n * r) < kEdgeCurvature * n * r;
+  }
 
-  explicit Window(const RowOfRanges& row) {
-    for (std::int32_t k = 0; k < 2 * kAround; ++k) take(row.range[k], 1);
-  }
-  void take(float range, std::int32_t sign) {
-    sum += static_cast<float>(sign) * range;
-    found += range > 0.0F ? sign : 0;
-  }
-  // |sum of (r_j - r_i)| / (n r_i), the document's smoothness.
-  float curvature(float r) const {
-    const float n = static_cast<float>(found);
-    return std::fabs(sum - n * r) / (n * r);
-  }
+  FourTruths told, flat;
 };
 
 // The first point in a direction that lies on the same surface.
@@ -76,7 +72,8 @@ std::uint16_t neighbour(const RangeImage& image, std::int32_t row, std::int32_t 
 }
 
 std::uint32_t cube_of(const Eigen::Vector3f& p) {
-  const auto whole = [](float v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(v))); };
+  // cut off towards zero is down where all is positive
+  const auto whole = [](float v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(v)); };
   const std::uint32_t key = whole(p.x()) * 0x9E3779B1U ^ whole(p.y()) * 0x85EBCA77U ^ whole(p.z()) * 0xC2B2AE3DU;
   return ((key * 0x27D4EB2FU) >> 16) & (kCubes - 1);
 }
@@ -97,16 +94,16 @@ FeatureCounts mark_features(RangeImage* image) {
   RowOfRanges line;
   for (std::uint32_t row = 0; row < image->rows; ++row) {
     line.read(*image, row);
-    Window window(line);
-    for (std::uint32_t column = 0; column < image->columns; ++column) {
-      window.take(line.range[column + 2 * kAround], 1);
-      const float r = line.range[column + kAround];
-      if (r > 0.0F && window.found > kAround && !line.is_hidden(column)) {
-        const bool flat = window.curvature(r) < kEdgeCurvature;
-        image->flags[image->cell[row * image->columns + column]] |= flat ? kPlane : kEdge;
+    const std::uint16_t* const cell = image->cell.data() + row * image->columns;
+    for (std::uint32_t column = 0; column < image->columns; column += kFour) {
+      const FourColumns four(line.range + column + kAround);
+      if (!any_of(four.told)) continue;
+      for (std::uint32_t lane = 0; lane < kFour && column + lane < image->columns; ++lane) {
+        if (four.told[lane] == 0) continue;
+        const bool flat = four.flat[lane] != 0;
+        image->flags[cell[column + lane]] |= flat ? kPlane : kEdge;
         ++(flat ? counts.planes : counts.edges);
       }
-      window.take(line.range[column], -1);
     }
   }
   return counts;
@@ -146,6 +143,16 @@ bool facing_of(const Eigen::Vector3f& n, std::uint8_t* facing) {
   return true;
 }
 
+bool FacingWalk::go_to(std::uint32_t point) {
+  constexpr float kHolds_m = 0.5F * kBaseline_m;
+  const Eigen::Vector3f p = image_.point(point);
+  if (has_begun_ && (p - at_).squaredNorm() < kHolds_m * kHolds_m) return faces_;
+  has_begun_ = true;
+  at_ = p;
+  faces_ = normal_about(image_, point, &normal_) && facing_of(R_ * normal_, &facing_);
+  return faces_;
+}
+
 void ObservationScratch::lay_out(Arena& arena) {
   taken = arena.take<std::uint8_t>(kCubes);
 }
@@ -154,7 +161,8 @@ std::uint32_t choose_observations(const RangeImage& image, const Pose& expected,
                                   Span<Observation> out) {
   scratch->taken.fill(0);
   const Eigen::Matrix3f R = expected.R.cast<float>();
-  const Eigen::Vector3f t = (expected.t - expected.t.array().floor().matrix()).cast<float>();
+  constexpr float kAway_m = 128.0F;  // no point is so far off
+  const Eigen::Vector3f t = (expected.t - expected.t.array().floor().matrix()).cast<float>().array() + kAway_m;
   std::uint32_t count = 0;
   // In steps of the golden ratio, so that where the cubes are full what is left out is left out evenly.
   std::uint32_t step = static_cast<std::uint32_t>(0.618034 * image.count) | 1U;

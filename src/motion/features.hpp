@@ -34,6 +34,24 @@ bool normal_about(const RangeImage& image, std::uint32_t point, Eigen::Vector3f*
 // The axis of the map that a normal faces; false where it faces none by 53 degrees.
 bool facing_of(const Eigen::Vector3f& normal_map, std::uint8_t* facing);
 
+// Facings of points one after the other, as they lie in the image: within half of what a normal reaches the last one's
+// holds for its neighbours.
+class FacingWalk {
+ public:
+  FacingWalk(const RangeImage& image, const Eigen::Matrix3f& R_map_base) : image_(image), R_(R_map_base) {}
+  // False where the surface faces no axis, or there is none.
+  bool go_to(std::uint32_t point);
+  std::uint8_t facing() const { return facing_; }
+  const Eigen::Vector3f& normal() const { return normal_; }  // base
+
+ private:
+  const RangeImage& image_;
+  Eigen::Matrix3f R_;
+  Eigen::Vector3f at_ = Eigen::Vector3f::Zero(), normal_ = Eigen::Vector3f::Zero();
+  std::uint8_t facing_ = kFacesX;
+  bool faces_ = false, has_begun_ = false;
+};
+
 struct ObservationScratch {
   void lay_out(Arena& arena);
   Span<std::uint8_t> taken;  // of each cubic metre

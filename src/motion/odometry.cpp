@@ -23,7 +23,9 @@ constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by
 constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
 // Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
 constexpr double kHalvesMost_m = 0.12;
-constexpr double kHall = 0.3;  // hold along the axis: its own planes tell the way
+constexpr double kHall = 0.3;                   // hold along the axis: its own planes tell the way
+constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; a sparse sensor's are all asked
+constexpr int kPassesMost = 4;                  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
 constexpr double kFirstReach = 1.5;  // of what the top speed allows: its own place is not the edge of the search
 constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
@@ -51,7 +53,7 @@ void Odometry::lay_out(Arena& arena) {
   segment_.lay_out(arena);
   choice_.lay_out(arena);
   observation_ = arena.take<Observation>(kObservationsMost);
-  patches_.lay_out(arena);
+  steps_.lay_out(arena);
   curve_.lay_out(arena);
   map_.lay_out(arena);
 }
@@ -126,14 +128,12 @@ void Odometry::take_in_scan() {
   map_.begin_keyframe();
   const LocalPose local(pose_, map_.corner());
   const Eigen::Vector3f sensor = reading_.lidar_base_m.cast<float>();
-  for (std::uint32_t i = 0; i < image_.count; ++i) {
-    if ((image_.flags[i] & kPlane) == 0) continue;
-    Eigen::Vector3f normal;
-    std::uint8_t facing;
-    if (!normal_about(image_, i, &normal) || !facing_of(local.R * normal, &facing)) continue;
+  FacingWalk walk(image_, local.R);
+  for (const std::uint16_t i : image_.cell.first(image_.rows * image_.columns)) {
+    if (i == kNoPoint || (image_.flags[i] & kPlane) == 0 || !walk.go_to(i)) continue;
     const float range = image_.range[i];
-    if (range > kRockRange_m && !(-normal.dot(image_.point(i) - sensor) > kFarIncidence * range)) continue;
-    map_.add(local(image_.point(i)), facing);
+    if (range > kRockRange_m && !(-walk.normal().dot(image_.point(i) - sensor) > kFarIncidence * range)) continue;
+    map_.add(local(image_.point(i)), walk.facing());
   }
   map_.end_keyframe();
 }
@@ -166,20 +166,16 @@ void Odometry::align(Frame* frame) {
   find_axes(scan, forward, &a);
   StepOptions coarse;
   coarse.with_along = a.axes.hold > kHall;
-  const int passes = frame->wide ? 4 : 1;
   coarse.every = frame->wide ? 1 : 4;
-  for (int pass = 0; pass < passes; ++pass) {
-    step_one(scan, coarse, &patches_, &a);
-    step_two(scan, coarse, &patches_, &a);
+  for (int pass = 0; pass < kPassesMost && take_steps(scan, coarse, &steps_, &a); ++pass) {
   }
   find_axes(scan, forward, &a);
   match_way(frame);
   StepOptions fine;
   fine.use_relief = true;
+  fine.every = (frame->observations.size() + kEquationsMost - 1) / kEquationsMost;
   fine.rounds = 3;
-  step_one(scan, fine, &patches_, &a);
-  fine.every = 2;  // walls are many, ground may be little
-  step_two(scan, fine, &patches_, &a);
+  take_steps(scan, fine, &steps_, &a);
   if (!frame->is(POSE_WALL_ALONG_UNOBSERVABLE)) refine(scan, frame);
   frame->reasons |= bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND);
   if (a.matched >= kMatchedLeast) return;
@@ -371,6 +367,10 @@ void Odometry::keep_map(const Frame& frame) {
     guesses_ = false;
     return;
   }
+  if (begins_unbent(frame)) {  // the map begins anew with this very scan
+    travel_.take_in(frame.alignment.covariance);
+    return;
+  }
   const double moved_m = std::sqrt((pose_.t - keyframe_.t).squaredNorm());
   const double turned_rad = std::sqrt(turn_of(keyframe_.R.transpose() * pose_.R).squaredNorm());
   const bool known = frame.is(POSE_WALL_ALONG_MEASURED) || frame.guessed;
@@ -382,7 +382,8 @@ void Odometry::keep_map(const Frame& frame) {
   }
 }
 
-bool Odometry::was_bent(const Frame& frame) const {
+bool Odometry::begins_unbent(const Frame& frame) const {
+  if (!is_bent_ || !frame.is(POSE_WALL_ALONG_MEASURED)) return false;
   const double speed_m_s = std::sqrt(twist_.velocity_m_s.squaredNorm());
   const double turn_rad_s = std::sqrt(twist_.turn_rad_s.squaredNorm());
   return frame.dt_s * (speed_m_s + kBentAt_m * turn_rad_s) > kBent_m;
@@ -435,7 +436,7 @@ void Odometry::measure(Frame* frame) {
     align(frame);
     if (!frame->is(POSE_WALL_ALONG_LOST)) conclude(frame);
     if (!frame->is(POSE_WALL_ALONG_MEASURED)) return;
-    if (is_bent_ && was_bent(*frame)) begin_unbent(*frame);
+    if (begins_unbent(*frame)) begin_unbent(*frame);
     is_bent_ = false;
   } else {
     frame->reasons |= POSE_WALL_MOTION_R_FEW_MATCHES;

@@ -47,7 +47,7 @@ class Odometry {
   void keep_map(const Frame& frame);
   void conclude(Frame* frame);
   Eigen::Vector3d shrunk_turn(const Frame& frame) const;
-  bool was_bent(const Frame& frame) const;
+  bool begins_unbent(const Frame& frame) const;
   void begin_unbent(const Frame& frame);
   void begin_map_here();
   void begin_run(std::int64_t stamp_ns);
@@ -62,7 +62,7 @@ class Odometry {
   SegmentScratch segment_;
   ObservationScratch choice_;
   Span<Observation> observation_;
-  PatchSums patches_;
+  StepScratch steps_;
   CurveScratch curve_;
   // memory
   ReliefMap map_;

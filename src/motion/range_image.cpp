@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "math/four_floats.hpp"
 #include "stages/voxel_cloud_reader.hpp"
 
 namespace pose_wall::motion {
@@ -14,16 +15,17 @@ namespace {
 constexpr std::uint32_t kLooks = 4096;  // points that tell a cloud's rings, elevations and times
 constexpr double kRingsLeast = 4.0;     // fewer: a driver of a pattern without rings that fills in the field
 constexpr float kTurn_rad = 6.2831853F;
+constexpr std::uint32_t kBodyBoxes = sizeof(Reading::body) / sizeof(Box);
 
 // Within 1e-3 rad: which column, no more (the odd polynomial of Hastings, Approximations for Digital Computers, 1955).
-float rough_arc_tangent2(float y, float x) {
-  const float ax = std::fabs(x), ay = std::fabs(y);
-  const float big = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
-  const float q = big > 0.0F ? small / big : 0.0F, s = q * q;
-  float a = ((-0.0464964749F * s + 0.15931422F) * s - 0.327622764F) * s * q + q;
-  if (ay > ax) a = 1.57079637F - a;
-  if (x < 0.0F) a = 3.14159274F - a;
-  return y < 0.0F ? -a : a;
+FourFloats rough_arc_tangent2(FourFloats y, FourFloats x) {
+  const FourFloats ax = magnitude_of(x), ay = magnitude_of(y), zero = all_four(0.0F);
+  const FourFloats big = larger_of(ax, ay), small = smaller_of(ax, ay);
+  const FourFloats q = big > zero ? small / big : zero, s = q * q;
+  FourFloats a = ((-0.0464964749F * s + 0.15931422F) * s - 0.327622764F) * s * q + q;
+  a = ay > ax ? 1.57079637F - a : a;
+  a = x < zero ? 3.14159274F - a : a;
+  return y < zero ? -a : a;
 }
 
 // A scan takes 0.01 to 1 s: the unit of its times by how far they spread; 0 where no unit makes a scan of them.
@@ -145,13 +147,6 @@ Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
   return layout;
 }
 
-bool is_of_body(const Reading& reading, const Eigen::Vector3f& p) {
-  for (const Box& box : reading.body) {
-    if (box.holds_something() && box.contains(p.x(), p.y(), p.z())) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void RangeImage::lay_out(Arena& arena) {
@@ -166,103 +161,156 @@ void RangeImage::lay_out(Arena& arena) {
 
 namespace {
 
-// Which cell a point belongs to, and where it lies in base.
+// Four points on their way into the image.
+struct Four {
+  float x[kFour], y[kFour], z[kFour];  // as the cloud has them
+  float ring[kFour], time_s[kFour];
+};
+
+// Which cells points belong to, and where they lie in base.
 class Projector {
  public:
-  Projector(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist)
+  Projector(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image)
       : reader_(cloud),
         layout_(look_at(cloud, reader_)),
         cloud_(cloud),
-        reading_(reading),
         R_(reading.R_base_lidar.cast<float>()),
         origin_(reading.lidar_base_m.cast<float>()),
         velocity_(twist.velocity_m_s.cast<float>()),
         turn_(twist.turn_rad_s.cast<float>()),
         near2_(static_cast<float>(reading.range_min_m * reading.range_min_m)),
-        far2_(static_cast<float>(reading.range_max_m * reading.range_max_m)) {
-    for (const Box& box : reading.body) has_body_ = has_body_ || box.holds_something();
+        far2_(static_cast<float>(reading.range_max_m * reading.range_max_m)),
+        image_(image) {
+    for (const Box& box : reading.body) {
+      if (!box.holds_something()) continue;
+      const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
+      for (int k = 0; k < 6; ++k) body_[boxes_][k] = static_cast<float>(edges[k]);
+      ++boxes_;
+    }
   }
 
   const Layout& layout() const { return layout_; }
-  Raw read(const unsigned char* point) const { return reader_.xyz(point); }
 
-  // False for a point that is no return, or out of range.
-  bool cell_of(const unsigned char* point, const Raw& raw, float* range, std::uint32_t* place) const {
-    const float r2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
-    if (!(r2 >= near2_ && r2 <= far2_)) return false;
-    *range = std::sqrt(r2);
-    float row;
-    if (layout_.has_ring) {
-      const float ring = reader_.ring(point);
-      if (!(ring >= 0.0F && ring < static_cast<float>(layout_.rings))) return false;
-      row = ring * static_cast<float>(static_cast<double>(layout_.rows) / layout_.rings);
-    } else {
-      row = (raw.z / *range - layout_.sine_least) * layout_.row_scale;
+  void read(const unsigned char* point, std::uint32_t lane, Four* four) const {
+    const Raw raw = reader_.xyz(point);
+    four->x[lane] = raw.x, four->y[lane] = raw.y, four->z[lane] = raw.z;
+    if (layout_.has_ring) four->ring[lane] = reader_.ring(point);
+    if (layout_.has_time) {
+      four->time_s[lane] =
+          static_cast<float>((reader_.number(point, cloud_.time) - layout_.time_least) * layout_.time_unit_s);
     }
-    const float top = static_cast<float>(layout_.rows) - 0.5F;
-    row = row > 0.0F ? (row < top ? row : top) : 0.0F;
-    const float column = (rough_arc_tangent2(raw.y, raw.x) / kTurn_rad + 0.5F) * static_cast<float>(layout_.columns);
-    const std::uint32_t turned = static_cast<std::uint32_t>(static_cast<std::int32_t>(column));
-    *place = static_cast<std::uint32_t>(static_cast<std::int32_t>(row)) * layout_.columns +
-             (turned < layout_.columns ? turned : 0);
-    return true;
   }
 
-  // At the stamp, to second order of the turn. False for a point of the machine's own body.
-  bool base_of(const unsigned char* point, const Raw& raw, Eigen::Vector3f* p) const {
-    *p = R_ * Eigen::Vector3f(raw.x, raw.y, raw.z) + origin_;
-    if (layout_.has_time) {
-      const float t =
-          static_cast<float>((reader_.number(point, cloud_.time) - layout_.time_least) * layout_.time_unit_s);
-      if (t > -0.1F && t <= 1.0F) {
-        const Eigen::Vector3f around = turn_.cross(*p);
-        *p += t * (velocity_ + around) + (0.5F * t * t) * turn_.cross(around);
-      }
+  // The first of a cell stays; no returns, what is out of range and the machine's own body go.
+  void put(const Four& four, FourTruths those) const {
+    const FourPlaces raw = {load_four(four.x), load_four(four.y), load_four(four.z)};
+    const FourFloats r2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
+    const FourFloats range = root_of(r2);
+    those &= (r2 >= near2_) & (r2 <= far2_);
+    FourInts cells;
+    those &= cells_of(four, raw, range, &cells);
+    const FourPlaces p = base_of(four, raw);
+    if (boxes_ > 0) those &= ~is_of_body(p);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const std::uint32_t place = static_cast<std::uint32_t>(cells[lane]);
+      if (those[lane] == 0 || image_->cell[place] != kNoPoint) continue;
+      const std::uint32_t k = image_->count++;
+      image_->cell[place] = static_cast<std::uint16_t>(k);
+      image_->x[k] = p.x[lane], image_->y[k] = p.y[lane], image_->z[k] = p.z[lane], image_->range[k] = range[lane];
+      image_->place[k] = static_cast<std::uint16_t>(place);
+      image_->flags[k] = 0;
     }
-    return !has_body_ || !is_of_body(reading_, *p);
   }
 
  private:
+  FourTruths cells_of(const Four& four, const FourPlaces& raw, FourFloats range, FourInts* cells) const {
+    FourTruths those = all_four_ints(-1);
+    FourFloats row;
+    if (layout_.has_ring) {
+      const FourFloats ring = load_four(four.ring);
+      those = (ring >= 0.0F) & (ring < static_cast<float>(layout_.rings));
+      row = ring * static_cast<float>(static_cast<double>(layout_.rows) / layout_.rings);
+    } else {
+      row = (raw.z / range - layout_.sine_least) * layout_.row_scale;
+    }
+    const FourFloats zero = all_four(0.0F), top = all_four(static_cast<float>(layout_.rows) - 0.5F);
+    row = row > zero ? smaller_of(row, top) : zero;
+    const FourFloats columns = all_four(static_cast<float>(layout_.columns));
+    FourFloats column = (rough_arc_tangent2(raw.y, raw.x) * (1.0F / kTurn_rad) + 0.5F) * columns;
+    column = column >= zero ? column : zero;
+    column = column < columns ? column : zero;  // once round
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      (*cells)[lane] = static_cast<std::int32_t>(row[lane]) * static_cast<std::int32_t>(layout_.columns) +
+                       static_cast<std::int32_t>(column[lane]);
+    }
+    return those;
+  }
+
+  FourTruths is_of_body(const FourPlaces& p) const {
+    FourTruths inside = all_four_ints(0);
+    for (std::uint32_t k = 0; k < boxes_; ++k) {
+      const float(&edge)[6] = body_[k];
+      inside |= (p.x >= edge[0]) & (p.x <= edge[1]) & (p.y >= edge[2]) & (p.y <= edge[3]) & (p.z >= edge[4]) &
+                (p.z <= edge[5]);
+    }
+    return inside;
+  }
+
+  // At the stamp, to second order of the turn.
+  FourPlaces base_of(const Four& four, const FourPlaces& raw) const {
+    FourPlaces p = {R_(0, 0) * raw.x + R_(0, 1) * raw.y + R_(0, 2) * raw.z + origin_[0],
+                    R_(1, 0) * raw.x + R_(1, 1) * raw.y + R_(1, 2) * raw.z + origin_[1],
+                    R_(2, 0) * raw.x + R_(2, 1) * raw.y + R_(2, 2) * raw.z + origin_[2]};
+    if (!layout_.has_time) return p;
+    const FourFloats time = load_four(four.time_s);
+    const FourTruths is_time = (time > -0.1F) & (time <= 1.0F);
+    const FourFloats t = is_time ? time : all_four(0.0F), half = 0.5F * t * t;
+    const FourPlaces around = turned(p), twice = turned(around);
+    p.x += t * (around.x + velocity_[0]) + half * twice.x;
+    p.y += t * (around.y + velocity_[1]) + half * twice.y;
+    p.z += t * (around.z + velocity_[2]) + half * twice.z;
+    return p;
+  }
+  FourPlaces turned(const FourPlaces& p) const {
+    return {turn_[1] * p.z - turn_[2] * p.y, turn_[2] * p.x - turn_[0] * p.z, turn_[0] * p.y - turn_[1] * p.x};
+  }
+
   Reader reader_;
   Layout layout_;
   const pose_wall_cloud& cloud_;
-  const Reading& reading_;
   Eigen::Matrix3f R_;
   Eigen::Vector3f origin_, velocity_, turn_;
   float near2_, far2_;
-  bool has_body_ = false;
+  float body_[kBodyBoxes][6];  // edges of the boxes that hold something
+  std::uint32_t boxes_ = 0;
+  RangeImage* image_;
 };
 
 }  // namespace
 
 void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image) {
-  const Projector projector(cloud, reading, twist);
+  const Projector projector(cloud, reading, twist, image);
   image->rows = projector.layout().rows;
   image->columns = projector.layout().columns;
   image->count = 0;
   image->cell.first(image->rows * image->columns).fill(kNoPoint);
   // More points than cells: a share of them, spread by the golden ratio over rings and directions alike.
   constexpr std::uint32_t kGolden = 0x9E3779B9U;
-  std::uint32_t lot = 0;
-  const std::uint32_t rows_in = rows_of(cloud);
+  const std::uint32_t rows_in = rows_of(cloud), share = projector.layout().share;
+  std::uint32_t lot = 0, gathered = 0;
+  Four four = {};
   for (std::uint32_t row_in = 0; row_in < rows_in; ++row_in) {
     const unsigned char* point = row_of(cloud, row_in);
     for (std::uint32_t i = 0; i < cloud.width; ++i, point += cloud.point_step) {
       lot += kGolden;
-      if (lot > projector.layout().share) continue;
-      const Raw raw = projector.read(point);
-      float range;
-      std::uint32_t place;
-      Eigen::Vector3f p;
-      if (!projector.cell_of(point, raw, &range, &place) || image->cell[place] != kNoPoint) continue;
-      if (!projector.base_of(point, raw, &p)) continue;
-      const std::uint32_t k = image->count++;
-      image->cell[place] = static_cast<std::uint16_t>(k);
-      image->x[k] = p.x(), image->y[k] = p.y(), image->z[k] = p.z(), image->range[k] = range;
-      image->place[k] = static_cast<std::uint16_t>(place);
-      image->flags[k] = 0;
+      if (lot > share) continue;
+      projector.read(point, gathered, &four);
+      if (++gathered < kFour) continue;
+      projector.put(four, first_of_four(kFour));
+      gathered = 0;
     }
   }
+  if (gathered > 0) projector.put(four, first_of_four(gathered));
 }
 
 }  // namespace pose_wall::motion

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "estimation/small_cholesky.hpp"
+#include "math/finite.hpp"
+#include "math/four_floats.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -20,13 +22,11 @@ constexpr float kRockSigma_m = 0.04F;
 constexpr float kTukey = 4.0F;              // deviations beyond which an observation says nothing
 constexpr std::uint32_t kGroundLeast = 60;  // observations of ground that settle roll, pitch and height
 constexpr double kDamping = 1e-3;           // Levenberg's, of the diagonal, at the start
+constexpr double kStepLeast2 = 1e-9;        // a step of 0.03 mm and mrad is the last
+constexpr float kStill2 = 4e-6F;            // 2 mm and mrad: surfaces are found anew for more
+constexpr std::uint32_t kCountLeast = 12;   // observations for three unknowns
 constexpr float kNear_m = 0.3F;             // from a plane whose relief is not asked: most of a tile's layer
 constexpr float kFacesAlong = 0.6F;         // cosine: within 53 degrees, as facing_of has it
-
-// The three parameters of a step: each turns or moves the scan about the place of base.
-struct Parameters {
-  Eigen::Vector3f turn[3], move[3];
-};
 
 struct Sums {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -38,7 +38,7 @@ struct Sums {
 };
 
 // By how much the misfits' variances exceed what noise gives: rock that is finer than the cells, of this step's
-// surfaces. Measured in each round for the next.
+// surfaces.
 struct Scales {
   float variance[2] = {1.0F, 1.0F};
 
@@ -51,18 +51,6 @@ struct Scales {
   }
 };
 
-bool counts(const Observation& o, bool ground_step, bool ground_alone) {
-  if (!ground_step) return o.ground == 0;
-  // Walls tell roll, too. The roof does not count beside the ground: what hangs from it is seen from one side only, and
-  // steel sets under it turned a VLP-16's pitch by half a degree in 6 m.
-  return !ground_alone || o.ground != 0 || o.facing != kFacesZ;
-}
-
-float tukey(float squares, float cut2) {
-  const float left = 1.0F - squares / cut2;
-  return left > 0.0F ? left * left : 0.0F;
-}
-
 // How far the point lies from the rock, and what noise alone gives that; of a fit that holds surface and incidence.
 void measure(Fit* fit) {
   Relief relief;
@@ -73,69 +61,134 @@ void measure(Fit* fit) {
                      kCellSigma_m * kCellSigma_m + (fit->has_relief ? 0.0F : kRockSigma_m * kRockSigma_m);
 }
 
-struct Context {
-  const Scan& scan;
-  const StepOptions& options;
-  const RoadAxes& axes;
-  Parameters parameters;
-  bool ground_step, ground_alone;
+// Walls tell roll, too. The roof does not count beside the ground: what hangs from it is seen from one side only, and
+// steel sets under it turned a VLP-16's pitch by half a degree in 6 m.
+enum Part : std::uint32_t { kOfGround = 0, kOfWalls = 1, kOfRoof = 2, kParts = 3 };
+
+Part part_of(const Observation& o) {
+  return o.ground != 0 ? kOfGround : o.facing == kFacesZ ? kOfRoof : kOfWalls;
+}
+
+// The observations on the map as equations: a distance, and how it goes with six small moves. They are drawn up once;
+// within a step's centimetres surfaces are planes, and each round of the steps is a sum over numbers that lie in rows.
+class Equations {
+ public:
+  Equations(const Scan& scan, const Alignment& a, std::uint32_t every, StepScratch* scratch) : s_(*scratch) {
+    const LocalPose local(a.pose, scan.map->corner());
+    const bool is_road = a.axes.hold < kHoldOfRoad;
+    const Eigen::Vector3f axis[3] = {a.axes.along.cast<float>(), a.axes.left.cast<float>(), a.axes.up.cast<float>()};
+    for (std::uint32_t part = kOfGround; part < kParts; ++part) {
+      begin_[part] = count_;
+      for (std::uint32_t i = 0; i < scan.observation.size(); i += every) {
+        const Observation& o = scan.observation[i];
+        Fit fit;
+        if (part_of(o) != part || !fit_observation(scan, local, o, &fit)) continue;
+        if (is_road && faces_along(fit.normal, axis[0])) continue;
+        add(fit, fit.p - local.t, axis, scan.map->index_of(fit.surface.tile));
+      }
+      fill_up();
+    }
+    begin_[kParts] = count_;
+  }
+
+  // Of the parts from the first to before the last, the pose moved by so much; leaves what each pulls with.
+  Sums sum_up(Part first, std::uint32_t last, const int (&free)[3], const float (&by)[6], const Scales& scales,
+              bool use_relief) const {
+    const FourFloats zero = all_four(0.0F), one = all_four(1.0F);
+    FourFloats A[6] = {zero, zero, zero, zero, zero, zero}, b[3] = {zero, zero, zero}, cost = zero;
+    FourFloats trusts = zero, known_trusts = zero, squares = zero, known_squares = zero;
+    FourInts counted = all_four_ints(0);
+    for (std::uint32_t i = begin_[first]; i < begin_[last]; i += kFour) {
+      FourFloats distance = load_four(&s_.distance[i]);
+      for (int k = 0; k < 6; ++k) distance += load_four(&s_.by_move[k][i]) * by[k];
+      const FourFloats known_share = load_four(&s_.known[i]);
+      const FourTruths known = known_share > zero;
+      const FourFloats variance =
+          load_four(&s_.variance[i]) * (known ? all_four(scales.variance[1]) : all_four(scales.variance[0]));
+      const FourFloats cut2 = use_relief ? kTukey * kTukey * variance + all_four(1e-4F) : all_four(kNear_m * kNear_m);
+      const FourFloats squared = distance * distance;
+      const FourFloats left = larger_of(one - squared / cut2, zero), trust = left * left;
+      const FourFloats weight = trust / variance, pull = weight * distance;
+      store_four(pull, &s_.pull[i]);
+      const FourFloats misfit2 = pull * distance;
+      trusts += trust;
+      known_trusts += known_share * trust;
+      squares += misfit2;
+      known_squares += known_share * misfit2;
+      counted -= left > zero;
+      cost -= cut2 / variance * trust * left;  // Tukey's, but for a constant
+      FourFloats row[3];
+      for (int k = 0; k < 3; ++k) row[k] = load_four(&s_.by_move[free[k]][i]);
+      for (int r = 0, n = 0; r < 3; ++r) {
+        const FourFloats weighed = weight * row[r];
+        for (int j = 0; j <= r; ++j) A[n++] += weighed * row[j];
+        b[r] -= pull * row[r];
+      }
+    }
+    Sums sums;
+    for (int r = 0, n = 0; r < 3; ++r) {
+      for (int j = 0; j <= r; ++j) sums.A(r, j) = sums.A(j, r) = sum_of_lanes(A[n++]);
+      sums.b[r] = sum_of_lanes(b[r]);
+    }
+    sums.cost = sum_of_lanes(cost);
+    sums.count = sum_of_lanes(counted);
+    sums.of_kind[1] = sum_of_lanes(known_trusts), sums.of_kind[0] = sum_of_lanes(trusts) - sums.of_kind[1];
+    sums.squares[1] = sum_of_lanes(known_squares), sums.squares[0] = sum_of_lanes(squares) - sums.squares[1];
+    return sums;
+  }
+
+  // What the patches of rock pull with, each as a whole: the sum of their squares.
+  Eigen::Matrix3d pulls(Part first, std::uint32_t last, const int (&free)[3], std::uint32_t tiles) const {
+    for (int k = 0; k < 3; ++k) s_.sum[k].first(tiles).fill(0.0F);
+    for (std::uint32_t i = begin_[first]; i < begin_[last]; ++i) {
+      const float pull = s_.pull[i];
+      const std::uint32_t tile = s_.tile[i];
+      for (int k = 0; k < 3; ++k) s_.sum[k][tile] += pull * s_.by_move[free[k]][i];
+    }
+    Eigen::Matrix3d B = Eigen::Matrix3d::Zero();
+    for (std::uint32_t t = 0; t < tiles; ++t) {
+      const Eigen::Vector3d g(static_cast<double>(s_.sum[0][t]), static_cast<double>(s_.sum[1][t]),
+                              static_cast<double>(s_.sum[2][t]));
+      if (g.squaredNorm() > 0.0) B += g * g.transpose();  // most tiles are out of sight
+    }
+    return B;
+  }
+
+ private:
+  void add(const Fit& fit, const Eigen::Vector3f& arm, const Eigen::Vector3f (&axis)[3], std::uint32_t tile) {
+    const Eigen::Vector3f lever = arm.cross(fit.normal);
+    for (int k = 0; k < 3; ++k) {
+      s_.by_move[k][count_] = axis[k].dot(fit.normal);
+      s_.by_move[3 + k][count_] = axis[k].dot(lever);
+    }
+    s_.distance[count_] = fit.distance_m;
+    s_.variance[count_] = fit.variance_m2;
+    s_.known[count_] = fit.has_relief ? 1.0F : 0.0F;
+    s_.tile[count_++] = static_cast<std::uint16_t>(tile);
+  }
+
+  // To a whole four, with what lies too far off to count.
+  void fill_up() {
+    constexpr float kFar_m = 100.0F;
+    for (; count_ % kFour != 0; ++count_) {
+      for (Span<float>& by : s_.by_move) by[count_] = 0.0F;
+      s_.distance[count_] = kFar_m;
+      s_.variance[count_] = 1e-4F;
+      s_.known[count_] = 0.0F;
+      s_.tile[count_] = 0;
+    }
+  }
+
+  StepScratch& s_;
+  std::uint32_t count_ = 0, begin_[kParts + 1];
 };
 
-void row_of_fit(const Context& c, const Fit& fit, const Eigen::Vector3f& arm, float (&row)[3]) {
-  const Eigen::Vector3f lever = arm.cross(fit.normal);
-  for (int k = 0; k < 3; ++k) row[k] = c.parameters.turn[k].dot(lever) + c.parameters.move[k].dot(fit.normal);
-}
-
-Sums sum_up(const Context& c, const Pose& pose, const Scales& scales, PatchSums* patches) {
-  Sums sums;
-  const LocalPose local(pose, c.scan.map->corner());
-  const bool is_road = c.axes.hold < kHoldOfRoad;
-  const Eigen::Vector3f along = c.axes.along.cast<float>();
-  for (std::uint32_t i = 0; i < c.scan.observation.size(); i += c.options.every) {
-    const Observation& o = c.scan.observation[i];
-    Fit fit;
-    if (!counts(o, c.ground_step, c.ground_alone) || !fit_observation(c.scan, local, o, &fit)) continue;
-    if (is_road && faces_along(fit.normal, along)) continue;
-    const int kind = fit.has_relief ? 1 : 0;
-    const float variance = fit.variance_m2 * scales.variance[kind];
-    const float cut2 = c.options.use_relief ? kTukey * kTukey * variance + 1e-4F : kNear_m * kNear_m;
-    const float squares = fit.distance_m * fit.distance_m;
-    const float trust = tukey(squares, cut2), weight = trust / variance;
-    if (!(weight > 0.0F)) continue;
-    sums.of_kind[kind] += static_cast<double>(trust);
-    sums.squares[kind] += static_cast<double>(trust * squares / variance);
-    float row[3];
-    row_of_fit(c, fit, fit.p - local.t, row);
-    for (int r = 0; r < 3; ++r) {
-      for (int j = 0; j <= r; ++j) sums.A(r, j) += static_cast<double>(weight * row[r] * row[j]);
-      sums.b[r] -= static_cast<double>(weight * row[r] * fit.distance_m);
-    }
-    const float rest = 1.0F - squares / cut2;
-    sums.cost -= static_cast<double>(cut2 / variance * rest * rest * rest);  // Tukey's, but for a constant
-    ++sums.count;
-    if (patches == nullptr) continue;
-    const std::uint32_t tile = c.scan.map->index_of(fit.surface.tile);
-    for (int k = 0; k < 3; ++k) patches->sum[k][tile] += weight * row[k] * fit.distance_m;
-  }
-  sums.A(0, 1) = sums.A(1, 0), sums.A(0, 2) = sums.A(2, 0), sums.A(1, 2) = sums.A(2, 1);
-  return sums;
-}
-
-Pose moved(const Context& c, const Pose& pose, const Eigen::Vector3d& by) {
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero(), move = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) {
-    turn += c.parameters.turn[k].cast<double>() * by[k];
-    move += c.parameters.move[k].cast<double>() * by[k];
-  }
-  return {orthonormal(turn_by(turn) * pose.R), pose.t + move};
-}
-
-Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&free)[3]) {
+Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&asked)[3]) {
   Eigen::Matrix3d A = sums.A;
   Eigen::Vector3d b = sums.b;
   for (int k = 0; k < 3; ++k) {
     A(k, k) += damping * A(k, k) + 1e-9;
-    if (free[k]) continue;
+    if (asked[k]) continue;
     A.row(k).setZero();
     A.col(k).setZero();
     A(k, k) = 1.0;
@@ -146,56 +199,93 @@ Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&free)[3]) {
 }
 
 // Sandwich: A^-1 (sum over patches of g g') A^-1.
-Eigen::Matrix3d covariance_of(const Sums& sums, const bool (&free)[3], PatchSums* patches, std::uint32_t tiles) {
-  Eigen::Matrix3d B = Eigen::Matrix3d::Zero();
-  for (std::uint32_t t = 0; t < tiles; ++t) {
-    const Eigen::Vector3d g(static_cast<double>(patches->sum[0][t]), static_cast<double>(patches->sum[1][t]),
-                            static_cast<double>(patches->sum[2][t]));
-    if (g.squaredNorm() > 0.0) B += g * g.transpose();  // most tiles are out of sight
-  }
+Eigen::Matrix3d covariance_of(const Sums& sums, const bool (&asked)[3], const Eigen::Matrix3d& B) {
   Eigen::Matrix3d inverse;
   for (int k = 0; k < 3; ++k) {
     Sums unit = sums;
     unit.b = Eigen::Vector3d::Unit(k);
-    inverse.col(k) = solve(unit, 0.0, free);
-    if (!free[k]) inverse.col(k).setZero();
+    inverse.col(k) = solve(unit, 0.0, asked);
+    if (!asked[k]) inverse.col(k).setZero();
   }
   return inverse * B * inverse.transpose();
 }
 
-// Levenberg-Marquardt on three parameters. Gives the covariance of the last round.
-Eigen::Matrix3d iterate(const Context& c, const bool (&free)[3], PatchSums* patches, Alignment* a) {
-  double damping = kDamping, last_cost = 1e300;
-  Pose last = a->pose;
-  Sums sums;
-  Scales scales;
-  for (int round = 0; round < c.options.rounds; ++round) {
-    sums = sum_up(c, a->pose, scales, nullptr);
-    if (sums.count < 12) return Eigen::Matrix3d::Zero();
-    if (c.options.use_relief) scales.learn(sums);
-    if (sums.cost > last_cost) {
-      a->pose = last;
+// One step: which parts of the scan tell which three of the six moves.
+struct Step {
+  Part first;
+  std::uint32_t last;
+  int free[3];
+  bool asked[3];
+};
+
+// Levenberg-Marquardt on three of the six moves. False where too little counts.
+bool iterate(const Equations& equations, const Step& step, const StepOptions& options, const Scales& scales,
+             float (&by)[6], Sums* sums) {
+  const auto at = [&](const float(&moves)[6]) {
+    return equations.sum_up(step.first, step.last, step.free, moves, scales, options.use_relief);
+  };
+  double damping = kDamping;
+  *sums = at(by);
+  for (int round = 0; round < options.rounds; ++round) {
+    if (sums->count < kCountLeast) return false;
+    const Eigen::Vector3d move = solve(*sums, damping, step.asked);
+    float trial[6];
+    for (int k = 0; k < 6; ++k) trial[k] = by[k];
+    for (int k = 0; k < 3; ++k) trial[step.free[k]] += static_cast<float>(move[k]);
+    const Sums found = at(trial);
+    if (found.cost > sums->cost) {  // refused: once more from here, more carefully
       damping *= 10.0;
     } else {
-      last = a->pose;
-      last_cost = sums.cost;
+      for (int k = 0; k < 6; ++k) by[k] = trial[k];
+      *sums = found;
       damping *= 0.1;
     }
-    const Eigen::Vector3d by = solve(sums, damping, free);
-    a->pose = moved(c, a->pose, by);
-    if (!(by.squaredNorm() > 1e-9)) break;  // 0.03 mm and mrad
+    if (!(move.squaredNorm() > kStepLeast2)) break;
   }
-  if (!c.options.use_relief) return Eigen::Matrix3d::Zero();
-  const std::uint32_t tiles = c.scan.map->tiles();
-  for (int k = 0; k < 3; ++k) patches->sum[k].first(tiles).fill(0.0F);
-  sums = sum_up(c, a->pose, scales, patches);
-  (c.ground_step ? a->ground : a->matched) = sums.count;
-  return covariance_of(sums, free, patches, tiles);
+  return sums->count >= kCountLeast;
+}
+
+void take_step(const Equations& equations, const Step& step, const StepOptions& options, std::uint32_t tiles,
+               float (&by)[6], Alignment* a) {
+  Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
+  Scales scales;
+  Sums sums;
+  bool told = iterate(equations, step, options, scales, by, &sums);
+  if (told && options.use_relief) {
+    // What the first rounds leave tells the noise, and the last ones go by it.
+    scales.learn(sums);
+    told = iterate(equations, step, options, scales, by, &sums);
+    scales.learn(sums);
+    sums = equations.sum_up(step.first, step.last, step.free, by, scales, true);
+    (step.first == kOfGround ? a->ground : a->matched) = sums.count;
+    if (told) C = covariance_of(sums, step.asked, equations.pulls(step.first, step.last, step.free, tiles));
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) a->covariance(step.free[i], step.free[j]) = C(i, j);
+  }
+}
+
+// along, left and up, and turns about them.
+Pose moved(const Alignment& a, const float (&by)[6]) {
+  const Eigen::Vector3d* const axis[3] = {&a.axes.along, &a.axes.left, &a.axes.up};
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero(), move = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    move += *axis[k] * static_cast<double>(by[k]);
+    turn += *axis[k] * static_cast<double>(by[3 + k]);
+  }
+  return {orthonormal(turn_by(turn) * a.pose.R), a.pose.t + move};
 }
 
 }  // namespace
 
-void PatchSums::lay_out(Arena& arena) {
+void StepScratch::lay_out(Arena& arena) {
+  constexpr std::uint32_t kMost = kObservationsMost + kParts * kFour;
+  for (Span<float>& by : by_move) by = arena.take<float>(kMost);
+  distance = arena.take<float>(kMost);
+  variance = arena.take<float>(kMost);
+  known = arena.take<float>(kMost);
+  pull = arena.take<float>(kMost);
+  tile = arena.take<std::uint16_t>(kMost);
   for (Span<float>& s : sum) s = arena.take<float>(kTilesMost);
 }
 
@@ -215,20 +305,60 @@ bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation&
   return true;
 }
 
-bool fit_shifted(const Scan& scan, const Eigen::Vector3f& p, const Fit& before, bool by_plane, float* misfit) {
-  Fit fit;
-  if (!scan.map->find_again(p, before.surface.tile, &fit.surface)) return false;
-  fit.incidence2 = before.incidence2;
-  measure(&fit);
-  if (!fit.has_relief && !by_plane) return false;
-  *misfit = fit.distance_m / std::sqrt(fit.variance_m2);
-  return true;
+namespace {
+
+// Of a point that left its tile. Begins at the tile where the one before lay.
+bool fit_beyond(const Scan& scan, const Eigen::Vector3f& p, bool by_plane, Fit* fit, float* misfit) {
+  Surface surface;
+  if (!scan.map->find_again(p, fit->surface.tile, &surface)) return false;
+  fit->surface = surface;
+  measure(fit);
+  *misfit = fit->distance_m / std::sqrt(fit->variance_m2);
+  return fit->has_relief || by_plane;
+}
+
+}  // namespace
+
+std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts, bool by_plane, std::uint32_t apart,
+                          float* misfit) {
+  const Tile& tile = *fit.surface.tile;
+  const float by_u = shifts.axis[kU[tile.facing]], by_v = shifts.axis[kV[tile.facing]];
+  const float by_above = shifts.axis[tile.facing] - tile.slope_u * by_u - tile.slope_v * by_v;
+  const FourFloats ray_variance = all_four(kRangeSigma_m * kRangeSigma_m * fit.incidence2);
+  Fit beyond = fit;
+  std::uint32_t known = 0;
+  for (std::uint32_t k = 0; k < shifts.count; k += kFour) {
+    const float first = static_cast<float>(k);
+    const FourFloats shift = (FourFloats{0.0F, 1.0F, 2.0F, 3.0F} + first) * shifts.step_m + shifts.first_m;
+    const FourSurfaces at = {&tile, fit.surface.u + shift * by_u, fit.surface.v + shift * by_v,
+                             fit.surface.above_m + shift * by_above};
+    const FourTruths inside = (magnitude_of(at.u) <= 0.5F) & (magnitude_of(at.v) <= 0.5F);
+    const FourTruths on = inside & (magnitude_of(at.above_m) < kLayer_m);
+    FourReliefs relief;
+    const FourTruths has_relief = on & ReliefMap::relief(at, &relief);
+    const FourFloats zero = all_four(0.0F);
+    const FourFloats distance = (at.above_m - (has_relief ? relief.height_m : zero)) * tile.cosine;
+    const FourFloats variance = ray_variance * (has_relief ? relief.spread : all_four(1.0F)) +
+                                kCellSigma_m * kCellSigma_m +
+                                (has_relief ? zero : all_four(kRockSigma_m * kRockSigma_m));
+    const FourFloats misfits = distance / root_of(variance);
+    for (std::uint32_t lane = 0; lane < kFour && k + lane < shifts.count; ++lane) {
+      bool is_known = has_relief[lane] != 0 || (by_plane && on[lane] != 0);
+      float found = misfits[lane];
+      if (inside[lane] == 0) {
+        is_known = fit_beyond(scan, fit.p + shift[lane] * shifts.axis, by_plane, &beyond, &found);
+      }
+      misfit[(k + lane) * apart] = is_known ? found : static_cast<float>(not_a_number());
+      known += is_known ? 1U : 0U;
+    }
+  }
+  return known;
 }
 
 void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* a) {
   const LocalPose local(a->pose, scan.map->corner());
   Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
-  constexpr std::uint32_t kEvery = 4;  // an axis needs no more
+  constexpr std::uint32_t kEvery = 8;  // an axis needs no more
   for (std::uint32_t i = 0; i < scan.observation.size(); i += kEvery) {
     Fit fit;
     if (!fit_observation(scan, local, scan.observation[i], &fit) || !(std::fabs(fit.distance_m) < 0.15F)) continue;
@@ -256,33 +386,21 @@ void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* 
   a->axes.up = axis.cross(a->axes.left);
 }
 
-void step_one(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* a) {
+bool take_steps(const Scan& scan, const StepOptions& options, StepScratch* scratch, Alignment* a) {
   std::uint32_t ground = 0;
   for (const Observation& o : scan.observation) ground += o.ground;
   a->ground_alone = ground >= kGroundLeast;
-  Context c = {scan, options, a->axes, {}, true, a->ground_alone};
-  const Eigen::Vector3f zero = Eigen::Vector3f::Zero();
-  c.parameters = {{a->axes.along.cast<float>(), a->axes.left.cast<float>(), zero},
-                  {zero, zero, a->axes.up.cast<float>()}};
-  const bool free[3] = {true, true, true};
-  const Eigen::Matrix3d C = iterate(c, free, patches, a);
-  constexpr int kAt[] = {3, 4, 2};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) a->covariance(kAt[i], kAt[j]) = C(i, j);
-  }
-}
-
-void step_two(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* a) {
-  Context c = {scan, options, a->axes, {}, false, false};
-  const Eigen::Vector3f zero = Eigen::Vector3f::Zero();
-  c.parameters = {{zero, zero, a->axes.up.cast<float>()},
-                  {a->axes.along.cast<float>(), a->axes.left.cast<float>(), zero}};
-  const bool free[3] = {options.with_along, true, true};
-  const Eigen::Matrix3d C = iterate(c, free, patches, a);
-  constexpr int kAt[] = {0, 1, 5};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) a->covariance(kAt[i], kAt[j]) = C(i, j);
-  }
+  const Equations equations(scan, *a, options.every, scratch);
+  const std::uint32_t tiles = scan.map->tiles();
+  float by[6] = {};
+  const Step one = {kOfGround, a->ground_alone ? kOfRoof : kParts, {3, 4, 2}, {true, true, true}};
+  take_step(equations, one, options, tiles, by, a);
+  const Step two = {kOfWalls, kParts, {0, 1, 5}, {options.with_along, true, true}};
+  take_step(equations, two, options, tiles, by, a);
+  a->pose = moved(*a, by);
+  float far2 = 0.0F;
+  for (const float move : by) far2 += move * move;
+  return far2 > kStill2;
 }
 
 }  // namespace pose_wall::motion

@@ -29,9 +29,16 @@ struct Fit {
   bool has_relief;
 };
 bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit);
-// The same for a pose that is shifted a little: misfit in deviations, of a fit that holds incidence and tile. False
-// where the map does not know the rock.
-bool fit_shifted(const Scan& scan, const Eigen::Vector3f& p, const Fit& before, bool by_plane, float* misfit);
+// The same for poses that are shifted by equal steps.
+struct Shifts {
+  Eigen::Vector3f axis;
+  float first_m, step_m;
+  std::uint32_t count;
+};
+// Misfits in deviations, `apart` numbers apart, of a fit that holds incidence and tile; NaN where the map does not know
+// the rock, unless the plane will do. Gives at how many shifts the map knows it.
+std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts, bool by_plane, std::uint32_t apart,
+                          float* misfit);
 
 // Hold along the axis (RoadAxes): below it no plane tells the way. What faces along are bumps of the rock then, which
 // are seen from one side only; they drew steel sets by 30 mm (2026-11, simulated).
@@ -54,9 +61,15 @@ struct Alignment {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
-struct PatchSums {
+// The equations of a step, side by side: four are summed at once.
+struct StepScratch {
   void lay_out(Arena& arena);
-  Span<float> sum[3];
+  Span<float> by_move[6];  // how the distance goes along, across, up, and with turns about these axes
+  Span<float> distance, variance;
+  Span<float> known;  // 1 where the map knows the relief
+  Span<float> pull;   // distance by its weight, as last summed
+  Span<std::uint16_t> tile;
+  Span<float> sum[3];  // by tile
 };
 
 // From surfaces nearby, or with use_relief from those within a few deviations of the rock. with_along: the step across
@@ -68,7 +81,8 @@ struct StepOptions {
   std::uint32_t every = 1;  // of so many observations one is asked
 };
 void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* alignment);
-void step_one(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* alignment);
-void step_two(const Scan& scan, const StepOptions& options, PatchSums* patches, Alignment* alignment);
+// Step one, by ground and walls: roll, pitch and height. Step two, by walls and roof: the place across and yaw. Whether
+// they went so far that others would follow.
+bool take_steps(const Scan& scan, const StepOptions& options, StepScratch* scratch, Alignment* alignment);
 
 }  // namespace pose_wall::motion

@@ -12,6 +12,7 @@
 
 #include "containers/arena.hpp"
 #include "containers/span.hpp"
+#include "math/four_floats.hpp"
 #include "motion/pose.hpp"
 
 namespace pose_wall::motion {
@@ -73,6 +74,15 @@ struct Relief {
   float spread;  // variance of a point's height against this, in variances of a single one
 };
 
+// Four points over one tile, and the rock there.
+struct FourSurfaces {
+  const Tile* tile;
+  FourFloats u, v, above_m;
+};
+struct FourReliefs {
+  FourFloats height_m, spread;
+};
+
 class ReliefMap {
  public:
   void lay_out(Arena& arena);
@@ -92,9 +102,13 @@ class ReliefMap {
 
   // By the two nearest cells along u; false where one of them is empty.
   static bool relief(const Surface& at, Relief* out);
+  static FourTruths relief(const FourSurfaces& at, FourReliefs* out);
 
   // A scan goes in between begin and end.
-  void begin_keyframe() { ++keyframe_; }
+  void begin_keyframe() {
+    ++keyframe_;
+    last_ = nullptr;
+  }
   void add(const Eigen::Vector3f& p, std::uint8_t facing);
   void end_keyframe();
   // Planes stay, what is known of the rock about them goes.
@@ -115,11 +129,13 @@ class ReliefMap {
   std::uint32_t bucket_of(std::int32_t u, std::int32_t v, std::uint8_t facing) const;
   Tile* tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface* at);
   std::int32_t take_tile();
+  bool is_still_over(const Tile& tile, const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) const;
   void settle(Tile* tile);
 
   Span<Tile> tile_;
   Span<std::int16_t> bucket_;
   Span<std::int16_t> fresh_;
+  Tile* last_ = nullptr;  // that a point of this keyframe went to
   std::uint32_t used_ = 0, fresh_count_ = 0, keyframe_ = 0;
   bool gave_way_ = false;
   std::int32_t corner_[3] = {0, 0, 0};

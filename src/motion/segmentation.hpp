@@ -17,8 +17,9 @@ struct Segments {
 
 struct SegmentScratch {
   void lay_out(Arena& arena);
-  Span<std::uint16_t> queue;
-  Span<std::uint8_t> visited;
+  Span<std::uint16_t> label;     // of a point
+  Span<std::uint16_t> leads_to;  // another label of the same cluster, or itself
+  Span<std::uint16_t> size;      // points of a cluster, by the label that stands for it
 };
 
 // Sets kGround and kKept. R_map_base: the attitude that is expected, which "level" is meant by.

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: rock that was shifted by a known way is found there; smooth walls, floors that slope or roll, walls that lean
-// or bend tell nothing; rock that repeats has a second place, one pitch away.
+// or bend tell nothing; rock that repeats has a second place, whole pitches away.
 
 #include "motion/along_match.hpp"
 
@@ -133,7 +133,7 @@ TEST_F(AlongTheRoad, ARefinedPlaceIsNearAndKnowsHowNear) {
     ASSERT_TRUE(fine.told) << ahead_m;
     EXPECT_NEAR(fine.best_m, ahead_m, 8e-3);
     EXPECT_GT(fine.sigma_m, 0.0);
-    EXPECT_LT(fine.sigma_m, 5e-3);
+    EXPECT_LT(fine.sigma_m, 8e-3);  // with the halves as the tiles' numbers part them
     EXPECT_LE(std::fabs(fine.best_m - ahead_m), 5.0 * fine.sigma_m) << "beyond five of its own deviations";
   }
 }
@@ -198,7 +198,7 @@ TEST_F(AlongTheRoad, AnExactSensorIsToldNothingWrongBySmoothSurfaces) {
   }
 }
 
-TEST_F(AlongTheRoad, RockThatRepeatsHasASecondPlaceOnePitchAway) {
+TEST_F(AlongTheRoad, RockThatRepeatsHasASecondPlaceWholePitchesAway) {
   constexpr double kPitch_m = 0.3;
   room_.relief = [](int face, double u, double v) {
     return face < 2 ? 0.0 : 0.02 * std::sin(2.0 * M_PI * u / kPitch_m + face + 0.7 * v);
@@ -208,7 +208,8 @@ TEST_F(AlongTheRoad, RockThatRepeatsHasASecondPlaceOnePitchAway) {
     const Curve curve = curve_of(ahead_m);
     ASSERT_TRUE(curve.told);
     EXPECT_GT(curve.second_gain, 0.7);
-    EXPECT_NEAR(std::fabs(curve.second_m), kPitch_m, 0.04);
+    EXPECT_GT(std::fabs(curve.second_m), 0.5 * kPitch_m);
+    EXPECT_NEAR(std::remainder(curve.second_m, kPitch_m), 0.0, 0.04);
     const double rest = std::remainder(curve.best_m - ahead_m, kPitch_m);
     EXPECT_NEAR(rest, 0.0, 6e-3) << "at one of them";
   }

@@ -51,8 +51,7 @@ class Pipeline {
     options.with_along = with_along;
     for (int pass = 0; pass < passes; ++pass) {
       if (pass == 4) options.use_relief = true;
-      step_one(scan(), options, patches.get(), &a);
-      step_two(scan(), options, patches.get(), &a);
+      take_steps(scan(), options, steps.get(), &a);
     }
     return a;
   }
@@ -60,7 +59,7 @@ class Pipeline {
   Reading reading;
   Laid<RangeImage> image;
   Laid<ReliefMap> map;
-  Laid<PatchSums> patches;
+  Laid<StepScratch> steps;
   Laid<CurveScratch> curve;
   Segments segments;
   FeatureCounts features;
