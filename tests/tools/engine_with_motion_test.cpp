@@ -30,7 +30,7 @@ struct Seen {
   double error[POSE_WALL_QUANTITIES];
 };
 
-std::vector<Seen> run(const std::string& scene, std::uint32_t frames, std::initializer_list<const char*> parameters,
+std::vector<Seen> seen_in(const std::string& scene, std::uint32_t frames, std::initializer_list<const char*> parameters,
                       const char* motion) {
   sim::Setup setup = sim::make_setup(scene, "os1-64", false, 5);
   for (const char* parameter : parameters) sim::set_parameter(setup, parameter);
@@ -47,7 +47,7 @@ std::vector<Seen> run(const std::string& scene, std::uint32_t frames, std::initi
     Seen seen{api::make_result(), {}};
     EXPECT_EQ(engine.process(frame.cloud, seen.result), POSE_WALL_OK);
     const TruthRow truth = simulator.truth(i);
-    for (int q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       seen.error[q] = std::fabs(seen.result.quantity[q].value - truth.value[q]);
     }
     all.push_back(seen);
@@ -57,7 +57,7 @@ std::vector<Seen> run(const std::string& scene, std::uint32_t frames, std::initi
 
 void expect_none_beyond(const std::vector<Seen>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
-    for (int q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       const pose_wall_value& v = all[i].result.quantity[q];
       if (v.state != POSE_WALL_INVALID) {
         EXPECT_LE(all[i].error[q], v.protection_level) << "frame " << i << " quantity " << q;
@@ -67,8 +67,8 @@ void expect_none_beyond(const std::vector<Seen>& all) {
 }
 
 TEST(EngineWithMotion, AWallThatIsSilentStaysHeldOnAMachineThatDrives) {
-  const auto with = run("rough", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "on");
-  const auto alone = run("rough", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "off");
+  const auto with = seen_in("rough", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "on");
+  const auto alone = seen_in("rough", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "off");
   expect_none_beyond(with);
   const pose_wall_value &held = with.back().result.quantity[POSE_WALL_D_LF],
                         &gone = alone.back().result.quantity[POSE_WALL_D_LF];
@@ -79,8 +79,8 @@ TEST(EngineWithMotion, AWallThatIsSilentStaysHeldOnAMachineThatDrives) {
 }
 
 TEST(EngineWithMotion, ATurnThatIsQuickerThanTheConfigAllowsForIsNoJump) {
-  const auto with = run("clean", 25, {"turn_rate_dps=5", "turned_left_deg=-6"}, "on");
-  const auto alone = run("clean", 25, {"turn_rate_dps=5", "turned_left_deg=-6"}, "off");
+  const auto with = seen_in("clean", 25, {"turn_rate_dps=5", "turned_left_deg=-6"}, "on");
+  const auto alone = seen_in("clean", 25, {"turn_rate_dps=5", "turned_left_deg=-6"}, "off");
   expect_none_beyond(with);
   double most = 0.0, most_alone = 0.0;
   for (std::size_t i = 5; i < with.size(); ++i) {
@@ -95,7 +95,7 @@ TEST(EngineWithMotion, ATurnThatIsQuickerThanTheConfigAllowsForIsNoJump) {
 
 TEST(EngineWithMotion, ABentCloudIsMeasuredAsAStraightOne) {
   const std::initializer_list<const char*> turning = {"turn_rate_dps=10", "turned_left_deg=-12", "scan_s=0.1"};
-  const auto with = run("rough", 25, turning, "on"), alone = run("rough", 25, turning, "off");
+  const auto with = seen_in("rough", 25, turning, "on"), alone = seen_in("rough", 25, turning, "off");
   expect_none_beyond(with);
   double error = 0.0, error_alone = 0.0;
   for (std::size_t i = 8; i < with.size(); ++i) {
