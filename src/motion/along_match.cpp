@@ -202,7 +202,7 @@ class CurveBuilder {
 
   bool measure_row(const Observation& o, const LocalPose& local, const Eigen::Vector3f (&axis)[3]) {
     Fit fit;
-    if (!fit_observation(scan_, local, o, &fit)) return false;
+    if (!fit_observation(scan_, local, o, &fit) || fit.surface.tile->stands_free != 0) return false;
     // What faces along tells the way by its plane alone.
     const bool faces = faces_along(fit.normal, axis[0]);
     if (faces && alignment_.axes.hold < kHoldOfRoad) return false;

@@ -106,7 +106,7 @@ void Odometry::begin_map_here() {
 
 void Odometry::take_in_scan() {
   keyframe_ = pose_;
-  map_.begin_keyframe();
+  map_.begin_keyframe(pose_.R * reading_.lidar_base_m + pose_.t);
   const LocalPose local(pose_, map_.corner());
   const Eigen::Vector3f sensor = reading_.lidar_base_m.cast<float>();
   for (std::uint32_t i = 0; i < image_.count; ++i) {

@@ -173,7 +173,7 @@ Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface
   const std::int32_t index = fresh_count_ < fresh_.size() ? take_tile() : -1;
   if (index < 0) return nullptr;
   Tile& tile = tile_[static_cast<std::uint32_t>(index)];
-  tile = {place.u, place.v, place.at_k + base, 0.0F, 0.0F, 1.0F, keyframe_, bucket_[bucket], facing, 1, {}};
+  tile = {place.u, place.v, place.at_k + base, 0.0F, 0.0F, 1.0F, keyframe_, bucket_[bucket], facing, 1, 0, {}};
   bucket_[bucket] = static_cast<std::int16_t>(index);
   fresh_[fresh_count_++] = static_cast<std::int16_t>(index);
   *at = {&tile, place.at_u, place.at_v, 0.0F};
@@ -232,6 +232,36 @@ void ReliefMap::settle(Tile* tile) {
 void ReliefMap::end_keyframe() {
   for (std::uint32_t f = 0; f < fresh_count_; ++f) settle(&tile_[static_cast<std::uint32_t>(fresh_[f])]);
   fresh_count_ = 0;
+  for (std::uint32_t t = 0; t < used_; ++t) {
+    if (tile_[t].seen == keyframe_) tile_[t].stands_free = goes_on_behind(tile_[t]) ? 1 : 0;
+  }
+}
+
+bool ReliefMap::has_ground(std::int32_t x, std::int32_t y, float below_m) const {
+  for (std::int32_t i = bucket_[bucket_of(x, y, kFacesZ)]; i >= 0;) {
+    const Tile& tile = tile_[static_cast<std::uint32_t>(i)];
+    i = tile.next;
+    if (tile.u == x && tile.v == y && tile.facing == kFacesZ && tile.height_m < below_m) return true;
+  }
+  return false;
+}
+
+// Another surface over the same square, further from the sensor; or ground, where all of the tile and its layer have
+// ended.
+bool ReliefMap::goes_on_behind(const Tile& tile) const {
+  const float away = tile.height_m > sensor_[tile.facing] ? 1.0F : -1.0F;
+  for (std::int32_t i = bucket_[bucket_of(tile.u, tile.v, tile.facing)]; i >= 0;) {
+    const Tile& other = tile_[static_cast<std::uint32_t>(i)];
+    i = other.next;
+    if (other.u != tile.u || other.v != tile.v || other.facing != tile.facing) continue;
+    if (away * (other.height_m - tile.height_m) > kLayer_m) return true;
+  }
+  if (tile.facing == kFacesZ) return false;
+  const float half_m = 0.5F * (std::fabs(tile.slope_u) + std::fabs(tile.slope_v)) + kLayer_m;
+  const std::int32_t beyond = whole(tile.height_m + away * half_m) + (away > 0.0F ? 1 : -1);
+  const float middle_m = static_cast<float>(tile.v) + 0.5F;
+  const float below_m = middle_m < sensor_.z() ? middle_m : sensor_.z();
+  return tile.facing == kFacesX ? has_ground(beyond, tile.u, below_m) : has_ground(tile.u, beyond, below_m);
 }
 
 void ReliefMap::forget_relief() {

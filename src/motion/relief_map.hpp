@@ -38,7 +38,8 @@ struct Tile {
   std::uint32_t seen;                // by which keyframe, last
   std::int16_t next;                 // another surface over the same square, or another square of the same bucket
   std::uint8_t facing;
-  std::uint8_t fresh;  // began in this keyframe: its slope is not known yet
+  std::uint8_t fresh;        // began in this keyframe: its slope is not known yet
+  std::uint8_t stands_free;  // the road goes on behind it, as the sensor sees it
   Cell cell[kAlongCells * kAcrossCells];
 
   Eigen::Vector3f normal() const {
@@ -94,7 +95,10 @@ class ReliefMap {
   static bool relief(const Surface& at, Relief* out);
 
   // A scan goes in between begin and end.
-  void begin_keyframe() { ++keyframe_; }
+  void begin_keyframe(const Eigen::Vector3d& sensor_map) {
+    ++keyframe_;
+    sensor_ = sensor_map.cast<float>();
+  }
   void add(const Eigen::Vector3f& p, std::uint8_t facing);
   void end_keyframe();
   // Planes stay, what is known of the rock about them goes.
@@ -116,12 +120,15 @@ class ReliefMap {
   Tile* tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface* at);
   std::int32_t take_tile();
   void settle(Tile* tile);
+  bool goes_on_behind(const Tile& tile) const;
+  bool has_ground(std::int32_t x, std::int32_t y, float below_m) const;
 
   Span<Tile> tile_;
   Span<std::int16_t> bucket_;
   Span<std::int16_t> fresh_;
   std::uint32_t used_ = 0, fresh_count_ = 0, keyframe_ = 0;
   bool gave_way_ = false;
+  Eigen::Vector3f sensor_ = Eigen::Vector3f::Zero();  // of this keyframe
   std::int32_t corner_[3] = {0, 0, 0};
 };
 

@@ -31,7 +31,7 @@ class Map : public ::testing::Test {
   // A surface, a point every 1.25 cm in both directions.
   void add(std::uint8_t facing, double u0, double u1, double v0, double v1,
            const std::function<double(double, double)>& height) {
-    map_->begin_keyframe();
+    map_->begin_keyframe(Eigen::Vector3d::Zero());
     for (double u = u0 + 0.00625; u < u1; u += 0.0125) {
       for (double v = v0 + 0.00625; v < v1; v += 0.0125) map_->add(at(facing, u, v, height(u, v)), facing);
     }
@@ -129,7 +129,7 @@ TEST_F(Map, WhereNothingWasSeenItKnowsNothing) {
 }
 
 TEST_F(Map, TwoSurfacesOneAboveTheOtherAreTwo) {
-  map_->begin_keyframe();
+  map_->begin_keyframe(Eigen::Vector3d::Zero());
   for (double u = 0.01; u < 1.0; u += 0.02) {
     for (double v = 0.01; v < 1.0; v += 0.02) {
       map_->add(at(kFacesZ, u, v, 0.0), kFacesZ);
@@ -188,7 +188,7 @@ class FullMap : public Map {
   }
   void fill(int from, int to) {
     for (int i = from; i < to; ++i) {
-      map_->begin_keyframe();
+      map_->begin_keyframe(Eigen::Vector3d::Zero());
       add_tile(i);
       map_->end_keyframe();
     }
@@ -200,7 +200,7 @@ TEST_F(FullMap, WhatWasSeenLongestAgoGivesWay) {
   fill(0, most);
   EXPECT_EQ(map_->tiles(), kTilesMost);
   EXPECT_FALSE(map_->gave_way());
-  map_->begin_keyframe();
+  map_->begin_keyframe(Eigen::Vector3d::Zero());
   add_tile(0);  // seen again: the next oldest is 1
   map_->end_keyframe();
   fill(most, most + 100);
@@ -213,7 +213,7 @@ TEST_F(FullMap, WhatWasSeenLongestAgoGivesWay) {
 
 TEST_F(FullMap, OneScanThatFillsItGivesUpNothingOfItself) {
   const int most = static_cast<int>(kTilesMost);
-  map_->begin_keyframe();
+  map_->begin_keyframe(Eigen::Vector3d::Zero());
   for (int i = 0; i < most + 500; ++i) add_tile(i);
   map_->end_keyframe();
   EXPECT_EQ(map_->tiles(), kTilesMost);
