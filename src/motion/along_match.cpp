@@ -19,6 +19,9 @@ constexpr double kExcluded = 3.0;
 // And by which they must prefer it over all others. On smooth roads of four sensors the best of 17 places reached 4.2
 // (2026-11, simulated).
 constexpr double kPatchesLeast = 5.0;
+// Common to all ranges of a sensor, at most (range_bias_max of the engine). Map and scan hold it alike but for how they
+// were met, and that is a pattern which travels with the machine.
+constexpr float kRangeBias_m = 0.03F;
 // A third of the 10 cm in which rock of half a metre's roughness length bends the curve.
 constexpr double kFineReach_m = 0.036;
 constexpr std::uint32_t kFineShifts = 7;  // a parabola has three numbers
@@ -30,8 +33,8 @@ bool is_known(float value) {
   return value == value;
 }
 
-using Five = Eigen::Matrix<double, 5, 1>;
-using FiveByFive = Eigen::Matrix<double, 5, 5>;
+using Rest = Eigen::Matrix<double, kRest, 1>;
+using RestByRest = Eigen::Matrix<double, kRest, kRest>;
 
 class CurveBuilder {
  public:
@@ -80,7 +83,7 @@ class CurveBuilder {
   double step_m() const { return step_m_; }
   std::uint32_t rows() const { return rows_; }
 
-  // Misfits at every shift, and how each goes with the other five directions.
+  // Misfits at every shift, and how each goes with the rest.
   void measure() {
     rows_ = 0;
     const std::uint32_t count = scan_.observation.size();
@@ -93,29 +96,18 @@ class CurveBuilder {
     }
   }
 
-  // The best fit of the other five at each shift comes off the misfits.
-  void fit_the_rest(std::uint32_t k) {
-    FiveByFive A = FiveByFive::Identity() * 1e-3;
-    Five b = Five::Zero();
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      const float misfit = s_->misfit[k * kRowsMost + row];
-      if (!(misfit * misfit < kCap)) continue;
-      const float* const J = &s_->jacobian[5 * row];
-      for (int i = 0; i < 5; ++i) {
-        for (int j = 0; j <= i; ++j) A(i, j) += static_cast<double>(J[i] * J[j]);
-        b[i] -= static_cast<double>(J[i] * misfit);
+  // The best fit of the rest at each shift comes off the misfits. It is followed from the middle outwards, so that what
+  // counts at a shift is judged by what the rest leaves of it: in a bend the far rows are beyond any cap before.
+  void fit_the_rest() {
+    const std::int32_t middle = static_cast<std::int32_t>(shifts_ / 2), end = static_cast<std::int32_t>(shifts_);
+    const Rest by = fit_at(middle, Rest::Zero());
+    for (const std::int32_t side : {-1, 1}) {
+      Rest before = by, last = by;
+      for (std::int32_t k = middle + side; k >= 0 && k < end; k += side) {
+        const Rest now = fit_at(k, 2.0 * last - before);
+        before = last;
+        last = now;
       }
-    }
-    for (int i = 0; i < 5; ++i) {
-      for (int j = 0; j < i; ++j) A(j, i) = A(i, j);
-    }
-    const SmallCholesky<5> factor(A);
-    if (!factor.solved()) return;
-    const Eigen::Matrix<float, 5, 1> by = factor.solve(b).cast<float>();
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      float& misfit = s_->misfit[k * kRowsMost + row];
-      const float* const J = &s_->jacobian[5 * row];
-      for (int i = 0; i < 5; ++i) misfit += J[i] * by[i];  // unknown stays so
     }
   }
 
@@ -177,6 +169,41 @@ class CurveBuilder {
   }
 
  private:
+  // From what the rest is expected to be at this shift.
+  Rest fit_at(std::int32_t shift, const Rest& expected) {
+    float* const misfits = &s_->misfit[static_cast<std::uint32_t>(shift) * kRowsMost];
+    take_off(expected, misfits);
+    RestByRest A = RestByRest::Identity() * 1e-3;
+    A(kRest - 1, kRest - 1) = 1.0;  // the range error is known to within its bound
+    Rest b = Rest::Zero();
+    b[kRest - 1] = -expected[kRest - 1];
+    for (std::uint32_t row = 0; row < rows_; ++row) {
+      const float misfit = misfits[row];
+      if (!(misfit * misfit < kCap)) continue;
+      const float* const J = &s_->jacobian[kRest * row];
+      for (int i = 0; i < kRest; ++i) {
+        for (int j = 0; j <= i; ++j) A(i, j) += static_cast<double>(J[i] * J[j]);
+        b[i] -= static_cast<double>(J[i] * misfit);
+      }
+    }
+    for (int i = 0; i < kRest; ++i) {
+      for (int j = 0; j < i; ++j) A(j, i) = A(i, j);
+    }
+    const SmallCholesky<kRest> factor(A);
+    if (!factor.solved()) return expected;
+    const Rest by = factor.solve(b);
+    take_off(by, misfits);
+    return expected + by;
+  }
+
+  void take_off(const Rest& rest, float* misfits) const {
+    const Eigen::Matrix<float, kRest, 1> by = rest.cast<float>();
+    for (std::uint32_t row = 0; row < rows_; ++row) {
+      const float* const J = &s_->jacobian[kRest * row];
+      for (int i = 0; i < kRest; ++i) misfits[row] += J[i] * by[i];  // unknown stays so
+    }
+  }
+
   int half_of(std::uint32_t row) const { return static_cast<int>((s_->tile[row] * 0x9E3779B1U) >> 31U); }
 
   // Its mean over the shifts at which the map knows it, with the curve taken off.
@@ -208,10 +235,13 @@ class CurveBuilder {
     if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
-    float* const J = &s_->jacobian[5 * rows_];
+    float* const J = &s_->jacobian[kRest * rows_];
     for (int k = 0; k < 3; ++k) J[k] = axis[k].dot(lever) * weight;
     J[3] = axis[1].dot(fit.normal) * weight;
     J[4] = axis[2].dot(fit.normal) * weight;
+    const Eigen::Vector3f ray = fit.p - local(scan_.sensor_base_m);
+    const float incidence = ray.dot(fit.normal) / std::sqrt(ray.squaredNorm());
+    J[5] = kRangeBias_m * (incidence - fit.surface.tile->incidence) * weight;
     s_->tile[rows_] = static_cast<std::uint16_t>(scan_.map->index_of(fit.surface.tile));
     std::uint32_t known = 0;
     for (std::uint32_t k = 0; k < shifts_; ++k) {
@@ -281,7 +311,7 @@ bool is_evidence(const Curve& curve) {
 
 void CurveScratch::lay_out(Arena& arena) {
   misfit = arena.take<float>(kShiftsMost * kRowsMost);
-  jacobian = arena.take<float>(5 * kRowsMost);
+  jacobian = arena.take<float>(kRest * kRowsMost);
   tile = arena.take<std::uint16_t>(kRowsMost);
   gain = arena.take<float>(kTilesMost);
 }
@@ -314,7 +344,7 @@ Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, 
   CurveBuilder builder(scan, alignment, reach_m, shifts, scratch);
   builder.measure();
   if (builder.rows() < 100) return out;
-  for (std::uint32_t k = 0; k < shifts; ++k) builder.fit_the_rest(k);
+  builder.fit_the_rest();
   builder.square();
   double f[kShiftsMost];
   const double level = builder.curve(f);
@@ -334,7 +364,7 @@ FinePlace refine_along(const Scan& scan, const Alignment& alignment, CurveScratc
   FinePlace out;
   CurveBuilder builder(scan, alignment, kFineReach_m, kFineShifts, scratch);
   builder.measure();
-  for (std::uint32_t k = 0; k < kFineShifts; ++k) builder.fit_the_rest(k);
+  builder.fit_the_rest();
   builder.square();
   const CurveBuilder::Parabolas p = builder.parabolas();
   const double bend = p.bend[0] + p.bend[1];

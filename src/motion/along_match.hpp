@@ -29,10 +29,12 @@ struct Curve {
 // Whether the curve tells a place: the patches agree, and exclude the ends of the search.
 bool is_evidence(const Curve& curve);
 
+constexpr int kRest = 6;  // the other five directions, and the common range error
+
 struct CurveScratch {
   void lay_out(Arena& arena);
   Span<float> misfit;    // [shift][row], in deviations; NaN where the map knows nothing
-  Span<float> jacobian;  // [row][5]
+  Span<float> jacobian;  // [row][kRest]
   Span<std::uint16_t> tile;
   Span<float> gain;  // [tile]; 0 for one that no row lies on
 };

@@ -173,7 +173,7 @@ Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface
   const std::int32_t index = fresh_count_ < fresh_.size() ? take_tile() : -1;
   if (index < 0) return nullptr;
   Tile& tile = tile_[static_cast<std::uint32_t>(index)];
-  tile = {place.u, place.v, place.at_k + base, 0.0F, 0.0F, 1.0F, keyframe_, bucket_[bucket], facing, 1, 0, {}};
+  tile = {place.u, place.v, place.at_k + base, 0.0F, 0.0F, 1.0F, keyframe_, bucket_[bucket], facing, 1, 0, 0, 0.0F, {}};
   bucket_[bucket] = static_cast<std::int16_t>(index);
   fresh_[fresh_count_++] = static_cast<std::int16_t>(index);
   *at = {&tile, place.at_u, place.at_v, 0.0F};
@@ -233,8 +233,22 @@ void ReliefMap::end_keyframe() {
   for (std::uint32_t f = 0; f < fresh_count_; ++f) settle(&tile_[static_cast<std::uint32_t>(fresh_[f])]);
   fresh_count_ = 0;
   for (std::uint32_t t = 0; t < used_; ++t) {
-    if (tile_[t].seen == keyframe_) tile_[t].stands_free = goes_on_behind(tile_[t]) ? 1 : 0;
+    Tile& tile = tile_[t];
+    if (tile.seen != keyframe_) continue;
+    tile.stands_free = goes_on_behind(tile) ? 1 : 0;
+    if (tile.keyframes < 255) ++tile.keyframes;
+    tile.incidence += (incidence_on(tile) - tile.incidence) / static_cast<float>(tile.keyframes);
   }
+}
+
+// Of the ray to its middle.
+float ReliefMap::incidence_on(const Tile& tile) const {
+  Eigen::Vector3f ray;
+  ray[tile.facing] = tile.height_m;
+  ray[kU[tile.facing]] = static_cast<float>(tile.u) + 0.5F;
+  ray[kV[tile.facing]] = static_cast<float>(tile.v) + 0.5F;
+  ray -= sensor_;
+  return tile.normal().dot(ray) / std::sqrt(ray.squaredNorm() + 1e-6F);
 }
 
 bool ReliefMap::has_ground(std::int32_t x, std::int32_t y, float below_m) const {

@@ -40,6 +40,8 @@ struct Tile {
   std::uint8_t facing;
   std::uint8_t fresh;        // began in this keyframe: its slope is not known yet
   std::uint8_t stands_free;  // the road goes on behind it, as the sensor sees it
+  std::uint8_t keyframes;    // that saw it, at most 255
+  float incidence;           // cosine between rays and its normal, mean over these keyframes
   Cell cell[kAlongCells * kAcrossCells];
 
   Eigen::Vector3f normal() const {
@@ -121,6 +123,7 @@ class ReliefMap {
   std::int32_t take_tile();
   void settle(Tile* tile);
   bool goes_on_behind(const Tile& tile) const;
+  float incidence_on(const Tile& tile) const;
   bool has_ground(std::int32_t x, std::int32_t y, float below_m) const;
 
   Span<Tile> tile_;

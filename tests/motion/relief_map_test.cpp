@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the map gives back a tilted plane and the rock about it to a millimetre, in any place, also behind zero and
-// ten kilometres away; between cells it interpolates, at a step anything between the two sides agrees; it forgets what
-// it is told to forget; full, it gives up what was seen longest ago and nothing else.
+// ten kilometres away; between cells it interpolates, at a step anything between the two sides agrees; it knows what
+// the road goes on behind, and how each surface was met; it forgets what it is told to forget; full, it gives up what
+// was seen longest ago and nothing else.
 
 #include "motion/relief_map.hpp"
 
@@ -140,6 +141,50 @@ TEST_F(Map, TwoSurfacesOneAboveTheOtherAreTwo) {
   EXPECT_EQ(map_->tiles(), 2U);
   EXPECT_NEAR(above_rock(kFacesZ, 0.5, 0.5, 0.03), 0.03, 1e-3);
   EXPECT_NEAR(above_rock(kFacesZ, 0.5, 0.5, 1.97), -0.03, 1e-3);
+}
+
+TEST_F(Map, WhatTheRoadGoesOnBehindStandsFree) {
+  const auto stands_free = [this](std::uint8_t facing, double u, double v, double height) {
+    Surface surface;
+    EXPECT_TRUE(map_->find(at(facing, u, v, height), facing, &surface)) << u << " " << v << " " << height;
+    return surface.tile->stands_free != 0;
+  };
+  const auto face = [this](std::uint8_t facing, double u0, double u1, double v0, double v1, double height) {
+    for (double u = u0 + 0.01; u < u1; u += 0.05) {
+      for (double v = v0 + 0.01; v < v1; v += 0.05) map_->add(at(facing, u, v, height), facing);
+    }
+  };
+  map_->begin_keyframe({0.0, 0.0, 1.4});
+  face(kFacesZ, -4.0, 6.0, -2.5, 2.5, 0.0);  // ground, roof, walls, and where the road ends
+  face(kFacesZ, -4.0, 6.0, -2.5, 2.5, 3.5);
+  face(kFacesY, -4.0, 6.0, 0.0, 3.5, 2.5);
+  face(kFacesY, -4.0, 6.0, 0.0, 3.5, -2.5);
+  face(kFacesX, -2.5, 2.5, 0.0, 3.5, 6.0);
+  face(kFacesY, 2.3, 2.7, 0.0, 1.8, 1.7);  // somebody before the left wall, side and front
+  face(kFacesX, 1.7, 2.2, 0.0, 1.8, 2.3);
+  face(kFacesZ, -3.0, -2.0, -1.0, 0.0, 0.8);  // a box on the ground
+  map_->end_keyframe();
+  EXPECT_TRUE(stands_free(kFacesY, 2.5, 1.5, 1.7)) << "the wall is behind";
+  EXPECT_TRUE(stands_free(kFacesX, 1.9, 1.5, 2.3)) << "the ground goes on behind";
+  EXPECT_TRUE(stands_free(kFacesZ, -2.5, -0.5, 0.8)) << "the ground is below";
+  EXPECT_FALSE(stands_free(kFacesY, 2.5, 1.5, 2.5));
+  EXPECT_FALSE(stands_free(kFacesY, -3.5, 0.5, -2.5));
+  EXPECT_FALSE(stands_free(kFacesX, 0.5, 1.5, 6.0));
+  EXPECT_FALSE(stands_free(kFacesZ, -2.5, -0.5, 0.0));
+  EXPECT_FALSE(stands_free(kFacesZ, 2.5, 0.5, 3.5));
+}
+
+TEST_F(Map, ATileKnowsHowItWasMet) {
+  for (const double x : {0.5, 3.5}) {
+    map_->begin_keyframe({x, 0.0, 0.5});
+    for (double u = 0.01; u < 1.0; u += 0.05) {
+      for (double v = 0.01; v < 1.0; v += 0.05) map_->add(at(kFacesY, u, v, 3.0), kFacesY);
+    }
+    map_->end_keyframe();
+  }
+  Surface surface;
+  ASSERT_TRUE(map_->find(at(kFacesY, 0.5, 0.5, 3.0), kFacesY, &surface));
+  EXPECT_NEAR(surface.tile->incidence, 0.5 * (1.0 + std::sqrt(0.5)), 1e-3) << "squarely, and at 45 degrees";
 }
 
 TEST_F(Map, ALaterScanAddsToTheMeanOfACell) {
