@@ -33,6 +33,10 @@ bool is_known(float value) {
   return value == value;
 }
 
+float incidence_of(const Eigen::Vector3f& ray, const Eigen::Vector3f& normal) {
+  return ray.dot(normal) / std::sqrt(ray.squaredNorm());
+}
+
 using Rest = Eigen::Matrix<double, kRest, 1>;
 using RestByRest = Eigen::Matrix<double, kRest, kRest>;
 
@@ -230,9 +234,10 @@ class CurveBuilder {
   bool measure_row(const Observation& o, const LocalPose& local, const Eigen::Vector3f (&axis)[3]) {
     Fit fit;
     if (!fit_observation(scan_, local, o, &fit) || fit.surface.tile->stands_free != 0) return false;
-    // What faces along tells the way by its plane alone.
+    // What faces along tells the way by its plane alone, in a hall. In a bend it is the far wall, of which a ring or
+    // two draw a plane that travels with the sensor.
     const bool faces = faces_along(fit.normal, axis[0]);
-    if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
+    if (faces && alignment_.axes.hold < kHoldOfHall) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
     float* const J = &s_->jacobian[kRest * rows_];
@@ -240,8 +245,8 @@ class CurveBuilder {
     J[3] = axis[1].dot(fit.normal) * weight;
     J[4] = axis[2].dot(fit.normal) * weight;
     const Eigen::Vector3f ray = fit.p - local(scan_.sensor_base_m);
-    const float incidence = ray.dot(fit.normal) / std::sqrt(ray.squaredNorm());
-    J[5] = kRangeBias_m * (incidence - fit.surface.tile->incidence) * weight;
+    const Eigen::Vector3f before = fit.p - scan_.map->seen_from(*fit.surface.tile);
+    J[5] = kRangeBias_m * weight * (incidence_of(ray, fit.normal) - incidence_of(before, fit.normal));
     s_->tile[rows_] = static_cast<std::uint16_t>(scan_.map->index_of(fit.surface.tile));
     std::uint32_t known = 0;
     for (std::uint32_t k = 0; k < shifts_; ++k) {

@@ -23,7 +23,6 @@ constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by
 constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
 // Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
 constexpr double kHalvesMost_m = 0.12;
-constexpr double kHall = 0.3;  // hold along the axis: its own planes tell the way
 constexpr double kCurveStep_m = 0.025;
 constexpr double kFirstReach = 1.5;  // of what the top speed allows: its own place is not the edge of the search
 constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
@@ -148,7 +147,7 @@ void Odometry::align(Frame* frame) {
   const Eigen::Vector3d forward = a.pose.R * settings_.forward_base;
   find_axes(scan, forward, &a);
   StepOptions coarse;
-  coarse.with_along = a.axes.hold > kHall;
+  coarse.with_along = a.axes.hold > kHoldOfHall;
   const int passes = frame->wide ? 4 : 1;
   coarse.every = frame->wide ? 1 : 4;
   for (int pass = 0; pass < passes; ++pass) {
@@ -196,7 +195,8 @@ Curve Odometry::match_near(const Frame& frame) {
 }
 
 // After a gap: the best of curves one beside the other, as far as the machine can have gone. Moves the alignment to
-// its middle. Where another that is not its neighbour tells a place, too, that is a second place.
+// its middle. Where another that is not its neighbour fits nearly as well, that is a second place: it need not tell so
+// by itself.
 Curve Odometry::match_far(Frame* frame) {
   const Alignment middle = frame->alignment;
   const double far_m = settings_.speed_max_m_s * frame->dt_s;
@@ -218,7 +218,7 @@ Curve Odometry::match_far(Frame* frame) {
   }
   for (int k = 0; k <= 2 * windows; ++k) {
     const double away_m = kWindowStep_m * std::fabs(static_cast<double>(k - best));
-    const bool rivals = is_evidence(found[k]) && found[k].bottom < kRivalCost * found[best].bottom;
+    const bool rivals = found[k].told && found[k].bottom < kRivalCost * found[best].bottom;
     if (rivals && away_m > 2.0 * kReachMost_m) found[best].apart_m = away_m + kReachMost_m;
   }
   const double best_at_m = kWindowStep_m * (best - windows);
@@ -342,7 +342,7 @@ void Odometry::keep_map(const Frame& frame) {
   if (slipped_m_ > kSlipMost_m) {
     map_.forget_relief();
     take_in_scan();
-    travel_.take_in(frame.alignment.covariance);
+    travel_.take_in(frame.alignment.covariance, map_.keyframes());
     travel_.slip(slipped_m_, map_.unevenness());
     slipped_m_ = 0.0;
     guesses_ = false;
@@ -355,7 +355,7 @@ void Odometry::keep_map(const Frame& frame) {
   const bool young = since_start_ <= kYoungFrames;
   if (known && (young || moved_m > settings_.keyframe_m || turned_rad > kKeyframeTurn_rad)) {
     take_in_scan();
-    travel_.take_in(frame.alignment.covariance);
+    travel_.take_in(frame.alignment.covariance, map_.keyframes());
   }
 }
 

@@ -18,6 +18,10 @@ constexpr float kPlaceUnit_m = kAlong_m / 256.0F;
 constexpr float kFreshLayer_m = 0.6F;
 constexpr double kRidge = 0.05;  // m2: some flat plane goes into a tile's own, so that a line of points tilts nothing
 
+// From one cell that is known to the next one, in cells: 15 cm, over which rock goes on much as it began. Of a single
+// scan a sparse sensor fills one cell in four, and neighbours seldom.
+constexpr std::int32_t kBridge = 3;
+
 struct Place {
   std::int32_t u, v;       // tile
   float at_u, at_v, at_k;  // from its middle; along the axis, from the corner
@@ -122,16 +126,18 @@ bool ReliefMap::find_again(const Eigen::Vector3f& p, const Tile* before, Surface
 bool ReliefMap::relief(const Surface& at, Relief* out) {
   const Cell* const cells = at.tile->cell + across_cell(at.v) * kAlongCells;
   const std::int32_t i = along_cell(at.u);
-  if (cells[i].count == 0) return false;
-  const float here = along_of(cells[i], i);
-  const std::int32_t j = at.u > here ? i + 1 : i - 1;
-  if (j < 0 || j >= kAlongCells || cells[j].count == 0) return false;
-  const float there = along_of(cells[j], j);
-  const float h0 = height_of(cells[i]), h1 = height_of(cells[j]);
+  const std::int32_t first = i > kBridge ? i - kBridge : 0;
+  const std::int32_t last = i + kBridge < kAlongCells ? i + kBridge : kAlongCells - 1;
+  std::int32_t before = i, behind = i;
+  while (before >= first && !(cells[before].count > 0 && along_of(cells[before], before) <= at.u)) --before;
+  while (behind <= last && !(cells[behind].count > 0 && along_of(cells[behind], behind) > at.u)) ++behind;
+  if (before < first || behind > last || behind - before > kBridge) return false;
+  const float here = along_of(cells[before], before), there = along_of(cells[behind], behind);
+  const float h0 = height_of(cells[before]), h1 = height_of(cells[behind]);
   const float w = (at.u - here) / (there - here);
-  out->spread =
-      1.0F + (1.0F - w) * (1.0F - w) / static_cast<float>(cells[i].count) + w * w / static_cast<float>(cells[j].count);
-  if (!(std::fabs(h1 - h0) > kAlong_m)) {
+  out->spread = 1.0F + (1.0F - w) * (1.0F - w) / static_cast<float>(cells[before].count) +
+                w * w / static_cast<float>(cells[behind].count);
+  if (!(std::fabs(h1 - h0) > there - here)) {
     out->height_m = h0 + w * (h1 - h0);
     return true;
   }
@@ -173,7 +179,7 @@ Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface
   const std::int32_t index = fresh_count_ < fresh_.size() ? take_tile() : -1;
   if (index < 0) return nullptr;
   Tile& tile = tile_[static_cast<std::uint32_t>(index)];
-  tile = {place.u, place.v, place.at_k + base, 0.0F, 0.0F, 1.0F, keyframe_, bucket_[bucket], facing, 1, 0, 0, 0.0F, {}};
+  tile = {place.u, place.v, place.at_k + base, 0.0F, 0.0F, 1.0F, keyframe_, bucket_[bucket], facing, 1, 0, 0, {}, {}};
   bucket_[bucket] = static_cast<std::int16_t>(index);
   fresh_[fresh_count_++] = static_cast<std::int16_t>(index);
   *at = {&tile, place.at_u, place.at_v, 0.0F};
@@ -237,18 +243,9 @@ void ReliefMap::end_keyframe() {
     if (tile.seen != keyframe_) continue;
     tile.stands_free = goes_on_behind(tile) ? 1 : 0;
     if (tile.keyframes < 255) ++tile.keyframes;
-    tile.incidence += (incidence_on(tile) - tile.incidence) / static_cast<float>(tile.keyframes);
+    const float share = 1.0F / static_cast<float>(tile.keyframes);
+    for (int k = 0; k < 3; ++k) tile.seen_from[k] += share * (sensor_[k] - tile.seen_from[k]);
   }
-}
-
-// Of the ray to its middle.
-float ReliefMap::incidence_on(const Tile& tile) const {
-  Eigen::Vector3f ray;
-  ray[tile.facing] = tile.height_m;
-  ray[kU[tile.facing]] = static_cast<float>(tile.u) + 0.5F;
-  ray[kV[tile.facing]] = static_cast<float>(tile.v) + 0.5F;
-  ray -= sensor_;
-  return tile.normal().dot(ray) / std::sqrt(ray.squaredNorm() + 1e-6F);
 }
 
 bool ReliefMap::has_ground(std::int32_t x, std::int32_t y, float below_m) const {

@@ -41,7 +41,7 @@ struct Tile {
   std::uint8_t fresh;        // began in this keyframe: its slope is not known yet
   std::uint8_t stands_free;  // the road goes on behind it, as the sensor sees it
   std::uint8_t keyframes;    // that saw it, at most 255
-  float incidence;           // cosine between rays and its normal, mean over these keyframes
+  float seen_from[3];        // the sensor's place, mean over these keyframes
   Cell cell[kAlongCells * kAcrossCells];
 
   Eigen::Vector3f normal() const {
@@ -96,6 +96,11 @@ class ReliefMap {
   // By the two nearest cells along u; false where one of them is empty.
   static bool relief(const Surface& at, Relief* out);
 
+  // The place from which a tile was seen, as points are given.
+  Eigen::Vector3f seen_from(const Tile& tile) const {
+    return Eigen::Vector3f(tile.seen_from[0], tile.seen_from[1], tile.seen_from[2]) - corner().cast<float>();
+  }
+
   // A scan goes in between begin and end.
   void begin_keyframe(const Eigen::Vector3d& sensor_map) {
     ++keyframe_;
@@ -123,7 +128,6 @@ class ReliefMap {
   std::int32_t take_tile();
   void settle(Tile* tile);
   bool goes_on_behind(const Tile& tile) const;
-  float incidence_on(const Tile& tile) const;
   bool has_ground(std::int32_t x, std::int32_t y, float below_m) const;
 
   Span<Tile> tile_;

@@ -3,8 +3,8 @@
 
 // Proves: the map gives back a tilted plane and the rock about it to a millimetre, in any place, also behind zero and
 // ten kilometres away; between cells it interpolates, at a step anything between the two sides agrees; it knows what
-// the road goes on behind, and how each surface was met; it forgets what it is told to forget; full, it gives up what
-// was seen longest ago and nothing else.
+// the road goes on behind, and from where each surface was seen; it forgets what it is told to forget; full, it gives
+// up what was seen longest ago and nothing else.
 
 #include "motion/relief_map.hpp"
 
@@ -129,6 +129,24 @@ TEST_F(Map, WhereNothingWasSeenItKnowsNothing) {
   EXPECT_FALSE(map_->find(at(kFacesZ, 0.2, 0.5, 0.0), kFacesX, &surface)) << "another facing";
 }
 
+// As a sparse sensor leaves it: a cell in so many.
+TEST_F(Map, ReliefGoesOnOverFifteenCentimetres) {
+  const auto rock = [](double u) { return 0.02 * std::sin(2.0 * M_PI * u); };
+  for (const int apart : {1, 2, 3, 4}) {
+    map_->clear();
+    map_->begin_keyframe(Eigen::Vector3d::Zero());
+    for (double v = 0.05; v < 1.0; v += 0.1) {
+      for (int i = 0; i < 20; i += apart) map_->add(at(kFacesZ, 0.05 * i + 0.025, v, rock(0.05 * i + 0.025)), kFacesZ);
+    }
+    map_->end_keyframe();
+    if (apart > 3) {
+      EXPECT_TRUE(std::isinf(above_rock(kFacesZ, 0.525, 0.55, rock(0.525)))) << "too far from one to the next";
+    } else {
+      EXPECT_NEAR(above_rock(kFacesZ, 0.45, 0.55, rock(0.45)), 0.0, 2e-3) << apart;
+    }
+  }
+}
+
 TEST_F(Map, TwoSurfacesOneAboveTheOtherAreTwo) {
   map_->begin_keyframe(Eigen::Vector3d::Zero());
   for (double u = 0.01; u < 1.0; u += 0.02) {
@@ -174,7 +192,7 @@ TEST_F(Map, WhatTheRoadGoesOnBehindStandsFree) {
   EXPECT_FALSE(stands_free(kFacesZ, 2.5, 0.5, 3.5));
 }
 
-TEST_F(Map, ATileKnowsHowItWasMet) {
+TEST_F(Map, ATileKnowsFromWhereItWasSeen) {
   for (const double x : {0.5, 3.5}) {
     map_->begin_keyframe({x, 0.0, 0.5});
     for (double u = 0.01; u < 1.0; u += 0.05) {
@@ -184,7 +202,8 @@ TEST_F(Map, ATileKnowsHowItWasMet) {
   }
   Surface surface;
   ASSERT_TRUE(map_->find(at(kFacesY, 0.5, 0.5, 3.0), kFacesY, &surface));
-  EXPECT_NEAR(surface.tile->incidence, 0.5 * (1.0 + std::sqrt(0.5)), 1e-3) << "squarely, and at 45 degrees";
+  EXPECT_NEAR(map_->seen_from(*surface.tile).x() + static_cast<float>(map_->corner().x()), 2.0F, 1e-4F)
+      << "between both";
 }
 
 TEST_F(Map, ALaterScanAddsToTheMeanOfACell) {
