@@ -73,7 +73,7 @@ void Odometry::reset() {
   frames_ = 0;
   back_ = 0;
   since_start_ = 0;
-  slipped_m_ = lost_s_ = 0.0;
+  slipped_m_ = lost_s_ = rock_variance_m2_ = 0.0;
   has_map_ = guesses_ = is_bent_ = false;
 }
 
@@ -98,6 +98,7 @@ void Odometry::begin_map(Frame* frame) {
 }
 
 void Odometry::begin_map_here() {
+  rock_variance_m2_ = 0.0;
   map_.clear();
   map_.set_corner(pose_.t);
   take_in_scan();
@@ -182,7 +183,10 @@ void Odometry::refine(const Scan& scan, Frame* frame) {
   // Shifts further off than the curve's own steps resolve, which the patches do not exclude, are within the level.
   const double around_m = frame->curve.around_m > 2.5 * kCurveStep_m ? frame->curve.around_m : 0.0;
   const double sigma_m = around_m / settings_.protection_factor;
-  a.covariance(0, 0) = sigma_m > place.sigma_m ? sigma_m * sigma_m : place.sigma_m * place.sigma_m;
+  // One frame's own estimate of it has heavy tails, and the rock does not change from frame to frame.
+  const double own_m2 = place.sigma_m * place.sigma_m;
+  rock_variance_m2_ = rock_variance_m2_ > 0.0 ? 0.5 * (own_m2 + rock_variance_m2_) : own_m2;
+  a.covariance(0, 0) = sigma_m * sigma_m > rock_variance_m2_ ? sigma_m * sigma_m : rock_variance_m2_;
   frame->halves_m = place.halves_m;
 }
 

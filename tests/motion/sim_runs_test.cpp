@@ -165,13 +165,13 @@ TEST(SimRun, PeopleWhoWalkAlongDoNotOutweighTheRock) {
 }
 
 // A sensor whose ranges are off by 3 cm carries the bend that it sees along with it.
-TEST(SimRun, ABendOfSmoothLiningTellsNothing) {
+TEST(SimRun, ABendOfSmoothLiningTellsHardlyAnythingAndNothingWrong) {
   sim::SceneSetup setup = clean_road(0.5);
   setup.road.curve_radius_m = 20.0;
   for (const double range_bias_m : {0.03, -0.03}) {
     setup.sensor.range_bias_m = range_bias_m;
     const std::vector<MotionFrame> frames = SimulatedRun(setup).run(30);
-    EXPECT_LE(expect_contract(frames), 1U) << range_bias_m;
+    EXPECT_LE(expect_contract(frames), 3U) << range_bias_m;
     expect_nothing_misleading(frames);
   }
 }
