@@ -20,6 +20,9 @@ constexpr double kExcluded = 3.0;
 // And by which they must prefer it over all others. On smooth roads of four sensors the best of 17 places reached 4.2
 // (2026-11, simulated).
 constexpr double kPatchesLeast = 5.0;
+// Common to all ranges of a sensor, at most (range_bias_max of the engine). Map and scan hold it alike but for how they
+// were met, and that is a pattern which travels with the machine.
+constexpr float kRangeBias_m = 0.03F;
 // A third of the 10 cm in which rock of half a metre's roughness length bends the curve.
 constexpr double kFineReach_m = 0.036;
 constexpr std::uint32_t kFineShifts = 7;  // a parabola has three numbers
@@ -29,6 +32,10 @@ float unknown() {
 }
 bool is_known(float value) {
   return value == value;
+}
+
+float incidence_of(const Eigen::Vector3f& ray, const Eigen::Vector3f& normal) {
+  return ray.dot(normal) / std::sqrt(ray.squaredNorm());
 }
 
 using Rest = Eigen::Matrix<double, kRest, 1>;
@@ -81,7 +88,7 @@ class CurveBuilder {
   double step_m() const { return step_m_; }
   std::uint32_t rows() const { return rows_; }
 
-  // Misfits at every shift, and how each goes with the other five directions.
+  // Misfits at every shift, and how each goes with the rest.
   void measure() {
     rows_ = 0;
     const std::uint32_t count = scan_.observation.size();
@@ -95,14 +102,19 @@ class CurveBuilder {
     fill_up();
   }
 
-  // The best fit of the other five at each shift comes off the misfits.
-  void fit_the_rest(std::uint32_t k) {
-    float* const misfits = &s_->misfit[k * kRowsMost];
-    RestByRest A = RestByRest::Identity() * 1e-3;
-    Rest b = Rest::Zero();
-    sum_up(misfits, &A, &b);
-    const SmallCholesky<kRest> factor(A);
-    if (factor.solved()) take_off(factor.solve(b), misfits);
+  // The best fit of the rest at each shift comes off the misfits. It is followed from the middle outwards, so that what
+  // counts at a shift is judged by what the rest leaves of it: in a bend the far rows are beyond any cap before.
+  void fit_the_rest() {
+    const std::int32_t middle = static_cast<std::int32_t>(shifts_ / 2), end = static_cast<std::int32_t>(shifts_);
+    const Rest by = fit_at(middle, Rest::Zero());
+    for (const std::int32_t side : {-1, 1}) {
+      Rest before = by, last = by;
+      for (std::int32_t k = middle + side; k >= 0 && k < end; k += side) {
+        const Rest now = fit_at(k, 2.0 * last - before);
+        before = last;
+        last = now;
+      }
+    }
   }
 
   void square() {
@@ -163,6 +175,22 @@ class CurveBuilder {
   }
 
  private:
+  // From what the rest is expected to be at this shift.
+  Rest fit_at(std::int32_t shift, const Rest& expected) {
+    float* const misfits = &s_->misfit[static_cast<std::uint32_t>(shift) * kRowsMost];
+    take_off(expected, misfits);
+    RestByRest A = RestByRest::Identity() * 1e-3;
+    A(kRest - 1, kRest - 1) = 1.0;  // the range error is known to within its bound
+    Rest b = Rest::Zero();
+    b[kRest - 1] = -expected[kRest - 1];
+    sum_up(misfits, &A, &b);
+    const SmallCholesky<kRest> factor(A);
+    if (!factor.solved()) return expected;
+    const Rest by = factor.solve(b);
+    take_off(by, misfits);
+    return expected + by;
+  }
+
   // Normal equations of the rest at one shift, four rows at once.
   void sum_up(const float* misfits, RestByRest* A, Rest* b) const {
     const FourFloats zero = all_four(0.0F);
@@ -233,15 +261,19 @@ class CurveBuilder {
 
   bool measure_row(const Observation& o, const LocalPose& local, const Eigen::Vector3f (&axis)[3]) {
     Fit fit;
-    if (!fit_observation(scan_, local, o, &fit)) return false;
-    // What faces along tells the way by its plane alone.
+    if (!fit_observation(scan_, local, o, &fit) || fit.surface.tile->stands_free != 0) return false;
+    // What faces along tells the way by its plane alone, in a hall. In a bend it is the far wall, of which a ring or
+    // two draw a plane that travels with the sensor.
     const bool faces = faces_along(fit.normal, axis[0]);
-    if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
+    if (faces && alignment_.axes.hold < kHoldOfHall) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
     for (int k = 0; k < 3; ++k) jacobian(k)[rows_] = axis[k].dot(lever) * weight;
     jacobian(3)[rows_] = axis[1].dot(fit.normal) * weight;
     jacobian(4)[rows_] = axis[2].dot(fit.normal) * weight;
+    const Eigen::Vector3f ray = fit.p - local(scan_.sensor_base_m);
+    const Eigen::Vector3f before = fit.p - scan_.map->seen_from(*fit.surface.tile);
+    jacobian(5)[rows_] = kRangeBias_m * weight * (incidence_of(ray, fit.normal) - incidence_of(before, fit.normal));
     s_->tile[rows_] = static_cast<std::uint16_t>(scan_.map->index_of(fit.surface.tile));
     const Shifts shifts = {axis[0], static_cast<float>(shift_m(0)), static_cast<float>(step_m_), shifts_};
     const std::uint32_t known = fit_shifted(scan_, fit, shifts, faces, kRowsMost, &s_->misfit[rows_]);
@@ -336,7 +368,7 @@ Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, 
   CurveBuilder builder(scan, alignment, reach_m, shifts, scratch);
   builder.measure();
   if (builder.rows() < 100) return out;
-  for (std::uint32_t k = 0; k < shifts; ++k) builder.fit_the_rest(k);
+  builder.fit_the_rest();
   builder.square();
   double f[kShiftsMost];
   const double level = builder.curve(f);
@@ -356,7 +388,7 @@ FinePlace refine_along(const Scan& scan, const Alignment& alignment, CurveScratc
   FinePlace out;
   CurveBuilder builder(scan, alignment, kFineReach_m, kFineShifts, scratch);
   builder.measure();
-  for (std::uint32_t k = 0; k < kFineShifts; ++k) builder.fit_the_rest(k);
+  builder.fit_the_rest();
   builder.square();
   const CurveBuilder::Parabolas p = builder.parabolas();
   const double bend = p.bend[0] + p.bend[1];

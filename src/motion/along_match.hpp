@@ -13,7 +13,7 @@ namespace pose_wall::motion {
 
 constexpr std::uint32_t kShiftsMost = 33;  // 0.4 m to each side in steps of 25 mm
 constexpr std::uint32_t kRowsMost = 2048;  // observations of the curve
-constexpr int kRest = 5;                   // turns about along, across and up, and moves across and up
+constexpr int kRest = 6;  // turns about along, across and up, moves across and up, and the common range error
 
 struct Curve {
   double best_m = 0.0;    // shift of the scan along the road that fits best, to a part of a step
@@ -29,6 +29,7 @@ struct Curve {
 
 // Whether the curve tells a place: the patches agree, and exclude the ends of the search.
 bool is_evidence(const Curve& curve);
+
 
 struct CurveScratch {
   void lay_out(Arena& arena);

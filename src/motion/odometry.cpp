@@ -23,7 +23,6 @@ constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by
 constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
 // Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
 constexpr double kHalvesMost_m = 0.12;
-constexpr double kHall = 0.3;                   // hold along the axis: its own planes tell the way
 constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; a sparse sensor's are all asked
 constexpr int kPassesMost = 4;                  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
@@ -76,7 +75,7 @@ void Odometry::reset() {
   frames_ = 0;
   back_ = 0;
   since_start_ = 0;
-  slipped_m_ = lost_s_ = 0.0;
+  slipped_m_ = lost_s_ = rock_variance_m2_ = 0.0;
   has_map_ = guesses_ = is_bent_ = has_pose_ = false;
   forget_rates();
 }
@@ -118,6 +117,7 @@ void Odometry::forget_rates() {
 }
 
 void Odometry::begin_map_here() {
+  rock_variance_m2_ = 0.0;
   map_.clear();
   map_.set_corner(pose_.t);
   take_in_scan();
@@ -125,7 +125,7 @@ void Odometry::begin_map_here() {
 
 void Odometry::take_in_scan() {
   keyframe_ = pose_;
-  map_.begin_keyframe();
+  map_.begin_keyframe(pose_.R * reading_.lidar_base_m + pose_.t);
   const LocalPose local(pose_, map_.corner());
   const Eigen::Vector3f sensor = reading_.lidar_base_m.cast<float>();
   FacingWalk walk(image_, local.R);
@@ -165,7 +165,7 @@ void Odometry::align(Frame* frame) {
   const Eigen::Vector3d forward = a.pose.R * settings_.forward_base;
   find_axes(scan, forward, &a);
   StepOptions coarse;
-  coarse.with_along = a.axes.hold > kHall;
+  coarse.with_along = a.axes.hold > kHoldOfHall;
   coarse.every = frame->wide ? 1 : 4;
   for (int pass = 0; pass < kPassesMost && take_steps(scan, coarse, &steps_, &a); ++pass) {
   }
@@ -196,7 +196,10 @@ void Odometry::refine(const Scan& scan, Frame* frame) {
   // Shifts further off than the curve's own steps resolve, which the patches do not exclude, are within the level.
   const double around_m = frame->curve.around_m > 2.5 * kCurveStep_m ? frame->curve.around_m : 0.0;
   const double sigma_m = around_m / settings_.protection_factor;
-  a.covariance(0, 0) = sigma_m > place.sigma_m ? sigma_m * sigma_m : place.sigma_m * place.sigma_m;
+  // One frame's own estimate of it has heavy tails, and the rock does not change from frame to frame.
+  const double own_m2 = place.sigma_m * place.sigma_m;
+  rock_variance_m2_ = rock_variance_m2_ > 0.0 ? 0.5 * (own_m2 + rock_variance_m2_) : own_m2;
+  a.covariance(0, 0) = sigma_m * sigma_m > rock_variance_m2_ ? sigma_m * sigma_m : rock_variance_m2_;
   frame->halves_m = place.halves_m;
 }
 
@@ -209,7 +212,8 @@ Curve Odometry::match_near(const Frame& frame) {
 }
 
 // After a gap: the best of curves one beside the other, as far as the machine can have gone. Moves the alignment to
-// its middle. Where another that is not its neighbour tells a place, too, that is a second place.
+// its middle. Where another that is not its neighbour fits nearly as well, that is a second place: it need not tell so
+// by itself.
 Curve Odometry::match_far(Frame* frame) {
   const Alignment middle = frame->alignment;
   const double far_m = settings_.speed_max_m_s * frame->dt_s;
@@ -231,7 +235,7 @@ Curve Odometry::match_far(Frame* frame) {
   }
   for (int k = 0; k <= 2 * windows; ++k) {
     const double away_m = kWindowStep_m * std::fabs(static_cast<double>(k - best));
-    const bool rivals = is_evidence(found[k]) && found[k].bottom < kRivalCost * found[best].bottom;
+    const bool rivals = found[k].told && found[k].bottom < kRivalCost * found[best].bottom;
     if (rivals && away_m > 2.0 * kReachMost_m) found[best].apart_m = away_m + kReachMost_m;
   }
   const double best_at_m = kWindowStep_m * (best - windows);
@@ -361,14 +365,14 @@ void Odometry::keep_map(const Frame& frame) {
   if (slipped_m_ > kSlipMost_m) {
     map_.forget_relief();
     take_in_scan();
-    travel_.take_in(frame.alignment.covariance);
+    travel_.take_in(frame.alignment.covariance, map_.keyframes());
     travel_.slip(slipped_m_, map_.unevenness());
     slipped_m_ = 0.0;
     guesses_ = false;
     return;
   }
   if (begins_unbent(frame)) {  // the map begins anew with this very scan
-    travel_.take_in(frame.alignment.covariance);
+    travel_.take_in(frame.alignment.covariance, map_.keyframes());
     return;
   }
   const double moved_m = std::sqrt((pose_.t - keyframe_.t).squaredNorm());
@@ -378,7 +382,7 @@ void Odometry::keep_map(const Frame& frame) {
   const bool young = since_start_ <= kYoungFrames;
   if (known && (young || moved_m > settings_.keyframe_m || turned_rad > kKeyframeTurn_rad)) {
     take_in_scan();
-    travel_.take_in(frame.alignment.covariance);
+    travel_.take_in(frame.alignment.covariance, map_.keyframes());
   }
 }
 

@@ -73,6 +73,7 @@ class Odometry {
   RoadAxes axes_;
   Travel travel_;
   SixBySix last_covariance_;
+  double rock_variance_m2_ = 0.0;  // of the way along by the rock, pooled over frames; 0: none yet on this map
   std::int64_t stamp_ns_ = 0;
   double period_s_ = 0.0;  // usual time between frames
   std::uint64_t frames_ = 0;

@@ -362,6 +362,7 @@ void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* 
   for (std::uint32_t i = 0; i < scan.observation.size(); i += kEvery) {
     Fit fit;
     if (!fit_observation(scan, local, scan.observation[i], &fit) || !(std::fabs(fit.distance_m) < 0.15F)) continue;
+    if (fit.surface.tile->stands_free != 0) continue;
     const Eigen::Vector3d n = fit.normal.cast<double>();
     N += n * n.transpose();
   }

@@ -43,6 +43,7 @@ std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts
 // Hold along the axis (RoadAxes): below it no plane tells the way. What faces along are bumps of the rock then, which
 // are seen from one side only; they drew steel sets by 30 mm (2026-11, simulated).
 constexpr double kHoldOfRoad = 0.05;
+constexpr double kHoldOfHall = 0.3;  // its own planes tell the way
 bool faces_along(const Eigen::Vector3f& normal, const Eigen::Vector3f& along);
 
 // The road's axes in the map: along is where the surfaces give least hold.

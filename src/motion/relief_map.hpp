@@ -39,7 +39,10 @@ struct Tile {
   std::uint32_t seen;                // by which keyframe, last
   std::int16_t next;                 // another surface over the same square, or another square of the same bucket
   std::uint8_t facing;
-  std::uint8_t fresh;  // began in this keyframe: its slope is not known yet
+  std::uint8_t fresh;        // began in this keyframe: its slope is not known yet
+  std::uint8_t stands_free;  // the road goes on behind it, as the sensor sees it
+  std::uint8_t keyframes;    // that saw it, at most 255
+  float seen_from[3];        // the sensor's place, mean over these keyframes
   Cell cell[kAlongCells * kAcrossCells];
 
   Eigen::Vector3f normal() const {
@@ -104,10 +107,16 @@ class ReliefMap {
   static bool relief(const Surface& at, Relief* out);
   static FourTruths relief(const FourSurfaces& at, FourReliefs* out);
 
+  // The place from which a tile was seen, as points are given.
+  Eigen::Vector3f seen_from(const Tile& tile) const {
+    return Eigen::Vector3f(tile.seen_from[0], tile.seen_from[1], tile.seen_from[2]) - corner().cast<float>();
+  }
+
   // A scan goes in between begin and end.
-  void begin_keyframe() {
+  void begin_keyframe(const Eigen::Vector3d& sensor_map) {
     ++keyframe_;
     last_ = nullptr;
+    sensor_ = sensor_map.cast<float>();
   }
   void add(const Eigen::Vector3f& p, std::uint8_t facing);
   void end_keyframe();
@@ -131,6 +140,8 @@ class ReliefMap {
   std::int32_t take_tile();
   bool is_still_over(const Tile& tile, const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) const;
   void settle(Tile* tile);
+  bool goes_on_behind(const Tile& tile) const;
+  bool has_ground(std::int32_t x, std::int32_t y, float below_m) const;
 
   Span<Tile> tile_;
   Span<std::int16_t> bucket_;
@@ -138,6 +149,7 @@ class ReliefMap {
   Tile* last_ = nullptr;  // that a point of this keyframe went to
   std::uint32_t used_ = 0, fresh_count_ = 0, keyframe_ = 0;
   bool gave_way_ = false;
+  Eigen::Vector3f sensor_ = Eigen::Vector3f::Zero();  // of this keyframe
   std::int32_t corner_[3] = {0, 0, 0};
 };
 

@@ -56,9 +56,11 @@ void Travel::go(double along_m) {
   of_map_ = (F * of_map_ * F.transpose()).eval();
 }
 
-void Travel::take_in(const SixBySix& of_alignment) {
+void Travel::take_in(const SixBySix& of_alignment, std::uint32_t keyframes) {
   Six stays = Six::Constant(kStays);
-  stays[POSE_WALL_MOTION_ALONG] = kStaysAlong;
+  // The map is the mean of its scans; while it is young, of few.
+  const double share = 1.0 / static_cast<double>(keyframes);
+  stays[POSE_WALL_MOTION_ALONG] = share > kStaysAlong ? share : kStaysAlong;
   drift_by(stays.asDiagonal() * doubted(of_alignment) * stays.asDiagonal());
 }
 

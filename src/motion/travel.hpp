@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "pose_wall_motion.h"
 
@@ -26,8 +27,8 @@ class Travel {
   void reset() { *this = Travel{}; }
   // The machine went so far along the road; the map's turns become its place.
   void go(double along_m);
-  // A keyframe enters the map with the errors of its own alignment.
-  void take_in(const SixBySix& of_alignment);
+  // A keyframe enters a map of so many, itself among them, with the errors of its own alignment.
+  void take_in(const SixBySix& of_alignment, std::uint32_t keyframes);
   // A new map begins with a frame: all of its errors are the map's.
   void begin_with(const SixBySix& of_alignment);
   // Nothing told the way: known to within so many metres. The map's surfaces are those of another place then, whose

@@ -30,7 +30,7 @@ class Pipeline {
   // Into the map, seen from there.
   void take_in(const Pose& pose) {
     map->set_corner(pose.t);
-    map->begin_keyframe();
+    map->begin_keyframe(pose.R * reading.lidar_base_m + pose.t);
     const LocalPose local(pose, map->corner());
     for (std::uint32_t i = 0; i < image->count; ++i) {
       Eigen::Vector3f normal;

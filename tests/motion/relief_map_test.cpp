@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the map gives back a tilted plane and the rock about it to a millimetre, in any place, also behind zero and
-// ten kilometres away; between cells it interpolates, at a step anything between the two sides agrees; it forgets what
-// it is told to forget; full, it gives up what was seen longest ago and nothing else.
+// ten kilometres away; between cells it interpolates, at a step anything between the two sides agrees; it knows what
+// the road goes on behind, and from where each surface was seen; it forgets what it is told to forget; full, it gives
+// up what was seen longest ago and nothing else.
 
 #include "motion/relief_map.hpp"
 
@@ -31,7 +32,7 @@ class Map : public ::testing::Test {
   // A surface, a point every 1.25 cm in both directions.
   void add(std::uint8_t facing, double u0, double u1, double v0, double v1,
            const std::function<double(double, double)>& height) {
-    map_->begin_keyframe();
+    map_->begin_keyframe(Eigen::Vector3d::Zero());
     for (double u = u0 + 0.00625; u < u1; u += 0.0125) {
       for (double v = v0 + 0.00625; v < v1; v += 0.0125) map_->add(at(facing, u, v, height(u, v)), facing);
     }
@@ -128,8 +129,26 @@ TEST_F(Map, WhereNothingWasSeenItKnowsNothing) {
   EXPECT_FALSE(map_->find(at(kFacesZ, 0.2, 0.5, 0.0), kFacesX, &surface)) << "another facing";
 }
 
+// As a sparse sensor leaves it: a cell in so many.
+TEST_F(Map, ReliefGoesOnOverFifteenCentimetres) {
+  const auto rock = [](double u) { return 0.02 * std::sin(2.0 * M_PI * u); };
+  for (const int apart : {1, 2, 3, 4}) {
+    map_->clear();
+    map_->begin_keyframe(Eigen::Vector3d::Zero());
+    for (double v = 0.05; v < 1.0; v += 0.1) {
+      for (int i = 0; i < 20; i += apart) map_->add(at(kFacesZ, 0.05 * i + 0.025, v, rock(0.05 * i + 0.025)), kFacesZ);
+    }
+    map_->end_keyframe();
+    if (apart > 3) {
+      EXPECT_TRUE(std::isinf(above_rock(kFacesZ, 0.525, 0.55, rock(0.525)))) << "too far from one to the next";
+    } else {
+      EXPECT_NEAR(above_rock(kFacesZ, 0.45, 0.55, rock(0.45)), 0.0, 2e-3) << apart;
+    }
+  }
+}
+
 TEST_F(Map, TwoSurfacesOneAboveTheOtherAreTwo) {
-  map_->begin_keyframe();
+  map_->begin_keyframe(Eigen::Vector3d::Zero());
   for (double u = 0.01; u < 1.0; u += 0.02) {
     for (double v = 0.01; v < 1.0; v += 0.02) {
       map_->add(at(kFacesZ, u, v, 0.0), kFacesZ);
@@ -140,6 +159,51 @@ TEST_F(Map, TwoSurfacesOneAboveTheOtherAreTwo) {
   EXPECT_EQ(map_->tiles(), 2U);
   EXPECT_NEAR(above_rock(kFacesZ, 0.5, 0.5, 0.03), 0.03, 1e-3);
   EXPECT_NEAR(above_rock(kFacesZ, 0.5, 0.5, 1.97), -0.03, 1e-3);
+}
+
+TEST_F(Map, WhatTheRoadGoesOnBehindStandsFree) {
+  const auto stands_free = [this](std::uint8_t facing, double u, double v, double height) {
+    Surface surface;
+    EXPECT_TRUE(map_->find(at(facing, u, v, height), facing, &surface)) << u << " " << v << " " << height;
+    return surface.tile->stands_free != 0;
+  };
+  const auto face = [this](std::uint8_t facing, double u0, double u1, double v0, double v1, double height) {
+    for (double u = u0 + 0.01; u < u1; u += 0.05) {
+      for (double v = v0 + 0.01; v < v1; v += 0.05) map_->add(at(facing, u, v, height), facing);
+    }
+  };
+  map_->begin_keyframe({0.0, 0.0, 1.4});
+  face(kFacesZ, -4.0, 6.0, -2.5, 2.5, 0.0);  // ground, roof, walls, and where the road ends
+  face(kFacesZ, -4.0, 6.0, -2.5, 2.5, 3.5);
+  face(kFacesY, -4.0, 6.0, 0.0, 3.5, 2.5);
+  face(kFacesY, -4.0, 6.0, 0.0, 3.5, -2.5);
+  face(kFacesX, -2.5, 2.5, 0.0, 3.5, 6.0);
+  face(kFacesY, 2.3, 2.7, 0.0, 1.8, 1.7);  // somebody before the left wall, side and front
+  face(kFacesX, 1.7, 2.2, 0.0, 1.8, 2.3);
+  face(kFacesZ, -3.0, -2.0, -1.0, 0.0, 0.8);  // a box on the ground
+  map_->end_keyframe();
+  EXPECT_TRUE(stands_free(kFacesY, 2.5, 1.5, 1.7)) << "the wall is behind";
+  EXPECT_TRUE(stands_free(kFacesX, 1.9, 1.5, 2.3)) << "the ground goes on behind";
+  EXPECT_TRUE(stands_free(kFacesZ, -2.5, -0.5, 0.8)) << "the ground is below";
+  EXPECT_FALSE(stands_free(kFacesY, 2.5, 1.5, 2.5));
+  EXPECT_FALSE(stands_free(kFacesY, -3.5, 0.5, -2.5));
+  EXPECT_FALSE(stands_free(kFacesX, 0.5, 1.5, 6.0));
+  EXPECT_FALSE(stands_free(kFacesZ, -2.5, -0.5, 0.0));
+  EXPECT_FALSE(stands_free(kFacesZ, 2.5, 0.5, 3.5));
+}
+
+TEST_F(Map, ATileKnowsFromWhereItWasSeen) {
+  for (const double x : {0.5, 3.5}) {
+    map_->begin_keyframe({x, 0.0, 0.5});
+    for (double u = 0.01; u < 1.0; u += 0.05) {
+      for (double v = 0.01; v < 1.0; v += 0.05) map_->add(at(kFacesY, u, v, 3.0), kFacesY);
+    }
+    map_->end_keyframe();
+  }
+  Surface surface;
+  ASSERT_TRUE(map_->find(at(kFacesY, 0.5, 0.5, 3.0), kFacesY, &surface));
+  EXPECT_NEAR(map_->seen_from(*surface.tile).x() + static_cast<float>(map_->corner().x()), 2.0F, 1e-4F)
+      << "between both";
 }
 
 TEST_F(Map, ALaterScanAddsToTheMeanOfACell) {
@@ -188,7 +252,7 @@ class FullMap : public Map {
   }
   void fill(int from, int to) {
     for (int i = from; i < to; ++i) {
-      map_->begin_keyframe();
+      map_->begin_keyframe(Eigen::Vector3d::Zero());
       add_tile(i);
       map_->end_keyframe();
     }
@@ -200,7 +264,7 @@ TEST_F(FullMap, WhatWasSeenLongestAgoGivesWay) {
   fill(0, most);
   EXPECT_EQ(map_->tiles(), kTilesMost);
   EXPECT_FALSE(map_->gave_way());
-  map_->begin_keyframe();
+  map_->begin_keyframe(Eigen::Vector3d::Zero());
   add_tile(0);  // seen again: the next oldest is 1
   map_->end_keyframe();
   fill(most, most + 100);
@@ -213,7 +277,7 @@ TEST_F(FullMap, WhatWasSeenLongestAgoGivesWay) {
 
 TEST_F(FullMap, OneScanThatFillsItGivesUpNothingOfItself) {
   const int most = static_cast<int>(kTilesMost);
-  map_->begin_keyframe();
+  map_->begin_keyframe(Eigen::Vector3d::Zero());
   for (int i = 0; i < most + 500; ++i) add_tile(i);
   map_->end_keyframe();
   EXPECT_EQ(map_->tiles(), kTilesMost);

@@ -3,8 +3,9 @@
 
 // Proves, on short simulated runs: the way along rough rock is found and is right; a path does not hang on how the
 // sensor is mounted, on the side that things stand on, on the order of the points or on how they are written; who
-// drives back comes back; who stands stays; on a smooth road nothing is measured; after a frame of nothing or of
-// garbage the motion goes on, and what it says meanwhile keeps its contract.
+// drives back comes back; who stands stays; on a smooth road nothing is measured, and people who walk along change
+// nothing in that; after a frame of nothing or of garbage the motion goes on, and what it says meanwhile keeps its
+// contract.
 
 #include <gtest/gtest.h>
 
@@ -134,6 +135,44 @@ TEST(SimRun, ASmoothRoadIsNeverMeasuredAndNeverMisleads) {
       before = frames[i].result.protection_level[POSE_WALL_MOTION_ALONG];
     }
     EXPECT_GE(before, 2.0 * 3.9 * 0.99) << "the top speed for as long";
+  }
+}
+
+// They stand still as the machine sees it: many of them, far apart, all of one word.
+sim::SceneSetup with_people(sim::SceneSetup setup) {
+  setup.road.width_m = 5.5;
+  setup.objects.people_side = sim::kSideBoth;
+  setup.objects.people_count = 6.0;
+  setup.objects.people_speed_mps = setup.machine.speed_mps;
+  return setup;
+}
+
+TEST(SimRun, PeopleWhoWalkAlongASmoothRoadTellNothing) {
+  for (const std::uint64_t seed : {1ULL, 2ULL, 3ULL, 4ULL}) {
+    const std::vector<MotionFrame> frames = SimulatedRun(with_people(clean_road(0.8)), seed).run(25);
+    EXPECT_EQ(expect_contract(frames), 0U) << seed;
+  }
+}
+
+TEST(SimRun, PeopleWhoWalkAlongDoNotOutweighTheRock) {
+  sim::SceneSetup setup = with_people(rough_road(0.8));
+  setup.rock.roughness_m = 0.03;
+  for (const std::uint64_t seed : {1ULL, 2ULL, 3ULL}) {
+    const std::vector<MotionFrame> frames = SimulatedRun(setup, seed).run(25);
+    EXPECT_GE(expect_contract(frames), 12U) << seed;
+    expect_nothing_misleading(frames);
+  }
+}
+
+// A sensor whose ranges are off by 3 cm carries the bend that it sees along with it.
+TEST(SimRun, ABendOfSmoothLiningTellsHardlyAnythingAndNothingWrong) {
+  sim::SceneSetup setup = clean_road(0.5);
+  setup.road.curve_radius_m = 20.0;
+  for (const double range_bias_m : {0.03, -0.03}) {
+    setup.sensor.range_bias_m = range_bias_m;
+    const std::vector<MotionFrame> frames = SimulatedRun(setup).run(30);
+    EXPECT_LE(expect_contract(frames), 3U) << range_bias_m;
+    expect_nothing_misleading(frames);
   }
 }
 

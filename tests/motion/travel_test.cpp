@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 
 namespace pose_wall::motion {
@@ -50,10 +52,10 @@ TEST(Travel, ATurnThatIsOffBecomesAPlaceThatIsOff) {
   for (const auto& lever : levers) {
     Travel travel;
     const Bounds fresh = bounds_of(travel);
-    travel.take_in(SixBySix::Zero());
+    travel.take_in(SixBySix::Zero(), 9);
     const Bounds floor = bounds_of(travel);
     Travel turned;
-    turned.take_in(only(lever.turn, 0.01));
+    turned.take_in(only(lever.turn, 0.01), 9);
     const Bounds before = bounds_of(turned);
     const double variance = before.sigma[lever.turn] * before.sigma[lever.turn] -
                             fresh.sigma[lever.turn] * fresh.sigma[lever.turn];  // of the map's turn
@@ -69,13 +71,13 @@ TEST(Travel, ATurnThatIsOffBecomesAPlaceThatIsOff) {
 // Two keyframes on the way: the first turn has the whole lever, the second one half of it.
 TEST(Travel, LeversAddUpKeyframeByKeyframe) {
   Travel once, twice;
-  once.take_in(only(POSE_WALL_MOTION_YAW, 0.01));
+  once.take_in(only(POSE_WALL_MOTION_YAW, 0.01), 9);
   const double turn2 = std::pow(bounds_of(once).sigma[POSE_WALL_MOTION_YAW], 2) -
                        std::pow(bounds_of(Travel()).sigma[POSE_WALL_MOTION_YAW], 2);
-  twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01));
+  twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01), 9);
   twice.go(5.0);
   const Bounds before = bounds_of(twice);
-  twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01));
+  twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01), 9);
   const double by_keyframe = grown(twice, before, POSE_WALL_MOTION_ACROSS);
   const double start = std::pow(bounds_of(once).sigma[POSE_WALL_MOTION_ACROSS], 2);
   twice.go(5.0);
@@ -89,7 +91,7 @@ TEST(Travel, LevelsGrowWithTheWay) {
   Bounds before = bounds_of(travel);
   for (int i = 0; i < 200; ++i) {
     travel.go(0.2);
-    travel.take_in(C);
+    travel.take_in(C, 9);
     const Bounds now = bounds_of(travel);
     for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
       ASSERT_GT(now.sigma[k], before.sigma[k]) << k;
@@ -156,6 +158,20 @@ TEST(Travel, AStepIsWorthItsTwoEndsAndItsSlip) {
   const Bounds slipped = Travel::of_step(SixBySix::Zero(), SixBySix::Zero(), 0.2, kFactor);
   EXPECT_NEAR(slipped.level[POSE_WALL_MOTION_ALONG], still.level[POSE_WALL_MOTION_ALONG] + 0.2, 1e-12);
   EXPECT_EQ(slipped.level[POSE_WALL_MOTION_ACROSS], still.level[POSE_WALL_MOTION_ACROSS]);
+}
+
+// The map is the mean of its scans: of two, the second's error is half of the map's.
+TEST(Travel, AYoungMapKeepsMoreOfAScansError) {
+  const double along_m = 0.01;
+  double before = INFINITY;
+  for (const std::uint32_t keyframes : {2U, 3U, 10U}) {
+    Travel travel;
+    travel.take_in(only(POSE_WALL_MOTION_ALONG, along_m), keyframes);
+    const double sigma = travel.bounds(SixBySix::Zero(), 0.0, 5.0).sigma[POSE_WALL_MOTION_ALONG];
+    EXPECT_LT(sigma, before);
+    before = sigma;
+    EXPECT_NEAR(sigma, along_m * std::max(0.3, 1.0 / keyframes), 1e-4);
+  }
 }
 
 }  // namespace
