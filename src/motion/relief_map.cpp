@@ -18,10 +18,6 @@ constexpr float kPlaceUnit_m = kAlong_m / 256.0F;
 constexpr float kFreshLayer_m = 0.6F;
 constexpr double kRidge = 0.05;  // m2: some flat plane goes into a tile's own, so that a line of points tilts nothing
 
-// From one cell that is known to the next one, in cells: 15 cm, over which rock goes on much as it began. Of a single
-// scan a sparse sensor fills one cell in four, and neighbours seldom.
-constexpr std::int32_t kBridge = 3;
-
 struct Place {
   std::int32_t u, v;       // tile
   float at_u, at_v, at_k;  // from its middle; along the axis, from the corner
@@ -129,24 +125,14 @@ namespace {
 // which side of it is seen hangs on the sensor's place: anything between the two heights agrees. Steel sets stretched
 // the way by 0.6 % when a slope was drawn there.
 template <typename Number>
-Number height_between(Number h0, Number h1, Number w, Number above, Number apart) {
+Number height_between(Number h0, Number h1, Number w, Number above) {
   const Number low = h0 < h1 ? h0 : h1, high = h0 < h1 ? h1 : h0;
   const Number within = above < low ? low : above > high ? high : above;
-  return high - low > apart ? within : h0 + w * (h1 - h0);
+  return high - low > kAlong_m ? within : h0 + w * (h1 - h0);
 }
 template <typename Number>
 Number spread_between(Number n0, Number n1, Number w) {
   return 1.0F + (1.0F - w) * (1.0F - w) / n0 + w * w / n1;
-}
-
-// The cells with heights on either side of a place, at most kBridge apart. False where there are none.
-bool bridge(const Cell* cells, std::int32_t i, float u, std::int32_t* before, std::int32_t* behind) {
-  const std::int32_t first = i > kBridge ? i - kBridge : 0;
-  const std::int32_t last = i + kBridge < kAlongCells ? i + kBridge : kAlongCells - 1;
-  *before = *behind = i;
-  while (*before >= first && !(cells[*before].count > 0 && along_of(cells[*before], *before) <= u)) --*before;
-  while (*behind <= last && !(cells[*behind].count > 0 && along_of(cells[*behind], *behind) > u)) ++*behind;
-  return *before >= first && *behind <= last && *behind - *before <= kBridge;
 }
 
 FourInts within(FourInts i, std::int32_t count) {
@@ -176,30 +162,28 @@ struct FourCells {
 bool ReliefMap::relief(const Surface& at, Relief* out) {
   const Cell* const cells = at.tile->cell + across_cell(at.v) * kAlongCells;
   const std::int32_t i = along_cell(at.u);
-  std::int32_t before, behind;
-  if (!bridge(cells, i, at.u, &before, &behind)) return false;
-  const float here = along_of(cells[before], before), there = along_of(cells[behind], behind);
+  if (cells[i].count == 0) return false;
+  const float here = along_of(cells[i], i);
+  const std::int32_t j = at.u > here ? i + 1 : i - 1;
+  if (j < 0 || j >= kAlongCells || cells[j].count == 0) return false;
+  const float there = along_of(cells[j], j);
   const float w = (at.u - here) / (there - here);
-  out->spread = spread_between(static_cast<float>(cells[before].count), static_cast<float>(cells[behind].count), w);
-  out->height_m = height_between(height_of(cells[before]), height_of(cells[behind]), w, at.above_m, there - here);
+  out->spread = spread_between(static_cast<float>(cells[i].count), static_cast<float>(cells[j].count), w);
+  out->height_m = height_between(height_of(cells[i]), height_of(cells[j]), w, at.above_m);
   return true;
 }
 
 FourTruths ReliefMap::relief(const FourSurfaces& at, FourReliefs* out) {
   const FourInts row = within(cut_off((at.v + 0.5F) * kAcrossCells), kAcrossCells);
   const FourInts i = within(cut_off((at.u + 0.5F) * kAlongCells), kAlongCells);
-  FourInts before = i, behind = i;
-  FourTruths known{};
-  for (std::uint32_t k = 0; k < kFour; ++k) {
-    std::int32_t from = i[k], to = i[k];
-    known[k] = bridge(at.tile->cell + row[k] * kAlongCells, i[k], at.u[k], &from, &to) ? -1 : 0;
-    if (known[k] != 0) before[k] = from, behind[k] = to;
-  }
-  const FourCells near(at.tile->cell, row, before), next(at.tile->cell, row, behind);
-  const FourFloats here = near.along_m(before), there = next.along_m(behind), w = (at.u - here) / (there - here);
+  const FourCells near(at.tile->cell, row, i);
+  const FourFloats here = near.along_m(i);
+  const FourInts j = i + (at.u > here ? all_four_ints(1) : all_four_ints(-1)), j_within = within(j, kAlongCells);
+  const FourCells next(at.tile->cell, row, j_within);
+  const FourFloats w = (at.u - here) / (next.along_m(j) - here);
   out->spread = spread_between(near.number(), next.number(), w);
-  out->height_m = height_between(near.height_m(), next.height_m(), w, at.above_m, there - here);
-  return known;
+  out->height_m = height_between(near.height_m(), next.height_m(), w, at.above_m);
+  return (near.count > 0) & (next.count > 0) & (j == j_within);
 }
 
 std::int32_t ReliefMap::take_tile() {

@@ -129,24 +129,6 @@ TEST_F(Map, WhereNothingWasSeenItKnowsNothing) {
   EXPECT_FALSE(map_->find(at(kFacesZ, 0.2, 0.5, 0.0), kFacesX, &surface)) << "another facing";
 }
 
-// As a sparse sensor leaves it: a cell in so many.
-TEST_F(Map, ReliefGoesOnOverFifteenCentimetres) {
-  const auto rock = [](double u) { return 0.02 * std::sin(2.0 * M_PI * u); };
-  for (const int apart : {1, 2, 3, 4}) {
-    map_->clear();
-    map_->begin_keyframe(Eigen::Vector3d::Zero());
-    for (double v = 0.05; v < 1.0; v += 0.1) {
-      for (int i = 0; i < 20; i += apart) map_->add(at(kFacesZ, 0.05 * i + 0.025, v, rock(0.05 * i + 0.025)), kFacesZ);
-    }
-    map_->end_keyframe();
-    if (apart > 3) {
-      EXPECT_TRUE(std::isinf(above_rock(kFacesZ, 0.525, 0.55, rock(0.525)))) << "too far from one to the next";
-    } else {
-      EXPECT_NEAR(above_rock(kFacesZ, 0.45, 0.55, rock(0.45)), 0.0, 2e-3) << apart;
-    }
-  }
-}
-
 TEST_F(Map, TwoSurfacesOneAboveTheOtherAreTwo) {
   map_->begin_keyframe(Eigen::Vector3d::Zero());
   for (double u = 0.01; u < 1.0; u += 0.02) {
