@@ -149,7 +149,8 @@ TEST(TemporalOdometry, AWallsDirectionCountsByTheWayAndNothingIsKnownBeyondWhatW
   EXPECT_EQ(inside.growth[POSE_WALL_YAW], 0.0);
   const double ends = inside.place_level[POSE_WALL_D_LF];
   const Change beyond = change_between(place(0, 0, 0), place(9, 0, 0), s);
-  EXPECT_NEAR(beyond.place_level[POSE_WALL_D_LF], ends + 1.0, 1e-9) << "its point is at 11 m, seen are 10";
+  EXPECT_NEAR(beyond.place_level[POSE_WALL_D_LF], ends + 1.0 + kPlaceLevel, 1e-9)
+      << "its point is at 11 m, give or take its level; seen are 10";
   EXPECT_NEAR(beyond.place_level[POSE_WALL_D_LB], ends, 1e-9) << "its point is at 7 m";
   EXPECT_TRUE(beyond.by_places[POSE_WALL_YAW]) << "the machine is at 9 m";
   EXPECT_FALSE(change_between(place(0, 0, 0), place(10.5, 0, 0), s).by_places[POSE_WALL_YAW]);
@@ -210,7 +211,9 @@ TEST(TemporalOdometry, NumbersThatAreNoneAreUnsound) {
     for (const double bad : {nan, infinite, -infinite}) {
       pose_wall_odometry broken = good;
       std::memcpy(reinterpret_cast<unsigned char*>(&broken) + at, &bad, sizeof(bad));
-      const bool of_levels = at >= offsetof(pose_wall_odometry, level) && at < offsetof(pose_wall_odometry, drift_variance);
+      const bool of_levels = (at >= offsetof(pose_wall_odometry, level) &&
+                              at < offsetof(pose_wall_odometry, drift_variance)) ||
+                             at >= offsetof(pose_wall_odometry, rate_level);
       EXPECT_EQ(is_sound(broken), of_levels && bad == infinite) << at << " " << bad;
     }
   }
