@@ -65,14 +65,21 @@ Point judge(const pose_wall_cloud& cloud, const unsigned char* point) {
   return x.zero && y.zero && z.zero ? Point::kZero : Point::kReturn;
 }
 
+constexpr std::uint32_t kFields = 6;  // x, y, z, intensity, time, ring
+
 struct Copier {
   const pose_wall_cloud& from;
-  pose_wall_field field[4];  // x, y, z, intensity of the source
-  std::uint32_t bytes[4];
-  std::uint32_t fields;
+  pose_wall_field field[kFields];  // of the source
+  std::uint32_t bytes[kFields];    // 0: not copied
+
+  std::uint32_t point_bytes() const {
+    std::uint32_t sum = 0;
+    for (const std::uint32_t of_field : bytes) sum += of_field;
+    return sum;
+  }
 
   unsigned char* copy(const unsigned char* point, unsigned char* to) const {
-    for (std::uint32_t k = 0; k < fields; ++k) {
+    for (std::uint32_t k = 0; k < kFields; ++k) {
       std::memcpy(to, point + field[k].offset, bytes[k]);
       to += bytes[k];
     }
@@ -80,14 +87,19 @@ struct Copier {
   }
 };
 
-Copier copier_of(const pose_wall_cloud& cloud, bool with_intensity) {
-  Copier c{cloud, {cloud.x, cloud.y, cloud.z, cloud.intensity}, {}, 3};
-  if (with_intensity && cloud.intensity.type != POSE_WALL_FIELD_NONE) c.fields = 4;
-  for (std::uint32_t k = 0; k < c.fields; ++k) c.bytes[k] = bytes_of(c.field[k].type);
+Copier copier_of(const pose_wall_cloud& cloud, const CopiedFields& fields) {
+  Copier c{cloud, {cloud.x, cloud.y, cloud.z, cloud.intensity, cloud.time, cloud.ring}, {}};
+  const bool wanted[kFields] = {true, true, true, fields.intensity, fields.time, fields.ring};
+  for (std::uint32_t k = 0; k < kFields; ++k) {
+    const std::uint32_t bytes = bytes_of(c.field[k].type);
+    const bool is_extra = k >= 4;
+    if (wanted[k] && (!is_extra || c.point_bytes() + bytes <= fields.point_bytes_max)) c.bytes[k] = bytes;
+  }
   return c;
 }
 
-pose_wall_cloud packed(const Copier& c, std::uint32_t point_bytes, const unsigned char* data, std::uint64_t bytes) {
+pose_wall_cloud packed(const Copier& c, const unsigned char* data, std::uint64_t bytes) {
+  const std::uint32_t point_bytes = c.point_bytes();
   pose_wall_cloud cloud{};
   cloud.struct_size = sizeof(cloud);
   cloud.big_endian = c.from.big_endian;
@@ -97,10 +109,10 @@ pose_wall_cloud packed(const Copier& c, std::uint32_t point_bytes, const unsigne
   cloud.width = static_cast<std::uint32_t>(bytes / point_bytes);
   cloud.height = 1;
   cloud.stamp_ns = c.from.stamp_ns;
-  pose_wall_field* const to[] = {&cloud.x, &cloud.y, &cloud.z, &cloud.intensity};
+  pose_wall_field* const to[kFields] = {&cloud.x, &cloud.y, &cloud.z, &cloud.intensity, &cloud.time, &cloud.ring};
   std::uint32_t offset = 0;
-  for (std::uint32_t k = 0; k < c.fields; ++k) {
-    *to[k] = {offset, c.field[k].type};
+  for (std::uint32_t k = 0; k < kFields; ++k) {
+    if (c.bytes[k] > 0) *to[k] = {offset, c.field[k].type};
     offset += c.bytes[k];
   }
   return cloud;
@@ -109,15 +121,14 @@ pose_wall_cloud packed(const Copier& c, std::uint32_t point_bytes, const unsigne
 }  // namespace
 
 std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity) {
-  const Copier c = copier_of(cloud, with_intensity);
-  std::uint32_t sum = 0;
-  for (std::uint32_t k = 0; k < c.fields; ++k) sum += c.bytes[k];
-  return sum;
+  CopiedFields fields;
+  fields.intensity = with_intensity;
+  return copier_of(cloud, fields).point_bytes();
 }
 
-void copy_frame(const pose_wall_cloud& cloud, bool with_intensity, std::uint32_t thinning, FrameSlot* slot) {
-  const Copier copier = copier_of(cloud, with_intensity);
-  const bool filter = copier.fields == 3;
+void copy_frame(const pose_wall_cloud& cloud, const CopiedFields& fields, std::uint32_t thinning, FrameSlot* slot) {
+  const Copier copier = copier_of(cloud, fields);
+  const bool filter = !fields.intensity || cloud.intensity.type == POSE_WALL_FIELD_NONE;
   const std::uint64_t row_step =
       cloud.row_step != 0 ? cloud.row_step : static_cast<std::uint64_t>(cloud.width) * cloud.point_step;
   const std::uint32_t rows = cloud.width > 0 ? cloud.height : 0;  // empty rows may be any number
@@ -135,8 +146,7 @@ void copy_frame(const pose_wall_cloud& cloud, bool with_intensity, std::uint32_t
   }
   slot->left_out_not_finite = not_finite;
   slot->left_out_zero = zero;
-  slot->cloud =
-      packed(copier, packed_bytes(cloud, with_intensity), slot->points, static_cast<std::uint64_t>(to - slot->points));
+  slot->cloud = packed(copier, slot->points, static_cast<std::uint64_t>(to - slot->points));
   if (cloud.inputs == nullptr) return;
   slot->inputs = read_struct<pose_wall_inputs>(cloud.inputs, cloud.inputs->struct_size);
   slot->cloud.inputs = &slot->inputs;

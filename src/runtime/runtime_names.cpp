@@ -34,6 +34,8 @@ POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
       return "the system refused a thread, or what the options require; see the *_error statistics";
     case POSE_WALL_RUNTIME_E_STALE:
       return "what was published last is as old as watchdog_ns: `activity` tells what the worker is at";
+    case POSE_WALL_RUNTIME_E_MOTION:
+      return "the runtime was opened without motion, or its config's key `motion` is off";
     case POSE_WALL_BOX_E_FORMAT:
       return "no black box, or its header is damaged";
     case POSE_WALL_BOX_E_VERSION:

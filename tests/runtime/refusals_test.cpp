@@ -73,7 +73,7 @@ TEST(RuntimeRefusals, OptionsOutOfRange) {
       {"cloud_points_max", [](auto* o) { o->cloud_points_max = 0; }},
       {"cloud_points_max", [](auto* o) { o->cloud_points_max = (1U << 26) + 1; }},
       {"point_bytes_max", [](auto* o) { o->point_bytes_max = 11; }},
-      {"point_bytes_max", [](auto* o) { o->point_bytes_max = 33; }},
+      {"point_bytes_max", [](auto* o) { o->point_bytes_max = 49; }},
       {"thinning_max", [](auto* o) { o->thinning_max = 0; }},
       {"thinning_max", [](auto* o) { o->thinning_max = 3; }},
       {"thinning_max", [](auto* o) { o->thinning_max = 32; }},

@@ -65,9 +65,9 @@ def constants(header_text, structs):
 
 
 def decode_rows(structs, version):
-    """stImage is of the newest version, the words are of `version`."""
+    """stImage is of version 2, the words are of `version`."""
     own = {word.path: i for i, word in enumerate(description.image_words(version, structs))}
-    for word in description.image_words(max(description.images(structs)), structs):
+    for word in description.image_words(2, structs):
         at = own.get(word.path, own["crc32"] if word.path == "crc32c" and "crc32" in own else None)
         value = MISSING.get(word.path.rsplit(".", maxsplit=1)[-1], "0")
         if at is not None:
