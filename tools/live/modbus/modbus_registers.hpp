@@ -42,8 +42,10 @@ class ModbusRegisters {
   using Mapping = std::unique_ptr<modbus_mapping_t, Release<modbus_mapping_t, modbus_mapping_free>>;
 
   const Images& images_;
+  int answer_read(const std::uint8_t* request, int bytes);
+
   Context context_;
-  Mapping image_, image2_;
+  Mapping image_, image2_, motion_image_;
 };
 
 }  // namespace pose_wall::tools::live
