@@ -25,8 +25,9 @@ TEST(RuntimeAbi, Numbers) {
   EXPECT_EQ(pose_wall_runtime_abi_version(), 3U);
   const int statuses[] = {POSE_WALL_RUNTIME_E_OPTION,  POSE_WALL_RUNTIME_E_HANDLE, POSE_WALL_RUNTIME_E_STATE,
                           POSE_WALL_RUNTIME_E_THREAD,  POSE_WALL_RUNTIME_E_BUSY,   POSE_WALL_RUNTIME_E_LARGE,
-                          POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_RUNTIME_E_STALE};
-  for (int i = 0; i < 9; ++i) EXPECT_EQ(statuses[i], -100 - i);
+                          POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_RUNTIME_E_STALE,
+                          POSE_WALL_RUNTIME_E_MOTION};
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(statuses[i], -100 - i);
   const int of_box[] = {POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION, POSE_WALL_BOX_E_END,
                         POSE_WALL_BOX_E_EMPTY,  POSE_WALL_BOX_E_RUN,     POSE_WALL_BOX_E_KIND};
   for (int i = 0; i < 6; ++i) EXPECT_EQ(of_box[i], -90 - i);
