@@ -186,7 +186,7 @@ TEST_F(ReplayBox, ABoxOfAnotherFormatIsRefusedByName) {
   write_all(path_, bytes);
   const Ran ran = replay(path_);
   EXPECT_EQ(ran.exit_status, 1);
-  EXPECT_TRUE(contains(ran.printed, "recorded by pose_wall 0.1.9 in format 2; this is pose_wall")) << ran.printed;
+  EXPECT_TRUE(contains(ran.errors, "recorded by pose_wall 0.1.9 in format 2; this is pose_wall")) << ran.errors;
 }
 
 // Another roll in the third record, with all checksums right: as if another engine had published it.
@@ -195,7 +195,7 @@ TEST_F(ReplayBox, ADifferenceIsNamedAndHasAStatusOfItsOwn) {
   char* const head = bytes.data() + place_of(2);
   std::uint64_t record_bytes = 0;
   std::memcpy(&record_bytes, head + 8, 8);
-  const std::size_t at_memento = 128 + (sizeof(pose_wall_inputs) + 63) / 64 * 64;
+  const std::size_t at_memento = 192 + (sizeof(pose_wall_inputs) + 63) / 64 * 64;
   const std::size_t at_result = at_memento + (pose_wall_memento_bytes() + 63) / 64 * 64;
   const double other = 7.5;
   std::memcpy(head + at_result + offsetof(pose_wall_result, quantity), &other, 8);
