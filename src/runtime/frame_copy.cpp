@@ -4,6 +4,7 @@
 #include "frame_copy.hpp"
 
 #include <cstring>
+#include <initializer_list>
 
 #include "../struct_sizes.hpp"
 #include "overload.hpp"
@@ -67,6 +68,51 @@ Point judge(const pose_wall_cloud& cloud, const unsigned char* point) {
 
 constexpr std::uint32_t kFields = 6;  // x, y, z, intensity, time, ring
 
+// What the field holds, of any type.
+double number(const unsigned char* bytes, std::uint32_t type, bool big_endian) {
+  const std::uint64_t bits = bits_of(bytes, bytes_of(type), big_endian);
+  const auto low = static_cast<std::uint32_t>(bits);
+  float single;
+  double whole;
+  switch (type) {
+    case POSE_WALL_FIELD_INT8:
+      return static_cast<double>(static_cast<std::int8_t>(low));
+    case POSE_WALL_FIELD_INT16:
+      return static_cast<double>(static_cast<std::int16_t>(low));
+    case POSE_WALL_FIELD_INT32:
+      return static_cast<double>(static_cast<std::int32_t>(low));
+    case POSE_WALL_FIELD_FLOAT32:
+      std::memcpy(&single, &low, sizeof(single));
+      return static_cast<double>(single);
+    case POSE_WALL_FIELD_FLOAT64:
+      std::memcpy(&whole, &bits, sizeof(whole));
+      return whole;
+    default:
+      return static_cast<double>(low);
+  }
+}
+
+// Of the points that hold no return, those that were measured first and last: times count from the cloud's first to its
+// last point, whether they hold a return or not. NaN is neither.
+struct Ends {
+  const unsigned char* first = nullptr;
+  const unsigned char* last = nullptr;
+  double first_time = 0.0, last_time = 0.0;
+
+  void note(const unsigned char* point, double time) {
+    constexpr double kMost = 1.7976931348623157e308;  // infinite times are none either
+    if (!(time >= -kMost && time <= kMost)) return;
+    if (first == nullptr || time < first_time) {
+      first = point;
+      first_time = time;
+    }
+    if (last == nullptr || time > last_time) {
+      last = point;
+      last_time = time;
+    }
+  }
+};
+
 struct Copier {
   const pose_wall_cloud& from;
   pose_wall_field field[kFields];  // of the source
@@ -128,6 +174,8 @@ std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity) {
 
 void copy_frame(const pose_wall_cloud& cloud, const CopiedFields& fields, std::uint32_t thinning, FrameSlot* slot) {
   const Copier copier = copier_of(cloud, fields);
+  const bool with_time = copier.bytes[4] > 0, big = cloud.big_endian != 0;
+  Ends ends;
   const bool filter = !fields.intensity || cloud.intensity.type == POSE_WALL_FIELD_NONE;
   const std::uint64_t row_step =
       cloud.row_step != 0 ? cloud.row_step : static_cast<std::uint64_t>(cloud.width) * cloud.point_step;
@@ -142,7 +190,14 @@ void copy_frame(const pose_wall_cloud& cloud, const CopiedFields& fields, std::u
       not_finite += kind == Point::kNotFinite ? 1U : 0U;
       zero += kind == Point::kZero ? 1U : 0U;
       if (kind == Point::kReturn && choice.takes_next()) to = copier.copy(point, to);
+      if (kind == Point::kReturn || !with_time) continue;
+      ends.note(point, number(point + cloud.time.offset, cloud.time.type, big));
     }
+  }
+  for (const unsigned char* point : {ends.first, ends.last != ends.first ? ends.last : nullptr}) {
+    if (point == nullptr) continue;
+    --(judge(cloud, point) == Point::kZero ? zero : not_finite);
+    to = copier.copy(point, to);
   }
   slot->left_out_not_finite = not_finite;
   slot->left_out_zero = zero;

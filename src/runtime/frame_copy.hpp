@@ -25,7 +25,7 @@ std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity);
 
 // The cloud's description was checked, and its points fit slot->points. Sets cloud, inputs and left_out_* of the slot.
 // With intensity every point is kept but for thinning: no-returns count in the mean that brightness is measured
-// against.
+// against. Nor are the first and the last of them left out where times are copied.
 void copy_frame(const pose_wall_cloud& cloud, const CopiedFields& fields, std::uint32_t thinning, FrameSlot* slot);
 
 }  // namespace pose_wall::runtime

@@ -54,6 +54,7 @@ static int cloud_layout(void) {
   MEMBER(pose_wall_odometry, drift);
   MEMBER(pose_wall_odometry, velocity_m_s);
   MEMBER(pose_wall_odometry, turn_rate_rad_s);
+  MEMBER(pose_wall_odometry, rate_level);
   padded += struct_end("pose_wall_odometry", sizeof(pose_wall_odometry));
   MEMBER(pose_wall_field, offset);
   MEMBER(pose_wall_field, type);

@@ -178,6 +178,7 @@ TEST(RuntimeMotion, TimesAndRingsGoAlongWhereAPointHasRoom) {
 
 TEST(RuntimeMotion, NoReturnsAreLeftOutAndCounted) {
   std::vector<Frame> frames = road(2);
+  for (Frame& frame : frames) frame.cloud.time = {};  // with times the first and the last are copied
   const auto whole = static_cast<std::uint32_t>(frames[1].points.size());
   const std::vector<Both> expected = by_hand(frames);
   frames[1].points.push_back({0.0F, 0.0F, 0.0F, 0.0F, 0, 0});
@@ -257,6 +258,36 @@ TEST(RuntimeMotion, TheCallersOwnOdometryCountsWithoutItAlone) {
     others += same_bits(alone.process(plain[i].cloud), expected) ? 0U : 1U;
   }
   EXPECT_GT(others, 0U);
+}
+
+// Times count from a scan's first point, whether it holds a return or not.
+TEST(RuntimeMotion, TimesOfPointsWithoutAReturnCount) {
+  std::vector<Frame> whole = road(3), bare = road(3);
+  EngineUnderTest engine(small_config()), misled(small_config());
+  std::uint32_t others = 0;
+  RuntimeUnderTest runtime([](pose_wall_runtime_options* o) { o->point_bytes_max = 24; });
+  for (std::uint32_t i = 0; i < whole.size(); ++i) {
+    for (Frame* frame : {&whole[i], &bare[i]}) {
+      frame->cloud.inputs = &frame->inputs;
+      frame->inputs.given = POSE_WALL_INPUT_ODOMETRY;
+      frame->inputs.odometry = own_odometry(i);
+      frame->inputs.odometry.velocity_m_s[0] = 1.5;
+    }
+    Frame& frame = whole[i];
+    for (const float time_s : {0.05F, -0.02F, 0.0F, 0.13F, 0.1F}) {
+      frame.points.push_back({0.0F, 0.0F, time_s > 0.1F ? std::nanf("") : 0.0F, time_s, 0, 0});
+    }
+    frame.cloud.data = frame.points.data();
+    frame.cloud.width = static_cast<std::uint32_t>(frame.points.size());
+    frame.cloud.data_bytes = frame.points.size() * sizeof(TimedPoint);
+  }
+  const auto published = run(&runtime, whole);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const pose_wall_result expected = engine.process(whole[i].cloud);
+    EXPECT_TRUE(same_bits(published[i].result, expected)) << i;
+    others += misled.process(bare[i].cloud).floor.d_m != expected.floor.d_m ? 1U : 0U;
+  }
+  EXPECT_GT(others, 0U) << "else they make no difference";
 }
 
 TEST(RuntimeMotion, EachStartBeginsANewMap) {

@@ -441,6 +441,7 @@ pose_wall_odometry._fields_ = [
     ("drift", c_double * 6),
     ("velocity_m_s", c_double * 3),
     ("turn_rate_rad_s", c_double * 3),
+    ("rate_level", c_double * 6),
 ]
 
 pose_wall_inputs._fields_ = [
