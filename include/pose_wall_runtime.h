@@ -291,11 +291,12 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_load(pose_wall_runtime* runtime, con
 /* ---------------------------------------------------------------------------------------------- frames and results */
 
 /* Checks the cloud and its inputs, copies what the engine reads of them, and queues it. Inputs speak of the time since
- * the frame that was pushed before: where that was dropped, only their boxes are used. Points that are not finite or
- * exactly zero are left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused
- * is counted as pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not
- * running or stopped before the copy was done (which is counted), another thread inside push, struct_size or a
- * description that pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
+ * the frame that was pushed before: where that was dropped, only their boxes and their odometry are used. Points that
+ * are not finite or exactly zero are left out of the copy (not with intensity_weight > 0, where they count in the mean,
+ * nor where times are copied the first and the last of them). What is refused is counted as pushed and dropped, but not
+ * NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running or stopped before the copy was done
+ * (which is counted), another thread inside push, struct_size or a description that pose_wall_cloud_check refuses,
+ * POSE_WALL_RUNTIME_E_LARGE. */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
 
 /* The newest publication, with its age and what the worker is at. No lock, no wait: one look at the clock and one copy,
