@@ -164,6 +164,37 @@ pose_wall_cloud packed(const Copier& c, const unsigned char* data, std::uint64_t
   return cloud;
 }
 
+// The points that hold no return: counted, and of those with times the first and the last copied all the same.
+class LeftOut {
+ public:
+  explicit LeftOut(const Copier& copier) : copier_(copier), with_time_(copier.bytes[4] > 0) {}
+
+  void note(Point kind, const unsigned char* point) {
+    if (kind == Point::kReturn) return;
+    ++(kind == Point::kZero ? zero_ : not_finite_);
+    const pose_wall_cloud& from = copier_.from;
+    if (with_time_) ends_.note(point, number(point + from.time.offset, from.time.type, from.big_endian != 0));
+  }
+
+  unsigned char* copy_ends(unsigned char* to) {
+    for (const unsigned char* point : {ends_.first, ends_.last != ends_.first ? ends_.last : nullptr}) {
+      if (point == nullptr) continue;
+      --(judge(copier_.from, point) == Point::kZero ? zero_ : not_finite_);
+      to = copier_.copy(point, to);
+    }
+    return to;
+  }
+
+  std::uint32_t zero() const { return zero_; }
+  std::uint32_t not_finite() const { return not_finite_; }
+
+ private:
+  const Copier& copier_;
+  bool with_time_;
+  Ends ends_;
+  std::uint32_t zero_ = 0, not_finite_ = 0;
+};
+
 }  // namespace
 
 std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity) {
@@ -174,33 +205,24 @@ std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity) {
 
 void copy_frame(const pose_wall_cloud& cloud, const CopiedFields& fields, std::uint32_t thinning, FrameSlot* slot) {
   const Copier copier = copier_of(cloud, fields);
-  const bool with_time = copier.bytes[4] > 0, big = cloud.big_endian != 0;
-  Ends ends;
   const bool filter = !fields.intensity || cloud.intensity.type == POSE_WALL_FIELD_NONE;
   const std::uint64_t row_step =
       cloud.row_step != 0 ? cloud.row_step : static_cast<std::uint64_t>(cloud.width) * cloud.point_step;
   const std::uint32_t rows = cloud.width > 0 ? cloud.height : 0;  // empty rows may be any number
   EvenChoice choice(thinning);
-  std::uint32_t not_finite = 0, zero = 0;
+  LeftOut left_out(copier);
   unsigned char* to = slot->points;
   for (std::uint32_t row = 0; row < rows; ++row) {
     const unsigned char* point = static_cast<const unsigned char*>(cloud.data) + row * row_step;
     for (std::uint32_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
       const Point kind = filter ? judge(cloud, point) : Point::kReturn;
-      not_finite += kind == Point::kNotFinite ? 1U : 0U;
-      zero += kind == Point::kZero ? 1U : 0U;
+      left_out.note(kind, point);
       if (kind == Point::kReturn && choice.takes_next()) to = copier.copy(point, to);
-      if (kind == Point::kReturn || !with_time) continue;
-      ends.note(point, number(point + cloud.time.offset, cloud.time.type, big));
     }
   }
-  for (const unsigned char* point : {ends.first, ends.last != ends.first ? ends.last : nullptr}) {
-    if (point == nullptr) continue;
-    --(judge(cloud, point) == Point::kZero ? zero : not_finite);
-    to = copier.copy(point, to);
-  }
-  slot->left_out_not_finite = not_finite;
-  slot->left_out_zero = zero;
+  to = left_out.copy_ends(to);
+  slot->left_out_not_finite = left_out.not_finite();
+  slot->left_out_zero = left_out.zero();
   slot->cloud = packed(copier, slot->points, static_cast<std::uint64_t>(to - slot->points));
   if (cloud.inputs == nullptr) return;
   slot->inputs = read_struct<pose_wall_inputs>(cloud.inputs, cloud.inputs->struct_size);
