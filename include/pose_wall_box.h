@@ -17,6 +17,7 @@
  *      32  u32      pose_wall_memento_bytes()       36  u32  POSE_WALL_ABI_VERSION
  *      40  24 bytes pose_wall_version(), zeros behind
  *      64           the config, as in memory; zeros behind
+ *    4076  u32      sizeof(pose_wall_motion_result)
  *    4080  u32      sizeof(pose_wall_inputs)
  *    4084  u32      number of the run: the start that wrote this header; never 0
  *    4088  u32      pose_wall_config_crc() of the config
@@ -33,14 +34,16 @@
  *      52  u32  CRC-32 of everything behind byte 64 56  u16  number of the run, as in its header
  *      58  u16  lap of the ring: 0 in the run's      60  u32  CRC-32 of bytes 0 to 59
  *               first, then 1 to 65535, 1 ...
- *      64       cloud's description, 64 bytes:       0  u64  digest of the cloud's bytes (FNV-1a, 64 bits)
+ *      64       cloud's description, 128 bytes:      0  u64  digest of the cloud's bytes (FNV-1a, 64 bits)
  *               8 u32 points    12 u32 bytes of a point    16 u32 big_endian    20 u32 left out: not finite
  *              24 u32 left out: zero                28  u32 CRC-32 of the config, as in its header
- *              32  x, y, z, intensity: u32 offset, u32 type each
- *     128       inputs of the frame, a pose_wall_inputs as in memory; all zero: none
+ *              32  x, y, z, intensity, time, ring: u32 offset, u32 type each; zeros behind
+ *     192       inputs of the frame as the engine got them, with the runtime's odometry: a pose_wall_inputs as in
+ *               memory; all zero: none
  *               then, each with zeros behind it up to the next multiple of 64:
  *               memento before the event
  *               result as published
+ *               motion as published, a pose_wall_motion_result; all zero: none
  *               the cloud's points
  *
  * The head is written last, so a record that was cut off by a crash has none, or an old one whose body's CRC (at 52) no
@@ -64,12 +67,13 @@
 #include <stdint.h>
 
 #include "pose_wall.h"
+#include "pose_wall_motion.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define POSE_WALL_BOX_VERSION 2
+#define POSE_WALL_BOX_VERSION 3
 #define POSE_WALL_BOX_HEADER_BYTES 4096
 
 /* Up to POSE_WALL_RUNTIME_ABI_VERSION 2 these were -80 to -85, which pose_wall.h has taken since. */
@@ -104,10 +108,16 @@ typedef struct pose_wall_box_info {
 } pose_wall_box_info;
 
 /* Reads the header. Fails iff: NULL, POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION; *info is then unchanged. */
-POSE_WALL_CHECKED int32_t pose_wall_box_open_2(const void* bytes, uint64_t count, pose_wall_box_info* info);
-/* What a program built against format 1 calls first: writes nothing, and always gives POSE_WALL_E_ABI. */
+POSE_WALL_CHECKED int32_t pose_wall_box_open_3(const void* bytes, uint64_t count, pose_wall_box_info* info);
+/* What programs built against formats 1 and 2 call first: they write nothing, and always give POSE_WALL_E_ABI. */
 POSE_WALL_CHECKED int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info);
-#define pose_wall_box_open pose_wall_box_open_2
+POSE_WALL_CHECKED int32_t pose_wall_box_open_2(const void* bytes, uint64_t count, pose_wall_box_info* info);
+#define pose_wall_box_open pose_wall_box_open_3
+
+/* Of a box of any format: which one, and which library wrote it; for who says why POSE_WALL_BOX_E_VERSION. Fails iff:
+ * NULL, POSE_WALL_BOX_E_FORMAT; both are then unchanged. */
+POSE_WALL_CHECKED int32_t pose_wall_box_written_by(const void* bytes, uint64_t count, uint32_t* format,
+                                                   char version[24]);
 
 /* One record. The pointers point into the caller's bytes. */
 typedef struct pose_wall_box_record {
@@ -121,7 +131,8 @@ typedef struct pose_wall_box_record {
   const void* result; /* a pose_wall_result; copy it out, it may be misaligned for the machine */
   const void* points; /* NULL: the digest only */
   const void* inputs; /* a pose_wall_inputs, may be misaligned, too; NULL: none were given */
-  pose_wall_field x, y, z, intensity;
+  const void* motion; /* a pose_wall_motion_result, likewise; NULL: none */
+  pose_wall_field x, y, z, intensity, time, ring;
   uint32_t kind;    /* pose_wall_box_kind */
   uint32_t damaged; /* pose_wall_box_damage */
   uint32_t thinning;

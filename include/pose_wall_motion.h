@@ -133,7 +133,7 @@ typedef struct pose_wall_motion_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_motion_result) before the call */
   uint32_t along_state; /* pose_wall_along_state */
   uint32_t reasons;     /* pose_wall_motion_reason bits */
-  uint32_t mark;        /* the library's: tells a result from memory that nobody wrote */
+  uint32_t mark;        /* the library's: pose_wall_motion_image_fill tells by it a result from any other memory */
   int64_t stamp_ns;     /* the frame's */
   uint64_t frame_index; /* counts processed frames from 0 */
 
@@ -170,6 +170,10 @@ typedef struct pose_wall_motion_result {
   uint32_t tiles;   /* square metres of surface in the map */
   uint32_t keyframes;
   uint32_t wide_start; /* 1: the frame was searched for without a guess */
+
+  uint64_t run;          /* poses of one run are comparable: another number after each new start; 0 while lost */
+  uint32_t config_crc32; /* pose_wall_config_crc() of the config that the motion was opened with */
+  uint32_t source_id;    /* of that config */
 } pose_wall_motion_result;
 
 /* ---------------------------------------------------------------------------------------------- motion */
@@ -196,8 +200,8 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_process(pose_wall_motion* motion, con
                                                    pose_wall_motion_result* result);
 
 /* The last frame's pose as the engine takes it: sets POSE_WALL_INPUT_ODOMETRY and inputs->odometry, or clears the bit
- * where that frame has no pose; the rest stays as it is. Set inputs->struct_size = sizeof *inputs first. The run's frame
- * is that of the map. Fails iff: NULL, not open, struct_size. */
+ * where that frame has no pose; the rest stays as it is. Set inputs->struct_size = sizeof *inputs first. The run's
+ * frame is that of the map. Fails iff: NULL, not open, struct_size. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs);
 
 /* Both at once, for one frame: pose_wall_motion_process, then pose_wall_process with the frame's inputs and this pose
@@ -209,10 +213,99 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_process_both(pose_wall_motion* motion
                                                         pose_wall_motion_result* motion_result,
                                                         pose_wall_result* result);
 
+/* What a moment without a frame tells: no pose (NaN, levels infinite, lost), and of the last frame its stamp_ns,
+ * frame_index (before the first: 2^64 - 1) and nothing else. Set result->struct_size first. The motion is unchanged.
+ * Fails iff: NULL, not open, struct_size. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_blank(const pose_wall_motion* motion, pose_wall_motion_result* result);
+
+/* ---------------------------------------------------------------------------------------------- process image */
+
+/* One frame's motion for a controller: 33 words, by the rules of the process images of pose_wall.h (NUMBERS, BYTES,
+ * CRC, SEQUENCE, VERSION there), with a CRC-32C as image 2 has. Where there is no pose, or the frame before had none,
+ * values are POSE_WALL_IMAGE_NO_VALUE and levels POSE_WALL_IMAGE_NO_BOUND. Its version goes on from theirs, so that a
+ * controller tells all images by words 0 and 1. */
+#define POSE_WALL_MOTION_IMAGE_VERSION 3
+
+/* From here on written by tools/plc/generate.py from tools/plc/image.def. */
+
+#define POSE_WALL_MOTION_IMAGE_BYTES 132
+
+/* One frame's motion for a controller. 132 bytes. */
+typedef struct pose_wall_motion_image {
+  uint32_t struct_size;           /* bytes: POSE_WALL_MOTION_IMAGE_BYTES */
+  uint32_t version;               /* POSE_WALL_MOTION_IMAGE_VERSION */
+  uint32_t crc32c;                /* CRC-32C of every byte but its own four */
+  uint32_t sequence;              /* frames since the motion was opened or reset: 0 before the first */
+  uint32_t publication;           /* changes with every publication, of a frame or of silence */
+  uint32_t run;                   /* changes where the map begins anew: places before it do not compare; 0: no pose */
+  uint32_t config_crc32;          /* pose_wall_config_crc() of the motion's config */
+  uint32_t library_version;       /* major * 65536 + minor * 256 + patch */
+  uint32_t stamp_low;             /* the frame's stamp_ns, bits 0 to 31 */
+  uint32_t stamp_high;            /* and bits 32 to 63 */
+  uint32_t source_id;             /* which sensor or engine of several, of the config */
+  uint32_t latency_ms;            /* ms: from reception to publication, rounded up; 4294967295: not known */
+  uint32_t thinning;              /* of every so many returns one was used; 0: not known */
+  uint32_t told_by;               /* 1: a frame, 2: silence, 0: not known */
+  uint32_t along_state;           /* pose_wall_along_state; 0 without a pose */
+  uint32_t reasons;               /* pose_wall_motion_reason */
+  int32_t travel_mm;              /* mm: along the road since the first frame; backwards subtracts */
+  int32_t travel_protection_mm;   /* mm: protection level of travel and of the position along the road, rounded up */
+  int32_t x_mm;                   /* mm: position of base, in base as it stood at the first frame */
+  int32_t y_mm;                   /* mm: likewise */
+  int32_t z_mm;                   /* mm: likewise */
+  int32_t across_protection_mm;   /* mm: of the position across the road, rounded up */
+  int32_t up_protection_mm;       /* mm: of its height, rounded up */
+  int32_t roll_mdeg;              /* 0.001 deg: of base since the first frame: turned by yaw, pitch, roll in turn */
+  int32_t pitch_mdeg;             /* 0.001 deg: likewise */
+  int32_t yaw_mdeg;               /* 0.001 deg: likewise; right-handed as the others: positive to the left */
+  int32_t roll_protection_mdeg;   /* 0.001 deg: rounded up */
+  int32_t pitch_protection_mdeg;  /* 0.001 deg: rounded up */
+  int32_t yaw_protection_mdeg;    /* 0.001 deg: rounded up */
+  int32_t speed_mm_s;             /* mm/s: along the road, since the frame before; backwards negative */
+  int32_t speed_protection_mm_s;  /* mm/s: rounded up */
+  int32_t turn_mdeg_s;            /* 0.001 deg/s: about the first frame's z; positive to the left */
+  int32_t turn_protection_mdeg_s; /* 0.001 deg/s: rounded up */
+} pose_wall_motion_image;
+
+/* Up to here. */
+
+/* Writes the image of a result, whichever motion gave it. Set image->struct_size = sizeof *image first. source as in
+ * pose_wall_image2_fill (held_thinning is not in this image); NULL: all that it tells reads as not known, publication
+ * as sequence. Fails iff: result or image NULL, a struct_size of another version, a result that no motion made
+ * (POSE_WALL_E_RESULT); the image is then unchanged. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_image_fill(const pose_wall_motion_result* result,
+                                                      const pose_wall_image_source* source,
+                                                      pose_wall_motion_image* image);
+
+/* POSE_WALL_OK for an image as pose_wall_motion_image_fill left it. Fails iff: NULL, POSE_WALL_E_IMAGE_VERSION,
+ * POSE_WALL_E_IMAGE_CRC. */
+POSE_WALL_CHECKED int32_t pose_wall_motion_image_check(const pose_wall_motion_image* image);
+
 /* The map's surface points, in start, for pictures: writes up to `capacity` of them from the first-th on as x, y, z and
  * gives how many there are in all. Fails iff: motion or total NULL, xyz_m NULL with capacity > 0, not open. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,
                                                uint32_t capacity, uint32_t* total);
+
+/* ---------------------------------------------------------------------------------------------- for a runtime */
+
+/* The functions above, for who runs a motion without being linked with it: pose_wall_runtime_options.motion. */
+typedef struct pose_wall_motion_functions {
+  uint32_t struct_size;
+  uint32_t abi_version; /* POSE_WALL_MOTION_ABI_VERSION */
+  int32_t (*settings_check)(const pose_wall_motion_settings* settings, pose_wall_motion_fault* fault);
+  uint64_t (*memory_needed)(void);
+  int32_t (*open)(const pose_wall_config* config, const pose_wall_motion_settings* settings, void* block,
+                  uint64_t block_bytes, pose_wall_motion** motion);
+  int32_t (*reset)(pose_wall_motion* motion);
+  int32_t (*process)(pose_wall_motion* motion, const pose_wall_cloud* cloud, pose_wall_motion_result* result);
+  int32_t (*give)(const pose_wall_motion* motion, pose_wall_inputs* inputs);
+  int32_t (*blank)(const pose_wall_motion* motion, pose_wall_motion_result* result);
+  int32_t (*image_fill)(const pose_wall_motion_result* result, const pose_wall_image_source* source,
+                        pose_wall_motion_image* image);
+} pose_wall_motion_functions;
+
+/* Static storage. */
+const pose_wall_motion_functions* pose_wall_motion_functions_get(void);
 
 #ifdef __cplusplus
 }

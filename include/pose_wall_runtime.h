@@ -4,7 +4,8 @@
 /*
  * pose_wall_runtime: the engine of pose_wall.h on a machine that runs. Frames are handed over by the thread that
  * receives them and are worked by a thread of the runtime's own; results are there for every thread at any time. A
- * second archive, libpose_wall_runtime.a: POSIX threads and pose_wall.h, nothing else.
+ * second archive, libpose_wall_runtime.a: POSIX threads and pose_wall.h, nothing else. Of pose_wall_motion.h it needs
+ * the types; who wants motion as well links libpose_wall_motion.a and hands its functions over: see MOTION.
  *
  *     Every call returns a status to look at; it is left out here.
  *
@@ -65,6 +66,15 @@
  * `held_thinning` says so. The region is never narrowed: a cropped cloud looks full of holes. What was dropped shows in
  * `frame`, which counts pushes.
  *
+ * MOTION. With options.motion = pose_wall_motion_functions_get() and the config's key `motion` on, each frame
+ * goes through pose_wall_motion.h first, and its pose into the engine with the frame's own inputs, as
+ * pose_wall_motion_process_both does: held values move with the machine. An odometry of the caller's is then not used,
+ * for two of them are not comparable. The publication has the motion's result beside the engine's; silence has none.
+ * Motion costs a frame nothing but time: what it refuses is worked without it, and a motion that finds its block
+ * damaged is opened anew. Each start begins a new map. Dropped frames are a gap in the way, which motion bridges by a
+ * wider search; a thinned cloud is worked like any other, and its levels are of what it had. Motion sees what push
+ * copied: points that hold no return are not in it.
+ *
  * ERRORS. POSE_WALL_OK or a negative status, of pose_wall.h or of this header. A refused call changes nothing but the
  * counters.
  */
@@ -76,6 +86,7 @@
 #include <stdint.h>
 
 #include "pose_wall.h"
+#include "pose_wall_motion.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -97,7 +108,8 @@ enum pose_wall_runtime_status {
   POSE_WALL_RUNTIME_E_LARGE = -105,  /* more points than cloud_points_max, or wider than point_bytes_max */
   POSE_WALL_RUNTIME_E_NOTHING = -106, /* nothing published since start */
   POSE_WALL_RUNTIME_E_SYSTEM = -107,  /* the system refused a thread, or what `required` asks for */
-  POSE_WALL_RUNTIME_E_STALE = -108    /* what was published last is watchdog_ns old: see FRESHNESS */
+  POSE_WALL_RUNTIME_E_STALE = -108,   /* what was published last is watchdog_ns old: see FRESHNESS */
+  POSE_WALL_RUNTIME_E_MOTION = -109   /* this runtime has no motion: see MOTION */
 };
 /* One English sentence, static storage; for every status of pose_wall.h too. */
 const char* pose_wall_runtime_status_text(int32_t status);
@@ -138,8 +150,12 @@ typedef struct pose_wall_publication {
   int64_t activity_since_ns; /* runtime's clock, rounded down to a multiple of 8 ns: since when the worker is at it */
   uint32_t activity;         /* pose_wall_runtime_activity, when this was asked for */
   uint32_t reserved[5];      /* 0 */
-  pose_wall_result result;   /* Points that push left out because they hold no return are included in its counts.
-                                Both structs grow at their ends; its struct_size says how much of it was written */
+  pose_wall_result result;   /* Points that push left out because they hold no return are included in its counts. Its
+                                struct_size says how much of it was written */
+  uint32_t has_motion;       /* 1: `motion` is of this frame. 0: silence, no motion, or motion_status */
+  int32_t motion_status;     /* why a frame has no motion though the runtime has: what motion said of it */
+  pose_wall_motion_result motion; /* without has_motion: as pose_wall_motion_blank, and all zero where the runtime has
+                                     no motion. points_in includes what push left out */
 } pose_wall_publication;
 
 /* Called on the worker's thread after `latest` holds the same. What it takes, the next frame waits for. The pointer is
@@ -169,7 +185,10 @@ typedef struct pose_wall_runtime_options {
   uint32_t struct_size;      /* set by pose_wall_runtime_options_init */
   uint32_t queue_frames;     /* 2; 1 to 64 that may wait. More hide longer stalls and make results older */
   uint32_t cloud_points_max; /* 262144; 1 to 2^26 points a cloud may hold, with those that hold no return */
-  uint32_t point_bytes_max;  /* 16; 12 to 32: x, y, z of 4 or 8 bytes each, and intensity where intensity_weight > 0 */
+  uint32_t point_bytes_max;  /* 16; 12 to 48: x, y, z of 4 or 8 bytes each, and intensity where intensity_weight > 0.
+                                With an odometry, the runtime's or the caller's, time is copied as well where it fits,
+                                and then ring for motion: 24 has room for both beside floats, as known drivers write
+                                them. Without time nothing takes the scan's own motion out of it */
   uint32_t thinning_max;     /* 1: never leave out a return. 2, 4, 8 or 16: see OVERLOAD */
   uint32_t box_clouds;       /* 1: the black box holds whole clouds. 0: their digests; nothing can be computed again */
   uint32_t box_backlog;      /* 2; 1 to 64 records that may wait for the sink; what comes then is not recorded */
@@ -191,11 +210,13 @@ typedef struct pose_wall_runtime_options {
   void* callback_user;
   pose_wall_runtime_sink sink; /* or NULL: no black box */
   void* sink_user;
-  uint64_t box_bytes;  /* 0; of the ring file. With a sink at least what the header and one whole record need: 4224
-                          bytes, sizeof(pose_wall_inputs), pose_wall_memento_bytes(), sizeof(pose_wall_result) and, with
-                          box_clouds, cloud_points_max x point_bytes_max, these four rounded up to multiples of 64. Used
-                          in multiples of 64 */
+  uint64_t box_bytes;  /* 0; of the ring file. With a sink at least what the header and one whole record need: 4288
+                          bytes, sizeof(pose_wall_inputs), pose_wall_memento_bytes(), sizeof(pose_wall_result),
+                          sizeof(pose_wall_motion_result) and, with box_clouds, cloud_points_max x point_bytes_max,
+                          these five rounded up to multiples of 64. Used in multiples of 64 */
   uint64_t reserved_2; /* 0. It tells these options from those of ABI 2 by their size */
+  const pose_wall_motion_functions* motion;         /* NULL: no motion. Else kept as it is, not copied */
+  const pose_wall_motion_settings* motion_settings; /* NULL: defaults. Copied by open */
 } pose_wall_runtime_options;
 
 /* Fills every option with its default (the figure in its comment). Fails iff: NULL. */
@@ -214,8 +235,9 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_options_check(const pose_wall_runtim
 
 typedef struct pose_wall_runtime pose_wall_runtime;
 
-/* Bytes of the block: the engine's, and (queue_frames + 2, with a sink + box_backlog) frames of cloud_points_max x
- * point_bytes_max bytes. Fails iff: NULL, struct_size, an option, the config (as pose_wall_memory_needed). */
+/* Bytes of the block: the engine's, the motion's where there is one, and (queue_frames + 2, with a sink + box_backlog)
+ * frames of cloud_points_max x point_bytes_max bytes. Fails iff: NULL, struct_size, an option, the config (as
+ * pose_wall_memory_needed). */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config,
                                                           const pose_wall_runtime_options* options, uint64_t* bytes);
 
@@ -269,11 +291,12 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_load(pose_wall_runtime* runtime, con
 /* ---------------------------------------------------------------------------------------------- frames and results */
 
 /* Checks the cloud and its inputs, copies what the engine reads of them, and queues it. Inputs speak of the time since
- * the frame that was pushed before: where that was dropped, only their boxes are used. Points that are not finite or
- * exactly zero are left out of the copy (not with intensity_weight > 0, where they count in the mean). What is refused
- * is counted as pushed and dropped, but not NULL, nor when the runtime is not running. Fails iff: NULL, not open, not
- * running or stopped before the copy was done (which is counted), another thread inside push, struct_size or a
- * description that pose_wall_cloud_check refuses, POSE_WALL_RUNTIME_E_LARGE. */
+ * the frame that was pushed before: where that was dropped, only their boxes and their odometry are used. Points that
+ * are not finite or exactly zero are left out of the copy (not with intensity_weight > 0, where they count in the mean,
+ * nor where times are copied the first and the last of them). What is refused is counted as pushed and dropped, but not
+ * NULL, nor when the runtime is not running. Fails iff: NULL, not open, not running or stopped before the copy was done
+ * (which is counted), another thread inside push, struct_size or a description that pose_wall_cloud_check refuses,
+ * POSE_WALL_RUNTIME_E_LARGE. */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud);
 
 /* The newest publication, with its age and what the worker is at. No lock, no wait: one look at the clock and one copy,
@@ -296,6 +319,11 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_image(const pose_wall_runtime* runti
  * published_ns minus received_ns, so for silence the age of what it tells of. It has told_by, thinning and
  * held_thinning of the publication. */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_image2(const pose_wall_runtime* runtime, pose_wall_image2* image);
+
+/* The motion image (pose_wall_motion.h) of the same, likewise: of silence and of what is stale without a value, and
+ * with the run 0. Fails also iff: POSE_WALL_RUNTIME_E_MOTION; the image is then unchanged. */
+POSE_WALL_CHECKED int32_t pose_wall_runtime_motion_image(const pose_wall_runtime* runtime,
+                                                         pose_wall_motion_image* image);
 
 /* What became of the points of the frame that the callback is called back with, as pose_wall_last_points tells it:
  * for pictures and logs. The pointers are good until the callback returns; of a silence they are the last worked
@@ -373,6 +401,8 @@ typedef struct pose_wall_runtime_statistics {
   pose_wall_runtime_times callback; /* inside the callback */
   pose_wall_runtime_times sink;     /* to write one record, or to fail to */
   pose_wall_runtime_times stage[POSE_WALL_STAGES];
+  uint64_t motion_refused;        /* of the frames worked: without motion, see pose_wall_publication.motion_status */
+  pose_wall_runtime_times motion; /* inside motion, beside `work` */
 } pose_wall_runtime_statistics;
 
 /* A consistent picture of the counters; the times are read beside them without a lock. Set struct_size first. Fails

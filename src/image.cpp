@@ -7,18 +7,12 @@
 #include <cstddef>
 #include <cstring>
 
-#include "math/crc32.hpp"
 #include "math/finite.hpp"
+#include "math/image_words.hpp"
 
 namespace pose_wall {
 namespace {
 
-constexpr double kMilliDegreesPerRadian = 180000.0 / 3.14159265358979323846;
-constexpr double kMillimetresPerMetre = 1000.0;
-constexpr double kMillisecondsPerSecond = 1000.0;
-constexpr double kNanosecondsPerSecond = 1e9;
-constexpr double kIntegerMax = 2147483647.0;
-constexpr double kUnsignedMax = 4294967295.0;
 // The floats of "no value" and "no bound". A float that is known stays within +-kFloatMax.
 constexpr float kNoValue = -2147483648.0F;
 constexpr float kNoBound = 2147483648.0F;
@@ -32,19 +26,6 @@ static_assert(sizeof(pose_wall_image) == POSE_WALL_IMAGE_BYTES && POSE_WALL_IMAG
                   offsetof(pose_wall_image2, crc32c) == offsetof(pose_wall_image, crc32),
               "image.def and the compiler disagree");
 
-double within(double value, double limit) {
-  if (value > limit) return limit;
-  return value < -limit ? -limit : value;
-}
-
-std::int32_t nearest_integer(double value) {
-  return static_cast<std::int32_t>(within(std::floor(value + 0.5), kIntegerMax));
-}
-
-std::int32_t integer_above(double value) {
-  return static_cast<std::int32_t>(within(std::ceil(value), kIntegerMax));
-}
-
 float float_above(double value) {
   float f = static_cast<float>(within(value, kFloatMax));
   if (static_cast<double>(f) < value && value <= kFloatMax) {
@@ -56,18 +37,13 @@ float float_above(double value) {
   return f;
 }
 
-std::uint32_t milliseconds_above(double seconds) {
-  const double milliseconds = std::ceil(seconds * kMillisecondsPerSecond);
-  return milliseconds >= 0.0 && milliseconds < kUnsignedMax ? static_cast<std::uint32_t>(milliseconds) : 0xFFFFFFFFU;
-}
-
 // What angles and distances have in common: member by member both of them.
 struct Entry {
   std::int32_t value_scaled = POSE_WALL_IMAGE_NO_VALUE;
   std::int32_t protection_scaled = POSE_WALL_IMAGE_NO_BOUND;
   float value = kNoValue;
   float protection = kNoBound;
-  std::uint32_t age_ms = 0xFFFFFFFFU;
+  std::uint32_t age_ms = kMillisecondsNotKnown;
   std::uint32_t state = POSE_WALL_INVALID;
   std::uint32_t reasons = 0;
 };
@@ -112,14 +88,7 @@ static_assert(sizeof(Entry2) == sizeof(pose_wall_image2_angle) &&
               "the seven lie one behind the other");
 
 std::uint32_t crc_of(const void* image, std::size_t bytes, std::uint32_t polynomial) {
-  const auto* from = static_cast<const unsigned char*>(image);
-  Crc32 crc(polynomial);
-  for (std::size_t i = 0; i < bytes / sizeof(std::uint32_t); ++i) {
-    std::uint32_t word;
-    std::memcpy(&word, from + i * sizeof(word), sizeof(word));
-    if (i != kCrcWord) crc.add_word(word);
-  }
-  return crc.value();
+  return crc_of_words(image, bytes, kCrcWord, polynomial);
 }
 
 double scale_of(std::uint32_t quantity) {
@@ -166,9 +135,7 @@ void fill_image(const pose_wall_result& result, const pose_wall_image_source& so
   fill_head(result, image);
   image->publication = static_cast<std::uint32_t>(source.publication);
   image->source_id = result.source_id;
-  image->latency_ms = source.latency_ns >= 0
-                          ? milliseconds_above(static_cast<double>(source.latency_ns) / kNanosecondsPerSecond)
-                          : 0xFFFFFFFFU;
+  image->latency_ms = latency_ms(source.latency_ns);
   image->thinning = source.thinning;
   image->held_thinning = source.held_thinning;
   image->told_by = source.cause;

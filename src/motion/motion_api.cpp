@@ -3,10 +3,13 @@
 //
 // The only extern "C" file of pose_wall_motion: checks arguments, translates, calls.
 
+#include <cstddef>
 #include <cstring>
 
 #include "export.hpp"
 #include "math/rotation.hpp"
+#include "motion/motion_image.hpp"
+#include "motion/motion_report.hpp"
 #include "motion/odometry.hpp"
 #include "pose_wall_motion.h"
 #include "struct_versions.hpp"
@@ -20,7 +23,7 @@ using pose_wall::motion::Odometry;
 using pose_wall::motion::Reading;
 
 constexpr StructSizes kSettingsSizes = {0, sizeof(pose_wall_motion_settings), sizeof(pose_wall_motion_settings)};
-constexpr StructSizes kMotionResultSizes = {0, sizeof(pose_wall_motion_result), sizeof(pose_wall_motion_result)};
+constexpr StructSizes kMotionResultSizes = {0, offsetof(pose_wall_motion_result, run), sizeof(pose_wall_motion_result)};
 constexpr std::uint32_t kMark = 0x4E544F4DU;
 
 constexpr const char* kStates[] = {"lost", "unobservable", "ambiguous", "measured"};
@@ -47,6 +50,9 @@ struct Holder {
   std::uint64_t magic;
   const Holder* self;
   mutable std::uint64_t inside;
+  std::uint32_t config_crc32, source_id;
+  std::uint64_t frames;
+  std::int64_t last_stamp_ns;
   Odometry odometry;
 };
 
@@ -90,6 +96,20 @@ std::uint64_t lay_out(void* block, Holder** out) {
   (holder != nullptr ? holder->odometry : measured).lay_out(arena);
   if (out != nullptr) *out = holder;
   return arena.bytes();
+}
+
+// What every result of a motion has, whatever the frame.
+pose_wall_motion_result begun(const Holder& holder) {
+  pose_wall_motion_result result{};
+  result.mark = kMark;
+  result.config_crc32 = holder.config_crc32;
+  result.source_id = holder.source_id;
+  return result;
+}
+
+void forget_frames(Holder* holder) {
+  holder->frames = 0;
+  holder->last_stamp_ns = 0;
 }
 
 double number_of(const pose_wall_config& config, const char* key) {
@@ -198,6 +218,9 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_open(const pose_wall_config* config,
   Holder* holder = nullptr;
   lay_out(block, &holder);
   holder->odometry.open(reading_of(*config, chosen), settings_of(*config, chosen));
+  (void)pose_wall_config_crc(config, &holder->config_crc32);
+  holder->source_id = static_cast<std::uint32_t>(number_of(*config, "source_id"));
+  forget_frames(holder);
   holder->inside = 0;
   holder->self = holder;
   holder->magic = Holder::kMagic;
@@ -208,8 +231,10 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_open(const pose_wall_config* config,
 POSE_WALL_EXPORT int32_t pose_wall_motion_reset(pose_wall_motion* motion) {
   if (motion == nullptr) return POSE_WALL_E_NULL;
   const Inside inside(holder_of(motion));
-  if (inside.status() == POSE_WALL_OK) holder_of(motion)->odometry.reset();
-  return inside.status();
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  holder_of(motion)->odometry.reset();
+  forget_frames(holder_of(motion));
+  return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_process(pose_wall_motion* motion, const pose_wall_cloud* cloud,
@@ -221,9 +246,12 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_process(pose_wall_motion* motion, cons
   if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(result->struct_size, kMotionResultSizes);
   if (status != POSE_WALL_OK) return status;
   const auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
-  pose_wall_motion_result found{};
-  found.mark = kMark;
-  holder_of(motion)->odometry.process(whole, &found);
+  Holder* const holder = holder_of(motion);
+  pose_wall_motion_result found = begun(*holder);
+  holder->odometry.process(whole, &found);
+  found.run = found.along_state != POSE_WALL_ALONG_LOST ? holder->odometry.run() : 0;
+  holder->frames = found.frame_index + 1;
+  holder->last_stamp_ns = found.stamp_ns;
   pose_wall::write_struct(found, result->struct_size, result);
   return POSE_WALL_OK;
 }
@@ -257,6 +285,52 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_process_both(pose_wall_motion* motion,
   whole.struct_size = sizeof(whole);
   whole.inputs = &inputs;
   return pose_wall_process(engine, &whole, result);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_blank(const pose_wall_motion* motion, pose_wall_motion_result* result) {
+  if (motion == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  const Inside inside(holder_of(motion));
+  std::int32_t status = inside.status();
+  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(result->struct_size, kMotionResultSizes);
+  if (status != POSE_WALL_OK) return status;
+  const Holder& holder = *holder_of(motion);
+  pose_wall_motion_result none = begun(holder);
+  pose_wall::motion::report_nothing(&none);
+  none.frame_index = holder.frames - 1;
+  none.stamp_ns = holder.last_stamp_ns;
+  pose_wall::write_struct(none, result->struct_size, result);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_image_fill(const pose_wall_motion_result* result,
+                                                     const pose_wall_image_source* source,
+                                                     pose_wall_motion_image* image) {
+  if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
+  std::int32_t status = pose_wall::check_struct_size(result->struct_size, kMotionResultSizes);
+  if (status == POSE_WALL_OK && image->struct_size != sizeof(*image)) status = POSE_WALL_E_STRUCT_SIZE;
+  if (status == POSE_WALL_OK && source != nullptr) {
+    status = pose_wall::check_struct_size(source->struct_size, pose_wall::kSourceSizes);
+  }
+  if (status != POSE_WALL_OK) return status;
+  const auto whole = pose_wall::read_struct<pose_wall_motion_result>(result, result->struct_size);
+  if (whole.mark != kMark) return POSE_WALL_E_RESULT;
+  pose_wall_image_source told{sizeof(told), 0, 0, 0, whole.frame_index + 1, -1};
+  if (source != nullptr) told = pose_wall::read_struct<pose_wall_image_source>(source, source->struct_size);
+  pose_wall::motion::fill_image(whole, told, image);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_motion_image_check(const pose_wall_motion_image* image) {
+  return image != nullptr ? pose_wall::motion::check_image(*image) : POSE_WALL_E_NULL;
+}
+
+POSE_WALL_EXPORT const pose_wall_motion_functions* pose_wall_motion_functions_get(void) {
+  static constexpr pose_wall_motion_functions kFunctions = {
+      sizeof(pose_wall_motion_functions), POSE_WALL_MOTION_ABI_VERSION, pose_wall_motion_settings_check,
+      pose_wall_motion_memory_needed,     pose_wall_motion_open,        pose_wall_motion_reset,
+      pose_wall_motion_process,           pose_wall_motion_give,        pose_wall_motion_blank,
+      pose_wall_motion_image_fill};
+  return &kFunctions;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,

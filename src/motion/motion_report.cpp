@@ -49,6 +49,19 @@ void report_step(const Frame& frame, pose_wall_motion_result* out) {
 
 }  // namespace
 
+void report_nothing(pose_wall_motion_result* out) {
+  const double none = not_a_number();
+  out->along_state = POSE_WALL_ALONG_LOST;
+  for (int k = 0; k < 3; ++k) out->position_m[k] = out->road_axis[k] = out->step_m[k] = out->step_rad[k] = none;
+  for (double& q : out->quaternion) q = none;
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    out->sigma[k] = out->step_sigma[k] = out->step_protection_level[k] = none;
+    out->protection_level[k] = std::numeric_limits<double>::infinity();
+  }
+  out->along_m = out->step_s = none;
+  out->contrast = out->patches = out->halves_m = out->second_m = out->second_gain = none;
+}
+
 void report(const Frame& frame, const Pose& start, pose_wall_motion_result* out) {
   out->along_state = frame.state;
   out->reasons = frame.reasons;

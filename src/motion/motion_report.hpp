@@ -10,6 +10,9 @@
 
 namespace pose_wall::motion {
 
+// A result without a pose: not a number, and levels without a bound.
+void report_nothing(pose_wall_motion_result* out);
+
 // start: base of the first frame in the map.
 void report(const Frame& frame, const Pose& start, pose_wall_motion_result* out);
 

@@ -26,6 +26,7 @@ class Odometry {
   void process(const pose_wall_cloud& cloud, pose_wall_motion_result* result);
   // The last frame's pose as the engine takes it. False where it has none.
   bool tell(pose_wall_odometry* out) const;
+  std::uint64_t run() const { return run_; }
   std::uint32_t map_points(std::uint32_t first, std::uint32_t capacity, float* xyz_start_m) const;
 
  private:

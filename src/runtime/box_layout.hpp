@@ -19,9 +19,10 @@ constexpr char kBoxMagic[8] = {'P', 'W', 'A', 'L', 'L', 'B', 'O', 'X'};
 
 // The header.
 constexpr std::uint32_t kAtVersion = 8, kAtHeaderBytes = 12, kAtBoxBytes = 16, kAtConfigBytes = 24, kAtResultBytes = 28,
-                        kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtInputsBytes = 4080,
-                        kAtHeaderRun = 4084, kAtHeaderConfigCrc = 4088, kAtHeaderCrc = 4092, kLibraryBytes = 24;
-static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtInputsBytes, "the config fits the header");
+                        kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtMotionBytes = 4076,
+                        kAtInputsBytes = 4080, kAtHeaderRun = 4084, kAtHeaderConfigCrc = 4088, kAtHeaderCrc = 4092,
+                        kLibraryBytes = 24;
+static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtMotionBytes, "the config fits the header");
 
 // The head of a record.
 constexpr std::uint32_t kAtSync = 0, kAtKind = 4, kAtRecordBytes = 8, kAtSequence = 16, kAtReceived = 24, kAtStamp = 32,
@@ -32,7 +33,7 @@ constexpr std::uint64_t kHeadBytes = 64;
 // The cloud's description, from the end of the head.
 constexpr std::uint32_t kAtDigest = 0, kAtPoints = 8, kAtPointBytes = 12, kAtBigEndian = 16, kAtNotFinite = 20,
                         kAtZero = 24, kAtConfigCrc = 28, kAtFields = 32;
-constexpr std::uint64_t kDescriptionBytes = 64;
+constexpr std::uint64_t kDescriptionBytes = 128;
 
 constexpr std::uint64_t aligned(std::uint64_t bytes) {
   return (bytes + kBoxAlignment - 1) & ~(kBoxAlignment - 1);
@@ -43,6 +44,7 @@ inline std::uint64_t memento_room() {
 }
 constexpr std::uint64_t kInputsRoom = aligned(sizeof(pose_wall_inputs));
 constexpr std::uint64_t kResultRoom = aligned(sizeof(pose_wall_result));
+constexpr std::uint64_t kMotionRoom = aligned(sizeof(pose_wall_motion_result));
 
 // Behind the cloud's description.
 constexpr std::uint64_t kAtInputs = kDescriptionBytes, kAtMemento = kAtInputs + kInputsRoom;
@@ -50,8 +52,12 @@ inline std::uint64_t at_result() {
   return kAtMemento + memento_room();
 }
 
-inline std::uint64_t body_without_cloud() {
+inline std::uint64_t at_motion() {
   return at_result() + kResultRoom;
+}
+
+inline std::uint64_t body_without_cloud() {
+  return at_motion() + kMotionRoom;
 }
 
 // The machines that record are little-endian; pose_wall_runtime_open refuses a sink on others.

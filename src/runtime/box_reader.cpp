@@ -52,10 +52,14 @@ void read_body(const unsigned char* head, pose_wall_box_record* record) {
   record->y = field_at(description, 1);
   record->z = field_at(description, 2);
   record->intensity = field_at(description, 3);
+  record->time = field_at(description, 4);
+  record->ring = field_at(description, 5);
   const unsigned char* const inputs = description + kAtInputs;
   record->inputs = get<std::uint32_t>(inputs) != 0 ? inputs : nullptr;
   record->memento = description + kAtMemento;
   record->result = description + at_result();
+  const unsigned char* const motion = description + at_motion();
+  record->motion = get<std::uint32_t>(motion) != 0 ? motion : nullptr;
   const bool with_points = get<std::uint64_t>(head + kAtCloudBytes) > 0 || record->point_count == 0;
   record->points = with_points ? description + body_without_cloud() : nullptr;
 }
@@ -119,20 +123,33 @@ pose_wall_cloud cloud_of(const pose_wall_box_record& record) {
   cloud.y = record.y;
   cloud.z = record.z;
   cloud.intensity = record.intensity;
+  cloud.time = record.time;
+  cloud.ring = record.ring;
   return cloud;
 }
 
+// Of any format.
+bool is_header(const unsigned char* header, std::uint64_t count) {
+  return count >= kHeaderBytes && std::memcmp(header, kBoxMagic, 8) == 0 &&
+         get<std::uint32_t>(header + kAtHeaderCrc) == crc32(header, kAtHeaderCrc);
+}
+
 std::int32_t check_header(const unsigned char* header, std::uint64_t count) {
-  if (count < kHeaderBytes || std::memcmp(header, kBoxMagic, 8) != 0) return POSE_WALL_BOX_E_FORMAT;
-  if (get<std::uint32_t>(header + kAtHeaderCrc) != crc32(header, kAtHeaderCrc)) return POSE_WALL_BOX_E_FORMAT;
+  if (!is_header(header, count)) return POSE_WALL_BOX_E_FORMAT;
   const bool same = get<std::uint32_t>(header + kAtVersion) == POSE_WALL_BOX_VERSION &&
                     get<std::uint32_t>(header + kAtHeaderBytes) == kHeaderBytes &&
                     get<std::uint32_t>(header + kAtConfigBytes) == sizeof(pose_wall_config) &&
                     get<std::uint32_t>(header + kAtResultBytes) == sizeof(pose_wall_result) &&
                     get<std::uint32_t>(header + kAtMementoBytes) == pose_wall_memento_bytes() &&
                     get<std::uint32_t>(header + kAtInputsBytes) == sizeof(pose_wall_inputs) &&
+                    get<std::uint32_t>(header + kAtMotionBytes) == sizeof(pose_wall_motion_result) &&
                     get<std::uint32_t>(header + kAtAbi) == POSE_WALL_ABI_VERSION;
   return ok_if(same, POSE_WALL_BOX_E_VERSION);
+}
+
+void copy_version(const unsigned char* header, char (&version)[kLibraryBytes]) {
+  std::memcpy(version, header + kAtLibrary, kLibraryBytes);
+  version[kLibraryBytes - 1] = '\0';
 }
 
 // The record's stamps are of the memento's clock.
@@ -150,15 +167,30 @@ POSE_WALL_EXPORT int32_t pose_wall_box_open(const void* /*bytes*/, uint64_t /*co
   return POSE_WALL_E_ABI;
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_box_open_2(const void* bytes, uint64_t count, pose_wall_box_info* info) {
+POSE_WALL_EXPORT int32_t pose_wall_box_open_2(const void* /*bytes*/, uint64_t /*count*/, pose_wall_box_info* /*info*/) {
+  return POSE_WALL_E_ABI;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_box_open_3(const void* bytes, uint64_t count, pose_wall_box_info* info) {
   if (bytes == nullptr || info == nullptr) return POSE_WALL_E_NULL;
   const unsigned char* const header = static_cast<const unsigned char*>(bytes);
   const int32_t status = check_header(header, count);
   if (status != POSE_WALL_OK) return status;
   std::memcpy(&info->config, header + kAtConfig, sizeof(info->config));
-  std::memcpy(info->version, header + kAtLibrary, kLibraryBytes);
-  info->version[kLibraryBytes - 1] = '\0';
+  copy_version(header, info->version);
   info->box_bytes = get<uint64_t>(header + kAtBoxBytes);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_box_written_by(const void* bytes, uint64_t count, uint32_t* format,
+                                                  char version[24]) {
+  if (bytes == nullptr || format == nullptr || version == nullptr) return POSE_WALL_E_NULL;
+  const unsigned char* const header = static_cast<const unsigned char*>(bytes);
+  if (!is_header(header, count)) return POSE_WALL_BOX_E_FORMAT;
+  *format = get<uint32_t>(header + kAtVersion);
+  char text[kLibraryBytes];
+  copy_version(header, text);
+  std::memcpy(version, text, sizeof(text));
   return POSE_WALL_OK;
 }
 

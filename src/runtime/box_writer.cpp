@@ -57,6 +57,7 @@ bool BoxWriter::begin(const pose_wall_config& config, std::uint16_t run) {
   put<std::uint32_t>(static_cast<std::uint32_t>(pose_wall_memento_bytes()), header + kAtMementoBytes);
   put<std::uint32_t>(POSE_WALL_ABI_VERSION, header + kAtAbi);
   put<std::uint32_t>(sizeof(pose_wall_inputs), header + kAtInputsBytes);
+  put<std::uint32_t>(sizeof(pose_wall_motion_result), header + kAtMotionBytes);
   const char* const version = pose_wall_version();
   for (std::uint32_t i = 0; i + 1 < kLibraryBytes && version[i] != '\0'; ++i) {
     header[kAtLibrary + i] = static_cast<unsigned char>(version[i]);
@@ -84,14 +85,16 @@ void BoxWriter::fill_body(const FrameSlot& slot, unsigned char* body) const {
   put<std::uint32_t>(slot.left_out_zero, body + kAtZero);
   put<std::uint32_t>(config_crc32_, body + kAtConfigCrc);
   unsigned char* to = body + kAtFields;
-  for (const pose_wall_field& field : {c.x, c.y, c.z, c.intensity}) {
+  for (const pose_wall_field& field : {c.x, c.y, c.z, c.intensity, c.time, c.ring}) {
     put<std::uint32_t>(field.offset, to);
     put<std::uint32_t>(field.type, to + 4);
     to += 8;
   }
   if (c.inputs != nullptr) std::memcpy(body + kAtInputs, c.inputs, sizeof(pose_wall_inputs));
   std::memcpy(body + kAtMemento, slot.memento, static_cast<std::size_t>(pose_wall_memento_bytes()));
-  std::memcpy(body + at_result(), &slot.publication.result, sizeof(pose_wall_result));
+  const pose_wall_publication& p = slot.publication;
+  std::memcpy(body + at_result(), &p.result, sizeof(pose_wall_result));
+  if (p.has_motion != 0) std::memcpy(body + at_motion(), &p.motion, sizeof(pose_wall_motion_result));
 }
 
 void BoxWriter::fill_head(const FrameSlot& slot, std::uint64_t record_bytes, std::uint64_t cloud_bytes,

@@ -30,6 +30,16 @@ bool box_is_large_enough(const pose_wall_runtime_options& o) {
   return o.box_bytes >= BoxWriter::box_bytes_min(cloud);
 }
 
+bool is_motion(const pose_wall_motion_functions* motion) {
+  return motion == nullptr ||
+         (motion->struct_size >= sizeof(*motion) && motion->abi_version == POSE_WALL_MOTION_ABI_VERSION);
+}
+
+bool are_motion_settings(const pose_wall_runtime_options& o) {
+  return o.motion_settings == nullptr || o.motion == nullptr || !is_motion(o.motion) ||
+         o.motion->settings_check(o.motion_settings, nullptr) == POSE_WALL_OK;
+}
+
 }  // namespace
 
 void set_defaults(pose_wall_runtime_options* options) {
@@ -60,7 +70,7 @@ std::int32_t read_options(const pose_wall_runtime_options& options, const char**
   } checked[] = {
       {within(o.queue_frames, 1U, 64U), "queue_frames"},
       {within(o.cloud_points_max, 1U, 1U << 26), "cloud_points_max"},
-      {within(o.point_bytes_max, 12U, 32U), "point_bytes_max"},
+      {within(o.point_bytes_max, 12U, 48U), "point_bytes_max"},
       {is_thinning(o.thinning_max), "thinning_max"},
       {o.box_clouds <= 1, "box_clouds"},
       {within(o.box_backlog, 1U, 64U), "box_backlog"},
@@ -75,6 +85,8 @@ std::int32_t read_options(const pose_wall_runtime_options& options, const char**
       {o.sink == nullptr || machine_is_little_endian(), "sink"},
       {box_is_large_enough(o), "box_bytes"},
       {o.reserved_2 == 0, "reserved_2"},
+      {is_motion(o.motion), "motion"},
+      {are_motion_settings(o), "motion_settings"},
   };
   for (const auto& row : checked) {
     if (row.good) continue;

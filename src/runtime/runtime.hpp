@@ -11,6 +11,7 @@
 #include "activity.hpp"
 #include "block_walk.hpp"
 #include "box_writer.hpp"
+#include "frame_copy.hpp"
 #include "frame_slot.hpp"
 #include "held_thinning.hpp"
 #include "histogram.hpp"
@@ -24,7 +25,7 @@ namespace pose_wall::runtime {
 
 // Each is written by one thread: push by who is inside push, sink by the recorder, the others by the worker.
 struct Times {
-  Histogram push, wait, work, latency, callback, sink;
+  Histogram push, wait, work, motion, latency, callback, sink;
   Histogram stage[POSE_WALL_STAGES];
 };
 
@@ -32,22 +33,30 @@ struct Times {
 struct Counters {
   std::uint64_t pushed = 0, processed = 0;
   std::uint64_t dropped[POSE_WALL_RUNTIME_DROPS] = {};
-  std::uint64_t published = 0, silences = 0, thinned = 0;
+  std::uint64_t published = 0, silences = 0, thinned = 0, motion_refused = 0;
   std::uint64_t box_written = 0, box_lost = 0, box_failed = 0, box_bytes_written = 0;
   std::uint32_t waiting_worst = 0, thinning_worst = 1;
   std::int32_t priority_error = 0, affinity_error = 0, lock_error = 0, thread_error = 0;
 };
 
+// Whether the key `motion` lets an odometry in.
+bool config_wants_motion(const pose_wall_config& config);
+
+// Bytes of the blocks within the block; 0: no motion.
+struct InnerBytes {
+  std::uint64_t engine = 0, motion = 0;
+};
+
 // Where everything lies in the caller's block:
 //
-//   | Runtime | engine | box scratch | points, memento of slot 0 | of slot 1 | ... |
+//   | Runtime | engine | motion, where there is one | box scratch | points, memento of slot 0 | of slot 1 | ... |
 //
 class Runtime {
  public:
   Runtime(const pose_wall_config& config, const pose_wall_runtime_options& options);
 
   // Measures (block NULL) or places all but the Runtime itself, which comes first.
-  static std::uint64_t lay_out(void* block, std::uint64_t engine_bytes, const pose_wall_runtime_options& options,
+  static std::uint64_t lay_out(void* block, const InnerBytes& inner, const pose_wall_runtime_options& options,
                                Runtime* runtime);
   std::int32_t open(std::uint64_t block_bytes);
   bool is_open() const { return magic_ == kMagic && self_ == this; }
@@ -66,6 +75,7 @@ class Runtime {
   std::int32_t latest(pose_wall_publication* publication) const;
   std::int32_t image(pose_wall_image* image) const;
   std::int32_t image2(pose_wall_image2* image) const;
+  std::int32_t motion_image(pose_wall_motion_image* image) const;
   std::int32_t last_points(pose_wall_points* points) const;
   std::int32_t tick();
   void statistics(pose_wall_runtime_statistics* out);
@@ -83,6 +93,7 @@ class Runtime {
   std::int32_t open_engine();
   std::int32_t set_engine_clock();
   std::int32_t forget();
+  bool config_is_whole() const;
   void replace_damaged_engine();
   int start_recorder();
   int lock_memory();
@@ -90,7 +101,16 @@ class Runtime {
   void end_threads();
   void drop_waiting();
 
+  // runtime_motion.cpp
+  bool has_motion() const { return motion_bytes_ > 0; }
+  std::int32_t open_motion();
+  void open_motion_anew();
+  void reset_motion();
+  pose_wall_motion_result no_motion() const;
+  void move(FrameSlot* slot);
+
   // runtime_push.cpp
+  CopiedFields copied_fields(const pose_wall_cloud& cloud) const;
   std::int32_t refusal(const pose_wall_cloud& cloud, pose_wall_runtime_drop* why) const;
   std::int32_t queue(FrameSlot* slot, std::uint64_t epoch);
 
@@ -129,6 +149,12 @@ class Runtime {
   void* engine_block_ = nullptr;
   std::uint64_t engine_bytes_ = 0;
   pose_wall_result blank_{};  // what the engine tells before any frame
+  bool wants_motion_ = false;
+  pose_wall_motion* motion_ = nullptr;
+  void* motion_block_ = nullptr;
+  std::uint64_t motion_bytes_ = 0;
+  pose_wall_motion_settings motion_settings_{};
+  pose_wall_motion_result blank_motion_{};
   BoxWriter box_;
   std::uint32_t run_seed_ = 0;  // another one in every process that writes into the same file, but for chance
 

@@ -13,6 +13,7 @@
 #include "status.hpp"
 #include "struct_versions.hpp"
 
+using pose_wall::runtime::InnerBytes;
 using pose_wall::runtime::ok_if;
 using pose_wall::runtime::Runtime;
 
@@ -35,12 +36,16 @@ int32_t check(const pose_wall_runtime* handle) {
   return ok_if(runtime_of(handle)->is_open(), POSE_WALL_RUNTIME_E_HANDLE);
 }
 
-// The engine's own need, once all else was found good; and the options as this version reads them.
-int32_t engine_bytes(const pose_wall_config* config, const pose_wall_runtime_options* options,
-                     pose_wall_runtime_options* whole, uint64_t* bytes) {
+// What engine and motion need, once all else was found good; and the options as this version reads them.
+int32_t inner_bytes(const pose_wall_config* config, const pose_wall_runtime_options* options,
+                    pose_wall_runtime_options* whole, InnerBytes* bytes) {
   if (config == nullptr || options == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = pose_wall::runtime::read_options(*options, nullptr, whole);
-  return status == POSE_WALL_OK ? pose_wall_memory_needed(config, bytes) : status;
+  int32_t status = pose_wall::runtime::read_options(*options, nullptr, whole);
+  if (status == POSE_WALL_OK) status = pose_wall_memory_needed(config, &bytes->engine);
+  if (status != POSE_WALL_OK) return status;
+  const bool moves = whole->motion != nullptr && pose_wall::runtime::config_wants_motion(*config);
+  bytes->motion = moves ? whole->motion->memory_needed() : 0;
+  return POSE_WALL_OK;
 }
 
 }  // namespace
@@ -71,10 +76,10 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_options_check(const pose_wall_runtime
 POSE_WALL_EXPORT int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config,
                                                          const pose_wall_runtime_options* options, uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
-  uint64_t of_engine = 0;
+  InnerBytes inner;
   pose_wall_runtime_options whole;
-  const int32_t status = engine_bytes(config, options, &whole, &of_engine);
-  if (status == POSE_WALL_OK) *bytes = Runtime::lay_out(nullptr, of_engine, whole, nullptr);
+  const int32_t status = inner_bytes(config, options, &whole, &inner);
+  if (status == POSE_WALL_OK) *bytes = Runtime::lay_out(nullptr, inner, whole, nullptr);
   return status;
 }
 
@@ -82,16 +87,16 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_open(const pose_wall_config* config,
                                                 const pose_wall_runtime_options* options, void* block,
                                                 uint64_t block_bytes, pose_wall_runtime** runtime) {
   if (block == nullptr || runtime == nullptr) return POSE_WALL_E_NULL;
-  uint64_t of_engine = 0;
+  InnerBytes inner;
   pose_wall_runtime_options whole;
-  int32_t status = engine_bytes(config, options, &whole, &of_engine);
+  int32_t status = inner_bytes(config, options, &whole, &inner);
   if (status != POSE_WALL_OK) return status;
   if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
-  const uint64_t needed = Runtime::lay_out(nullptr, of_engine, whole, nullptr);
+  const uint64_t needed = Runtime::lay_out(nullptr, inner, whole, nullptr);
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
   if (Runtime::is_started_in(block)) return POSE_WALL_E_BUSY;
   Runtime* const placed = new (block) Runtime(*config, whole);
-  Runtime::lay_out(block, of_engine, whole, placed);
+  Runtime::lay_out(block, inner, whole, placed);
   status = placed->open(needed);
   if (status == POSE_WALL_OK) *runtime = reinterpret_cast<pose_wall_runtime*>(placed);
   return status;
@@ -171,6 +176,13 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_image2(const pose_wall_runtime* runti
   if (image == nullptr) return POSE_WALL_E_NULL;
   const int32_t status = check(runtime);
   return status == POSE_WALL_OK ? runtime_of(runtime)->image2(image) : status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_runtime_motion_image(const pose_wall_runtime* runtime,
+                                                        pose_wall_motion_image* image) {
+  if (image == nullptr) return POSE_WALL_E_NULL;
+  const int32_t status = check(runtime);
+  return status == POSE_WALL_OK ? runtime_of(runtime)->motion_image(image) : status;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime) {

@@ -9,7 +9,7 @@
 namespace pose_wall::runtime {
 namespace {
 
-std::int32_t fill_image2(const pose_wall_publication& p, pose_wall_image2* image) {
+pose_wall_image_source source_of(const pose_wall_publication& p) {
   const bool is_published = p.cause != 0;
   pose_wall_image_source source{};
   source.struct_size = sizeof(source);
@@ -18,7 +18,15 @@ std::int32_t fill_image2(const pose_wall_publication& p, pose_wall_image2* image
   source.held_thinning = p.held_thinning;
   source.publication = is_published ? p.index + 1 : 0;
   source.latency_ns = is_published ? difference(p.published_ns, p.received_ns) : -1;
-  return pose_wall_image2_fill(&p.result, &source, image);
+  return source;
+}
+
+// What is left of a motion that is too old.
+pose_wall_motion_result without_pose(const pose_wall_motion_result& blank, const pose_wall_motion_result& of) {
+  pose_wall_motion_result left = blank;
+  left.stamp_ns = of.stamp_ns;
+  left.frame_index = of.frame_index;
+  return left;
 }
 
 }  // namespace
@@ -35,6 +43,7 @@ pose_wall_publication Runtime::nothing() const {
   p.thinning = p.held_thinning = 1;
   p.age_ns = INT64_MAX;
   p.result = blank_;
+  p.motion = blank_motion_;
   return p;
 }
 
@@ -57,6 +66,8 @@ std::int32_t Runtime::judge(pose_wall_publication* publication) const {
   publication->age_ns = freshness.age_ns();
   if (!freshness.is_stale()) return POSE_WALL_OK;
   make_stale(freshness.elapsed_s(), &publication->result);
+  publication->has_motion = 0;
+  if (has_motion()) publication->motion = without_pose(blank_motion_, publication->motion);
   return POSE_WALL_RUNTIME_E_STALE;
 }
 
@@ -70,7 +81,17 @@ std::int32_t Runtime::image(pose_wall_image* image) const {
 std::int32_t Runtime::image2(pose_wall_image2* image) const {
   pose_wall_publication publication;
   const std::int32_t status = latest(&publication);
-  const std::int32_t filled = fill_image2(publication, image);
+  const pose_wall_image_source source = source_of(publication);
+  const std::int32_t filled = pose_wall_image2_fill(&publication.result, &source, image);
+  return filled != POSE_WALL_OK ? filled : status;
+}
+
+std::int32_t Runtime::motion_image(pose_wall_motion_image* image) const {
+  if (!has_motion()) return POSE_WALL_RUNTIME_E_MOTION;
+  pose_wall_publication publication;
+  const std::int32_t status = latest(&publication);
+  const pose_wall_image_source source = source_of(publication);
+  const std::int32_t filled = options_.motion->image_fill(&publication.motion, &source, image);
   return filled != POSE_WALL_OK ? filled : status;
 }
 

@@ -19,18 +19,23 @@ Runtime::Runtime(const pose_wall_config& config, const pose_wall_runtime_options
     : config_(config),
       options_(options),
       overload_(options.thinning_max, options.frame_period_max_ns),
-      watchdog_(options.watchdog_ns, options.watchdog_every_ns) {}
+      watchdog_(options.watchdog_ns, options.watchdog_every_ns) {
+  if (options.motion_settings != nullptr) motion_settings_ = *options.motion_settings;
+}
 
-std::uint64_t Runtime::lay_out(void* block, std::uint64_t engine_bytes, const pose_wall_runtime_options& options,
+std::uint64_t Runtime::lay_out(void* block, const InnerBytes& inner, const pose_wall_runtime_options& options,
                                Runtime* runtime) {
   BlockWalk walk(block);
   walk.take(sizeof(Runtime));
-  unsigned char* const engine_block = walk.take(engine_bytes);
+  unsigned char* const engine_block = walk.take(inner.engine);
+  unsigned char* const motion_block = walk.take(inner.motion);
   const bool has_box = options.sink != nullptr;
   unsigned char* const scratch = has_box ? walk.take(BoxWriter::scratch_bytes()) : nullptr;
   if (runtime != nullptr) {
     runtime->engine_block_ = engine_block;
-    runtime->engine_bytes_ = engine_bytes;
+    runtime->engine_bytes_ = inner.engine;
+    runtime->motion_block_ = motion_block;
+    runtime->motion_bytes_ = inner.motion;
     runtime->box_.open(options, scratch);
   }
   for (std::uint32_t i = 0; i < slots_of(options); ++i) {
@@ -60,8 +65,12 @@ std::int32_t Runtime::set_engine_clock() {
 void Runtime::replace_damaged_engine() {
   if (set_engine_clock() != POSE_WALL_E_ENGINE) return;
   // What changed the engine may have changed the config beside it: then there is nothing to open a new one by.
+  if (config_is_whole()) open_engine();
+}
+
+bool Runtime::config_is_whole() const {
   std::uint32_t crc32 = 0;
-  if (pose_wall_config_crc(&config_, &crc32) == POSE_WALL_OK && crc32 == config_crc32_) open_engine();
+  return pose_wall_config_crc(&config_, &crc32) == POSE_WALL_OK && crc32 == config_crc32_;
 }
 
 #if defined(__clang__)
@@ -77,7 +86,10 @@ std::int32_t Runtime::open(std::uint64_t block_bytes) {
   std::int32_t status = open_engine();
   blank_.struct_size = sizeof(blank_);
   if (status == POSE_WALL_OK) status = pose_wall_age(engine_, 0, &blank_);
+  if (status == POSE_WALL_OK) status = open_motion();
   if (status != POSE_WALL_OK) return status;
+  blank_motion_ = no_motion();
+  wants_motion_ = config_wants_motion(config_);
   pose_wall_config_crc(&config_, &config_crc32_);
   // Not the caller's clock: it may stand at the same time after every start. The monotonic one begins anew with the
   // machine, the other may not be set: in nanoseconds the two together hardly come twice.
@@ -103,6 +115,7 @@ bool Runtime::own_thread_calls() const {
 // All but what was loaded for the start that comes.
 std::int32_t Runtime::forget() {
   replace_damaged_engine();
+  reset_motion();
   const std::int32_t status = loaded_ ? set_engine_clock() : pose_wall_reset(engine_);
   if (status != POSE_WALL_OK || loaded_) return status;
   held_thinning_.forget();

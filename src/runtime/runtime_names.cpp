@@ -7,6 +7,29 @@
 #include "pose_wall_box.h"
 #include "pose_wall_runtime.h"
 
+namespace {
+
+const char* box_status_text(int32_t status) {
+  switch (status) {
+    case POSE_WALL_BOX_E_FORMAT:
+      return "no black box, or its header is damaged";
+    case POSE_WALL_BOX_E_VERSION:
+      return "a black box of a build whose structs differ from this one's";
+    case POSE_WALL_BOX_E_END:
+      return "no further record";
+    case POSE_WALL_BOX_E_EMPTY:
+      return "the record holds a digest only: there is nothing to compute";
+    case POSE_WALL_BOX_E_RUN:
+      return "the record is of another run than the box's header, whose config may not be its own";
+    case POSE_WALL_BOX_E_KIND:
+      return "the record is of a kind that this build does not know";
+    default:
+      return pose_wall_status_text(status);
+  }
+}
+
+}  // namespace
+
 extern "C" {
 
 POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
@@ -34,20 +57,10 @@ POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
       return "the system refused a thread, or what the options require; see the *_error statistics";
     case POSE_WALL_RUNTIME_E_STALE:
       return "what was published last is as old as watchdog_ns: `activity` tells what the worker is at";
-    case POSE_WALL_BOX_E_FORMAT:
-      return "no black box, or its header is damaged";
-    case POSE_WALL_BOX_E_VERSION:
-      return "a black box of a build whose structs differ from this one's";
-    case POSE_WALL_BOX_E_END:
-      return "no further record";
-    case POSE_WALL_BOX_E_EMPTY:
-      return "the record holds a digest only: there is nothing to compute";
-    case POSE_WALL_BOX_E_RUN:
-      return "the record is of another run than the box's header, whose config may not be its own";
-    case POSE_WALL_BOX_E_KIND:
-      return "the record is of a kind that this build does not know";
+    case POSE_WALL_RUNTIME_E_MOTION:
+      return "the runtime was opened without motion, or its config's key `motion` is off";
     default:
-      return pose_wall_status_text(status);
+      return box_status_text(status);
   }
 }
 

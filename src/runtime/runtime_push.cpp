@@ -23,6 +23,12 @@ std::int32_t Runtime::refusal(const pose_wall_cloud& cloud, pose_wall_runtime_dr
   return ok_if(fits, POSE_WALL_RUNTIME_E_LARGE);
 }
 
+// The engine reads times where an odometry tells how the machine moved meanwhile, and motion reads them and rings.
+CopiedFields Runtime::copied_fields(const pose_wall_cloud& cloud) const {
+  const bool is_given = cloud.inputs != nullptr && (cloud.inputs->given & POSE_WALL_INPUT_ODOMETRY) != 0;
+  return {with_intensity_, wants_motion_ && (has_motion() || is_given), has_motion(), options_.point_bytes_max};
+}
+
 std::int32_t Runtime::push(const pose_wall_cloud& cloud) {
   const std::int64_t received_ns = now();
   FrameSlot* slot = nullptr;
@@ -45,7 +51,7 @@ std::int32_t Runtime::push(const pose_wall_cloud& cloud) {
     slot->publication.received_ns = received_ns;
     slot->publication.thinning = thinning_;
   }
-  copy_frame(cloud, with_intensity_, slot->publication.thinning, slot);
+  copy_frame(cloud, copied_fields(cloud), slot->publication.thinning, slot);
   return queue(slot, epoch);
 }
 

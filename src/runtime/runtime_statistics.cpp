@@ -33,6 +33,7 @@ void Runtime::statistics(pose_wall_runtime_statistics* out) {
     s.activity = told.activity;
     s.activity_since_ns = told.since_ns;
     s.newest_age_ns = has_newest_ && age_ns >= 0 ? age_ns : -1;
+    s.motion_refused = c.motion_refused;
     s.box_written = c.box_written;
     s.box_lost = c.box_lost;
     s.box_failed = c.box_failed;
@@ -45,6 +46,7 @@ void Runtime::statistics(pose_wall_runtime_statistics* out) {
   s.push = times_.push.times();
   s.wait = times_.wait.times();
   s.work = times_.work.times();
+  s.motion = times_.motion.times();
   s.latency = times_.latency.times();
   s.callback = times_.callback.times();
   s.sink = times_.sink.times();

@@ -121,6 +121,7 @@ void Runtime::work_frame(FrameSlot* slot) {
   }
   times_.latency.add(difference(publication_.published_ns, publication_.received_ns));
   if (slot->publication.thinning > 1) ++counters_.thinned;
+  if (slot->publication.motion_status != POSE_WALL_OK) ++counters_.motion_refused;
   conclude(slot, true);
   ++counters_.processed;
 }
@@ -131,7 +132,10 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   activity_.note(POSE_WALL_RUNTIME_AT_FRAME, begin_ns);
   // Inputs speak of the time since the frame before. Where that was dropped, the engine would take them for all the
   // time since the last one that it measured. Where the boom is holds all the same.
-  if (p.frame != last_frame_ + 1) slot->inputs.given = 0;
+  // An odometry's places are of their own time.
+  if (p.frame != last_frame_ + 1) slot->inputs.given &= POSE_WALL_INPUT_ODOMETRY;
+  move(slot);
+  const std::int64_t engine_ns = looked_ns_;
   save_memento(slot);
   p.result.struct_size = sizeof(p.result);
   const std::int32_t status = pose_wall_process(engine_, &slot->cloud, &p.result);
@@ -149,7 +153,7 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   looked_ns_ = now();
   *work_ns = difference(looked_ns_, begin_ns);
   times_.wait.add(difference(begin_ns, p.received_ns));
-  times_.work.add(*work_ns);
+  times_.work.add(difference(looked_ns_, engine_ns));
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) times_.stage[stage].add(p.result.stage_ns[stage]);
   return POSE_WALL_OK;
 }
@@ -184,6 +188,7 @@ void Runtime::tell_silence(FrameSlot* slot) {
     // Without an engine nothing is known, and that is what is told.
     if (pose_wall_age(engine_, stamp_ns, &p.result) != POSE_WALL_OK) p.result = blank_;
     p.held_thinning = held_thinning_.note(p.result, 1);
+    p.motion = no_motion();
     // A sensor that is dead for hours must not push the hour before out of the black box.
     says_more = publication_.cause != POSE_WALL_RUNTIME_SILENCE || !same_states(p.result, publication_.result) ||
                 difference(now_ns, silence_recorded_ns_) >= kMinute_ns;

@@ -13,15 +13,18 @@
 namespace pose_wall::runtime {
 
 constexpr StructSizes kOptionsSizes = {offsetof(pose_wall_runtime_options, reserved_2),
-                                       sizeof(pose_wall_runtime_options), sizeof(pose_wall_runtime_options)};
-constexpr StructSizes kPublicationSizes = {912, sizeof(pose_wall_publication), sizeof(pose_wall_publication)};
-constexpr StructSizes kStatisticsSizes = {664, sizeof(pose_wall_runtime_statistics),
+                                       offsetof(pose_wall_runtime_options, motion), sizeof(pose_wall_runtime_options)};
+constexpr StructSizes kPublicationSizes = {912, offsetof(pose_wall_publication, has_motion),
+                                           sizeof(pose_wall_publication)};
+constexpr StructSizes kStatisticsSizes = {664, offsetof(pose_wall_runtime_statistics, motion_refused),
                                           sizeof(pose_wall_runtime_statistics)};
 
-// The result stands last and grows at its end, as the publication does: its own size follows from the publication's.
+// How much of the two results was written follows from the publication's size.
 inline void write_publication(const pose_wall_publication& whole, std::uint32_t size, pose_wall_publication* to) {
-  write_struct(whole, size, to);
-  to->result.struct_size = size - static_cast<std::uint32_t>(offsetof(pose_wall_publication, result));
+  constexpr auto kMotionAt = static_cast<std::uint32_t>(offsetof(pose_wall_publication, motion));
+  pose_wall_publication told = whole;
+  if (told.motion.struct_size != 0 && size > kMotionAt) told.motion.struct_size = size - kMotionAt;
+  write_struct(told, size, to);
 }
 
 }  // namespace pose_wall::runtime

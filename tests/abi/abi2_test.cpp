@@ -295,7 +295,7 @@ class Inputs : public ::testing::Test {
 };
 
 TEST_F(Inputs, AWrongDescriptionIsRefused) {
-  inputs_.given = 8;
+  inputs_.given = 16;
   EXPECT_EQ(status(), POSE_WALL_E_INPUT);
   inputs_.given = 0;
   inputs_.struct_size += 8;

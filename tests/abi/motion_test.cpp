@@ -235,16 +235,25 @@ TEST(MotionMemory, TwoInterleavedAreTwoAlone) {
   EXPECT_TRUE(same_bits(found_d, expected_b));
 }
 
+// All bits but the name of the run: that of each start is its own.
+bool same_but_for_the_run(std::vector<pose_wall_motion_result> a, const std::vector<pose_wall_motion_result>& b) {
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+    if ((a[i].run == 0) != (b[i].run == 0)) return false;
+    a[i].run = b[i].run;
+  }
+  return same_bits(a, b);
+}
+
 TEST(MotionMemory, AResetMotionIsAFreshOne) {
   const std::vector<Points> frames = ribbed_frames(6);
   MotionUnderTest fresh(config_with()), used(config_with());
   const auto expected = results_of(fresh, frames);
   results_of(used, {room_points(70, 0.8), Points(), room_points(71, -0.8), frames[3], frames[4]});
   used.reset();
-  EXPECT_TRUE(same_bits(results_of(used, frames), expected));
+  EXPECT_TRUE(same_but_for_the_run(results_of(used, frames), expected));
   used.reset();
   used.reset();
-  EXPECT_TRUE(same_bits(results_of(used, frames), expected));
+  EXPECT_TRUE(same_but_for_the_run(results_of(used, frames), expected));
 }
 
 // ------------------------------------------------------------------------------------------ process
@@ -318,7 +327,8 @@ TEST_F(MotionProcess, RefusesWhatTheEngineRefuses) {
 TEST_F(MotionProcess, RefusesResultsOfOtherSizes) {
   const pose_wall_cloud cloud = cloud_of(points_, 0);
   const auto whole = static_cast<std::uint32_t>(sizeof(pose_wall_motion_result));
-  for (const std::uint32_t size : {0U, 8U, whole - 8U, 0x5A5A5A5AU})
+  const auto without_run = static_cast<std::uint32_t>(offsetof(pose_wall_motion_result, run));
+  for (const std::uint32_t size : {0U, 8U, without_run - 8U, 0x5A5A5A5AU})
     EXPECT_EQ(status(cloud, size), POSE_WALL_E_STRUCT_SIZE);
   for (const std::uint32_t size : {whole + 8U, whole + 400U}) EXPECT_EQ(status(cloud, size), POSE_WALL_E_STRUCT_NEWER);
   const pose_wall_motion_result first = motion_.process(cloud);

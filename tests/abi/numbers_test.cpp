@@ -10,6 +10,7 @@
 #include <string>
 
 #include "pose_wall.h"
+#include "pose_wall_motion.h"
 
 namespace {
 
@@ -127,6 +128,8 @@ TEST(AbiNumbers, Constants) {
   EXPECT_EQ(POSE_WALL_CONFIG_TEXTS, 3);
   EXPECT_EQ(POSE_WALL_IMAGE_VERSION, 1);
   EXPECT_EQ(POSE_WALL_IMAGE_BYTES, 240);
+  EXPECT_EQ(POSE_WALL_IMAGE2_VERSION, 2);
+  EXPECT_EQ(POSE_WALL_MOTION_IMAGE_VERSION, 3) << "one number each: a controller tells them by it";
   EXPECT_EQ(POSE_WALL_IMAGE_NO_VALUE, -2147483647 - 1);
   EXPECT_EQ(POSE_WALL_IMAGE_NO_BOUND, 2147483647);
 }

@@ -44,6 +44,18 @@ static int config_layout(void) {
 
 static int cloud_layout(void) {
   int padded = 0;
+  MEMBER(pose_wall_odometry, run);
+  MEMBER(pose_wall_odometry, position_m);
+  MEMBER(pose_wall_odometry, quaternion);
+  MEMBER(pose_wall_odometry, along);
+  MEMBER(pose_wall_odometry, across);
+  MEMBER(pose_wall_odometry, level);
+  MEMBER(pose_wall_odometry, drift_variance);
+  MEMBER(pose_wall_odometry, drift);
+  MEMBER(pose_wall_odometry, velocity_m_s);
+  MEMBER(pose_wall_odometry, turn_rate_rad_s);
+  MEMBER(pose_wall_odometry, rate_level);
+  padded += struct_end("pose_wall_odometry", sizeof(pose_wall_odometry));
   MEMBER(pose_wall_field, offset);
   MEMBER(pose_wall_field, type);
   padded += struct_end("pose_wall_field", sizeof(pose_wall_field));
@@ -71,6 +83,7 @@ static int cloud_layout(void) {
   MEMBER(pose_wall_inputs, turn_rate_rad_s);
   MEMBER(pose_wall_inputs, turn_rate_sigma_rad_s);
   MEMBER(pose_wall_inputs, body_box);
+  MEMBER(pose_wall_inputs, odometry);
   return padded + struct_end("pose_wall_inputs", sizeof(pose_wall_inputs));
 }
 
@@ -197,6 +210,9 @@ static int publication_layout(void) {
   MEMBER(pose_wall_publication, activity);
   MEMBER(pose_wall_publication, reserved);
   MEMBER(pose_wall_publication, result);
+  MEMBER(pose_wall_publication, has_motion);
+  MEMBER(pose_wall_publication, motion_status);
+  MEMBER(pose_wall_publication, motion);
   return struct_end("pose_wall_publication", sizeof(pose_wall_publication));
 }
 
@@ -224,6 +240,8 @@ static int runtime_options_layout(void) {
   MEMBER(pose_wall_runtime_options, sink_user);
   MEMBER(pose_wall_runtime_options, box_bytes);
   MEMBER(pose_wall_runtime_options, reserved_2);
+  MEMBER(pose_wall_runtime_options, motion);
+  MEMBER(pose_wall_runtime_options, motion_settings);
   return struct_end("pose_wall_runtime_options", sizeof(pose_wall_runtime_options));
 }
 
@@ -270,6 +288,8 @@ static int runtime_statistics_layout(void) {
   MEMBER(pose_wall_runtime_statistics, callback);
   MEMBER(pose_wall_runtime_statistics, sink);
   MEMBER(pose_wall_runtime_statistics, stage);
+  MEMBER(pose_wall_runtime_statistics, motion_refused);
+  MEMBER(pose_wall_runtime_statistics, motion);
   return struct_end("pose_wall_runtime_statistics", sizeof(pose_wall_runtime_statistics));
 }
 
@@ -291,10 +311,13 @@ static int box_record_layout(void) {
   MEMBER(pose_wall_box_record, result);
   MEMBER(pose_wall_box_record, points);
   MEMBER(pose_wall_box_record, inputs);
+  MEMBER(pose_wall_box_record, motion);
   MEMBER(pose_wall_box_record, x);
   MEMBER(pose_wall_box_record, y);
   MEMBER(pose_wall_box_record, z);
   MEMBER(pose_wall_box_record, intensity);
+  MEMBER(pose_wall_box_record, time);
+  MEMBER(pose_wall_box_record, ring);
   MEMBER(pose_wall_box_record, kind);
   MEMBER(pose_wall_box_record, damaged);
   MEMBER(pose_wall_box_record, thinning);
@@ -363,7 +386,21 @@ static int motion_layout(void) {
   MEMBER(pose_wall_motion_result, tiles);
   MEMBER(pose_wall_motion_result, keyframes);
   MEMBER(pose_wall_motion_result, wide_start);
-  return padded + struct_end("pose_wall_motion_result", sizeof(pose_wall_motion_result));
+  MEMBER(pose_wall_motion_result, run);
+  MEMBER(pose_wall_motion_result, config_crc32);
+  MEMBER(pose_wall_motion_result, source_id);
+  padded += struct_end("pose_wall_motion_result", sizeof(pose_wall_motion_result));
+  MEMBER(pose_wall_motion_functions, struct_size);
+  MEMBER(pose_wall_motion_functions, abi_version);
+  MEMBER(pose_wall_motion_functions, settings_check);
+  MEMBER(pose_wall_motion_functions, memory_needed);
+  MEMBER(pose_wall_motion_functions, open);
+  MEMBER(pose_wall_motion_functions, reset);
+  MEMBER(pose_wall_motion_functions, process);
+  MEMBER(pose_wall_motion_functions, give);
+  MEMBER(pose_wall_motion_functions, blank);
+  MEMBER(pose_wall_motion_functions, image_fill);
+  return padded + struct_end("pose_wall_motion_functions", sizeof(pose_wall_motion_functions));
 }
 
 int main(void) {

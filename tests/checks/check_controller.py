@@ -105,7 +105,8 @@ def main():
         config, frames = folder / "pose_wall.yaml", sorted((folder / "frames").iterdir())
         without_stamps(frames)
         second_as_kitti(frames)
-        run(pose_wall, "run", "--config", config, "--output", folder / "run.csv", *frames)
+        # The controller has the engine alone.
+        run(pose_wall, "run", "--config", config, "--set", "motion=off", "--output", folder / "run.csv", *frames)
         lines = run(*emulator, controller, "-c", config, "-o", folder / "images.bin", *frames).splitlines()
         with open(folder / "run.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))

@@ -321,9 +321,9 @@ class Archive(BrokenProject):
         command = list(self.symbols(motion))
         command[-2:] = self.root / "include/pose_wall_motion.h", CHECKS / "symbols_allowed_motion.txt"
         self.passes(*command)
-        asks = "extern unsigned pose_wall_process(void);\n" + motion.replace("return 1;", "return pose_wall_process();")
+        asks = "extern unsigned pose_wall_save(void);\n" + motion.replace("return 1;", "return pose_wall_save();")
         command[2] = self.archive(asks)
-        self.fails("imported but not on the list of allowed symbols: pose_wall_process", *command)
+        self.fails("imported but not on the list of allowed symbols: pose_wall_save", *command)
 
     def test_needs_more_than_c(self):
         runtime = SOURCE.replace("return 1;", "return (uint32_t)_ZSt9terminatev();")

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """FB_PoseWall as plain text, read and run by structured_text.py (not by a vendor's compiler): it parses, its kinds fit,
-its types are those of image.def, its sums are those of both polynomials, it decodes both images in any order of bytes,
+its types are those of image.def, its sums are those of both polynomials, it decodes all images in any order of bytes,
 and it obeys what is worse at once, ages what it holds, and releases nothing else.
 
 usage: plc_test.py ROOT"""
@@ -434,6 +434,156 @@ class Image2(Block):
             self.setUp()
             self.frames(6, {"diLatency_ms": 40}, latency_ms=latency)
             self.assertEqual(self.block["xAlive"], latency == 0xFFFFFFFF)
+
+
+MOTION_ROWS = description.image_words(3, STRUCTS)
+
+
+def motion_words(sequence=1, **changes):
+    """The words of a motion image with a measured pose, but for `changes`."""
+    values = {word.path: 0 for word in MOTION_ROWS}
+    values |= {"struct_size": 4 * len(MOTION_ROWS), "version": 3, "sequence": sequence, "publication": sequence,
+               "config_crc32": 0xC0FFEE, "run": 0xA1, "told_by": 1, "along_state": 3, "travel_mm": 1234,
+               "travel_protection_mm": 60, "speed_mm_s": -250, "speed_protection_mm_s": 90, "latency_ms": 20}
+    values |= changes
+    codes = "".join(description.TYPES[word.type][2] for word in MOTION_ROWS)
+    raw = struct.pack("<" + codes, *(values[word.path] for word in MOTION_ROWS))
+    words = list(struct.unpack(f"<{len(MOTION_ROWS)}I", raw))
+    words[description.crc_word(MOTION_ROWS)] = description.crc_of(description.crc_bytes(raw, 3),
+                                                                  description.POLYNOMIAL[3])
+    return words + [0xDEAD] * (LONGEST - len(words))
+
+
+class MotionBlock(unittest.TestCase):
+    """FB_PoseWallMotion, and a bus that shows it motion images."""
+
+    def setUp(self):
+        self.run_st = structured_text_run.Controller(PROGRAM)
+        self.block = self.run_st.make("FB_PoseWallMotion")
+        self.sequence = 0
+
+    def cycles(self, for_ms, words, **inputs):
+        for _ in range(for_ms // CYCLE_MS):
+            self.run_st.now_ms += CYCLE_MS
+            self.run_st.call(self.block, adwImage=list(words), **inputs)
+
+    def frames(self, count, inputs=None, **changes):
+        for _ in range(count):
+            self.sequence += 1
+            self.cycles(100, motion_words(self.sequence, **changes), **(inputs or {}))
+
+    def expect(self, fault, travel, speed=-250):
+        """What may be acted on; None where nothing may."""
+        speed = None if travel is None and speed == -250 else speed
+        found = self.block
+        self.assertEqual([name for name, number in FAULT.items() if number == found["udiFault"]], [fault])
+        for usable, output, level, value in (("xTravelUsable", "diTravel_mm", "diTravelLevel_mm", travel),
+                                             ("xSpeedUsable", "diSpeed_mm_s", "diSpeedLevel_mm_s", speed)):
+            self.assertEqual((found[usable], found[output]), (value is not None, NO_VALUE if value is None else value))
+            self.assertEqual(found[level] == NO_BOUND, value is None)
+
+    def test_is_unusable_before_its_first_call(self):
+        self.assertFalse(self.block["xTravelUsable"] or self.block["xSpeedUsable"])
+        self.assertEqual((self.block["diTravel_mm"], self.block["diTravelLevel_mm"]), (NO_VALUE, NO_BOUND))
+
+    def test_decodes_every_member(self):
+        rng = random.Random(3)
+        words = [rng.getrandbits(32) for _ in range(LONGEST)]
+        image = self.run_st.make("ST_PoseWallMotionImage")
+        self.run_st.function("F_PoseWallDecodeMotion", adwImage=words, stImage=image)
+        raw = struct.pack(f"<{len(MOTION_ROWS)}I", *words[:len(MOTION_ROWS)])
+        self.assertEqual({word.path: image[word.path] for word in MOTION_ROWS}, description.unpack_image(raw, 3))
+
+    def test_frames_that_rise_are_used(self):
+        self.frames(3)
+        self.expect("starting", None)
+        self.frames(1)
+        self.expect("none", 1234)
+        self.assertEqual((self.block["diTravelLevel_mm"], self.block["diSpeedLevel_mm_s"]), (60, 90))
+        self.assertEqual(self.block["diAge_ms"], 80 + 20)
+        self.assertEqual(self.block["stImage"]["run"], 0xA1)
+
+    def test_every_order_of_bytes(self):
+        for order in (1, 2, 3, 4):
+            self.setUp()
+            for sequence in range(1, 6):
+                swapped = [self.run_st.function("F_PoseWallSwap", dwWord=word, diOrder=order)
+                           for word in motion_words(sequence)]
+                self.cycles(100, swapped)
+            self.assertEqual(self.block["diByteOrder"], order)
+            self.expect("none", 1234)
+
+    def test_what_is_worse_is_obeyed_at_once(self):
+        for change, travel, speed in (({"run": 0}, None, None), ({"along_state": 0}, None, None),
+                                      ({"along_state": 4}, None, None), ({"told_by": 2}, None, None),
+                                      ({"travel_mm": NO_VALUE}, None, -251),
+                                      ({"travel_protection_mm": NO_BOUND}, None, -251),
+                                      ({"travel_protection_mm": 1001}, None, -251),
+                                      ({"travel_protection_mm": -1}, None, -251),
+                                      ({"speed_mm_s": NO_VALUE}, 1234, None),
+                                      ({"speed_protection_mm_s": 501}, 1234, None),
+                                      ({"speed_protection_mm_s": NO_BOUND}, 1234, None)):
+            self.setUp()
+            self.frames(5)
+            speed_too = {} if "speed_mm_s" in change else {"speed_mm_s": -251}
+            self.cycles(20, motion_words(self.sequence, publication=self.sequence + 1, **speed_too, **change))
+            self.expect("none", travel, speed)
+
+    def test_other_images_damage_and_settings(self):
+        self.frames(5, {"dwConfigCrc": 0xC0FFEE})
+        self.expect("none", 1234)
+        for words, fault in ((image_words(6), "version"), ([0] * LONGEST, "version")):
+            self.cycles(20, words)
+            self.assertEqual(self.block["udiFault"], FAULT[fault])
+        torn = motion_words(6)
+        torn[16] ^= 1
+        self.cycles(20, torn)
+        self.assertEqual(self.block["udiFault"], FAULT["crc"])
+        self.assertEqual(self.block["diTravel_mm"], 1234, "of the last good one, still in its time")
+        self.cycles(20, motion_words(7), dwConfigCrc=1)
+        self.expect("config", None)
+        self.sequence = 7
+        self.frames(3, {"dwConfigCrc": 0xC0FFEE})
+        self.expect("starting", None)
+
+    def test_silence_on_the_bus(self):
+        self.frames(5)
+        self.cycles(180, motion_words(self.sequence))  # 260 ms and the latency
+        self.expect("none", 1234)
+        self.cycles(20, motion_words(self.sequence))
+        self.expect("frames", None)
+        self.cycles(40, motion_words(self.sequence))
+        self.expect("silent", None)
+        self.frames(3)
+        self.expect("starting", None)
+        self.frames(1)
+        self.expect("none", 1234)
+
+    def test_a_sequence_that_falls_begins_anew(self):
+        self.frames(5)
+        self.sequence = 1
+        self.frames(1)
+        self.expect("starting", None)
+        self.frames(3)
+        self.expect("none", 1234)
+
+    def test_a_new_run_is_told_once(self):
+        self.frames(3)
+        self.assertFalse(self.block["xNewRun"])
+        self.sequence += 1
+        self.cycles(20, motion_words(self.sequence))
+        self.assertTrue(self.block["xNewRun"], "the first is new")
+        self.cycles(80, motion_words(self.sequence))
+        self.assertFalse(self.block["xNewRun"])
+        self.frames(2, run=0)
+        self.assertFalse(self.block["xNewRun"])
+        self.frames(1)
+        self.assertFalse(self.block["xNewRun"], "the same as before")
+        self.sequence += 1
+        self.cycles(20, motion_words(self.sequence, run=0xB2))
+        self.assertTrue(self.block["xNewRun"])
+        self.cycles(20, motion_words(self.sequence, run=0xB2))
+        self.assertFalse(self.block["xNewRun"])
 
 
 if __name__ == "__main__":

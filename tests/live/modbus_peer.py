@@ -29,8 +29,8 @@ import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_run  # noqa: E402  pylint: disable=wrong-import-position
 
-IMAGES = 10_000  # half of them of either version
-PLACE = {1: (0, 120), 2: (1000, 124)}  # version: first register, registers
+IMAGES = 10_000  # as many of each version
+PLACE = {1: (0, 120), 2: (1000, 124), 3: (2000, 66)}  # version: first register, registers
 STRUCTS = description.read_structs()
 WORDS = {version: description.image_words(version, STRUCTS) for version in PLACE}
 
@@ -83,7 +83,7 @@ class Modbus(unittest.TestCase):
         client, torn, sequences = self.client(), 0, set()
         begin = time.monotonic()
         for i in range(IMAGES):
-            version = 1 + i % 2
+            version = 1 + i % len(PLACE)
             raw = self.read(client, version)
             torn += is_torn(raw, version)
             sequences.add(struct.unpack_from("<I", raw, 12)[0])

@@ -11,6 +11,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <memory>
@@ -36,6 +37,11 @@ class CountingImages final : public Images {
  public:
   pose_wall_image image() const override { return filled<pose_wall_image>(0); }
   pose_wall_image2 image2() const override { return filled<pose_wall_image2>(0x80); }
+  std::optional<pose_wall_motion_image> motion_image() const override {
+    if (!has_motion) return std::nullopt;
+    return filled<pose_wall_motion_image>(0x40);
+  }
+  std::atomic<bool> has_motion{true};
 
  private:
   template <typename Image>
@@ -134,6 +140,7 @@ TEST_F(ModbusServerTest, ARegisterIsAWordOfTheImageTheLowOneFirst) {
   // 0x44332211 lies in memory as 11 22 33 44: register 0 is 0x2211, register 1 is 0x4433; on the wire high byte first.
   EXPECT_EQ(alone(read_request(7, 0, 2), answer_bytes(2)), adu(7, Text("\x04\x04\x22\x11\x44\x33")));
   EXPECT_EQ(alone(read_request(0xABCD, 1000, 2), answer_bytes(2)), adu(0xABCD, Text("\x04\x04\x22\x11\x44\x33")));
+  EXPECT_EQ(alone(read_request(9, 2000, 2), answer_bytes(2)), adu(9, Text("\x04\x04\x22\x11\x44\x33")));
   EXPECT_EQ(alone(read_request(8, 1, 1), answer_bytes(1)), adu(8, Text("\x04\x02\x44\x33")));
 }
 
@@ -141,8 +148,8 @@ TEST_F(ModbusServerTest, OneReadIsOneImageAndEachIsNew) {
   const Client client(port_);
   std::set<char> seen;
   for (unsigned i = 0; i < 50; ++i) {
-    const unsigned first = i % 2 == 0 ? 0 : 1000;
-    const std::size_t registers = first == 0 ? 120 : 124;
+    const unsigned first = i % 3 * 1000;
+    const std::size_t registers = std::array<std::size_t, 3>{120, 124, 66}[i % 3];
     const Text answer = client.ask(read_request(i, first, static_cast<unsigned>(registers)), answer_bytes(registers));
     ASSERT_EQ(answer.size(), answer_bytes(registers));
     const Text rest = answer.substr(13);
@@ -150,6 +157,13 @@ TEST_F(ModbusServerTest, OneReadIsOneImageAndEachIsNew) {
     seen.insert(rest[0]);
   }
   EXPECT_EQ(seen.size(), 50U) << "asked for at every request";
+}
+
+TEST_F(ModbusServerTest, WithoutMotionItsRegistersAreNotThere) {
+  images_.has_motion = false;
+  constexpr char kAddress = 2;
+  EXPECT_EQ(alone(read_request(3, 2000, 66), kExceptionBytes), exception(3, 4, kAddress));
+  EXPECT_EQ(alone(read_request(3, 1000, 124), answer_bytes(124)).size(), answer_bytes(124));
 }
 
 TEST_F(ModbusServerTest, EachWrongRequestHasItsException) {
@@ -163,6 +177,9 @@ TEST_F(ModbusServerTest, EachWrongRequestHasItsException) {
                                      {1000U, 125U},
                                      {1124U, 1U},
                                      {1123U, 2U},
+                                     {1999U, 2U},
+                                     {2000U, 67U},
+                                     {2066U, 1U},
                                      {65535U, 1U},
                                      {65535U, 125U}}) {
     EXPECT_EQ(alone(read_request(3, first, count), kExceptionBytes), exception(3, 4, kAddress))

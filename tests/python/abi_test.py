@@ -69,13 +69,15 @@ class Layout(unittest.TestCase):
         """A member that a later header adds has to be thought of here."""
         told = {"pose_wall_value": (pose_wall.Value, {"part": "parts"}, {"reserved"}),
                 "pose_wall_plane": (pose_wall.Plane, {}, set()),
-                "pose_wall_publication": (pose_wall.Publication, {}, {"struct_size", "reserved"}),
+                "pose_wall_publication": (pose_wall.Publication, {}, {"struct_size", "reserved", "has_motion",
+                                                                       "motion_status", "motion"}),
                 "pose_wall_runtime_times": (pose_wall.Times, {}, set()),
                 "pose_wall_runtime_statistics": (pose_wall.Statistics, {}, {
-                    "struct_size", "reserved", "box_written", "box_lost", "box_failed", "box_bytes_written", "sink"}),
+                    "struct_size", "reserved", "box_written", "box_lost", "box_failed", "box_bytes_written", "sink",
+                    "motion_refused", "motion"}),
                 "pose_wall_runtime_options": (pose_wall.RuntimeOptions, {}, {
                     "struct_size", "reserved", "reserved_2", "clock", "clock_user", "callback", "callback_user", "sink",
-                    "sink_user", "box_clouds", "box_backlog", "box_bytes"})}
+                    "sink_user", "box_clouds", "box_backlog", "box_bytes", "motion", "motion_settings"})}
         for name, (kind, renamed, left_out) in told.items():
             members = {renamed.get(member, member) for member, _ in _abi.STRUCTS[name]._fields_} - left_out
             extra = {"is_valid"} & set(kind.__dataclass_fields__)
@@ -95,7 +97,8 @@ class Layout(unittest.TestCase):
 class Generator(unittest.TestCase):
     def setUp(self):
         self.root = scratch() / self.id()
-        for path in ("include/pose_wall.h", "include/pose_wall_runtime.h", "tools/python/src/pose_wall/_abi.py"):
+        for path in ("include/pose_wall.h", "include/pose_wall_motion.h", "include/pose_wall_runtime.h",
+                     "tools/python/src/pose_wall/_abi.py"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / path, self.root / path)
 

@@ -16,6 +16,8 @@ extern "C" std::int32_t first_call_of_abi_2(pose_wall_runtime_options* options) 
     "pose_wall_runtime_options_init");
 extern "C" std::int32_t first_call_of_box_1(const void* bytes, std::uint64_t count,
                                             void* info) __asm__("pose_wall_box_open");
+extern "C" std::int32_t first_call_of_box_2(const void* bytes, std::uint64_t count,
+                                            void* info) __asm__("pose_wall_box_open_2");
 
 namespace pose_wall::test {
 namespace {
@@ -88,24 +90,30 @@ TEST(RuntimeMisuse, AProgramOfTheAbiBeforeIsRefusedByItsFirstCall) {
   EXPECT_EQ(first_call_of_abi_2(&options), POSE_WALL_E_ABI);
   EXPECT_EQ(first_call_of_abi_2(nullptr), POSE_WALL_E_ABI);
   EXPECT_EQ(first_call_of_box_1(nullptr, 0, nullptr), POSE_WALL_E_ABI) << "its record is shorter";
+  EXPECT_EQ(first_call_of_box_2(nullptr, 0, nullptr), POSE_WALL_E_ABI) << "and so is that of format 2";
   EXPECT_EQ(std::memcmp(&options, &before, sizeof options), 0);
 }
 
-// Each struct by the sizes it has had: what takes it gives its status.
+// Each struct by the sizes it has had, also without motion: what takes it gives its status.
 template <typename Struct, typename Call>
-void expect_versions(std::uint32_t of_abi_2, const Call& call) {
+void expect_versions(std::uint32_t of_abi_2, std::size_t without_motion, const Call& call) {
+  const auto first = static_cast<std::uint32_t>(without_motion);
   const struct {
     std::uint32_t size;
     std::int32_t status;
-  } rows[] = {{of_abi_2, POSE_WALL_E_ABI},           {sizeof(Struct) + 8, POSE_WALL_E_STRUCT_NEWER},
-              {1U << 16U, POSE_WALL_E_STRUCT_NEWER}, {(1U << 16U) + 1, POSE_WALL_E_STRUCT_SIZE},
-              {0, POSE_WALL_E_STRUCT_SIZE},          {sizeof(Struct) - 1, POSE_WALL_E_STRUCT_SIZE},
+  } rows[] = {{of_abi_2, POSE_WALL_E_ABI},
+              {sizeof(Struct) + 8, POSE_WALL_E_STRUCT_NEWER},
+              {1U << 16U, POSE_WALL_E_STRUCT_NEWER},
+              {(1U << 16U) + 1, POSE_WALL_E_STRUCT_SIZE},
+              {0, POSE_WALL_E_STRUCT_SIZE},
+              {first - 1, POSE_WALL_E_STRUCT_SIZE},
+              {first, POSE_WALL_OK},
               {sizeof(Struct), POSE_WALL_OK}};
   for (const auto& row : rows) EXPECT_EQ(call(row.size), row.status) << row.size;
 }
 
 TEST(RuntimeMisuse, StructsOfOtherVersionsAreRefusedByName) {
-  expect_versions<pose_wall_runtime_options>(128, [](std::uint32_t size) {
+  expect_versions<pose_wall_runtime_options>(128, offsetof(pose_wall_runtime_options, motion), [](std::uint32_t size) {
     pose_wall_runtime_options o;
     pose_wall_runtime_options_init(&o);
     o.struct_size = size;
@@ -115,7 +123,7 @@ TEST(RuntimeMisuse, StructsOfOtherVersionsAreRefusedByName) {
   runtime.start();
   runtime.push(room_points(1), 0);
   runtime.wait_idle();
-  expect_versions<pose_wall_publication>(912, [&](std::uint32_t size) {
+  expect_versions<pose_wall_publication>(912, offsetof(pose_wall_publication, has_motion), [&](std::uint32_t size) {
     pose_wall_publication p;
     std::memset(&p, 0x55, sizeof p);
     p.struct_size = size;
@@ -124,31 +132,39 @@ TEST(RuntimeMisuse, StructsOfOtherVersionsAreRefusedByName) {
     EXPECT_EQ(std::memcmp(&p, &before, sizeof p) == 0, status != POSE_WALL_OK);
     return status;
   });
-  expect_versions<pose_wall_runtime_statistics>(664, [&](std::uint32_t size) {
-    pose_wall_runtime_statistics s;
-    std::memset(&s, 0x55, sizeof s);
-    s.struct_size = size;
-    const pose_wall_runtime_statistics before = s;
-    const std::int32_t status = pose_wall_runtime_statistics_now(runtime.get(), &s);
-    EXPECT_EQ(std::memcmp(&s, &before, sizeof s) == 0, status != POSE_WALL_OK);
-    return status;
-  });
+  expect_versions<pose_wall_runtime_statistics>(
+      664, offsetof(pose_wall_runtime_statistics, motion_refused), [&](std::uint32_t size) {
+        pose_wall_runtime_statistics s;
+        std::memset(&s, 0x55, sizeof s);
+        s.struct_size = size;
+        const pose_wall_runtime_statistics before = s;
+        const std::int32_t status = pose_wall_runtime_statistics_now(runtime.get(), &s);
+        EXPECT_EQ(std::memcmp(&s, &before, sizeof s) == 0, status != POSE_WALL_OK);
+        return status;
+      });
 }
 
-// Once there are longer ones: who was built with an earlier header gets what he has room for, and a result whose size
-// says how much of it he has.
+// Who was built with an earlier header gets what he has room for, and results whose sizes say how much of them he has.
 TEST(RuntimeMisuse, AShorterPublicationIsWrittenNoFurtherThanItReaches) {
   pose_wall_publication whole{}, to;
   whole.struct_size = sizeof whole;
   whole.index = 7;
+  whole.result.struct_size = sizeof whole.result;
   whole.result.wall_points = 9;
+  whole.motion.struct_size = sizeof whole.motion;
+  whole.motion.source_id = 3;
   std::memset(&to, 0x55, sizeof to);
   const auto shorter = static_cast<std::uint32_t>(sizeof to) - 8;
   runtime::write_publication(whole, shorter, &to);
   EXPECT_EQ(to.struct_size, shorter);
-  EXPECT_EQ(to.result.struct_size, sizeof to.result - 8);
+  EXPECT_EQ(to.motion.struct_size, sizeof to.motion - 8);
   EXPECT_EQ(to.index, 7U);
-  EXPECT_EQ(to.result.wall_points, 0x55555555U) << "behind the end";
+  EXPECT_EQ(to.motion.source_id, 0x55555555U) << "behind the end";
+  std::memset(&to, 0x55, sizeof to);
+  runtime::write_publication(whole, offsetof(pose_wall_publication, has_motion), &to);
+  EXPECT_EQ(to.result.struct_size, sizeof to.result);
+  EXPECT_EQ(to.result.wall_points, 9U);
+  EXPECT_EQ(to.has_motion, 0x55555555U) << "behind the end";
 }
 
 }  // namespace

@@ -25,8 +25,9 @@ TEST(RuntimeAbi, Numbers) {
   EXPECT_EQ(pose_wall_runtime_abi_version(), 3U);
   const int statuses[] = {POSE_WALL_RUNTIME_E_OPTION,  POSE_WALL_RUNTIME_E_HANDLE, POSE_WALL_RUNTIME_E_STATE,
                           POSE_WALL_RUNTIME_E_THREAD,  POSE_WALL_RUNTIME_E_BUSY,   POSE_WALL_RUNTIME_E_LARGE,
-                          POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_RUNTIME_E_STALE};
-  for (int i = 0; i < 9; ++i) EXPECT_EQ(statuses[i], -100 - i);
+                          POSE_WALL_RUNTIME_E_NOTHING, POSE_WALL_RUNTIME_E_SYSTEM, POSE_WALL_RUNTIME_E_STALE,
+                          POSE_WALL_RUNTIME_E_MOTION};
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(statuses[i], -100 - i);
   const int of_box[] = {POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION, POSE_WALL_BOX_E_END,
                         POSE_WALL_BOX_E_EMPTY,  POSE_WALL_BOX_E_RUN,     POSE_WALL_BOX_E_KIND};
   for (int i = 0; i < 6; ++i) EXPECT_EQ(of_box[i], -90 - i);
@@ -73,7 +74,7 @@ TEST(RuntimeRefusals, OptionsOutOfRange) {
       {"cloud_points_max", [](auto* o) { o->cloud_points_max = 0; }},
       {"cloud_points_max", [](auto* o) { o->cloud_points_max = (1U << 26) + 1; }},
       {"point_bytes_max", [](auto* o) { o->point_bytes_max = 11; }},
-      {"point_bytes_max", [](auto* o) { o->point_bytes_max = 33; }},
+      {"point_bytes_max", [](auto* o) { o->point_bytes_max = 49; }},
       {"thinning_max", [](auto* o) { o->thinning_max = 0; }},
       {"thinning_max", [](auto* o) { o->thinning_max = 3; }},
       {"thinning_max", [](auto* o) { o->thinning_max = 32; }},
@@ -135,8 +136,9 @@ TEST(RuntimeRefusals, OptionsAtTheirLimits) {
   // The smallest black box, as the header says.
   const auto up = [](std::uint64_t bytes) { return (bytes + 63) / 64 * 64; };
   for (const std::uint32_t clouds : {0U, 1U}) {
-    const std::uint64_t least = 4224 + up(sizeof(pose_wall_inputs)) + up(pose_wall_memento_bytes()) +
-                                up(sizeof(pose_wall_result)) + (clouds != 0 ? up(101 * 13) : 0);
+    const std::uint64_t least = 4288 + up(sizeof(pose_wall_inputs)) + up(pose_wall_memento_bytes()) +
+                                up(sizeof(pose_wall_result)) + up(sizeof(pose_wall_motion_result)) +
+                                (clouds != 0 ? up(101 * 13) : 0);
     for (const std::uint64_t less : {0U, 1U}) {
       EXPECT_EQ(accepted([&](pose_wall_runtime_options* o) {
                   o->sink = sink;

@@ -21,6 +21,7 @@
 
 #include "box/box_replay.hpp"
 #include "box/file_sink.hpp"
+#include "csv/csv_table.hpp"
 #include "pose_wall_box.h"
 #include "pose_wall_runtime.h"
 #include "ran_command.hpp"
@@ -36,12 +37,14 @@ using pose_wall::test::Dirt;
 using Clouds = std::vector<pose_wall::test::Points>;
 
 // Each a frame, as the runtime records them.
-void record(const Clouds& frames, pose_wall_runtime_sink to, void* sink, std::uint64_t box_bytes, bool clouds) {
+void record(const Clouds& frames, pose_wall_runtime_sink to, void* sink, std::uint64_t box_bytes, bool clouds,
+            bool motion = false) {
   const pose_wall_config config = pose_wall::test::small_config();
   pose_wall_runtime_options options;
   pose_wall_runtime_options_init(&options);
   options.cloud_points_max = box_bytes > 1 << 20 ? 30000 : 4000;
   options.watchdog_ns = 0;
+  options.motion = motion ? pose_wall_motion_functions_get() : nullptr;
   options.sink = to;
   options.sink_user = sink;
   options.box_bytes = box_bytes;
@@ -112,6 +115,33 @@ class ReplayBox : public ::testing::Test {
   const std::string path_ = folder_.file("box.pwbox");
 };
 
+TEST_F(ReplayBox, TellsTheMotionThatWasRecorded) {
+  const std::string with_motion = folder_.file("motion.pwbox"), table = folder_.file("events.csv");
+  {
+    FileSink sink(with_motion);
+    Clouds frames;
+    for (std::uint32_t i = 0; i < 4; ++i) frames.push_back(pose_wall::test::ribbed_room_points(i + 1));
+    frames.emplace_back();
+    record(frames, FileSink::write, &sink, 64 << 20, true, true);
+  }
+  const Ran ran = command({"replay-box", "--quiet", "--table", table, with_motion});
+  EXPECT_EQ(ran.exit_status, 0) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "5 frames with motion: ")) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "1 lost")) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "; travel from 0.000 to ")) << ran.printed;
+  std::ifstream stream(table);
+  const CsvTable events = CsvTable::parse(stream);
+  ASSERT_EQ(events.rows(), 5U);
+  const std::size_t state = events.find_column("along_state").value(), along = events.find_column("along_m").value();
+  const std::size_t computed = events.find_column("computed").value();
+  for (std::size_t row = 0; row < 5; ++row) {
+    EXPECT_EQ(events.cell(row, computed), "same");
+    EXPECT_EQ(events.cell(row, state) == "lost", row == 4) << events.cell(row, state);
+    EXPECT_EQ(events.cell(row, along).empty(), row == 4);
+  }
+  EXPECT_FALSE(contains(replay(path_).printed, "with motion")) << "of a runtime without";
+}
+
 TEST_F(ReplayBox, AGoodBoxComesOutAgain) {
   const Ran ran = replay(path_);
   EXPECT_EQ(ran.exit_status, 0) << ran.printed;
@@ -145,13 +175,27 @@ std::uint32_t crc32(const char* bytes, std::size_t count) {
   return ~crc;
 }
 
+// A box of the format before, or of a later one.
+TEST_F(ReplayBox, ABoxOfAnotherFormatIsRefusedByName) {
+  std::vector<char> bytes = read_all(path_);
+  const std::uint32_t format = 2;
+  std::memcpy(bytes.data() + 8, &format, sizeof format);
+  std::memcpy(bytes.data() + 40, "0.1.9", 6);
+  const std::uint32_t crc = crc32(bytes.data(), 4092);
+  std::memcpy(bytes.data() + 4092, &crc, sizeof crc);
+  write_all(path_, bytes);
+  const Ran ran = replay(path_);
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.errors, "recorded by pose_wall 0.1.9 in format 2; this is pose_wall")) << ran.errors;
+}
+
 // Another roll in the third record, with all checksums right: as if another engine had published it.
 TEST_F(ReplayBox, ADifferenceIsNamedAndHasAStatusOfItsOwn) {
   std::vector<char> bytes = read_all(path_);
   char* const head = bytes.data() + place_of(2);
   std::uint64_t record_bytes = 0;
   std::memcpy(&record_bytes, head + 8, 8);
-  const std::size_t at_memento = 128 + (sizeof(pose_wall_inputs) + 63) / 64 * 64;
+  const std::size_t at_memento = 192 + (sizeof(pose_wall_inputs) + 63) / 64 * 64;
   const std::size_t at_result = at_memento + (pose_wall_memento_bytes() + 63) / 64 * 64;
   const double other = 7.5;
   std::memcpy(head + at_result + offsetof(pose_wall_result, quantity), &other, 8);

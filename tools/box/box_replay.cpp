@@ -3,7 +3,10 @@
 
 #include "box/box_replay.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 #include <vector>
@@ -137,20 +140,47 @@ void look_for_gaps(const Found& found, std::uint64_t file_bytes, BoxReplay* repl
   if (is_alone) replay->torn += file_bytes - events[s.before_end - 1].end;
 }
 
-void compute(const pose_wall_box_record& record, pose_wall_engine* engine, BoxReplay* replay) {
+void note_motion(const pose_wall_motion_result& motion, BoxMotion* out) {
+  ++out->frames;
+  if (motion.along_state < out->of_state.size()) ++out->of_state[motion.along_state];
+  if (!std::isfinite(motion.along_m)) return;
+  if (!out->has_travel) out->first_m = motion.along_m;
+  out->last_m = motion.along_m;
+  out->has_travel = true;
+}
+
+BoxEvent event_of(const pose_wall_box_record& record, BoxReplay* replay) {
+  pose_wall_result recorded;
+  std::memcpy(&recorded, record.result, sizeof recorded);
+  BoxEvent event{record.sequence, recorded.frame_index, record.stamp_ns, record.received_ns, record.kind, "", {}};
+  if (record.motion != nullptr) {
+    event.motion.emplace();
+    std::memcpy(&*event.motion, record.motion, sizeof *event.motion);
+    note_motion(*event.motion, &replay->motion);
+  }
+  return event;
+}
+
+// In one word.
+std::string compute(const pose_wall_box_record& record, pose_wall_engine* engine, BoxReplay* replay) {
   pose_wall_result recorded, computed = api::make_result();
   std::memcpy(&recorded, record.result, sizeof recorded);
   const std::int32_t status = pose_wall_box_compute(&record, engine, &computed);
   if (status == POSE_WALL_BOX_E_EMPTY) {
     ++replay->digests_only;
-  } else if (status != POSE_WALL_OK) {
+    return "digest";
+  }
+  if (status != POSE_WALL_OK) {
     ++replay->refused;
-  } else if (const auto difference = first_difference(recorded, computed)) {
+    return "refused";
+  }
+  if (const auto difference = first_difference(recorded, computed)) {
     ++replay->different;
     if (!replay->first) replay->first = {record.sequence, recorded.frame_index, recorded.stamp_ns, *difference};
-  } else {
-    ++replay->equal;
+    return "different";
   }
+  ++replay->equal;
+  return "same";
 }
 
 void count(const Events& events, BoxReplay* replay) {
@@ -163,14 +193,27 @@ void count(const Events& events, BoxReplay* replay) {
   }
 }
 
+// A box of another format is told by both formats, and by the library that can read it.
+std::string why_not(const MappedFile& file, std::int32_t status) {
+  std::uint32_t format = 0;
+  char version[24] = {};
+  const bool other = status == POSE_WALL_BOX_E_VERSION &&
+                     pose_wall_box_written_by(file.data(), file.size(), &format, version) == POSE_WALL_OK;
+  if (!other) return pose_wall_runtime_status_text(status);
+  return fmt::format(
+      "recorded by pose_wall {} in format {}; this is pose_wall {}, which reads its own format {}: use "
+      "the one that recorded it",
+      version, format, pose_wall_version(), POSE_WALL_BOX_VERSION);
+}
+
 }  // namespace
 
-BoxReplay replay_box(const std::string& path, const ReplayProgress& progress) {
+BoxReplay replay_box(const std::string& path, const ReplayProgress& progress, const EventLook& look) {
   const MappedFile file(path);
   pose_wall_box_info info;
   std::int32_t status =
       file.size() > 0 ? pose_wall_box_open(file.data(), file.size(), &info) : std::int32_t{POSE_WALL_BOX_E_FORMAT};
-  if (status != POSE_WALL_OK) throw std::runtime_error(path + ": " + pose_wall_runtime_status_text(status));
+  if (status != POSE_WALL_OK) throw std::runtime_error(path + ": " + why_not(file, status));
   std::uint64_t bytes = 0;
   status = pose_wall_memory_needed(&info.config, &bytes);
   if (status != POSE_WALL_OK) throw std::runtime_error(path + ": its config: " + pose_wall_status_text(status));
@@ -190,7 +233,9 @@ BoxReplay replay_box(const std::string& path, const ReplayProgress& progress) {
   std::stable_sort(found.events.begin(), found.events.end(),
                    [](const Event& a, const Event& b) { return a.record.sequence < b.record.sequence; });
   for (std::size_t i = 0; i < found.events.size(); ++i) {
-    compute(found.events[i].record, engine, &replay);
+    BoxEvent event = event_of(found.events[i].record, &replay);
+    event.computed = compute(found.events[i].record, engine, &replay);
+    if (look) look(event);
     if (progress) progress(i + 1, found.events.size());
   }
   return replay;

@@ -5,12 +5,14 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "box/result_difference.hpp"
+#include "pose_wall_motion.h"
 
 namespace pose_wall::tools {
 
@@ -19,6 +21,23 @@ struct BoxDifference {
   std::uint64_t frame_index;
   std::int64_t stamp_ns;
   ResultDifference what;
+};
+
+// What is recorded of motion; nothing of it is computed again, for its map is not in the box.
+struct BoxMotion {
+  std::uint64_t frames = 0;
+  std::array<std::uint64_t, POSE_WALL_ALONG_MEASURED + 1> of_state{};
+  double first_m = 0.0, last_m = 0.0;  // travel of the first and the last frame with a pose
+  bool has_travel = false;
+};
+
+// One event, in the order of the sequence.
+struct BoxEvent {
+  std::uint64_t sequence = 0, frame_index = 0;
+  std::int64_t stamp_ns = 0, received_ns = 0;
+  std::uint32_t kind = 0;  // pose_wall_box_kind
+  std::string computed;    // "same", "different", "refused", "digest"
+  std::optional<pose_wall_motion_result> motion;
 };
 
 struct BoxReplay {
@@ -37,6 +56,7 @@ struct BoxReplay {
   std::uint64_t of_other_runs = 0;   // of earlier starts: not computed, their config may have been another
   std::uint64_t damaged_of_old = 0;  // of other runs, or left over
   std::optional<BoxDifference> first;
+  BoxMotion motion;
 
   // What is older than the newest events without a gap does not count: a ring overwrites it in parts.
   bool is_whole() const { return damaged == 0 && missing == 0 && torn == 0 && not_searched == 0 && refused == 0; }
@@ -46,7 +66,9 @@ struct BoxReplay {
 // After each record: how many are done, of how many.
 using ReplayProgress = std::function<void(std::uint64_t done, std::uint64_t of)>;
 
+using EventLook = std::function<void(const BoxEvent& event)>;
+
 // In the order of the events. Throws std::runtime_error where the file is no black box of this build.
-BoxReplay replay_box(const std::string& path, const ReplayProgress& progress);
+BoxReplay replay_box(const std::string& path, const ReplayProgress& progress, const EventLook& look = nullptr);
 
 }  // namespace pose_wall::tools

@@ -86,6 +86,10 @@ void Daemon::log_start() const {
   for (const pose_wall_key_info& key : config_keys()) tell(key.name, config_written_text(*loaded_.config.get(), key));
   for (const OutsideKey& key : motion_keys()) tell(key.name, motion_value_text(loaded_.motion, key));
   for (const OutsideKey& key : live_keys()) tell(key.name, live_value_text(loaded_.live, key));
+  const bool moves = config_text(*loaded_.config.get(), "motion") == "on";
+  log_line(Grade::kGood, "motion",
+           moves ? "on: held values move with the machine, and its way along the road is told (key motion)"
+                 : "off (key motion)");
   log_line(Grade::kGood, "config", config_crc_text(*loaded_.config.get()) + " (dwConfigCrc of FB_PoseWall)");
   log_line(Grade::kGood, "config", "all other keys have their defaults; `pose_wall check-config` lists them");
 }

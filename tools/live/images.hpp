@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "live/health.hpp"
@@ -23,6 +24,8 @@ class Images {
   // Always a sound image with a true CRC: what is stale or missing is told invalid (pose_wall_runtime_image).
   virtual pose_wall_image image() const = 0;
   virtual pose_wall_image2 image2() const = 0;
+  // Nothing: the key `motion` is off.
+  virtual std::optional<pose_wall_motion_image> motion_image() const = 0;
 };
 
 // The health of all parts, the runtime first.

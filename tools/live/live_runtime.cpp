@@ -24,8 +24,8 @@ constexpr std::uint64_t kFramesKept = 8;
 // A frame takes 0.2 s at most on the slowest controller (bench/README.md); a worker that is at one thing for so much
 // longer does not come back.
 constexpr std::int64_t kHangs_ns = 10'000'000'000;
-// x, y, z as doubles, and intensity: whatever a driver writes.
-constexpr std::uint32_t kPointBytes = 32;
+// x, y, z as doubles, intensity, time and ring: whatever a driver writes.
+constexpr std::uint32_t kPointBytes = 48;
 // A transform that moved less is the same mount: a thirtieth of range_bias_max, and as much at five metres. Reopening
 // costs what the engine remembers, so it is done at most so often; meanwhile nothing is measured.
 constexpr double kSamePlace_m = 1e-3, kSameAngle_rad = 2e-4;
@@ -57,6 +57,7 @@ LiveRuntime::LiveRuntime(const LoadedConfig& loaded, std::function<BlackBox()> o
       wants_points_(std::move(wants_points)) {
   settings_.lidar_frame = config_text(*config_.get(), "lidar_frame");
   settings_.extrinsic_by_tf = loaded.live.extrinsic_from == "tf";
+  settings_.motion = loaded.motion;
   settings_.frame_points_max = static_cast<std::uint32_t>(loaded.live.frame_points_max);
   prepare_box();
   open();
@@ -78,6 +79,8 @@ void LiveRuntime::open() {
   options.sink_user = box_.user;
   options.box_bytes = box_.bytes;
   options.point_bytes_max = kPointBytes;
+  options.motion = pose_wall_motion_functions_get();  // where the key `motion` is on
+  options.motion_settings = &settings_.motion;
   // Clouds are in the box only where one fits beside the rest; without them nothing can be computed again.
   const std::uint64_t needed = 2 * std::uint64_t{options.cloud_points_max} * options.point_bytes_max;
   options.box_clouds = box_.bytes > needed ? 1 : 0;
@@ -277,6 +280,14 @@ pose_wall_image2 LiveRuntime::image2() const {
   return image;
 }
 
+std::optional<pose_wall_motion_image> LiveRuntime::motion_image() const {
+  pose_wall_motion_image image{};
+  image.struct_size = sizeof image;
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  if (pose_wall_runtime_motion_image(runtime_, &image) == POSE_WALL_RUNTIME_E_MOTION) return std::nullopt;
+  return image;
+}
+
 std::int32_t LiveRuntime::latest(pose_wall_publication* newest) const {
   pose_wall_publication& publication = *newest;
   publication = {};
@@ -343,6 +354,10 @@ void LiveRuntime::add_runtime_facts(PartHealth* health) const {
   health->add("latency p50 ms", milliseconds(now.latency.p50_ns));
   health->add("latency p99 ms", milliseconds(now.latency.p99_ns));
   health->add("latency worst ms", milliseconds(now.latency.worst_ns));
+  if (now.motion.count > 0) {
+    health->add("motion p99 ms", milliseconds(now.motion.p99_ns));
+    health->add("frames without motion", now.motion_refused);
+  }
   health->add("activity", pose_wall_runtime_activity_name(now.activity));
   health->add("opened", opened_.load());
   if (box_.write == nullptr) return;

@@ -43,6 +43,7 @@ class LiveRuntime final : public FrameTaker, public Images {
 
   pose_wall_image image() const override;
   pose_wall_image2 image2() const override;
+  std::optional<pose_wall_motion_image> motion_image() const override;
   // False when the worker has been at one thing for so long that it hangs.
   bool is_alive() const;
   PartHealth health() const;
@@ -56,6 +57,7 @@ class LiveRuntime final : public FrameTaker, public Images {
     std::string lidar_frame;
     bool extrinsic_by_tf = false;
     std::uint32_t frame_points_max = 0;
+    pose_wall_motion_settings motion{};
   };
 
   static void called_back(void* user, const pose_wall_publication* publication);

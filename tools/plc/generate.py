@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Writes what follows from image.def and blocks.def: the images' structs in include/pose_wall.h, the members that
-tests/checks/abi_layout.c looks at, the tables of registers in tools/live/modbus/README.md, and FB_PoseWall as plain
+"""Writes what follows from image.def and blocks.def: the images' structs in include/pose_wall.h and
+include/pose_wall_motion.h, the members that tests/checks/abi_layout.c looks at,
+the tables of registers in tools/live/modbus/README.md, and FB_PoseWall as plain
 text, PLCopen XML and SCL. States and numbers are those of pose_wall.h.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
@@ -43,7 +44,15 @@ def c_struct(structs, struct):
                       f"}} {struct.name};"])
 
 
-def header(structs, text):
+HEADERS = ("include/pose_wall.h", "include/pose_wall_motion.h")
+
+
+def header_of(name):
+    return HEADERS[1 if name.startswith("pose_wall_motion_") else 0]
+
+
+def header(structs, path, text):
+    structs = {name: struct for name, struct in structs.items() if header_of(name) == path}
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
     sizes = [f"#define {name.upper()}_BYTES {description.size_of(structs, name)}"
@@ -71,13 +80,14 @@ def layout_faults(structs, pinned_text):
 
 def outputs(root):
     structs = description.read_structs()
-    header_text = (root / "include/pose_wall.h").read_text(encoding="utf-8")
+    header_texts = {path: (root / path).read_text(encoding="utf-8") for path in HEADERS}
+    header_text = "\n".join(header_texts.values())
     plc, modbus = root / "tools/plc", root / "tools/live/modbus"
     registers_hpp = (modbus / "modbus_registers.hpp").read_text(encoding="utf-8")
     page = (modbus / "README.md").read_text(encoding="utf-8")
     read = blocks_reader.Reader(words.description_text(header_text, (plc / "blocks.def").read_text(encoding="utf-8")))
     return {
-        root / "include/pose_wall.h": header(structs, header_text),
+        **{root / path: header(structs, path, text) for path, text in header_texts.items()},
         plc / "FB_PoseWall.st": dialects.plain(read),
         plc / "FB_PoseWall.scl": dialects.scl(read),
         plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),

@@ -14,7 +14,7 @@ TYPES = {"uint32": ("uint32_t", "UDINT", "I"), "int32": ("int32_t", "DINT", "i")
          "float": ("float", "REAL", "f")}
 
 # Of the reflected CRCs, by version of the image
-POLYNOMIAL = {1: 0xEDB88320, 2: 0x82F63B78}
+POLYNOMIAL = {1: 0xEDB88320, 2: 0x82F63B78, 3: 0x82F63B78}
 
 Member = collections.namedtuple("Member", "name type unit comment")
 Struct = collections.namedtuple("Struct", "name st_name comment members")

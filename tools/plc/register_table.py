@@ -11,7 +11,7 @@ END = "<!-- Up to here. -->\n"
 REGISTERS_PER_WORD = 2
 FIRST_INPUT_REGISTER = 30001  # what controllers call the register of address 0: the 3 is for input registers
 # The constants of modbus_registers.hpp, by version of the image
-FIRST_NAME = {1: "kImageRegister", 2: "kImage2Register"}
+FIRST_NAME = {1: "kImageRegister", 2: "kImage2Register", 3: "kMotionImageRegister"}
 
 
 def first_register(registers_hpp, version):

@@ -64,10 +64,10 @@ def constants(header_text, structs):
     return f"VAR_GLOBAL CONSTANT\n{lines}\nEND_VAR\n\n"
 
 
-def decode_rows(structs, version):
-    """stImage is of the newest version, the words are of `version`."""
+def decode_rows(structs, version, into=2):
+    """stImage is of version `into`, the words are of `version`."""
     own = {word.path: i for i, word in enumerate(description.image_words(version, structs))}
-    for word in description.image_words(max(description.images(structs)), structs):
+    for word in description.image_words(into, structs):
         at = own.get(word.path, own["crc32"] if word.path == "crc32c" and "crc32" in own else None)
         value = MISSING.get(word.path.rsplit(".", maxsplit=1)[-1], "0")
         if at is not None:
@@ -83,6 +83,13 @@ def decode_function(structs):
             "F_PoseWallDecode := TRUE;\nEND_FUNCTION\n\n")
 
 
+def decode_motion_function(structs):
+    rows = "\n".join(row.strip() for row in decode_rows(structs, 3, 3))
+    return ("(* The members of a motion image from its words. *)\nFUNCTION F_PoseWallDecodeMotion : BOOL\nVAR_IN_OUT\n"
+            "  adwImage : T_PoseWallWords;\n  stImage : ST_PoseWallMotionImage;\nEND_VAR\n"
+            f"{rows}\nF_PoseWallDecodeMotion := TRUE;\nEND_FUNCTION\n\n")
+
+
 def description_text(header_text, blocks_text):
     """The one text from which all that controllers import is made."""
     structs = description.read_structs()
@@ -91,4 +98,5 @@ def description_text(header_text, blocks_text):
     words = ("(* An image as it arrives. *)\nTYPE T_PoseWallWords :\n"
              f"  ARRAY [0..{last}] OF DWORD;\nEND_TYPE\n\n")
     return "".join([constants(header_text, structs), *types, words, decode_function(structs),
+                    decode_motion_function(structs),
                     blocks_text.replace("@CHANNELS@\n", channels())])

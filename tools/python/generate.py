@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Writes src/pose_wall/_abi.py, the C ABI as ctypes sees it, from include/pose_wall.h and include/pose_wall_runtime.h:
+"""Writes src/pose_wall/_abi.py, the C ABI as ctypes sees it, from the headers of engine, motion and runtime:
 numbers, enums, structs and functions. Nobody writes a struct down a second time.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if the file would change"""
@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-HEADERS = ("include/pose_wall.h", "include/pose_wall_runtime.h")
+HEADERS = ("include/pose_wall.h", "include/pose_wall_motion.h", "include/pose_wall_runtime.h")
 OUTPUT = "tools/python/src/pose_wall/_abi.py"
 
 # C enum -> class, base, what each name begins with. Enums of one class are one enum in Python.
@@ -28,6 +28,9 @@ ENUMS = {
     "pose_wall_sense": ("Sense", "IntEnum", "POSE_WALL_SENSE_"),
     "pose_wall_moment_known": ("MomentKnown", "IntFlag", "POSE_WALL_MOMENT_"),
     "pose_wall_label": ("Label", "IntEnum", "POSE_WALL_LABEL_"),
+    "pose_wall_along_state": ("AlongState", "IntEnum", "POSE_WALL_ALONG_"),
+    "pose_wall_motion_reason": ("MotionReason", "IntFlag", "POSE_WALL_MOTION_R_"),
+    "pose_wall_motion_direction": ("MotionDirection", "IntEnum", "POSE_WALL_MOTION_"),
     "pose_wall_runtime_cause": ("Cause", "IntEnum", "POSE_WALL_RUNTIME_"),
     "pose_wall_runtime_activity": ("Activity", "IntEnum", "POSE_WALL_RUNTIME_AT_"),
     "pose_wall_runtime_wish": ("Wish", "IntFlag", "POSE_WALL_RUNTIME_"),
@@ -35,7 +38,8 @@ ENUMS = {
     "pose_wall_runtime_drop": ("Drop", "IntEnum", "POSE_WALL_RUNTIME_DROP_"),
 }
 # They close an enum and count its members.
-COUNTS = ("POSE_WALL_QUANTITIES", "POSE_WALL_PARTS", "POSE_WALL_STAGES", "POSE_WALL_RUNTIME_ACTIVITIES",
+COUNTS = ("POSE_WALL_QUANTITIES", "POSE_WALL_PARTS", "POSE_WALL_STAGES", "POSE_WALL_MOTION_DIRECTIONS",
+          "POSE_WALL_RUNTIME_ACTIVITIES",
           "POSE_WALL_RUNTIME_DROPS")
 SCALARS = {"int32_t": "c_int32", "uint32_t": "c_uint32", "int64_t": "c_int64", "uint64_t": "c_uint64",
            "uint8_t": "c_uint8", "double": "c_double", "float": "c_float", "char": "c_char"}
@@ -105,8 +109,15 @@ def split_declaration(text):
     return words, len(stars), name, re.findall(r"\[(\w+)\]", sizes)
 
 
+def each_of(text):
+    """'double a[3], b[3]' as 'double a[3]' and 'double b[3]'."""
+    first, *others = text.split(",")
+    kind = split_declaration(first)[0]
+    return [first, *(f"{kind} {other}" for other in others)]
+
+
 def struct_fields(body, numbers, structs, opaque):
-    for declaration in filter(str.strip, body.split(";")):
+    for declaration in (one for many in filter(str.strip, body.split(";")) for one in each_of(many)):
         words, pointers, name, sizes = split_declaration(declaration)
         kind = type_of(words, pointers, structs, opaque)
         for size in reversed(sizes):
@@ -137,6 +148,9 @@ class Abi:
         whole = "\n".join(texts)
         bodies = dict(re.findall(r"typedef struct (pose_wall_\w+) \{(.*?)\} \1;", whole, re.S))
         opaque = [name for name, other in re.findall(r"typedef struct (\w+) (\w+);", whole) if name == other]
+        tables = [name for name, body in bodies.items() if "(*" in body]  # of functions: handed on as they are
+        opaque += tables
+        bodies = {name: body for name, body in bodies.items() if name not in tables}
         callbacks = re.findall(r"typedef ([\w ]+?) \(\*(\w+)\)\(([^)]*)\);", whole)
         names = [*bodies, *(name for _, name, _ in callbacks)]
         self.callbacks = {

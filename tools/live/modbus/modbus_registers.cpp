@@ -46,8 +46,9 @@ ModbusRegisters::ModbusRegisters(const Images& images)
     : images_(images),
       context_(modbus_new_tcp("127.0.0.1", 0)),
       image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImageRegister, kImageRegisters)),
-      image2_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImage2Register, kImage2Registers)) {
-  if (!context_ || !image_ || !image2_) throw std::runtime_error("Modbus: no memory");
+      image2_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImage2Register, kImage2Registers)),
+      motion_image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kMotionImageRegister, kMotionImageRegisters)) {
+  if (!context_ || !image_ || !image2_ || !motion_image_) throw std::runtime_error("Modbus: no memory");
 }
 
 bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes, bool* was_refused) {
@@ -58,17 +59,30 @@ bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes,
     sent = modbus_reply_exception(context_.get(), request, MODBUS_EXCEPTION_ILLEGAL_FUNCTION);
   } else if (bytes != kReadBytes || !is_count(big_endian_at(request, kCountAt))) {
     sent = modbus_reply_exception(context_.get(), request, MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE);
-  } else if (big_endian_at(request, kAddressAt) >= kImage2Register) {
-    copy_words(images_.image2(), image2_.get());
-    sent = modbus_reply(context_.get(), request, bytes, image2_.get());
   } else {
-    copy_words(images_.image(), image_.get());
-    sent = modbus_reply(context_.get(), request, bytes, image_.get());
+    sent = answer_read(request, bytes);
   }
   constexpr int kExceptionBytes = 9;  // header, function, code; the shortest other answer has 11
   *was_refused = sent == kExceptionBytes;
   modbus_set_socket(context_.get(), -1);
   return sent > 0;
+}
+
+// The image in whose range the address lies, or the one before it: then the range's end is what is refused.
+int ModbusRegisters::answer_read(const std::uint8_t* request, int bytes) {
+  const unsigned address = big_endian_at(request, kAddressAt);
+  if (address >= kMotionImageRegister) {
+    const std::optional<pose_wall_motion_image> image = images_.motion_image();
+    if (!image) return modbus_reply_exception(context_.get(), request, MODBUS_EXCEPTION_ILLEGAL_DATA_ADDRESS);
+    copy_words(*image, motion_image_.get());
+    return modbus_reply(context_.get(), request, bytes, motion_image_.get());
+  }
+  if (address >= kImage2Register) {
+    copy_words(images_.image2(), image2_.get());
+    return modbus_reply(context_.get(), request, bytes, image2_.get());
+  }
+  copy_words(images_.image(), image_.get());
+  return modbus_reply(context_.get(), request, bytes, image_.get());
 }
 
 }  // namespace pose_wall::tools::live

@@ -18,8 +18,9 @@ namespace pose_wall::tools::live {
 
 // Where each image begins. A register is a word of two bytes of the image as it lies in memory (little-endian), so of a
 // number of four bytes the low word comes first.
-constexpr int kImageRegister = 0, kImage2Register = 1000;
-constexpr int kImageRegisters = POSE_WALL_IMAGE_BYTES / 2, kImage2Registers = POSE_WALL_IMAGE2_BYTES / 2;
+constexpr int kImageRegister = 0, kImage2Register = 1000, kMotionImageRegister = 2000;
+constexpr int kImageRegisters = POSE_WALL_IMAGE_BYTES / 2, kImage2Registers = POSE_WALL_IMAGE2_BYTES / 2,
+              kMotionImageRegisters = POSE_WALL_MOTION_IMAGE_BYTES / 2;
 
 // Bytes of a whole request that begins the buffer, by its MBAP header (Modbus Messaging on TCP/IP V1.0b, 3.1.3); 0
 // where more bytes must come to tell, -1 where these are no Modbus.
@@ -41,8 +42,10 @@ class ModbusRegisters {
   using Mapping = std::unique_ptr<modbus_mapping_t, Release<modbus_mapping_t, modbus_mapping_free>>;
 
   const Images& images_;
+  int answer_read(const std::uint8_t* request, int bytes);
+
   Context context_;
-  Mapping image_, image2_;
+  Mapping image_, image2_, motion_image_;
 };
 
 }  // namespace pose_wall::tools::live

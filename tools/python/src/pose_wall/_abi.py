@@ -14,6 +14,7 @@ POSE_WALL_TEXT_MAX = 64
 POSE_WALL_CONFIG_NUMBERS = 160
 POSE_WALL_CONFIG_TEXTS = 3
 POSE_WALL_INPUT_BOXES = 4
+POSE_WALL_ODOMETRY_DIRECTIONS = 6
 POSE_WALL_REASON_COUNT = 31
 POSE_WALL_BLOCK_ALIGNMENT = 64
 POSE_WALL_SELF_TEST_FRAMES = 4
@@ -27,6 +28,11 @@ POSE_WALL_IMAGE2_BYTES = 248
 POSE_WALL_QUANTITIES = 7
 POSE_WALL_PARTS = 7
 POSE_WALL_STAGES = 6
+POSE_WALL_MOTION_ABI_VERSION = 1
+POSE_WALL_MOTION_REASON_COUNT = 13
+POSE_WALL_MOTION_IMAGE_VERSION = 3
+POSE_WALL_MOTION_IMAGE_BYTES = 132
+POSE_WALL_MOTION_DIRECTIONS = 6
 POSE_WALL_RUNTIME_ABI_VERSION = 3
 POSE_WALL_RUNTIME_ACTIVITIES = 6
 POSE_WALL_RUNTIME_DROPS = 7
@@ -67,6 +73,7 @@ class Status(IntEnum):
     RUNTIME_NOTHING = -106
     RUNTIME_SYSTEM = -107
     RUNTIME_STALE = -108
+    RUNTIME_MOTION = -109
 
 
 class KeyType(IntEnum):
@@ -93,6 +100,7 @@ class Input(IntFlag):
     STANDING = 1
     SPEED = 2
     TURN_RATE = 4
+    ODOMETRY = 8
 
 
 class Quantity(IntEnum):
@@ -187,6 +195,38 @@ class Label(IntEnum):
     RIGHT = 3
 
 
+class AlongState(IntEnum):
+    LOST = 0
+    UNOBSERVABLE = 1
+    AMBIGUOUS = 2
+    MEASURED = 3
+
+
+class MotionReason(IntFlag):
+    FIRST = 1
+    FEW_POINTS = 2
+    FEW_MATCHES = 4
+    SMOOTH = 8
+    FEW_PATCHES = 16
+    HALVES_DIFFER = 32
+    SECOND_PEAK = 64
+    AT_EDGE = 128
+    NO_GROUND = 256
+    STAMP = 512
+    GAP = 1024
+    PRIOR = 2048
+    MAP_FULL = 4096
+
+
+class MotionDirection(IntEnum):
+    ALONG = 0
+    ACROSS = 1
+    UP = 2
+    ROLL = 3
+    PITCH = 4
+    YAW = 5
+
+
 class Cause(IntEnum):
     FRAME = 1
     SILENCE = 2
@@ -244,6 +284,10 @@ class pose_wall_cloud(Structure):
     pass
 
 
+class pose_wall_odometry(Structure):
+    pass
+
+
 class pose_wall_inputs(Structure):
     pass
 
@@ -297,6 +341,22 @@ class pose_wall_image2(Structure):
 
 
 class pose_wall_image_source(Structure):
+    pass
+
+
+class pose_wall_motion_settings(Structure):
+    pass
+
+
+class pose_wall_motion_fault(Structure):
+    pass
+
+
+class pose_wall_motion_result(Structure):
+    pass
+
+
+class pose_wall_motion_image(Structure):
     pass
 
 
@@ -370,6 +430,20 @@ pose_wall_cloud._fields_ = [
     ("ring", pose_wall_field),
 ]
 
+pose_wall_odometry._fields_ = [
+    ("run", c_uint64),
+    ("position_m", c_double * 3),
+    ("quaternion", c_double * 4),
+    ("along", c_double * 3),
+    ("across", c_double * 3),
+    ("level", c_double * 6),
+    ("drift_variance", c_double * 6),
+    ("drift", c_double * 6),
+    ("velocity_m_s", c_double * 3),
+    ("turn_rate_rad_s", c_double * 3),
+    ("rate_level", c_double * 6),
+]
+
 pose_wall_inputs._fields_ = [
     ("struct_size", c_uint32),
     ("given", c_uint32),
@@ -378,6 +452,7 @@ pose_wall_inputs._fields_ = [
     ("turn_rate_rad_s", c_double),
     ("turn_rate_sigma_rad_s", c_double),
     ("body_box", (c_double * 6) * 4),
+    ("odometry", pose_wall_odometry),
 ]
 
 pose_wall_value._fields_ = [
@@ -567,6 +642,94 @@ pose_wall_image_source._fields_ = [
     ("latency_ns", c_int64),
 ]
 
+pose_wall_motion_settings._fields_ = [
+    ("struct_size", c_uint32),
+    ("reserved", c_uint32),
+    ("speed_max_m_s", c_double),
+    ("turn_max_rad_s", c_double),
+    ("range_max_m", c_double),
+    ("keyframe_m", c_double),
+]
+
+pose_wall_motion_fault._fields_ = [
+    ("member", c_char_p),
+    ("rule", c_char_p),
+]
+
+pose_wall_motion_result._fields_ = [
+    ("struct_size", c_uint32),
+    ("along_state", c_uint32),
+    ("reasons", c_uint32),
+    ("mark", c_uint32),
+    ("stamp_ns", c_int64),
+    ("frame_index", c_uint64),
+    ("position_m", c_double * 3),
+    ("quaternion", c_double * 4),
+    ("sigma", c_double * 6),
+    ("protection_level", c_double * 6),
+    ("road_axis", c_double * 3),
+    ("along_m", c_double),
+    ("step_m", c_double * 3),
+    ("step_rad", c_double * 3),
+    ("step_s", c_double),
+    ("step_sigma", c_double * 6),
+    ("step_protection_level", c_double * 6),
+    ("contrast", c_double),
+    ("patches", c_double),
+    ("halves_m", c_double),
+    ("second_m", c_double),
+    ("second_gain", c_double),
+    ("points_in", c_uint32),
+    ("points_used", c_uint32),
+    ("ground_points", c_uint32),
+    ("clusters", c_uint32),
+    ("edge_points", c_uint32),
+    ("plane_points", c_uint32),
+    ("matched", c_uint32),
+    ("tiles", c_uint32),
+    ("keyframes", c_uint32),
+    ("wide_start", c_uint32),
+    ("run", c_uint64),
+    ("config_crc32", c_uint32),
+    ("source_id", c_uint32),
+]
+
+pose_wall_motion_image._fields_ = [
+    ("struct_size", c_uint32),
+    ("version", c_uint32),
+    ("crc32c", c_uint32),
+    ("sequence", c_uint32),
+    ("publication", c_uint32),
+    ("run", c_uint32),
+    ("config_crc32", c_uint32),
+    ("library_version", c_uint32),
+    ("stamp_low", c_uint32),
+    ("stamp_high", c_uint32),
+    ("source_id", c_uint32),
+    ("latency_ms", c_uint32),
+    ("thinning", c_uint32),
+    ("told_by", c_uint32),
+    ("along_state", c_uint32),
+    ("reasons", c_uint32),
+    ("travel_mm", c_int32),
+    ("travel_protection_mm", c_int32),
+    ("x_mm", c_int32),
+    ("y_mm", c_int32),
+    ("z_mm", c_int32),
+    ("across_protection_mm", c_int32),
+    ("up_protection_mm", c_int32),
+    ("roll_mdeg", c_int32),
+    ("pitch_mdeg", c_int32),
+    ("yaw_mdeg", c_int32),
+    ("roll_protection_mdeg", c_int32),
+    ("pitch_protection_mdeg", c_int32),
+    ("yaw_protection_mdeg", c_int32),
+    ("speed_mm_s", c_int32),
+    ("speed_protection_mm_s", c_int32),
+    ("turn_mdeg_s", c_int32),
+    ("turn_protection_mdeg_s", c_int32),
+]
+
 pose_wall_publication._fields_ = [
     ("struct_size", c_uint32),
     ("cause", c_uint32),
@@ -581,6 +744,9 @@ pose_wall_publication._fields_ = [
     ("activity", c_uint32),
     ("reserved", c_uint32 * 5),
     ("result", pose_wall_result),
+    ("has_motion", c_uint32),
+    ("motion_status", c_int32),
+    ("motion", pose_wall_motion_result),
 ]
 
 pose_wall_runtime_options._fields_ = [
@@ -607,6 +773,8 @@ pose_wall_runtime_options._fields_ = [
     ("sink_user", c_void_p),
     ("box_bytes", c_uint64),
     ("reserved_2", c_uint64),
+    ("motion", c_void_p),
+    ("motion_settings", POINTER(pose_wall_motion_settings)),
 ]
 
 pose_wall_runtime_times._fields_ = [
@@ -651,6 +819,8 @@ pose_wall_runtime_statistics._fields_ = [
     ("callback", pose_wall_runtime_times),
     ("sink", pose_wall_runtime_times),
     ("stage", pose_wall_runtime_times * 6),
+    ("motion_refused", c_uint64),
+    ("motion", pose_wall_runtime_times),
 ]
 
 # Structs by their names in C, and functions: what each gives and takes.
@@ -660,6 +830,7 @@ STRUCTS = {
     "pose_wall_rule_fault": pose_wall_rule_fault,
     "pose_wall_field": pose_wall_field,
     "pose_wall_cloud": pose_wall_cloud,
+    "pose_wall_odometry": pose_wall_odometry,
     "pose_wall_inputs": pose_wall_inputs,
     "pose_wall_value": pose_wall_value,
     "pose_wall_plane": pose_wall_plane,
@@ -674,6 +845,10 @@ STRUCTS = {
     "pose_wall_image2_distance": pose_wall_image2_distance,
     "pose_wall_image2": pose_wall_image2,
     "pose_wall_image_source": pose_wall_image_source,
+    "pose_wall_motion_settings": pose_wall_motion_settings,
+    "pose_wall_motion_fault": pose_wall_motion_fault,
+    "pose_wall_motion_result": pose_wall_motion_result,
+    "pose_wall_motion_image": pose_wall_motion_image,
     "pose_wall_publication": pose_wall_publication,
     "pose_wall_runtime_options": pose_wall_runtime_options,
     "pose_wall_runtime_times": pose_wall_runtime_times,
@@ -722,6 +897,28 @@ FUNCTIONS = {
     "pose_wall_image2_fill": (c_int32, (POINTER(pose_wall_result), POINTER(pose_wall_image_source),
         POINTER(pose_wall_image2))),
     "pose_wall_image2_check": (c_int32, (POINTER(pose_wall_image2),)),
+    "pose_wall_motion_abi_version": (c_uint32, ()),
+    "pose_wall_motion_settings_init": (c_int32, (POINTER(pose_wall_motion_settings),)),
+    "pose_wall_motion_settings_check": (c_int32, (POINTER(pose_wall_motion_settings),
+        POINTER(pose_wall_motion_fault))),
+    "pose_wall_motion_along_state_name": (c_char_p, (c_uint32,)),
+    "pose_wall_motion_reason_name": (c_char_p, (c_uint32,)),
+    "pose_wall_motion_reason_text": (c_char_p, (c_uint32,)),
+    "pose_wall_motion_direction_name": (c_char_p, (c_uint32,)),
+    "pose_wall_motion_memory_needed": (c_uint64, ()),
+    "pose_wall_motion_open": (c_int32, (POINTER(pose_wall_config), POINTER(pose_wall_motion_settings), c_void_p,
+        c_uint64, POINTER(c_void_p))),
+    "pose_wall_motion_reset": (c_int32, (c_void_p,)),
+    "pose_wall_motion_process": (c_int32, (c_void_p, POINTER(pose_wall_cloud), POINTER(pose_wall_motion_result))),
+    "pose_wall_motion_give": (c_int32, (c_void_p, POINTER(pose_wall_inputs))),
+    "pose_wall_motion_process_both": (c_int32, (c_void_p, c_void_p, POINTER(pose_wall_cloud),
+        POINTER(pose_wall_motion_result), POINTER(pose_wall_result))),
+    "pose_wall_motion_blank": (c_int32, (c_void_p, POINTER(pose_wall_motion_result))),
+    "pose_wall_motion_image_fill": (c_int32, (POINTER(pose_wall_motion_result), POINTER(pose_wall_image_source),
+        POINTER(pose_wall_motion_image))),
+    "pose_wall_motion_image_check": (c_int32, (POINTER(pose_wall_motion_image),)),
+    "pose_wall_motion_map": (c_int32, (c_void_p, c_uint32, POINTER(c_float), c_uint32, POINTER(c_uint32))),
+    "pose_wall_motion_functions_get": (c_void_p, ()),
     "pose_wall_runtime_abi_version": (c_uint32, ()),
     "pose_wall_runtime_status_text": (c_char_p, (c_int32,)),
     "pose_wall_runtime_activity_name": (c_char_p, (c_uint32,)),
@@ -743,6 +940,7 @@ FUNCTIONS = {
     "pose_wall_runtime_latest": (c_int32, (c_void_p, POINTER(pose_wall_publication))),
     "pose_wall_runtime_image": (c_int32, (c_void_p, POINTER(pose_wall_image))),
     "pose_wall_runtime_image2": (c_int32, (c_void_p, POINTER(pose_wall_image2))),
+    "pose_wall_runtime_motion_image": (c_int32, (c_void_p, POINTER(pose_wall_motion_image))),
     "pose_wall_runtime_last_points": (c_int32, (c_void_p, POINTER(pose_wall_points))),
     "pose_wall_runtime_tick": (c_int32, (c_void_p,)),
     "pose_wall_runtime_drop_name": (c_char_p, (c_uint32,)),
