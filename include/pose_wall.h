@@ -273,10 +273,11 @@ typedef struct pose_wall_cloud {
   pose_wall_field x;   /* metres in the lidar frame; FLOAT32 or FLOAT64 */
   pose_wall_field y;
   pose_wall_field z;
-  pose_wall_field intensity;             /* any type; used only with intensity_weight > 0 */
-  pose_wall_field time;                  /* when each point was measured, any type; read with an odometry, and by pose_wall_motion. Counts
-                                            from the smallest of the cloud, in the one of s, ms, us and ns by which
-                                            the scan takes 0.01 to 1 s */
+  pose_wall_field intensity; /* any type; used only with intensity_weight > 0 */
+  pose_wall_field
+      time; /* when each point was measured, any type; read with an odometry, and by pose_wall_motion. Counts
+               from the smallest of the cloud, in the one of s, ms, us and ns by which
+               the scan takes 0.01 to 1 s */
   const struct pose_wall_inputs* inputs; /* what the machine knows of itself in this frame, or NULL */
   pose_wall_field ring;                  /* which of the sensor's rings, any type, from 0. Read by pose_wall_motion */
 } pose_wall_cloud;
@@ -305,9 +306,9 @@ typedef struct pose_wall_odometry {
   double along[3], across[3]; /* unit, in the run's frame, at right angles: what the levels' directions mean here */
   double level[POSE_WALL_ODOMETRY_DIRECTIONS];          /* what comes and goes with each frame: m, rad; 0 to infinite */
   double drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS]; /* what stays, since the run began: m2, rad2; never falls */
-  double drift[POSE_WALL_ODOMETRY_DIRECTIONS]; /* likewise, of what has no variance: m, rad; never falls */
-  double velocity_m_s[3];     /* in base, in the course of this scan: takes the skew out of a cloud with times */
-  double turn_rate_rad_s[3];  /* likewise */
+  double drift[POSE_WALL_ODOMETRY_DIRECTIONS];          /* likewise, of what has no variance: m, rad; never falls */
+  double velocity_m_s[3];    /* in base, in the course of this scan: takes the skew out of a cloud with times */
+  double turn_rate_rad_s[3]; /* likewise */
   double rate_level[POSE_WALL_ODOMETRY_DIRECTIONS]; /* how well these two are known: m/s, rad/s; 0 to infinite */
 } pose_wall_odometry;
 
@@ -336,7 +337,7 @@ typedef struct pose_wall_inputs {
   double turn_rate_sigma_rad_s; /* its standard deviation; above 0, to 10 */
   double body_box[POSE_WALL_INPUT_BOXES][6]; /* beside the config's: where the boom is in this frame, in base, as
                                                 body_box_1: x_min x_max y_min y_max z_min z_max. All zero: none */
-  pose_wall_odometry odometry; /* measured, of this frame */
+  pose_wall_odometry odometry;               /* measured, of this frame */
 } pose_wall_inputs;
 
 /* Describes `count` points of three consecutive native floats each, `point_step` bytes apart. Fails iff: cloud NULL,

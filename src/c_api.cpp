@@ -49,8 +49,8 @@ class Inside {
 };
 
 std::int32_t check_inputs(const pose_wall_inputs* inputs) {
-  constexpr std::uint32_t kKnown = POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE |
-                                   POSE_WALL_INPUT_ODOMETRY;
+  constexpr std::uint32_t kKnown =
+      POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE | POSE_WALL_INPUT_ODOMETRY;
   if (inputs == nullptr) return POSE_WALL_OK;
   const std::int32_t status = pose_wall::check_struct_size(inputs->struct_size, pose_wall::kInputsSizes);
   if (status != POSE_WALL_OK) return status;

@@ -191,8 +191,8 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   std::int64_t at[POSE_WALL_STAGES + 1] = {now()};
   const auto stage_done = [&](pose_wall_stage stage) { at[stage + 1] = now(); };
 
-  found.voxels = build_voxels(cloud, odometry_in(cloud.inputs), settings_, extrinsic_, axes_, memory_.leaf, &scratch_.grid,
-                              &scratch_.returns_lidar, &scratch_.cloud_base);
+  found.voxels = build_voxels(cloud, odometry_in(cloud.inputs), settings_, extrinsic_, axes_, memory_.leaf,
+                              &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
   Work work(work_most(settings_, found.voxels.returns));

@@ -30,7 +30,6 @@ struct Curve {
 // Whether the curve tells a place: the patches agree, and exclude the ends of the search.
 bool is_evidence(const Curve& curve);
 
-
 struct CurveScratch {
   void lay_out(Arena& arena);
   Span<float> misfit;    // [shift][row], in deviations; NaN where the map knows nothing

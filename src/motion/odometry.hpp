@@ -78,8 +78,8 @@ class Odometry {
   std::int64_t stamp_ns_ = 0;
   double period_s_ = 0.0;  // usual time between frames
   std::uint64_t frames_ = 0;
-  std::uint64_t run_ = 0;      // names the map that poses are comparable in
-  bool has_pose_ = false;      // of the last frame
+  std::uint64_t run_ = 0;          // names the map that poses are comparable in
+  bool has_pose_ = false;          // of the last frame
   std::uint32_t back_ = 0;         // stamps in a row that went back
   std::uint32_t since_start_ = 0;  // frames on this map
   double slipped_m_ = 0.0;         // since something told the way

@@ -46,8 +46,8 @@ class Travel {
   // Of the way from one frame to the next, each against the same map.
   static Bounds of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor);
 
-  // What stays of each direction's errors, since reset, without lever arms: an error of two places in one map is that of
-  // either alignment and the difference of these two.
+  // What stays of each direction's errors, since reset, without lever arms: an error of two places in one map is that
+  // of either alignment and the difference of these two.
   const Six& drift_variance() const { return drift_variance_; }
   const Six& drift() const { return drift_; }
 

@@ -58,8 +58,8 @@ double Unknown::total() const {
   return sum + place_level_then + place_level + std::sqrt(drift2);
 }
 
-// Steps by places follow each other for as long as every frame has one; a step without ends that, and what was not known
-// until then adds up with what comes.
+// Steps by places follow each other for as long as every frame has one; a step without ends that, and what was not
+// known until then adds up with what comes.
 void Unknown::grow(const Change& by, std::uint32_t q, double elapsed_s) {
   if (!by.by_places[q]) {
     blind_s += elapsed_s;

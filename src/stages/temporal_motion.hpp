@@ -16,7 +16,8 @@ namespace pose_wall {
 struct Change {
   double carry[POSE_WALL_QUANTITIES] = {};   // what is known of it: a held value moves by it
   double growth[POSE_WALL_QUANTITIES] = {};  // what is not: a held level grows by it
-  // Where both frames have places of one odometry. Places err frame by frame, and that does not add up; what drifts does.
+  // Where both frames have places of one odometry. Places err frame by frame, and that does not add up; what drifts
+  // does.
   bool by_places[POSE_WALL_QUANTITIES] = {};
   double place_level_before[POSE_WALL_QUANTITIES] = {};
   double place_level[POSE_WALL_QUANTITIES] = {};

@@ -127,8 +127,8 @@ class View {
     return r;
   }
 
-  // Infinite where the place may lie beyond what was seen of the surface: a road may turn there by any angle. A distance
-  // changes by no more than the way beyond.
+  // Infinite where the place may lie beyond what was seen of the surface: a road may turn there by any angle. A
+  // distance changes by no more than the way beyond.
   double level(std::uint32_t quantity) const {
     const double unknown_m = odometry_.level[kAlong], told = response(quantity).level(odometry_.level);
     if (quantity < POSE_WALL_YAW) {
@@ -173,8 +173,7 @@ double carry_of(std::uint32_t quantity, const Place& from, const Place& to, cons
     return quantity == POSE_WALL_ROLL ? after.roll_rad - before.roll_rad : after.pitch_rad - before.pitch_rad;
   }
   const Eigen::Vector3d sample = sample_base(quantity, s, axes);
-  const Eigen::Vector3d moved_m =
-      to.position_m - from.position_m + (to.R_run_base - from.R_run_base) * sample;
+  const Eigen::Vector3d moved_m = to.position_m - from.position_m + (to.R_run_base - from.R_run_base) * sample;
   return seen.wall[side_of(quantity)].normal.dot(moved_m);
 }
 
@@ -193,7 +192,7 @@ double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& f
 
 bool is_sound(const pose_wall_odometry& o) {
   constexpr double kFar_m = 1e7, kLarge = 1e12, kFast_m_s = 50.0, kFast_rad_s = 10.0;
-  const double *q = o.quaternion;
+  const double* q = o.quaternion;
   const double norm2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   const Eigen::Vector3d along = vector_of(o.along), across = vector_of(o.across);
   constexpr int kAll = POSE_WALL_ODOMETRY_DIRECTIONS;

@@ -26,7 +26,7 @@ struct PointBlock {
   std::uint32_t count = 0;
   float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];
   float x_base[kSize], y_base[kSize], z_base[kSize];
-  float time_s[kSize];  // since the scan's first point, where there is skew to take out
+  float time_s[kSize];       // since the scan's first point, where there is skew to take out
   std::uint64_t key[kSize];  // of a voxel
   VoxelGrid::Sums sums[kSize];
   std::int32_t direction[kSize];  // cell of a DirectionGrid
@@ -318,8 +318,8 @@ std::uint32_t returns_of(const IngestCounts& counts) {
 }  // namespace
 
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
-                         const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
-                         PointSet* cloud_base) {
+                         const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
+                         ReturnsByDirection* returns_lidar, PointSet* cloud_base) {
   VoxelResult result;
   Work work;
   const Skew skew(cloud, odometry);

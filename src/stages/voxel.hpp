@@ -19,7 +19,7 @@ namespace pose_wall {
 // what the last cloud left behind, not on the points' order. returns_lidar counts all that was returned, before the
 // filters. With an odometry the points of a cloud that has times lie where they were at the stamp (voxel_skew).
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
-                         const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid, ReturnsByDirection* returns_lidar,
-                         PointSet* cloud_base);
+                         const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
+                         ReturnsByDirection* returns_lidar, PointSet* cloud_base);
 
 }  // namespace pose_wall

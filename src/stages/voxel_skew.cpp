@@ -51,8 +51,7 @@ double time_unit_s(double spread) {
   return 0.0;
 }
 
-Skew::Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry)
-    : cloud_(cloud), swap_(needs_swap(cloud)) {
+Skew::Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry) : cloud_(cloud), swap_(needs_swap(cloud)) {
   if (odometry == nullptr || cloud.time.type == POSE_WALL_FIELD_NONE) return;
   const Times times = times_of(cloud, swap_);
   first_ = times.first;

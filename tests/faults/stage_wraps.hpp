@@ -296,9 +296,8 @@ POSE_WALL_WRAP(FrameTiming, TIME_FRAME, timing,
 }
 
 POSE_WALL_WRAP(void, SMOOTH_AND_HOLD, smoothing,
-               (const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns,
-                const Change& change, const Settings& s, TemporalState* state,
-                pose_wall_value (*values)[POSE_WALL_QUANTITIES])) {
+               (const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns, const Change& change,
+                const Settings& s, TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES])) {
   if (!fails(Fault::kSmoothingSilent)) smoothing_for_real(measured, timing, stamp_ns, change, s, state, values);
 }
 

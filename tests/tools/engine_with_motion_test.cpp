@@ -31,12 +31,11 @@ struct Seen {
 };
 
 std::vector<Seen> seen_in(const std::string& scene, std::uint32_t frames, std::initializer_list<const char*> parameters,
-                      const char* motion) {
+                          const char* motion) {
   sim::Setup setup = sim::make_setup(scene, "os1-64", false, 5);
   for (const char* parameter : parameters) sim::set_parameter(setup, parameter);
   const Simulator simulator(setup, 5);
-  const LoadedConfig loaded =
-      campaign::config_for(simulator.setup(), {"", {std::string("motion=") + motion}});
+  const LoadedConfig loaded = campaign::config_for(simulator.setup(), {"", {std::string("motion=") + motion}});
   MovingEngine engine;
   EXPECT_EQ(engine.open(loaded.config, loaded.motion), POSE_WALL_OK);
   std::vector<Seen> all;

@@ -96,8 +96,8 @@ TEST(TemporalOdometry, TheFrameOfTheRunDoesNotMatter) {
   const Change straight = change_between(place(0, 0, 0), place(0.3, 0.1, 0.05), s);
   const double turn = 1.1;
   const auto turned = [&](double x, double y, double yaw) {
-    pose_wall_odometry o = place(std::cos(turn) * x - std::sin(turn) * y + 40.0, std::sin(turn) * x + std::cos(turn) * y,
-                                 yaw + turn);
+    pose_wall_odometry o =
+        place(std::cos(turn) * x - std::sin(turn) * y + 40.0, std::sin(turn) * x + std::cos(turn) * y, yaw + turn);
     o.along[0] = o.across[1] = std::cos(turn);
     o.along[1] = std::sin(turn);
     o.across[0] = -std::sin(turn);
@@ -211,9 +211,9 @@ TEST(TemporalOdometry, NumbersThatAreNoneAreUnsound) {
     for (const double bad : {nan, infinite, -infinite}) {
       pose_wall_odometry broken = good;
       std::memcpy(reinterpret_cast<unsigned char*>(&broken) + at, &bad, sizeof(bad));
-      const bool of_levels = (at >= offsetof(pose_wall_odometry, level) &&
-                              at < offsetof(pose_wall_odometry, drift_variance)) ||
-                             at >= offsetof(pose_wall_odometry, rate_level);
+      const bool of_levels =
+          (at >= offsetof(pose_wall_odometry, level) && at < offsetof(pose_wall_odometry, drift_variance)) ||
+          at >= offsetof(pose_wall_odometry, rate_level);
       EXPECT_EQ(is_sound(broken), of_levels && bad == infinite) << at << " " << bad;
     }
   }
