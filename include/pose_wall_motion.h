@@ -103,7 +103,7 @@ enum pose_wall_motion_reason {
   POSE_WALL_MOTION_R_FEW_PATCHES = 1 << 4, /* what tells the place are too few patches of rock: one person, one prop */
   POSE_WALL_MOTION_R_HALVES_DIFFER = 1 << 5, /* two halves of the rock tell different places */
   POSE_WALL_MOTION_R_SECOND_PEAK = 1 << 6,   /* another place fits nearly as well */
-  POSE_WALL_MOTION_R_AT_EDGE = 1 << 7,       /* the best place lies at the edge of what was searched */
+  POSE_WALL_MOTION_R_AT_EDGE = 1 << 7,       /* the best place lies further off than the machine can have moved */
   POSE_WALL_MOTION_R_NO_GROUND = 1 << 8,     /* roll, pitch and height are told by walls and roof alone */
   POSE_WALL_MOTION_R_STAMP = 1 << 9,  /* the stamp stood still or went back: nothing is taken from this frame, its pose
                                           is the last one. The second stamp in a row that went back is believed */

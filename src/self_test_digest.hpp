@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x5D18B13CA77B8BD9ULL;
+constexpr std::uint64_t kSelfTestDigest = 0xDCCF24BF0B93C259ULL;
 
 }  // namespace pose_wall

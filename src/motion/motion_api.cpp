@@ -36,7 +36,7 @@ constexpr const char* kReasons[POSE_WALL_MOTION_REASON_COUNT][2] = {
     {"few_patches", "Too few patches of rock tell the place along the road."},
     {"halves_differ", "Two halves of the rock tell different places along the road."},
     {"second_peak", "Another place along the road fits nearly as well."},
-    {"at_edge", "The best place along the road lies at the edge of what was searched."},
+    {"at_edge", "The best place lies further off than the machine can have moved."},
     {"no_ground", "Walls and roof alone tell roll, pitch and height, for little ground is seen."},
     {"stamp", "The stamp stood still or went back, so nothing is taken from this frame."},
     {"gap", "Frames are missing before this one."},

@@ -26,7 +26,7 @@ constexpr double kHalvesMost_m = 0.12;
 constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; a sparse sensor's are all asked
 constexpr int kPassesMost = 4;                  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
-constexpr double kFirstReach = 1.5;  // of what the top speed allows: its own place is not the edge of the search
+constexpr double kReachMargin = 1.5;  // of what top speed and turn allow: a place there is not the edge of the search
 constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
 constexpr int kWindowsMost = 4;                       // to each side
 constexpr double kWindowStep_m = 1.5 * kReachMost_m;  // each overlaps the next by a quarter
@@ -205,7 +205,7 @@ void Odometry::refine(const Scan& scan, Frame* frame) {
 
 // The curve about the expected place.
 Curve Odometry::match_near(const Frame& frame) {
-  double reach = slipped_m_ + (since_start_ == 0 ? kFirstReach * settings_.speed_max_m_s * frame.dt_s : 0.0);
+  double reach = slipped_m_ + (since_start_ == 0 ? kReachMargin * settings_.speed_max_m_s * frame.dt_s : 0.0);
   reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
   const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
   return match_along(scan_of(frame), frame.alignment, reach, shifts, &curve_);
@@ -426,6 +426,21 @@ void Odometry::look(Frame* frame) {
   frame->observations = observation_.first(count);
 }
 
+// A fit that asks for more than the machine can have done is none. Dust had it stand on its head, frame by frame.
+void Odometry::check_reach(Frame* frame) const {
+  const Pose& at = frame->alignment.pose;
+  const Eigen::Vector3d& along = frame->alignment.axes.along;
+  const Eigen::Vector3d moved_m = at.t - pose_.t, beside_m = moved_m - along * along.dot(moved_m);
+  const double turned_rad = std::sqrt(turn_of(pose_.R.transpose() * at.R).squaredNorm());
+  const double reach_s = kReachMargin * frame->dt_s;
+  if (std::sqrt(beside_m.squaredNorm()) <= settings_.speed_max_m_s * reach_s &&
+      turned_rad <= settings_.turn_max_rad_s * reach_s) {
+    return;
+  }
+  frame->reasons |= POSE_WALL_MOTION_R_AT_EDGE;
+  frame->state = POSE_WALL_ALONG_LOST;
+}
+
 // The scan's place in the map and what follows from it; where it has none, the frame is lost.
 void Odometry::measure(Frame* frame) {
   map_.set_corner(frame->expected.t);
@@ -438,6 +453,7 @@ void Odometry::measure(Frame* frame) {
     frame->whole = travel_.bounds(SixBySix::Zero(), slipped_m_, settings_.protection_factor);
   } else if (place_scan(frame)) {
     align(frame);
+    check_reach(frame);
     if (!frame->is(POSE_WALL_ALONG_LOST)) conclude(frame);
     if (!frame->is(POSE_WALL_ALONG_MEASURED)) return;
     if (begins_unbent(*frame)) begin_unbent(*frame);

@@ -38,6 +38,7 @@ class Odometry {
   void keep_time(const Frame& frame);
   bool place_scan(Frame* frame);
   void align(Frame* frame);
+  void check_reach(Frame* frame) const;
   void match_way(Frame* frame);
   Curve match_near(const Frame& frame);
   Curve match_far(Frame* frame);
