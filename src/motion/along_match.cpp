@@ -262,10 +262,9 @@ class CurveBuilder {
   bool measure_row(const Observation& o, const LocalPose& local, const Eigen::Vector3f (&axis)[3]) {
     Fit fit;
     if (!fit_observation(scan_, local, o, &fit) || fit.surface.tile->stands_free != 0) return false;
-    // What faces along tells the way by its plane alone, in a hall. In a bend it is the far wall, of which a ring or
-    // two draw a plane that travels with the sensor.
+    // What faces along tells the way by its plane alone; along a road there is none, and what looks so is relief.
     const bool faces = faces_along(fit.normal, axis[0]);
-    if (faces && alignment_.axes.hold < kHoldOfHall) return false;
+    if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
     for (int k = 0; k < 3; ++k) jacobian(k)[rows_] = axis[k].dot(lever) * weight;
