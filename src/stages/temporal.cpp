@@ -254,6 +254,19 @@ void pass_time(double elapsed_s, const Change& change, std::uint32_t quantity, T
   t->rate = 0.0;  // the value has been moved
 }
 
+// Of what places tell and what the config allows for, both hold: a held value goes by places while that leaves it
+// usable, else by the narrower of the two.
+const Change& narrower(const Change& by_places, const Change& by_config, double elapsed_s, std::uint32_t quantity,
+                       const Settings& s, const Track& t) {
+  if (!by_places.by_places[quantity] || !t.has_value) return by_places;
+  const double level = t.good.exists ? t.good.level.sum() : t.level.sum();
+  Unknown told = t.good.exists ? t.good.grown : t.grown, allowed = told;
+  told.grow(by_places, quantity, elapsed_s);
+  allowed.grow(by_config, quantity, elapsed_s);
+  const bool usable = level + told.total() <= alert_limit(quantity, s);
+  return usable || told.total() < allowed.total() ? by_places : by_config;
+}
+
 void set_confidence(const Track& t, std::uint32_t quantity, const Settings& s, pose_wall_value* out) {
   if (t.has_value) out->sigma = t.sigma;
   const double alert = alert_limit(quantity, s);
@@ -303,6 +316,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
                      const Change& change, const Settings& settings, TemporalState* state,
                      pose_wall_value (*values)[POSE_WALL_QUANTITIES]) {
   const double elapsed_s = elapsed_of(*state, timing);
+  const Change by_config = change_by_config(settings, elapsed_s);
   state->has_stamp = true;
   state->stamp_ns = stamp_ns;
   state->still_frames = timing.still ? state->still_frames + 1 : 0;
@@ -315,7 +329,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     const Measurement& m = measured.quantity[q];
     pose_wall_value& out = (*values)[q];
     out = blank();
-    pass_time(elapsed_s, change, q, &t);
+    pass_time(elapsed_s, m.measured ? change : narrower(change, by_config, elapsed_s, q, settings, t), q, &t);
     POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
     // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
     // bound any more.
