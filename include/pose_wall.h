@@ -371,9 +371,10 @@ enum pose_wall_quantity {
 };
 
 enum pose_wall_state {
-  POSE_WALL_INVALID = 0,  /* never measured, or held until it expired (POSE_WALL_R_HOLD_EXPIRED); the last value stays
-                             readable, confidence 0 */
-  POSE_WALL_HELD = 1,     /* not measured in this frame: the last good value, with a growing protection level */
+  POSE_WALL_INVALID = 0, /* never measured, or held until it expired (POSE_WALL_R_HOLD_EXPIRED); the last value stays
+                            readable, confidence 0 */
+  POSE_WALL_HELD = 1,    /* not measured in this frame: the last good value. Its protection level grows, but for what an
+                            odometry tells of a place again */
   POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: the protection level says how much */
   POSE_WALL_VALID = 3     /* measured in this frame, every gate passed, protection level within the alert limit */
 };
@@ -459,7 +460,8 @@ enum pose_wall_part {
   POSE_WALL_PART_RIVAL = 3,         /* another surface may be the floor or the wall, in this frame or a moment ago */
   POSE_WALL_PART_EXTRAPOLATION = 4, /* the wall is not seen where the distance is asked for */
   POSE_WALL_PART_LAG = 5,           /* value is not raw: smoothing */
-  POSE_WALL_PART_AGE = 6,           /* time since it was measured, or since a frozen cloud's first copy */
+  POSE_WALL_PART_AGE = 6, /* motion that nobody knows: since it was measured, since a frozen cloud's first copy,
+                             or in the course of a scan that an odometry freed of it */
   POSE_WALL_PARTS = 7
 };
 /* "random", "range_bias"; static storage. */
@@ -476,12 +478,13 @@ typedef struct pose_wall_value {
   double protection_level;     /* |value - truth| stays within it; NaN if never measured. While invalid it goes by
                                   stamps that may have jumped: nothing to rely on */
   double raw_protection_level; /* |raw - truth| stays within it; NaN if nothing was measured */
-  double confidence; /* alert limit / (alert limit + protection level); 0 when invalid; only falls while held */
+  double confidence; /* alert limit / (alert limit + protection level); 0 when invalid; falls and rises with that level
+                        while held */
   double age_s;      /* since the frame it was measured in, by the stamps (under ones that stand still: see
                         POSE_WALL_R_STAMP_STILL; under one that went back it does not grow); 0 when measured
                         in this one, or never */
-  double part[POSE_WALL_PARTS]; /* of protection_level: they add up to it. Without lag, and without age unless the
-                                   sensor is frozen, they add up to raw_protection_level */
+  double part[POSE_WALL_PARTS]; /* of protection_level: they add up to it. Where the quantity was measured they add up
+                                   to raw_protection_level without lag */
   uint32_t state;               /* pose_wall_state */
   uint32_t reasons;             /* pose_wall_reason bits */
   uint32_t raw_state;           /* of raw by itself: valid, degraded, or invalid where nothing was measured */

@@ -14,7 +14,11 @@
  *     uint64_t bytes = pose_wall_motion_memory_needed();
  *     pose_wall_motion *motion;
  *     pose_wall_motion_open(&config, &settings, block, bytes, &motion);
+ *     result.struct_size = sizeof result;
  *     for every frame: pose_wall_motion_process(motion, &cloud, &result);
+ *     with an engine:  pose_wall_motion_process_both(motion, engine, &cloud, &result, &engine_result);
+ *
+ * Each call returns a status to look at; it is left out here.
  *
  * FRAMES    base as in pose_wall.h. start: base as it stood at the first frame; poses are in it. Pose: a point p of
  *           base lies at R p + position in start, with R of the quaternion. road: the axis along which the road gives
@@ -27,7 +31,8 @@
  * THREADS   one motion belongs to one thread at a time; different ones are independent.
  * STRUCTS   begin with struct_size and grow at their end only, as in pose_wall.h.
  * FLOATS    IEEE 754 without fast-math; the same version and input give the same bits on x86-64 and AArch64.
- * LINKING   libpose_wall_motion.a needs libpose_wall.a for the config.
+ * LINKING   libpose_wall_motion.a needs libpose_wall.a behind it, and -lm: `pkg-config --libs pose_wall_motion`, or
+ *           -lpose_wall_motion -lpose_wall -lm.
  *
  * METHOD    the stages of Shan and Englot, LeGO-LOAM, IROS 2018: range image, ground, clusters, features, and two steps
  *           of Levenberg-Marquardt, roll, pitch and height before yaw and the place across. Along the road, where those
@@ -55,8 +60,9 @@ uint32_t pose_wall_motion_abi_version(void);
 
 /* ---------------------------------------------------------------------------------------------- settings */
 
-/* What the config of the engine does not hold. Extrinsic, forward_axis, range_min, body boxes and protection_factor are
- * read from there. */
+/* What the config of the engine does not hold; in pose_wall.yaml these are the keys motion_speed_max, _turn_max_deg (in
+ * degrees there), _range_max and _keyframe, which the command reads and pose_wall_config_set does not know. Extrinsic,
+ * forward_axis, range_min, body boxes and protection_factor are read from there. */
 typedef struct pose_wall_motion_settings {
   uint32_t struct_size;  /* set by pose_wall_motion_settings_init */
   uint32_t reserved;     /* 0 */
@@ -205,9 +211,10 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_process(pose_wall_motion* motion, con
 POSE_WALL_CHECKED int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs);
 
 /* Both at once, for one frame: pose_wall_motion_process, then pose_wall_process with the frame's inputs and this pose
- * among them. So the engine's held values move with the machine, its smoothing does not lag, and a cloud with times is
- * freed of the scan's motion. Give every frame to both. Fails as either does; where the motion refuses a frame the
- * engine does not see it. */
+ * among them, instead of an odometry of the caller's own. So the engine's held values move with the machine, its
+ * smoothing does not lag, and a cloud with times is freed of the scan's motion. Give every frame to both. Fails as
+ * either does; where the motion refuses a frame the engine does not see it. A damaged or busy engine refuses when the
+ * motion has taken the frame already: then go on with the next one. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_process_both(pose_wall_motion* motion, pose_wall_engine* engine,
                                                         const pose_wall_cloud* cloud,
                                                         pose_wall_motion_result* motion_result,

@@ -48,6 +48,8 @@ struct Settings {
 #undef POSE_WALL_BOX
 };
 
+constexpr std::int32_t kMotionOn = 0;  // of the choices of the key `motion`
+
 // POSE_WALL_OK, or why this is no usable config (struct_size, or a broken rule over several keys).
 std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* fault);
 

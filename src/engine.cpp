@@ -21,7 +21,6 @@ namespace pose_wall {
 namespace {
 
 constexpr std::uint32_t kPointsMin = 100;
-constexpr std::int32_t kMotionOn = 0;  // of the key's choices
 
 Axes axes_of(std::int32_t forward_choice) {
   // In the order of the key's choices: +X, -X, +Y, -Y.
@@ -64,6 +63,16 @@ void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level
   floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.x());
   floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.y());
   floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+}
+
+// Nobody knows how the machine moved, but for how fast it moves now.
+pose_wall_odometry any_motion(const pose_wall_odometry& odometry) {
+  pose_wall_odometry any = odometry;
+  const auto norm = [](const double(&v)[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); };
+  for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
+    any.rate_level[k] += k < 3 ? norm(odometry.velocity_m_s) : norm(odometry.turn_rate_rad_s);
+  }
+  return any;
 }
 
 #ifdef POSE_WALL_TRACE
@@ -165,6 +174,7 @@ void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, s
   rebase(elapsed_s, stamp_ns, settings_, &memory_.temporal);
   memory_.seen = SeenClouds{};
   memory_.repeats = 0;
+  memory_.odometry.run = OdometryMemory::kNoRun;
   seal();
 }
 
@@ -309,13 +319,21 @@ Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, con
   step.sound = odometry != nullptr || inputs == nullptr || (inputs->given & POSE_WALL_INPUT_ODOMETRY) == 0 ||
                settings_.motion != kMotionOn;
   OdometryMemory& memory = memory_.odometry;
-  if (odometry == nullptr || (found->reasons & POSE_WALL_R_FROZEN) != 0) {
+  if (odometry == nullptr) {
     memory.run = OdometryMemory::kNoRun;
     return step;
   }
-  step.follows = odometry->run == memory.run;
-  if (step.follows) change_by_odometry(*odometry, memory, settings_, axes_, &step.change);
-  remember_place(*odometry, found->floor, found->level, found->walls.side, settings_, axes_, &memory);
+  if ((found->reasons & POSE_WALL_R_FROZEN) != 0) {  // bent by the motion of its first copy, freed of another
+    widen_by_skew(any_motion(*odometry), found->voxels.scan_s, memory, settings_, axes_, &found->measured);
+    memory.run = OdometryMemory::kNoRun;
+    return step;
+  }
+  if (odometry->run == memory.run) {
+    step.follows = change_by_odometry(*odometry, memory, settings_, axes_, &step.change);
+    step.sound = step.follows;
+    if (!step.follows) memory.run = OdometryMemory::kNoRun;
+  }
+  remember_place(*odometry, found->floor, found->level, found->walls.side, found->measured, settings_, axes_, &memory);
   widen_by_skew(*odometry, found->voxels.scan_s, memory, settings_, axes_, &found->measured);
   return step;
 }
@@ -332,12 +350,15 @@ Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTimi
   bool boxes = true;
   for (const auto& edges_m : inputs->body_box) boxes = box_of(edges_m).is_sound() && boxes;
   const bool by_odometry = step.follows && believed(step.change);
-  Change change = by_odometry ? step.change : by_config;
-  bool told = by_odometry;
-  if (!by_odometry && boxes) {
-    told = change_by_inputs(*inputs, settings_, elapsed_s, &change) && believed(change);
-    if (!told) change = by_config;
+  // Where an odometry tells, the others only have to make sense.
+  Change by_others = by_config;
+  const std::uint32_t others = POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE;
+  bool told = (inputs->given & others) == 0;
+  if (!told && boxes) {
+    told = change_by_inputs(*inputs, settings_, elapsed_s, &by_others) && (by_odometry || believed(by_others));
+    if (!told) by_others = by_config;
   }
+  const Change change = by_odometry ? step.change : by_others;
   const bool all_used = boxes && told && step.sound && by_odometry == step.follows;
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_INPUTS, all_used));

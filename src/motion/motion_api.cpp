@@ -272,7 +272,10 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_process_both(pose_wall_motion* motion,
                                                        pose_wall_motion_result* motion_result,
                                                        pose_wall_result* result) {
   if (engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  std::int32_t status = pose_wall_motion_process(motion, cloud, motion_result);
+  // All that the engine refuses of these arguments, before motion takes the frame.
+  std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
+  if (status != POSE_WALL_OK) return status;
+  status = pose_wall_motion_process(motion, cloud, motion_result);
   if (status != POSE_WALL_OK) return status;
   auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
   pose_wall_inputs inputs{};

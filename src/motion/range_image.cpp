@@ -218,7 +218,6 @@ class Projector {
       image_->cell[place] = static_cast<std::uint16_t>(k);
       image_->x[k] = p.x[lane], image_->y[k] = p.y[lane], image_->z[k] = p.z[lane], image_->range[k] = range[lane];
       image_->place[k] = static_cast<std::uint16_t>(place);
-      image_->flags[k] = 0;
     }
   }
 
@@ -289,6 +288,11 @@ class Projector {
 }  // namespace
 
 void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image) {
+  image->flags.fill(0);
+  project_again(cloud, reading, twist, image);
+}
+
+void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image) {
   const Projector projector(cloud, reading, twist, image);
   image->rows = projector.layout().rows;
   image->columns = projector.layout().columns;

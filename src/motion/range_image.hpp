@@ -65,5 +65,8 @@ struct RangeImage {
 
 // De-skewed by the twist where the cloud has times: each point where it would have been seen from at the stamp.
 void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image);
+// The same cloud by another twist. Cells and the order of points do not hang on it, so flags stay what they were;
+// unless the machine's own body has another point in it, which shows in the count.
+void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image);
 
 }  // namespace pose_wall::motion

@@ -64,7 +64,7 @@ void Runtime::move(FrameSlot* slot) {
     p.has_motion = 1;
     p.motion.points_in += slot->left_out_not_finite + slot->left_out_zero;
   } else {
-    open_motion_anew();
+    if (p.motion_status == POSE_WALL_E_ENGINE) open_motion_anew();
     p.motion = no_motion();
   }
   looked_ns_ = now();

@@ -19,7 +19,10 @@ constexpr StructSizes kPublicationSizes = {912, offsetof(pose_wall_publication, 
 constexpr StructSizes kStatisticsSizes = {664, offsetof(pose_wall_runtime_statistics, motion_refused),
                                           sizeof(pose_wall_runtime_statistics)};
 
-// How much of the two results was written follows from the publication's size.
+// Motion stands behind the result: one that grows moves it, and needs another ABI of the runtime.
+static_assert(sizeof(void*) != 8 || offsetof(pose_wall_publication, has_motion) == 1552);
+
+// How much of the motion's result was written follows from the publication's size.
 inline void write_publication(const pose_wall_publication& whole, std::uint32_t size, pose_wall_publication* to) {
   constexpr auto kMotionAt = static_cast<std::uint32_t>(offsetof(pose_wall_publication, motion));
   pose_wall_publication told = whole;

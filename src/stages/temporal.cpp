@@ -324,6 +324,8 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     state->dt_before_s = state->last_dt_s;
     state->last_dt_s = timing.dt_s;
   }
+  const Track& yaw = state->track[POSE_WALL_YAW];
+  const double carried_yaw_rad = yaw.has_value ? yaw.raw + change.carry[POSE_WALL_YAW] : 0.0;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Track& t = state->track[q];
     const Measurement& m = measured.quantity[q];
@@ -336,6 +338,9 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     const bool unknown = timing.still && !(elapsed_s > 0.0);
     if (timing.back || unknown || state->still_frames > kStillFramesMax) t.expired = true;
     if (timing.back) t.good.exists = false;
+    // Turned so far, what was a side wall is none any more, and what is one now nobody saw.
+    const bool is_sideways = q >= POSE_WALL_YAW && std::fabs(carried_yaw_rad) > radians(settings.yaw_max_deg);
+    if (is_sideways && !m.measured) t.expired = true;
     if (m.measured) {
       set_measured(m, q, !t.has_value || t.expired || timing.leap, settings, &t, &out);
     } else {

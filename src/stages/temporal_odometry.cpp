@@ -177,7 +177,7 @@ double carry_of(std::uint32_t quantity, const Place& from, const Place& to, cons
   return seen.wall[side_of(quantity)].normal.dot(moved_m);
 }
 
-// What a surface's own direction makes of the way before it: a floor is known one radius on as well as twice its level.
+// What a surface's own direction makes of the way before it. One radius further on, a floor's level is doubled.
 double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& from, const Place& to,
               const Eigen::Vector3d& to_m, const Settings& s, const Axes& axes) {
   if (quantity == POSE_WALL_YAW) return 0.0;
@@ -204,7 +204,7 @@ bool is_sound(const pose_wall_odometry& o) {
          all_within(o.rate_level, kAll, 0.0, kNobodyKnows);
 }
 
-void change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memory, const Settings& s, const Axes& axes,
+bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memory, const Settings& s, const Axes& axes,
                         Change* change) {
   const Place from = {memory.position_m, memory.R_run_base}, to = place_of(o);
   const View view(o, memory, s, axes);
@@ -212,7 +212,7 @@ void change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
   for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
     drift[k] = o.drift[k] - memory.drift[k];
     variance[k] = o.drift_variance[k] - memory.drift_variance[k];
-    if (!(drift[k] >= 0.0 && variance[k] >= 0.0)) return;  // not of one run, whatever its number says
+    if (!(drift[k] >= 0.0 && variance[k] >= 0.0)) return false;
   }
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const SeenSurface* const surface = surface_of(q, memory);
@@ -227,6 +227,7 @@ void change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     change->place_level[q] = level;
     change->drift2[q] = s.protection_factor * s.protection_factor * response.variance(variance);
   }
+  return true;
 }
 
 void widen_by_skew(const pose_wall_odometry& o, double scan_s, const OdometryMemory& memory, const Settings& s,
@@ -240,13 +241,17 @@ void widen_by_skew(const pose_wall_odometry& o, double scan_s, const OdometryMem
 }
 
 void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const LevelResult& level,
-                    const WallResult (&walls)[2], const Settings& s, const Axes& axes, OdometryMemory* memory) {
+                    const WallResult (&walls)[2], const Measurements& measured, const Settings& s, const Axes& axes,
+                    OdometryMemory* memory) {
   if (o.run != memory->run) memory->floor.exists = memory->wall[0].exists = memory->wall[1].exists = false;
   const Place at = place_of(o);
   memory->run = o.run;
   memory->position_m = at.position_m;
   memory->R_run_base = at.R_run_base;
-  if (!floor.fit.refused) {
+  const auto is_good = [&measured](std::uint32_t quantity) {
+    return measured.quantity[quantity].measured && !measured.quantity[quantity].weak;
+  };
+  if (is_good(POSE_WALL_ROLL)) {
     SeenSurface& seen = memory->floor;
     seen.exists = true;
     seen.normal = at.R_run_base * floor.fit.plane.n;
@@ -261,7 +266,8 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
   const Eigen::Matrix3d R_run_level = at.R_run_base * level.R_level_base.transpose();
   for (int side = 0; side < 2; ++side) {
     const WallResult& wall = walls[side];
-    if (wall.fit.refused) continue;
+    const std::uint32_t front = side == 0 ? POSE_WALL_D_LF : POSE_WALL_D_RF;
+    if (!is_good(front) && !is_good(front + 1)) continue;  // a rival, a thing before the wall
     SeenSurface& seen = memory->wall[side];
     seen.exists = true;
     seen.normal = R_run_level * wall.fit.plane.n;

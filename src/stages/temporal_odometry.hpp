@@ -44,17 +44,18 @@ struct OdometryMemory {
 bool is_sound(const pose_wall_odometry& odometry);
 
 // What changed since the place in memory, which is one of the same run. Where a surface was not seen there, *change
-// stays as it is.
-void change_by_odometry(const pose_wall_odometry& odometry, const OdometryMemory& memory, const Settings& settings,
+// stays as it is. False where drift fell: then it is of another run, whatever its number says.
+bool change_by_odometry(const pose_wall_odometry& odometry, const OdometryMemory& memory, const Settings& settings,
                         const Axes& axes, Change* change);
 
 // What is not known of the motion in the course of a scan that the motion was taken out of, in levels of what it
-// measured: at most as much as all of a surface was seen at the scan's end. The memory has this frame's surfaces.
+// measured: as if a whole surface had been seen at the scan's end. The memory has this frame's surfaces.
 void widen_by_skew(const pose_wall_odometry& odometry, double scan_s, const OdometryMemory& memory,
                    const Settings& settings, const Axes& axes, Measurements* measured);
 
-// The place and the surfaces that this frame measured become memory; a new run forgets those of the one before.
+// The place and the surfaces that this frame measured well become memory; a new run forgets those of the one before.
 void remember_place(const pose_wall_odometry& odometry, const FloorResult& floor, const LevelResult& level,
-                    const WallResult (&walls)[2], const Settings& settings, const Axes& axes, OdometryMemory* memory);
+                    const WallResult (&walls)[2], const Measurements& measured, const Settings& settings,
+                    const Axes& axes, OdometryMemory* memory);
 
 }  // namespace pose_wall

@@ -64,9 +64,10 @@ double mean_intensity(const pose_wall_cloud& cloud, bool swap) {
 class Pass {
  public:
   Pass(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic, const Axes& axes,
-       const Skew& skew)
+       const Skew& skew, bool by_points)
       : cloud_(cloud),
         skew_(skew),
+        by_points_(by_points),
         to_base_(extrinsic.R_base_lidar, extrinsic.sensor_base_m),
         range_min2_(static_cast<float>(settings.range_min * settings.range_min)),
         range_max2_(static_cast<float>(settings.range_max * settings.range_max)),
@@ -101,12 +102,12 @@ class Pass {
         column += count;
         point += static_cast<std::size_t>(count) * cloud_.point_step;
         if (block.count != PointBlock::kSize) continue;
-        if (skew_.is_there()) *raw_fingerprint += fingerprint_of(block);
+        if (by_points_) *raw_fingerprint += fingerprint_of(block);
         if (!take(&block, grid, returns_lidar, counts)) fits = false;
         if (!fits && !to_the_end) return false;
       }
     }
-    if (skew_.is_there()) *raw_fingerprint += fingerprint_of(block);
+    if (by_points_) *raw_fingerprint += fingerprint_of(block);
     return take(&block, grid, returns_lidar, counts) && fits;
   }
 
@@ -297,6 +298,7 @@ class Pass {
 
   const pose_wall_cloud& cloud_;
   const Skew& skew_;
+  bool by_points_;  // tells clouds that come again by their points, not by voxels
   FourTurns to_base_;
   float range_min2_, range_max2_;
   Box boxes_[4 + POSE_WALL_INPUT_BOXES] = {};
@@ -323,7 +325,9 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
   VoxelResult result;
   Work work;
   const Skew skew(cloud, odometry);
-  const Pass pass(cloud, settings, extrinsic, axes, skew);
+  // Whether this very frame has an odometry or not: its other copy may not.
+  const bool by_points = settings.motion == kMotionOn && cloud.time.type != POSE_WALL_FIELD_NONE;
+  const Pass pass(cloud, settings, extrinsic, axes, skew, by_points);
   std::uint64_t raw_fingerprint = 0;
   LeafSearch leaf(settings.voxel_leaf, settings.points_max, last);
   do {
@@ -338,7 +342,7 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
   cloud_base->count = 0;
   if (result.fits) {
     grid->extract(cloud_base);
-    result.fingerprint = skew.is_there() ? raw_fingerprint : grid->fingerprint();
+    result.fingerprint = by_points ? raw_fingerprint : grid->fingerprint();
     work.add(cloud_base->count, steps::kVoxelWritten);
   }
   result.scan_s = skew.scan_s();

@@ -69,11 +69,12 @@ float Skew::seconds(const unsigned char* point) const {
 }
 
 FourPlaces Skew::taken_out(const FourPlaces& base, FourFloats time_s) const {
-  const FourPlaces around = turned(base), twice = turned(around);
+  const FourPlaces around = turned(base);
+  const FourPlaces speed = {around.x + velocity_[0], around.y + velocity_[1], around.z + velocity_[2]};
+  const FourPlaces bend = turned(speed);
   const FourFloats half_s2 = 0.5F * time_s * time_s;
-  return {base.x + time_s * (around.x + velocity_[0]) + half_s2 * twice.x,
-          base.y + time_s * (around.y + velocity_[1]) + half_s2 * twice.y,
-          base.z + time_s * (around.z + velocity_[2]) + half_s2 * twice.z};
+  return {base.x + time_s * speed.x + half_s2 * bend.x, base.y + time_s * speed.y + half_s2 * bend.y,
+          base.z + time_s * speed.z + half_s2 * bend.z};
 }
 
 }  // namespace pose_wall

@@ -39,8 +39,10 @@ struct Road {
   FloorResult floor;
   LevelResult level;
   WallResult walls[2];
+  Measurements measured;
 
   Road() {
+    for (Measurement& m : measured.quantity) m.measured = true;
     floor.fit.plane = {Eigen::Vector3d::UnitZ(), 1.0};
     floor.roi_radius_m = 3.0;
     floor.roll_sigma_rad = floor.pitch_sigma_rad = 0.001;
@@ -55,7 +57,7 @@ struct Road {
   }
   OdometryMemory seen_from(const pose_wall_odometry& o, const Settings& s) const {
     OdometryMemory memory;
-    remember_place(o, floor, level, walls, s, kAxes, &memory);
+    remember_place(o, floor, level, walls, measured, s, kAxes, &memory);
     return memory;
   }
 };
@@ -63,7 +65,7 @@ struct Road {
 Change change_between(const pose_wall_odometry& from, const pose_wall_odometry& to, const Settings& s) {
   const OdometryMemory memory = Road().seen_from(from, s);
   Change change = change_by_config(s, 0.1);
-  change_by_odometry(to, memory, s, kAxes, &change);
+  (void)change_by_odometry(to, memory, s, kAxes, &change);
   return change;
 }
 
@@ -168,7 +170,7 @@ TEST(TemporalOdometry, AnUnknownWayAlongComesAndGoes) {
 TEST(TemporalOdometry, ASurfaceThatNobodySawIsTheConfigsMatter) {
   const Settings s = test::settings_with();
   Road road;
-  road.walls[1].fit.refused = true;
+  for (const int q : {POSE_WALL_D_RF, POSE_WALL_D_RB}) road.measured.quantity[q].measured = false;
   const OdometryMemory memory = road.seen_from(place(0, 0, 0), s);
   Change change = change_by_config(s, 0.1);
   change_by_odometry(place(0, 0.1, 0), memory, s, kAxes, &change);
@@ -184,6 +186,8 @@ TEST(TemporalOdometry, ADriftThatFallsIsOfAnotherRun) {
   from.drift[0] = 1.0;
   const Change c = change_between(from, place(0, 0.1, 0), s);
   for (const bool by_places : c.by_places) EXPECT_FALSE(by_places);
+  Change change = change_by_config(s, 0.1);
+  EXPECT_FALSE(change_by_odometry(place(0, 0.1, 0), Road().seen_from(from, s), s, kAxes, &change));
 }
 
 TEST(TemporalOdometry, ANewRunForgetsWhatWasSeen) {
@@ -192,8 +196,8 @@ TEST(TemporalOdometry, ANewRunForgetsWhatWasSeen) {
   OdometryMemory memory = road.seen_from(place(0, 0, 0), s);
   pose_wall_odometry other = place(0, 0, 0);
   other.run = 8;
-  road.walls[0].fit.refused = true;
-  remember_place(other, road.floor, road.level, road.walls, s, kAxes, &memory);
+  for (const int q : {POSE_WALL_D_LF, POSE_WALL_D_LB}) road.measured.quantity[q].weak = true;
+  remember_place(other, road.floor, road.level, road.walls, road.measured, s, kAxes, &memory);
   EXPECT_EQ(memory.run, 8U);
   EXPECT_FALSE(memory.wall[0].exists);
   EXPECT_TRUE(memory.wall[1].exists);
