@@ -175,7 +175,10 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_settings_check(const pose_wall_motion_
               {settings->range_max_m, 3.0, 100.0, {"range_max_m", "range_max_m must be from 3 to 100"}},
               {settings->keyframe_m, 0.05, 1.0, {"keyframe_m", "keyframe_m must be from 0.05 to 1"}}};
   if (settings->reserved != 0) {
-    if (fault != nullptr) *fault = {"reserved", "reserved must be 0"};
+    if (fault != nullptr) {  // member by member: on ARMv7 GCC keeps a pair in memory that could be written to
+      fault->member = "reserved";
+      fault->rule = "reserved must be 0";
+    }
     return POSE_WALL_E_VALUE_RANGE;
   }
   for (const auto& row : rows) {

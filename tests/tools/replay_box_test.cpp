@@ -407,7 +407,8 @@ TEST_F(ReplayRing, ForgedHeadsDoNotHoldItUp) {
   std::vector<char> bytes = ring.bytes;
   const auto room = [](std::uint64_t count) { return (count + 63) / 64 * 64; };
   const std::uint64_t from = bytes.size(), fixed = 64 + 64 + room(sizeof(pose_wall_inputs)) +
-                                                   room(pose_wall_memento_bytes()) + room(sizeof(pose_wall_result));
+                                                   room(pose_wall_memento_bytes()) + room(sizeof(pose_wall_result)) +
+                                                   room(sizeof(pose_wall_motion_result));
   bytes.resize(from + (4 << 20));
   for (std::uint64_t at = from; at + fixed <= bytes.size(); at += 64) {
     std::memcpy(bytes.data() + at, ring.bytes.data() + POSE_WALL_BOX_HEADER_BYTES, 64);
