@@ -91,13 +91,31 @@ class Equations {
     begin_[kParts] = count_;
   }
 
+  // Four sums of each.
+  struct LaneSums {
+    FourFloats A[6] = {}, b[3] = {}, cost = {};
+    FourFloats trusts = {}, known_trusts = {}, squares = {}, known_squares = {};
+    FourInts counted = {};
+
+    Sums sums() const {
+      Sums sums;
+      for (int r = 0, n = 0; r < 3; ++r) {
+        for (int j = 0; j <= r; ++j) sums.A(r, j) = sums.A(j, r) = sum_of_lanes(A[n++]);
+        sums.b[r] = sum_of_lanes(b[r]);
+      }
+      sums.cost = sum_of_lanes(cost);
+      sums.count = sum_of_lanes(counted);
+      sums.of_kind[1] = sum_of_lanes(known_trusts), sums.of_kind[0] = sum_of_lanes(trusts) - sums.of_kind[1];
+      sums.squares[1] = sum_of_lanes(known_squares), sums.squares[0] = sum_of_lanes(squares) - sums.squares[1];
+      return sums;
+    }
+  };
+
   // Of the parts from the first to before the last, the pose moved by so much; leaves what each pulls with.
   Sums sum_up(Part first, std::uint32_t last, const int (&free)[3], const float (&by)[6], const Scales& scales,
               bool use_relief) const {
     const FourFloats zero = all_four(0.0F), one = all_four(1.0F);
-    FourFloats A[6] = {zero, zero, zero, zero, zero, zero}, b[3] = {zero, zero, zero}, cost = zero;
-    FourFloats trusts = zero, known_trusts = zero, squares = zero, known_squares = zero;
-    FourInts counted = all_four_ints(0);
+    LaneSums lanes;
     for (std::uint32_t i = begin_[first]; i < begin_[last]; i += kFour) {
       FourFloats distance = load_four(&s_.distance[i]);
       for (int k = 0; k < 6; ++k) distance += load_four(&s_.by_move[k][i]) * by[k];
@@ -111,30 +129,21 @@ class Equations {
       const FourFloats weight = trust / variance, pull = weight * distance;
       store_four(pull, &s_.pull[i]);
       const FourFloats misfit2 = pull * distance;
-      trusts += trust;
-      known_trusts += known_share * trust;
-      squares += misfit2;
-      known_squares += known_share * misfit2;
-      counted -= left > zero;
-      cost -= cut2 / variance * trust * left;  // Tukey's, but for a constant
+      lanes.trusts += trust;
+      lanes.known_trusts += known_share * trust;
+      lanes.squares += misfit2;
+      lanes.known_squares += known_share * misfit2;
+      lanes.counted -= left > zero;
+      lanes.cost -= cut2 / variance * trust * left;  // Tukey's, but for a constant
       FourFloats row[3];
       for (int k = 0; k < 3; ++k) row[k] = load_four(&s_.by_move[free[k]][i]);
       for (int r = 0, n = 0; r < 3; ++r) {
         const FourFloats weighed = weight * row[r];
-        for (int j = 0; j <= r; ++j) A[n++] += weighed * row[j];
-        b[r] -= pull * row[r];
+        for (int j = 0; j <= r; ++j) lanes.A[n++] += weighed * row[j];
+        lanes.b[r] -= pull * row[r];
       }
     }
-    Sums sums;
-    for (int r = 0, n = 0; r < 3; ++r) {
-      for (int j = 0; j <= r; ++j) sums.A(r, j) = sums.A(j, r) = sum_of_lanes(A[n++]);
-      sums.b[r] = sum_of_lanes(b[r]);
-    }
-    sums.cost = sum_of_lanes(cost);
-    sums.count = sum_of_lanes(counted);
-    sums.of_kind[1] = sum_of_lanes(known_trusts), sums.of_kind[0] = sum_of_lanes(trusts) - sums.of_kind[1];
-    sums.squares[1] = sum_of_lanes(known_squares), sums.squares[0] = sum_of_lanes(squares) - sums.squares[1];
-    return sums;
+    return lanes.sums();
   }
 
   // What the patches of rock pull with, each as a whole: the sum of their squares.

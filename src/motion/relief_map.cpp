@@ -144,17 +144,17 @@ struct FourCells {
   FourCells(const Cell* cells, FourInts row, FourInts i) {
     for (std::uint32_t k = 0; k < kFour; ++k) {
       const Cell& cell = cells[row[k] * kAlongCells + i[k]];
-      height[k] = cell.height_um100, along[k] = cell.along, count[k] = cell.count;
+      height[k] = cell.height_um100, along[k] = static_cast<float>(cell.along), count[k] = cell.count;
     }
   }
   FourFloats height_m() const { return __builtin_convertvector(height, FourFloats) * kUnit_m; }
   FourFloats along_m(FourInts i) const {
-    return (__builtin_convertvector(i, FourFloats) + 0.5F) * kAlong_m - 0.5F +
-           __builtin_convertvector(along, FourFloats) * kPlaceUnit_m;
+    return (__builtin_convertvector(i, FourFloats) + 0.5F) * kAlong_m - 0.5F + along * kPlaceUnit_m;
   }
   FourFloats number() const { return __builtin_convertvector(count, FourFloats); }
 
-  FourInts height, along, count;
+  FourInts height, count;
+  FourFloats along;
 };
 
 }  // namespace

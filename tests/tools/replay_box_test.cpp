@@ -406,7 +406,7 @@ TEST_F(ReplayRing, ForgedHeadsDoNotHoldItUp) {
   record(uneven(1, 2), Ring::write, &ring, kRing, true);
   std::vector<char> bytes = ring.bytes;
   const auto room = [](std::uint64_t count) { return (count + 63) / 64 * 64; };
-  const std::uint64_t from = bytes.size(), fixed = 64 + 64 + room(sizeof(pose_wall_inputs)) +
+  const std::uint64_t from = bytes.size(), fixed = 64 + 128 + room(sizeof(pose_wall_inputs)) +
                                                    room(pose_wall_memento_bytes()) + room(sizeof(pose_wall_result)) +
                                                    room(sizeof(pose_wall_motion_result));
   bytes.resize(from + (4 << 20));
