@@ -188,6 +188,27 @@ double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& f
   return surface.slope_level * std::fabs(surface.along.dot(to_m - from_m));
 }
 
+void see_floor(const FloorResult& floor, const Place& at, const Settings& s, SeenSurface* seen) {
+  seen->exists = true;
+  seen->normal = at.R_run_base * floor.fit.plane.n;
+  seen->centre_m = at.position_m;
+  seen->radius_m = floor.roi_radius_m;
+  seen->slope_level = larger(floor.roll_bound_rad.sum(), floor.pitch_bound_rad.sum()) +
+                      s.protection_factor * larger(floor.roll_sigma_rad, floor.pitch_sigma_rad);
+}
+
+void see_wall(const WallResult& wall, const Place& at, const LevelResult& level, const Settings& s, SeenSurface* seen) {
+  const Eigen::Matrix3d R_run_level = at.R_run_base * level.R_level_base.transpose();
+  seen->exists = true;
+  seen->normal = R_run_level * wall.fit.plane.n;
+  seen->along = R_run_level * wall.along_level;
+  const double here_m = seen->along.dot(at.position_m);
+  seen->from_m = here_m + wall.along_min_m;
+  seen->to_m = here_m + wall.along_max_m;
+  seen->slope_level = wall.yaw_bound_rad.sum() + s.protection_factor * wall.yaw_sigma_rad +
+                      s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+}
+
 }  // namespace
 
 bool is_sound(const pose_wall_odometry& o) {
@@ -251,32 +272,11 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
   const auto is_good = [&measured](std::uint32_t quantity) {
     return measured.quantity[quantity].measured && !measured.quantity[quantity].weak;
   };
-  if (is_good(POSE_WALL_ROLL)) {
-    SeenSurface& seen = memory->floor;
-    seen.exists = true;
-    seen.normal = at.R_run_base * floor.fit.plane.n;
-    seen.centre_m = at.position_m;
-    seen.radius_m = floor.roi_radius_m;
-    const LevelParts& roll = floor.roll_bound_rad;
-    const LevelParts& pitch = floor.pitch_bound_rad;
-    const double bound = roll.sum() > pitch.sum() ? roll.sum() : pitch.sum();
-    const double sigma = floor.roll_sigma_rad > floor.pitch_sigma_rad ? floor.roll_sigma_rad : floor.pitch_sigma_rad;
-    seen.slope_level = bound + s.protection_factor * sigma;
-  }
-  const Eigen::Matrix3d R_run_level = at.R_run_base * level.R_level_base.transpose();
+  if (is_good(POSE_WALL_ROLL)) see_floor(floor, at, s, &memory->floor);
   for (int side = 0; side < 2; ++side) {
-    const WallResult& wall = walls[side];
     const std::uint32_t front = side == 0 ? POSE_WALL_D_LF : POSE_WALL_D_RF;
     if (!is_good(front) && !is_good(front + 1)) continue;  // a rival, a thing before the wall
-    SeenSurface& seen = memory->wall[side];
-    seen.exists = true;
-    seen.normal = R_run_level * wall.fit.plane.n;
-    seen.along = R_run_level * wall.along_level;
-    const double here_m = seen.along.dot(at.position_m);
-    seen.from_m = here_m + wall.along_min_m;
-    seen.to_m = here_m + wall.along_max_m;
-    seen.slope_level = wall.yaw_bound_rad.sum() + s.protection_factor * wall.yaw_sigma_rad +
-                       s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+    see_wall(walls[side], at, level, s, &memory->wall[side]);
   }
   const View view(o, *memory, s, axes);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
