@@ -119,7 +119,8 @@ int run(const RunOptions& options) {
 
 void add_run(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* verb = app.add_subcommand("run", "Measure attitude and wall distances in frames of a LiDAR");
+  CLI::App* verb = app.add_subcommand(
+      "run", "Measure attitude and wall distances in frames of a LiDAR, with motion where the key `motion` is on");
   add_frame_options(verb, &options->frames);
   verb->add_option("-o,--output", options->output, "File for the results; default, and -: standard output");
   verb->add_option("--format", options->format, "Results as CSV, or as JSON: one object per line and frame")
