@@ -28,15 +28,6 @@ FourFloats rough_arc_tangent2(FourFloats y, FourFloats x) {
   return y < zero ? -a : a;
 }
 
-// A scan takes 0.01 to 1 s: the unit of its times by how far they spread; 0 where no unit makes a scan of them.
-double time_unit_s(double spread) {
-  for (const double unit_s : {1.0, 1e-3, 1e-6, 1e-9}) {
-    const double scan_s = spread * unit_s;
-    if (scan_s >= 0.01 && scan_s <= 1.0) return unit_s;
-  }
-  return 0.0;
-}
-
 struct Raw {
   float x, y, z;
 };
@@ -70,12 +61,7 @@ class Reader {
   }
 
   double number(const unsigned char* point, const pose_wall_field& field) const {
-    if (!swap_ && field.type == POSE_WALL_FIELD_UINT32) {
-      std::uint32_t value;
-      std::memcpy(&value, point + field.offset, sizeof(value));
-      return static_cast<double>(value);
-    }
-    return read_field(point, field, swap_);
+    return read_number(point, field, swap_);
   }
 
  private:

@@ -73,6 +73,15 @@ double read_field(const unsigned char* point, const pose_wall_field& field, bool
   }
 }
 
+double time_unit_s(double spread) {
+  constexpr double kUnits_s[] = {1.0, 1e-3, 1e-6, 1e-9};
+  for (const double unit_s : kUnits_s) {
+    const double scan_s = spread * unit_s;
+    if (scan_s >= 0.01 && scan_s <= 1.0) return unit_s;
+  }
+  return 0.0;
+}
+
 bool needs_swap(const pose_wall_cloud& cloud) {
   const std::uint16_t probe = 1;
   unsigned char first;

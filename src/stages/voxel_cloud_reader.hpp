@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include "pose_wall.h"
 
@@ -19,6 +20,17 @@ std::uint32_t field_bytes(std::uint32_t type);
 
 // Reads one field of a point as a number. The type is known and the field lies inside the point (check_cloud).
 double read_field(const unsigned char* point, const pose_wall_field& field, bool swap_bytes);
+
+// The same, quick for 32-bit counters, as most times are.
+inline double read_number(const unsigned char* point, const pose_wall_field& field, bool swap_bytes) {
+  if (swap_bytes || field.type != POSE_WALL_FIELD_UINT32) return read_field(point, field, swap_bytes);
+  std::uint32_t value;
+  std::memcpy(&value, point + field.offset, sizeof(value));
+  return static_cast<double>(value);
+}
+
+// A scan takes 0.01 to 1 s: the unit of a cloud's times by how far they spread; 0 where no unit makes a scan of them.
+double time_unit_s(double spread);
 
 // True where the cloud's byte order is not this machine's.
 bool needs_swap(const pose_wall_cloud& cloud);

@@ -3,22 +3,11 @@
 
 #include "stages/voxel_skew.hpp"
 
-#include <cstring>
-
 #include "math/finite.hpp"
 #include "stages/voxel_cloud_reader.hpp"
 
 namespace pose_wall {
 namespace {
-
-double time_at(const unsigned char* point, const pose_wall_cloud& cloud, bool swap) {
-  if (!swap && cloud.time.type == POSE_WALL_FIELD_UINT32) {
-    std::uint32_t value;
-    std::memcpy(&value, point + cloud.time.offset, sizeof(value));
-    return static_cast<double>(value);
-  }
-  return read_field(point, cloud.time, swap);
-}
 
 struct Times {
   double first = 0.0, last = 0.0;
@@ -30,7 +19,7 @@ Times times_of(const pose_wall_cloud& cloud, bool swap) {
   for (std::uint32_t row = 0; row < rows_of(cloud); ++row) {
     const unsigned char* point = row_of(cloud, row);
     for (std::uint32_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
-      const double time = time_at(point, cloud, swap);
+      const double time = read_number(point, cloud.time, swap);
       if (!is_finite(time)) continue;
       if (!times.any || time < times.first) times.first = time;
       if (!times.any || time > times.last) times.last = time;
@@ -41,15 +30,6 @@ Times times_of(const pose_wall_cloud& cloud, bool swap) {
 }
 
 }  // namespace
-
-double time_unit_s(double spread) {
-  constexpr double kUnits_s[] = {1.0, 1e-3, 1e-6, 1e-9};
-  for (const double unit_s : kUnits_s) {
-    const double scan_s = spread * unit_s;
-    if (scan_s >= 0.01 && scan_s <= 1.0) return unit_s;
-  }
-  return 0.0;
-}
 
 Skew::Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry) : cloud_(cloud), swap_(needs_swap(cloud)) {
   if (odometry == nullptr || cloud.time.type == POSE_WALL_FIELD_NONE) return;
@@ -64,7 +44,7 @@ Skew::Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry) : c
 }
 
 float Skew::seconds(const unsigned char* point) const {
-  const double time = time_at(point, cloud_, swap_);
+  const double time = read_number(point, cloud_.time, swap_);
   return is_finite(time) ? static_cast<float>((time - first_) * unit_s_) : 0.0F;
 }
 

@@ -12,9 +12,6 @@
 
 namespace pose_wall {
 
-// A scan takes 0.01 to 1 s: the unit of a cloud's times by how far they spread; 0 where no unit makes a scan of them.
-double time_unit_s(double spread);
-
 class Skew {
  public:
   // Without an odometry, or where the cloud has no times, nothing is to be taken out.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "math/rotation.hpp"
+#include "stages/voxel_cloud_reader.hpp"
 
 namespace pose_wall {
 namespace {
