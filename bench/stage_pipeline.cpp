@@ -4,12 +4,12 @@
 #include "stage_pipeline.hpp"
 
 #include "bench_frames.hpp"
-#include "stages/ground.hpp"
-#include "stages/level.hpp"
-#include "stages/outliers.hpp"
-#include "stages/voxel.hpp"
-#include "stages/walls.hpp"
-#include "stages/walls_parallel.hpp"
+#include "cloud/outliers.hpp"
+#include "cloud/voxels.hpp"
+#include "floor/floor.hpp"
+#include "floor/levelling.hpp"
+#include "walls/doubts/parallel.hpp"
+#include "walls/walls.hpp"
 
 namespace pose_wall::bench {
 namespace {

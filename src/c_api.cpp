@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "cloud/cloud_reader.hpp"
 #include "config.hpp"
 #include "engine.hpp"
 #include "engine_memento.hpp"
@@ -14,7 +15,6 @@
 #include "pose_wall.h"
 #include "self_test.hpp"
 #include "self_test_digest.hpp"
-#include "stages/voxel_cloud_reader.hpp"
 #include "struct_versions.hpp"
 
 #define POSE_WALL_TEXT_OF(number) POSE_WALL_TEXT_OF_(number)

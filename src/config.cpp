@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "math/crc32.hpp"
-#include "math/elementary.hpp"
+#include "base/math/crc32.hpp"
+#include "base/math/elementary.hpp"
 #include "number_text.hpp"
 
 namespace pose_wall {

@@ -58,7 +58,7 @@ Settings read_settings(const pose_wall_config& config);
 // No point of a frame lies further than this from the origin of base.
 double reach_of(const Settings& settings);
 
-// How many steps a frame of so many returns may take (containers/work.hpp): work_max where it is set.
+// How many steps a frame of so many returns may take (base/containers/work.hpp): work_max where it is set.
 std::uint64_t work_most(const Settings& settings, std::uint64_t returns);
 
 // The alert limit of one of the seven quantities, in its own unit (rad or m).

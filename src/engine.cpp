@@ -6,16 +6,16 @@
 #include <cmath>
 #include <cstring>
 
-#include "math/four_floats.hpp"
-#include "math/rotation.hpp"
+#include "base/math/rotation.hpp"
+#include "base/simd/four_floats.hpp"
+#include "cloud/outliers.hpp"
+#include "cloud/voxels.hpp"
+#include "floor/levelling.hpp"
+#include "output/labels.hpp"
+#include "output/quality.hpp"
 #include "report.hpp"
-#include "stages/labels.hpp"
-#include "stages/level.hpp"
-#include "stages/outliers.hpp"
-#include "stages/quality.hpp"
-#include "stages/voxel.hpp"
-#include "stages/walls_parallel.hpp"
 #include "trace/trace.hpp"
+#include "walls/doubts/parallel.hpp"
 
 namespace pose_wall {
 namespace {

@@ -5,18 +5,18 @@
 
 #pragma once
 
+#include "base/containers/arena.hpp"
+#include "cloud/direction_grid.hpp"
+#include "cloud/seen_clouds.hpp"
+#include "cloud/voxel_grid.hpp"
 #include "config.hpp"
-#include "containers/arena.hpp"
-#include "containers/direction_grid.hpp"
-#include "containers/voxel_grid.hpp"
+#include "floor/floor.hpp"
+#include "output/temporal.hpp"
+#include "output/temporal_odometry.hpp"
 #include "pose_wall.h"
 #include "report.hpp"
-#include "stages/ground.hpp"
-#include "stages/seen_clouds.hpp"
-#include "stages/temporal.hpp"
-#include "stages/temporal_odometry.hpp"
-#include "stages/walls.hpp"
 #include "types.hpp"
+#include "walls/walls.hpp"
 
 namespace pose_wall {
 

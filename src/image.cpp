@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstring>
 
-#include "math/finite.hpp"
-#include "math/image_words.hpp"
+#include "base/math/finite.hpp"
+#include "base/math/image_words.hpp"
 
 namespace pose_wall {
 namespace {

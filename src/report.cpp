@@ -3,7 +3,7 @@
 
 #include "report.hpp"
 
-#include "math/finite.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall {
 namespace {

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "pose_wall.h"
-#include "stages/walls.hpp"
 #include "types.hpp"
+#include "walls/walls.hpp"
 
 namespace pose_wall {
 
@@ -15,7 +15,7 @@ namespace pose_wall {
 struct FrameFindings {
   std::int64_t stamp_ns = 0;
   std::uint32_t reasons = 0;
-  std::uint64_t work = 0;  // steps, see containers/work.hpp
+  std::uint64_t work = 0;  // steps, see base/containers/work.hpp
   std::uint32_t outliers = 0;
   std::uint32_t wall_points = 0;
   VoxelResult voxels;

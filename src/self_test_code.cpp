@@ -3,7 +3,7 @@
 
 #include "self_test_code.hpp"
 
-#include "math/crc32.hpp"
+#include "base/math/crc32.hpp"
 
 // Where they begin and end, as tools/cmake/one_object.ld says. Two versions of the archive in one program have symbols
 // of their own, since these are local there. Objects that are linked without the archive have none: NULL.

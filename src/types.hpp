@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "containers/point_set.hpp"
-#include "estimation/plane.hpp"
+#include "base/containers/point_set.hpp"
+#include "base/estimation/plane.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "math/four_floats.hpp"
+#include "base/simd/four_floats.hpp"
 
 namespace pose_wall::motion {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "base/math/rotation.hpp"
 #include "export.hpp"
-#include "math/rotation.hpp"
 #include "motion/motion_image.hpp"
 #include "motion/motion_report.hpp"
 #include "motion/odometry.hpp"

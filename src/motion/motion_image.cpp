@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "math/finite.hpp"
-#include "math/image_words.hpp"
+#include "base/math/finite.hpp"
+#include "base/math/image_words.hpp"
 #include "motion/pose.hpp"
 
 namespace pose_wall::motion {

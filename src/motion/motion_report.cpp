@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "math/finite.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall::motion {
 namespace {

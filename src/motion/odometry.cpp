@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "math/finite.hpp"
+#include "base/math/finite.hpp"
 #include "motion/motion_report.hpp"
 #include "motion/wide_start.hpp"
 

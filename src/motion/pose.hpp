@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "math/elementary.hpp"
+#include "base/math/elementary.hpp"
 
 namespace pose_wall::motion {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "math/four_floats.hpp"
-#include "stages/voxel_cloud_reader.hpp"
+#include "base/simd/four_floats.hpp"
+#include "cloud/cloud_reader.hpp"
 
 namespace pose_wall::motion {
 namespace {

@@ -9,9 +9,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "base/containers/arena.hpp"
+#include "base/containers/span.hpp"
 #include "config.hpp"
-#include "containers/arena.hpp"
-#include "containers/span.hpp"
 #include "motion/pose.hpp"
 #include "pose_wall.h"
 

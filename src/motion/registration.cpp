@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "estimation/small_cholesky.hpp"
-#include "math/finite.hpp"
-#include "math/four_floats.hpp"
+#include "base/estimation/small_cholesky.hpp"
+#include "base/math/finite.hpp"
+#include "base/simd/four_floats.hpp"
 
 namespace pose_wall::motion {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "estimation/small_cholesky.hpp"
+#include "base/estimation/small_cholesky.hpp"
 
 namespace pose_wall::motion {
 namespace {

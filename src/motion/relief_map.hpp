@@ -10,9 +10,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "containers/arena.hpp"
-#include "containers/span.hpp"
-#include "math/four_floats.hpp"
+#include "base/containers/arena.hpp"
+#include "base/containers/span.hpp"
+#include "base/simd/four_floats.hpp"
 #include "motion/pose.hpp"
 
 namespace pose_wall::motion {

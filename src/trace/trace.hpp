@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "estimation/plane.hpp"
+#include "base/estimation/plane.hpp"
 #include "pose_wall_trace.h"
 
 namespace pose_wall::trace {

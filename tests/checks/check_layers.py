@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Includes go one way: math, containers <- estimation <- types <- stages <- engine <- c_api; stages meet only in
-types.hpp; motion takes the base of the engine and is no part of it; both take nothing but Eigen and small parts of the
-standard library; tools and the runtime see them by their headers.
+"""Includes go one way, in the order in which a frame goes through the house: base <- config <- trace <- cloud <- floor
+<- walls <- output <- engine <- c_api. Motion takes the base and the cloud reader and is no part of the engine; all take
+nothing but Eigen and small parts of the standard library; tools and the runtime see them by their headers.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
 
@@ -11,25 +11,23 @@ import pathlib
 import re
 import sys
 
-# layer -> what it may include, besides itself
-MAY_INCLUDE = {
-    "math": set(),
-    "containers": {"math", "public"},
-    "estimation": {"math", "containers"},
-    "trace": {"math", "estimation", "public"},
-    "config": {"math", "public"},
+# From the ground up: a room includes itself and what stands before it.
+ROOMS = ["base/math", "base/simd", "base/containers", "base/estimation", "config", "types", "trace", "cloud", "floor",
+         "walls", "output", "engine"]
+# Those that stand beside the rooms: what each may include, besides itself.
+BESIDE = {
     "struct_sizes": {"public"},
-    "types": {"math", "containers", "estimation", "config", "public"},
-    "stages": {"math", "containers", "estimation", "config", "types", "trace", "public"},
-    "engine": {"math", "containers", "estimation", "config", "types", "trace", "stages", "public"},
-    "self_test": {"math", "public"},
-    "motion": {"math", "containers", "estimation", "config", "struct_sizes", "struct_versions", "export", "public"},
-    "c_api": {"math", "containers", "config", "types", "stages", "engine", "self_test", "struct_sizes",
-              "struct_versions", "export", "public"},
-    "export": set(),
     "struct_versions": {"struct_sizes", "public"},
+    "export": set(),
+    "self_test": {"base/math", "public"},
+    "motion": {*ROOMS[:5], "struct_sizes", "struct_versions", "export", "public"},
+    "c_api": {*ROOMS, "self_test", "struct_sizes", "struct_versions", "export", "public"},
 }
-# Files of src/ itself belong to a layer by how their names begin.
+# The base knows nothing of the C interface.
+MAY_INCLUDE = {room: {*ROOMS[:k], *([] if room.startswith("base/") else ["public"])} for k, room in enumerate(ROOMS)}
+MAY_INCLUDE["base/containers"].add("public")  # the arena's alignment is the interface's
+MAY_INCLUDE.update(BESIDE)
+# Files of src/ itself belong to a room by how their names begin.
 ROOT_FILES = {"config": "config", "number_text": "config", "types": "types", "report": "engine", "engine": "engine",
               "image": "engine", "self_test": "self_test", "names": "c_api", "c_api": "c_api",
               "struct_versions": "struct_versions", "struct_sizes": "struct_sizes", "export": "export"}
@@ -42,7 +40,7 @@ ENGINE_HEADERS = {
 PUBLIC_HEADERS = {"pose_wall.h", "pose_wall.hpp", "pose_wall_trace.h"}
 MOTION_PUBLIC = {"pose_wall.h", "pose_wall_motion.h"}
 # The one stage that motion shares: how a caller's cloud is read.
-CLOUD_READER = "stages/voxel_cloud_reader.hpp"
+CLOUD_READER = "cloud/cloud_reader.hpp"
 # The threads around the engine: no part of it, no Eigen.
 RUNTIME_HEADERS = {h for h in ENGINE_HEADERS if not h.startswith("Eigen/")} | {
     "atomic", "pthread.h", "sched.h", "errno.h", "time.h", "sys/mman.h"}
@@ -63,15 +61,12 @@ def includes(path):
 
 
 def layer_of(relative):
-    """Layer of a path below src/: its folder, or what ROOT_FILES says."""
+    """Room of a path below src/: its folder (of base/ the one below), or what ROOT_FILES says."""
+    if relative.parts[0] == "base" and len(relative.parts) > 2:
+        return "/".join(relative.parts[:2])
     if len(relative.parts) > 1:
         return relative.parts[0]
     return next((layer for start, layer in ROOT_FILES.items() if relative.stem.startswith(start)), relative.stem)
-
-
-def stage_of(relative):
-    """stages/walls.cpp, stages/walls_search.hpp and stages/walls/search.hpp are all of the stage "walls"."""
-    return relative.parts[1].split(".")[0].split("_")[0]
 
 
 def engine_fault(src, path, bracket, name):
@@ -79,7 +74,7 @@ def engine_fault(src, path, bracket, name):
     relative = path.relative_to(src)
     layer = layer_of(relative)
     if layer not in MAY_INCLUDE:
-        return f"belongs to no layer; layers are {', '.join(MAY_INCLUDE)}"
+        return f"belongs to no room; rooms are {', '.join(MAY_INCLUDE)}"
     if layer == "motion" and (name in MOTION_PUBLIC or name == CLOUD_READER):
         return None
     if name in PUBLIC_HEADERS:
@@ -90,9 +85,6 @@ def engine_fault(src, path, bracket, name):
     if not target.is_relative_to(src.resolve()) and not target.is_relative_to(src):
         return f'"{name}" is not a file of src/'
     target = target.relative_to(src if target.is_relative_to(src) else src.resolve())
-    if layer == "stages" and layer_of(target) == "stages":
-        same = stage_of(target) == stage_of(relative)
-        return None if same else f"stage {stage_of(relative)} includes stage {stage_of(target)}; they meet in types.hpp"
     if layer_of(target) != layer and layer_of(target) not in MAY_INCLUDE[layer]:
         allowed = ", ".join(sorted(MAY_INCLUDE[layer])) or "nothing"
         return f'{layer} includes "{name}" of {layer_of(target)}; it may include {allowed}'

@@ -68,42 +68,42 @@ class Layers(BrokenProject):
         self.write(path, LICENCE + line + "\n")
 
     def test_passes(self):
-        self.include("src/stages/walls.cpp", '#include "types.hpp"\n#include "stages/walls_search.hpp"')
-        self.include("src/stages/walls_search.hpp", "#include <Eigen/Core>")
+        self.include("src/walls/walls.cpp", '#include "types.hpp"\n#include "walls/propose/search.hpp"')
+        self.include("src/walls/propose/search.hpp", "#include <Eigen/Core>")
         self.include("src/types.hpp", "#include <cstdint>")
         self.passes(*self.check())
 
-    def test_stage_includes_stage(self):
-        self.include("src/stages/ground.hpp", "")
-        self.include("src/stages/walls.cpp", '#include "stages/ground.hpp"')
-        self.fails("stage walls includes stage ground", *self.check())
+    def test_room_includes_a_later_one(self):
+        self.include("src/walls/walls.hpp", "")
+        self.include("src/floor/floor.cpp", '#include "walls/walls.hpp"')
+        self.fails('floor includes "walls/walls.hpp" of walls', *self.check())
 
-    def test_stage_includes_stage_by_neighbouring_path(self):
-        self.include("src/stages/ground.hpp", "")
-        self.include("src/stages/walls.cpp", '#include "ground.hpp"')
-        self.fails("stage walls includes stage ground", *self.check())
+    def test_room_includes_a_later_one_by_neighbouring_path(self):
+        self.include("src/walls/walls.hpp", "")
+        self.include("src/floor/floor.cpp", '#include "../walls/walls.hpp"')
+        self.fails('floor includes "../walls/walls.hpp" of walls', *self.check())
 
-    def test_estimation_includes_stage(self):
-        self.include("src/stages/ground.hpp", "")
-        self.include("src/estimation/irls.cpp", '#include "stages/ground.hpp"')
-        self.fails("estimation includes", *self.check())
+    def test_base_includes_a_room(self):
+        self.include("src/floor/floor.hpp", "")
+        self.include("src/base/estimation/irls.cpp", '#include "floor/floor.hpp"')
+        self.fails("base/estimation includes", *self.check())
 
-    def test_stage_includes_engine(self):
+    def test_room_includes_the_engine(self):
         self.include("src/engine.hpp", "")
-        self.include("src/stages/ground.cpp", '#include "engine.hpp"')
-        self.fails("stages includes", *self.check())
+        self.include("src/floor/floor.cpp", '#include "engine.hpp"')
+        self.fails("floor includes", *self.check())
 
     def test_iostream(self):
-        self.include("src/math/angles.hpp", "#include <iostream>")
+        self.include("src/base/math/angles.hpp", "#include <iostream>")
         self.fails("<iostream> is not on the engine's list", *self.check())
 
     def test_unknown_folder(self):
         self.include("src/helpers/things.hpp", "#include <cmath>")
-        self.fails("belongs to no layer", *self.check())
+        self.fails("belongs to no room", *self.check())
 
     def test_tool_includes_engine(self):
-        self.include("src/math/angles.hpp", "")
-        self.include("tools/main.cpp", '#include "math/angles.hpp"')
+        self.include("src/base/math/angles.hpp", "")
+        self.include("tools/main.cpp", '#include "base/math/angles.hpp"')
         self.fails("tools see the engine only through", *self.check())
 
     def test_tool_includes_engine_by_path(self):
@@ -130,16 +130,16 @@ class Layers(BrokenProject):
         self.passes(*self.check())
 
     def test_motion_passes(self):
-        self.include("src/stages/voxel_cloud_reader.hpp", "")
+        self.include("src/cloud/cloud_reader.hpp", "")
         self.include("src/struct_versions.hpp", "")
-        self.include("src/motion/travel.cpp", '#include "travel.hpp"\n#include "stages/voxel_cloud_reader.hpp"\n'
+        self.include("src/motion/travel.cpp", '#include "travel.hpp"\n#include "cloud/cloud_reader.hpp"\n'
                      '#include "struct_versions.hpp"\n#include "pose_wall_motion.h"')
         self.include("src/motion/travel.hpp", "#include <Eigen/Core>")
         self.passes(*self.check())
 
-    def test_motion_includes_a_stage(self):
-        self.include("src/stages/walls.hpp", "")
-        self.include("src/motion/travel.cpp", '#include "stages/walls.hpp"')
+    def test_motion_includes_a_room(self):
+        self.include("src/walls/walls.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "walls/walls.hpp"')
         self.fails("motion includes", *self.check())
 
     def test_motion_includes_the_engine(self):

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "math/rotation.hpp"
-#include "stages/ground.hpp"
+#include "base/math/rotation.hpp"
+#include "floor/floor.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall::test {

@@ -9,11 +9,11 @@
 #include <random>
 #include <vector>
 
+#include "base/containers/arena.hpp"
+#include "base/containers/bounded_points.hpp"
+#include "base/estimation/patch_sums.hpp"
+#include "base/estimation/tangent_points.hpp"
 #include "config.hpp"
-#include "containers/arena.hpp"
-#include "containers/bounded_points.hpp"
-#include "estimation/patch_sums.hpp"
-#include "estimation/tangent_points.hpp"
 #include "support/aligned_block.hpp"
 #include "support/engine_under_test.hpp"
 

@@ -7,8 +7,8 @@
 
 #include <array>
 
-#include "containers/voxel_grid.hpp"
-#include "containers/voxel_key.hpp"
+#include "cloud/voxel_grid.hpp"
+#include "cloud/voxel_key.hpp"
 
 namespace pose_wall::test {
 

@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/containers/work.hpp"
+#include "base/estimation/patch_fit.hpp"
+#include "base/estimation/surface_patches.hpp"
+#include "cloud/leaf.hpp"
 #include "config.hpp"
-#include "containers/work.hpp"
-#include "estimation/patch_fit.hpp"
-#include "estimation/surface_patches.hpp"
-#include "stages/ground.hpp"
-#include "stages/voxel_leaf.hpp"
-#include "stages/walls_points.hpp"
+#include "floor/floor.hpp"
+#include "walls/fit/points.hpp"
 
 namespace pose_wall::test {
 

@@ -3,7 +3,7 @@
 
 // Proves: the arena places what it measured, aligned and without overlap.
 
-#include "containers/arena.hpp"
+#include "base/containers/arena.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // Proves: bits are counted, and asked for, and the highest is found.
 
-#include "math/bits.hpp"
+#include "base/math/bits.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: each block's box holds its points and is no larger than they need, whatever lies behind the last point; a row
 // that is shortened is bounded anew.
 
-#include "containers/bounded_points.hpp"
+#include "base/containers/bounded_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // Proves: the CRC is the one of IEEE 802.3, by its published check value; words count as four bytes, the low one first.
 
-#include "math/crc32.hpp"
+#include "base/math/crc32.hpp"
 
 #include <gtest/gtest.h>
 

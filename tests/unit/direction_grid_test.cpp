@@ -4,7 +4,7 @@
 // Proves: every return is counted once, in the cell whose range of directions holds it; columns are as wide as they
 // say; full cells stay full; axes, poles and rays of any length have a cell.
 
-#include "containers/direction_grid.hpp"
+#include "cloud/direction_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: our elementary functions agree with the C library's over the ranges that the header promises.
 // Does not prove: that they are the same bits on another machine; the arm64 preset runs this file there.
 
-#include "math/elementary.hpp"
+#include "base/math/elementary.hpp"
 
 #include <gtest/gtest.h>
 

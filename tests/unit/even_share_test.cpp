@@ -3,7 +3,7 @@
 
 // Proves: of what is offered as much is taken as is asked for, of all, of every n-th, and of a list in place.
 
-#include "containers/even_share.hpp"
+#include "base/containers/even_share.hpp"
 
 #include <gtest/gtest.h>
 

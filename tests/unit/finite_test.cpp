@@ -3,7 +3,7 @@
 
 // Proves: finiteness is judged by the bits, and our NaN is one.
 
-#include "math/finite.hpp"
+#include "base/math/finite.hpp"
 
 #include <gtest/gtest.h>
 

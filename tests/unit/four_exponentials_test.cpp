@@ -3,7 +3,7 @@
 
 // Proves: four exponentials at once are within the bound of the C library's, over their whole range.
 
-#include "math/four_exponentials.hpp"
+#include "base/simd/four_exponentials.hpp"
 
 #include <gtest/gtest.h>
 

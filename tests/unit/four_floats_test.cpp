@@ -3,7 +3,7 @@
 
 // Proves: four floats together are what they are one by one, and a part of four leaves the rest zero.
 
-#include "math/four_floats.hpp"
+#include "base/simd/four_floats.hpp"
 
 #include <gtest/gtest.h>
 

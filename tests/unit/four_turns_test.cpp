@@ -3,7 +3,7 @@
 
 // Proves: four points turned and shifted at once are where each goes by itself, to what floats tell.
 
-#include "math/four_turns.hpp"
+#include "base/simd/four_turns.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 // table as long as the road is told of as well. What lies beside a floor that is seen to all sides, a ramp or heap
 // further on, costs nothing. Does not prove what share of a floor must be seen: next to nothing of it is too little.
 
-#include "stages/ground_beside.hpp"
+#include "floor/beside.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 // bends or waves has a level that says so, and a wall's foot does not tilt it; inliers are those within the radius; of
 // many points no side goes short.
 
-#include "stages/ground_fit.hpp"
+#include "floor/fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/protection.hpp"
+#include "base/estimation/protection.hpp"
 #include "support/ground_fixture.hpp"
 
 namespace pose_wall {

@@ -4,7 +4,7 @@
 // Proves: a plane is found again under a third of outliers, weights are capped, what spans no plane is refused, and
 // what lies behind the last point plays no part.
 
-#include "estimation/irls.hpp"
+#include "base/estimation/irls.hpp"
 
 #include <gtest/gtest.h>
 

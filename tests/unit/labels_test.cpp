@@ -4,13 +4,13 @@
 // Proves: each point is labelled by the surface that it lies on, the floor before a wall, a wall within the band only,
 // whatever the number of points; nothing lies on what was refused.
 
-#include "stages/labels.hpp"
+#include "output/labels.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "math/rotation.hpp"
+#include "base/math/rotation.hpp"
 #include "pose_wall.h"
 #include "support/stage_fixtures.hpp"
 

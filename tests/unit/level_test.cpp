@@ -3,13 +3,13 @@
 
 // Proves: the level frame's heights are heights above the floor plane, and the wall band is cut by them.
 
-#include "stages/level.hpp"
+#include "floor/levelling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "math/rotation.hpp"
+#include "base/math/rotation.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {

@@ -4,7 +4,7 @@
 // Proves: the two scores are what their formulas say, worked out by hand and by expectation maximisation on the points
 // themselves, and rank a plane with inliers before one without.
 
-#include "estimation/mlesac.hpp"
+#include "base/estimation/mlesac.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 // they lie in, with their distances, no further than the visitor wants, and none from behind the last one; and blocks
 // that lie elsewhere are passed over.
 
-#include "estimation/near_plane.hpp"
+#include "base/estimation/near_plane.hpp"
 
 #include <gtest/gtest.h>
 

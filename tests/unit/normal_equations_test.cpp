@@ -3,7 +3,7 @@
 
 // Proves: the normal equations give back a plane exactly, sum rows of any design, and refuse points that span none.
 
-#include "estimation/normal_equations.hpp"
+#include "base/estimation/normal_equations.hpp"
 
 #include <gtest/gtest.h>
 

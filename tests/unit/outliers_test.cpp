@@ -3,11 +3,11 @@
 
 // Proves: exactly the points with too few others within the radius go, counted by looking at all pairs.
 
-#include "stages/outliers.hpp"
+#include "cloud/outliers.hpp"
 
 #include <gtest/gtest.h>
 
-#include "estimation/near_plane.hpp"
+#include "base/estimation/near_plane.hpp"
 #include "support/stage_fixtures.hpp"
 #include "support/voxels.hpp"
 

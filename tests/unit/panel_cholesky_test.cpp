@@ -4,7 +4,7 @@
 // Proves: for any number of rows the factor times itself is the matrix, a right side comes out as what the factor takes
 // to it, what lies above the diagonal plays no part, and a matrix that is not positive definite is told.
 
-#include "estimation/panel_cholesky.hpp"
+#include "base/estimation/panel_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

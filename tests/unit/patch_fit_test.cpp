@@ -6,7 +6,7 @@
 // response to a range bias is the change that the bias makes. Does not prove it for every roughness; the scenario tests
 // look at more.
 
-#include "estimation/patch_fit.hpp"
+#include "base/estimation/patch_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 #include <cmath>
 #include <vector>
 
-#include "estimation/protection.hpp"
-#include "estimation/tukey.hpp"
+#include "base/estimation/protection.hpp"
+#include "base/estimation/tukey.hpp"
 #include "support/rock.hpp"
 #include "support/stage_fixtures.hpp"
 

@@ -4,7 +4,7 @@
 // Proves: where two parts slope alike with a kerb between them, the reach of the halves makes up for the tilt that the
 // kerb gives to the plane through both; on rough but plane ground it is next to nothing; too few patches tell nothing.
 
-#include "estimation/plane_halves.hpp"
+#include "base/estimation/plane_halves.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <vector>
 
-#include "estimation/normal_equations.hpp"
+#include "base/estimation/normal_equations.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {

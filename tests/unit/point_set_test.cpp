@@ -3,7 +3,7 @@
 
 // Proves: spans and point sets borrow, and copy what they say.
 
-#include "containers/point_set.hpp"
+#include "base/containers/point_set.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,13 +4,13 @@
 // Proves: fits become measurements by the stated arithmetic: weighted mean of both walls, range bias, splay, what makes
 // a value weak, and that nothing is measured from what was refused.
 
-#include "stages/quality.hpp"
+#include "output/quality.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "math/elementary.hpp"
+#include "base/math/elementary.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {

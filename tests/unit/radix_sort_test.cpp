@@ -3,7 +3,7 @@
 
 // Proves: the sort agrees with the standard library's, is stable and leaves no key out.
 
-#include "containers/radix_sort.hpp"
+#include "base/containers/radix_sort.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // Proves: the generator is SplitMix64 as published, and below() keeps its bound and is even.
 
-#include "math/random.hpp"
+#include "base/math/random.hpp"
 
 #include <gtest/gtest.h>
 

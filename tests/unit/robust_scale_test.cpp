@@ -3,7 +3,7 @@
 
 // Proves: the scale is the standard deviation of Gaussian bulk, and outliers, NaN and emptiness do no harm to it.
 
-#include "estimation/robust_scale.hpp"
+#include "base/estimation/robust_scale.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: roll and pitch follow the specification's sign formulas, and R_level = Ry(pitch) Rx(roll) takes the floor's
 // normal to +Z without a turn of its own, up to the greatest tilts that are allowed.
 
-#include "math/rotation.hpp"
+#include "base/math/rotation.hpp"
 
 #include <gtest/gtest.h>
 

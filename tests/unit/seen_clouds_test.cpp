@@ -5,7 +5,7 @@
 // than kCount others did; one that is new pushes out the oldest; a clock that went back gives an age below zero; no
 // stamp overflows.
 
-#include "stages/seen_clouds.hpp"
+#include "cloud/seen_clouds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // Proves: the list keeps the best that differ, in order, and a near-copy never takes a second place.
 
-#include "estimation/shortlist.hpp"
+#include "base/estimation/shortlist.hpp"
 
 #include <gtest/gtest.h>
 

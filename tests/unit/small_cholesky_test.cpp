@@ -4,7 +4,7 @@
 // Proves: what is solved gives back the right-hand side, over all scales a fit meets, as Eigen's own does; what is not
 // positive definite is told.
 
-#include "estimation/small_cholesky.hpp"
+#include "base/estimation/small_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

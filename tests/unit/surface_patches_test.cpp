@@ -4,7 +4,7 @@
 // Proves: points become patch means with the variance of a mean, never more patches than there is room for, and points
 // outside do no harm.
 
-#include "estimation/surface_patches.hpp"
+#include "base/estimation/surface_patches.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,14 +4,14 @@
 // Proves: the small helpers of every fit: tangent coordinates, the corrected plane, Tukey's weight, the protection
 // factor.
 
-#include "estimation/tangent_frame.hpp"
+#include "base/estimation/tangent_frame.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "estimation/protection.hpp"
-#include "estimation/tukey.hpp"
+#include "base/estimation/protection.hpp"
+#include "base/estimation/tukey.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {

@@ -4,7 +4,7 @@
 // Proves: a plane told as a height over another one is that plane: distances and sides are the same, however far it is
 // turned, corrections add up, and the points of a list are those of the cloud.
 
-#include "estimation/tangent_points.hpp"
+#include "base/estimation/tangent_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: two places of an odometry move each quantity as floor and walls that stand still move before the machine;
 // errors of places do not add up frame by frame while drift does; and beyond what was seen only the config bounds.
 
-#include "stages/temporal_odometry.hpp"
+#include "output/temporal_odometry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <cstring>
 #include <limits>
 
-#include "math/rotation.hpp"
+#include "base/math/rotation.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {

@@ -4,7 +4,7 @@
 // Proves: the weights are Tukey's, by hand; the flat top is flat up to its width, falls without a step, and is the same
 // on both sides. Does not prove what they do to a fit; see irls_test and the efficiency tests.
 
-#include "estimation/tukey.hpp"
+#include "base/estimation/tukey.hpp"
 
 #include <gtest/gtest.h>
 

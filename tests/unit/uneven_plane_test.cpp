@@ -5,7 +5,7 @@
 // what its standard deviations say; on a flat one they are those of least squares; a range bias turns the plane as
 // told.
 
-#include "estimation/uneven_plane.hpp"
+#include "base/estimation/uneven_plane.hpp"
 
 #include <gtest/gtest.h>
 

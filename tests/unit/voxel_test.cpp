@@ -5,7 +5,7 @@
 // the extrinsic and the byte layout are applied; a cloud with more voxels than there is room for gets a larger leaf,
 // the same for any order of its points.
 
-#include "stages/voxel.hpp"
+#include "cloud/voxels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <cmath>
 #include <limits>
 
-#include "math/elementary.hpp"
-#include "math/rotation.hpp"
+#include "base/math/elementary.hpp"
+#include "base/math/rotation.hpp"
 #include "support/clouds.hpp"
 #include "support/stage_fixtures.hpp"
 

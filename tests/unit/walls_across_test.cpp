@@ -4,14 +4,14 @@
 // Proves: no plane across the machine is solid over more than the bound says, whatever is seen and at any limits; the
 // bound is low enough that in a road nothing need be looked for, and high enough that in a junction it is.
 
-#include "stages/walls_across.hpp"
+#include "walls/choose/across.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "math/elementary.hpp"
+#include "base/math/elementary.hpp"
 #include "support/band_fixture.hpp"
 
 namespace pose_wall {

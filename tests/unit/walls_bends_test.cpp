@@ -6,15 +6,15 @@
 // is left whole, and of what is seen half a metre stays. Scenes are cast ray by ray. Does not prove it for voxels or
 // bends along the road.
 
-#include "stages/walls_bends.hpp"
+#include "walls/fit/bends.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "stages/walls_surface.hpp"
 #include "support/ray_scene.hpp"
 #include "support/rock.hpp"
+#include "walls/fit/surface.hpp"
 
 namespace pose_wall {
 namespace {

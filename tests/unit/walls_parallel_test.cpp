@@ -4,11 +4,11 @@
 // Proves: two good walls of nearly one direction are turned onto their mean about their pivots and pay for it in their
 // bounds; doubtful, refused or truly splayed ones are left alone.
 
-#include "stages/walls_parallel.hpp"
+#include "walls/doubts/parallel.hpp"
 
 #include <gtest/gtest.h>
 
-#include "math/elementary.hpp"
+#include "base/math/elementary.hpp"
 #include "support/band_fixture.hpp"
 
 namespace pose_wall {

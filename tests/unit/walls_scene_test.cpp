@@ -4,14 +4,14 @@
 // Proves: the scene that the walls are looked for in is the specification's: directions horizontal, sampling points in
 // the levelled frame, the band above the floor; and a plane is read with the stated signs.
 
-#include "stages/walls_scene.hpp"
+#include "walls/scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "math/rotation.hpp"
+#include "base/math/rotation.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {

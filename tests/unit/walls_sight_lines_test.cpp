@@ -3,13 +3,13 @@
 
 // Proves: a crossing lies on the plane and on its ray, and a column that is said to look away has none.
 
-#include "stages/walls_sight_lines.hpp"
+#include "walls/doubts/sight_lines.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "math/rotation.hpp"
+#include "base/math/rotation.hpp"
 #include "support/band_fixture.hpp"
 
 namespace pose_wall {

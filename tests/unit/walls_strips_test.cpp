@@ -5,14 +5,14 @@
 // where the strips are; rock without strips is left alone. Scenes are cast ray by ray. Does not prove it for voxels or
 // for strips that stand irregularly.
 
-#include "stages/walls_strips.hpp"
+#include "walls/fit/strips.hpp"
 
 #include <gtest/gtest.h>
 
-#include "stages/walls_measure.hpp"
-#include "stages/walls_surface.hpp"
 #include "support/ray_scene.hpp"
 #include "support/rock.hpp"
+#include "walls/fit/surface.hpp"
+#include "walls/sample/measure.hpp"
 
 namespace pose_wall {
 namespace {

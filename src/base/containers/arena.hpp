@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+
+#include "base/containers/span.hpp"
+#include "pose_wall.h"
+
+namespace pose_wall {
+
+// Hands out parts of one block, front to back. Without a block it only measures: the same walk gives the size and the
+// places, so the two cannot drift apart. Parts are aligned to POSE_WALL_BLOCK_ALIGNMENT and hold garbage.
+class Arena {
+ public:
+  explicit Arena(void* block) : block_(static_cast<unsigned char*>(block)) {}
+
+  template <typename T>
+  Span<T> take(std::uint32_t count) {
+    void* place = advance(static_cast<std::uint64_t>(count) * sizeof(T));
+    return Span<T>(static_cast<T*>(place), count);
+  }
+
+  template <typename T>
+  T* take_one() {
+    void* place = advance(sizeof(T));
+    return place != nullptr ? new (place) T : nullptr;
+  }
+
+  // What is taken after this lies on top of what was taken since: for parts of which one is done with when the other
+  // is written.
+  std::uint64_t place() const { return used_; }
+  void go_back(std::uint64_t place) {
+    most_ = bytes();
+    used_ = place;
+  }
+
+  // What is taken after this lies on top of nothing.
+  void go_behind_all() { used_ = bytes(); }
+
+  // At most ever in use.
+  std::uint64_t bytes() const { return used_ > most_ ? used_ : most_; }
+
+ private:
+  void* advance(std::uint64_t bytes) {
+    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;
+    void* place = block_ != nullptr ? block_ + used_ : nullptr;
+    used_ += (bytes + kMask) & ~kMask;
+    return place;
+  }
+
+  unsigned char* block_;
+  std::uint64_t used_ = 0, most_ = 0;
+};
+
+}  // namespace pose_wall

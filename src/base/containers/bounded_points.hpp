@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "base/containers/point_set.hpp"
+
+namespace pose_wall {
+
+// Points and, for each block of them that follow each other in the list, the box they lie in. In a list that is in the
+// order of its places a block is small, and who looks for points near a plane passes over most blocks unread.
+struct BoundedPoints : PointSet {
+  static constexpr std::uint32_t kBlock = 32;
+
+  // Of each block's box the centre and half its edges. Rows go on for a four, as those of points do.
+  Span<float> centre_x, centre_y, centre_z, half_x, half_y, half_z;
+
+  void lay_out(Arena& arena, std::uint32_t capacity);
+  std::uint32_t blocks() const { return (count + kBlock - 1) / kBlock; }
+
+  // To be called when the points are what they are going to be.
+  void bound();
+};
+
+}  // namespace pose_wall

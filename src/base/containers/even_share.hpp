@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "base/containers/span.hpp"
+
+namespace pose_wall {
+
+// An even share of what is offered one by one. Every n-th would take one of two layers that come by turns, for any even
+// n; the multiples of the golden ratio fill the circle about evenly, and those of every n-th of them do so as well, for
+// short n.
+class EvenShare {
+ public:
+  // Takes `most` of `all`, on the average over many that are offered.
+  EvenShare(std::uint32_t most, std::uint32_t all) : limit_(kWhole) {
+    if (all > most) limit_ = (kWhole * most + all - 1) / all;
+  }
+
+  bool takes() {
+    constexpr std::uint32_t kGoldenTurn = 0x9E3779B9U;
+    turn_ += kGoldenTurn;
+    return turn_ < limit_;
+  }
+
+ private:
+  static constexpr std::uint64_t kWhole = 1ULL << 32;
+  std::uint64_t limit_;
+  std::uint32_t turn_ = 0;
+};
+
+// visit(k) for an even share of the numbers below `all`, at most `most` of them.
+template <typename Visit>
+void for_even_share(std::uint32_t all, std::uint32_t most, const Visit& visit) {
+  EvenShare share(most, all);
+  std::uint32_t visited = 0;
+  for (std::uint32_t k = 0; k < all && visited < most; ++k) {
+    if (!share.takes()) continue;
+    visit(k);
+    ++visited;
+  }
+}
+
+// Keeps an even share of the items in place, at most `most` of them.
+template <typename T>
+Span<T> thinned(Span<T> items, std::uint32_t most) {
+  if (items.size() <= most) return items;
+  std::uint32_t count = 0;
+  for_even_share(items.size(), most, [&](std::uint32_t k) { items[count++] = items[k]; });
+  return items.first(count);
+}
+
+}  // namespace pose_wall

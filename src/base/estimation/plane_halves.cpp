@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "base/estimation/plane_halves.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "base/estimation/normal_equations.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kPatchesMin = 10.0;
+constexpr double kOwnErrors = 2.0;
+
+struct Half {
+  bool along_u, beyond;
+  bool holds(const SurfacePatch& p) const { return ((along_u ? p.u : p.v) >= 0.0) == beyond; }
+};
+
+double reach_of(const Half& half, Span<const SurfacePatch> patches, const Eigen::Vector3d& correction,
+                const Eigen::Vector3d& response) {
+  NormalEquations sums;
+  double squares = 0.0;
+  for (const SurfacePatch& p : patches) {
+    if (!half.holds(p)) continue;
+    const double r = p.residual - correction.dot(Eigen::Vector3d(1.0, p.u, p.v));
+    sums.add(p.u, p.v, r, 1.0);
+    squares += r * r;
+  }
+  const Eigen::Matrix3d m = sums.information();
+  const double volume = m(0, 0) * m(1, 1) * m(2, 2), count = sums.weight();
+  if (count < kPatchesMin || !(m.determinant() > 1e-6 * volume)) return 0.0;
+  const Eigen::Matrix3d inverse = m.inverse();
+  const Eigen::Vector3d slopes = inverse * sums.right_side();
+  const double left = (squares - slopes.dot(sums.right_side())) / (count - 3.0);
+  const double variance = (left > 0.0 ? left : 0.0) * response.dot(inverse * response);
+  return std::fabs(response.dot(slopes)) - kOwnErrors * std::sqrt(variance);
+}
+
+}  // namespace
+
+double reach_of_halves(Span<const SurfacePatch> patches, const Eigen::Vector3d& correction,
+                       const Eigen::Vector3d& response) {
+  double reach = 0.0;
+  for (const Half& half : {Half{true, false}, Half{true, true}, Half{false, false}, Half{false, true}}) {
+    const double of_half = reach_of(half, patches, correction, response);
+    reach = of_half > reach ? of_half : reach;
+  }
+  return reach;
+}
+
+}  // namespace pose_wall

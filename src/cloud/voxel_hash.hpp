@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "base/containers/arena.hpp"
+#include "base/containers/span.hpp"
+
+namespace pose_wall {
+
+// Key to index, open addressing with linear probing over a power-of-two table at most half full. Indices are given out
+// in the order of first insertion.
+//
+// Who knows the hash can choose keys that all begin at one slot. So a key probes kProbesMost slots and no more: where
+// none of them is free or its own, it goes into a tree beside the table. The tree branches by the highest bit in which
+// keys differ, so it is never deeper than a key has bits, whatever the keys and their order. A slot is never freed:
+// who goes on to the tree does so again, and an index does not tell where its key lies.
+class VoxelHash {
+ public:
+  static constexpr std::uint32_t kFull = 0xFFFFFFFFU;
+  // Of random keys few go further, even in a table half full, and the tree costs as much as some more probes would.
+  static constexpr std::uint32_t kProbesMost = 8;
+  static constexpr std::uint32_t kCapacityMost = 1U << 20;
+
+  // capacity: how many keys, up to kCapacityMost; the table has at least twice as many slots.
+  void lay_out(Arena& arena, std::uint32_t capacity) {
+    capacity_ = capacity;
+    std::uint32_t bits = 1;
+    while ((1U << bits) < 2 * capacity) ++bits;
+    shift_ = 64 - bits;
+    mask_ = (1U << bits) - 1;
+    slots_ = arena.take<std::uint32_t>(1U << bits);
+    keys_ = arena.take<std::uint64_t>(capacity);
+    for (Span<std::uint32_t>& side : sides_) side = arena.take<std::uint32_t>(capacity + 1);
+  }
+
+  void clear() {
+    count_ = 0;
+    root_ = kFree;
+    links_ = 0;
+    slots_.fill(kFree);
+  }
+
+  // Puts keys in, one after the other: what changes with each of them lies in registers, not in the table. Nobody else
+  // looks at the table meanwhile.
+  class Filling {
+   public:
+    explicit Filling(VoxelHash* hash)
+        : hash_(*hash),
+          slots_(hash->slots_.data()),
+          keys_(hash->keys_.data()),
+          capacity_(hash->capacity_),
+          mask_(hash->mask_),
+          shift_(hash->shift_),
+          count_(hash->count_) {}
+    ~Filling() { hash_.count_ = count_; }
+    Filling(const Filling&) = delete;
+    Filling& operator=(const Filling&) = delete;
+
+    // Index of the key, new or old; kFull where a new key does not fit. Points arrive in scan order, so the last key is
+    // often the next one too.
+    std::uint32_t insert(std::uint64_t key) {
+      if (key == last_key_) return last_index_;
+      std::uint32_t slot = home(key), index = slots_[slot];
+      for (std::uint32_t probe = 1; index != kFree && keys_[index] != key; ++probe) {
+        if (probe == kProbesMost) return insert_crowded(key);
+        slot = (slot + 1) & mask_;
+        index = slots_[slot];
+      }
+      if (index == kFree) {
+        if (count_ == capacity_) return kFull;
+        slots_[slot] = index = count_;
+        keys_[count_++] = key;
+      }
+      last_key_ = key;
+      return last_index_ = index;
+    }
+
+    std::uint32_t count() const { return count_; }
+
+   private:
+    std::uint32_t insert_crowded(std::uint64_t key) {
+      const std::uint32_t index = hash_.find_or_branch(key, count_);
+      if (index == kFull) return kFull;
+      if (index == count_) keys_[count_++] = key;
+      last_key_ = key;
+      return last_index_ = index;
+    }
+
+    // Fibonacci hashing: the high bits of the product depend on all bits of the key.
+    std::uint32_t home(std::uint64_t key) const {
+      return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
+    }
+
+    VoxelHash& hash_;
+    std::uint32_t* const slots_;
+    std::uint64_t* const keys_;
+    const std::uint32_t capacity_, mask_, shift_;
+    std::uint32_t count_, last_index_ = 0;
+    std::uint64_t last_key_ = ~0ULL;
+  };
+
+  std::uint32_t count() const { return count_; }
+  std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
+  Span<const std::uint64_t> keys() const { return keys_.first(count_); }
+
+  // How many branchings of the tree, and slots before it, were passed since clear(): what crowding has cost.
+  std::uint64_t links() const { return links_; }
+  std::uint32_t slots() const { return slots_.size(); }
+
+  // Where the tree lies, as long as the capacity and one more each. Once all keys are in, it is of no use, and whoever
+  // goes on with the keys may write there until the next clear().
+  Span<std::uint32_t> first_side() const { return sides_[0]; }
+  Span<std::uint32_t> second_side() const { return sides_[1]; }
+
+ private:
+  static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
+
+  // Index of a key that found no room among its slots, and `count` where it is new: then it has its place in the tree.
+  // kFull where a new key does not fit.
+  std::uint32_t find_or_branch(std::uint64_t key, std::uint32_t count);
+
+  Span<std::uint32_t> slots_;  // indices
+  Span<std::uint64_t> keys_;
+  std::uint32_t capacity_ = 0;
+  std::uint32_t count_ = 0;
+  std::uint32_t mask_ = 1, shift_ = 63;  // of the table's slots
+  // The tree. Each key but the first brings the branching at which it parted from the others; both have its index.
+  Span<std::uint32_t> sides_[2];  // by index of a branching: what lies at its side of zeros and of ones
+  std::uint32_t root_ = kFree;
+  std::uint64_t links_ = 0;
+};
+
+}  // namespace pose_wall

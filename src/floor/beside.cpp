@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "floor/beside.hpp"
+
+#include <cmath>
+
+#include "base/estimation/near_plane.hpp"
+#include "base/math/elementary.hpp"
+#include "base/math/larger.hpp"
+#include "base/math/rotation.hpp"
+#include "floor/notes.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kOffInThresholds = 3.0;
+constexpr double kOneSide = 0.8;  // of the points
+// So well is the line known in which two floors meet.
+constexpr double kNearLine_m = 0.3;
+// A floor all over below another one that lies alike, a table's or a belt's: more than a kerb is high.
+constexpr double kLower_m = 0.3;
+constexpr double kAlike = 0.3;  // slope
+constexpr std::uint32_t kPointsMin = 20;
+// The other plane was looked at in passing.
+constexpr double kStretch = 1.25;
+constexpr double kMargin_rad = 0.026;
+
+// How many points lie in each eighth of a turn around the machine.
+struct Eighths {
+  std::uint32_t count[8] = {}, total = 0;
+
+  // By a hundredth of all points.
+  bool holds_any(std::uint32_t eighth) const { return total > 0 && count[eighth] * 100 >= total; }
+};
+
+// Of those no further than this from the plane, and below the sensor: a steep plane that is prolonged meets the roof.
+Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m, double sensor_z_base_m) {
+  constexpr std::uint8_t kEighth[] = {0, 1, 7, 6, 3, 2, 4, 5};  // by signs of x and y and which of them is larger
+  const FourDistances heights(plane);
+  const FourFloats reach = all_four(static_cast<float>(reach_m)), none{};
+  const auto highest = static_cast<float>(sensor_z_base_m);
+  Eighths out;
+  for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    counts &= (magnitude_of(heights.of(x, y, z)) <= reach) & (z < highest);
+    const FourInts which = counts & (((x < none) & 4) | ((y < none) & 2) | ((magnitude_of(x) < magnitude_of(y)) & 1));
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      out.count[kEighth[static_cast<std::uint32_t>(which[lane])]] += counts[lane] != 0 ? 1 : 0;
+    }
+    out.total += sum_of_lanes(-counts);
+  });
+  return out;
+}
+
+// To all sides of the machine, but for less than half a turn: then it stands on it.
+bool surround_machine(const Eighths& floor) {
+  constexpr std::uint32_t kEmptyMost = 2;
+  std::uint32_t empty = 0;
+  for (std::uint32_t k = 0; k < 16; ++k) {
+    empty = floor.holds_any(k % 8) ? 0 : empty + 1;
+    if (empty > kEmptyMost) return false;
+  }
+  return true;
+}
+
+// Open points off the floor and below the sensor: over the floor or, not as high as a roof, in base, as flat ground
+// lies high over a steep plane that is prolonged.
+void copy_left_over(const PointSet& open, const Plane& floor, double off_m, const Eigen::Vector3d& sensor_base_m,
+                    PointSet* out) {
+  constexpr float kBelowRoof = 1.6F;
+  const FourDistances heights(floor);
+  const FourFloats off = all_four(static_cast<float>(off_m));
+  const FourFloats highest = all_four(static_cast<float>(floor.signed_distance(sensor_base_m)));
+  const FourFloats sensor_z = all_four(static_cast<float>(sensor_base_m.z()));
+  copy_where(open, out, [&](FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourFloats height = heights.of(x, y, z);
+    return counts & (magnitude_of(height) > off) &
+           ((height < highest) | ((z < sensor_z) & (height < kBelowRoof * highest)));
+  });
+}
+
+// Of the open points on one plane and off the other, the share that lies above the other.
+double share_above(const PointSet& open, const Plane& on, const Plane& other, double thresh_m) {
+  const FourDistances from_own(on), from_other(other);
+  const FourFloats thresh = all_four(static_cast<float>(thresh_m));
+  const FourFloats off = all_four(static_cast<float>(kOffInThresholds * thresh_m));
+  FourInts of_own{}, above{};  // true is -1
+  for_each_four_points(open, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourFloats height = from_other.of(x, y, z);
+    counts &= (magnitude_of(from_own.of(x, y, z)) <= thresh) & (magnitude_of(height) > off);
+    of_own -= counts;
+    above -= counts & (height > FourFloats{});
+  });
+  const std::uint32_t count = sum_of_lanes(of_own);
+  return count > 0 ? static_cast<double>(sum_of_lanes(above)) / count : 0.5;
+}
+
+// Ground that rises in a line lies on the higher one of two planes everywhere, ground that falls on the lower one: each
+// has its points on its own side of the line, and so it has the machine.
+bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, double thresh_m) {
+  const double other_above = share_above(open, other, floor, thresh_m);
+  const double floor_above = share_above(open, floor, other, thresh_m);
+  const bool other_is_higher = other_above >= kOneSide, other_is_lower = other_above <= 1.0 - kOneSide;
+  const bool floor_is_higher = floor_above >= kOneSide, floor_is_lower = floor_above <= 1.0 - kOneSide;
+  const auto slope = [](const Plane& p) { return Eigen::Vector2d(p.n.x() / p.n.z(), p.n.y() / p.n.z()); };
+  const double unlike = std::sqrt((slope(other) - slope(floor)).squaredNorm());
+  const double step_m = floor.d / floor.n.z() - other.d / other.n.z();  // up to the other one, at the machine
+  if (other_is_higher && floor_is_higher) return step_m > -kNearLine_m * unlike;
+  if (other_is_lower && floor_is_lower) return step_m < kNearLine_m * unlike;
+  return other_is_lower && floor_is_higher && step_m < -kLower_m && unlike < kAlike;
+}
+
+}  // namespace
+
+void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, const Axes& axes,
+                            const Eigen::Vector3d& sensor_base_m, Random* random, GroundScratch* scratch,
+                            FloorResult* floor) {
+  const PointSet &open = scratch->open_base, &left_over = scratch->within_base;
+  const Plane plane = floor->fit.plane;
+  scratch->work.add(open.count, steps::kPointWithin);
+  if (surround_machine(eighths_of(open, plane, s.ground_ransac_thresh, sensor_base_m.z()))) return;
+  const double off_m = kOffInThresholds * s.ground_ransac_thresh;
+  copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
+  if (left_over.count < kPointsMin) return;
+  FloorCandidates found;
+  POSE_WALL_NOTE(trace::attempt(POSE_WALL_TRACE_ATTEMPTS_MAX));  // of none of the radii
+  find_candidates({left_over, cloud_base, sensor_base_m, nullptr, true}, s, axes, random, scratch, &found);
+  POSE_WALL_NOTE(trace::attempt(0));
+  scratch->grid.mark(open, plane, s.ground_ransac_thresh);
+  const RollPitch a = roll_pitch_of_up(plane.n);
+  for (const FloorCandidate& other : found.all()) {
+    if (scratch->work.is_spent()) return;
+    scratch->work.add(open.count, steps::kPointWeighed);
+    if (other.ghost || is_reflection(open, plane, other.plane, s, sensor_base_m, scratch->grid)) continue;
+    if (!may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;
+    const RollPitch b = roll_pitch_of_up(other.plane.n);
+    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BESIDE,
+                               larger(std::fabs(a.roll_rad - b.roll_rad), std::fabs(a.pitch_rad - b.pitch_rad)), 0.0,
+                               false));
+    const auto reach_to = [](double apart_rad, LevelParts* bound_rad) {
+      bound_rad->reach(kStretch * std::fabs(apart_rad) + kMargin_rad, POSE_WALL_PART_RIVAL);
+    };
+    reach_to(a.roll_rad - b.roll_rad, &floor->roll_bound_rad);
+    reach_to(a.pitch_rad - b.pitch_rad, &floor->pitch_bound_rad);
+    floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+  }
+}
+
+}  // namespace pose_wall

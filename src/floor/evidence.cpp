@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "floor/evidence.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "base/estimation/near_plane.hpp"
+#include "base/estimation/normal_equations.hpp"
+#include "base/simd/four_floats.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide
+constexpr double kHeightBin_m = 0.125;
+constexpr float kHeightBins = 64.0F;
+constexpr double kBelowSensor_m = 5.5;  // the lowest bin; the highest ends 2.5 m above the sensor
+// What stands on a point or hangs under it: in two of six bins, from the second on. One bin alone may be dust.
+constexpr std::uint64_t kSixBins = 0x3F;
+constexpr int kFirstBin = 2;
+constexpr int kSixthBin = 7;
+
+bool two_or_more(std::uint64_t bits) {
+  return (bits & (bits - 1)) != 0;
+}
+
+std::uint64_t bins_above(std::uint64_t heights, int bin) {
+  const int from = bin + kFirstBin;
+  return from < 64 ? (heights >> from) & kSixBins : 0;
+}
+
+std::uint64_t bins_below(std::uint64_t heights, int bin) {
+  const int from = bin - kSixthBin;
+  if (from >= 0) return (heights >> from) & kSixBins;
+  return heights & (from > -6 ? kSixBins >> -from : 0);
+}
+
+// The bins on which something stands, all at once.
+std::uint64_t stood_on(std::uint64_t heights) {
+  std::uint64_t one = 0, two = 0;
+  for (int bin = kFirstBin; bin <= kSixthBin; ++bin) {
+    const std::uint64_t there = heights >> bin;
+    two |= one & there;
+    one |= there;
+  }
+  return two;
+}
+
+}  // namespace
+
+void FloorGrid::lay_out(Arena& arena) {
+  eighths_ = arena.take<std::uint64_t>(kSide * kSide);
+  marked_ = arena.take<std::uint8_t>(kSide * kSide);
+  near_marked_ = arena.take<std::uint8_t>(kSide * kSide);
+}
+
+std::int32_t FloorGrid::cell_of(float coordinate_m) {
+  // Counted from far below every coordinate, so that cutting off the fraction rounds down: no call to floor(). What is
+  // further out is outside in either case.
+  constexpr std::int32_t kFar = 1 << 10;
+  return static_cast<std::int32_t>(coordinate_m * static_cast<float>(1.0 / kCell_m) + (kFar + kSide / 2)) - kFar;
+}
+
+FourInts FloorGrid::cells_of(FourFloats coordinates_m) {
+  const FourFloats cell = coordinates_m * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide, none{};
+  return cut_off(smaller_of(larger_of(cell, none), all_four(kSide - 1)));
+}
+
+// Where four points lie: cell and height bin as one number, or kNowhere outside the radius or the grid's height.
+class FloorGrid::FourBins {
+ public:
+  FourBins(double radius_m, double lowest_m)
+      : radius2_(static_cast<float>(radius_m * radius_m)), lowest_m_(static_cast<float>(lowest_m)) {}
+
+  void look_at(FourFloats x, FourFloats y, FourFloats z) {
+    const FourFloats bin = (z - lowest_m_) * static_cast<float>(1.0 / kHeightBin_m), none{};
+    const FourFloats ix = x * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide;
+    const FourFloats iy = y * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide;
+    within = x * x + y * y <= radius2_;
+    const FourTruths inside = within & (bin >= none) & (bin < all_four(kHeightBins)) & (ix >= none) &
+                              (ix < all_four(kSide)) & (iy >= none) & (iy < all_four(kSide));
+    const FourInts cell = cut_off(inside ? iy : none) * kSide + cut_off(inside ? ix : none);
+    place = inside ? cell * kBins + cut_off(inside ? bin : none) : all_four_ints(kNowhere);
+  }
+
+  FourTruths within{};
+  FourInts place{};
+
+  static constexpr std::int32_t kNowhere = -1;
+  static constexpr std::int32_t kBins = static_cast<std::int32_t>(kHeightBins);
+
+ private:
+  float radius2_, lowest_m_;
+};
+
+void FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
+                          Span<std::uint32_t> places, PointSet* open) {
+  eighths_.fill(0);
+  lowest_m_ = sensor_z_base_m - kBelowSensor_m;
+  FourBins four(radius_m, lowest_m_);
+  FourInts within{};  // true is -1
+  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);
+  std::uint32_t last = kNowhere;  // points come in the order of their places, more or less
+  for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    four.look_at(x, y, z);
+    within -= four.within & counts;
+    const FourInts here = counts ? four.place : all_four_ints(FourBins::kNowhere);
+    store_four(here, &places[i]);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const auto place = static_cast<std::uint32_t>(here[lane]);
+      if (place == last) continue;
+      last = place;
+      if (place != kNowhere) eighths_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
+    }
+  });
+  points_within_ = sum_of_lanes(within);
+  open->count = 0;
+  last = kNowhere;
+  bool is_open = false;
+  for (std::uint32_t i = 0; i < points_base.count; ++i) {
+    const std::uint32_t place = places[i];
+    if (place != last) {
+      const std::uint64_t heights = place != kNowhere ? eighths_[place / FourBins::kBins] : 0;
+      const int bin = static_cast<int>(place % FourBins::kBins);
+      is_open = place != kNowhere && !two_or_more(bins_above(heights, bin)) && !two_or_more(bins_below(heights, bin));
+      last = place;
+    }
+    if (!is_open) continue;
+    open->add(points_base.x[i], points_base.y[i], points_base.z[i], points_base.weight[i]);
+  }
+  for (std::uint64_t& heights : eighths_) heights = heights != 0 ? stood_on(heights) : 0;
+}
+
+FourTruths FloorGrid::clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m,
+                                   FourTruths counts) const {
+  constexpr float kAround_m = 0.1F;
+  const FourFloats place = (z_base_m - static_cast<float>(lowest_m_)) * static_cast<float>(1.0 / kHeightBin_m);
+  const FourTruths looked_at = counts & (place >= FourFloats{}) & (place < all_four(kHeightBins));
+  const FourInts bin = cut_off(looked_at ? place : FourFloats{});
+  const FourFloats none{}, x = looked_at ? x_base_m : none, y = looked_at ? y_base_m : none;
+  const FourInts x_low = cells_of(x - kAround_m), x_high = cells_of(x + kAround_m);
+  const FourInts y_low = cells_of(y - kAround_m) * kSide, y_high = cells_of(y + kAround_m) * kSide;
+  static_assert(2.0 * kAround_m <= kCell_m, "two cells at most");
+  const FourInts corners[] = {y_low + x_low, y_low + x_high, y_high + x_low, y_high + x_high};
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (looked_at[lane] == 0) continue;
+    std::uint64_t occupied = 0;
+    for (const FourInts& corner : corners) occupied |= eighths_[static_cast<std::uint32_t>(corner[lane])];
+    if ((occupied >> bin[lane] & 1) != 0) counts[lane] = 0;
+  }
+  return counts;
+}
+
+void FloorGrid::clear_marks() {
+  marked_.fill(0);
+  near_marked_.fill(0);
+  bounds_ = Bounds{};
+}
+
+void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
+  marked_[index(ix, iy)] = 1;
+  bounds_.x_min = ix < bounds_.x_min ? ix : bounds_.x_min;
+  bounds_.x_max = ix > bounds_.x_max ? ix : bounds_.x_max;
+  bounds_.y_min = iy < bounds_.y_min ? iy : bounds_.y_min;
+  bounds_.y_max = iy > bounds_.y_max ? iy : bounds_.y_max;
+  const std::int32_t x_first = ix > 0 ? ix - 1 : 0, x_last = ix < kSide - 1 ? ix + 1 : ix;
+  const std::int32_t y_first = iy > 0 ? iy - 1 : 0, y_last = iy < kSide - 1 ? iy + 1 : iy;
+  for (std::int32_t y = y_first; y <= y_last; ++y) {
+    std::memset(&near_marked_[index(x_first, y)], 1, static_cast<std::size_t>(x_last - x_first) + 1);
+  }
+}
+
+void FloorGrid::mark(const PointSet& open_base, const Plane& plane, double thresh_m) {
+  clear_marks();
+  const FourDistances distances(plane);
+  const FourFloats most = all_four(static_cast<float>(thresh_m));
+  for_each_four_points(open_base, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourTruths on_plane = counts & (magnitude_of(distances.of(x, y, z)) <= most);
+    if (!any_of(on_plane)) return;
+    const FourInts ix = cells_of(x), iy = cells_of(y);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (on_plane[lane] != 0 && marked_[index(ix[lane], iy[lane])] == 0) mark_cell(ix[lane], iy[lane]);
+    }
+  });
+}
+
+FloorEvidence FloorGrid::evidence(const Axes& axes) const {
+  constexpr double kCellArea_m2 = kCell_m * kCell_m;
+  FloorEvidence out;
+  NormalEquations spread;
+  for (std::int32_t iy = bounds_.y_min; iy <= bounds_.y_max; ++iy) {
+    for (std::int32_t ix = bounds_.x_min; ix <= bounds_.x_max; ++ix) {
+      if (marked_[index(ix, iy)] == 0) continue;
+      const double x = (static_cast<double>(ix - kSide / 2) + 0.5) * kCell_m;
+      const double y = (static_cast<double>(iy - kSide / 2) + 0.5) * kCell_m;
+      const double across = axes.left_base.x() * x + axes.left_base.y() * y;
+      out.area_m2 += kCellArea_m2;
+      out.score_m2 += std::fabs(across) <= kDrivingStripHalf_m ? kCellArea_m2 * 2.0 : kCellArea_m2;
+      spread.add(x, y, 0.0, 1.0);
+    }
+  }
+  out.across_spread_m = spread.smaller_spread_m();
+  return out;
+}
+
+bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
+  const std::int32_t ix = cell_of(static_cast<float>(x_base_m)), iy = cell_of(static_cast<float>(y_base_m));
+  return inside(ix, iy) && near_marked_[index(ix, iy)] != 0;
+}
+
+bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const {
+  constexpr int kSteps = 8;
+  constexpr double kStep_m = 0.5;
+  const double dx = place_base_m.x() - sensor_base_m.x(), dy = place_base_m.y() - sensor_base_m.y();
+  const double away = std::sqrt(dx * dx + dy * dy);
+  if (!(away > 0.0)) return marked_near(place_base_m.x(), place_base_m.y());
+  for (int step = 0; step <= kSteps; ++step) {
+    const double reach = static_cast<double>(step) * kStep_m / away;
+    if (marked_near(place_base_m.x() + reach * dx, place_base_m.y() + reach * dy)) return true;
+  }
+  return false;
+}
+
+}  // namespace pose_wall

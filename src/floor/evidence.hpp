@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What speaks for a plane being the floor: open ground seen in plan, not a count of points.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "base/containers/arena.hpp"
+#include "base/containers/bounded_points.hpp"
+#include "base/estimation/plane.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+struct FloorEvidence {
+  double score_m2 = 0.0;         // open area, the strip the machine drives on counting double
+  double area_m2 = 0.0;          // open area
+  double across_spread_m = 0.0;  // standard deviation of the open cells across their main direction
+};
+
+// A grid in plan around the base origin.
+class FloorGrid {
+ public:
+  static constexpr std::int32_t kSide = 160;
+  static constexpr double kCell_m = 0.25;
+
+  void lay_out(Arena& arena);
+
+  // The points within the radius that have nothing standing on them or hanging under them: no points from a quarter of
+  // a metre to a metre above or below in the same cell. Floor is open and so is roof; walls, heaps, people and machines
+  // are not. Without this, a slab cut through two walls beats a sparsely seen floor by its points. places and open have
+  // room for all points, and places for a four behind them.
+  void find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m, Span<std::uint32_t> places,
+                 PointSet* open);
+
+  // How many points lie within the radius at all.
+  std::uint32_t points_within() const { return points_within_; }
+
+  // Of four open points those that nothing stands next to, either: at the foot of a rough wall or heap its lowest
+  // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
+  FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m, FourTruths counts) const;
+
+  // Marks the cells in which a plane has points. open_base: by find_open(), all of them within the grid.
+  void mark(const PointSet& open_base, const Plane& plane, double thresh_m);
+  // Of the marked plane.
+  FloorEvidence evidence(const Axes& axes) const;
+  // Whether the marked plane has floor at or next to this place.
+  [[gnu::noinline]] bool marked_near(double x_base_m, double y_base_m) const;
+  // The same, or farther out in the same direction from the sensor: a place inside the floor, be it a puddle.
+  bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
+
+ private:
+  class FourBins;
+  static std::int32_t cell_of(float coordinate_m);
+  static FourInts cells_of(FourFloats coordinates_m);  // the outermost of what is outside
+  static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
+  static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
+
+  [[gnu::noinline]] void mark_cell(std::int32_t ix, std::int32_t iy);  // but once a cell
+  void clear_marks();
+
+  // Of the marked cells, first to last.
+  struct Bounds {
+    std::int32_t x_min = kSide, x_max = -1, y_min = kSide, y_max = -1;
+  };
+  Bounds bounds_;
+
+  std::uint32_t points_within_ = 0;
+  double lowest_m_ = 0.0;  // of the heights
+  // Per cell a bit for each eighth of a metre: where points are, and once find_open() is done with it, on which of them
+  // something stands.
+  Span<std::uint64_t> eighths_;
+  Span<std::uint8_t> marked_;
+  Span<std::uint8_t> near_marked_;  // marked, or next to a marked cell
+};
+
+}  // namespace pose_wall

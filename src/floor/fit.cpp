@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "floor/fit.hpp"
+
+#include <cmath>
+
+#include "base/containers/even_share.hpp"
+#include "base/estimation/irls.hpp"
+#include "base/estimation/near_plane.hpp"
+#include "base/estimation/plane_halves.hpp"
+#include "base/estimation/protection.hpp"
+#include "base/estimation/tangent_frame.hpp"
+#include "base/estimation/tukey.hpp"
+#include "base/math/elementary.hpp"
+#include "trace/trace.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kGateInThresholds = 3.0;
+// Not below the noise of one range: where voxels average tens of points their scatter is far less, and of a voxel layer
+// that the plane cuts in two the thinner half would count as outliers.
+constexpr double kScaleMin_m = 0.010;
+constexpr double kPatch_m = 0.5;
+// In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
+constexpr double kStretch = 1.25;
+// A bend is told where it takes up this much of the alert limit.
+constexpr double kBendMatters = 0.2;
+constexpr int kRounds = 5;
+constexpr int kSelections = 3;
+// Residuals up to here may be the sensor's.
+constexpr double kSensorNoise_m = 0.02;
+
+IrlsSettings irls_settings(const Settings& s) {
+  return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds, kBeforePatches};
+}
+
+// A floor that waves by more than the threshold would be cut to the parts that happen to lie in one plane.
+constexpr double kFull = 0.7;
+constexpr double kWider = 2.0;
+
+void widen(IrlsSettings* tukey) {
+  tukey->gate_m *= kWider;
+  tukey->scale_max_m *= kWider;
+}
+
+// By no more than that another selection would choose the same points.
+bool stands_still(const Plane& a, const Plane& b) {
+  constexpr double kStill = 2e-4;  // metres, and slopes
+  return std::fabs(a.d - b.d) < kStill && (a.n - b.n).cwiseAbs().maxCoeff() < kStill;
+}
+
+// Selections go by height over the plane, clear of what stands on the floor, and within the radius where the ray meets
+// the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges only, and these look
+// like a higher floor.
+Span<std::uint32_t> select(const FloorLook& look, const FloorGrid& grid, const Plane& plane, double gate_m,
+                           const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
+  const double sensor_m = plane.signed_distance(sensor_base_m);
+  if (!(sensor_m > gate_m)) return {};
+  const auto gate = static_cast<float>(gate_m), inside = static_cast<float>(sensor_m);
+  const auto radius2 = static_cast<float>(look.radius_m * look.radius_m);
+  const Eigen::Vector3f sensor = sensor_base_m.cast<float>();
+  const FourDistances distances(plane);
+  EvenShare share(look.open_most, look.open_base.count);
+  std::uint32_t count = 0;
+  for_each_four_points(
+      look.open_base, [&](std::uint32_t k, FourFloats px, FourFloats py, FourFloats pz, FourTruths counts) {
+        if (!share.takes()) return;
+        const FourFloats height = distances.of(px, py, pz);
+        counts &= (height >= -gate) & (height <= gate);
+        if (!any_of(counts)) return;
+        const FourFloats way = inside / (inside - height);  // to where the ray meets the plane
+        const FourFloats x = sensor.x() + (px - sensor.x()) * way, y = sensor.y() + (py - sensor.y()) * way;
+        const FourFloats z = sensor.z() + (pz - sensor.z()) * way;
+        counts &= x * x + y * y <= radius2;
+        if (!any_of(counts)) return;
+        counts = grid.clear_around(x, y, z, counts);
+        for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+          if (counts[lane] != 0) out[count++] = k + lane;
+        }
+      });
+  return out.first(count);
+}
+
+// Gradients of roll and pitch by the normal; see roll_pitch_of_up().
+struct Gradients {
+  Eigen::Vector3d roll, pitch;
+
+  explicit Gradients(const Eigen::Vector3d& n) {
+    const double s2 = n.y() * n.y() + n.z() * n.z();
+    const double s = std::sqrt(s2);
+    roll = Eigen::Vector3d(0.0, n.z(), -n.y()) / s2;
+    pitch = Eigen::Vector3d(-s, n.x() * n.y() / s, n.x() * n.z() / s);
+  }
+};
+
+// How an angle answers to the fit's correction (offset, slope u, slope v): the normal moves by -slope u - slope v.
+Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f) {
+  return {0.0, -gradient.dot(f.u), -gradient.dot(f.v)};
+}
+
+// In the coordinates of the fit's points, whose residuals are by the plane over theirs.
+void fill_patches(const IrlsResult& irls, double radius_m, const Eigen::Vector3d& sensor_base_m,
+                  GroundScratch* scratch) {
+  const TangentPoints& points = scratch->points;
+  const double reach_m = kStretch * radius_m;
+  scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m);
+  scratch->surface.begin(reach_m, kPatch_m);
+  // A range that errs moves a point along the ray: height and place err together, which tilts a plane that is seen over
+  // a short length. On a floor no rougher than the ranges the error is taken back along the ray, to where that meets
+  // the plane.
+  const double rougher = irls.scale_m / kScaleMin_m - 1.0;
+  const auto noise_share = static_cast<float>(rougher < 1.0 ? 1.0 - rougher : 0.0);
+  const auto inside = static_cast<float>(irls.plane.signed_distance(sensor_base_m));
+  const auto per_cutoff = static_cast<float>(1.0 / (kTukeyCutoff * irls.scale_m));
+  const double foreshortening = irls.over.foreshortening();
+  const Eigen::Vector3f sensor = points.in_frame(sensor_base_m).cast<float>();
+  for_each_four(points.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats r = points.four_distances(k, irls.over, foreshortening);
+    const FourFloats du = load_four(&points.u[k]) - sensor.x(), dv = load_four(&points.v[k]) - sensor.y();
+    const FourFloats dr = load_four(&points.r[k]) - sensor.z();
+    const FourFloats bias = (r - inside) / root_of(du * du + dv * dv + dr * dr);
+    const FourFloats way = 1.0F + noise_share * (inside / (inside - r) - 1.0F);
+    const FourFloats u = sensor.x() + du * way, v = sensor.y() + dv * way;
+    const FourFloats weights =
+        flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff) * load_four(&points.weight[k]);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] == 0 || !(weights[lane] > kPatchWeightLeast)) continue;
+      const PatchPoint point = PatchPoint::of(u[lane], v[lane], r[lane], weights[lane], bias[lane]);
+      scratch->patches.add(point);
+      scratch->surface.add(point);
+    }
+  });
+}
+
+void count_inliers(const PointSet& within_base, double thresh_m, PlaneFit* fit) {
+  const FourDistances distances(fit->plane);
+  const FourFloats thresh = all_four(static_cast<float>(thresh_m)), none{};
+  FourFloats squares{}, measured{};
+  FourInts voxels{};  // true is -1
+  for_each_four(within_base.count, [&](std::uint32_t k, FourTruths counts) {
+    const FourFloats r = distances.of(within_base, k);
+    counts &= magnitude_of(r) <= thresh;
+    squares += counts ? r * r : none;
+    measured += counts ? load_four(&within_base.weight[k]) : none;
+    voxels -= counts;
+  });
+  const std::uint32_t inside = sum_of_lanes(voxels);
+  fit->inliers = static_cast<std::uint32_t>(sum_of_lanes(measured));
+  fit->rms_m = inside > 0 ? std::sqrt(sum_of_lanes(squares) / inside) : 0.0;
+}
+
+// bend: from PatchGrid, that tells whether the floor bends as a whole; the rest is of the plane through its waves.
+void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const SurfacePatch> patches,
+                     const TangentFrame& f, const Plane& plane, const Settings& s, FloorResult* out) {
+  const Gradients gradients(plane.n);
+  const Eigen::Vector3d roll = response(gradients.roll, f), pitch = response(gradients.pitch, f);
+  out->roll_sigma_rad = std::sqrt(roll.dot(uneven.covariance * roll));
+  out->pitch_sigma_rad = std::sqrt(pitch.dot(uneven.covariance * pitch));
+  // Where the floor bends, the tilt under the machine (u = v = 0) is not that of the whole fit.
+  const Eigen::Vector3d here(0.0, bend.bend_slope_u_at(0.0, 0.0), bend.bend_slope_v_at(0.0, 0.0));
+  // A bend takes a part of a kerb into itself, and a kerb of a bend.
+  const auto not_a_plane = [&](const Eigen::Vector3d& of) {
+    return std::fabs(of.dot(here)) + reach_of_halves(patches, uneven.correction, of);
+  };
+  out->roll_bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response));
+  out->pitch_bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response));
+  out->roll_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(roll);
+  out->pitch_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
+  out->dof = uneven.dof;
+  // A floor that bends one way all along has a mean plane that is well known, and is not the one under the machine.
+  const auto level = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
+    return protection_factor(s.protection_factor, dof) * std::sqrt(of.dot(covariance * of));
+  };
+  const auto reach_to_patches = [&](const Eigen::Vector3d& of, LevelParts* bound) {
+    const double more = level(bend.covariance, bend.dof, of) - level(uneven.covariance, uneven.dof, of);
+    if (more > 0.0) (*bound)[POSE_WALL_PART_BEND] += more;
+  };
+  reach_to_patches(roll, &out->roll_bound_rad);
+  reach_to_patches(pitch, &out->pitch_bound_rad);
+  const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BEND, bent, kBendMatters * radians(s.alert_limit_angle_deg),
+                             !(bent > kBendMatters * radians(s.alert_limit_angle_deg))));
+  if (bent > kBendMatters * radians(s.alert_limit_angle_deg)) out->fit.reasons |= POSE_WALL_R_CURVED;
+}
+
+// The plane through the points about it, selected again until it stands still. The points stay in the scratch.
+IrlsResult fit_selected(const FloorLook& look, const Plane& start, const Settings& settings,
+                        const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+  IrlsSettings tukey = irls_settings(settings);
+  const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
+  IrlsResult irls;
+  irls.plane = start;
+  for (int selection = 0; selection < kSelections; ++selection) {
+    // The low points have done their work; their room holds the selection.
+    const Span<std::uint32_t> chosen =
+        select(look, scratch->grid, irls.plane, tukey.gate_m, sensor_base_m, scratch->low);
+    const Plane before = irls.plane;
+    const std::uint32_t half = look.open_most / 2, room = scratch->points.capacity();
+    const std::uint32_t taken_most = half < room ? half : room;
+    irls = irls_tukey(look.open_base, thinned(chosen, taken_most), before, u_hint, tukey, &scratch->points);
+    const std::uint32_t offered = look.open_base.count < look.open_most ? look.open_base.count : look.open_most;
+    scratch->work.add(offered, steps::kPointSelected);
+    scratch->work.add(irls.work);
+    if (scratch->work.is_spent() || !irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
+    if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
+  }
+  return irls;
+}
+
+}  // namespace
+
+FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
+                      const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+  FloorResult out;
+  const IrlsResult irls = fit_selected(look, start, settings, sensor_base_m, scratch);
+  out.fit.plane = irls.plane;
+  if (scratch->work.is_spent()) {
+    out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
+    return out;
+  }
+  if (irls.solved) fill_patches(irls, look.radius_m, sensor_base_m, scratch);
+  const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
+  const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
+  scratch->work.add(scratch->points.count, steps::kPointPatched);
+  scratch->work.add(bend.work);
+  scratch->work.add(static_cast<std::uint64_t>(patches.size()) * patches.size(), steps::kPatchesWaved);
+  const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_FIT, uneven.solved));
+  if (!uneven.solved) {
+    out.fit.refuse(POSE_WALL_R_FLOOR_THIN);
+    return out;
+  }
+  PlaneOver over = irls.over;
+  over.add(uneven.correction);
+  out.fit.plane = scratch->points.plane_of(over);
+  out.fit.found = true;
+  count_inliers(look.within_base, settings.ground_ransac_thresh, &out.fit);
+  set_uncertainty(uneven, bend, patches, scratch->points.frame, out.fit.plane, settings, &out);
+  return out;
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "floor/levelling.hpp"
+
+#include "base/math/rotation.hpp"
+#include "base/simd/four_turns.hpp"
+
+namespace pose_wall {
+
+LevelResult level_by(const Plane& floor_base, const Axes& axes) {
+  const RollPitch angles = roll_pitch_of_up(floor_base.n);
+  LevelResult level;
+  level.R_level_base = level_rotation(floor_base.n);
+  level.roll_rad = angles.roll_rad;
+  level.pitch_rad = angles.pitch_rad;
+  level.forward_up = (level.R_level_base * axes.forward_base).z();
+  level.floor_z_level_m = -floor_base.d;  // R_level takes the normal to +Z
+  return level;
+}
+
+namespace {
+
+// What lies in the band goes into the grid, an even part of what does not into beyond_level.
+void part_by_height(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+                    PointSet* beyond_level) {
+  const auto z_min = static_cast<float>(level.floor_z_level_m + settings.wall_z_min);
+  const auto z_max = static_cast<float>(level.floor_z_level_m + settings.wall_z_max);
+  // The band is averaged over cells of twice the size, some three times the area: one of three keeps the balance.
+  constexpr std::uint32_t kBalance = 3;
+  const std::uint32_t share = cloud_base.count / (kBalance * kBeyondMax) + 1, every = kBalance * share;
+  beyond_level->count = 0;
+  grid->begin(settings.wall_voxel_leaf, reach_of(settings));
+  std::uint32_t until_next = 0;
+  VoxelGrid::Filling band(grid);
+  const FourTurns to_level(level.R_level_base);
+  for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourPlaces p = to_level.turned(x, y, z);
+    const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max), beyond = counts & ~in_band;
+    if (any_of(in_band)) {
+      std::uint64_t keys[kFour];
+      VoxelGrid::Sums sums[kFour];
+      const FourFloats none{}, sixteenths = load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F;
+      const FourInts weights = cut_off(in_band ? sixteenths : none);
+      grid->split(in_band ? p.x : none, in_band ? p.y : none, in_band ? p.z : none,
+                  reinterpret_cast<FourWords>(weights), keys, sums);
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+        // There is room: never more cells than points, and both grids have the same capacity.
+        if (in_band[lane] != 0) band.add(keys[lane], sums[lane]);
+      }
+    }
+    if (!any_of(beyond)) return;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (beyond[lane] == 0) continue;
+      if (until_next == 0) {
+        beyond_level->add(p.x[lane], p.y[lane], p.z[lane], static_cast<float>(share));
+        until_next = every - 1;
+      } else {
+        --until_next;
+      }
+    }
+  });
+}
+
+}  // namespace
+
+void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+                   BoundedPoints* band_level, BoundedPoints* beyond_level) {
+  part_by_height(cloud_base, level, settings, grid, beyond_level);
+  // The cloud is in an order of its own already, whatever that of the points was.
+  grid->extract_as_they_came(band_level);
+  band_level->bound();
+  beyond_level->bound();
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "output/quality.hpp"
+
+#include <cmath>
+
+#include "base/estimation/protection.hpp"
+#include "base/math/elementary.hpp"
+#include "base/math/finite.hpp"
+#include "base/math/larger.hpp"
+#include "trace/trace.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kWeakFloor = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_CURVED;
+constexpr std::uint32_t kWeakWall =
+    POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_WALL_FEW_INLIERS | POSE_WALL_R_CURVED;
+// Walls that differ by more than this many standard deviations are not parallel: the road has no one direction.
+constexpr double kSplayInSigmas = 3.0;
+// By so many they differ by chance. Where it is more, the rock is known less well than it seems: the standard deviation
+// is stretched until they differ by no more than this (Birge 1932), up to kSplayInSigmas.
+constexpr double kLikelyInSigmas = 2.0;
+// No part of the chain is better known than this.
+constexpr double kSigmaMinAngle_rad = 1e-5;
+constexpr double kSigmaMinDistance_m = 1e-4;
+// Ribs move a wall to one side by a bounded amount: two of their standard deviations, not five.
+constexpr double kLayerFactor = 2.0;
+constexpr double kDofMin = 4.0;
+
+double with_floor(double sigma, double least) {
+  return std::sqrt(sigma * sigma + least * least);
+}
+
+// A standard deviation that was itself estimated from few pieces: the errors follow Student's t, whose own is larger.
+double predictive(double sigma, double dof) {
+  return dof > kDofMin ? sigma * std::sqrt(dof / (dof - 2.0)) : sigma * std::sqrt(kDofMin / (kDofMin - 2.0));
+}
+
+Measurement measurement(double raw, double sigma, const LevelParts& bound, double dof, const Settings& s) {
+  Measurement m;
+  m.raw = raw;
+  m.sigma = predictive(sigma, dof);
+  m.level = bound;
+  m.level[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_factor, dof) * sigma;
+  // What has no bound is no measurement.
+  m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.level.sum());
+  if (!m.measured) m.reasons = POSE_WALL_R_ALERT_LIMIT;
+  return m;
+}
+
+void measure_floor(const FloorResult& floor, const LevelResult& level, const Settings& s, Measurement* roll,
+                   Measurement* pitch) {
+  if (!floor.fit.refused) {
+    *roll = measurement(level.roll_rad, with_floor(floor.roll_sigma_rad, kSigmaMinAngle_rad), floor.roll_bound_rad,
+                        floor.dof, s);
+    *pitch = measurement(level.pitch_rad, with_floor(floor.pitch_sigma_rad, kSigmaMinAngle_rad), floor.pitch_bound_rad,
+                         floor.dof, s);
+  }
+  for (Measurement* m : {roll, pitch}) {
+    m->reasons |= floor.fit.reasons;
+    m->weak = (floor.fit.reasons & kWeakFloor) != 0;
+  }
+}
+
+void measure_distances(const WallResult& wall, const Settings& s, Measurement* front, Measurement* back) {
+  Measurement* const ends[2] = {front, back};
+  for (int end = 0; end < 2; ++end) {
+    Measurement& m = *ends[end];
+    if (!wall.fit.refused) {
+      LevelParts bound = wall.distance_bound_m[end];
+      bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m;
+      m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m), bound,
+                      wall.dof, s);
+      m.sigma = with_floor(m.sigma, wall.layer_sigma_m);
+      if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
+    }
+    m.reasons |= wall.fit.reasons;
+    m.weak = (m.reasons & (kWeakWall | POSE_WALL_R_EXTRAPOLATED)) != 0;
+  }
+}
+
+// How much of an error of the floor turns into yaw: a leaning wall, or a machine that looks up or down, turns part of a
+// tilt about the road into a turn about the vertical.
+double tilt_to_yaw(const WallResult& wall, const LevelResult& level) {
+  const double lean = sine(wall.lean_rad) / cosine(wall.lean_rad);
+  const double up = level.forward_up;
+  return std::fabs(lean) + std::fabs(up) / std::sqrt(1.0 - up * up);
+}
+
+// Of a wall's own bound, and of the floor's larger one.
+LevelParts yaw_bound_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
+  const bool by_roll = floor.roll_bound_rad.sum() > floor.pitch_bound_rad.sum();
+  LevelParts bound = wall.yaw_bound_rad;
+  bound.add(by_roll ? floor.roll_bound_rad : floor.pitch_bound_rad, tilt_to_yaw(wall, level));
+  return bound;
+}
+
+// Adds what the floor's tilt turns into yaw: one error, whatever the number of walls.
+Measurement yaw_measurement(double raw, double walls_variance, const LevelParts& bound, double dof, double tilt_share,
+                            const FloorResult& floor, const Settings& s) {
+  const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_share;
+  const double variance = walls_variance + tilt * tilt;
+  // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
+  const double both = walls_variance * walls_variance / dof + tilt * tilt * tilt * tilt / floor.dof;
+  const double dof_of_sum = both > 0.0 ? variance * variance / both : dof;
+  return measurement(raw, with_floor(std::sqrt(variance), kSigmaMinAngle_rad), bound, dof_of_sum, s);
+}
+
+Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const LevelResult& level, const Settings& s) {
+  LevelParts bound = yaw_bound_of(wall, floor, level);
+  bound[POSE_WALL_PART_RIVAL] += wall.yaw_to_rival_rad;
+  bound[POSE_WALL_PART_RANGE_BIAS] += s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound, wall.dof_slope,
+                         tilt_to_yaw(wall, level), floor, s);
+}
+
+// Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
+// in the mean as far as the weights are alike; the signed responses say how far.
+Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const LevelResult& level,
+                        const Settings& s) {
+  double variance[2] = {}, information = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const double sigma = with_floor(walls[side].yaw_sigma_rad, kSigmaMinAngle_rad);
+    variance[side] = sigma * sigma;
+    information += 1.0 / variance[side];
+  }
+  const double w[2] = {1.0 / (variance[0] * information), 1.0 / (variance[1] * information)};
+  const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
+  const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
+  LevelParts bound;
+  bound[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(bias);
+  for (int side = 0; side < 2; ++side) bound.add(yaw_bound_of(walls[side], floor, level), w[side]);
+  // Where a road bends ahead, both walls may be those behind the bend: the other one does not vouch for either.
+  bound[POSE_WALL_PART_RIVAL] += larger(walls[0].yaw_to_rival_rad, walls[1].yaw_to_rival_rad);
+  const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
+  const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
+  const double apart_in_sigmas = (difference - biased_apart) / std::sqrt(variance[0] + variance[1]);
+  const bool splayed = apart_in_sigmas > kSplayInSigmas;
+  // The road's own direction lies between the walls'; the mean may lie at either.
+  if (splayed) bound[POSE_WALL_PART_BEND] += larger(w[0], w[1]) * difference;
+  const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
+  // A wall that looks precise by chance must not lend the other its degrees of freedom.
+  const double dof = 1.0 / (w[0] * w[0] / walls[0].dof_slope + w[1] * w[1] / walls[1].dof_slope);
+  const double tilt_share = larger(tilt_to_yaw(walls[0], level), tilt_to_yaw(walls[1], level));
+  return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
+}
+
+Measurement measure_yaw(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],
+                        const Settings& s) {
+  const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
+  Measurement m;
+  if (left && right) {
+    m = yaw_by_both(walls, floor, level, s);
+  } else if (left || right) {
+    m = yaw_by_one(walls[left ? 0 : 1], floor, level, s);
+  }
+  std::uint32_t doubts = 0;
+  for (const WallResult& wall : walls) {
+    // With one wall left, the reasons of the other do not speak against yaw; with none, they explain it.
+    if (!wall.fit.refused || !m.measured) doubts |= wall.fit.reasons;
+  }
+  m.reasons |= doubts;
+  m.weak = (doubts & (kWeakWall | POSE_WALL_R_EXTRAPOLATED)) != 0;
+  return m;
+}
+
+}  // namespace
+
+void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
+  constexpr double kShareOfReturns = 0.02;
+  // Of what came back: whether the others are left out, zero or not finite must not matter.
+  const double returns = static_cast<double>(counts.points_in - counts.dropped_not_finite - counts.dropped_zero);
+  const Quadrant sides[2] = {kLeft, kRight};
+  for (int side = 0; side < 2; ++side) {
+    const std::uint32_t near = counts.near_by_quadrant[sides[side]], kept = counts.kept_by_quadrant[sides[side]];
+    POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALL_NEAR, near,
+                                  larger(kept, kShareOfReturns * returns),
+                                  near <= kept || near < kShareOfReturns * returns));
+    if (near <= kept || static_cast<double>(near) < kShareOfReturns * returns) continue;
+    WallResult& blocked = (*walls)[side];
+    WallResult& other = (*walls)[1 - side];
+    // Blocked or not, it may have known the road's direction better than the one that is left.
+    if (blocked.fit.found && !blocked.fit.refused) {
+      other.reach_to_other_side(std::fabs(blocked.yaw_rad - other.yaw_rad));
+    }
+    blocked.fit.refuse(POSE_WALL_R_WALL_TOO_NEAR);
+  }
+}
+
+Measurements measure_quantities(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],
+                                const Settings& settings) {
+  Measurements out;
+  Measurement* const q = out.quantity;
+  measure_floor(floor, level, settings, &q[POSE_WALL_ROLL], &q[POSE_WALL_PITCH]);
+  q[POSE_WALL_YAW] = measure_yaw(floor, level, walls, settings);
+  measure_distances(walls[0], settings, &q[POSE_WALL_D_LF], &q[POSE_WALL_D_LB]);
+  measure_distances(walls[1], settings, &q[POSE_WALL_D_RF], &q[POSE_WALL_D_RB]);
+  out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;
+  out.left_right_yaw_difference_rad = walls[0].yaw_rad - walls[1].yaw_rad;
+  for (std::uint32_t i = 0; i < POSE_WALL_QUANTITIES; ++i) {
+    const double protection = q[i].level.sum(), limit = alert_limit(i, settings);
+    POSE_WALL_NOTE(if ((q[i].reasons & POSE_WALL_R_ALERT_LIMIT) != 0 || q[i].measured) trace::gate_of(
+        POSE_WALL_TRACE_QUANTITY + i, POSE_WALL_TRACE_LEVEL_RAW, protection, limit, protection <= limit));
+    if (q[i].measured && !(protection <= limit)) q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
+  }
+  return out;
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "walls/choose/across.hpp"
+
+#include <cmath>
+
+#include "base/math/elementary.hpp"
+#include "base/simd/four_floats.hpp"
+#include "trace/trace.hpp"
+
+namespace pose_wall {
+namespace {
+
+// How many points of the band there are beside the machine, in cells as a plane across it has, wherever along the
+// machine they lie.
+struct PointsBeside {
+  std::uint16_t in_cell[WallGrid::kRowsMax][WallGrid::kColumns] = {};
+  std::uint32_t beyond = 0;
+};
+
+void count_points(const WallScene& scene, const WallGrid::Rows& rows, PointsBeside* points) {
+  const auto left_x = static_cast<float>(scene.left_level.x()), left_y = static_cast<float>(scene.left_level.y());
+  const auto count = [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourInts cell = rows.cells_of(left_x * x + left_y * y, z);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] == 0) continue;
+      if (cell[lane] < 0) {
+        ++points->beyond;
+        continue;
+      }
+      const auto c = static_cast<std::uint32_t>(cell[lane]);
+      std::uint16_t* const there = &points->in_cell[c / WallGrid::kColumns][c % WallGrid::kColumns];
+      if (*there < 0xFFFF) ++*there;
+    }
+  };
+  for_each_four_points(scene.band_level, count);
+}
+
+// Cells side by side that hold points, and a plane that crosses them: so many of its columns for each, and some at the
+// ends.
+struct Crossing {
+  double columns_each, columns_at_ends;
+};
+
+Crossing crossing_of(const Settings& s, double row_m) {
+  const double cosine_least = cosine(radians(s.yaw_max_deg + kRefineSlack_deg));
+  const double lean_cosine = cosine(radians(s.wall_lean_max_deg));
+  const double sine = std::sqrt(1.0 - cosine_least * cosine_least);
+  const double lean_sine = std::sqrt(1.0 - lean_cosine * lean_cosine);
+  // Points of one row lie this far before and behind each other, by the plane's lean and by what counts as on it.
+  const double depth_m = (row_m * lean_sine + 2.0 * s.wall_ransac_thresh) / lean_cosine;
+  // Ends that lie within columns touch one more each.
+  return {1.0 / cosine_least, 2.0 + depth_m * sine / (cosine_least * WallGrid::kColumn_m)};
+}
+
+constexpr double kCellsPerPoint = 0.5;  // a cell is solid by two points at least
+
+// That can be solid in one row of a plane.
+double most_cells(const std::uint16_t (&points)[WallGrid::kColumns], const Crossing& crossing) {
+  double cells = 0.0;
+  std::uint32_t run = 0, in_run = 0;
+  for (std::uint32_t c = 0; c <= WallGrid::kColumns; ++c) {
+    const std::uint32_t here = c < WallGrid::kColumns ? points[c] : 0;
+    if (here > 0) {
+      ++run;
+      in_run += here;
+    } else if (run > 0) {
+      const double by_place = run * crossing.columns_each + crossing.columns_at_ends;
+      const double by_points = kCellsPerPoint * in_run;
+      cells += by_place < by_points ? by_place : by_points;
+      run = in_run = 0;
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+double most_area_across_m2(const WallScene& scene) {
+  const WallGrid::Rows rows = WallGrid::rows_of(scene);
+  const Crossing crossing = crossing_of(scene.settings, rows.height_m);
+  PointsBeside points;
+  count_points(scene, rows, &points);
+  double cells = kCellsPerPoint * points.beyond;
+  for (std::uint32_t row = 0; row < rows.count; ++row) cells += most_cells(points.in_cell[row], crossing);
+  return cells * WallGrid::kColumn_m * rows.height_m;
+}
+
+bool may_stand_across(double pair_m2, const WallChoice& choice) {
+  if (!choice.any()) return true;  // what stands across may tell why
+  const bool may = pair_m2 > choice.score_m2;
+  POSE_WALL_NOTE(
+      if (!may) trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair_m2 / choice.score_m2, 1.0, true));
+  return may;
+}
+
+bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice) {
+  constexpr double kMissedAtMost = 0.15;
+  return may_stand_across(ahead_m2 + kMissedAtMost * choice.score_m2 + most_behind_m2, choice);
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "walls/fit/surface.hpp"
+
+#include <cmath>
+
+#include "base/containers/even_share.hpp"
+#include "base/estimation/near_plane.hpp"
+#include "walls/fit/bends.hpp"
+#include "walls/fit/groove_profile.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kScaleMin_m = 0.003;
+constexpr double kWideInThresholds = 5.0;
+constexpr double kNarrowInThresholds = 3.0;
+constexpr double kGateInThresholds = 4.0;
+// Points this far behind a plane passed through it. Below, they are the rock's own roughness.
+constexpr double kBehindInThresholds = 3.0;
+constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
+// What the strips may have moved the surface by, of their step; measured on simulated steel sets.
+constexpr double kStripsLeftOver = 0.05;
+// What a split into two layers may leave of the nearer one in the surface, of its share times its step.
+constexpr double kLayersLeftOver = 0.5;
+// A wall is fitted twice at most, with all that tells its surface: as it is seen, and again once what bends is cut off.
+// How much that is, fits between the two tell, on fewer points and without covariance; all they are asked is whether
+// the surface still bends.
+constexpr int kCutsMax = 6;
+// Shares of a whole fit's points: a cut asks less than a fit does, and the second fit may cost half the first.
+constexpr std::uint32_t kCutPointsMax = WallPoints::kMost * 3 / 8, kAgainPointsMax = WallPoints::kMost / 2;
+constexpr int kQuickRounds = 3;
+constexpr std::uint32_t kQuickPointsMax = 500;
+constexpr int kRounds = 8;
+
+IrlsSettings fit_settings(const Settings& s) {
+  const double thresh_m = s.wall_ransac_thresh;
+  return {kGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds, kBeforePatches};
+}
+
+// Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
+void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along, const Heights& heights,
+            double gate_m, std::uint32_t most, const WallGrid& grid, WallFitScratch* scratch) {
+  const BoundedPoints& band = scene.band_level;
+  const Slab slab(start, gate_m);
+  const auto along_x = static_cast<float>(along.x()), along_y = static_cast<float>(along.y());
+  const FourFloats lowest = all_four(static_cast<float>(heights.min_m)), none{};
+  const FourFloats highest = all_four(static_cast<float>(heights.max_m));
+  std::uint32_t count = 0;
+  FourFloats weights{};
+  for_each_four_about(band, slab, [&](std::uint32_t i, FourTruths counts) {
+    const FourFloats x = load_four(&band.x[i]), y = load_four(&band.y[i]), z = load_four(&band.z[i]);
+    counts &= slab.holds(x, y, z) & (z >= lowest) & (z <= highest);
+    if (!any_of(counts)) return;
+    counts = grid.solid_at(along_x * x + along_y * y, z, counts);
+    weights += counts ? load_four(&band.weight[i]) : none;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (counts[lane] != 0) scratch->near[count++] = i + lane;
+    }
+  });
+  const double measured = sum_of_lanes(weights);
+  WallPoints& points = scratch->points;
+  points.begin(scene, start, along);
+  points.add(scene.band_level, thinned(scratch->near.first(count), most));
+  double taken = 0.0;
+  for (std::uint32_t k = 0; k < points.at.count; ++k) taken += static_cast<double>(points.at.weight[k]);
+  points.measured_per_weight = taken > 0.0 ? measured / taken : 1.0;
+  points.sort_by_patch(&scratch->patches, scratch->near);
+  scratch->work.add(band.count, steps::kPointGathered);
+  scratch->work.add(points.at.count, steps::kPointTaken);
+}
+
+bool is_grooved(const WallScene& scene, const WallSurface& surface) {
+  const WallPoints& points = *surface.points;
+  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, points.sensor.x());
+  const double foreshortening = surface.irls.over.foreshortening();
+  for_each_four(points.at.count, [&](std::uint32_t k, FourTruths counts) {
+    profile.add(load_four(&points.at.u[k]), points.four_z_level_m(k),
+                points.at.four_distances(k, surface.irls.over, foreshortening), counts);
+  });
+  return profile.is_grooved();
+}
+
+WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along,
+                        const Heights& heights, std::uint32_t points_most, const WallGrid& grid,
+                        WallFitScratch* scratch) {
+  const IrlsSettings settings = fit_settings(scene.settings);
+  gather(scene, start, along, heights, settings.gate_m, points_most, grid, scratch);
+  WallSurface fit;
+  fit.heights = heights;
+  fit.points = &scratch->points;
+  fit.irls = irls_tukey(scratch->points.at, scratch->points.at.count, PlaneOver{}, settings);
+  scratch->work.add(fit.irls.work);
+  if (!fit.irls.solved) return fit;
+  set_strips_apart(settings, scratch, &fit);
+  if (scratch->work.is_spent()) return fit;
+  // Before the layers: the fronts of pipes may be taken for the nearer one.
+  fit.grooved = fit.irls.solved && is_grooved(scene, fit);
+  if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
+  if (!fit.irls.solved) return fit;
+  if (!join_fronts(scratch, &fit)) fit_patches(PatchGrid::Errors::kMeasured, scratch, &fit);
+  const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
+  const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
+  fit.layer_sigma_m =
+      std::sqrt(fit.patch.visibility_m * fit.patch.visibility_m + left_over_m * left_over_m + layers_m * layers_m);
+  return fit;
+}
+
+// Of points that were gathered between wider heights. Strips are where they were.
+WallSurface fit_for_a_cut(const IrlsSettings& settings, const Heights& heights, const StripProfile* strips,
+                          WallFitScratch* scratch) {
+  WallPoints& points = scratch->points;
+  for (std::uint32_t k = 0; k < points.at.count; ++k) points.spare[k] = heights.contain(points.z_level_m(k)) ? 1 : 0;
+  points.keep(points.spare);
+  if (strips != nullptr) points.mark_columns(*strips, scratch->near);
+  if (strips != nullptr) points.copy_surface();
+  const TangentPoints& of = strips != nullptr ? points.surface : points.at;
+  WallSurface fit;
+  fit.heights = heights;
+  fit.points = &points;
+  fit.strips = strips;
+  fit.irls = irls_tukey(of, of.count, PlaneOver{}, settings);
+  scratch->work.add(points.at.count, strips != nullptr ? steps::kPointByColumn : 0);
+  scratch->work.add(points.at.count, steps::kPointBent);
+  scratch->work.add(fit.irls.work);
+  if (fit.irls.solved) fit_patches(PatchGrid::Errors::kBend, scratch, &fit);
+  return fit;
+}
+
+// Where the surface bends off the rest of it.
+void cut(const WallScene& scene, const WallSurface& fit, const Plane& start, const Eigen::Vector3d& along,
+         const WallGrid& grid, WallFitScratch* scratch, Heights* heights) {
+  const IrlsSettings settings = fit_settings(scene.settings);
+  gather(scene, start, along, *heights, settings.gate_m, kCutPointsMax, grid, scratch);
+  for (int cuts = 1; cuts < kCutsMax && !scratch->work.is_spent(); ++cuts) {
+    const WallSurface part = fit_for_a_cut(settings, *heights, fit.strips, scratch);
+    if (!part.patch.solved || !cut_bent_rows(part, heights)) return;
+  }
+}
+
+}  // namespace
+
+Span<std::uint32_t> points_near(const BoundedPoints& points, const Plane& plane, double gate_m,
+                                Span<std::uint32_t> out) {
+  std::uint32_t count = 0;
+  for_each_in(points, Slab(plane, gate_m), [&](std::uint32_t i, float) { out[count++] = i; });
+  return out.first(count);
+}
+
+bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
+                       RefineWidth width, WallFitScratch* scratch, Plane* plane) {
+  const IrlsSettings quick = quick_irls(kNarrowInThresholds * thresh_m, kScaleMin_m, thresh_m, kQuickRounds);
+  const double gate_m = (width == RefineWidth::kWide ? kWideInThresholds : kNarrowInThresholds) * thresh_m;
+  const Span<std::uint32_t> near = thinned(points_near(band_level, *plane, gate_m, scratch->near), kQuickPointsMax);
+  const IrlsResult refined = irls_tukey(band_level, near, *plane, along_level, quick, &scratch->points.at);
+  if (refined.solved) *plane = refined.plane;
+  return refined.solved;
+}
+
+void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level, MarkWidth width,
+               WallGrid* grid) {
+  const double thresh_m = scene.settings.wall_ransac_thresh;
+  const WallGrid::Reach reach = width == MarkWidth::kThreshold
+                                    ? WallGrid::Reach{thresh_m, kBehindInThresholds * thresh_m}
+                                    : WallGrid::Reach{kGateInThresholds * thresh_m, kGateInThresholds * thresh_m};
+  grid->mark(scene, plane, along_level, reach);
+}
+
+WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch) {
+  const Eigen::Vector3d along = along_of(start, scene.forward_level);
+  mark_wall(scene, start, along, MarkWidth::kFit, grid);
+  scratch->work.add(2ULL * scene.band_level.count, steps::kPointMarked);  // now, and once it is fitted
+  Heights heights{scene.z_min_level_m, scene.z_max_level_m};
+  WallSurface fit = fit_between(scene, start, along, heights, WallPoints::kMost, *grid, scratch);
+  if (fit.patch.solved && !scratch->work.is_spent() && cut_bent_rows(fit, &heights)) {
+    cut(scene, fit, start, along, *grid, scratch, &heights);
+    if (scratch->work.is_spent()) return fit;
+    fit = fit_between(scene, start, along, heights, kAgainPointsMax, *grid, scratch);
+  }
+  mark_wall(scene, fit.irls_plane(), along, MarkWidth::kThreshold, grid);
+  return fit;
+}
+
+}  // namespace pose_wall

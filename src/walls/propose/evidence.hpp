@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What speaks for a plane being a wall, and what against it: area that is solid, and area that is seen through.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "base/containers/arena.hpp"
+#include "base/containers/point_set.hpp"
+#include "base/estimation/plane.hpp"
+#include "base/simd/four_floats.hpp"
+#include "walls/scene.hpp"
+
+namespace pose_wall {
+
+struct WallEvidence {
+  double score_m2 = 0.0;      // solid area, reduced by what is seen through
+  double area_m2 = 0.0;       // solid area
+  double seen_through = 0.0;  // share of the plane's own columns that is seen through, 0..1
+  double length_m = 0.0;      // solid columns along the road
+  double along_min_m = 0.0;
+  double along_max_m = 0.0;
+  double away_m = 1e3;        // along it, from the machine to the nearest two solid columns side by side
+  std::uint32_t inliers = 0;  // measured points on the plane
+  double stopped = 0.0;       // share of the returns at or behind it that came from it, wherever it may have gaps, 0..1
+};
+
+// A plane cut into cells along the road and up. A cell is solid when points lie on the plane there, and seen through
+// when rays pass the plane there and end well behind it. A wall is solid wherever it is seen at all; a pipe, a row of
+// props or a conveyor is solid in some rows or columns and seen through in the others. How many points there are does
+// not matter, so neither does how near or shiny a thing is.
+class WallGrid {
+ public:
+  static constexpr std::uint32_t kColumns = 128;
+  static constexpr std::uint32_t kRowsMax = 16;
+  static constexpr double kColumn_m = 0.5;
+
+  void lay_out(Arena& arena);
+
+  // The rows that the wall band is cut into; with the columns they make the cells.
+  struct Rows {
+    std::uint32_t count = 1;
+    double z_min_level_m = 0.0, height_m = 0.3;
+
+    double per_m() const { return 1.0 / height_m; }
+    // Row by row; negative outside. Of places along a line, and up.
+    FourInts cells_of(FourFloats along_m, FourFloats z_level_m) const;
+  };
+  static Rows rows_of(const WallScene& scene);
+
+  // along: horizontal, in the plane's direction. Points within hit_m of the plane make it solid; rays that end more
+  // than behind_m behind it pass through it, wherever they end: behind pipes before a dark wall, only the floor and the
+  // roof are seen.
+  struct Reach {
+    double hit_m;
+    double behind_m;
+  };
+  void mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach);
+  WallEvidence evidence() const;
+
+  // Distance along the road from a place to the nearest solid column; large where there is none.
+  double gap_to_solid_m(double along_m) const;
+  bool is_solid_at(double along_m) const;
+  // Of four points, of those that count, the ones where the plane is solid.
+  FourTruths solid_at(FourFloats along_m, FourFloats z_level_m, FourTruths counts) const;
+
+ private:
+  class FourMarks;
+  enum class Rays { kOneAPoint, kByWeight };
+  void mark_points(const BoundedPoints& points, Rays rays, FourMarks* marks);
+  std::uint16_t hits(std::uint32_t cell) const { return counters_[cell]; }
+  std::uint16_t through(std::uint32_t cell) const { return counters_[kCells + cell]; }
+  bool solid(std::uint32_t cell) const { return hits(cell) >= 2 && hits(cell) >= through(cell); }
+  bool open(std::uint32_t cell) const { return through(cell) >= 2 && through(cell) > hits(cell); }
+  void count_rows(std::uint32_t column);
+  bool column_is_solid(std::uint32_t column) const {
+    return solid_rows_[column] > 0 && solid_rows_[column] >= open_rows_[column];
+  }
+
+  static constexpr std::uint32_t kCells = kColumns * kRowsMax;
+  Span<std::uint16_t> counters_;  // hits of each cell, what passes through each, and whatever lies in none
+  std::uint8_t solid_rows_[kColumns] = {}, open_rows_[kColumns] = {};
+  Rows rows_;
+  double inliers_ = 0.0, passed_ = 0.0;  // measured points on it, and behind it
+};
+
+}  // namespace pose_wall

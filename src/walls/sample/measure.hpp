@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What a wall's surface says of yaw and of the distances at the sampling points.
+
+#pragma once
+
+#include "types.hpp"
+#include "walls/fit/surface.hpp"
+
+namespace pose_wall {
+
+// side: 0 left, 1 right. grid: marked with the RANSAC threshold.
+WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid);
+
+}  // namespace pose_wall

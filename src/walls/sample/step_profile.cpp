@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "walls/sample/step_profile.hpp"
+
+#include <cmath>
+
+#include "base/math/bits.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr std::uint32_t kNear = 2;    // slices: so well is the place known, and where a voxel's points lie in it
+constexpr std::uint32_t kRunMin = 6;  // slices
+constexpr std::uint32_t kPointsMin = 10;
+constexpr std::uint32_t kOffPerOn = 8;  // at an edge, a voxel may hold points of both
+
+// 64 of 0.05, from 58 degrees below the horizontal to as much above it.
+std::uint64_t elevation_bit(double elevation) {
+  const double bit = 20.0 * elevation + 32.0;
+  return bit >= 0.0 && bit < 64.0 ? std::uint64_t{1} << static_cast<std::uint32_t>(bit) : 0U;
+}
+
+}  // namespace
+
+void StepProfile::add(double beside_m, double residual_m, double elevation) {
+  const double place = (beside_m + kHalf_m) * (1.0 / kSlice_m);
+  if (!(place >= 0.0 && place < kCount)) return;
+  const auto slice = static_cast<std::uint32_t>(place), part = slice / kSlicesPerPart;
+  Slice& at = slices_[slice];
+  const std::uint64_t bit = elevation_bit(elevation);
+  elevations_ |= bit;
+  const double off_m = std::fabs(residual_m);
+  if (!(off_m >= step_m_)) {
+    ++at.on;
+    return;
+  }
+  at.off[residual_m > 0.0 ? kStepsOut : kStepsBack].add(off_m);
+  const double depth = residual_m * (1.0 / kDepth_m);
+  if (depth >= kHides && depth < kDepths) {
+    Before& before = before_[static_cast<std::uint32_t>(depth)][part];
+    before.elevations |= bit;
+    ++before.count;
+  }
+}
+
+bool StepProfile::lies_on(std::uint32_t slice, Way way) const {
+  return slices_[slice].on * kOffPerOn > slices_[slice].off[way].count;
+}
+
+bool StepProfile::is_seen(std::uint32_t slice) const {
+  constexpr std::uint32_t kSeen = 2;  // one may be a stray
+  return slices_[slice].on >= kSeen;
+}
+
+double StepProfile::hole_m() const {
+  std::uint32_t first = kCount / 2, last = kCount / 2;
+  while (first > 0 && !is_seen(first - 1)) --first;
+  while (last < kCount && !is_seen(last)) ++last;
+  return first == 0 || last == kCount ? 2.0 * kHalf_m : (last - first) * kSlice_m;
+}
+
+// Slices without a point neither end a step nor make one longer at its ends.
+double StepProfile::step(Way way) const {
+  constexpr std::uint32_t kPlace = kCount / 2;
+  for (std::uint32_t k = 0; k < kCount; ++k) {
+    if (lies_on(k, way)) continue;
+    std::uint32_t first = kCount, last = 0;
+    Off total;
+    for (; k < kCount && !lies_on(k, way); ++k) {
+      const Off& off = slices_[k].off[way];
+      if (off.count == 0) continue;
+      if (first == kCount) first = k;
+      last = k;
+      total.count += off.count;
+      total.sum_m += off.sum_m;
+    }
+    const bool at_place = first < kPlace + kNear && last + 1 + kNear > kPlace;
+    if (total.count >= kPointsMin && at_place && last + 1 - first >= kRunMin) return total.sum_m / total.count;
+  }
+  return 0.0;
+}
+
+// By what lies in two steps of depth: dust takes all elevations, too, but is no surface, nor as dense.
+bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
+  constexpr std::uint32_t kOnPerBefore = 2;
+  const Before &far = before_[depth][part], &near = before_[depth + 1][part];
+  std::uint32_t on = 0;
+  for (std::uint32_t k = 0; k < kSlicesPerPart; ++k) on += slices_[part * kSlicesPerPart + k].on;
+  const int seen = bits_in(elevations_);
+  return has_bits(far.elevations | near.elevations, seen - seen / 4) && kOnPerBefore * (far.count + near.count) >= on;
+}
+
+// By how much what hides the plane around the place lies before it, at most.
+double StepProfile::hides_m() const {
+  constexpr std::uint32_t kPartsMin = 3;
+  for (std::uint32_t depth = kDepths; depth-- > kHides;) {
+    std::uint32_t first = kParts / 2, last = kParts / 2;
+    while (first > 0 && hides_plane(depth, first - 1)) --first;
+    while (last < kParts && hides_plane(depth, last)) ++last;
+    if (last - first >= kPartsMin) return (depth + 2) * kDepth_m;
+  }
+  return 0.0;
+}
+
+}  // namespace pose_wall

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Where the walls are looked at from, and how a plane is read as a wall.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "base/containers/bounded_points.hpp"
+#include "base/estimation/plane.hpp"
+#include "cloud/direction_grid.hpp"
+#include "config.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+// Returns this far behind a plane have passed through it: hollows of rough rock are not behind the wall.
+constexpr double kWellBehind_m = 0.25;
+
+// What the walls are looked for in: the machine, levelled.
+struct WallScene {
+  const BoundedPoints& band_level;
+  const BoundedPoints& beyond_level;  // above and below the band; weight: how many each stands for
+  const BoundedPoints& cloud_base;    // all points, before the band was cut
+  const ReturnsByDirection& returns_lidar;
+  const Settings& settings;
+  const Extrinsic& extrinsic;
+  Eigen::Matrix3d R_level_base;
+  Eigen::Vector3d forward_level;  // horizontal, unit
+  Eigen::Vector3d left_level;     // Z x forward
+  Eigen::Vector3d sensor_level_m;
+  Eigen::Vector3d sample_level_m[2][2];  // [left, right][s_front, s_back]
+  double z_min_level_m;                  // the wall band
+  double z_max_level_m;
+
+  bool in_band(double z_level_m) const { return z_level_m >= z_min_level_m && z_level_m <= z_max_level_m; }
+};
+
+WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyond_level,
+                     const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
+                     const LevelResult& level, const Axes& axes, const Extrinsic& extrinsic);
+
+// What lies this near to a wall's plane, to either side, is the wall.
+inline double on_wall_m(const Settings& settings) {
+  constexpr double kInThresholds = 3.0;
+  return kInThresholds * settings.wall_ransac_thresh;
+}
+
+// Share of the way from the sensor, sensor_inside_m before a plane, to a point behind it (signed distance r_m < 0) at
+// which the ray passes the plane.
+inline double way_to_plane(double sensor_inside_m, double r_m) {
+  return sensor_inside_m / (sensor_inside_m - r_m);
+}
+
+// Horizontal direction of a wall, towards the machine's front.
+Eigen::Vector3d along_of(const Plane& wall, const Eigen::Vector3d& forward_level);
+
+// Signed angle about +Z from the machine's forward direction to a horizontal unit direction.
+double yaw_of(const Eigen::Vector3d& along_level, const Eigen::Vector3d& forward_level);
+
+// Tilt from the vertical, positive where the top leans away from the machine.
+double lean_of(const Plane& wall);
+
+// Distance of the plane at a sampling point (d = |n . P + d|).
+double distance_at(const Plane& wall, const Eigen::Vector3d& sample_level_m);
+
+}  // namespace pose_wall
