@@ -43,7 +43,7 @@ PclCloud::Ptr wall_band(const PclCloud& cloud, const Eigen::Matrix3d& R_level_ba
                        s.wall_voxel_leaf_m);
 }
 
-Eigen::Matrix3d level_by(const PclPlane& floor, PclReading* out) {
+Eigen::Matrix3d levelling_by(const PclPlane& floor, PclReading* out) {
   const Eigen::Vector3d& n = floor.normal;
   const double roll = std::atan2(n.y(), n.z()), pitch = std::atan2(-n.x(), std::hypot(n.y(), n.z()));
   out->value[POSE_WALL_ROLL] = roll;
@@ -87,10 +87,10 @@ PclReading measure_with_pcl(const std::vector<float>& xyz_intensity_lidar, const
   const PclPlaneSearch floor_search{pcl::SACMODEL_PERPENDICULAR_PLANE, s.ground_tilt_max_rad, s.ground_threshold_m,
                                     s.ground_iterations};
   auto floor = find_plane(lowest_nearby(*cloud, s.ground_percentile, s.ground_radius_m), floor_search, method);
-  timer.done(POSE_WALL_STAGE_GROUND);
+  timer.done(POSE_WALL_STAGE_FLOOR);
   if (!floor) return out;
   if (floor->normal.z() < 0.0) *floor = {-floor->normal, -floor->d};
-  const Eigen::Matrix3d R_level_base = level_by(*floor, &out);
+  const Eigen::Matrix3d R_level_base = levelling_by(*floor, &out);
   const PclCloud::Ptr band = wall_band(*cloud, R_level_base, -floor->d, s);
   timer.done(POSE_WALL_STAGE_BAND);
 

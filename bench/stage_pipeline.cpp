@@ -46,7 +46,7 @@ StagePipeline::StagePipeline(std::uint32_t points)
   remove_outliers();
   floor_ = find_floor();
   if (!has_floor()) return;
-  level_ = level_by(floor_.fit.plane, axes_);
+  level_ = levelling_by(floor_.fit.plane, axes_);
   cut_band();
 }
 
@@ -63,7 +63,7 @@ std::uint32_t StagePipeline::remove_outliers() {
 FloorResult StagePipeline::find_floor() {
   Random random(1);
   return pose_wall::find_floor(scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m, nullptr, &random,
-                               &scratch_.ground);
+                               &scratch_.floor);
 }
 
 void StagePipeline::cut_band() {

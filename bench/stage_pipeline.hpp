@@ -50,7 +50,7 @@ class StagePipeline {
   std::uint32_t all_voxels_ = 0;
   VoxelResult voxels_;
   FloorResult floor_;
-  LevelResult level_;
+  Levelling level_;
 };
 
 }  // namespace pose_wall::bench

@@ -498,9 +498,9 @@ typedef struct pose_wall_plane {
   double d_m;       /* floor: height of the base origin above it. walls: distance of the origin */
   double rms_m;     /* of the inliers */
   double lean_rad; /* walls: tilt from the vertical of the levelled frame, + leaning away from the machine at the top */
-  double along_min_m; /* walls: supported span along the road direction, from the base origin. floor: the horizontal
-                         radius that it was fitted within, and its negative */
-  double along_max_m;
+  double extent_min_m; /* from the base origin. walls: the supported span along the road. floor: the circle that it was
+                          fitted within, so minus and plus its radius */
+  double extent_max_m;
   double area_m2; /* supported area */
   uint32_t found; /* 0: of the other members only iterations and reasons are set. 1: a plane was fitted; whether it was
                      used, the states of the quantities tell */
@@ -514,7 +514,7 @@ typedef struct pose_wall_plane {
 enum pose_wall_stage {
   POSE_WALL_STAGE_VOXEL = 0, /* ingest, extrinsic, filter, first voxel pass */
   POSE_WALL_STAGE_OUTLIERS = 1,
-  POSE_WALL_STAGE_GROUND = 2,
+  POSE_WALL_STAGE_FLOOR = 2,
   POSE_WALL_STAGE_BAND = 3, /* levelling, wall band, second voxel pass */
   POSE_WALL_STAGE_WALLS = 4,
   POSE_WALL_STAGE_OUTPUT = 5, /* yaw, distances, quality, smoothing */
@@ -563,7 +563,7 @@ typedef struct pose_wall_result {
   uint32_t dropped_body;
   uint32_t voxels;
   uint32_t outliers;
-  uint32_t ground_candidates;
+  uint32_t open_points; /* voxels with nothing over or under them, within the radius that the floor was looked for in */
   uint32_t wall_points; /* voxels of the wall band */
 } pose_wall_result;
 

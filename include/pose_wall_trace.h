@@ -62,7 +62,7 @@ enum pose_wall_trace_gate_id {
   POSE_WALL_TRACE_FLOOR_BESIDE,
   POSE_WALL_TRACE_FLOOR_BY_WALLS,
   /* the choice of the walls */
-  POSE_WALL_TRACE_LEVEL,
+  POSE_WALL_TRACE_LEVELLED,
   POSE_WALL_TRACE_WALL_PLANES,
   POSE_WALL_TRACE_WALL_INLIERS,
   POSE_WALL_TRACE_WALL_LENGTH,
@@ -116,14 +116,14 @@ enum pose_wall_trace_gate_id {
   POSE_WALL_TRACE_INPUTS,
   POSE_WALL_TRACE_REPEATED,
   POSE_WALL_TRACE_FROZEN,
-  POSE_WALL_TRACE_LEVEL_RAW,
+  POSE_WALL_TRACE_PROTECTION_RAW,
   POSE_WALL_TRACE_RATE,
   POSE_WALL_TRACE_INNOVATION,
   POSE_WALL_TRACE_DOUBTED,
   POSE_WALL_TRACE_CONFIRMED,
-  POSE_WALL_TRACE_LEVEL_SMOOTHED,
+  POSE_WALL_TRACE_PROTECTION_SMOOTHED,
   POSE_WALL_TRACE_EVER,
-  POSE_WALL_TRACE_HELD_LEVEL,
+  POSE_WALL_TRACE_PROTECTION_HELD,
   POSE_WALL_TRACE_HELD_AGE,
   POSE_WALL_TRACE_HELD_BEFORE,
   POSE_WALL_TRACE_WORK,
@@ -148,7 +148,7 @@ typedef struct pose_wall_trace_info {
   const char* key;  /* of the config, that sets the limit; "" where it is a constant of the engine. Two, divided by '|':
                        of an angle and of a distance, whatever the subject is */
   const char* unit; /* of value and limit: "m", "m2", "rad", "s", "points", "share" (of 1), "frames", or "": a bare
-                       number, or what the subject is measured in (LEVEL_*, INNOVATION, HELD_LEVEL) */
+                       number, or what the subject is measured in (PROTECTION_*, INNOVATION) */
   const char* asks; /* "the wall is supported along the road": what the value is */
   uint32_t sense;   /* pose_wall_trace_sense */
   uint32_t effect;  /* pose_wall_trace_effect */

@@ -55,11 +55,11 @@ double least_confidence(const pose_wall_result& result) {
 }
 
 // The walls say that the level may be off by a turn: about base X that is roll, about base Y pitch.
-void doubt_level(const Eigen::Vector3d& tilt_level_rad, const LevelResult& level, FloorResult* floor) {
+void doubt_levelling(const Eigen::Vector3d& tilt_level_rad, const Levelling& levelling, FloorResult* floor) {
   POSE_WALL_NOTE(trace::gate_of(POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_FLOOR_BY_WALLS, tilt_level_rad.norm(), 0.0,
                                 !(tilt_level_rad.squaredNorm() > 0.0)));
   if (!(tilt_level_rad.squaredNorm() > 0.0)) return;
-  const Eigen::Vector3d tilt_base_rad = level.R_level_base.transpose() * tilt_level_rad;
+  const Eigen::Vector3d tilt_base_rad = levelling.R_level_base.transpose() * tilt_level_rad;
   floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.x());
   floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.y());
   floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
@@ -99,7 +99,7 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   const std::uint64_t behind_band = arena.place();
   grid.lay_out(arena, points_max);
   arena.go_back(before_band);
-  ground.lay_out(arena, points_max);
+  floor.lay_out(arena, points_max);
   arena.go_back(behind_band);
   walls.lay_out(arena, points_max);
   arena.go_behind_all();
@@ -209,10 +209,10 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   work.add(found.voxels.work);
   found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base, &work);
   stage_done(POSE_WALL_STAGE_OUTLIERS);
-  scratch_.ground.work = work;
+  scratch_.floor.work = work;
   find_floor_if_any(&random, &found);
-  work = scratch_.ground.work;
-  stage_done(POSE_WALL_STAGE_GROUND);
+  work = scratch_.floor.work;
+  stage_done(POSE_WALL_STAGE_FLOOR);
   level_and_cut(&found);
   work.add(found.floor.fit.refused ? 0 : scratch_.cloud_base.count, steps::kVoxelLevelled);
   scratch_.walls.fit.work = work;
@@ -264,40 +264,40 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
     refuse_all(POSE_WALL_R_NO_POINTS, found);
     return;
   }
-  const Work& work = scratch_.ground.work;
+  const Work& work = scratch_.floor.work;
   if (work.is_spent()) {
     POSE_WALL_NOTE(note_work_spent(work));
     refuse_all(POSE_WALL_R_WORK_LIMIT, found);
     return;
   }
   found->floor = find_floor(scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m,
-                            memory_.last.has_floor ? &memory_.last.floor_base : nullptr, random, &scratch_.ground);
+                            memory_.last.has_floor ? &memory_.last.floor_base : nullptr, random, &scratch_.floor);
 }
 
 void Engine::level_and_cut(FrameFindings* found) {
   scratch_.band_level.count = 0;
   scratch_.beyond_level.count = 0;
   if (found->floor.fit.refused) return;
-  found->level = level_by(found->floor.fit.plane, axes_);
-  cut_wall_band(scratch_.cloud_base, found->level, settings_, &scratch_.grid, &scratch_.band_level,
+  found->levelling = levelling_by(found->floor.fit.plane, axes_);
+  cut_wall_band(scratch_.cloud_base, found->levelling, settings_, &scratch_.grid, &scratch_.band_level,
                 &scratch_.beyond_level);
   found->wall_points = scratch_.band_level.count;
 }
 
 void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_WALLS));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL, !found->floor.fit.refused));
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVELLED, !found->floor.fit.refused));
   if (found->floor.fit.refused) {
     for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
     return;
   }
   const WallScene scene = wall_scene(scratch_.band_level, scratch_.beyond_level, scratch_.cloud_base,
-                                     scratch_.returns_lidar, settings_, found->level, axes_, extrinsic_);
+                                     scratch_.returns_lidar, settings_, found->levelling, axes_, extrinsic_);
   const Surfaces& before = memory_.last;
   const Plane* const last[2] = {before.has_wall[0] ? &before.wall_level[0] : nullptr,
                                 before.has_wall[1] ? &before.wall_level[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);
-  doubt_level(found->walls.tilt_level_rad, found->level, &found->floor);
+  doubt_levelling(found->walls.tilt_level_rad, found->levelling, &found->floor);
   refuse_blocked_sides(found->voxels.counts, &found->walls.side);
   share_direction(scene, &found->walls.side);
 }
@@ -333,7 +333,8 @@ Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, con
     step.sound = step.follows;
     if (!step.follows) memory.run = OdometryMemory::kNoRun;
   }
-  remember_place(*odometry, found->floor, found->level, found->walls.side, found->measured, settings_, axes_, &memory);
+  remember_place(*odometry, found->floor, found->levelling, found->walls.side, found->measured, settings_, axes_,
+                 &memory);
   widen_by_skew(*odometry, found->voxels.scan_s, memory, settings_, axes_, &found->measured);
   return step;
 }
@@ -369,7 +370,7 @@ Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTimi
 void Engine::conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result) {
   const FrameTiming timing = time_frame(memory_.temporal, found->stamp_ns, settings_);
   found->reasons |= timing.reasons;
-  found->measured = measure_quantities(found->floor, found->level, found->walls.side, settings_);
+  found->measured = measure_quantities(found->floor, found->levelling, found->walls.side, settings_);
   doubt_repeats(timing, found);
   const Change change = change_since_last(inputs, timing, found);
   smooth_and_hold(found->measured, timing, found->stamp_ns, change, settings_, &memory_.temporal, &result->quantity);
@@ -408,7 +409,7 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Measurement& m = found->measured.quantity[q];
     // The cloud is as old as its first copy, and the machine may have moved since.
-    if (frozen) m.level[POSE_WALL_PART_AGE] += since_first.growth[q];
+    if (frozen) m.protection[POSE_WALL_PART_AGE] += since_first.growth[q];
     m.reasons |= reasons;
     m.weak = m.weak || frozen;
     if (timing.still || too_often) m.measured = false;

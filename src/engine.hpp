@@ -29,7 +29,7 @@ struct Scratch {
   BoundedPoints cloud_base;
   BoundedPoints band_level;
   BoundedPoints beyond_level;
-  GroundScratch ground;
+  FloorScratch floor;
   WallsScratch walls;
 
   void lay_out(Arena& arena, std::uint32_t points_max);
@@ -50,7 +50,7 @@ struct Memory {
 // Where everything lies in the caller's block:
 //
 //   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid  |
-//                                           | ground                            |
+//                                           | floor                             |
 //                                                                     | walls |
 //
 // Engine is written at open and lives on; the rest is scratch that each frame writes before it counts. What lies on top

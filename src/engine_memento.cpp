@@ -106,8 +106,8 @@ void visit(Way* way, Plane* plane) {
 }
 
 template <typename Way>
-void visit(Way* way, LevelParts* level) {
-  for (double& part : level->of) visit(way, &part);
+void visit(Way* way, ProtectionParts* protection) {
+  for (double& part : protection->of) visit(way, &part);
 }
 
 template <typename Way>
@@ -138,9 +138,10 @@ void visit(Way* way, OdometryMemory* m) {
 template <typename Way>
 void visit(Way* way, Track* t) {
   visit_all(way, &t->has_value, &t->value, &t->rate, &t->smoothed_frames, &t->raw, &t->raw_protection, &t->sigma,
-            &t->level, &t->grown, &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
+            &t->protection, &t->grown, &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
   LastGood& good = t->good;
-  visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.level, &good.grown, &good.age_s);
+  visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.protection, &good.grown,
+            &good.age_s);
 }
 
 // What tells when it was saved.

@@ -25,8 +25,8 @@ pose_wall_plane plane_of(const WallResult& wall) {
   pose_wall_plane p = plane_of(wall.fit);
   if (p.found == 0) return p;
   p.lean_rad = wall.lean_rad;
-  p.along_min_m = wall.along_min_m;
-  p.along_max_m = wall.along_max_m;
+  p.extent_min_m = wall.along_min_m;
+  p.extent_max_m = wall.along_max_m;
   p.area_m2 = wall.area_m2;
   return p;
 }
@@ -40,7 +40,7 @@ void report_counts(const FrameFindings& found, pose_wall_result* result) {
   result->dropped_far = c.dropped_far;
   result->dropped_body = c.dropped_body;
   result->outliers = found.outliers;
-  result->ground_candidates = found.floor.candidates;
+  result->open_points = found.floor.candidates;
   result->wall_points = found.wall_points;
   result->voxel_leaf_m = found.voxels.leaf_m;
   result->work = found.work;
@@ -76,14 +76,14 @@ void report_findings(const FrameFindings& found, pose_wall_result* result) {
   result->floor = plane_of(found.floor.fit);
   if (result->floor.found != 0) {
     result->floor.area_m2 = found.floor.area_m2;
-    result->floor.along_min_m = -found.floor.roi_radius_m;
-    result->floor.along_max_m = found.floor.roi_radius_m;
+    result->floor.extent_min_m = -found.floor.roi_radius_m;
+    result->floor.extent_max_m = found.floor.roi_radius_m;
   }
   result->left = plane_of(found.walls.side[0]);
   result->right = plane_of(found.walls.side[1]);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      result->R_level_base[3 * row + column] = found.level.R_level_base(row, column);
+      result->R_level_base[3 * row + column] = found.levelling.R_level_base(row, column);
     }
   }
   result->left_right_yaw_difference_rad =

@@ -20,7 +20,7 @@ struct FrameFindings {
   std::uint32_t wall_points = 0;
   VoxelResult voxels;
   FloorResult floor;
-  LevelResult level;
+  Levelling levelling;
   WallsResult walls;
   Measurements measured;
 };

@@ -79,7 +79,7 @@ struct PlaneFit {
 };
 
 // What a protection level is made of: one figure for each pose_wall_part. The level is their sum.
-struct LevelParts {
+struct ProtectionParts {
   double of[POSE_WALL_PARTS] = {};
 
   double& operator[](pose_wall_part part) { return of[part]; }
@@ -90,12 +90,12 @@ struct LevelParts {
     for (const double part : of) sum += part;
     return sum;
   }
-  void add(const LevelParts& other, double share = 1.0) {
+  void add(const ProtectionParts& other, double share = 1.0) {
     for (int part = 0; part < POSE_WALL_PARTS; ++part) of[part] += share * other.of[part];
   }
   // The level becomes at least so large; what is missing is this part's. NaN stays visible: it makes the level NaN.
-  void reach(double level, pose_wall_part part) {
-    const double missing = level - sum();
+  void reach(double least, pose_wall_part part) {
+    const double missing = least - sum();
     if (!(missing <= 0.0)) of[part] += missing;
   }
 };
@@ -113,15 +113,15 @@ struct FloorResult {
   double roll_sigma_rad = 0.0;
   double pitch_sigma_rad = 0.0;
   // Systematic part of the protection level: range bias, unevenness, rival floors, walls that lean.
-  LevelParts roll_bound_rad;
-  LevelParts pitch_bound_rad;
+  ProtectionParts roll_bound_rad;
+  ProtectionParts pitch_bound_rad;
   double dof = 1.0;  // as many independent pieces know a variance as well as this one is known
   double area_m2 = 0.0;
   double roi_radius_m = 0.0;
   std::uint32_t candidates = 0;
 };
 
-struct LevelResult {
+struct Levelling {
   Eigen::Matrix3d R_level_base = Eigen::Matrix3d::Identity();
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
@@ -137,12 +137,12 @@ struct WallResult {
   double yaw_rad = 0.0;  // by this wall alone
   double yaw_sigma_rad = 0.0;
   double yaw_bias_rad_per_m = 0.0;                          // signed response to a constant range error
-  LevelParts yaw_bound_rad;                                 // misfit, and what was seen of the other side
+  ProtectionParts yaw_bound_rad;                            // misfit, and what was seen of the other side
   double yaw_to_rival_rad = 0.0;                            // where its rival is the wall, or the road bends before it
   Eigen::Vector3d pivot_level_m = Eigen::Vector3d::Zero();  // turning about here changes the fit least
   double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};
-  LevelParts distance_bound_m[2];
+  ProtectionParts distance_bound_m[2];
   double layer_sigma_m = 0.0;  // what ribs and cables may have moved the surface, part of the standard deviations
   bool extrapolated[2] = {false, false};
   double dof = 1.0;        // independent pieces behind the distances' variance
@@ -164,7 +164,7 @@ struct Measurement {
   bool weak = false;  // measured, but never better than degraded
   double raw = 0.0;
   double sigma = 0.0;
-  LevelParts level;
+  ProtectionParts protection;
   std::uint32_t reasons = 0;
 };
 

@@ -113,7 +113,7 @@ bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, 
 }  // namespace
 
 void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, const Axes& axes,
-                            const Eigen::Vector3d& sensor_base_m, Random* random, GroundScratch* scratch,
+                            const Eigen::Vector3d& sensor_base_m, Random* random, FloorScratch* scratch,
                             FloorResult* floor) {
   const PointSet &open = scratch->open_base, &left_over = scratch->within_base;
   const Plane plane = floor->fit.plane;
@@ -137,7 +137,7 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
     POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BESIDE,
                                larger(std::fabs(a.roll_rad - b.roll_rad), std::fabs(a.pitch_rad - b.pitch_rad)), 0.0,
                                false));
-    const auto reach_to = [](double apart_rad, LevelParts* bound_rad) {
+    const auto reach_to = [](double apart_rad, ProtectionParts* bound_rad) {
       bound_rad->reach(kStretch * std::fabs(apart_rad) + kMargin_rad, POSE_WALL_PART_RIVAL);
     };
     reach_to(a.roll_rad - b.roll_rad, &floor->roll_bound_rad);

@@ -13,7 +13,7 @@ namespace pose_wall {
 // Looks for planes in the open points that the floor leaves over. Where the two meet in a line and the machine stands
 // on the other one's side of it, or the other one lies below the floor all over, the levels reach to it.
 void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
-                            const Eigen::Vector3d& sensor_base_m, Random* random, GroundScratch* scratch,
+                            const Eigen::Vector3d& sensor_base_m, Random* random, FloorScratch* scratch,
                             FloorResult* floor);
 
 }  // namespace pose_wall

@@ -48,7 +48,7 @@ std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::u
 }
 
 // Refines what the search left, merges what became alike, and looks at each as a floor.
-void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShortlist* list, GroundScratch* scratch,
+void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShortlist* list, FloorScratch* scratch,
            FloorCandidates* out) {
   const PointSet& within = in.within_base;
   const Eigen::Vector3d& sensor = in.sensor_base_m;
@@ -90,7 +90,7 @@ bool is_below(const Plane& above, const Plane& below, const Eigen::Vector3d& sen
 }
 
 // Planes below another one, seen through its open floor, are reflections in wet ground.
-void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3d& sensor, GroundScratch* scratch,
+void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3d& sensor, FloorScratch* scratch,
                  Span<FloorCandidate> candidates) {
   for (const FloorCandidate& above : candidates) {
     if (above.evidence.area_m2 < kFloorAreaMin_m2) continue;
@@ -124,10 +124,10 @@ bool is_reflection(const PointSet& open_base, const Plane& above, const Plane& b
 }
 
 std::uint32_t find_candidates(const FloorSearch& in, const Settings& s, const Axes& axes, Random* random,
-                              GroundScratch* scratch, FloorCandidates* out) {
+                              FloorScratch* scratch, FloorCandidates* out) {
   const std::uint32_t low = lowest_part(in.within_base, s.ground_z_percentile, scratch->low);
   FloorShortlist list;
-  const GroundSearchInput drawn_from{in.within_base, scratch->low.first(low), in.sensor_base_m, in.last_floor};
+  const FloorDraw drawn_from{in.within_base, scratch->low.first(low), in.sensor_base_m, in.last_floor};
   const std::uint32_t scored = search_floor(drawn_from, s, random, &scratch->subset, &list);
   scratch->work.add(scored, steps::kFloorDrawn);
   weigh(in, s, axes, &list, scratch, out);

@@ -46,6 +46,6 @@ bool is_reflection(const PointSet& open_base, const Plane& above, const Plane& b
 
 // Returns how many hypotheses were scored.
 std::uint32_t find_candidates(const FloorSearch& in, const Settings& settings, const Axes& axes, Random* random,
-                              GroundScratch* scratch, FloorCandidates* out);
+                              FloorScratch* scratch, FloorCandidates* out);
 
 }  // namespace pose_wall

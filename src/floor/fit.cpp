@@ -102,7 +102,7 @@ Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f)
 
 // In the coordinates of the fit's points, whose residuals are by the plane over theirs.
 void fill_patches(const IrlsResult& irls, double radius_m, const Eigen::Vector3d& sensor_base_m,
-                  GroundScratch* scratch) {
+                  FloorScratch* scratch) {
   const TangentPoints& points = scratch->points;
   const double reach_m = kStretch * radius_m;
   scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m);
@@ -170,11 +170,11 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   out->pitch_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
   out->dof = uneven.dof;
   // A floor that bends one way all along has a mean plane that is well known, and is not the one under the machine.
-  const auto level = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
+  const auto protection = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
     return protection_factor(s.protection_factor, dof) * std::sqrt(of.dot(covariance * of));
   };
-  const auto reach_to_patches = [&](const Eigen::Vector3d& of, LevelParts* bound) {
-    const double more = level(bend.covariance, bend.dof, of) - level(uneven.covariance, uneven.dof, of);
+  const auto reach_to_patches = [&](const Eigen::Vector3d& of, ProtectionParts* bound) {
+    const double more = protection(bend.covariance, bend.dof, of) - protection(uneven.covariance, uneven.dof, of);
     if (more > 0.0) (*bound)[POSE_WALL_PART_BEND] += more;
   };
   reach_to_patches(roll, &out->roll_bound_rad);
@@ -187,7 +187,7 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
 
 // The plane through the points about it, selected again until it stands still. The points stay in the scratch.
 IrlsResult fit_selected(const FloorLook& look, const Plane& start, const Settings& settings,
-                        const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+                        const Eigen::Vector3d& sensor_base_m, FloorScratch* scratch) {
   IrlsSettings tukey = irls_settings(settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
   IrlsResult irls;
@@ -212,7 +212,7 @@ IrlsResult fit_selected(const FloorLook& look, const Plane& start, const Setting
 }  // namespace
 
 FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
-                      const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch) {
+                      const Eigen::Vector3d& sensor_base_m, FloorScratch* scratch) {
   FloorResult out;
   const IrlsResult irls = fit_selected(look, start, settings, sensor_base_m, scratch);
   out.fit.plane = irls.plane;

@@ -17,11 +17,11 @@ namespace pose_wall {
 struct FloorLook {
   double radius_m;
   const PointSet &open_base, &within_base;
-  std::uint32_t open_most = 4 * kGroundFitPoints;
+  std::uint32_t open_most = 4 * kFloorFitPoints;
 };
 
 // start: the chosen hypothesis.
 FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
-                      const Eigen::Vector3d& sensor_base_m, GroundScratch* scratch);
+                      const Eigen::Vector3d& sensor_base_m, FloorScratch* scratch);
 
 }  // namespace pose_wall

@@ -20,7 +20,7 @@ namespace {
 constexpr double kRadiusGrowth = 2.25;
 constexpr int kRadiusSteps = 6;  // from the least first radius to the greatest last
 // Wider looks fit fewer points: each tells the same floor once more.
-constexpr std::uint32_t kOpenMost = 4 * kGroundFitPoints, kOpenMostAgain = kOpenMost / 4;
+constexpr std::uint32_t kOpenMost = 4 * kFloorFitPoints, kOpenMostAgain = kOpenMost / 4;
 // A wider radius with hardly more in it would tell the same once more.
 constexpr double kWorthALook = 1.02;
 // A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
@@ -103,7 +103,7 @@ bool stands_alone(const FloorCandidate& best, Span<const FloorCandidate> candida
 
 FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, const Settings& s, const Axes& axes,
                          const Eigen::Vector3d& sensor, const Plane* last_floor, Random* random,
-                         GroundScratch* scratch) {
+                         FloorScratch* scratch) {
   const double radius_m = look.radius_m;
   const PointSet& within = look.within_base;
   FloorResult none;
@@ -132,12 +132,12 @@ FloorResult floor_within(const FloorLook& look, const BoundedPoints& cloud, cons
   return out;
 }
 
-struct Levels {
+struct Protections {
   double roll_rad, pitch_rad;
   double worse() const { return larger(roll_rad, pitch_rad); }
 };
 
-Levels levels_of(const FloorResult& f, const Settings& s) {
+Protections protections_of(const FloorResult& f, const Settings& s) {
   constexpr double kNone_rad = 1e9;
   if (f.fit.refused) return {kNone_rad, kNone_rad};
   const double k = protection_factor(s.protection_factor, f.dof);
@@ -151,14 +151,14 @@ void reach_to_other(const FloorResult& other, const Settings& s, FloorResult* fl
   const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= kFloorAreaMin_m2;
   if (other.fit.refused && !wider_look) return;
   const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
-  const Levels levels = levels_of(*floor, s);
+  const Protections known = protections_of(*floor, s);
   // What was refused has no level of its own, but its bound tells of its rivals.
   const double roll =
       kBeyond * std::fabs(a.roll_rad - b.roll_rad) + (other.fit.refused ? other.roll_bound_rad.sum() : 0.0);
   const double pitch =
       kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + (other.fit.refused ? other.pitch_bound_rad.sum() : 0.0);
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, roll - levels.roll_rad);
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, pitch - levels.pitch_rad);
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, roll - known.roll_rad);
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, pitch - known.pitch_rad);
 }
 
 // Who chooses the smallest of several claims chooses a claim that is too small, the more so the more there are.
@@ -166,9 +166,9 @@ void widen(const Settings& s, std::uint32_t claims, FloorResult* floor) {
   constexpr double kPerOtherClaim = 1.0 / 16.0;
   if (floor->fit.refused) return;
   const double curse = kPerOtherClaim * static_cast<double>(claims - 1);
-  const Levels levels = levels_of(*floor, s);
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += curse * levels.roll_rad;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += curse * levels.pitch_rad;
+  const Protections known = protections_of(*floor, s);
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.roll_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.pitch_rad;
 }
 
 // The machine stands on its floor, and about upright. Where more than one plane may be that floor and this one is
@@ -195,7 +195,7 @@ struct Looks {
     at[tried] = seen;
     // Of refused ones the widest that got furthest tells why.
     const bool tells_more = at[best].fit.refused && seen.fit.refused && seen.fit.found;
-    if (tells_more || levels_of(seen, s).worse() < levels_of(at[best], s).worse()) best = tried;
+    if (tells_more || protections_of(seen, s).worse() < protections_of(at[best], s).worse()) best = tried;
     ++tried;
   }
 
@@ -215,7 +215,7 @@ struct Looks {
 
 // Wider and wider, until a floor is good enough.
 void look_wider(const BoundedPoints& cloud_base, const Settings& s, const Axes& axes,
-                const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random, GroundScratch* scratch,
+                const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random, FloorScratch* scratch,
                 Looks* looks) {
   const PointSet& open = scratch->open_base;
   double worth_a_look = 0.0;  // so many points
@@ -233,18 +233,18 @@ void look_wider(const BoundedPoints& cloud_base, const Settings& s, const Axes& 
     const FloorLook look{radius_m, open, within, looks->tried == 0 ? kOpenMost : kOpenMostAgain};
     looks->add(floor_within(look, cloud_base, s, axes, sensor_base_m, last_floor, random, scratch), s);
     scratch->work.add(open.count + within.count, steps::kPointWithin / 2);
-    if (levels_of(looks->at[looks->best], s).worse() <= good_enough) return;
+    if (protections_of(looks->at[looks->best], s).worse() <= good_enough) return;
   }
 }
 
 }  // namespace
 
-void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
+void FloorScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   open_base.lay_out(arena, points_max);
   within_base.lay_out(arena, points_max);
   low = arena.take<std::uint32_t>(points_max + kFour);
-  points.lay_out(arena, kGroundFitPoints);
-  subset.lay_out(arena, kGroundSubset);
+  points.lay_out(arena, kFloorFitPoints);
+  subset.lay_out(arena, kFloorSubset);
   grid.lay_out(arena);
   patches.lay_out(arena);
   surface.lay_out(arena);
@@ -253,7 +253,7 @@ void GroundScratch::lay_out(Arena& arena, std::uint32_t points_max) {
 
 FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
-                       GroundScratch* scratch) {
+                       FloorScratch* scratch) {
   scratch->grid.find_open(cloud_base, settings.ground_roi_radius_max, sensor_base_m.z(), scratch->low,
                           &scratch->open_base);
   scratch->work.add(cloud_base.count, steps::kVoxelOpened);

@@ -18,9 +18,9 @@
 
 namespace pose_wall {
 
-constexpr std::uint32_t kGroundFitPoints = 8192;
+constexpr std::uint32_t kFloorFitPoints = 8192;
 
-struct GroundScratch {
+struct FloorScratch {
   PointSet open_base;    // points with nothing standing on them, within the greatest radius
   PointSet within_base;  // of those, within the radius that is tried
   // Where each point lies, until it is known which are open; then which of those within are the lowest part, then which
@@ -41,6 +41,6 @@ struct GroundScratch {
 // well enough to be valid. last_floor: the last frame's plane or nullptr, scored like any other hypothesis.
 FloorResult find_floor(const BoundedPoints& cloud_base, const Settings& settings, const Axes& axes,
                        const Eigen::Vector3d& sensor_base_m, const Plane* last_floor, Random* random,
-                       GroundScratch* scratch);
+                       FloorScratch* scratch);
 
 }  // namespace pose_wall

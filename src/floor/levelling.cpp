@@ -8,24 +8,24 @@
 
 namespace pose_wall {
 
-LevelResult level_by(const Plane& floor_base, const Axes& axes) {
+Levelling levelling_by(const Plane& floor_base, const Axes& axes) {
   const RollPitch angles = roll_pitch_of_up(floor_base.n);
-  LevelResult level;
-  level.R_level_base = level_rotation(floor_base.n);
-  level.roll_rad = angles.roll_rad;
-  level.pitch_rad = angles.pitch_rad;
-  level.forward_up = (level.R_level_base * axes.forward_base).z();
-  level.floor_z_level_m = -floor_base.d;  // R_level takes the normal to +Z
-  return level;
+  Levelling levelling;
+  levelling.R_level_base = level_rotation(floor_base.n);
+  levelling.roll_rad = angles.roll_rad;
+  levelling.pitch_rad = angles.pitch_rad;
+  levelling.forward_up = (levelling.R_level_base * axes.forward_base).z();
+  levelling.floor_z_level_m = -floor_base.d;  // R_level takes the normal to +Z
+  return levelling;
 }
 
 namespace {
 
 // What lies in the band goes into the grid, an even part of what does not into beyond_level.
-void part_by_height(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+void part_by_height(const PointSet& cloud_base, const Levelling& levelling, const Settings& settings, VoxelGrid* grid,
                     PointSet* beyond_level) {
-  const auto z_min = static_cast<float>(level.floor_z_level_m + settings.wall_z_min);
-  const auto z_max = static_cast<float>(level.floor_z_level_m + settings.wall_z_max);
+  const auto z_min = static_cast<float>(levelling.floor_z_level_m + settings.wall_z_min);
+  const auto z_max = static_cast<float>(levelling.floor_z_level_m + settings.wall_z_max);
   // The band is averaged over cells of twice the size, some three times the area: one of three keeps the balance.
   constexpr std::uint32_t kBalance = 3;
   const std::uint32_t share = cloud_base.count / (kBalance * kBeyondMax) + 1, every = kBalance * share;
@@ -33,7 +33,7 @@ void part_by_height(const PointSet& cloud_base, const LevelResult& level, const 
   grid->begin(settings.wall_voxel_leaf, reach_of(settings));
   std::uint32_t until_next = 0;
   VoxelGrid::Filling band(grid);
-  const FourTurns to_level(level.R_level_base);
+  const FourTurns to_level(levelling.R_level_base);
   for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourPlaces p = to_level.turned(x, y, z);
     const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max), beyond = counts & ~in_band;
@@ -64,9 +64,9 @@ void part_by_height(const PointSet& cloud_base, const LevelResult& level, const 
 
 }  // namespace
 
-void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+void cut_wall_band(const PointSet& cloud_base, const Levelling& levelling, const Settings& settings, VoxelGrid* grid,
                    BoundedPoints* band_level, BoundedPoints* beyond_level) {
-  part_by_height(cloud_base, level, settings, grid, beyond_level);
+  part_by_height(cloud_base, levelling, settings, grid, beyond_level);
   // The cloud is in an order of its own already, whatever that of the points was.
   grid->extract_as_they_came(band_level);
   band_level->bound();

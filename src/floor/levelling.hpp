@@ -12,14 +12,14 @@
 
 namespace pose_wall {
 
-LevelResult level_by(const Plane& floor_base, const Axes& axes);
+Levelling levelling_by(const Plane& floor_base, const Axes& axes);
 
 // Room for the points outside the band.
 constexpr std::uint32_t kBeyondMax = 8192;
 
 // Levelled points between wall_z_min and wall_z_max above the floor, averaged once more, and a part of those above and
 // below, evenly thinned, both bounded: beyond_level's weights tell how many of the band's each stands for.
-void cut_wall_band(const PointSet& cloud_base, const LevelResult& level, const Settings& settings, VoxelGrid* grid,
+void cut_wall_band(const PointSet& cloud_base, const Levelling& levelling, const Settings& settings, VoxelGrid* grid,
                    BoundedPoints* band_level, BoundedPoints* beyond_level);
 
 }  // namespace pose_wall

@@ -17,24 +17,24 @@ constexpr double kTriangleMin_m2 = 0.10;  // twice the area of the three points:
 constexpr std::uint32_t kDrawsPerIteration = 8;
 
 // One of the low points, or of all.
-std::uint32_t drawn(const GroundSearchInput& in, bool of_low, Random* random) {
+std::uint32_t drawn(const FloorDraw& in, bool of_low, Random* random) {
   return of_low ? in.low[random->below(in.low.size())] : random->below(in.open_base.count);
 }
 
 // Half from the low points, half from all, so that a floor counts as a whole even where the machine leans and the
 // lowest points are one side of it only.
-void fill_subset(const GroundSearchInput& in, Random* random, PointSet* subset) {
-  for (std::uint32_t k = 0; k < kGroundSubset; ++k) {
+void fill_subset(const FloorDraw& in, Random* random, PointSet* subset) {
+  for (std::uint32_t k = 0; k < kFloorSubset; ++k) {
     const std::uint32_t i = drawn(in, k % 2 == 0, random);
     subset->x[k] = in.open_base.x[i];
     subset->y[k] = in.open_base.y[i];
     subset->z[k] = in.open_base.z[i];
   }
-  subset->count = kGroundSubset;
+  subset->count = kFloorSubset;
 }
 
 // The plane through three drawn points, normal up; false for slivers.
-bool draw_plane(const GroundSearchInput& in, bool of_low, Random* random, Plane* plane) {
+bool draw_plane(const FloorDraw& in, bool of_low, Random* random, Plane* plane) {
   const Eigen::Vector3d a = in.open_base.at(drawn(in, of_low, random));
   const Eigen::Vector3d b = in.open_base.at(drawn(in, of_low, random));
   const Eigen::Vector3d c = in.open_base.at(drawn(in, of_low, random));
@@ -70,7 +70,7 @@ bool same_floor(const Plane& a, const Plane& b) {
   return true;
 }
 
-std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings, Random* random, PointSet* subset,
+std::uint32_t search_floor(const FloorDraw& in, const Settings& settings, Random* random, PointSet* subset,
                            FloorShortlist* list) {
   list->clear();
   if (in.low.size() < 3) return 0;

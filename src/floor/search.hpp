@@ -14,18 +14,18 @@
 namespace pose_wall {
 
 constexpr std::uint32_t kFloorShortlist = 8;
-constexpr std::uint32_t kGroundSubset = 512;
+constexpr std::uint32_t kFloorSubset = 512;
 using FloorShortlist = Shortlist<kFloorShortlist>;
 
-struct GroundSearchInput {
+struct FloorDraw {
   const PointSet& open_base;      // open points within the region of interest
   Span<const std::uint32_t> low;  // the lowest part of them
   const Eigen::Vector3d& sensor_base_m;
   const Plane* last_floor;  // hypothesis 0: scored like any other; nullptr if none
 };
 
-// Fills the list; returns how many hypotheses were scored. subset: scratch of kGroundSubset points.
-std::uint32_t search_floor(const GroundSearchInput& in, const Settings& settings, Random* random, PointSet* subset,
+// Fills the list; returns how many hypotheses were scored. subset: scratch of kFloorSubset points.
+std::uint32_t search_floor(const FloorDraw& in, const Settings& settings, Random* random, PointSet* subset,
                            FloorShortlist* list);
 
 // What the config allows of a floor, worked out once for all hypotheses.

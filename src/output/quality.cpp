@@ -38,25 +38,25 @@ double predictive(double sigma, double dof) {
   return dof > kDofMin ? sigma * std::sqrt(dof / (dof - 2.0)) : sigma * std::sqrt(kDofMin / (kDofMin - 2.0));
 }
 
-Measurement measurement(double raw, double sigma, const LevelParts& bound, double dof, const Settings& s) {
+Measurement measurement(double raw, double sigma, const ProtectionParts& bound, double dof, const Settings& s) {
   Measurement m;
   m.raw = raw;
   m.sigma = predictive(sigma, dof);
-  m.level = bound;
-  m.level[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_factor, dof) * sigma;
+  m.protection = bound;
+  m.protection[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_factor, dof) * sigma;
   // What has no bound is no measurement.
-  m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.level.sum());
+  m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.protection.sum());
   if (!m.measured) m.reasons = POSE_WALL_R_ALERT_LIMIT;
   return m;
 }
 
-void measure_floor(const FloorResult& floor, const LevelResult& level, const Settings& s, Measurement* roll,
+void measure_floor(const FloorResult& floor, const Levelling& levelling, const Settings& s, Measurement* roll,
                    Measurement* pitch) {
   if (!floor.fit.refused) {
-    *roll = measurement(level.roll_rad, with_floor(floor.roll_sigma_rad, kSigmaMinAngle_rad), floor.roll_bound_rad,
+    *roll = measurement(levelling.roll_rad, with_floor(floor.roll_sigma_rad, kSigmaMinAngle_rad), floor.roll_bound_rad,
                         floor.dof, s);
-    *pitch = measurement(level.pitch_rad, with_floor(floor.pitch_sigma_rad, kSigmaMinAngle_rad), floor.pitch_bound_rad,
-                         floor.dof, s);
+    *pitch = measurement(levelling.pitch_rad, with_floor(floor.pitch_sigma_rad, kSigmaMinAngle_rad),
+                         floor.pitch_bound_rad, floor.dof, s);
   }
   for (Measurement* m : {roll, pitch}) {
     m->reasons |= floor.fit.reasons;
@@ -69,7 +69,7 @@ void measure_distances(const WallResult& wall, const Settings& s, Measurement* f
   for (int end = 0; end < 2; ++end) {
     Measurement& m = *ends[end];
     if (!wall.fit.refused) {
-      LevelParts bound = wall.distance_bound_m[end];
+      ProtectionParts bound = wall.distance_bound_m[end];
       bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m;
       m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m), bound,
                       wall.dof, s);
@@ -83,23 +83,23 @@ void measure_distances(const WallResult& wall, const Settings& s, Measurement* f
 
 // How much of an error of the floor turns into yaw: a leaning wall, or a machine that looks up or down, turns part of a
 // tilt about the road into a turn about the vertical.
-double tilt_to_yaw(const WallResult& wall, const LevelResult& level) {
+double tilt_to_yaw(const WallResult& wall, const Levelling& levelling) {
   const double lean = sine(wall.lean_rad) / cosine(wall.lean_rad);
-  const double up = level.forward_up;
+  const double up = levelling.forward_up;
   return std::fabs(lean) + std::fabs(up) / std::sqrt(1.0 - up * up);
 }
 
 // Of a wall's own bound, and of the floor's larger one.
-LevelParts yaw_bound_of(const WallResult& wall, const FloorResult& floor, const LevelResult& level) {
+ProtectionParts yaw_bound_of(const WallResult& wall, const FloorResult& floor, const Levelling& levelling) {
   const bool by_roll = floor.roll_bound_rad.sum() > floor.pitch_bound_rad.sum();
-  LevelParts bound = wall.yaw_bound_rad;
-  bound.add(by_roll ? floor.roll_bound_rad : floor.pitch_bound_rad, tilt_to_yaw(wall, level));
+  ProtectionParts bound = wall.yaw_bound_rad;
+  bound.add(by_roll ? floor.roll_bound_rad : floor.pitch_bound_rad, tilt_to_yaw(wall, levelling));
   return bound;
 }
 
 // Adds what the floor's tilt turns into yaw: one error, whatever the number of walls.
-Measurement yaw_measurement(double raw, double walls_variance, const LevelParts& bound, double dof, double tilt_share,
-                            const FloorResult& floor, const Settings& s) {
+Measurement yaw_measurement(double raw, double walls_variance, const ProtectionParts& bound, double dof,
+                            double tilt_share, const FloorResult& floor, const Settings& s) {
   const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_share;
   const double variance = walls_variance + tilt * tilt;
   // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
@@ -108,17 +108,18 @@ Measurement yaw_measurement(double raw, double walls_variance, const LevelParts&
   return measurement(raw, with_floor(std::sqrt(variance), kSigmaMinAngle_rad), bound, dof_of_sum, s);
 }
 
-Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const LevelResult& level, const Settings& s) {
-  LevelParts bound = yaw_bound_of(wall, floor, level);
+Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const Levelling& levelling,
+                       const Settings& s) {
+  ProtectionParts bound = yaw_bound_of(wall, floor, levelling);
   bound[POSE_WALL_PART_RIVAL] += wall.yaw_to_rival_rad;
   bound[POSE_WALL_PART_RANGE_BIAS] += s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
   return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound, wall.dof_slope,
-                         tilt_to_yaw(wall, level), floor, s);
+                         tilt_to_yaw(wall, levelling), floor, s);
 }
 
 // Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
 // in the mean as far as the weights are alike; the signed responses say how far.
-Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const LevelResult& level,
+Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const Levelling& levelling,
                         const Settings& s) {
   double variance[2] = {}, information = 0.0;
   for (int side = 0; side < 2; ++side) {
@@ -129,9 +130,9 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   const double w[2] = {1.0 / (variance[0] * information), 1.0 / (variance[1] * information)};
   const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
   const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
-  LevelParts bound;
+  ProtectionParts bound;
   bound[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(bias);
-  for (int side = 0; side < 2; ++side) bound.add(yaw_bound_of(walls[side], floor, level), w[side]);
+  for (int side = 0; side < 2; ++side) bound.add(yaw_bound_of(walls[side], floor, levelling), w[side]);
   // Where a road bends ahead, both walls may be those behind the bend: the other one does not vouch for either.
   bound[POSE_WALL_PART_RIVAL] += larger(walls[0].yaw_to_rival_rad, walls[1].yaw_to_rival_rad);
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
@@ -143,18 +144,18 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
   const double dof = 1.0 / (w[0] * w[0] / walls[0].dof_slope + w[1] * w[1] / walls[1].dof_slope);
-  const double tilt_share = larger(tilt_to_yaw(walls[0], level), tilt_to_yaw(walls[1], level));
+  const double tilt_share = larger(tilt_to_yaw(walls[0], levelling), tilt_to_yaw(walls[1], levelling));
   return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
 }
 
-Measurement measure_yaw(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],
+Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
                         const Settings& s) {
   const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
   Measurement m;
   if (left && right) {
-    m = yaw_by_both(walls, floor, level, s);
+    m = yaw_by_both(walls, floor, levelling, s);
   } else if (left || right) {
-    m = yaw_by_one(walls[left ? 0 : 1], floor, level, s);
+    m = yaw_by_one(walls[left ? 0 : 1], floor, levelling, s);
   }
   std::uint32_t doubts = 0;
   for (const WallResult& wall : walls) {
@@ -189,20 +190,20 @@ void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
   }
 }
 
-Measurements measure_quantities(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],
+Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
                                 const Settings& settings) {
   Measurements out;
   Measurement* const q = out.quantity;
-  measure_floor(floor, level, settings, &q[POSE_WALL_ROLL], &q[POSE_WALL_PITCH]);
-  q[POSE_WALL_YAW] = measure_yaw(floor, level, walls, settings);
+  measure_floor(floor, levelling, settings, &q[POSE_WALL_ROLL], &q[POSE_WALL_PITCH]);
+  q[POSE_WALL_YAW] = measure_yaw(floor, levelling, walls, settings);
   measure_distances(walls[0], settings, &q[POSE_WALL_D_LF], &q[POSE_WALL_D_LB]);
   measure_distances(walls[1], settings, &q[POSE_WALL_D_RF], &q[POSE_WALL_D_RB]);
   out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;
   out.left_right_yaw_difference_rad = walls[0].yaw_rad - walls[1].yaw_rad;
   for (std::uint32_t i = 0; i < POSE_WALL_QUANTITIES; ++i) {
-    const double protection = q[i].level.sum(), limit = alert_limit(i, settings);
+    const double protection = q[i].protection.sum(), limit = alert_limit(i, settings);
     POSE_WALL_NOTE(if ((q[i].reasons & POSE_WALL_R_ALERT_LIMIT) != 0 || q[i].measured) trace::gate_of(
-        POSE_WALL_TRACE_QUANTITY + i, POSE_WALL_TRACE_LEVEL_RAW, protection, limit, protection <= limit));
+        POSE_WALL_TRACE_QUANTITY + i, POSE_WALL_TRACE_PROTECTION_RAW, protection, limit, protection <= limit));
     if (q[i].measured && !(protection <= limit)) q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
   }
   return out;

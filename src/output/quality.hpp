@@ -11,7 +11,7 @@
 namespace pose_wall {
 
 // walls: left, right. A refused floor or wall leaves its quantities unmeasured.
-Measurements measure_quantities(const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2],
+Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
                                 const Settings& settings);
 
 // Returns nearer than range_min that take up most of a side hide what is behind them: that side is refused.

@@ -30,13 +30,13 @@ double larger_or_nan(double a, double b) {
 // stay possible until the new one has come again kConfirmations times. And where there was no good value yet and frames
 // were refused, the first that is not is one of several looks at the same thing, and the others said no.
 void check_innovation(const Measurement& m, Track* t) {
-  const double level = m.level.sum();
-  const double from_good = level + t->good.raw_protection + t->good.grown.total();
+  const double protection = m.protection.sum();
+  const double from_good = protection + t->good.raw_protection + t->good.grown.total();
   if (t->good.exists ? std::fabs(m.raw - t->good.raw) <= from_good : t->to_confirm == 0) {
     t->to_confirm = 0;
     return;
   }
-  const double from_last = level + t->raw_protection + t->grown.total();
+  const double from_last = protection + t->raw_protection + t->grown.total();
   const bool comes_again = t->has_value && t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
   t->to_confirm = comes_again ? t->to_confirm - 1 : kConfirmations;
 }
@@ -52,7 +52,7 @@ void keep_doubts(Track* t, Measurement* m) {
   POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_DOUBTED, t->doubted_frames, 0.0, t->doubted_frames == 0));
   if (t->doubted_frames == 0) return;
   --t->doubted_frames;
-  m->level.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown.total(), POSE_WALL_PART_RIVAL);
+  m->protection.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown.total(), POSE_WALL_PART_RIVAL);
 }
 
 // Until a jump is confirmed the last good value may be the right one; where there was none, the level is no better than
@@ -60,17 +60,19 @@ void keep_doubts(Track* t, Measurement* m) {
 void reach_to_last_good(std::uint32_t quantity, const Settings& s, const Track& t, Measurement* m) {
   m->reasons |= POSE_WALL_R_INNOVATION;
   if (t.good.exists) {
-    m->level.reach(std::fabs(m->raw - t.good.raw) + t.good.raw_protection + t.good.grown.total(), POSE_WALL_PART_RIVAL);
+    m->protection.reach(std::fabs(m->raw - t.good.raw) + t.good.raw_protection + t.good.grown.total(),
+                        POSE_WALL_PART_RIVAL);
   } else {
-    m->level[POSE_WALL_PART_RIVAL] += alert_limit(quantity, s);
+    m->protection[POSE_WALL_PART_RIVAL] += alert_limit(quantity, s);
   }
 }
 
-// How far smoothing may take the value from raw: a quarter of its level, and not so far that it is no longer valid.
-double lag_most(double level, double alert) {
+// How far smoothing may take the value from raw: a quarter of its protection, and not so far that it is no longer
+// valid.
+double lag_most(double protection, double alert) {
   constexpr double kShare = 0.25;
   constexpr double kOfRoom = 0.99;  // the parts' sum is rounded
-  const double share = kShare * level, room = kOfRoom * (alert - level);
+  const double share = kShare * protection, room = kOfRoom * (alert - protection);
   return room > 0.0 && room < share ? room : share;
 }
 
@@ -99,16 +101,16 @@ double smoothed(double raw, double trust, double tau_s, Track* t) {
 // Moves the smoothed value; true where the yaw limit held it back. A value that follows its raw is better than one that
 // is smooth: the limit acts only within lag_most().
 bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
-  const double level = m.level.sum(), known = t->level.sum() + t->grown.total(), before = t->value;
+  const double protection = m.protection.sum(), known = t->protection.sum() + t->grown.total(), before = t->value;
   const double trust =
-      level > known ? known / level : 1.0;  // a measurement that is weaker than those before pulls less
+      protection > known ? known / protection : 1.0;  // a measurement that is weaker than those before pulls less
   const double free = smoothed(m.raw, trust, s.temporal_smoothing_tau, t);
   const double limit = radians(s.yaw_rate_limit_deg);
   const bool limited = quantity == POSE_WALL_YAW && std::fabs(free - before) > limit;
   POSE_WALL_NOTE(if (quantity == POSE_WALL_YAW)
                      trace::gate(POSE_WALL_TRACE_RATE, std::fabs(free - before), limit, !limited));
   const double wished = limited ? clamped(free, before, limit) : free;
-  t->value = clamped(wished, m.raw, lag_most(level, alert_limit(quantity, s)));
+  t->value = clamped(wished, m.raw, lag_most(protection, alert_limit(quantity, s)));
   return limited && t->value == wished;
 }
 
@@ -125,13 +127,13 @@ void note_innovation(const Measurement& m, const Track& t) {
     trace::gate(POSE_WALL_TRACE_CONFIRMED, t.to_confirm, 0.0, t.to_confirm == 0);
     return;
   }
-  const double reach = m.level.sum() + t.good.raw_protection + t.good.grown.total();
+  const double reach = m.protection.sum() + t.good.raw_protection + t.good.grown.total();
   trace::gate(POSE_WALL_TRACE_INNOVATION, std::fabs(m.raw - t.good.raw), reach, t.to_confirm == 0);
 }
 
 void note_held(const pose_wall_value& v, double blind_s, std::uint32_t quantity, const Settings& s, const Track& t) {
   const double alert = alert_limit(quantity, s);
-  trace::gate(POSE_WALL_TRACE_HELD_LEVEL, v.protection_level, alert, v.protection_level <= alert);
+  trace::gate(POSE_WALL_TRACE_PROTECTION_HELD, v.protection_level, alert, v.protection_level <= alert);
   trace::gate(POSE_WALL_TRACE_HELD_AGE, blind_s, s.hold_max, blind_s <= s.hold_max);
   trace::gate(POSE_WALL_TRACE_HELD_BEFORE, !t.expired);
 }
@@ -143,19 +145,19 @@ void keep_good(const Measurement& m, Track* t) {
   LastGood& good = t->good;
   good.exists = true;
   good.raw = m.raw;
-  good.raw_protection = m.level.sum();
+  good.raw_protection = m.protection.sum();
   good.value = t->value;
-  good.level = t->level;
+  good.protection = t->protection;
   good.grown = Unknown{};
   good.age_s = 0.0;
 }
 
-void tell_level(const LevelParts& level, pose_wall_value* out) {
-  out->protection_level = level.sum();
+void report_protection(const ProtectionParts& protection, pose_wall_value* out) {
+  out->protection_level = protection.sum();
   out->cause = POSE_WALL_PART_RANDOM;
   for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) {
-    out->part[part] = level.of[part];
-    if (level.of[part] > level.of[out->cause]) out->cause = part;
+    out->part[part] = protection.of[part];
+    if (protection.of[part] > protection.of[out->cause]) out->cause = part;
   }
 }
 
@@ -165,7 +167,7 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   keep_doubts(t, &m);
   check_innovation(m, t);
   POSE_WALL_NOTE(note_innovation(m, *t));
-  const double seen_protection = m.level.sum();
+  const double seen_protection = m.protection.sum();
   if (t->to_confirm > 0) reach_to_last_good(quantity, s, *t, &m);
   if (afresh) {
     t->value = m.raw;
@@ -182,20 +184,20 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   t->age_s = 0.0;
   t->grown = Unknown{};
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
-  t->level = m.level;
-  t->level[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
-  const double alert = alert_limit(quantity, s), level = t->level.sum();
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVEL_SMOOTHED, level, alert, level <= alert));
-  if (!(level <= alert)) m.reasons |= POSE_WALL_R_ALERT_LIMIT;
-  const bool valid = level <= alert && !m.weak && t->to_confirm == 0;
+  t->protection = m.protection;
+  t->protection[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
+  const double alert = alert_limit(quantity, s), protection = t->protection.sum();
+  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_PROTECTION_SMOOTHED, protection, alert, protection <= alert));
+  if (!(protection <= alert)) m.reasons |= POSE_WALL_R_ALERT_LIMIT;
+  const bool valid = protection <= alert && !m.weak && t->to_confirm == 0;
   if (valid) keep_good(m, t);
   if (!valid && in_doubt) m.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
   out->state = out->raw_state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->reasons = m.reasons;
   out->raw = m.raw;
   out->value = t->value;
-  out->raw_protection_level = m.level.sum();
-  tell_level(t->level, out);
+  out->raw_protection_level = m.protection.sum();
+  report_protection(t->protection, out);
 }
 
 // What is held is the last good value where there is one: a weak frame since then does not replace it.
@@ -207,14 +209,14 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
     out->reasons |= POSE_WALL_R_NEVER_MEASURED;
     return;
   }
-  LevelParts last_level = t->level, good_level = t->good.level;
-  last_level[POSE_WALL_PART_AGE] += t->grown.total();
-  good_level[POSE_WALL_PART_AGE] += t->good.grown.total();
+  ProtectionParts last_protection = t->protection, good_protection = t->good.protection;
+  last_protection[POSE_WALL_PART_AGE] += t->grown.total();
+  good_protection[POSE_WALL_PART_AGE] += t->good.grown.total();
   // A jump that nobody has confirmed yet may be one: the level of what came last reaches to both.
-  const bool hold_good = t->good.exists && t->to_confirm == 0 && good_level.sum() < last_level.sum();
+  const bool hold_good = t->good.exists && t->to_confirm == 0 && good_protection.sum() < last_protection.sum();
   out->value = hold_good ? t->good.value : t->value;
   out->age_s = hold_good ? t->good.age_s : t->age_s;
-  tell_level(hold_good ? good_level : last_level, out);
+  report_protection(hold_good ? good_protection : last_protection, out);
   const Unknown& grown = hold_good ? t->good.grown : t->grown;
   const double blind_s = grown.blind_s;
   const bool within = out->protection_level <= alert_limit(quantity, s) && blind_s <= s.hold_max;
@@ -259,11 +261,11 @@ void pass_time(double elapsed_s, const Change& change, std::uint32_t quantity, T
 const Change& narrower(const Change& by_places, const Change& by_config, double elapsed_s, std::uint32_t quantity,
                        const Settings& s, const Track& t) {
   if (!by_places.by_places[quantity] || !t.has_value) return by_places;
-  const double level = t.good.exists ? t.good.level.sum() : t.level.sum();
+  const double protection = t.good.exists ? t.good.protection.sum() : t.protection.sum();
   Unknown told = t.good.exists ? t.good.grown : t.grown, allowed = told;
   told.grow(by_places, quantity, elapsed_s);
   allowed.grow(by_config, quantity, elapsed_s);
-  const bool usable = level + told.total() <= alert_limit(quantity, s);
+  const bool usable = protection + told.total() <= alert_limit(quantity, s);
   return usable || told.total() < allowed.total() ? by_places : by_config;
 }
 
@@ -306,7 +308,7 @@ bool contradict(const Change& change, const Measurements& measured, const FrameT
     if (!m.measured || !t.has_value || t.expired) continue;
     Unknown grown = t.grown;
     grown.grow(change, q, timing.dt_s);
-    const double expected = t.raw + change.carry[q], reach = m.level.sum() + t.raw_protection + grown.total();
+    const double expected = t.raw + change.carry[q], reach = m.protection.sum() + t.raw_protection + grown.total();
     if (!(std::fabs(m.raw - expected) <= reach)) return true;
   }
   return false;

@@ -17,9 +17,9 @@ struct LastGood {
   bool exists = false;
   double raw = 0.0;
   double raw_protection = 0.0;
-  double value = 0.0;  // smoothed
-  LevelParts level;    // of value
-  Unknown grown;       // what the machine may have moved since, and nobody knows
+  double value = 0.0;          // smoothed
+  ProtectionParts protection;  // of value
+  Unknown grown;               // what the machine may have moved since, and nobody knows
   double age_s = 0.0;
 };
 
@@ -32,10 +32,10 @@ struct Track {
   double raw = 0.0;                   // of the last frame it was measured in
   double raw_protection = 0.0;
   double sigma = 0.0;
-  LevelParts level;      // of value in that frame
-  Unknown grown;         // what the machine may have moved since that frame, and nobody knows
-  double age_s = 0.0;    // since that frame
-  bool expired = false;  // held for too long, or the clock jumped: the filter starts afresh
+  ProtectionParts protection;  // of value in that frame
+  Unknown grown;               // what the machine may have moved since that frame, and nobody knows
+  double age_s = 0.0;          // since that frame
+  bool expired = false;        // held for too long, or the clock jumped: the filter starts afresh
   LastGood good;
   // After a jump the last good value stays in the protection level until the new one has come again and again; what was
   // refused before there was a good one must come again, too.

@@ -197,8 +197,9 @@ void see_floor(const FloorResult& floor, const Place& at, const Settings& s, See
                       s.protection_factor * larger(floor.roll_sigma_rad, floor.pitch_sigma_rad);
 }
 
-void see_wall(const WallResult& wall, const Place& at, const LevelResult& level, const Settings& s, SeenSurface* seen) {
-  const Eigen::Matrix3d R_run_level = at.R_run_base * level.R_level_base.transpose();
+void see_wall(const WallResult& wall, const Place& at, const Levelling& levelling, const Settings& s,
+              SeenSurface* seen) {
+  const Eigen::Matrix3d R_run_level = at.R_run_base * levelling.R_level_base.transpose();
   seen->exists = true;
   seen->normal = R_run_level * wall.fit.plane.n;
   seen->along = R_run_level * wall.along_level;
@@ -257,11 +258,11 @@ void widen_by_skew(const pose_wall_odometry& o, double scan_s, const OdometryMem
   const View view(o, memory, s, axes);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Measurement& m = measured->quantity[q];
-    if (m.measured) m.level[POSE_WALL_PART_AGE] += scan_s * view.response(q).level(o.rate_level);
+    if (m.measured) m.protection[POSE_WALL_PART_AGE] += scan_s * view.response(q).level(o.rate_level);
   }
 }
 
-void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const LevelResult& level,
+void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const Levelling& levelling,
                     const WallResult (&walls)[2], const Measurements& measured, const Settings& s, const Axes& axes,
                     OdometryMemory* memory) {
   if (o.run != memory->run) memory->floor.exists = memory->wall[0].exists = memory->wall[1].exists = false;
@@ -276,7 +277,7 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
   for (int side = 0; side < 2; ++side) {
     const std::uint32_t front = side == 0 ? POSE_WALL_D_LF : POSE_WALL_D_RF;
     if (!is_good(front) && !is_good(front + 1)) continue;  // a rival, a thing before the wall
-    see_wall(walls[side], at, level, s, &memory->wall[side]);
+    see_wall(walls[side], at, levelling, s, &memory->wall[side]);
   }
   const View view(o, *memory, s, axes);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {

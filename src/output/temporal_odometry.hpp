@@ -54,7 +54,7 @@ void widen_by_skew(const pose_wall_odometry& odometry, double scan_s, const Odom
                    const Settings& settings, const Axes& axes, Measurements* measured);
 
 // The place and the surfaces that this frame measured well become memory; a new run forgets those of the one before.
-void remember_place(const pose_wall_odometry& odometry, const FloorResult& floor, const LevelResult& level,
+void remember_place(const pose_wall_odometry& odometry, const FloorResult& floor, const Levelling& levelling,
                     const WallResult (&walls)[2], const Measurements& measured, const Settings& settings,
                     const Axes& axes, OdometryMemory* memory);
 

@@ -12,8 +12,8 @@ namespace pose_wall {
 
 WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyond_level,
                      const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
-                     const LevelResult& level, const Axes& axes, const Extrinsic& extrinsic) {
-  const Eigen::Matrix3d& R = level.R_level_base;
+                     const Levelling& levelling, const Axes& axes, const Extrinsic& extrinsic) {
+  const Eigen::Matrix3d& R = levelling.R_level_base;
   Eigen::Vector3d forward = R * axes.forward_base;
   forward.z() = 0.0;
   forward.normalize();
@@ -37,8 +37,8 @@ WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyon
       scene.sample_level_m[side][end] = R * (along_m[end] * axes.forward_base + offsets_m[side] * axes.left_base);
     }
   }
-  scene.z_min_level_m = level.floor_z_level_m + settings.wall_z_min;
-  scene.z_max_level_m = level.floor_z_level_m + settings.wall_z_max;
+  scene.z_min_level_m = levelling.floor_z_level_m + settings.wall_z_min;
+  scene.z_max_level_m = levelling.floor_z_level_m + settings.wall_z_max;
   return scene;
 }
 

@@ -39,7 +39,7 @@ struct WallScene {
 
 WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyond_level,
                      const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
-                     const LevelResult& level, const Axes& axes, const Extrinsic& extrinsic);
+                     const Levelling& levelling, const Axes& axes, const Extrinsic& extrinsic);
 
 // What lies this near to a wall's plane, to either side, is the wall.
 inline double on_wall_m(const Settings& settings) {

@@ -164,7 +164,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   WallChoice choice = choose_walls(beside[0], beside[1], scene.settings);
   refuse_where_across(scene, random, scratch, &choice);
 
-  if (!scratch->fit.work.is_spent()) note_directions(scene, &scratch->sight);  // for the fits
+  if (!scratch->fit.work.is_spent()) learn_directions(scene, &scratch->sight);  // for the fits
   const bool explained = explained_share(scene, choice) >= kExplainedMin;
   POSE_WALL_NOTE(note_explained(explained_share(scene, choice), explained));
   WallsResult out;

@@ -65,7 +65,7 @@ TEST(AbiNumbers, KindsAndOrders) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(quantities[i], i);
   const int states[] = {POSE_WALL_INVALID, POSE_WALL_HELD, POSE_WALL_DEGRADED, POSE_WALL_VALID};
   for (int i = 0; i < 4; ++i) EXPECT_EQ(states[i], i);
-  const int stages[] = {POSE_WALL_STAGE_VOXEL, POSE_WALL_STAGE_OUTLIERS, POSE_WALL_STAGE_GROUND, POSE_WALL_STAGE_BAND,
+  const int stages[] = {POSE_WALL_STAGE_VOXEL, POSE_WALL_STAGE_OUTLIERS, POSE_WALL_STAGE_FLOOR, POSE_WALL_STAGE_BAND,
                         POSE_WALL_STAGE_WALLS, POSE_WALL_STAGE_OUTPUT,   POSE_WALL_STAGES};
   for (int i = 0; i < 7; ++i) EXPECT_EQ(stages[i], i);
   const int parts[] = {

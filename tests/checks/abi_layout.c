@@ -109,8 +109,8 @@ static int plane_layout(void) {
   MEMBER(pose_wall_plane, d_m);
   MEMBER(pose_wall_plane, rms_m);
   MEMBER(pose_wall_plane, lean_rad);
-  MEMBER(pose_wall_plane, along_min_m);
-  MEMBER(pose_wall_plane, along_max_m);
+  MEMBER(pose_wall_plane, extent_min_m);
+  MEMBER(pose_wall_plane, extent_max_m);
   MEMBER(pose_wall_plane, area_m2);
   MEMBER(pose_wall_plane, found);
   MEMBER(pose_wall_plane, inliers);
@@ -147,7 +147,7 @@ static int result_layout(void) {
   MEMBER(pose_wall_result, dropped_body);
   MEMBER(pose_wall_result, voxels);
   MEMBER(pose_wall_result, outliers);
-  MEMBER(pose_wall_result, ground_candidates);
+  MEMBER(pose_wall_result, open_points);
   MEMBER(pose_wall_result, wall_points);
   return struct_end("pose_wall_result", sizeof(pose_wall_result));
 }

@@ -37,7 +37,7 @@ enum class Fault {
   kIrlsCloudUnsolved,
   kIrlsPointsUnsolved,
   kMeasureRefused,
-  kDirectionsNotNoted,
+  kDirectionsNotLearnt,
   kSightSilent,
   kSightNan,
   kSightDim,

@@ -46,7 +46,7 @@ TEST_F(SelfTestFaults, CodeThatIsNotCoveredIsSaidToBeNone) {
 
 // Its road shows no strips that layers do not tell, and nothing that hides a wall.
 bool changes_nothing(Fault fault) {
-  return fault == Fault::kStripsNotFound || fault == Fault::kDirectionsNotNoted;
+  return fault == Fault::kStripsNotFound || fault == Fault::kDirectionsNotLearnt;
 }
 
 TEST_F(SelfTestFaults, EachStepThatFails) {

@@ -56,7 +56,7 @@ const StageCase kStageCases[] = {
     {"irls_of_clouds_unsolved", Fault::kIrlsCloudUnsolved, "x", "."},
     {"irls_of_points_unsolved", Fault::kIrlsPointsUnsolved, ".", "."},
     {"wall_measurement_refused", Fault::kMeasureRefused, "VVHHHHH", "VVIIIII"},
-    {"directions_not_noted", Fault::kDirectionsNotNoted, ".", "."},
+    {"directions_not_learnt", Fault::kDirectionsNotLearnt, ".", "."},
     {"sight_is_silent", Fault::kSightSilent, "VVHHHHH", "VVIIIII"},
     {"sight_is_nan", Fault::kSightNan, "VVHHHHH", "VVIIIII"},
     {"sight_is_dim", Fault::kSightDim, "VVDDDDD", "VVDDDDD"},

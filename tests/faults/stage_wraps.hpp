@@ -89,7 +89,7 @@ POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
 
 POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor,
                (const BoundedPoints& cloud, const Settings& s, const Axes& axes, const Eigen::Vector3d& sensor_m,
-                const Plane* last, Random* random, GroundScratch* scratch)) {
+                const Plane* last, Random* random, FloorScratch* scratch)) {
   FloorResult r = find_floor_for_real(cloud, s, axes, sensor_m, last, random, scratch);
   if (fails(Fault::kFloorNotFound)) {
     r = FloorResult{};
@@ -103,15 +103,14 @@ POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor,
 }
 
 POSE_WALL_WRAP(std::uint32_t, SEARCH_FLOOR, search_floor,
-               (const GroundSearchInput& in, const Settings& s, Random* random, PointSet* subset,
-                FloorShortlist* list)) {
+               (const FloorDraw& in, const Settings& s, Random* random, PointSet* subset, FloorShortlist* list)) {
   if (fails(Fault::kFloorNoHypotheses)) return 0;
   return search_floor_for_real(in, s, random, subset, list);
 }
 
 POSE_WALL_WRAP(FloorResult, FIT_FLOOR, fit_floor,
                (const FloorLook& look, const Plane& start, const Settings& s, const Eigen::Vector3d& sensor_m,
-                GroundScratch* scratch)) {
+                FloorScratch* scratch)) {
   FloorResult r = fit_floor_for_real(look, start, s, sensor_m, scratch);
   if (fails(Fault::kFloorFitFails)) refuse(&r.fit, POSE_WALL_R_FLOOR_THIN);
   return r;
@@ -127,16 +126,16 @@ POSE_WALL_WRAP(double, HALVES, halves,
   return fails(Fault::kHalvesNan) ? kNan : halves_for_real(patches, correction, of);
 }
 
-POSE_WALL_WRAP(LevelResult, LEVEL_BY, level_by, (const Plane& floor, const Axes& axes)) {
-  LevelResult r = level_by_for_real(floor, axes);
+POSE_WALL_WRAP(Levelling, LEVELLING_BY, levelling_by, (const Plane& floor, const Axes& axes)) {
+  Levelling r = levelling_by_for_real(floor, axes);
   if (fails(Fault::kLevelNan)) r.roll_rad = r.pitch_rad = r.forward_up = r.floor_z_level_m = kNan;
   return r;
 }
 
 POSE_WALL_WRAP(void, CUT_WALL_BAND, cut_wall_band,
-               (const PointSet& cloud, const LevelResult& level, const Settings& s, VoxelGrid* grid,
+               (const PointSet& cloud, const Levelling& levelling, const Settings& s, VoxelGrid* grid,
                 BoundedPoints* band, BoundedPoints* beyond)) {
-  cut_wall_band_for_real(cloud, level, s, grid, band, beyond);
+  cut_wall_band_for_real(cloud, levelling, s, grid, band, beyond);
   if (fails(Fault::kBandEmpty)) band->count = beyond->count = 0;
 }
 
@@ -226,8 +225,8 @@ POSE_WALL_WRAP(WallResult, MEASURE_WALL, measure_wall,
   return r;
 }
 
-POSE_WALL_WRAP(void, NOTE_DIRECTIONS, note_directions, (const WallScene& scene, SightScratch* scratch)) {
-  if (!fails(Fault::kDirectionsNotNoted)) note_directions_for_real(scene, scratch);
+POSE_WALL_WRAP(void, LEARN_DIRECTIONS, learn_directions, (const WallScene& scene, SightScratch* scratch)) {
+  if (!fails(Fault::kDirectionsNotLearnt)) learn_directions_for_real(scene, scratch);
 }
 
 POSE_WALL_WRAP(WallSight, LOOK_AT, look_at,
@@ -279,8 +278,9 @@ POSE_WALL_WRAP(void, REFUSE_BLOCKED_SIDES, blocked_sides, (const IngestCounts& c
 }
 
 POSE_WALL_WRAP(Measurements, MEASURE_QUANTITIES, quantities,
-               (const FloorResult& floor, const LevelResult& level, const WallResult (&walls)[2], const Settings& s)) {
-  Measurements r = quantities_for_real(floor, level, walls, s);
+               (const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
+                const Settings& s)) {
+  Measurements r = quantities_for_real(floor, levelling, walls, s);
   if (!fails(Fault::kNothingMeasured)) return r;
   r = Measurements{};
   for (Measurement& m : r.quantity) m.reasons = POSE_WALL_R_ALERT_LIMIT;

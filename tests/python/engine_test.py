@@ -46,7 +46,7 @@ class AsTheCommand(unittest.TestCase):
     def same_plane(self, plane, line):
         self.assertEqual(plane.found, line["found"])
         self.assertEqual(pose_wall.reason_names(plane.reasons), line["reasons"])
-        for member in ("rms_m", "along_min_m", "along_max_m", "lean_rad"):
+        for member in ("rms_m", "extent_min_m", "extent_max_m", "lean_rad"):
             self.assertEqual(bits(getattr(plane, member)) if plane.found else None, bits(line[member]), member)
         self.assertEqual(bits(plane.d_m) if plane.found else None, bits(line["distance_m"]))
         if plane.found:

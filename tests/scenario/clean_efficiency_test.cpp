@@ -30,8 +30,8 @@ class CleanEfficiency : public ::testing::TestWithParam<Eyes> {};
 
 tools::View view_of(const pose_wall_result& r) {
   return {r.floor.d_m,
-          r.floor.along_max_m,
-          {{{r.left.along_min_m, r.left.along_max_m}, {r.right.along_min_m, r.right.along_max_m}}}};
+          r.floor.extent_max_m,
+          {{{r.left.extent_min_m, r.left.extent_max_m}, {r.right.extent_min_m, r.right.extent_max_m}}}};
 }
 
 void add_draw(std::uint64_t seed, const Eyes& eyes, tools::Efficiency* out) {

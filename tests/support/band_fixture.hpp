@@ -61,7 +61,7 @@ class BandFixture {
 
   // Refers to this fixture, as it is now.
   WallScene scene() {
-    LevelResult level;
+    Levelling level;
     level.floor_z_level_m = kFloorZ_m;
     const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
     join_cloud();

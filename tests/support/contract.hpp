@@ -121,7 +121,7 @@ inline bool is_plane(const pose_wall_plane& p) {
   const double norm = std::hypot(p.normal[0], p.normal[1], p.normal[2]);
   if (p.found == 0) return norm == 0.0 && p.d_m == 0.0 && p.inliers == 0;
   return p.found == 1 && std::fabs(norm - 1.0) <= 1e-9 && std::isfinite(p.d_m) && p.rms_m >= 0.0 &&
-         std::isfinite(p.rms_m) && std::isfinite(p.lean_rad) && p.area_m2 >= 0.0 && p.along_min_m <= p.along_max_m;
+         std::isfinite(p.rms_m) && std::isfinite(p.lean_rad) && p.area_m2 >= 0.0 && p.extent_min_m <= p.extent_max_m;
 }
 
 inline bool is_rotation(const double (&R)[9]) {

@@ -2,14 +2,14 @@
 # Copyright (c) 2026 the pose_wall authors
 
 # pose_wall_test_kind(<kind> [WHITE_BOX] [NATIVE] [WORDS] TIMEOUT <seconds> [NEEDS <target>] [ONLY <target>...])
-# The executable pose_wall_<kind>_tests from <kind>/*_test.cpp, one ctest entry per case, labelled with the kind.
+# The executable pose_wall_<kind>_tests from <kind>/**/*_test.cpp, one ctest entry per case, labelled with the kind.
 # ONLY: links these beside the archive, and none of the tools. WORDS: they compute nothing themselves.
 # Most of what tests take to compile is the same templates, so that a quick build compiles some files together: these
 # cannot use one name for two things.
 # Nothing is made when the folder is empty, a needed target is not part of this build, or a NATIVE kind is cross built.
 function(pose_wall_test_kind kind)
   cmake_parse_arguments(PARSE_ARGV 1 kind "WHITE_BOX;NATIVE;WORDS" "TIMEOUT;NEEDS" "ONLY")
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/*_test.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${kind}/*_test.cpp)
   if(CMAKE_CROSSCOMPILING)
     if(kind_NATIVE)
       return()

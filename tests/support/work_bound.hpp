@@ -38,8 +38,8 @@ inline std::uint64_t most_of_a_floor_piece(const Settings& s) {
   const std::uint64_t around = voxels / 4 * steps::kFourLookedAt + steps::kVoxelLookedAround;  // one last outlier
   const std::uint64_t drawn = (s.ground_iterations + 1) * steps::kFloorDrawn;
   const std::uint64_t weighed = steps::kFloorRefined + voxels * steps::kPointWeighed + steps::kFloorWeighed;
-  const std::uint64_t selected = 2ULL * kGroundFitPoints * steps::kPointSelected + 5ULL * kGroundFitPoints;
-  const std::uint64_t patched = kGroundFitPoints * steps::kPointPatched + most_of_patches() +
+  const std::uint64_t selected = 2ULL * kFloorFitPoints * steps::kPointSelected + 5ULL * kFloorFitPoints;
+  const std::uint64_t patched = kFloorFitPoints * steps::kPointPatched + most_of_patches() +
                                 waved * waved * steps::kPatchesWaved + voxels * steps::kPointWithin;
   const std::uint64_t beside = voxels * steps::kPointWithin + drawn;
   return std::max({around + voxels * steps::kVoxelOpened, drawn + weighed, selected, patched, beside + weighed});

@@ -42,20 +42,21 @@ std::string place_of(std::string column) {
     if (what == "pl") return place + "protection_level" + unit;
     return place + (what == "reason" ? "reasons" : what);
   }
-  for (const std::string plane : {"floor", "left_wall", "right_wall"}) {
-    if (takes(column, plane + "_")) return "/planes/" + plane + "/" + (column == "reason" ? "reasons" : column);
-  }
   if (column == "total_ms") return "/times_ms/engine";
   if (column == "load_ms") return "/times_ms/load";
   if (column == "processor_ms") return "/times_ms/engine_processor";
+  const std::size_t ms = column.rfind("_ms");
+  if (ms != std::string::npos) return "/times_ms/stages/" + column.substr(0, ms);  // "floor" is a stage, too
+  for (const std::string plane : {"floor", "left_wall", "right_wall"}) {
+    if (takes(column, plane + "_")) return "/planes/" + plane + "/" + (column == "reason" ? "reasons" : column);
+  }
   if (column == "left_right_yaw_difference") return "/" + column + "_rad";
   if (column == "reason" || column == "frame_reason") return "/" + column + "s";
   if (column == "points_in") return "/points/in";
   for (const char* alone : {"frame", "source", "stamp_ns", "confidence", "status", "error", "voxel_leaf_m", "work"}) {
     if (column == alone) return "/" + column;
   }
-  const std::size_t ms = column.rfind("_ms");
-  return ms != std::string::npos ? "/times_ms/stages/" + column.substr(0, ms) : "/points/" + column;
+  return "/points/" + column;
 }
 
 std::string cell_of(const json& value) {

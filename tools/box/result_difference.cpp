@@ -92,8 +92,8 @@ class Fields {
     add(of + "d_m", p.d_m);
     add(of + "rms_m", p.rms_m);
     add(of + "lean_rad", p.lean_rad);
-    add(of + "along_min_m", p.along_min_m);
-    add(of + "along_max_m", p.along_max_m);
+    add(of + "extent_min_m", p.extent_min_m);
+    add(of + "extent_max_m", p.extent_max_m);
     add(of + "area_m2", p.area_m2);
     add(of + "found", p.found);
     add(of + "inliers", p.inliers);
@@ -110,7 +110,7 @@ class Fields {
     add("dropped_body", r_.dropped_body);
     add("voxels", r_.voxels);
     add("outliers", r_.outliers);
-    add("ground_candidates", r_.ground_candidates);
+    add("open_points", r_.open_points);
     add("wall_points", r_.wall_points);
   }
 

@@ -95,7 +95,7 @@ constexpr GateWords kFloorWords[] = {
 };
 
 constexpr GateWords kChoiceWords[] = {
-    {"level", "It was not looked for: this frame has no floor to level by.", "see the floor"},
+    {"levelled", "It was not looked for: this frame has no floor to level by.", "see the floor"},
     {"wall_planes", "No plane at all was found on this side.",
      "nothing answers there: a dark or wet wall, a window with mud on it, or a road that branches off"},
     {"wall_inliers", "{value} measured points lie on the plane; {limit} are needed ({key}).",
@@ -225,7 +225,7 @@ constexpr GateWords kSightWords[] = {
 };
 
 constexpr GateWords kOutcomeWords[] = {
-    {"level_raw", "The protection level of this frame's own measurement is {value}, beyond {limit} ({key}).",
+    {"protection_raw", "The protection level of this frame's own measurement is {value}, beyond {limit} ({key}).",
      "more of the surface in view, or a larger {key} if you can bear it"},
     {"rate", "The smoothed yaw was to turn by {value} and follows by {limit} a frame ({key}).", ""},
     {"innovation",
@@ -235,10 +235,10 @@ constexpr GateWords kOutcomeWords[] = {
     {"doubted", "A rival was seen a moment ago: for {value} frames more, this one among them, the level reaches to it.",
      ""},
     {"confirmed", "Frames before it were refused and none was good yet: it has to come again, {value} more.", ""},
-    {"level_smoothed", "Its protection level is {value}; {limit} is the alert limit ({key}).",
+    {"protection_smoothed", "Its protection level is {value}; {limit} is the alert limit ({key}).",
      "more of the surface in view, or a larger {key} if you can bear it"},
     {"ever", "It was never measured before, so there is nothing to hold.", ""},
-    {"held_level", "The held value's protection level has grown to {value}, beyond {limit} ({key}).", ""},
+    {"protection_held", "The held value's protection level has grown to {value}, beyond {limit} ({key}).", ""},
     {"held_age", "The held value is {value} old; {limit} is the most ({key}).", ""},
     {"held_before", "What was held had expired before, by time or by a stamp that jumped or stood still.", ""},
     {"work", "The frame had taken {value} steps when more were needed; {limit} is the most ({key}).",

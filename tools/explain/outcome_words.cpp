@@ -62,8 +62,8 @@ std::vector<std::string> doubted(const Notes& notes, std::uint32_t quantity) {
 
 // The smoothed value's level says the same as the raw one's, and more.
 bool is_said_by_another(const Note& note, const std::vector<Note>& failed) {
-  return note.is(POSE_WALL_TRACE_LEVEL_RAW) && std::any_of(failed.begin(), failed.end(), [](const Note& other) {
-           return other.is(POSE_WALL_TRACE_LEVEL_SMOOTHED);
+  return note.is(POSE_WALL_TRACE_PROTECTION_RAW) && std::any_of(failed.begin(), failed.end(), [](const Note& other) {
+           return other.is(POSE_WALL_TRACE_PROTECTION_SMOOTHED);
          });
 }
 

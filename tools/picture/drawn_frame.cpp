@@ -68,7 +68,7 @@ Drawn DrawnFrame::from_machine(double forward_m, double left_m, double up_m) con
 DrawnPlane DrawnFrame::wall(const pose_wall_plane& plane) const {
   const Drawn normal = from_level({plane.normal[0], plane.normal[1], plane.normal[2]});
   const bool drawable = plane.found != 0 && std::abs(normal.left) > 0.1;
-  return {drawable, normal, plane.d_m, plane.along_min_m, plane.along_max_m};
+  return {drawable, normal, plane.d_m, plane.extent_min_m, plane.extent_max_m};
 }
 
 }  // namespace pose_wall::tools::picture

@@ -22,8 +22,8 @@ struct DrawnPlane {
   bool found;
   Drawn normal;
   double d_m;
-  double along_min_m;
-  double along_max_m;
+  double extent_min_m;
+  double extent_max_m;
 
   // Distance along `left` at which a wall stands, at this place and height.
   double left_at(double along_m, double up_m) const;

@@ -66,14 +66,14 @@ void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const po
   const Range along = view.right_m();
   const auto at = [&](double along_m) { return view(along_m, wall.left_at(along_m, 0.0)); };
   svg.line(at(along.low), at(along.high), {colour, 1.2, "3 6"});
-  const double from_m = std::max(along.low, wall.along_min_m);
-  const double to_m = std::min(along.high, wall.along_max_m);
+  const double from_m = std::max(along.low, wall.extent_min_m);
+  const double to_m = std::min(along.high, wall.extent_max_m);
   if (from_m < to_m) svg.line(at(from_m), at(to_m), {colour, 2.6});
 
   const double outwards = wall.left_at(0.0, 0.0) > 0.0 ? -1.0 : 1.0;
   const Pixel foot = at(along.low + 0.35);
   const std::string words = fmt::format("{} wall: {} inliers, rms {:.0f} mm, {:+.1f} to {:+.1f} m", side, plane.inliers,
-                                        1000.0 * plane.rms_m, plane.along_min_m, plane.along_max_m);
+                                        1000.0 * plane.rms_m, plane.extent_min_m, plane.extent_max_m);
   const double y = std::clamp(foot.y + outwards * 26.0 + 4.0, view.corner().y + 26.0, view.corner().y + view.height());
   svg.text({foot.x, y}, words, {colour, 12.5, Anchor::kStart, true, kPanel});
 }

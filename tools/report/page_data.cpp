@@ -95,7 +95,7 @@ void PageData::add(const FrameOutcome& outcome) {
   for (const std::int64_t ns : result.stage_ns) stage_ms_.add(1e-6 * static_cast<double>(ns));
   for (const std::uint32_t count :
        {result.points_in, result.dropped_not_finite, result.dropped_zero, result.dropped_near, result.dropped_far,
-        result.dropped_body, result.voxels, result.outliers, result.ground_candidates, result.wall_points}) {
+        result.dropped_body, result.voxels, result.outliers, result.open_points, result.wall_points}) {
     counts_.add(count);
   }
 }
@@ -126,7 +126,7 @@ void PageData::add_planes(const pose_wall_result& result) {
   for (const pose_wall_plane* plane : {&result.left, &result.right}) {
     const picture::DrawnPlane wall = frame.wall(*plane);
     for (const double number : {wall.found ? 1.0 : 0.0, wall.normal.along, wall.normal.left, wall.normal.up, wall.d_m,
-                                wall.along_min_m, wall.along_max_m, plane->rms_m}) {
+                                wall.extent_min_m, wall.extent_max_m, plane->rms_m}) {
       planes_.add(number);
     }
   }

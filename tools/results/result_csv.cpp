@@ -57,8 +57,8 @@ void add_plane(std::vector<Column>& columns, const std::string& name, pose_wall_
   add("rms_m", [](const pose_wall_plane& p) { return csv_number(p.rms_m); });
   add("inliers", [](const pose_wall_plane& p) { return std::to_string(p.inliers); });
   add("iterations", [](const pose_wall_plane& p) { return std::to_string(p.iterations); });
-  add("along_min_m", [](const pose_wall_plane& p) { return csv_number(p.along_min_m); });
-  add("along_max_m", [](const pose_wall_plane& p) { return csv_number(p.along_max_m); });
+  add("extent_min_m", [](const pose_wall_plane& p) { return csv_number(p.extent_min_m); });
+  add("extent_max_m", [](const pose_wall_plane& p) { return csv_number(p.extent_max_m); });
   add("lean_rad", [](const pose_wall_plane& p) { return csv_number(p.lean_rad); });
   columns.push_back(
       {name + "_reason", [plane](const pose_wall_result& r) { return reason_names((r.*plane).reasons); }});
@@ -76,7 +76,7 @@ void add_counts(std::vector<Column>& columns) {
   add("dropped_body", &pose_wall_result::dropped_body);
   add("voxels", &pose_wall_result::voxels);
   add("outliers", &pose_wall_result::outliers);
-  add("ground_candidates", &pose_wall_result::ground_candidates);
+  add("open_points", &pose_wall_result::open_points);
   add("wall_points", &pose_wall_result::wall_points);
 }
 

@@ -49,8 +49,8 @@ Json plane_json(const pose_wall_plane& p) {
           {"rms_m", if_found(p.rms_m)},
           {"inliers", if_found(p.inliers)},
           {"iterations", if_found(p.iterations)},
-          {"along_min_m", if_found(p.along_min_m)},
-          {"along_max_m", if_found(p.along_max_m)},
+          {"extent_min_m", if_found(p.extent_min_m)},
+          {"extent_max_m", if_found(p.extent_max_m)},
           {"lean_rad", if_found(p.lean_rad)},
           {"reasons", reason_list(p.reasons)}};
 }
@@ -64,7 +64,7 @@ Json points_json(const pose_wall_result& r) {
           {"dropped_body", r.dropped_body},
           {"voxels", r.voxels},
           {"outliers", r.outliers},
-          {"ground_candidates", r.ground_candidates},
+          {"open_points", r.open_points},
           {"wall_points", r.wall_points}};
 }
 

@@ -50,10 +50,10 @@ class ViewColumns {
   explicit ViewColumns(const CsvTable& results)
       : results_(results),
         floor_distance_(result_column(results, "floor_distance_m")),
-        floor_radius_(result_column(results, "floor_along_max_m")) {
+        floor_radius_(result_column(results, "floor_extent_max_m")) {
     for (std::size_t side = 0; side < spans_.size(); ++side) {
       const std::string wall = side == 0 ? "left_wall" : "right_wall";
-      spans_[side] = {result_column(results, wall + "_along_min_m"), result_column(results, wall + "_along_max_m")};
+      spans_[side] = {result_column(results, wall + "_extent_min_m"), result_column(results, wall + "_extent_max_m")};
     }
   }
 

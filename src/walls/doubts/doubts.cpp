@@ -98,7 +98,7 @@ void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, W
   if (grooved) wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
   if (little_seen || shows_behind || grooved) {
     const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
-    for (LevelParts& bound : wall->distance_bound_m) bound[POSE_WALL_PART_RIVAL] += behind_m;
+    for (ProtectionParts& bound : wall->distance_bound_m) bound[POSE_WALL_PART_RIVAL] += behind_m;
   }
   const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
   if (whole && !edges.island && !edges.low) return;
@@ -130,7 +130,7 @@ void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, WallRes
                                   !(apart > kUnlike_rad)));
     if (!(apart > kUnlike_rad)) continue;
     (*walls)[side].fit.reasons |= POSE_WALL_R_WALLS_NOT_PARALLEL;
-    for (LevelParts& bound : (*walls)[side].distance_bound_m) bound[POSE_WALL_PART_RIVAL] += kMayBeBehind_m;
+    for (ProtectionParts& bound : (*walls)[side].distance_bound_m) bound[POSE_WALL_PART_RIVAL] += kMayBeBehind_m;
   }
 }
 

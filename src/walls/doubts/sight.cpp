@@ -147,7 +147,7 @@ WallSight judge(const ColumnRow& row, const SightColumns& columns) {
 
 }  // namespace
 
-void note_directions(const WallScene& scene, SightScratch* scratch) {
+void learn_directions(const WallScene& scene, SightScratch* scratch) {
   scratch->expected.look_at(scene.returns_lidar.all);
   scratch->seen.look_at(scene.returns_lidar.all, scratch->expected);
   scratch->kept_is_told = false;

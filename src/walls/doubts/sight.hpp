@@ -44,9 +44,9 @@ struct SightScratch {
 };
 
 // Once a frame, before any plane is looked at: tells what is to be expected of directions.
-void note_directions(const WallScene& scene, SightScratch* scratch);
+void learn_directions(const WallScene& scene, SightScratch* scratch);
 
-// What was kept by direction, at the first call after note_directions(): few frames ask for it.
+// What was kept by direction, at the first call after learn_directions(): few frames ask for it.
 void tell_kept(const WallScene& scene, SightScratch* scratch);
 
 // behind_m: returns this far behind the plane have passed through it.

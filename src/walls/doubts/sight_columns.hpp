@@ -29,7 +29,7 @@ struct SightColumn {
 
 class SightColumns {
  public:
-  // directions: noted by note_directions(), and what has passed through the plane; what was kept is told when asked
+  // directions: noted by learn_directions(), and what has passed through the plane; what was kept is told when asked
   // for.
   SightColumns(const WallScene& scene, SightScratch* directions, const SightLines& lines)
       : scene_(scene), directions_(*directions), lines_(lines) {}

@@ -137,7 +137,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const bool in_rock = out->fit.plane.signed_distance(sample) < 0.0;
     out->extrapolated[end] = seen.interrupted || unseen || in_rock;
     POSE_WALL_NOTE(note_sample(scene.settings, POSE_WALL_D_LF + 2 * side + end, offset_m, gap_m, in_rock, seen));
-    LevelParts& bound = out->distance_bound_m[end];
+    ProtectionParts& bound = out->distance_bound_m[end];
     bound[POSE_WALL_PART_RANGE_BIAS] = scene.settings.range_bias_max * std::fabs(bias);
     bound[POSE_WALL_PART_BEND] = bend + offset_m;
     bound[POSE_WALL_PART_EXTRAPOLATION] =

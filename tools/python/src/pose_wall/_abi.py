@@ -167,7 +167,7 @@ class Part(IntEnum):
 class Stage(IntEnum):
     VOXEL = 0
     OUTLIERS = 1
-    GROUND = 2
+    FLOOR = 2
     BAND = 3
     WALLS = 4
     OUTPUT = 5
@@ -476,8 +476,8 @@ pose_wall_plane._fields_ = [
     ("d_m", c_double),
     ("rms_m", c_double),
     ("lean_rad", c_double),
-    ("along_min_m", c_double),
-    ("along_max_m", c_double),
+    ("extent_min_m", c_double),
+    ("extent_max_m", c_double),
     ("area_m2", c_double),
     ("found", c_uint32),
     ("inliers", c_uint32),
@@ -513,7 +513,7 @@ pose_wall_result._fields_ = [
     ("dropped_body", c_uint32),
     ("voxels", c_uint32),
     ("outliers", c_uint32),
-    ("ground_candidates", c_uint32),
+    ("open_points", c_uint32),
     ("wall_points", c_uint32),
 ]
 

@@ -57,8 +57,8 @@ class Plane:
     d_m: float
     rms_m: float
     lean_rad: float
-    along_min_m: float
-    along_max_m: float
+    extent_min_m: float
+    extent_max_m: float
     area_m2: float
     found: bool  # else only iterations and reasons hold
     inliers: int
@@ -69,7 +69,7 @@ class Plane:
     def from_c(cls, c: Any) -> Plane:
         """From the struct of C."""
         x, y, z = c.normal
-        return cls((x, y, z), c.d_m, c.rms_m, c.lean_rad, c.along_min_m, c.along_max_m, c.area_m2, c.found != 0,
+        return cls((x, y, z), c.d_m, c.rms_m, c.lean_rad, c.extent_min_m, c.extent_max_m, c.area_m2, c.found != 0,
                    c.inliers, c.iterations, Reason(c.reasons))
 
 
@@ -85,7 +85,7 @@ class Counts:
     dropped_body: int
     voxels: int
     outliers: int
-    ground_candidates: int
+    open_points: int
     wall_points: int
 
 

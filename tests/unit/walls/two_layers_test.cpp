@@ -15,7 +15,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kGate_m = 0.25, kSigmaMin_m = 0.005, kGainPerPoint = 0.02;
+constexpr double kLayersGate_m = 0.25, kSigmaMin_m = 0.005, kGainPerPoint = 0.02;
 
 std::vector<float> residuals(double share, double step, double sigma, double centre, std::uint32_t seed) {
   test::Noise noise(seed);
@@ -28,7 +28,7 @@ std::vector<float> residuals(double share, double step, double sigma, double cen
 }
 
 LayerHistogram histogram_of(const std::vector<float>& r) {
-  LayerHistogram h(kGate_m);
+  LayerHistogram h(kLayersGate_m);
   h.add(Span<const float>(r.data(), static_cast<std::uint32_t>(r.size())));
   return h;
 }

@@ -37,7 +37,7 @@ pose_wall_odometry place(double x_m, double y_m, double yaw_rad, double roll_rad
 // A straight road along X: floor 1 m below base, walls 2 m to the left and 3 m to the right, seen 10 m either way.
 struct Road {
   FloorResult floor;
-  LevelResult level;
+  Levelling levelling;
   WallResult walls[2];
   Measurements measured;
 
@@ -57,7 +57,7 @@ struct Road {
   }
   OdometryMemory seen_from(const pose_wall_odometry& o, const Settings& s) const {
     OdometryMemory memory;
-    remember_place(o, floor, level, walls, measured, s, kAxes, &memory);
+    remember_place(o, floor, levelling, walls, measured, s, kAxes, &memory);
     return memory;
   }
 };
@@ -197,7 +197,7 @@ TEST(TemporalOdometry, ANewRunForgetsWhatWasSeen) {
   pose_wall_odometry other = place(0, 0, 0);
   other.run = 8;
   for (const int q : {POSE_WALL_D_LF, POSE_WALL_D_LB}) road.measured.quantity[q].weak = true;
-  remember_place(other, road.floor, road.level, road.walls, road.measured, s, kAxes, &memory);
+  remember_place(other, road.floor, road.levelling, road.walls, road.measured, s, kAxes, &memory);
   EXPECT_EQ(memory.run, 8U);
   EXPECT_FALSE(memory.wall[0].exists);
   EXPECT_TRUE(memory.wall[1].exists);

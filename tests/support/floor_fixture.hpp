@@ -17,9 +17,9 @@ namespace pose_wall::test {
 
 constexpr double kFloorBelow_m = 1.4;
 
-class GroundFixture {
+class FloorFixture {
  public:
-  explicit GroundFixture(std::initializer_list<KeyValue> settings = {})
+  explicit FloorFixture(std::initializer_list<KeyValue> settings = {})
       : settings_(settings_with(settings)), points_(60000), noise_(1) {}
 
   // The machine's tilt: everything added from now on is seen by a machine rolled and pitched like this.
@@ -59,7 +59,7 @@ class GroundFixture {
   }
 
   FloorResult floor(const Plane* last = nullptr) {
-    Placed<GroundScratch> scratch(points_.set().capacity());
+    Placed<FloorScratch> scratch(points_.set().capacity());
     Random random(1);
     const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
     return find_floor(points_.set(), settings_, axes, Eigen::Vector3d::Zero(), last, &random, scratch.get());

@@ -26,7 +26,7 @@ TEST(WallScene, FollowsTheSpecificationForAllAxesAndTilts) {
   const Extrinsic extrinsic{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.1, 0.2, 0.3)};
   for (const Eigen::Vector3d& forward : axes) {
     const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(forward);
-    LevelResult level;
+    Levelling level;
     level.R_level_base = level_rotation(Eigen::Vector3d(0.1, -0.2, 1.0).normalized());
     level.floor_z_level_m = -1.3;
     const Axes machine{forward, left};

@@ -11,12 +11,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/ground_fixture.hpp"
+#include "support/floor_fixture.hpp"
 
 namespace pose_wall {
 namespace {
 
-using test::GroundFixture;
+using test::FloorFixture;
 
 // 2000 points of 5 mm over 3 m around: 0.1 mrad; ten times that.
 constexpr double kAngle_rad = 0.001;
@@ -32,10 +32,10 @@ void expect_floor(const FloorResult& f, double roll, double pitch) {
   EXPECT_LT(std::fabs(angles.pitch_rad - pitch), 5.0 * f.pitch_sigma_rad + f.pitch_bound_rad.sum() + 5e-5);
 }
 
-TEST(Ground, LevelAndTilted) {
+TEST(Floor, LevelAndTilted) {
   for (const double roll : {-0.35, 0.0, 0.2}) {
     for (const double pitch : {-0.26, 0.0, 0.35}) {
-      GroundFixture g;
+      FloorFixture g;
       g.tilt(roll, pitch);
       g.add_road();
       expect_floor(g.floor(), roll, pitch);
@@ -43,8 +43,8 @@ TEST(Ground, LevelAndTilted) {
   }
 }
 
-TEST(Ground, TheLowSideOfATiltedMachineIsNotTheWholeFloor) {
-  GroundFixture g;
+TEST(Floor, TheLowSideOfATiltedMachineIsNotTheWholeFloor) {
+  FloorFixture g;
   g.tilt(0.3, 0.0);
   g.add_road();
   const FloorResult f = g.floor();
@@ -52,8 +52,8 @@ TEST(Ground, TheLowSideOfATiltedMachineIsNotTheWholeFloor) {
   EXPECT_GT(f.fit.inliers, 1500U);
 }
 
-TEST(Ground, OnlySeenFarAway) {
-  GroundFixture g({{"ground_inlier_min", "300"}});
+TEST(Floor, OnlySeenFarAway) {
+  FloorFixture g({{"ground_inlier_min", "300"}});
   g.add_level({4.0, 9.0, -2.5, 2.5}, 0.0);
   g.add_level({-9.0, -4.0, -2.5, 2.5}, 0.0);
   g.add_wall(2.5);
@@ -64,9 +64,9 @@ TEST(Ground, OnlySeenFarAway) {
 }
 
 // Rough enough that no radius is good enough. Within a wider one there is no more of it, or half as much again.
-TEST(Ground, AWiderRadiusIsLookedAtWhereItHoldsMore) {
+TEST(Floor, AWiderRadiusIsLookedAtWhereItHoldsMore) {
   for (const bool more : {false, true}) {
-    GroundFixture g({{"ground_roi_radius", "3"}, {"ground_roi_radius_max", "15"}});
+    FloorFixture g({{"ground_roi_radius", "3"}, {"ground_roi_radius_max", "15"}});
     g.add_level({-2.0, 2.0, -2.0, 2.0}, 0.0, 0.04);
     if (more) g.add_level({3.0, 6.0, -2.0, 2.0}, 0.0, 0.04);
     const FloorResult wide = g.floor();
@@ -82,30 +82,30 @@ TEST(Ground, AWiderRadiusIsLookedAtWhereItHoldsMore) {
   }
 }
 
-TEST(Ground, NothingOrNoFloorIsRefused) {
-  GroundFixture empty;
+TEST(Floor, NothingOrNoFloorIsRefused) {
+  FloorFixture empty;
   EXPECT_TRUE(empty.floor().fit.refused);
   EXPECT_NE(empty.floor().fit.reasons, 0U);
-  GroundFixture roof;
+  FloorFixture roof;
   roof.add_level({-8, 8, -2.5, 2.5}, 3.2);
   EXPECT_TRUE(roof.floor().fit.refused) << "a roof alone";
-  GroundFixture walls;
+  FloorFixture walls;
   walls.add_level({-8, 8, -2.5, 2.5}, 3.2);
   walls.add_wall(2.5);
   walls.add_wall(-2.5);
   EXPECT_TRUE(walls.floor().fit.refused) << "walls and roof, no floor";
 }
 
-TEST(Ground, OneLineOnTheFloorIsNoFloor) {
-  GroundFixture g({{"ground_inlier_min", "20"}});
+TEST(Floor, OneLineOnTheFloorIsNoFloor) {
+  FloorFixture g({{"ground_inlier_min", "20"}});
   for (double y = -2.5; y <= 2.5; y += 0.002) g.add(3.0 + 0.0004 * std::sin(99 * y), y, 0.0);
   EXPECT_TRUE(g.floor().fit.refused);
 }
 
 // A piece of a floor is seen and is too little; a splinter, with as many points, is none.
-TEST(Ground, ASplinterIsNoFloorAndAPieceTooLittleOfOne) {
+TEST(Floor, ASplinterIsNoFloorAndAPieceTooLittleOfOne) {
   constexpr double kStep_m = 0.02;
-  GroundFixture splinter({{"ground_inlier_min", "50"}}), piece({{"ground_inlier_min", "50"}});
+  FloorFixture splinter({{"ground_inlier_min", "50"}}), piece({{"ground_inlier_min", "50"}});
   splinter.add_level({1.05, 1.45, 0.05, 0.45}, 0.0, 0.003, kStep_m);
   piece.add_level({1.05, 2.2, 0.05, 1.2}, 0.0, 0.003, 2.0 * kStep_m);
   const FloorResult nothing = splinter.floor(), little = piece.floor();
@@ -116,16 +116,16 @@ TEST(Ground, ASplinterIsNoFloorAndAPieceTooLittleOfOne) {
   EXPECT_NE(little.fit.reasons & POSE_WALL_R_FLOOR_THIN, 0U);
 }
 
-TEST(Ground, FewPointsAreRefused) {
-  GroundFixture g({{"ground_inlier_min", "100000"}});
+TEST(Floor, FewPointsAreRefused) {
+  FloorFixture g({{"ground_inlier_min", "100000"}});
   g.add_road();
   const FloorResult f = g.floor();
   EXPECT_TRUE(f.fit.refused);
   EXPECT_NE(f.fit.reasons & POSE_WALL_R_FLOOR_FEW_INLIERS, 0U);
 }
 
-TEST(Ground, ABenchIsNotTheFloorUnlessItSaysSo) {
-  GroundFixture g;
+TEST(Floor, ABenchIsNotTheFloorUnlessItSaysSo) {
+  FloorFixture g;
   g.add_level({-8, 8, -2.5, 1.3}, 0.0);
   g.add_level({-8, 8, 1.3, 2.5}, 0.4);
   g.add_wall(2.5);
@@ -146,7 +146,7 @@ struct Valley {
 
   FloorResult floor() const {
     // One radius: nothing but the rivals moves the bounds by much.
-    GroundFixture g({{"ground_roi_radius", "6"}, {"ground_roi_radius_max", "6"}});
+    FloorFixture g({{"ground_roi_radius", "6"}, {"ground_roi_radius_max", "6"}});
     g.tilt(0.0, pitch_rad);
     test::Noise noise(2);
     for (double x = -8.0; x <= 8.0; x += 0.1) {
@@ -181,7 +181,7 @@ struct Valley {
 };
 
 // As large as the other floor, and of little more than half its size.
-TEST(Ground, BoundsReachToARivalFloor) {
+TEST(Floor, BoundsReachToARivalFloor) {
   const Valley with_rival[] = {{0.0, 0.09, 0.0}, {0.0, 0.14, 0.0}, {0.7, 0.14, 0.0}};
   for (Valley valley : with_rival) {
     for (const bool across : {false, true}) {
@@ -195,7 +195,7 @@ TEST(Ground, BoundsReachToARivalFloor) {
   }
 }
 
-TEST(Ground, BoundsReachToTheFartherOfTwoRivalFloors) {
+TEST(Floor, BoundsReachToTheFartherOfTwoRivalFloors) {
   for (const bool across : {false, true}) {
     for (const double left_rad : {0.12, 0.21}) {
       SCOPED_TRACE(::testing::Message() << left_rad << (across ? " across" : " along"));
@@ -209,8 +209,8 @@ TEST(Ground, BoundsReachToTheFartherOfTwoRivalFloors) {
 }
 
 // The road may climb: a steep floor that has no rival is as sure as a level one.
-TEST(Ground, ASteepFloorWithoutRivalsKeepsItsBounds) {
-  GroundFixture g;
+TEST(Floor, ASteepFloorWithoutRivalsKeepsItsBounds) {
+  FloorFixture g;
   g.tilt(0.25, 0.2);
   g.add_road();
   const FloorResult f = g.floor();
@@ -220,7 +220,7 @@ TEST(Ground, ASteepFloorWithoutRivalsKeepsItsBounds) {
 
 // Two flanks of one heap, and nothing level: the floor under the machine is neither.
 // Whichever way the machine looks: askew to the heap neither roll nor pitch is as large as the tilt.
-TEST(Ground, WhereAllThatMayBeTheFloorIsSteepTheBoundsReachToUpright) {
+TEST(Floor, WhereAllThatMayBeTheFloorIsSteepTheBoundsReachToUpright) {
   for (const double heading_rad : {0.0, 0.785, 1.571}) {
     for (Valley valley : {Valley{0.0, 0.38, -0.27}, Valley{0.0, 0.29, -0.19}}) {
       SCOPED_TRACE(::testing::Message() << valley.left_slope_rad << " seen from " << heading_rad);
@@ -236,7 +236,7 @@ TEST(Ground, WhereAllThatMayBeTheFloorIsSteepTheBoundsReachToUpright) {
   }
 }
 
-TEST(Ground, ASlopeOfAThirdOfTheFloorIsNoRival) {
+TEST(Floor, ASlopeOfAThirdOfTheFloorIsNoRival) {
   for (const bool across : {false, true}) {
     const FloorResult f = Valley{2.5, 0.14, 0.0, across}.floor();
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
@@ -246,7 +246,7 @@ TEST(Ground, ASlopeOfAThirdOfTheFloorIsNoRival) {
 }
 
 // The machine stands about upright: less is needed to doubt a floor by which it does not.
-TEST(Ground, ASlopeOfLessThanHalfOfTheFloorIsARivalOfASteepOne) {
+TEST(Floor, ASlopeOfLessThanHalfOfTheFloorIsARivalOfASteepOne) {
   for (const double pitch_rad : {0.0, 0.25}) {
     Valley valley{1.35, 0.0, 0.2};
     valley.pitch_rad = pitch_rad;
@@ -257,8 +257,8 @@ TEST(Ground, ASlopeOfLessThanHalfOfTheFloorIsARivalOfASteepOne) {
   }
 }
 
-TEST(Ground, GhostsMirroredBelowTheFloorAreNotTheFloor) {
-  GroundFixture g;
+TEST(Floor, GhostsMirroredBelowTheFloorAreNotTheFloor) {
+  FloorFixture g;
   g.add_level({-8, 8, -2.5, 2.5}, 0.0, 0.005, 0.15);
   // A roof mirrored, as dense as the floor.
   g.add_level({-4, 4, -2.0, 2.0}, -1.6, 0.005, 0.15);
@@ -270,18 +270,18 @@ TEST(Ground, GhostsMirroredBelowTheFloorAreNotTheFloor) {
   }
 }
 
-TEST(Ground, TheLastFramesFloorIsNeverTrusted) {
-  GroundFixture g;
+TEST(Floor, TheLastFramesFloorIsNeverTrusted) {
+  FloorFixture g;
   g.add_road();
   Plane wrong;
   wrong.d = 0.7;
   expect_floor(g.floor(&wrong), 0.0, 0.0);
-  GroundFixture empty;
+  FloorFixture empty;
   EXPECT_TRUE(empty.floor(&wrong).fit.refused);
 }
 
-TEST(Ground, TiltBeyondTheLimitIsRefused) {
-  GroundFixture g({{"ground_tilt_max_deg", "10"}});
+TEST(Floor, TiltBeyondTheLimitIsRefused) {
+  FloorFixture g({{"ground_tilt_max_deg", "10"}});
   g.tilt(0.3, 0.0);
   g.add_level({-8, 8, -2.5, 2.5}, 0.0);
   EXPECT_TRUE(g.floor().fit.refused);

@@ -22,7 +22,7 @@ using test::Rock;
 
 constexpr double kLow_m = -1.15, kHigh_m = 1.1, kReach_m = 4.0, kGate_m = 0.2, kProfile_m = 32.0;
 
-struct Strips {
+struct SteelSets {
   double depth_m, width_m, pitch_m;
   bool at(double u) const { return std::fabs(u - pitch_m * std::round(u / pitch_m)) < 0.5 * width_m; }
 };
@@ -48,7 +48,7 @@ bool find(StripProfile* profile, Noise* noise, const Surface& surface, double le
   return profile->find(PlaneOver{}, 0.0, kReach_m, kGate_m);
 }
 
-Surface with_strips(const Rock& rock, const Strips& strips) {
+Surface with_strips(const Rock& rock, const SteelSets& strips) {
   return [&rock, strips](double u, double v) { return strips.at(u) ? strips.depth_m : rock.at(u, v); };
 }
 
@@ -59,7 +59,7 @@ struct Verdicts {
 };
 
 // At the middles of the strips and half way between them, within the reach.
-Verdicts judged(const StripProfile& profile, const Strips& strips, double from_m, double to_m) {
+Verdicts judged(const StripProfile& profile, const SteelSets& strips, double from_m, double to_m) {
   Verdicts out;
   for (double u = strips.pitch_m * std::ceil(from_m / strips.pitch_m); u + strips.pitch_m < to_m; u += strips.pitch_m) {
     out.add(profile.is_strip(u) && profile.surface_probability(u) < 0.5);
@@ -71,8 +71,8 @@ Verdicts judged(const StripProfile& profile, const Strips& strips, double from_m
 
 TEST(StripProfile, FindsStripsInRoughRock) {
   test::Placed<StripProfile> profile;
-  const Strips all[] = {{0.10, 0.15, 1.0}, {0.15, 0.15, 0.8}, {0.15, 0.25, 1.2}, {0.12, 0.20, 1.5}};
-  for (const Strips& strips : all) {
+  const SteelSets all[] = {{0.10, 0.15, 1.0}, {0.15, 0.15, 0.8}, {0.15, 0.25, 1.2}, {0.12, 0.20, 1.5}};
+  for (const SteelSets& strips : all) {
     int found = 0;
     Verdicts verdicts;
     constexpr int kSeeds = 20;
@@ -118,7 +118,7 @@ TEST(StripProfile, OtherThingsAreNoStrips) {
       [](double u, double) { return 0.02 * u; },                                           // a plane that is off
       // Niches: the other way round.
       [](double u, double) {
-        return Strips{0.15, 0.15, 1.0}.at(u) ? -0.15 : 0.0;
+        return SteelSets{0.15, 0.15, 1.0}.at(u) ? -0.15 : 0.0;
       },
   };
   int thing = 0;
@@ -132,7 +132,7 @@ TEST(StripProfile, OtherThingsAreNoStrips) {
 // One ring of a lidar, or a few: nothing tells that a strip goes on up and down.
 TEST(StripProfile, ColumnsSeenAtFewHeightsSayNothing) {
   test::Placed<StripProfile> profile;
-  const Strips strips{0.15, 0.15, 1.0};
+  const SteelSets strips{0.15, 0.15, 1.0};
   for (const int rings : {1, 3, 8}) {
     profile->begin(-kProfile_m, kLow_m, kHigh_m);
     for (double u = -kReach_m; u < kReach_m; u += 0.01) {
@@ -146,7 +146,7 @@ TEST(StripProfile, ColumnsSeenAtFewHeightsSayNothing) {
 
 TEST(StripProfile, TellsThemApartFurtherOut) {
   test::Placed<StripProfile> profile;
-  const Strips strips{0.15, 0.15, 1.0};
+  const SteelSets strips{0.15, 0.15, 1.0};
   Noise noise(3);
   const Rock rock(0.03, 0.3, &noise);
   const Surface surface = with_strips(rock, strips);
@@ -167,7 +167,7 @@ TEST(StripProfile, SeenFromAnotherPlaneAsIfThePointsWereItsOwn) {
   test::Placed<StripProfile> own, other;
   const PlaneOver over{0.3, 0.05, -0.1};
   const double foreshortening = over.foreshortening();
-  const Strips strips{0.12, 0.15, 1.0};
+  const SteelSets strips{0.12, 0.15, 1.0};
   Noise noise(6);
   const Rock rock(0.03, 0.3, &noise);
   for (StripProfile* profile : {own.get(), other.get()}) profile->begin(-kProfile_m, kLow_m, kHigh_m);
@@ -206,7 +206,7 @@ TEST(StripProfile, FourColumnsAreThoseOfEach) {
   test::Placed<StripProfile> profile;
   Noise noise(4);
   const Rock rock(0.03, 0.3, &noise);
-  ASSERT_TRUE(find(profile.get(), &noise, with_strips(rock, Strips{0.15, 0.15, 1.0})));
+  ASSERT_TRUE(find(profile.get(), &noise, with_strips(rock, SteelSets{0.15, 0.15, 1.0})));
   int strips = 0;
   for (float u = -33.0F; u < 33.5F; u += 0.013F) {
     const FourFloats four{u, u + 0.3F, -u, u + 40.0F};
@@ -229,7 +229,7 @@ TEST(StripProfile, AStripReachesTwoColumnsToEachSide) {
     test::Placed<StripProfile> profile;
     Noise noise(4);
     const Rock rock(0.03, 0.3, &noise);
-    ASSERT_TRUE(find(profile.get(), &noise, with_strips(rock, Strips{0.15, 0.15, 1.0})));
+    ASSERT_TRUE(find(profile.get(), &noise, with_strips(rock, SteelSets{0.15, 0.15, 1.0})));
     profile->judge(PlaneOver{}, 0.0, reach_m);
     const auto middle_of = [](int column) { return (column + 0.5) / 20.0; };
     int flanks = 0, clear = 0;
@@ -251,7 +251,7 @@ TEST(StripProfile, FourPointsCountAsEachByItself) {
   for (auto* profile : {one.get(), four.get()}) profile->begin(-kProfile_m, kLow_m, kHigh_m);
   Noise noise(5);
   const Rock rock(0.03, 0.3, &noise);
-  const Surface surface = with_strips(rock, Strips{0.15, 0.15, 1.0});
+  const Surface surface = with_strips(rock, SteelSets{0.15, 0.15, 1.0});
   for (int i = 0; i < 8000; ++i) {
     FourFloats u{}, v{}, r{};
     const auto lanes = static_cast<std::uint32_t>(1 + i % 4);  // the others must not count

@@ -15,19 +15,19 @@
 #include <vector>
 
 #include "base/estimation/protection.hpp"
-#include "support/ground_fixture.hpp"
+#include "support/floor_fixture.hpp"
 
 namespace pose_wall {
 namespace {
 
-FloorResult fit_within(test::GroundFixture* g, const PointSet& within, const Plane& start,
+FloorResult fit_within(test::FloorFixture* g, const PointSet& within, const Plane& start,
                        const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
-  test::Placed<GroundScratch> scratch(g->points().set().capacity());
+  test::Placed<FloorScratch> scratch(g->points().set().capacity());
   scratch->grid.find_open(g->points().set(), 15.0, sensor_base_m.z(), scratch->low, &scratch->open_base);
   return fit_floor({3.0, g->points().set(), within}, start, g->settings(), sensor_base_m, scratch.get());
 }
 
-FloorResult fit(test::GroundFixture* g, const Plane& start,
+FloorResult fit(test::FloorFixture* g, const Plane& start,
                 const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
   return fit_within(g, g->points().set(), start, sensor_base_m);
 }
@@ -40,12 +40,12 @@ Plane near_floor() {
 }
 
 // z^2 of 240 fits has a standard error of 0.09.
-TEST(GroundFit, TheErrorsAreWhatTheStandardDeviationSays) {
+TEST(FloorFit, TheErrorsAreWhatTheStandardDeviationSays) {
   constexpr int kRuns = 240;
   test::Noise noise(1);
   double roll_z2 = 0.0, pitch_z2 = 0.0;
   for (int run = 0; run < kRuns; ++run) {
-    test::GroundFixture g;
+    test::FloorFixture g;
     for (int i = 0; i < 2500; ++i) g.add(noise.uniform(-3, 3), noise.uniform(-2, 2), noise.normal(0.01));
     const FloorResult f = fit(&g, near_floor());
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
@@ -63,8 +63,8 @@ TEST(GroundFit, TheErrorsAreWhatTheStandardDeviationSays) {
   EXPECT_LT(pitch_z2, 1.6);
 }
 
-TEST(GroundFit, TheLevelOfABentFloorHoldsTheTiltUnderTheMachine) {
-  test::GroundFixture g;
+TEST(FloorFit, TheLevelOfABentFloorHoldsTheTiltUnderTheMachine) {
+  test::FloorFixture g;
   test::Noise noise(2);
   // Seen ahead only, level under the machine and rising to 0.09 m: the plane through it is not the floor at u = 0.
   for (int i = 0; i < 4000; ++i) {
@@ -77,8 +77,8 @@ TEST(GroundFit, TheLevelOfABentFloorHoldsTheTiltUnderTheMachine) {
   EXPECT_LE(std::fabs(pitch), f.pitch_bound_rad.sum() + protection_factor(5.0, f.dof) * f.pitch_sigma_rad);
 }
 
-TEST(GroundFit, TheFootOfAWallDoesNotTiltTheFloor) {
-  test::GroundFixture g;
+TEST(FloorFit, TheFootOfAWallDoesNotTiltTheFloor) {
+  test::FloorFixture g;
   test::Noise noise(3);
   for (int i = 0; i < 4000; ++i) g.add(noise.uniform(-3, 3), noise.uniform(-2, 2), noise.normal(0.005));
   // Rock on one side: its lowest points stand in the cell next to the one that it fills.
@@ -89,10 +89,10 @@ TEST(GroundFit, TheFootOfAWallDoesNotTiltTheFloor) {
 }
 
 // Waves of 6 cm over 2 m: the plane through what is seen is off by up to a degree, and says so.
-TEST(GroundFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
+TEST(FloorFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
   int outside = 0;
   for (std::uint32_t run = 0; run < 40; ++run) {
-    test::GroundFixture g;
+    test::FloorFixture g;
     test::Noise noise(100 + run);
     const double phase_x = noise.uniform(0, 6.28), phase_y = noise.uniform(0, 6.28);
     const double length_x = noise.uniform(1.5, 4.0), length_y = noise.uniform(1.5, 4.0);
@@ -112,8 +112,8 @@ TEST(GroundFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
 }
 
 // The inliers are those within the radius, of the others none.
-TEST(GroundFit, CountsTheInliersWithinTheRadius) {
-  test::GroundFixture g;
+TEST(FloorFit, CountsTheInliersWithinTheRadius) {
+  test::FloorFixture g;
   test::Noise noise(6);
   test::OwnedPoints within(4000);
   double squares = 0.0;
@@ -134,7 +134,7 @@ TEST(GroundFit, CountsTheInliersWithinTheRadius) {
 }
 
 // A floor whose points come from one side to the other, as a sensor's do: not the first of them alone are fitted.
-TEST(GroundFit, OfMoreThanAFitTakesNoSideGoesShort) {
+TEST(FloorFit, OfMoreThanAFitTakesNoSideGoesShort) {
   double sigma[2];
   for (const bool in_order : {false, true}) {
     std::vector<Eigen::Vector3d> points;
@@ -143,7 +143,7 @@ TEST(GroundFit, OfMoreThanAFitTakesNoSideGoesShort) {
       points.emplace_back(noise.uniform(-2, 2), noise.uniform(-2, 2), noise.normal(0.005));
     const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.y() < b.y(); };
     if (in_order) std::sort(points.begin(), points.end(), before);
-    test::GroundFixture g;
+    test::FloorFixture g;
     for (const Eigen::Vector3d& p : points) g.add(p.x(), p.y(), p.z());
     const FloorResult f = fit(&g, near_floor());
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
@@ -153,11 +153,11 @@ TEST(GroundFit, OfMoreThanAFitTakesNoSideGoesShort) {
 }
 
 // More than a fit takes: an even share of them says the same, wherever the sensor is.
-TEST(GroundFit, AnyCountOfPointsAndAnyPlaceOfTheSensor) {
+TEST(FloorFit, AnyCountOfPointsAndAnyPlaceOfTheSensor) {
   const double slope = 0.03;
   for (const int count : {2000, 8192, 8193, 20000}) {
     for (const Eigen::Vector3d& sensor : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(-1.5, 0.8, 0.6)}) {
-      test::GroundFixture g;
+      test::FloorFixture g;
       test::Noise noise(4);
       for (int i = 0; i < count; ++i) {
         const double x = noise.uniform(-2, 2), y = noise.uniform(-2, 2);
@@ -173,8 +173,8 @@ TEST(GroundFit, AnyCountOfPointsAndAnyPlaceOfTheSensor) {
   }
 }
 
-TEST(GroundFit, TooFewPointsAreRefused) {
-  test::GroundFixture g;
+TEST(FloorFit, TooFewPointsAreRefused) {
+  test::FloorFixture g;
   for (int i = 0; i < 5; ++i) g.add(0.1 * i, 0.0, 0.0);
   const FloorResult f = fit(&g, near_floor());
   EXPECT_TRUE(f.fit.refused);

@@ -56,7 +56,7 @@ RayScene road() {
 WallSight sight_of(BandFixture* band, double plane_y_m) {
   const WallScene scene = band->scene();
   test::Placed<SightScratch> scratch;
-  note_directions(scene, scratch.get());
+  learn_directions(scene, scratch.get());
   return look_at(scene, Plane{Eigen::Vector3d(0, -1, 0), plane_y_m}, Eigen::Vector3d::UnitX(), kBehind_m,
                  scratch.get());
 }
@@ -123,7 +123,7 @@ TEST(WallSight, WhatWasKeptIsOnlyToldWhereThePlaneWasPassed) {
     scene.scan(kOs1, &band);
     const WallScene walls = band.scene();
     test::Placed<SightScratch> scratch;
-    note_directions(walls, scratch.get());
+    learn_directions(walls, scratch.get());
     EXPECT_FALSE(scratch->kept_is_told);
     look_at(walls, Plane{Eigen::Vector3d(0, -1, 0), 2.0}, Eigen::Vector3d::UnitX(), kBehind_m, scratch.get());
     EXPECT_EQ(scratch->kept_is_told, passed);

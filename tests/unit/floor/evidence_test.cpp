@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/ground_fixture.hpp"
+#include "support/floor_fixture.hpp"
 
 namespace pose_wall {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 const Axes kAhead_x{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
 
 struct Open {
-  explicit Open(test::GroundFixture* g) : points(g->points().set().capacity()) {
+  explicit Open(test::FloorFixture* g) : points(g->points().set().capacity()) {
     std::vector<std::uint32_t> places(g->points().set().capacity() + kFour);
     const auto count = static_cast<std::uint32_t>(places.size());
     grid->find_open(g->points().set(), 15.0, 0.0, Span<std::uint32_t>(places.data(), count), points.get());
@@ -40,7 +40,7 @@ Plane level_at(double height_above_floor) {
 }
 
 TEST(FloorGrid, FloorIsOpenAndWallsAreNot) {
-  test::GroundFixture g;
+  test::FloorFixture g;
   g.add_level({-6, 6, -2.0, 2.0}, 0.0);
   const std::uint32_t floor_points = g.points().set().count;
   g.add_wall(2.5);
@@ -59,7 +59,7 @@ TEST(FloorGrid, FloorIsOpenAndWallsAreNot) {
 }
 
 TEST(FloorGrid, AreaIsMeasuredInPlan) {
-  test::GroundFixture g;
+  test::FloorFixture g;
   g.add_level({-3, 3, -2.0, 2.0}, 0.0);
   Open open(&g);
   open.grid->mark(open.set(), level_at(0.0), 0.03);
@@ -74,7 +74,7 @@ TEST(FloorGrid, AreaIsMeasuredInPlan) {
   EXPECT_EQ(open.grid->evidence(kAhead_x).area_m2, 0.0);
 }
 
-bool more_is_below(test::GroundFixture* g, double height_above_floor, double share) {
+bool more_is_below(test::FloorFixture* g, double height_above_floor, double share) {
   Open open(g);
   const Plane plane = level_at(height_above_floor);
   open.grid->mark(open.set(), plane, 0.03);
@@ -82,26 +82,26 @@ bool more_is_below(test::GroundFixture* g, double height_above_floor, double sha
 }
 
 TEST(FloorGrid, WhatLiesBelowAPlaneSpeaksAgainstItUnlessItIsAReflection) {
-  test::GroundFixture floor;
+  test::FloorFixture floor;
   floor.add_level({-3, 3, -2.0, 2.0}, 0.0);
   EXPECT_FALSE(more_is_below(&floor, 0.0, 0.0));
   EXPECT_TRUE(more_is_below(&floor, 1.0, 0.99)) << "a plane without points of its own";
   EXPECT_FALSE(more_is_below(&floor, 1.0, 1.0)) << "there is no more than all";
-  test::GroundFixture deck;  // beside floor that is seen past its edge
+  test::FloorFixture deck;  // beside floor that is seen past its edge
   deck.add_level({-1, 1, -2.0, 2.0}, 0.8);
   deck.add_level({-8, -2, -2.0, 2.0}, 0.0);
   deck.add_level({2, 8, -2.0, 2.0}, 0.0);
   EXPECT_TRUE(more_is_below(&deck, 0.8, 0.5));
-  test::GroundFixture wet;
+  test::FloorFixture wet;
   wet.add_level({-6, 6, -2.0, 2.0}, 0.0, 0.005, 0.15);
   wet.add_level({-4, 4, -1.5, 1.5}, -1.0, 0.005, 0.15);
   EXPECT_FALSE(more_is_below(&wet, 0.0, 0.05));
-  test::GroundFixture none;
+  test::FloorFixture none;
   EXPECT_FALSE(more_is_below(&none, 0.0, 0.0));
 }
 
 TEST(FloorGrid, AReflectionIsSeenThroughTheFloor) {
-  test::GroundFixture g;
+  test::FloorFixture g;
   g.add_level({-6, 6, -2.0, 2.0}, 0.0, 0.005, 0.15);
   g.add_level({-4, 4, -1.5, 1.5}, -1.0, 0.005, 0.15);
   Open open(&g);
@@ -146,7 +146,7 @@ class SlowClear {
 };
 
 TEST(FloorGrid, ClearAroundIsWhatALookAtEachCellSays) {
-  test::GroundFixture g;
+  test::FloorFixture g;
   test::Noise noise(5);
   for (int k = 0; k < 60000; ++k) {
     g.points().add(noise.uniform(-10.0, 10.0), noise.uniform(-15.5, 15.5), noise.uniform(-6.0, 3.0));
@@ -179,7 +179,7 @@ TEST(FloorGrid, ClearAroundIsWhatALookAtEachCellSays) {
 
 TEST(FloorGrid, AnyCountOfPointsIsMarked) {
   for (std::uint32_t points = 1; points <= 9; ++points) {
-    test::GroundFixture g;
+    test::FloorFixture g;
     for (std::uint32_t k = 0; k < points; ++k) g.points().add(0.5 * k - 2.1, 0.1, -test::kFloorBelow_m);
     Open open(&g);
     open.grid->mark(open.set(), level_at(0.0), 0.03);
@@ -188,7 +188,7 @@ TEST(FloorGrid, AnyCountOfPointsIsMarked) {
 }
 
 TEST(FloorGrid, PointsFarOutsideAndOddHeightsDoNoHarm) {
-  test::GroundFixture g;
+  test::FloorFixture g;
   for (const double far : {-450.0, -20.5, 20.5, 450.0}) {
     g.add(far, 0.0, 0.0);
     g.add(0.0, far, 0.0);

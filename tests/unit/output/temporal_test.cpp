@@ -34,7 +34,7 @@ class Life {
     q.measured = true;
     q.raw = raw;
     q.sigma = protection / 5.0;
-    q.level[POSE_WALL_PART_RANDOM] = protection;
+    q.protection[POSE_WALL_PART_RANDOM] = protection;
     q.weak = weak;
     return frame(stamp_ms, m);
   }
@@ -45,7 +45,7 @@ class Life {
     q.measured = q.weak = true;
     q.raw = raw;
     q.sigma = 0.004;
-    q.level[POSE_WALL_PART_RANDOM] = protection;
+    q.protection[POSE_WALL_PART_RANDOM] = protection;
     q.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
     return frame(stamp_ms, m);
   }

@@ -41,17 +41,17 @@ WallResult good_wall(double yaw = 0.02, double sigma = 0.001) {
 
 struct Scene {
   FloorResult floor = good_floor();
-  LevelResult level;
+  Levelling levelling;
   WallResult walls[2] = {good_wall(), good_wall()};
   Settings settings = test::settings_with({{"range_bias_max", "0.03"}, {"protection_factor", "5"}});
 
-  Measurements measured() const { return measure_quantities(floor, level, walls, settings); }
+  Measurements measured() const { return measure_quantities(floor, levelling, walls, settings); }
 };
 
 TEST(Quality, GoodFitsMeasureAllSeven) {
   Scene scene;
-  scene.level.roll_rad = 0.1;
-  scene.level.pitch_rad = -0.2;
+  scene.levelling.roll_rad = 0.1;
+  scene.levelling.pitch_rad = -0.2;
   const Measurements m = scene.measured();
   const double expected[] = {0.1, -0.2, 0.02, 2.4, 2.6, 2.4, 2.6};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -59,7 +59,7 @@ TEST(Quality, GoodFitsMeasureAllSeven) {
     EXPECT_FALSE(m.quantity[q].weak) << q;
     EXPECT_NEAR(m.quantity[q].raw, expected[q], 1e-12) << q;
     EXPECT_GT(m.quantity[q].sigma, 0.0) << q;
-    EXPECT_GT(m.quantity[q].level.sum(), 5.0 * m.quantity[q].sigma) << q;
+    EXPECT_GT(m.quantity[q].protection.sum(), 5.0 * m.quantity[q].sigma) << q;
     EXPECT_EQ(m.quantity[q].reasons, 0U) << q;
   }
   EXPECT_TRUE(m.has_yaw_difference);
@@ -113,9 +113,9 @@ TEST(Quality, ARangeBiasOfBothWallsCancelsAndOfOneCounts) {
   Scene one = both;
   one.walls[1].fit.refused = true;
   Scene none;
-  const double without = none.measured().quantity[POSE_WALL_YAW].level.sum();
-  EXPECT_NEAR(both.measured().quantity[POSE_WALL_YAW].level.sum(), without, 1e-9);
-  EXPECT_GE(one.measured().quantity[POSE_WALL_YAW].level.sum(), 0.03 * 0.2);
+  const double without = none.measured().quantity[POSE_WALL_YAW].protection.sum();
+  EXPECT_NEAR(both.measured().quantity[POSE_WALL_YAW].protection.sum(), without, 1e-9);
+  EXPECT_GE(one.measured().quantity[POSE_WALL_YAW].protection.sum(), 0.03 * 0.2);
 }
 
 // By two of their standard deviations walls differ by chance; by nearly three, neither is known so well.
@@ -127,9 +127,9 @@ TEST(Quality, WallsThatDifferMoreThanIsLikelyAreLessWellKnown) {
   };
   const Measurement alike = yaw_of_apart(0.0);
   EXPECT_EQ(yaw_of_apart(1.9).sigma, alike.sigma);
-  EXPECT_EQ(yaw_of_apart(1.9).level.sum(), alike.level.sum());
+  EXPECT_EQ(yaw_of_apart(1.9).protection.sum(), alike.protection.sum());
   EXPECT_NEAR(yaw_of_apart(2.5).sigma, 1.25 * alike.sigma, 0.02 * alike.sigma);
-  EXPECT_NEAR(yaw_of_apart(2.9).level.sum(), 1.45 * alike.level.sum(), 0.02 * alike.level.sum());
+  EXPECT_NEAR(yaw_of_apart(2.9).protection.sum(), 1.45 * alike.protection.sum(), 0.02 * alike.protection.sum());
 }
 
 // However few pieces they are known by, and whether one is known much better.
@@ -142,7 +142,7 @@ TEST(Quality, WallsFurtherApartAreNeverKnownBetter) {
         scene.walls[1] = good_wall(scene.walls[0].yaw_rad + apart, second_sigma);
         for (WallResult& wall : scene.walls) wall.dof_slope = dof;
         const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
-        EXPECT_GE(yaw.level.sum(), last.level.sum()) << apart << " " << second_sigma << " " << dof;
+        EXPECT_GE(yaw.protection.sum(), last.protection.sum()) << apart << " " << second_sigma << " " << dof;
         EXPECT_GE(yaw.sigma, last.sigma) << apart << " " << second_sigma << " " << dof;
         last = yaw;
       }
@@ -155,19 +155,19 @@ TEST(Quality, WallsThatDifferWidenTheLevelToReachEither) {
   scene.walls[0].yaw_rad = 0.00;
   scene.walls[1].yaw_rad = 0.06;
   const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
-  for (const WallResult& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.level.sum());
+  for (const WallResult& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.protection.sum());
 }
 
 // The weaker wall's rival as well: where the road bends ahead, both walls are those behind the bend.
 TEST(Quality, YawReachesToARivalOfEitherWallHoweverSmallItsWeight) {
   for (const int side : {0, 1}) {
     Scene scene;
-    const double before = scene.measured().quantity[POSE_WALL_YAW].level.sum();
+    const double before = scene.measured().quantity[POSE_WALL_YAW].protection.sum();
     scene.walls[side].yaw_sigma_rad = 0.02;
     scene.walls[side].yaw_to_rival_rad = 0.3;
-    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].level.sum(), 0.3 + 0.5 * before) << side;
+    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection.sum(), 0.3 + 0.5 * before) << side;
     scene.walls[1 - side].fit.refused = true;
-    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].level.sum(), 0.3 + 0.1) << side;
+    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection.sum(), 0.3 + 0.1) << side;
   }
 }
 
@@ -197,20 +197,20 @@ TEST(Quality, BoundsAddToTheLevel) {
   Scene plain, bound;
   bound.walls[0].distance_bound_m[0][POSE_WALL_PART_BEND] = 0.05;
   bound.floor.roll_bound_rad[POSE_WALL_PART_RIVAL] = 0.01;
-  EXPECT_NEAR(
-      bound.measured().quantity[POSE_WALL_D_LF].level.sum() - plain.measured().quantity[POSE_WALL_D_LF].level.sum(),
-      0.05, 1e-12);
-  EXPECT_NEAR(
-      bound.measured().quantity[POSE_WALL_ROLL].level.sum() - plain.measured().quantity[POSE_WALL_ROLL].level.sum(),
-      0.01, 1e-12);
+  EXPECT_NEAR(bound.measured().quantity[POSE_WALL_D_LF].protection.sum() -
+                  plain.measured().quantity[POSE_WALL_D_LF].protection.sum(),
+              0.05, 1e-12);
+  EXPECT_NEAR(bound.measured().quantity[POSE_WALL_ROLL].protection.sum() -
+                  plain.measured().quantity[POSE_WALL_ROLL].protection.sum(),
+              0.01, 1e-12);
 }
 
 TEST(Quality, FewPatchesWidenTheLevel) {
   Scene many, few;
   few.walls[0].dof = 3.0;
   few.walls[0].dof_slope = 3.0;
-  EXPECT_GT(few.measured().quantity[POSE_WALL_D_LF].level.sum(),
-            1.5 * many.measured().quantity[POSE_WALL_D_LF].level.sum());
+  EXPECT_GT(few.measured().quantity[POSE_WALL_D_LF].protection.sum(),
+            1.5 * many.measured().quantity[POSE_WALL_D_LF].protection.sum());
 }
 
 TEST(Quality, BeyondTheAlertLimitIsSaid) {

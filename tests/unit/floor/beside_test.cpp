@@ -14,12 +14,12 @@
 #include <cmath>
 #include <utility>
 
-#include "support/ground_fixture.hpp"
+#include "support/floor_fixture.hpp"
 
 namespace pose_wall {
 namespace {
 
-using test::GroundFixture;
+using test::FloorFixture;
 
 // Flat ground behind, and a ramp from a line ahead of the machine on, between walls, as seen by a sensor that looks
 // far.
@@ -31,7 +31,7 @@ struct Ramp {
 
   double height_at(double x_m) const { return x_m > from_m ? std::tan(slope_rad) * (x_m - from_m) : 0.0; }
   FloorResult floor() const {
-    GroundFixture g;
+    FloorFixture g;
     test::Noise noise(3);
     const auto add = [&](double x, double y, double height) {
       const double c = std::cos(heading_rad), s = std::sin(heading_rad);
@@ -68,7 +68,7 @@ void expect_reaches_upright(const FloorResult& f) {
   EXPECT_LE(std::hypot(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 2.5 * tilt_rad + 0.1);
 }
 
-TEST(GroundBeside, BeforeARampTheLevelsReachToTheFlatFloor) {
+TEST(FloorBeside, BeforeARampTheLevelsReachToTheFlatFloor) {
   for (const double slope_rad : {0.12, 0.2, -0.12, -0.2}) {
     for (const double heading_rad : {0.0, 0.8, 1.57, 3.0}) {
       SCOPED_TRACE(::testing::Message() << slope_rad << " seen from " << heading_rad);
@@ -81,7 +81,7 @@ TEST(GroundBeside, BeforeARampTheLevelsReachToTheFlatFloor) {
 }
 
 // Flat ground far behind lies high over the ramp that is prolonged, and where the ramp falls much lies below it.
-TEST(GroundBeside, AlsoWhereLittleOfTheFlatFloorIsSeenFarBehind) {
+TEST(FloorBeside, AlsoWhereLittleOfTheFlatFloorIsSeenFarBehind) {
   for (const double slope_rad : {0.16, 0.2, -0.09, -0.16}) {
     for (const auto& [from_m, to_m] : {std::pair{-9.0, -7.0}, std::pair{-9.0, -8.0}, std::pair{-12.0, -10.5}}) {
       SCOPED_TRACE(::testing::Message() << slope_rad << " flat from " << from_m << " to " << to_m);
@@ -102,7 +102,7 @@ struct TwoPlanes {
 
   double other_at(double x_m) const { return other_height_m + std::tan(other_slope_rad) * (x_m - line_m); }
   FloorResult reached() const {
-    GroundFixture g;
+    FloorFixture g;
     test::Noise noise(3);
     for (double x = floor_from_m; x <= floor_to_m; x += 0.1) {
       for (double y = -2.0; y <= 2.0; y += 0.1) g.add(x, y, noise.normal(0.005));
@@ -113,9 +113,9 @@ struct TwoPlanes {
     return reach_to_what_is_beside(&g);
   }
 
-  static FloorResult reach_to_what_is_beside(GroundFixture* g) {
+  static FloorResult reach_to_what_is_beside(FloorFixture* g) {
     const BoundedPoints& points = g->points().set();
-    test::Placed<GroundScratch> scratch(points.capacity());
+    test::Placed<FloorScratch> scratch(points.capacity());
     scratch->grid.find_open(points, 15.0, 0.0, scratch->low, &scratch->open_base);
     FloorResult floor;
     floor.fit.plane = {Eigen::Vector3d::UnitZ(), test::kFloorBelow_m};
@@ -127,9 +127,9 @@ struct TwoPlanes {
 };
 
 // A steep plane that is prolonged behind the machine meets the roof there; that is no floor to stand on.
-TEST(GroundBeside, ARoofThatTheProlongedPlaneMeetsIsNoFloor) {
+TEST(FloorBeside, ARoofThatTheProlongedPlaneMeetsIsNoFloor) {
   for (const bool has_roof : {false, true}) {
-    GroundFixture g;
+    FloorFixture g;
     test::Noise noise(3);
     constexpr double kSlope = -0.25;                  // falls ahead
     const double roof_m = 2.0 - test::kFloorBelow_m;  // so high above the base's origin
@@ -139,7 +139,7 @@ TEST(GroundBeside, ARoofThatTheProlongedPlaneMeetsIsNoFloor) {
       for (double x = -12.0; x <= -3.0 && has_roof; x += 0.1) g.add(x, y, test::kFloorBelow_m + roof_m);
     }
     const BoundedPoints& points = g.points().set();
-    test::Placed<GroundScratch> scratch(points.capacity());
+    test::Placed<FloorScratch> scratch(points.capacity());
     scratch->grid.find_open(points, 15.0, 0.0, scratch->low, &scratch->open_base);
     FloorResult floor;
     const Eigen::Vector3d n = Eigen::Vector3d(-kSlope, 0.0, 1.0).normalized();
@@ -152,7 +152,7 @@ TEST(GroundBeside, ARoofThatTheProlongedPlaneMeetsIsNoFloor) {
 }
 
 // Both ways round: the floor is seen ahead, the other one behind a line.
-TEST(GroundBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
+TEST(FloorBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
   for (const double slope_rad : {-0.12, 0.12}) {  // behind the line that is up, and down
     SCOPED_TRACE(slope_rad);
     const FloorResult on_other = TwoPlanes{slope_rad, 2.0}.reached(), on_floor = TwoPlanes{slope_rad, -3.0}.reached();
@@ -165,13 +165,13 @@ TEST(GroundBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
   }
 }
 
-TEST(GroundBeside, APlaneAllOverBelowMayCarryTheMachineOneAboveMayNot) {
+TEST(FloorBeside, APlaneAllOverBelowMayCarryTheMachineOneAboveMayNot) {
   EXPECT_TRUE(is_ambiguous(TwoPlanes{0.05, 0.0, -0.8}.reached()));
   EXPECT_FALSE(is_ambiguous(TwoPlanes{0.05, 0.0, 0.8}.reached()));
   EXPECT_FALSE(is_ambiguous(TwoPlanes{0.0, 0.0, -0.2}.reached())) << "a kerb";
 }
 
-TEST(GroundBeside, OnAFloorThatIsSeenToBothSidesTheMachineStands) {
+TEST(FloorBeside, OnAFloorThatIsSeenToBothSidesTheMachineStands) {
   TwoPlanes planes{0.0, 0.0, -0.8, -14.0, -10.0};
   EXPECT_TRUE(is_ambiguous(planes.reached()));
   planes.floor_from_m = -4.5;
@@ -179,9 +179,9 @@ TEST(GroundBeside, OnAFloorThatIsSeenToBothSidesTheMachineStands) {
 }
 
 // Seen through the floor, whichever side it is seen on.
-TEST(GroundBeside, AReflectionInTheFloorCarriesNothing) {
+TEST(FloorBeside, AReflectionInTheFloorCarriesNothing) {
   for (const bool is_reflected : {true, false}) {
-    GroundFixture g;
+    FloorFixture g;
     test::Noise noise(5);
     for (double x = 3.0; x <= 9.0; x += 0.1) {
       for (double y = -2.0; y <= 2.0; y += 0.1) g.add(x, y, noise.normal(0.005));
@@ -194,7 +194,7 @@ TEST(GroundBeside, AReflectionInTheFloorCarriesNothing) {
   }
 }
 
-TEST(GroundBeside, AFloorToAllSidesIsNotDoubtedForARampFurtherOn) {
+TEST(FloorBeside, AFloorToAllSidesIsNotDoubtedForARampFurtherOn) {
   const FloorResult f = Ramp{5.0, 0.2, -13.0, 5.0, 9.0}.floor();
   ASSERT_TRUE(f.fit.found && !f.fit.refused);
   EXPECT_LT(tilt_of_up(f.fit.plane.n), 0.01);

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include "support/ground_fixture.hpp"
+#include "support/floor_fixture.hpp"
 
 namespace pose_wall {
 namespace {
@@ -19,7 +19,7 @@ Plane at(double height, double tilt = 0.0) {
   return Plane{Eigen::Vector3d(std::sin(tilt), 0.0, std::cos(tilt)), height};
 }
 
-TEST(GroundSearch, WhatMayBeAFloor) {
+TEST(FloorSearch, WhatMayBeAFloor) {
   const Settings s =
       test::settings_with({{"ground_height_min", "0.5"}, {"ground_height_max", "3.0"}, {"ground_tilt_max_deg", "30"}});
   const FloorLimits limits(s);
@@ -36,17 +36,17 @@ TEST(GroundSearch, WhatMayBeAFloor) {
   EXPECT_FALSE(may_be_floor(at(1.4, std::nan("")), limits, sensor));
 }
 
-TEST(GroundSearch, SameFloorIsLocal) {
+TEST(FloorSearch, SameFloorIsLocal) {
   EXPECT_TRUE(same_floor(at(1.4), at(1.45)));
   EXPECT_FALSE(same_floor(at(1.4), at(1.5)));
   EXPECT_FALSE(same_floor(at(1.4), at(1.4, 0.1))) << "0.2 m apart at 2 m";
   EXPECT_EQ(same_floor(at(1.4), at(1.4, 0.02)), same_floor(at(1.4, 0.02), at(1.4)));
 }
 
-TEST(GroundSearch, TheFloorLeadsAndTheWorkIsBounded) {
-  test::GroundFixture g({{"ground_iterations", "100"}});
+TEST(FloorSearch, TheFloorLeadsAndTheWorkIsBounded) {
+  test::FloorFixture g({{"ground_iterations", "100"}});
   g.add_road();
-  test::Placed<PointSet> subset(kGroundSubset);
+  test::Placed<PointSet> subset(kFloorSubset);
   FloorShortlist list;
   Random random(1);
   std::vector<std::uint32_t> low;
@@ -54,8 +54,8 @@ TEST(GroundSearch, TheFloorLeadsAndTheWorkIsBounded) {
     if (g.points().set().z[i] < -1.0F) low.push_back(i);
   }
   const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-  const GroundSearchInput in{
-      g.points().set(), Span<const std::uint32_t>(low.data(), static_cast<std::uint32_t>(low.size())), sensor, nullptr};
+  const FloorDraw in{g.points().set(), Span<const std::uint32_t>(low.data(), static_cast<std::uint32_t>(low.size())),
+                     sensor, nullptr};
   const std::uint32_t scored = search_floor(in, g.settings(), &random, subset.get(), &list);
   EXPECT_LE(scored, 100U);
   ASSERT_GT(list.count(), 0U);
@@ -66,14 +66,14 @@ TEST(GroundSearch, TheFloorLeadsAndTheWorkIsBounded) {
   }
 }
 
-TEST(GroundSearch, TooFewLowPointsGiveNothing) {
-  test::GroundFixture g;
+TEST(FloorSearch, TooFewLowPointsGiveNothing) {
+  test::FloorFixture g;
   g.add_road();
-  test::Placed<PointSet> subset(kGroundSubset);
+  test::Placed<PointSet> subset(kFloorSubset);
   FloorShortlist list;
   Random random(1);
   const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-  const GroundSearchInput in{g.points().set(), {}, sensor, nullptr};
+  const FloorDraw in{g.points().set(), {}, sensor, nullptr};
   EXPECT_EQ(search_floor(in, g.settings(), &random, subset.get(), &list), 0U);
   EXPECT_EQ(list.count(), 0U);
 }

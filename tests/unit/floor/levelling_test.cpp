@@ -28,7 +28,7 @@ Plane tilted_floor() {
 
 TEST(Level, HeightAboveTheFloorIsZMinusFloorZ) {
   const Plane floor = tilted_floor();
-  const LevelResult level = level_by(floor, ahead_is_x());
+  const Levelling level = levelling_by(floor, ahead_is_x());
   test::Noise noise(1);
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d p(noise.normal(5), noise.normal(5), noise.normal(5));
@@ -42,7 +42,7 @@ TEST(Level, HeightAboveTheFloorIsZMinusFloorZ) {
 TEST(Level, TheBandIsCutByHeightAboveTheTiltedFloor) {
   const Settings settings = test::settings_with({{"wall_z_min", "0.5"}, {"wall_z_max", "1.5"}});
   const Plane floor = tilted_floor();
-  const LevelResult level = level_by(floor, ahead_is_x());
+  const Levelling level = levelling_by(floor, ahead_is_x());
   test::OwnedPoints points(4000);
   test::Noise noise(2);
   std::uint32_t inside = 0;
@@ -97,7 +97,7 @@ TEST(Level, EachOfFourIsCutForItself) {
     test::Placed<BoundedPoints> band(n), beyond(kBeyondMax);
     Plane floor;
     floor.d = 1.0;
-    cut_wall_band(*points, level_by(floor, ahead_is_x()), test::settings_with({}), grid.get(), band.get(),
+    cut_wall_band(*points, levelling_by(floor, ahead_is_x()), test::settings_with({}), grid.get(), band.get(),
                   beyond.get());
     double weight = 0.0;
     for (std::uint32_t i = 0; i < band->count; ++i) {
@@ -117,7 +117,7 @@ TEST(Level, WeightsPassTheSecondVoxels) {
   test::Placed<BoundedPoints> band(2U), beyond(kBeyondMax);
   Plane floor;
   floor.d = 1.0;
-  cut_wall_band(points.set(), level_by(floor, ahead_is_x()), test::settings_with({{"wall_voxel_leaf", "0.5"}}),
+  cut_wall_band(points.set(), levelling_by(floor, ahead_is_x()), test::settings_with({{"wall_voxel_leaf", "0.5"}}),
                 grid.get(), band.get(), beyond.get());
   EXPECT_EQ(beyond->count, 0U);
   ASSERT_EQ(band->count, 1U);

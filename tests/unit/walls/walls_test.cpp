@@ -229,7 +229,8 @@ TEST(Walls, ShortOnesVouchForEachOtherAsFarAsTheyRunAlike) {
       for (int side = 0; side < 2; ++side) {
         const bool doubted = unlike && (side == 1 || both_short);
         EXPECT_EQ((r.side[side].fit.reasons & POSE_WALL_R_WALLS_NOT_PARALLEL) != 0, doubted) << side;
-        for (const LevelParts& bound : r.side[side].distance_bound_m) EXPECT_EQ(bound.sum() >= 2.0, doubted) << side;
+        for (const ProtectionParts& bound : r.side[side].distance_bound_m)
+          EXPECT_EQ(bound.sum() >= 2.0, doubted) << side;
       }
     }
   }
