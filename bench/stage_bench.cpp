@@ -66,7 +66,7 @@ void stage_5_walls(benchmark::State& state) {
   WallsResult walls;
   for (auto _ : state) benchmark::DoNotOptimize(walls = p.find_walls());
   int found = 0;
-  for (const WallResult& wall : walls.side) found += wall.fit.found && !wall.fit.refused ? 1 : 0;
+  for (const JudgedWall& wall : walls.side) found += wall.fit.found && !wall.fit.refused ? 1 : 0;
   state.counters["walls"] = found;
   tell(state, p.band_points());
 }

@@ -62,7 +62,7 @@ std::uint32_t StagePipeline::remove_outliers() {
 
 FloorResult StagePipeline::find_floor() {
   Random random(1);
-  return pose_wall::find_floor(scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m, nullptr, &random,
+  return pose_wall::find_floor({scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m, nullptr}, &random,
                                &scratch_.floor);
 }
 
@@ -73,11 +73,10 @@ void StagePipeline::cut_band() {
 WallsResult StagePipeline::find_walls() {
   Random random(1);
   const Plane* const no_last[2] = {nullptr, nullptr};
-  const WallScene scene = wall_scene(scratch_.band_level, scratch_.beyond_level, scratch_.cloud_base,
-                                     scratch_.returns_lidar, settings_, level_, axes_, extrinsic_);
-  WallsResult walls = pose_wall::find_walls(scene, no_last, &random, &scratch_.walls);
-  share_direction(scene, &walls.side);
-  return walls;
+  const WallScene scene = wall_scene(
+      {scratch_.band_level, scratch_.beyond_level, scratch_.cloud_base, scratch_.returns_lidar, voxels_.counts},
+      settings_, level_, axes_, extrinsic_);
+  return pose_wall::find_walls(scene, no_last, &random, &scratch_.walls);
 }
 
 // Without a block the walk only measures.

@@ -51,6 +51,7 @@ enum pose_wall_trace_gate_id {
   POSE_WALL_TRACE_FLOOR_FIT,
   POSE_WALL_TRACE_FLOOR_BEND,
   POSE_WALL_TRACE_FLOOR_RIVAL,
+  POSE_WALL_TRACE_FLOOR_RIVAL_STEEP,
   POSE_WALL_TRACE_FLOOR_ALONE,
   POSE_WALL_TRACE_FLOOR_TILT,
   POSE_WALL_TRACE_FLOOR_HEIGHT_MIN,
@@ -80,6 +81,9 @@ enum pose_wall_trace_gate_id {
   POSE_WALL_TRACE_ACROSS_ALONE,
   POSE_WALL_TRACE_EXPLAINED,
   POSE_WALL_TRACE_WALL_RIVAL,
+  POSE_WALL_TRACE_WALL_RIVAL_BEHIND,
+  POSE_WALL_TRACE_WALL_RIVAL_ENDS,
+  POSE_WALL_TRACE_WALL_RIVAL_STOPS,
   /* the fit of a chosen wall */
   POSE_WALL_TRACE_WALL_FIT,
   POSE_WALL_TRACE_WALL_BEND,
@@ -140,7 +144,8 @@ enum pose_wall_trace_effect {
 enum pose_wall_trace_sense {
   POSE_WALL_TRACE_AT_LEAST = 0, /* the value is to be the limit or more */
   POSE_WALL_TRACE_AT_MOST = 1,
-  POSE_WALL_TRACE_IS_SO = 2 /* value 1 holds, 0 does not: no amounts */
+  POSE_WALL_TRACE_IS_SO = 2, /* value 1 holds, 0 does not: no amounts */
+  POSE_WALL_TRACE_BELOW = 3  /* the value is to be less than the limit */
 };
 
 typedef struct pose_wall_trace_info {
@@ -150,14 +155,23 @@ typedef struct pose_wall_trace_info {
   const char* unit; /* of value and limit: "m", "m2", "rad", "s", "points", "share" (of 1), "frames", or "": a bare
                        number, or what the subject is measured in (PROTECTION_*, INNOVATION) */
   const char* asks; /* "the wall is supported along the road": what the value is */
-  uint32_t sense;   /* pose_wall_trace_sense */
-  uint32_t effect;  /* pose_wall_trace_effect */
-  uint32_t reasons; /* pose_wall_reason bits that it sets when it does not hold */
+  const char* limit;  /* as the table has it: "0.5", "s.wall_length_min", "BY_CALLER" where each frame has its own */
+  const char* origin; /* where the limit is from: "key", "definition", a scene, or a judgement and its date */
+  uint32_t sense;     /* pose_wall_trace_sense */
+  uint32_t effect;    /* pose_wall_trace_effect */
+  uint32_t reasons;   /* pose_wall_reason bits that it sets when it does not hold */
   uint32_t reserved;
 } pose_wall_trace_info;
 
 /* Static storage. Fails iff: NULL, POSE_WALL_E_INDEX. */
 int32_t pose_wall_trace_gate_info(uint32_t gate, pose_wall_trace_info* info);
+
+/* Holds a gate of all traced frames that follow, in every thread, against this limit instead of the table's; of a gate
+ * without amounts 0 lets everything pass. For sweeps: `pose_wall campaign --sweep` sets limits before the frames, none
+ * while they run. Fails iff: POSE_WALL_E_INDEX. */
+int32_t pose_wall_trace_set_limit(uint32_t gate, double limit);
+/* The table's limits again. */
+void pose_wall_trace_forget_limits(void);
 
 typedef struct pose_wall_trace_gate {
   uint32_t subject; /* pose_wall_trace_subject */
@@ -220,6 +234,10 @@ typedef struct pose_wall_trace {
 int32_t pose_wall_trace_frame(const pose_wall_config* config, const void* memento, uint64_t memento_bytes,
                               const pose_wall_cloud* cloud, void* block, uint64_t block_bytes, pose_wall_result* result,
                               pose_wall_trace* trace);
+
+/* What the engine that pose_wall_trace_frame left in block remembers, as pose_wall_save: so frames follow each other.
+ * Fails as pose_wall_save does. */
+int32_t pose_wall_trace_save(const void* block, void* memento, uint64_t memento_bytes);
 
 #ifdef __cplusplus
 }

@@ -10,17 +10,16 @@
 #include "base/simd/four_floats.hpp"
 #include "cloud/outliers.hpp"
 #include "cloud/voxels.hpp"
+#include "floor/floor.hpp"
 #include "floor/levelling.hpp"
+#include "floor/rivals.hpp"
+#include "gates/gate.hpp"
 #include "output/labels.hpp"
 #include "output/quality.hpp"
 #include "report.hpp"
-#include "trace/trace.hpp"
-#include "walls/doubts/parallel.hpp"
 
 namespace pose_wall {
 namespace {
-
-constexpr std::uint32_t kPointsMin = 100;
 
 Axes axes_of(std::int32_t forward_choice) {
   // In the order of the key's choices: +X, -X, +Y, -Y.
@@ -35,15 +34,21 @@ Extrinsic extrinsic_of(const Settings& s) {
           Eigen::Vector3d(s.extrinsic_x, s.extrinsic_y, s.extrinsic_z)};
 }
 
-// Every quantity that hangs on this fit is unmeasured, and says why.
-void refuse(std::uint32_t reason, PlaneFit* fit) {
-  fit->refused = true;
-  fit->reasons |= reason;
+// Of floor and walls, for they all hang on it.
+void refuse_all(const Verdict& verdict, FrameFindings* found) {
+  found->floor.fit.add(verdict);
+  for (JudgedWall& wall : found->walls.side) wall.fit.add(verdict);
 }
 
-void refuse_all(std::uint32_t reason, FrameFindings* found) {
-  refuse(reason, &found->floor.fit);
-  for (WallResult& wall : found->walls.side) refuse(reason, &wall.fit);
+// Before anything was looked for.
+bool is_work_left(const Work& work, FrameFindings* found) {
+  if (!work.is_spent()) return true;
+  demand_work_left(work, &found->floor.fit);
+  for (int side = 0; side < 2; ++side) {
+    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
+    demand_work_left(work, &found->walls.side[side].fit);
+  }
+  return false;
 }
 
 double least_confidence(const pose_wall_result& result) {
@@ -52,17 +57,6 @@ double least_confidence(const pose_wall_result& result) {
     if (v.confidence < least) least = v.confidence;
   }
   return least;
-}
-
-// The walls say that the level may be off by a turn: about base X that is roll, about base Y pitch.
-void doubt_levelling(const Eigen::Vector3d& tilt_level_rad, const Levelling& levelling, FloorResult* floor) {
-  POSE_WALL_NOTE(trace::gate_of(POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_FLOOR_BY_WALLS, tilt_level_rad.norm(), 0.0,
-                                !(tilt_level_rad.squaredNorm() > 0.0)));
-  if (!(tilt_level_rad.squaredNorm() > 0.0)) return;
-  const Eigen::Vector3d tilt_base_rad = levelling.R_level_base.transpose() * tilt_level_rad;
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.x());
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.y());
-  floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
 }
 
 // Nobody knows how the machine moved, but for how fast it moves now.
@@ -74,16 +68,6 @@ pose_wall_odometry any_motion(const pose_wall_odometry& odometry) {
   }
   return any;
 }
-
-#ifdef POSE_WALL_TRACE
-// Before anything was looked for.
-void note_work_spent(const Work& work) {
-  for (const std::uint32_t subject : {POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_RIGHT}) {
-    trace::gate_of(subject, POSE_WALL_TRACE_WORK, static_cast<double>(work.done()), static_cast<double>(work.most()),
-                   false);
-  }
-}
-#endif
 
 }  // namespace
 
@@ -247,31 +231,25 @@ pose_wall_points Engine::points() const {
   return points_;
 }
 
+// Whether there is enough to look at, and work left to do it.
+bool Engine::can_begin(FrameFindings* found) const {
+  const VoxelResult& voxels = found->voxels;
+  Verdict frame, start;
+  demand<gate::LEAF>(&frame, voxels.leaf_m, settings_);
+  if (demand<gate::VOXELS_FIT>(&start, voxels.fits)) {
+    demand<gate::POINTS>(&start, scratch_.cloud_base.count, settings_);
+  }
+  found->reasons |= frame.reasons | start.reasons;
+  if (start.refused) refuse_all(start, found);
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));
+  return !start.refused && is_work_left(scratch_.floor.work, found);
+}
+
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
-  if (found->voxels.leaf_grown) found->reasons |= POSE_WALL_R_LEAF_GROWN;
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEAF, found->voxels.leaf_m, settings_.voxel_leaf,
-                             !found->voxels.leaf_grown && found->voxels.fits));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_VOXELS_FIT, found->voxels.fits));
-  if (!found->voxels.fits) {
-    found->reasons |= POSE_WALL_R_LEAF_GROWN;
-    refuse_all(POSE_WALL_R_LEAF_GROWN, found);
-    return;
-  }
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_POINTS, scratch_.cloud_base.count, kPointsMin,
-                             scratch_.cloud_base.count >= kPointsMin));
-  if (scratch_.cloud_base.count < kPointsMin) {
-    found->reasons |= POSE_WALL_R_NO_POINTS;
-    refuse_all(POSE_WALL_R_NO_POINTS, found);
-    return;
-  }
-  const Work& work = scratch_.floor.work;
-  if (work.is_spent()) {
-    POSE_WALL_NOTE(note_work_spent(work));
-    refuse_all(POSE_WALL_R_WORK_LIMIT, found);
-    return;
-  }
-  found->floor = find_floor(scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m,
-                            memory_.last.has_floor ? &memory_.last.floor_base : nullptr, random, &scratch_.floor);
+  if (!can_begin(found)) return;
+  const Plane* const last = memory_.last.has_floor ? &memory_.last.floor_base : nullptr;
+  found->floor =
+      find_floor({scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m, last}, random, &scratch_.floor);
 }
 
 void Engine::level_and_cut(FrameFindings* found) {
@@ -286,20 +264,19 @@ void Engine::level_and_cut(FrameFindings* found) {
 
 void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_WALLS));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEVELLED, !found->floor.fit.refused));
-  if (found->floor.fit.refused) {
-    for (WallResult& wall : found->walls.side) refuse(POSE_WALL_R_LEVEL_MISSING, &wall.fit);
+  Verdict level;
+  if (!demand<gate::LEVELLED>(&level, !found->floor.fit.refused)) {
+    for (JudgedWall& wall : found->walls.side) wall.fit.add(level);
     return;
   }
-  const WallScene scene = wall_scene(scratch_.band_level, scratch_.beyond_level, scratch_.cloud_base,
-                                     scratch_.returns_lidar, settings_, found->levelling, axes_, extrinsic_);
+  const WallScene scene = wall_scene(
+      {scratch_.band_level, scratch_.beyond_level, scratch_.cloud_base, scratch_.returns_lidar, found->voxels.counts},
+      settings_, found->levelling, axes_, extrinsic_);
   const Surfaces& before = memory_.last;
   const Plane* const last[2] = {before.has_wall[0] ? &before.wall_level[0] : nullptr,
                                 before.has_wall[1] ? &before.wall_level[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);
-  doubt_levelling(found->walls.tilt_level_rad, found->levelling, &found->floor);
-  refuse_blocked_sides(found->voxels.counts, &found->walls.side);
-  share_direction(scene, &found->walls.side);
+  found->floor = doubted_by_walls(found->floor, found->walls.tilt_level_rad, settings_, found->levelling);
 }
 
 // An odometry counts where the key lets it and its numbers are sound.
@@ -362,8 +339,9 @@ Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTimi
   const Change change = by_odometry ? step.change : by_others;
   const bool all_used = boxes && told && step.sound && by_odometry == step.follows;
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_INPUTS, all_used));
-  if (!all_used) found->reasons |= POSE_WALL_R_PRIOR;
+  Verdict frame;
+  demand<gate::INPUTS>(&frame, all_used);
+  found->reasons |= frame.reasons;
   return change;
 }
 
@@ -393,17 +371,18 @@ void Engine::finish(pose_wall_result* result) {
 // the same frame once more, and there is nothing new to measure.
 void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   Repeat repeat;
-  if (scratch_.cloud_base.count >= kPointsMin) {
-    repeat = memory_.seen.note(found->voxels.fingerprint, found->stamp_ns);
+  if (scratch_.cloud_base.count >= limit_of<gate::POINTS>(settings_)) {
+    repeat = memory_.seen.keep(found->voxels.fingerprint, found->stamp_ns);
     memory_.repeats = repeat.is_one ? memory_.repeats + 1 : 0;
   }
-  const bool frozen = repeat.is_one && !timing.still;
-  const bool too_often = frozen && (memory_.repeats > settings_.frozen_frames || repeat.age_s < 0.0);
+  constexpr double kAnyNumber = 1e9;  // of repeats, where the clock went back since the first copy
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_REPEATED, repeat.is_one ? memory_.repeats : 0, 0.0, !frozen));
-  POSE_WALL_NOTE(
-      trace::gate(POSE_WALL_TRACE_FROZEN, repeat.is_one ? memory_.repeats : 0, settings_.frozen_frames, !too_often));
-  const std::uint32_t reasons = timing.reasons | (frozen ? static_cast<std::uint32_t>(POSE_WALL_R_FROZEN) : 0U);
+  const double repeats = repeat.is_one && !timing.still ? memory_.repeats : 0.0;
+  Verdict verdict;
+  const bool frozen = !demand<gate::REPEATED>(&verdict, repeats, settings_);
+  const bool too_often =
+      !demand<gate::FROZEN>(&verdict, frozen && repeat.age_s < 0.0 ? kAnyNumber : repeats, settings_);
+  const std::uint32_t reasons = timing.reasons | verdict.reasons;
   found->reasons |= reasons;
   const Change since_first = change_by_config(settings_, repeat.age_s);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {

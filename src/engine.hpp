@@ -10,7 +10,7 @@
 #include "cloud/seen_clouds.hpp"
 #include "cloud/voxel_grid.hpp"
 #include "config.hpp"
-#include "floor/floor.hpp"
+#include "floor/scene.hpp"
 #include "output/temporal.hpp"
 #include "output/temporal_odometry.hpp"
 #include "pose_wall.h"
@@ -90,6 +90,7 @@ class Engine {
   static constexpr std::uint64_t kOneInside = 0x96813C5A5AA5939AULL;
 
   void place(Scratch* scratch) const;
+  bool can_begin(FrameFindings* found) const;
   void find_floor_if_any(Random* random, FrameFindings* found);
   void level_and_cut(FrameFindings* found);
   void find_walls_if_level(Random* random, FrameFindings* found);

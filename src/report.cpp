@@ -21,7 +21,7 @@ pose_wall_plane plane_of(const PlaneFit& fit) {
   return p;
 }
 
-pose_wall_plane plane_of(const WallResult& wall) {
+pose_wall_plane plane_of(const JudgedWall& wall) {
   pose_wall_plane p = plane_of(wall.fit);
   if (p.found == 0) return p;
   p.lean_rad = wall.lean_rad;

@@ -5,9 +5,12 @@
 
 #pragma once
 
+#include "cloud/voxels.hpp"
+#include "floor/levelling.hpp"
+#include "floor/result.hpp"
 #include "pose_wall.h"
 #include "types.hpp"
-#include "walls/walls.hpp"
+#include "walls/wall.hpp"
 
 namespace pose_wall {
 

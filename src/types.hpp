@@ -62,20 +62,28 @@ struct VoxelResult {
   double scan_s = 0.0;  // that the machine's motion was taken out of; 0: of none
 };
 
-// A plane with all that its fit knows about itself.
-struct PlaneFit {
-  Plane plane;  // floor: base frame, normal up. wall: levelled frame, normal towards the machine
-  bool found = false;
+// What gates have said.
+struct Verdict {
   std::uint32_t reasons = 0;  // pose_wall_reason bits that forbid or weaken it
   bool refused = false;       // a gate said no
-  std::uint32_t inliers = 0;
-  std::uint32_t iterations = 0;
-  double rms_m = 0.0;
 
   void refuse(std::uint32_t why) {
     refused = true;
     reasons |= why;
   }
+  void add(const Verdict& other) {
+    reasons |= other.reasons;
+    refused = refused || other.refused;
+  }
+};
+
+// A plane with all that its fit knows about itself.
+struct PlaneFit : Verdict {
+  Plane plane;  // floor: base frame, normal up. wall: levelled frame, normal towards the machine
+  bool found = false;
+  std::uint32_t inliers = 0;
+  std::uint32_t iterations = 0;
+  double rms_m = 0.0;
 };
 
 // What a protection level is made of: one figure for each pose_wall_part. The level is their sum.
@@ -106,56 +114,6 @@ struct Surfaces {
   Plane wall_level[2];  // left, right
   bool has_floor = false;
   bool has_wall[2] = {false, false};
-};
-
-struct FloorResult {
-  PlaneFit fit;
-  double roll_sigma_rad = 0.0;
-  double pitch_sigma_rad = 0.0;
-  // Systematic part of the protection level: range bias, unevenness, rival floors, walls that lean.
-  ProtectionParts roll_bound_rad;
-  ProtectionParts pitch_bound_rad;
-  double dof = 1.0;  // as many independent pieces know a variance as well as this one is known
-  double area_m2 = 0.0;
-  double roi_radius_m = 0.0;
-  std::uint32_t candidates = 0;
-};
-
-struct Levelling {
-  Eigen::Matrix3d R_level_base = Eigen::Matrix3d::Identity();
-  double roll_rad = 0.0;
-  double pitch_rad = 0.0;
-  double forward_up = 0.0;       // z of the machine's forward axis in the levelled frame: sine of its elevation
-  double floor_z_level_m = 0.0;  // z of the floor in the levelled frame: height above floor = z - floor_z
-};
-
-// One side's wall. u: metres along the road from the foot of the origin, v: metres up from the origin's level.
-struct WallResult {
-  PlaneFit fit;
-  Eigen::Vector3d along_level = Eigen::Vector3d::Zero();  // horizontal unit vector, towards the machine's front
-  double lean_rad = 0.0;
-  double yaw_rad = 0.0;  // by this wall alone
-  double yaw_sigma_rad = 0.0;
-  double yaw_bias_rad_per_m = 0.0;                          // signed response to a constant range error
-  ProtectionParts yaw_bound_rad;                            // misfit, and what was seen of the other side
-  double yaw_to_rival_rad = 0.0;                            // where its rival is the wall, or the road bends before it
-  Eigen::Vector3d pivot_level_m = Eigen::Vector3d::Zero();  // turning about here changes the fit least
-  double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
-  double distance_sigma_m[2] = {0.0, 0.0};
-  ProtectionParts distance_bound_m[2];
-  double layer_sigma_m = 0.0;  // what ribs and cables may have moved the surface, part of the standard deviations
-  bool extrapolated[2] = {false, false};
-  double dof = 1.0;        // independent pieces behind the distances' variance
-  double dof_slope = 1.0;  // and behind the direction's
-  double along_min_m = 0.0;
-  double along_max_m = 0.0;
-  double area_m2 = 0.0;
-
-  // What was seen of the other side runs apart from this wall by so much: up to two degrees are the walls' own.
-  static constexpr double kApart_rad = 0.035;
-  void reach_to_other_side(double apart_rad) {
-    if (!(apart_rad <= kApart_rad)) yaw_bound_rad[POSE_WALL_PART_RIVAL] += apart_rad;
-  }
 };
 
 // One of the seven quantities, as this frame measured it.

@@ -5,7 +5,7 @@
 
 namespace pose_wall {
 
-Repeat SeenClouds::note(std::uint64_t fingerprint, std::int64_t stamp_ns) {
+Repeat SeenClouds::keep(std::uint64_t fingerprint, std::int64_t stamp_ns) {
   constexpr double kNanosecond_s = 1e-9;
   for (const SeenCloud& seen : cloud) {
     if (seen.fingerprint != fingerprint) continue;

@@ -26,7 +26,7 @@ struct SeenClouds {
   static constexpr std::uint32_t kCount = 4;
 
   // A cloud that is new is remembered instead of the oldest.
-  Repeat note(std::uint64_t fingerprint, std::int64_t stamp_ns);
+  Repeat keep(std::uint64_t fingerprint, std::int64_t stamp_ns);
 
   SeenCloud cloud[kCount];  // the newest first
 };

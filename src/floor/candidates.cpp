@@ -3,22 +3,113 @@
 
 #include "floor/candidates.hpp"
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "base/containers/even_share.hpp"
 #include "base/estimation/irls.hpp"
 #include "base/estimation/mlesac.hpp"
-#include "floor/below.hpp"
-#include "floor/notes.hpp"
+#include "base/math/elementary.hpp"
+#include "base/math/rotation.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
 
+constexpr double kTriangleMin_m2 = 0.10;  // twice the area of the three points: slivers give wild normals
+constexpr std::uint32_t kDrawsPerIteration = 8;
 constexpr std::uint32_t kQuickPointsMax = 500;
 constexpr double kGhostShare = 0.4;
 constexpr double kBelowShareMax = 0.05;
 // Neither a floor nor a rival of one, whose score is at most twice its area: where no floor is within the radius, all
 // planes are such splinters.
-constexpr double kTellsNothing_m2 = 0.5 * kRivalShareOfFloor * kFloorAreaMin_m2;
+double tells_nothing_m2(const Settings& s) {
+  return 0.5 * limit_of<gate::FLOOR_RIVAL>(s) * limit_of<gate::FLOOR_AREA>(s);
+}
 constexpr double kOutlierSpan_m = 4.0;
+
+#ifdef POSE_WALL_TRACE
+void note_floor_plane(const Plane& plane, pose_wall_trace_fate fate, double support,
+                      const Eigen::Vector3d& sensor_base_m) {
+  pose_wall_trace_candidate* const noted = trace::candidate(fate, plane);
+  noted->height_m = plane.signed_distance(sensor_base_m);
+  noted->tilt_rad = tilt_of_up(plane.n);
+  noted->support = support;
+}
+
+// Weaker, until more is known of it.
+void note_refined(const IrlsResult& refined, double support, const FloorScene& scene) {
+  pose_wall_trace_fate fate = POSE_WALL_TRACE_WEAKER;
+  if (!may_be_floor(refined.plane, FloorLimits(scene.settings), scene.sensor_base_m)) {
+    fate = POSE_WALL_TRACE_OUT_OF_RANGE;
+  }
+  if (!refined.solved) fate = POSE_WALL_TRACE_UNSUPPORTED;
+  note_floor_plane(refined.plane, fate, support, scene.sensor_base_m);
+}
+
+// Of the planes that were drawn and lie too high, too low or too steep, those that explain most: what else may have
+// been the floor.
+class BestOutside {
+ public:
+  BestOutside(const PointSet& subset, const Settings& settings, const Eigen::Vector3d& sensor_base_m)
+      : subset_(subset), settings_(settings), sensor_base_m_(sensor_base_m) {}
+
+  void offer(const Plane& plane) {
+    constexpr double kSteepest_rad = 1.05;  // what is steeper is a wall
+    if (may_be_floor(plane, FloorLimits(settings_), sensor_base_m_) || tilt_of_up(plane.n) > kSteepest_rad) return;
+    const bool steep = tilt_of_up(plane.n) > radians(settings_.ground_tilt_max_deg);
+    Hypothesis& best = steep ? steep_ : displaced_;
+    const double cost = truncated_cost(subset_, plane, settings_.ground_ransac_thresh, best.cost);
+    if (cost < best.cost) best = {plane, cost};
+  }
+
+  void note() const {
+    constexpr double kAnything = 0.9;  // what explains less is chance
+    for (const Hypothesis* best : {&displaced_, &steep_}) {
+      if (best->cost < kAnything) {
+        note_floor_plane(best->plane, POSE_WALL_TRACE_OUT_OF_RANGE, 1.0 - best->cost, sensor_base_m_);
+      }
+    }
+  }
+
+ private:
+  const PointSet& subset_;
+  const Settings& settings_;
+  const Eigen::Vector3d& sensor_base_m_;
+  Hypothesis displaced_{Plane{}, 1.0}, steep_{Plane{}, 1.0};
+};
+
+#endif
+
+// One of the low points, or of all.
+std::uint32_t drawn(const FloorDraw& from, bool of_low, Random* random) {
+  return of_low ? from.low[random->below(from.low.size())] : random->below(from.open_base.count);
+}
+
+// Half from the low points, half from all, so that a floor counts as a whole even where the machine leans and the
+// lowest points are one side of it only.
+void fill_subset(const FloorDraw& from, Random* random, PointSet* subset) {
+  for (std::uint32_t k = 0; k < kFloorSubset; ++k) {
+    const std::uint32_t i = drawn(from, k % 2 == 0, random);
+    subset->x[k] = from.open_base.x[i];
+    subset->y[k] = from.open_base.y[i];
+    subset->z[k] = from.open_base.z[i];
+  }
+  subset->count = kFloorSubset;
+}
+
+// The plane through three drawn points, normal up; false for slivers.
+bool draw_plane(const FloorDraw& from, bool of_low, Random* random, Plane* plane) {
+  const Eigen::Vector3d a = from.open_base.at(drawn(from, of_low, random));
+  const Eigen::Vector3d b = from.open_base.at(drawn(from, of_low, random));
+  const Eigen::Vector3d c = from.open_base.at(drawn(from, of_low, random));
+  const Eigen::Vector3d cross = (b - a).cross(c - a);
+  const double area = std::sqrt(cross.squaredNorm());
+  if (!(area >= kTriangleMin_m2)) return false;
+  plane->n = cross.z() >= 0.0 ? Eigen::Vector3d(cross / area) : Eigen::Vector3d(cross / -area);
+  plane->d = -plane->n.dot(a);
+  return true;
+}
 
 // The lowest percentile by z, off a histogram of centimetres.
 std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::uint32_t> out) {
@@ -48,10 +139,10 @@ std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::u
 }
 
 // Refines what the search left, merges what became alike, and looks at each as a floor.
-void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShortlist* list, FloorScratch* scratch,
+void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorShortlist* list, FloorScratch* scratch,
            FloorCandidates* out) {
-  const PointSet& within = in.within_base;
-  const Eigen::Vector3d& sensor = in.sensor_base_m;
+  const Settings& s = scene.settings;
+  const Eigen::Vector3d& sensor = scene.sensor_base_m;
   const FloorLimits limits(s);
   const IrlsSettings quick = quick_irls(2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2);
   // The low points have done their work; their room holds a part of all, enough to refine a hypothesis.
@@ -63,7 +154,7 @@ void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShor
     const IrlsResult refined =
         irls_tukey(within, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
     scratch->work.add(steps::kFloorRefined);
-    POSE_WALL_NOTE(note_refined_floor(refined, 1.0 - (*list)[k].cost, s, sensor));
+    POSE_WALL_NOTE(note_refined(refined, 1.0 - (*list)[k].cost, scene));
     if (!refined.solved || !may_be_floor(refined.plane, limits, sensor)) continue;
     bool repeats = false;
     for (const FloorCandidate& c : out->all()) repeats = repeats || same_floor(c.plane, refined.plane);
@@ -73,12 +164,12 @@ void weigh(const FloorSearch& in, const Settings& s, const Axes& axes, FloorShor
     scratch->work.add(within.count, steps::kPointWeighed);
     if (mlesac_score(within, refined.plane, s.ground_ransac_thresh / 2.0, kOutlierSpan_m).cost >= 0.0) continue;
     scratch->grid.mark(within, refined.plane, s.ground_ransac_thresh);
-    const FloorEvidence evidence = scratch->grid.evidence(axes);
+    const FloorEvidence evidence = scratch->grid.evidence(scene.axes);
     scratch->work.add(steps::kFloorWeighed);
-    if (evidence.area_m2 < kTellsNothing_m2) continue;
+    if (evidence.area_m2 < tells_nothing_m2(s)) continue;
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
-    if (!in.are_left_over &&
-        has_much_below(scratch->grid, refined.plane, in.cloud_base, s.ground_roi_radius_max, sensor, kBelowShareMax))
+    if (among == Among::kOpen &&
+        has_much_below(scratch->grid, refined.plane, scene.cloud_base, s.ground_roi_radius_max, sensor, kBelowShareMax))
       continue;
     out->item[out->count++] = {refined.plane, evidence, false};
   }
@@ -90,23 +181,51 @@ bool is_below(const Plane& above, const Plane& below, const Eigen::Vector3d& sen
 }
 
 // Planes below another one, seen through its open floor, are reflections in wet ground.
-void mark_ghosts(const PointSet& within, const Settings& s, const Eigen::Vector3d& sensor, FloorScratch* scratch,
+void mark_ghosts(const FloorScene& scene, const PointSet& within, FloorScratch* scratch,
                  Span<FloorCandidate> candidates) {
   for (const FloorCandidate& above : candidates) {
-    if (above.evidence.area_m2 < kFloorAreaMin_m2) continue;
+    if (above.evidence.area_m2 < limit_of<gate::FLOOR_AREA>(scene.settings)) continue;
     bool marked = false;
     for (FloorCandidate& below : candidates) {
       if (scratch->work.is_spent()) return;
-      if (!is_below(above.plane, below.plane, sensor)) continue;
+      if (!is_below(above.plane, below.plane, scene.sensor_base_m)) continue;
       scratch->work.add(within.count, steps::kPointWeighed);
-      if (!marked) scratch->grid.mark(within, above.plane, s.ground_ransac_thresh);
+      if (!marked) scratch->grid.mark(within, above.plane, scene.settings.ground_ransac_thresh);
       marked = true;
-      below.ghost = below.ghost || is_reflection(within, above.plane, below.plane, s, sensor, scratch->grid);
+      below.ghost = below.ghost || is_reflection(scene, within, above.plane, below.plane, scratch->grid);
     }
   }
 }
 
 }  // namespace
+
+FloorLimits::FloorLimits(const Settings& settings)
+    : up_min(cosine(limit_of<gate::FLOOR_TILT>(settings))),
+      height_min_m(limit_of<gate::FLOOR_HEIGHT_MIN>(settings)),
+      height_max_m(limit_of<gate::FLOOR_HEIGHT_MAX>(settings)) {}
+
+bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Vector3d& sensor_base_m) {
+  const double height_m = plane.signed_distance(sensor_base_m);
+  return plane.n.z() >= limits.up_min && height_m >= limits.height_min_m && height_m <= limits.height_max_m;
+}
+
+bool same_floor(const Plane& a, const Plane& b) {
+  constexpr double kReach_m = 2.0;
+  constexpr double kApart_m = 0.08;
+  const double places[][2] = {{0.0, 0.0}, {kReach_m, 0.0}, {-kReach_m, 0.0}, {0.0, kReach_m}, {0.0, -kReach_m}};
+  for (const auto& p : places) {
+    const double za = -(a.n.x() * p[0] + a.n.y() * p[1] + a.d) / a.n.z();
+    const double zb = -(b.n.x() * p[0] + b.n.y() * p[1] + b.d) / b.n.z();
+    if (!(std::fabs(za - zb) <= kApart_m)) return false;
+  }
+  return true;
+}
+
+std::uint32_t FloorCandidates::plausible() const {
+  std::uint32_t plausible = 0;
+  for (const FloorCandidate& c : all()) plausible += c.ghost ? 0U : 1U;
+  return plausible;
+}
 
 const FloorCandidate* FloorCandidates::best() const {
   const FloorCandidate* best = nullptr;
@@ -117,21 +236,49 @@ const FloorCandidate* FloorCandidates::best() const {
   return best;
 }
 
-bool is_reflection(const PointSet& open_base, const Plane& above, const Plane& below, const Settings& settings,
-                   const Eigen::Vector3d& sensor_base_m, const FloorGrid& grid) {
-  return is_below(above, below, sensor_base_m) &&
-         share_seen_through(grid, above, below, open_base, sensor_base_m, settings.ground_ransac_thresh) > kGhostShare;
+bool is_reflection(const FloorScene& scene, const PointSet& open_base, const Plane& above, const Plane& below,
+                   const FloorGrid& grid) {
+  return is_below(above, below, scene.sensor_base_m) &&
+         share_seen_through(grid, above, below, open_base, scene.sensor_base_m, scene.settings.ground_ransac_thresh) >
+             kGhostShare;
 }
 
-std::uint32_t find_candidates(const FloorSearch& in, const Settings& s, const Axes& axes, Random* random,
+std::uint32_t search_floor(const FloorScene& scene, const FloorDraw& from, Random* random, PointSet* subset,
+                           FloorShortlist* list) {
+  const Settings& settings = scene.settings;
+  list->clear();
+  if (from.low.size() < 3) return 0;
+  fill_subset(from, random, subset);
+  const double thresh_m = settings.ground_ransac_thresh;
+  const FloorLimits limits(settings);
+  std::uint32_t scored = 0;
+  const auto score = [&](const Plane& plane) {
+    list->offer({plane, truncated_cost(*subset, plane, thresh_m, list->too_much())}, same_floor);
+    ++scored;
+  };
+  if (scene.last_floor != nullptr) score(*scene.last_floor);
+  const std::uint32_t draws = settings.ground_iterations * kDrawsPerIteration;
+  POSE_WALL_NOTE(BestOutside outside(*subset, settings, scene.sensor_base_m));
+  for (std::uint32_t draw = 0; draw < draws && scored < settings.ground_iterations; ++draw) {
+    Plane plane;
+    // Every other draw from all points: where reflections lie lowest, the low points hold no floor.
+    if (!draw_plane(from, draw % 2 == 0, random, &plane)) continue;
+    POSE_WALL_NOTE(outside.offer(plane));
+    if (may_be_floor(plane, limits, scene.sensor_base_m)) score(plane);
+  }
+  POSE_WALL_NOTE(outside.note());
+  return scored;
+}
+
+std::uint32_t find_candidates(const FloorScene& scene, const PointSet& within_base, Among among, Random* random,
                               FloorScratch* scratch, FloorCandidates* out) {
-  const std::uint32_t low = lowest_part(in.within_base, s.ground_z_percentile, scratch->low);
+  const std::uint32_t low = lowest_part(within_base, scene.settings.ground_z_percentile, scratch->low);
   FloorShortlist list;
-  const FloorDraw drawn_from{in.within_base, scratch->low.first(low), in.sensor_base_m, in.last_floor};
-  const std::uint32_t scored = search_floor(drawn_from, s, random, &scratch->subset, &list);
+  const std::uint32_t scored =
+      search_floor(scene, {within_base, scratch->low.first(low)}, random, &scratch->subset, &list);
   scratch->work.add(scored, steps::kFloorDrawn);
-  weigh(in, s, axes, &list, scratch, out);
-  mark_ghosts(in.within_base, s, in.sensor_base_m, scratch, Span<FloorCandidate>(out->item, out->count));
+  weigh(scene, within_base, among, &list, scratch, out);
+  mark_ghosts(scene, within_base, scratch, Span<FloorCandidate>(out->item, out->count));
   return scored;
 }
 

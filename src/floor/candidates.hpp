@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What may be the floor: planes through open points, drawn, refined and weighed by the open ground they show.
+// What may be the floor: planes through open points, drawn and scored on a few of them, refined, and weighed by the
+// open ground they show.
 
 #pragma once
 
+#include "base/containers/point_set.hpp"
+#include "base/estimation/shortlist.hpp"
 #include "base/math/random.hpp"
-#include "config.hpp"
 #include "floor/evidence.hpp"
-#include "floor/floor.hpp"
-#include "floor/search.hpp"
+#include "floor/scene.hpp"
 
 namespace pose_wall {
 
-constexpr std::uint32_t kFloorPointsMin = 60;
-constexpr double kFloorAreaMin_m2 = 2.0;
-// A plane that shows so much of what the best one does may be the floor as well.
-constexpr double kRivalShareOfFloor = 0.5;
+// So many different surfaces are weighed: floor, bench, deck and reflection at once are four.
+constexpr std::uint32_t kFloorShortlist = 8;
+using FloorShortlist = Shortlist<kFloorShortlist>;
 
 struct FloorCandidate {
   Plane plane;
@@ -29,23 +29,42 @@ struct FloorCandidates {
   std::uint32_t count = 0;
 
   Span<const FloorCandidate> all() const { return Span<const FloorCandidate>(item, count); }
-  const FloorCandidate* best() const;  // by score, no ghost; nullptr where there is none
+  std::uint32_t plausible() const;     // those that are no ghosts
+  const FloorCandidate* best() const;  // the one of the best score among these; nullptr where there is none
 };
 
-struct FloorSearch {
-  const PointSet& within_base;      // the open points to search
-  const BoundedPoints& cloud_base;  // all points
-  const Eigen::Vector3d& sensor_base_m;
-  const Plane* last_floor;  // hypothesis 0: scored like any other; nullptr if none
-  bool are_left_over;       // by a floor, much of which may lie below a plane through them
+// What the config allows of a floor, worked out once for all hypotheses.
+struct FloorLimits {
+  double up_min;  // of the normal's z, in base
+  double height_min_m, height_max_m;
+
+  explicit FloorLimits(const Settings& settings);
 };
+
+// A plane within the allowed tilt of base, below the sensor by an allowed height.
+bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Vector3d& sensor_base_m);
+
+// Whether two planes are the same surface around the machine.
+bool same_floor(const Plane& a, const Plane& b);
 
 // Whether a plane is seen through the open floor of another one above it, which marks the grid.
-bool is_reflection(const PointSet& open_base, const Plane& above, const Plane& below, const Settings& settings,
-                   const Eigen::Vector3d& sensor_base_m, const FloorGrid& grid);
+bool is_reflection(const FloorScene& scene, const PointSet& open_base, const Plane& above, const Plane& below,
+                   const FloorGrid& grid);
 
+// What hypotheses are drawn from.
+struct FloorDraw {
+  const PointSet& open_base;      // open points within the region of interest
+  Span<const std::uint32_t> low;  // the lowest part of them
+};
+
+// Fills the list; returns how many hypotheses were scored. subset: scratch of kFloorSubset points.
+std::uint32_t search_floor(const FloorScene& scene, const FloorDraw& from, Random* random, PointSet* subset,
+                           FloorShortlist* list);
+
+// The candidates among the open points of one look, or among those that a floor leaves over: below these much may lie.
+enum class Among { kOpen, kLeftOver };
 // Returns how many hypotheses were scored.
-std::uint32_t find_candidates(const FloorSearch& in, const Settings& settings, const Axes& axes, Random* random,
+std::uint32_t find_candidates(const FloorScene& scene, const PointSet& within_base, Among among, Random* random,
                               FloorScratch* scratch, FloorCandidates* out);
 
 }  // namespace pose_wall

@@ -13,7 +13,7 @@
 #include "base/estimation/tangent_frame.hpp"
 #include "base/estimation/tukey.hpp"
 #include "base/math/elementary.hpp"
-#include "trace/trace.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
@@ -25,8 +25,6 @@ constexpr double kScaleMin_m = 0.010;
 constexpr double kPatch_m = 0.5;
 // In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
 constexpr double kStretch = 1.25;
-// A bend is told where it takes up this much of the alert limit.
-constexpr double kBendMatters = 0.2;
 constexpr int kRounds = 5;
 constexpr int kSelections = 3;
 // Residuals up to here may be the sensor's.
@@ -180,22 +178,19 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   reach_to_patches(roll, &out->roll_bound_rad);
   reach_to_patches(pitch, &out->pitch_bound_rad);
   const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BEND, bent, kBendMatters * radians(s.alert_limit_angle_deg),
-                             !(bent > kBendMatters * radians(s.alert_limit_angle_deg))));
-  if (bent > kBendMatters * radians(s.alert_limit_angle_deg)) out->fit.reasons |= POSE_WALL_R_CURVED;
+  demand<gate::FLOOR_BEND>(&out->fit, bent, s);
 }
 
 // The plane through the points about it, selected again until it stands still. The points stay in the scratch.
-IrlsResult fit_selected(const FloorLook& look, const Plane& start, const Settings& settings,
-                        const Eigen::Vector3d& sensor_base_m, FloorScratch* scratch) {
-  IrlsSettings tukey = irls_settings(settings);
+IrlsResult fit_selected(const FloorScene& scene, const FloorLook& look, const Plane& start, FloorScratch* scratch) {
+  IrlsSettings tukey = irls_settings(scene.settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
   IrlsResult irls;
   irls.plane = start;
   for (int selection = 0; selection < kSelections; ++selection) {
     // The low points have done their work; their room holds the selection.
     const Span<std::uint32_t> chosen =
-        select(look, scratch->grid, irls.plane, tukey.gate_m, sensor_base_m, scratch->low);
+        select(look, scratch->grid, irls.plane, tukey.gate_m, scene.sensor_base_m, scratch->low);
     const Plane before = irls.plane;
     const std::uint32_t half = look.open_most / 2, room = scratch->points.capacity();
     const std::uint32_t taken_most = half < room ? half : room;
@@ -211,27 +206,23 @@ IrlsResult fit_selected(const FloorLook& look, const Plane& start, const Setting
 
 }  // namespace
 
-FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
-                      const Eigen::Vector3d& sensor_base_m, FloorScratch* scratch) {
+FloorResult fit_floor(const FloorScene& scene, const FloorLook& look, const Plane& start, FloorScratch* scratch) {
+  const Settings& settings = scene.settings;
   FloorResult out;
-  const IrlsResult irls = fit_selected(look, start, settings, sensor_base_m, scratch);
+  const IrlsResult irls = fit_selected(scene, look, start, scratch);
   out.fit.plane = irls.plane;
   if (scratch->work.is_spent()) {
     out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
     return out;
   }
-  if (irls.solved) fill_patches(irls, look.radius_m, sensor_base_m, scratch);
+  if (irls.solved) fill_patches(irls, look.radius_m, scene.sensor_base_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
   scratch->work.add(scratch->points.count, steps::kPointPatched);
   scratch->work.add(bend.work);
   scratch->work.add(static_cast<std::uint64_t>(patches.size()) * patches.size(), steps::kPatchesWaved);
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_FIT, uneven.solved));
-  if (!uneven.solved) {
-    out.fit.refuse(POSE_WALL_R_FLOOR_THIN);
-    return out;
-  }
+  if (!demand<gate::FLOOR_FIT>(&out.fit, uneven.solved)) return out;
   PlaneOver over = irls.over;
   over.add(uneven.correction);
   out.fit.plane = scratch->points.plane_of(over);

@@ -5,9 +5,8 @@
 
 #pragma once
 
-#include "config.hpp"
-#include "floor/floor.hpp"
-#include "types.hpp"
+#include "floor/result.hpp"
+#include "floor/scene.hpp"
 
 namespace pose_wall {
 
@@ -21,7 +20,6 @@ struct FloorLook {
 };
 
 // start: the chosen hypothesis.
-FloorResult fit_floor(const FloorLook& look, const Plane& start, const Settings& settings,
-                      const Eigen::Vector3d& sensor_base_m, FloorScratch* scratch);
+FloorResult fit_floor(const FloorScene& scene, const FloorLook& look, const Plane& start, FloorScratch* scratch);
 
 }  // namespace pose_wall

@@ -12,6 +12,14 @@
 
 namespace pose_wall {
 
+struct Levelling {
+  Eigen::Matrix3d R_level_base = Eigen::Matrix3d::Identity();
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double forward_up = 0.0;       // z of the machine's forward axis in the levelled frame: sine of its elevation
+  double floor_z_level_m = 0.0;  // z of the floor in the levelled frame: height above floor = z - floor_z
+};
+
 Levelling levelling_by(const Plane& floor_base, const Axes& axes);
 
 // Room for the points outside the band.

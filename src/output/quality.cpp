@@ -9,7 +9,7 @@
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 #include "base/math/larger.hpp"
-#include "trace/trace.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
@@ -64,7 +64,7 @@ void measure_floor(const FloorResult& floor, const Levelling& levelling, const S
   }
 }
 
-void measure_distances(const WallResult& wall, const Settings& s, Measurement* front, Measurement* back) {
+void measure_distances(const JudgedWall& wall, const Settings& s, Measurement* front, Measurement* back) {
   Measurement* const ends[2] = {front, back};
   for (int end = 0; end < 2; ++end) {
     Measurement& m = *ends[end];
@@ -83,14 +83,14 @@ void measure_distances(const WallResult& wall, const Settings& s, Measurement* f
 
 // How much of an error of the floor turns into yaw: a leaning wall, or a machine that looks up or down, turns part of a
 // tilt about the road into a turn about the vertical.
-double tilt_to_yaw(const WallResult& wall, const Levelling& levelling) {
+double tilt_to_yaw(const JudgedWall& wall, const Levelling& levelling) {
   const double lean = sine(wall.lean_rad) / cosine(wall.lean_rad);
   const double up = levelling.forward_up;
   return std::fabs(lean) + std::fabs(up) / std::sqrt(1.0 - up * up);
 }
 
 // Of a wall's own bound, and of the floor's larger one.
-ProtectionParts yaw_bound_of(const WallResult& wall, const FloorResult& floor, const Levelling& levelling) {
+ProtectionParts yaw_bound_of(const JudgedWall& wall, const FloorResult& floor, const Levelling& levelling) {
   const bool by_roll = floor.roll_bound_rad.sum() > floor.pitch_bound_rad.sum();
   ProtectionParts bound = wall.yaw_bound_rad;
   bound.add(by_roll ? floor.roll_bound_rad : floor.pitch_bound_rad, tilt_to_yaw(wall, levelling));
@@ -108,7 +108,7 @@ Measurement yaw_measurement(double raw, double walls_variance, const ProtectionP
   return measurement(raw, with_floor(std::sqrt(variance), kSigmaMinAngle_rad), bound, dof_of_sum, s);
 }
 
-Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const Levelling& levelling,
+Measurement yaw_by_one(const JudgedWall& wall, const FloorResult& floor, const Levelling& levelling,
                        const Settings& s) {
   ProtectionParts bound = yaw_bound_of(wall, floor, levelling);
   bound[POSE_WALL_PART_RIVAL] += wall.yaw_to_rival_rad;
@@ -119,7 +119,7 @@ Measurement yaw_by_one(const WallResult& wall, const FloorResult& floor, const L
 
 // Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
 // in the mean as far as the weights are alike; the signed responses say how far.
-Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, const Levelling& levelling,
+Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, const Levelling& levelling,
                         const Settings& s) {
   double variance[2] = {}, information = 0.0;
   for (int side = 0; side < 2; ++side) {
@@ -148,7 +148,7 @@ Measurement yaw_by_both(const WallResult (&walls)[2], const FloorResult& floor, 
   return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
 }
 
-Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
+Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                         const Settings& s) {
   const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
   Measurement m;
@@ -158,7 +158,7 @@ Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, co
     m = yaw_by_one(walls[left ? 0 : 1], floor, levelling, s);
   }
   std::uint32_t doubts = 0;
-  for (const WallResult& wall : walls) {
+  for (const JudgedWall& wall : walls) {
     // With one wall left, the reasons of the other do not speak against yaw; with none, they explain it.
     if (!wall.fit.refused || !m.measured) doubts |= wall.fit.reasons;
   }
@@ -169,28 +169,7 @@ Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, co
 
 }  // namespace
 
-void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]) {
-  constexpr double kShareOfReturns = 0.02;
-  // Of what came back: whether the others are left out, zero or not finite must not matter.
-  const double returns = static_cast<double>(counts.points_in - counts.dropped_not_finite - counts.dropped_zero);
-  const Quadrant sides[2] = {kLeft, kRight};
-  for (int side = 0; side < 2; ++side) {
-    const std::uint32_t near = counts.near_by_quadrant[sides[side]], kept = counts.kept_by_quadrant[sides[side]];
-    POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALL_NEAR, near,
-                                  larger(kept, kShareOfReturns * returns),
-                                  near <= kept || near < kShareOfReturns * returns));
-    if (near <= kept || static_cast<double>(near) < kShareOfReturns * returns) continue;
-    WallResult& blocked = (*walls)[side];
-    WallResult& other = (*walls)[1 - side];
-    // Blocked or not, it may have known the road's direction better than the one that is left.
-    if (blocked.fit.found && !blocked.fit.refused) {
-      other.reach_to_other_side(std::fabs(blocked.yaw_rad - other.yaw_rad));
-    }
-    blocked.fit.refuse(POSE_WALL_R_WALL_TOO_NEAR);
-  }
-}
-
-Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
+Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                                 const Settings& settings) {
   Measurements out;
   Measurement* const q = out.quantity;
@@ -201,10 +180,11 @@ Measurements measure_quantities(const FloorResult& floor, const Levelling& level
   out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;
   out.left_right_yaw_difference_rad = walls[0].yaw_rad - walls[1].yaw_rad;
   for (std::uint32_t i = 0; i < POSE_WALL_QUANTITIES; ++i) {
-    const double protection = q[i].protection.sum(), limit = alert_limit(i, settings);
-    POSE_WALL_NOTE(if ((q[i].reasons & POSE_WALL_R_ALERT_LIMIT) != 0 || q[i].measured) trace::gate_of(
-        POSE_WALL_TRACE_QUANTITY + i, POSE_WALL_TRACE_PROTECTION_RAW, protection, limit, protection <= limit));
-    if (q[i].measured && !(protection <= limit)) q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
+    POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_QUANTITY + i));
+    if (!q[i].measured && (q[i].reasons & POSE_WALL_R_ALERT_LIMIT) == 0) continue;
+    if (!passes<gate::PROTECTION_RAW>(q[i].protection.sum(), alert_limit(i, settings))) {
+      q[i].reasons |= POSE_WALL_R_ALERT_LIMIT;
+    }
   }
   return out;
 }

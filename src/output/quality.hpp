@@ -6,15 +6,15 @@
 #pragma once
 
 #include "config.hpp"
+#include "floor/levelling.hpp"
+#include "floor/result.hpp"
 #include "types.hpp"
+#include "walls/wall.hpp"
 
 namespace pose_wall {
 
 // walls: left, right. A refused floor or wall leaves its quantities unmeasured.
-Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
+Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                                 const Settings& settings);
-
-// Returns nearer than range_min that take up most of a side hide what is behind them: that side is refused.
-void refuse_blocked_sides(const IngestCounts& counts, WallResult (*walls)[2]);
 
 }  // namespace pose_wall

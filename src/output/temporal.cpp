@@ -7,7 +7,7 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
-#include "trace/trace.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
@@ -29,28 +29,28 @@ double larger_or_nan(double a, double b) {
 // A jump from the last good value further than machine and errors allow: either this value or that one is wrong. Both
 // stay possible until the new one has come again kConfirmations times. And where there was no good value yet and frames
 // were refused, the first that is not is one of several looks at the same thing, and the others said no.
-void check_innovation(const Measurement& m, Track* t) {
+void check_innovation(const Measurement& m, [[maybe_unused]] const Settings& s, Track* t) {
   const double protection = m.protection.sum();
   const double from_good = protection + t->good.raw_protection + t->good.grown.total();
-  if (t->good.exists ? std::fabs(m.raw - t->good.raw) <= from_good : t->to_confirm == 0) {
+  if (t->good.exists ? passes<gate::INNOVATION>(std::fabs(m.raw - t->good.raw), from_good) : t->to_confirm == 0) {
     t->to_confirm = 0;
     return;
   }
   const double from_last = protection + t->raw_protection + t->grown.total();
   const bool comes_again = t->has_value && t->to_confirm > 0 && std::fabs(m.raw - t->raw) <= from_last;
   t->to_confirm = comes_again ? t->to_confirm - 1 : kConfirmations;
+  POSE_WALL_NOTE(if (!t->good.exists) passes<gate::CONFIRMED>(t->to_confirm, s));
 }
 
 // A rival wall that was seen a moment ago is not gone because this frame does not show it. A level that reached to one
 // falls once kConfirmations frames in a row have seen none; until then what is measured anew may be the rival. Not so
 // of floors: uneven ground shows another slope in one frame of five, and is right in the others.
-void keep_doubts(Track* t, Measurement* m) {
+void keep_doubts(const Settings& s, Track* t, Measurement* m) {
   if ((m->reasons & POSE_WALL_R_WALL_AMBIGUOUS) != 0) {
     t->doubted_frames = kConfirmations;
     return;
   }
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_DOUBTED, t->doubted_frames, 0.0, t->doubted_frames == 0));
-  if (t->doubted_frames == 0) return;
+  if (passes<gate::DOUBTED>(t->doubted_frames, s)) return;
   --t->doubted_frames;
   m->protection.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown.total(), POSE_WALL_PART_RIVAL);
 }
@@ -105,39 +105,11 @@ bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Tra
   const double trust =
       protection > known ? known / protection : 1.0;  // a measurement that is weaker than those before pulls less
   const double free = smoothed(m.raw, trust, s.temporal_smoothing_tau, t);
-  const double limit = radians(s.yaw_rate_limit_deg);
-  const bool limited = quantity == POSE_WALL_YAW && std::fabs(free - before) > limit;
-  POSE_WALL_NOTE(if (quantity == POSE_WALL_YAW)
-                     trace::gate(POSE_WALL_TRACE_RATE, std::fabs(free - before), limit, !limited));
-  const double wished = limited ? clamped(free, before, limit) : free;
+  const bool limited = quantity == POSE_WALL_YAW && !passes<gate::RATE>(std::fabs(free - before), s);
+  const double wished = limited ? clamped(free, before, limit_of<gate::RATE>(s)) : free;
   t->value = clamped(wished, m.raw, lag_most(protection, alert_limit(quantity, s)));
   return limited && t->value == wished;
 }
-
-#ifdef POSE_WALL_TRACE
-void note_timing(const FrameTiming& t, const Settings& s) {
-  trace::subject(POSE_WALL_TRACE_FRAME);
-  trace::gate(POSE_WALL_TRACE_STAMP_STILL, !t.still);
-  trace::gate(POSE_WALL_TRACE_STAMP_BACK, t.dt_s, 0.0, !t.back);
-  trace::gate(POSE_WALL_TRACE_STAMP_LEAP, t.dt_s, s.stamp_gap_max, !t.leap);
-}
-
-void note_innovation(const Measurement& m, const Track& t) {
-  if (!t.good.exists) {
-    trace::gate(POSE_WALL_TRACE_CONFIRMED, t.to_confirm, 0.0, t.to_confirm == 0);
-    return;
-  }
-  const double reach = m.protection.sum() + t.good.raw_protection + t.good.grown.total();
-  trace::gate(POSE_WALL_TRACE_INNOVATION, std::fabs(m.raw - t.good.raw), reach, t.to_confirm == 0);
-}
-
-void note_held(const pose_wall_value& v, double blind_s, std::uint32_t quantity, const Settings& s, const Track& t) {
-  const double alert = alert_limit(quantity, s);
-  trace::gate(POSE_WALL_TRACE_PROTECTION_HELD, v.protection_level, alert, v.protection_level <= alert);
-  trace::gate(POSE_WALL_TRACE_HELD_AGE, blind_s, s.hold_max, blind_s <= s.hold_max);
-  trace::gate(POSE_WALL_TRACE_HELD_BEFORE, !t.expired);
-}
-#endif
 
 // Member by member: a struct's copy may bring padding along that nobody wrote, and the engine's sum is over padding,
 // too.
@@ -164,9 +136,8 @@ void report_protection(const ProtectionParts& protection, pose_wall_value* out) 
 void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
   const bool in_doubt = t->doubted_frames > 0;
-  keep_doubts(t, &m);
-  check_innovation(m, t);
-  POSE_WALL_NOTE(note_innovation(m, *t));
+  keep_doubts(s, t, &m);
+  check_innovation(m, s, t);
   const double seen_protection = m.protection.sum();
   if (t->to_confirm > 0) reach_to_last_good(quantity, s, *t, &m);
   if (afresh) {
@@ -186,10 +157,9 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
   t->protection = m.protection;
   t->protection[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
-  const double alert = alert_limit(quantity, s), protection = t->protection.sum();
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_PROTECTION_SMOOTHED, protection, alert, protection <= alert));
-  if (!(protection <= alert)) m.reasons |= POSE_WALL_R_ALERT_LIMIT;
-  const bool valid = protection <= alert && !m.weak && t->to_confirm == 0;
+  const bool within = passes<gate::PROTECTION_SMOOTHED>(t->protection.sum(), alert_limit(quantity, s));
+  if (!within) m.reasons |= POSE_WALL_R_ALERT_LIMIT;
+  const bool valid = within && !m.weak && t->to_confirm == 0;
   if (valid) keep_good(m, t);
   if (!valid && in_doubt) m.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
   out->state = out->raw_state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
@@ -204,8 +174,7 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
 void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t, pose_wall_value* out) {
   out->reasons = m.reasons;
   if (!t->good.exists) t->to_confirm = kConfirmations;
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_EVER, t->has_value));
-  if (!t->has_value) {
+  if (!passes<gate::EVER>(t->has_value)) {
     out->reasons |= POSE_WALL_R_NEVER_MEASURED;
     return;
   }
@@ -218,11 +187,10 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   out->age_s = hold_good ? t->good.age_s : t->age_s;
   report_protection(hold_good ? good_protection : last_protection, out);
   const Unknown& grown = hold_good ? t->good.grown : t->grown;
-  const double blind_s = grown.blind_s;
-  const bool within = out->protection_level <= alert_limit(quantity, s) && blind_s <= s.hold_max;
-  POSE_WALL_NOTE(note_held(*out, blind_s, quantity, s, *t));
+  const bool narrow = passes<gate::PROTECTION_HELD>(out->protection_level, alert_limit(quantity, s));
+  const bool within = passes<gate::HELD_AGE>(grown.blind_s, s) && narrow;
   // A place that is not known for a while may be known again, and the value with it.
-  t->expired = t->expired || (!within && grown.steps_by_places == 0);
+  t->expired = !passes<gate::HELD_BEFORE>(!t->expired) || (!within && grown.steps_by_places == 0);
   const bool holds = within && !t->expired;
   if (!holds) out->reasons |= POSE_WALL_R_HOLD_EXPIRED;
   out->state = holds ? POSE_WALL_HELD : POSE_WALL_INVALID;
@@ -285,13 +253,13 @@ FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const 
   t.dt_s = (static_cast<double>(stamp_ns) - static_cast<double>(state.stamp_ns)) * kNanosecond_s;
   const bool exact = t.dt_s > -1e6 && t.dt_s < 1e6;
   if (exact) t.dt_s = static_cast<double>(stamp_ns - state.stamp_ns) * kNanosecond_s;
-  t.back = stamp_ns < state.stamp_ns;
-  t.still = !t.back && exact && stamp_ns - state.stamp_ns < kStillBelow_ns;
-  t.leap = t.dt_s > settings.stamp_gap_max;
-  POSE_WALL_NOTE(note_timing(t, settings));
-  if (t.still) t.reasons |= POSE_WALL_R_STAMP_STILL;
-  if (t.back) t.reasons |= POSE_WALL_R_STAMP_BACK;
-  if (t.leap) t.reasons |= POSE_WALL_R_STAMP_LEAP;
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FRAME));
+  Verdict verdict;
+  t.back = !demand<gate::STAMP_BACK>(&verdict, t.dt_s, settings);
+  const bool still = !t.back && exact && stamp_ns - state.stamp_ns < kStillBelow_ns;
+  t.still = !demand<gate::STAMP_STILL>(&verdict, !still);
+  t.leap = !demand<gate::STAMP_LEAP>(&verdict, t.dt_s, settings);
+  t.reasons = verdict.reasons;
   return t;
 }
 

@@ -197,7 +197,7 @@ void see_floor(const FloorResult& floor, const Place& at, const Settings& s, See
                       s.protection_factor * larger(floor.roll_sigma_rad, floor.pitch_sigma_rad);
 }
 
-void see_wall(const WallResult& wall, const Place& at, const Levelling& levelling, const Settings& s,
+void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levelling, const Settings& s,
               SeenSurface* seen) {
   const Eigen::Matrix3d R_run_level = at.R_run_base * levelling.R_level_base.transpose();
   seen->exists = true;
@@ -263,7 +263,7 @@ void widen_by_skew(const pose_wall_odometry& o, double scan_s, const OdometryMem
 }
 
 void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const Levelling& levelling,
-                    const WallResult (&walls)[2], const Measurements& measured, const Settings& s, const Axes& axes,
+                    const JudgedWall (&walls)[2], const Measurements& measured, const Settings& s, const Axes& axes,
                     OdometryMemory* memory) {
   if (o.run != memory->run) memory->floor.exists = memory->wall[0].exists = memory->wall[1].exists = false;
   const Place at = place_of(o);

@@ -9,9 +9,12 @@
 #include <Eigen/Core>
 
 #include "config.hpp"
+#include "floor/levelling.hpp"
+#include "floor/result.hpp"
 #include "output/temporal_motion.hpp"
 #include "pose_wall.h"
 #include "types.hpp"
+#include "walls/wall.hpp"
 
 namespace pose_wall {
 
@@ -55,7 +58,7 @@ void widen_by_skew(const pose_wall_odometry& odometry, double scan_s, const Odom
 
 // The place and the surfaces that this frame measured well become memory; a new run forgets those of the one before.
 void remember_place(const pose_wall_odometry& odometry, const FloorResult& floor, const Levelling& levelling,
-                    const WallResult (&walls)[2], const Measurements& measured, const Settings& settings,
+                    const JudgedWall (&walls)[2], const Measurements& measured, const Settings& settings,
                     const Axes& axes, OdometryMemory* memory);
 
 }  // namespace pose_wall

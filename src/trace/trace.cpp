@@ -11,11 +11,19 @@ struct Writer {
   std::uint32_t subject;
   std::uint32_t attempt;
   bool floor_taken;
+  bool silent;
   pose_wall_trace_candidate* last;
 };
 
 // The stages are free functions of what they are given, and the notes are to change none of them.
-thread_local Writer writer = {nullptr, 0, 0, false, nullptr};
+thread_local Writer writer = {nullptr, 0, 0, false, false, nullptr};
+
+// Of all threads: they are set before the frames, as a sweep does.
+struct Limit {
+  bool is_set;
+  double limit;
+};
+Limit limits[POSE_WALL_TRACE_GATES];
 
 // Where there is no room, or nobody listens.
 thread_local pose_wall_trace_candidate nowhere;
@@ -23,34 +31,48 @@ thread_local pose_wall_trace_candidate nowhere;
 }  // namespace
 
 void write_to(pose_wall_trace* trace) {
-  writer = {trace, POSE_WALL_TRACE_FRAME, 0, false, nullptr};
+  writer = {trace, POSE_WALL_TRACE_FRAME, 0, false, false, nullptr};
 }
 
-void subject(std::uint32_t subject) {
+std::uint32_t subject(std::uint32_t subject) {
+  const std::uint32_t before = writer.subject;
   writer.subject = subject;
+  return before;
+}
+
+Silence::Silence() : before_(writer.silent) {
+  writer.silent = true;
+}
+
+Silence::~Silence() {
+  writer.silent = before_;
 }
 
 void attempt(std::uint32_t attempt) {
   writer.attempt = attempt;
 }
 
-void gate_of(std::uint32_t subject, pose_wall_trace_gate_id id, double value, double limit, bool passed) {
-  if (writer.to == nullptr) return;
+void note_gate(std::uint32_t id, double value, double limit, bool passed) {
+  if (writer.to == nullptr || writer.silent) return;
   if (writer.to->gates == POSE_WALL_TRACE_GATES_MAX) {
     ++writer.to->dropped;
     return;
   }
-  const bool of_floor_taken = subject == POSE_WALL_TRACE_FLOOR && writer.floor_taken;
+  const bool of_floor_taken = writer.subject == POSE_WALL_TRACE_FLOOR && writer.floor_taken;
   const std::uint32_t attempt = of_floor_taken ? writer.to->floor_attempt : writer.attempt;
-  writer.to->gate[writer.to->gates++] = {subject, id, attempt, passed ? 1U : 0U, value, limit};
+  writer.to->gate[writer.to->gates++] = {writer.subject, id, attempt, passed ? 1U : 0U, value, limit};
 }
 
-void gate(pose_wall_trace_gate_id id, double value, double limit, bool passed) {
-  gate_of(writer.subject, id, value, limit, passed);
+void set_limit(std::uint32_t id, double limit) {
+  limits[id] = {true, limit};
 }
 
-void gate(pose_wall_trace_gate_id id, bool is_so) {
-  gate_of(writer.subject, id, is_so ? 1.0 : 0.0, 1.0, is_so);
+void forget_limits() {
+  for (Limit& l : limits) l = Limit{false, 0.0};
+}
+
+double limit_or(std::uint32_t id, double of_table) {
+  return limits[id].is_set ? limits[id].limit : of_table;
 }
 
 void floor_radius(std::uint32_t attempt, double radius_m) {

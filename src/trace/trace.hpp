@@ -16,14 +16,35 @@
 
 namespace pose_wall::trace {
 
-// What the notes that follow are about.
-void subject(std::uint32_t subject);
 // On this thread, until NULL is given; without one, notes are lost.
 void write_to(pose_wall_trace* trace);
 
-void gate(pose_wall_trace_gate_id id, double value, double limit, bool passed);
-void gate(pose_wall_trace_gate_id id, bool is_so);
-void gate_of(std::uint32_t subject, pose_wall_trace_gate_id id, double value, double limit, bool passed);
+// What the notes that follow are about. Returns what they were about before.
+std::uint32_t subject(std::uint32_t subject);
+// The same while it lives.
+class About {
+ public:
+  explicit About(std::uint32_t about) : before_(subject(about)) {}
+  ~About() { subject(before_); }
+
+ private:
+  std::uint32_t before_;
+};
+// While it lives gates judge and are not noted: of many planes that are asked alike, those that count are asked again.
+class Silence {
+ public:
+  Silence();
+  ~Silence();
+
+ private:
+  bool before_;
+};
+
+void note_gate(std::uint32_t id, double value, double limit, bool passed);
+// The limit that pose_wall_trace_set_limit gave this gate, or the one of the table.
+double limit_or(std::uint32_t id, double of_table);
+void set_limit(std::uint32_t id, double limit);
+void forget_limits();
 // Notes that follow are of this attempt; 0 at a frame's start.
 void attempt(std::uint32_t attempt);
 void floor_radius(std::uint32_t attempt, double radius_m);

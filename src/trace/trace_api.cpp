@@ -10,17 +10,17 @@
 namespace pose_wall::trace {
 namespace {
 
-#define GATE(id, name, key, unit, sense, effect, reasons, asks) \
-  {name, key, unit, asks, POSE_WALL_TRACE_##sense, POSE_WALL_TRACE_##effect, reasons, 0},
+#define GATE(id, name, sense, limit, unit, key, effect, reasons, origin, asks) \
+  {name, key, unit, asks, #limit, origin, POSE_WALL_TRACE_##sense, POSE_WALL_TRACE_##effect, reasons, 0},
 constexpr pose_wall_trace_info kGates[] = {
-#include "trace/gates.def"
+#include "gates/gates.def"
 };
 #undef GATE
 static_assert(sizeof kGates / sizeof kGates[0] == POSE_WALL_TRACE_GATES, "gates.def and pose_wall_trace.h differ");
 
-#define GATE(id, name, key, unit, sense, effect, reasons, asks) POSE_WALL_TRACE_##id,
+#define GATE(id, ...) POSE_WALL_TRACE_##id,
 constexpr std::uint32_t kIds[] = {
-#include "trace/gates.def"
+#include "gates/gates.def"
 };
 #undef GATE
 
@@ -54,6 +54,16 @@ __attribute__((visibility("default"))) int32_t pose_wall_trace_gate_info(uint32_
   return POSE_WALL_OK;
 }
 
+__attribute__((visibility("default"))) int32_t pose_wall_trace_set_limit(uint32_t gate, double limit) {
+  if (gate >= POSE_WALL_TRACE_GATES) return POSE_WALL_E_INDEX;
+  pose_wall::trace::set_limit(gate, limit);
+  return POSE_WALL_OK;
+}
+
+__attribute__((visibility("default"))) void pose_wall_trace_forget_limits(void) {
+  pose_wall::trace::forget_limits();
+}
+
 __attribute__((visibility("default"))) int32_t pose_wall_trace_frame(const pose_wall_config* config,
                                                                      const void* memento, uint64_t memento_bytes,
                                                                      const pose_wall_cloud* cloud, void* block,
@@ -68,6 +78,13 @@ __attribute__((visibility("default"))) int32_t pose_wall_trace_frame(const pose_
   status = pose_wall_process(engine, cloud, result);
   pose_wall::trace::write_to(nullptr);
   return status;
+}
+
+// An engine begins its block.
+__attribute__((visibility("default"))) int32_t pose_wall_trace_save(const void* block, void* memento,
+                                                                    uint64_t memento_bytes) {
+  return pose_wall_save(static_cast<const pose_wall_engine*>(block), &pose_wall::trace::kSameClock, memento,
+                        memento_bytes);
 }
 
 }  // extern "C"

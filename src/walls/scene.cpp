@@ -10,26 +10,16 @@
 
 namespace pose_wall {
 
-WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyond_level,
-                     const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
-                     const Levelling& levelling, const Axes& axes, const Extrinsic& extrinsic) {
+WallScene wall_scene(const WallView& view, const Settings& settings, const Levelling& levelling, const Axes& axes,
+                     const Extrinsic& extrinsic) {
+  WallScene scene(view, settings, extrinsic);
   const Eigen::Matrix3d& R = levelling.R_level_base;
-  Eigen::Vector3d forward = R * axes.forward_base;
-  forward.z() = 0.0;
-  forward.normalize();
-  WallScene scene{band_level,
-                  beyond_level,
-                  cloud_base,
-                  returns_lidar,
-                  settings,
-                  extrinsic,
-                  R,
-                  forward,
-                  Eigen::Vector3d::UnitZ().cross(forward),
-                  R * extrinsic.sensor_base_m,
-                  {},
-                  0.0,
-                  0.0};
+  scene.R_level_base = R;
+  scene.forward_level = R * axes.forward_base;
+  scene.forward_level.z() = 0.0;
+  scene.forward_level.normalize();
+  scene.left_level = Eigen::Vector3d::UnitZ().cross(scene.forward_level);
+  scene.sensor_level_m = R * extrinsic.sensor_base_m;
   const double offsets_m[2] = {settings.lateral_offset_left, settings.lateral_offset_right};
   const double along_m[2] = {settings.s_front, settings.s_back};
   for (int side = 0; side < 2; ++side) {
@@ -58,6 +48,11 @@ double lean_of(const Plane& wall) {
 
 double distance_at(const Plane& wall, const Eigen::Vector3d& sample_level_m) {
   return std::fabs(wall.signed_distance(sample_level_m));
+}
+
+double angle_in_plan(const Plane& a, const Plane& b) {
+  const double cross = a.n.x() * b.n.y() - a.n.y() * b.n.x(), dot = a.n.x() * b.n.x() + a.n.y() * b.n.y();
+  return arc_tangent2(std::fabs(cross), std::fabs(dot));
 }
 
 }  // namespace pose_wall

@@ -11,6 +11,7 @@
 #include "base/estimation/plane.hpp"
 #include "cloud/direction_grid.hpp"
 #include "config.hpp"
+#include "floor/levelling.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
@@ -18,12 +19,17 @@ namespace pose_wall {
 // Returns this far behind a plane have passed through it: hollows of rough rock are not behind the wall.
 constexpr double kWellBehind_m = 0.25;
 
-// What the walls are looked for in: the machine, levelled.
-struct WallScene {
+// What is seen of them.
+struct WallView {
   const BoundedPoints& band_level;
   const BoundedPoints& beyond_level;  // above and below the band; weight: how many each stands for
   const BoundedPoints& cloud_base;    // all points, before the band was cut
   const ReturnsByDirection& returns_lidar;
+  const IngestCounts& counts;
+};
+
+// That, and the machine, levelled.
+struct WallScene : WallView {
   const Settings& settings;
   const Extrinsic& extrinsic;
   Eigen::Matrix3d R_level_base;
@@ -31,15 +37,16 @@ struct WallScene {
   Eigen::Vector3d left_level;     // Z x forward
   Eigen::Vector3d sensor_level_m;
   Eigen::Vector3d sample_level_m[2][2];  // [left, right][s_front, s_back]
-  double z_min_level_m;                  // the wall band
-  double z_max_level_m;
+  double z_min_level_m = 0.0;            // the wall band
+  double z_max_level_m = 0.0;
 
+  WallScene(const WallView& view, const Settings& s, const Extrinsic& of_sensor)
+      : WallView(view), settings(s), extrinsic(of_sensor) {}
   bool in_band(double z_level_m) const { return z_level_m >= z_min_level_m && z_level_m <= z_max_level_m; }
 };
 
-WallScene wall_scene(const BoundedPoints& band_level, const BoundedPoints& beyond_level,
-                     const BoundedPoints& cloud_base, const ReturnsByDirection& returns_lidar, const Settings& settings,
-                     const Levelling& levelling, const Axes& axes, const Extrinsic& extrinsic);
+WallScene wall_scene(const WallView& view, const Settings& settings, const Levelling& levelling, const Axes& axes,
+                     const Extrinsic& extrinsic);
 
 // What lies this near to a wall's plane, to either side, is the wall.
 inline double on_wall_m(const Settings& settings) {
@@ -64,5 +71,8 @@ double lean_of(const Plane& wall);
 
 // Distance of the plane at a sampling point (d = |n . P + d|).
 double distance_at(const Plane& wall, const Eigen::Vector3d& sample_level_m);
+
+// Angle between two walls, seen from above: they lean as they like.
+double angle_in_plan(const Plane& a, const Plane& b);
 
 }  // namespace pose_wall

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Includes go one way, in the order in which a frame goes through the house: base <- config <- trace <- cloud <- floor
-<- walls <- output <- engine <- c_api. Motion takes the base and the cloud reader and is no part of the engine; all take
-nothing but Eigen and small parts of the standard library; tools and the runtime see them by their headers.
+"""Includes go one way, in the order in which a frame goes through the house: base <- config <- trace <- gates <- cloud
+<- floor <- walls <- output <- engine <- c_api; within the walls scene <- propose <- choose <- fit <- sample <- doubts.
+Motion takes the base and the cloud reader and is no part of the engine; all take nothing but Eigen and small parts of the
+standard library; tools and the runtime see them by their headers.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
 
@@ -12,8 +13,10 @@ import re
 import sys
 
 # From the ground up: a room includes itself and what stands before it.
-ROOMS = ["base/math", "base/simd", "base/containers", "base/estimation", "config", "types", "trace", "cloud", "floor",
+ROOMS = ["base/math", "base/simd", "base/containers", "base/estimation", "config", "types", "trace", "gates", "cloud", "floor",
          "walls", "output", "engine"]
+# A wall goes from one to the next; what lies in walls/ itself is of all.
+WALL_STEPS = ["propose", "choose", "fit", "sample", "doubts"]
 # Those that stand beside the rooms: what each may include, besides itself.
 BESIDE = {
     "struct_sizes": {"public"},
@@ -39,7 +42,9 @@ ENGINE_HEADERS = {
 }
 PUBLIC_HEADERS = {"pose_wall.h", "pose_wall.hpp", "pose_wall_trace.h"}
 MOTION_PUBLIC = {"pose_wall.h", "pose_wall_motion.h"}
-# The one stage that motion shares: how a caller's cloud is read.
+# The trace reads the table of the gates, which judge and then note.
+GATE_TABLE = "gates/gates.def"
+# The one file of a room that motion shares: how a caller's cloud is read.
 CLOUD_READER = "cloud/cloud_reader.hpp"
 # The threads around the engine: no part of it, no Eigen.
 RUNTIME_HEADERS = {h for h in ENGINE_HEADERS if not h.startswith("Eigen/")} | {
@@ -69,12 +74,19 @@ def layer_of(relative):
     return next((layer for start, layer in ROOT_FILES.items() if relative.stem.startswith(start)), relative.stem)
 
 
+def wall_step_of(relative):
+    in_step = relative.parts[0] == "walls" and len(relative.parts) > 2 and relative.parts[1] in WALL_STEPS
+    return WALL_STEPS.index(relative.parts[1]) if in_step else None
+
+
 def engine_fault(src, path, bracket, name):
     """Why a file of the engine may not include `name`, or None."""
     relative = path.relative_to(src)
     layer = layer_of(relative)
     if layer not in MAY_INCLUDE:
         return f"belongs to no room; rooms are {', '.join(MAY_INCLUDE)}"
+    if layer == "trace" and name == GATE_TABLE:
+        return None
     if layer == "motion" and (name in MOTION_PUBLIC or name == CLOUD_READER):
         return None
     if name in PUBLIC_HEADERS:
@@ -85,6 +97,9 @@ def engine_fault(src, path, bracket, name):
     if not target.is_relative_to(src.resolve()) and not target.is_relative_to(src):
         return f'"{name}" is not a file of src/'
     target = target.relative_to(src if target.is_relative_to(src) else src.resolve())
+    step, target_step = wall_step_of(relative), wall_step_of(target)
+    if step is not None and target_step is not None and target_step > step:
+        return f'{WALL_STEPS[step]} includes "{name}" of {WALL_STEPS[target_step]}, which comes later'
     if layer_of(target) != layer and layer_of(target) not in MAY_INCLUDE[layer]:
         allowed = ", ".join(sorted(MAY_INCLUDE[layer])) or "nothing"
         return f'{layer} includes "{name}" of {layer_of(target)}; it may include {allowed}'

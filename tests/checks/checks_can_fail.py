@@ -83,6 +83,11 @@ class Layers(BrokenProject):
         self.include("src/floor/floor.cpp", '#include "../walls/walls.hpp"')
         self.fails('floor includes "../walls/walls.hpp" of walls', *self.check())
 
+    def test_a_wall_goes_back(self):
+        self.include("src/walls/fit/surface.hpp", "")
+        self.include("src/walls/propose/search.cpp", '#include "walls/fit/surface.hpp"')
+        self.fails('propose includes "walls/fit/surface.hpp" of fit, which comes later', *self.check())
+
     def test_base_includes_a_room(self):
         self.include("src/floor/floor.hpp", "")
         self.include("src/base/estimation/irls.cpp", '#include "floor/floor.hpp"')

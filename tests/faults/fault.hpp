@@ -24,7 +24,7 @@ enum class Fault {
   kLeftNotFound,
   kRightNotFound,
   kWallsNan,
-  kRefineFails,
+  kNothingProposed,
   kChooseNone,
   kStripsNotFound,
   kStripsUnjudgedFound,

@@ -42,7 +42,7 @@ const StageCase kStageCases[] = {
     {"left_wall_not_found", Fault::kLeftNotFound, "VVLHHVV", "VVLIIVV"},
     {"right_wall_not_found", Fault::kRightNotFound, "VVLVVHH", "VVLVVII"},
     {"walls_are_nan", Fault::kWallsNan, "VVHHHHH", "VVIIIII", false},
-    {"wall_hypotheses_unrefined", Fault::kRefineFails, "VVHHHHH", "VVIIIII"},
+    {"no_walls_proposed", Fault::kNothingProposed, "VVHHHHH", "VVIIIII"},
     {"no_wall_is_chosen", Fault::kChooseNone, "VVHHHHH", "VVIIIII"},
     {"strips_not_found", Fault::kStripsNotFound, "VVLLLLL", "VVLLLLL", true, ribbed_room_frame},
     {"strips_found_but_not_judged", Fault::kStripsUnjudgedFound, "VVHHHHH", "VVIIIII"},

@@ -12,10 +12,10 @@
 #include "cloud/outliers.hpp"
 #include "cloud/voxels.hpp"
 #include "faults/fault.hpp"
+#include "floor/candidates.hpp"
 #include "floor/fit.hpp"
 #include "floor/floor.hpp"
 #include "floor/levelling.hpp"
-#include "floor/search.hpp"
 #include "output/quality.hpp"
 #include "output/temporal.hpp"
 #include "report.hpp"
@@ -87,10 +87,8 @@ POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
   return before;
 }
 
-POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor,
-               (const BoundedPoints& cloud, const Settings& s, const Axes& axes, const Eigen::Vector3d& sensor_m,
-                const Plane* last, Random* random, FloorScratch* scratch)) {
-  FloorResult r = find_floor_for_real(cloud, s, axes, sensor_m, last, random, scratch);
+POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor, (const FloorScene& scene, Random* random, FloorScratch* scratch)) {
+  FloorResult r = find_floor_for_real(scene, random, scratch);
   if (fails(Fault::kFloorNotFound)) {
     r = FloorResult{};
     refuse(&r.fit, POSE_WALL_R_FLOOR_NOT_FOUND);
@@ -102,16 +100,18 @@ POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor,
   return r;
 }
 
-POSE_WALL_WRAP(std::uint32_t, SEARCH_FLOOR, search_floor,
-               (const FloorDraw& in, const Settings& s, Random* random, PointSet* subset, FloorShortlist* list)) {
-  if (fails(Fault::kFloorNoHypotheses)) return 0;
-  return search_floor_for_real(in, s, random, subset, list);
+POSE_WALL_WRAP(std::uint32_t, FIND_CANDIDATES, find_candidates,
+               (const FloorScene& scene, const PointSet& within, Among among, Random* random, FloorScratch* scratch,
+                FloorCandidates* out)) {
+  const std::uint32_t scored = find_candidates_for_real(scene, within, among, random, scratch, out);
+  if (!fails(Fault::kFloorNoHypotheses)) return scored;
+  out->count = 0;
+  return 0;
 }
 
 POSE_WALL_WRAP(FloorResult, FIT_FLOOR, fit_floor,
-               (const FloorLook& look, const Plane& start, const Settings& s, const Eigen::Vector3d& sensor_m,
-                FloorScratch* scratch)) {
-  FloorResult r = fit_floor_for_real(look, start, s, sensor_m, scratch);
+               (const FloorScene& scene, const FloorLook& look, const Plane& start, FloorScratch* scratch)) {
+  FloorResult r = fit_floor_for_real(scene, look, start, scratch);
   if (fails(Fault::kFloorFitFails)) refuse(&r.fit, POSE_WALL_R_FLOOR_THIN);
   return r;
 }
@@ -146,14 +146,16 @@ POSE_WALL_WRAP(WallsResult, FIND_WALLS, find_walls,
   if (both || fails(Fault::kLeftNotFound)) refuse(&r.side[0].fit, POSE_WALL_R_WALL_NOT_FOUND);
   if (both || fails(Fault::kRightNotFound)) refuse(&r.side[1].fit, POSE_WALL_R_WALL_NOT_FOUND);
   if (!fails(Fault::kWallsNan)) return r;
-  for (WallResult& wall : r.side) wall.yaw_rad = wall.distance_m[0] = wall.distance_m[1] = kNan;
+  for (JudgedWall& wall : r.side) wall.yaw_rad = wall.distance_m[0] = wall.distance_m[1] = kNan;
   return r;
 }
 
-POSE_WALL_WRAP(bool, REFINE_HYPOTHESIS, refine_hypothesis,
-               (const BoundedPoints& band, double thresh_m, const Eigen::Vector3d& along, RefineWidth width,
-                WallFitScratch* scratch, Plane* plane)) {
-  return !fails(Fault::kRefineFails) && refine_hypothesis_for_real(band, thresh_m, along, width, scratch, plane);
+POSE_WALL_WRAP(void, PROPOSE_WALLS, propose_walls,
+               (const WallScene& scene, const SideView (&views)[2], const Plane* const last[2], Random* random,
+                ProposeScratch* scratch, WallCandidates (*out)[2])) {
+  propose_walls_for_real(scene, views, last, random, scratch, out);
+  if (!fails(Fault::kNothingProposed)) return;
+  for (WallCandidates& side : *out) side.count = 0;
 }
 
 POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
@@ -162,8 +164,8 @@ POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
   if (!fails(Fault::kChooseNone)) return r;
   r = WallChoice{};
   for (int side = 0; side < 2; ++side) {
-    r.refused[side] = true;
-    r.reasons[side] = POSE_WALL_R_WALL_NOT_FOUND;
+    r.verdict[side].refused = true;
+    r.verdict[side].reasons = POSE_WALL_R_WALL_NOT_FOUND;
   }
   return r;
 }
@@ -218,9 +220,9 @@ POSE_WALL_WRAP(IrlsOver, IRLS_POINTS, irls_points,
   return r;
 }
 
-POSE_WALL_WRAP(WallResult, MEASURE_WALL, measure_wall,
+POSE_WALL_WRAP(FittedWall, MEASURE_WALL, measure_wall,
                (const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid)) {
-  WallResult r = measure_wall_for_real(scene, surface, side, grid);
+  FittedWall r = measure_wall_for_real(scene, surface, side, grid);
   if (fails(Fault::kMeasureRefused)) refuse(&r.fit, POSE_WALL_R_WALL_SHORT);
   return r;
 }
@@ -240,10 +242,10 @@ POSE_WALL_WRAP(WallSight, LOOK_AT, look_at,
 }
 
 POSE_WALL_WRAP(AtSample, LOOK_AT_SAMPLE, look_at_sample,
-               (const WallScene& scene, const WallSurface& surface, const WallGrid& grid, const WallResult& wall,
+               (const WallScene& scene, const WallSurface& surface, const WallGrid& grid, const FittedWall& wall,
                 const Eigen::Vector3d& sample_m)) {
   AtSample r = look_at_sample_for_real(scene, surface, grid, wall, sample_m);
-  if (fails(Fault::kSampleInterrupted)) r = {true, 1.0};
+  if (fails(Fault::kSampleInterrupted)) r = {1.0, 0.0};
   if (fails(Fault::kSampleNan)) r.bound_m = kNan;
   return r;
 }
@@ -267,18 +269,19 @@ POSE_WALL_WRAP(double, DISTANCE_AT, distance_at, (const Plane& plane, const Eige
   return fails(Fault::kDistanceNan) ? kNan : distance_at_for_real(plane, sample_m);
 }
 
-POSE_WALL_WRAP(void, SHARE_DIRECTION, share_direction, (const WallScene& scene, WallResult (*walls)[2])) {
+POSE_WALL_WRAP(void, SHARE_DIRECTION, share_direction, (const WallScene& scene, JudgedWall (*walls)[2])) {
   if (!fails(Fault::kDirectionNotShared)) share_direction_for_real(scene, walls);
 }
 
-POSE_WALL_WRAP(void, REFUSE_BLOCKED_SIDES, blocked_sides, (const IngestCounts& counts, WallResult (*walls)[2])) {
-  blocked_sides_for_real(counts, walls);
+POSE_WALL_WRAP(void, REFUSE_BLOCKED_SIDES, blocked_sides,
+               (const IngestCounts& counts, const Settings& s, JudgedWall (*walls)[2])) {
+  blocked_sides_for_real(counts, s, walls);
   if (!fails(Fault::kSidesBlocked)) return;
-  for (WallResult& wall : *walls) refuse(&wall.fit, POSE_WALL_R_WALL_TOO_NEAR);
+  for (JudgedWall& wall : *walls) refuse(&wall.fit, POSE_WALL_R_WALL_TOO_NEAR);
 }
 
 POSE_WALL_WRAP(Measurements, MEASURE_QUANTITIES, quantities,
-               (const FloorResult& floor, const Levelling& levelling, const WallResult (&walls)[2],
+               (const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                 const Settings& s)) {
   Measurements r = quantities_for_real(floor, levelling, walls, s);
   if (!fails(Fault::kNothingMeasured)) return r;

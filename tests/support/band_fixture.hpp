@@ -61,11 +61,12 @@ class BandFixture {
 
   // Refers to this fixture, as it is now.
   WallScene scene() {
-    Levelling level;
-    level.floor_z_level_m = kFloorZ_m;
+    Levelling levelling;
+    levelling.floor_z_level_m = kFloorZ_m;
     const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
     join_cloud();
-    return wall_scene(points_.set(), beyond_.set(), *cloud_, *returns_lidar_, settings_, level, axes, extrinsic_);
+    return wall_scene({points_.set(), beyond_.set(), *cloud_, *returns_lidar_, counts_}, settings_, levelling, axes,
+                      extrinsic_);
   }
 
   WallsResult walls(const Plane* const last_left = nullptr, const Plane* const last_right = nullptr) {
@@ -99,6 +100,7 @@ class BandFixture {
   OwnedPoints beyond_;
   Placed<BoundedPoints> cloud_;
   Placed<ReturnsByDirection> returns_lidar_;
+  IngestCounts counts_;
   Noise noise_;
 };
 

@@ -61,14 +61,19 @@ class FloorFixture {
   FloorResult floor(const Plane* last = nullptr) {
     Placed<FloorScratch> scratch(points_.set().capacity());
     Random random(1);
-    const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
-    return find_floor(points_.set(), settings_, axes, Eigen::Vector3d::Zero(), last, &random, scratch.get());
+    return find_floor(scene(Eigen::Vector3d::Zero(), last), &random, scratch.get());
+  }
+
+  // Refers to this fixture.
+  FloorScene scene(const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero(), const Plane* last = nullptr) {
+    return {points_.set(), settings_, axes_, sensor_base_m, last};
   }
 
   OwnedPoints& points() { return points_; }
   Settings& settings() { return settings_; }
 
  private:
+  const Axes axes_{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
   Settings settings_;
   OwnedPoints points_;
   Noise noise_;

@@ -137,6 +137,7 @@ std::string gates_text(const Notes& notes, bool coloured) {
     const Note& note = all[index];
     const char* sense = note.info.sense == POSE_WALL_TRACE_IS_SO      ? "is"
                         : note.info.sense == POSE_WALL_TRACE_AT_LEAST ? ">="
+                        : note.info.sense == POSE_WALL_TRACE_BELOW    ? "<"
                                                                       : "<=";
     table.add_row({subject_name(note.gate.subject), name_of(all, index), key_of(note), value_text(note), sense,
                    limit_text(note), ratio_text(note), passed_text(note)});

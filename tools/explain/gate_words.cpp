@@ -67,6 +67,10 @@ constexpr GateWords kFloorWords[] = {
      "By open ground and height another plane scores {value} of the chosen one; from {limit} on either "
      "may be the floor, and the protection levels reach to it.",
      "a bench, a heap or a reflection; see the planes below"},
+    {"floor_rival_steep",
+     "It is steep, and by open ground and height another plane scores {value} of it; from {limit} on either may be the "
+     "floor, and the protection levels reach to it.",
+     "a heap's flank, a bench or a reflection; see the planes below"},
     {"floor_alone",
      "It is small, and a plane that lies otherwise shows {value} of its open ground; from {limit} on "
      "neither can be taken for the floor.",
@@ -125,8 +129,9 @@ constexpr GateWords kChoiceWords[] = {
      "It has no partner on the other side, and alone it must be solid over {limit} of its span; it is over {value}.",
      "flat spots that happen to lie in line are no wall"},
     {"walls_parallel",
-     "The planes of the two sides do not run parallel: |n_left . n_right| is {value}, more than "
-     "{limit} is asked ({key}), and they cannot both be walls of one road.",
+     "The longest planes of the two sides make no pair: they do not run parallel ({key}), or a stronger plane runs "
+     "apart "
+     "from them, and they cannot both be walls of one road.",
      "a junction, a niche or a vehicle; {key} where walls really run so"},
     {"wall_chosen", "So no plane of this side can be the wall.", ""},
     {"across",
@@ -145,6 +150,18 @@ constexpr GateWords kChoiceWords[] = {
      "By what it shows and what is seen through it another plane on this side scores {value} of the chosen one; "
      "from {limit} on either may be the wall, and the protection levels reach to it.",
      "a vehicle, a curtain or a niche; see the planes below"},
+    {"wall_rival_behind",
+     "A parallel plane behind it scores {value} of it; from {limit} on that may be the wall, and the protection levels "
+     "reach to it.",
+     "a vehicle or a curtain before the wall; see the planes below"},
+    {"wall_rival_ends",
+     "A parallel plane goes on past its ends and scores {value} of it; from {limit} on that may be the wall, and the "
+     "protection levels reach to it.",
+     "a curtain, a long vehicle or a crosscut; see the planes below"},
+    {"wall_rival_stops",
+     "A parallel plane before it stops nearly all rays and scores {value} of it; from {limit} on that may be the wall, "
+     "and the protection levels reach to it.",
+     "a mesh, or ghosts behind a wet or shining wall; see the planes below"},
 };
 
 constexpr GateWords kFitWords[] = {

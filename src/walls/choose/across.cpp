@@ -7,7 +7,7 @@
 
 #include "base/math/elementary.hpp"
 #include "base/simd/four_floats.hpp"
-#include "trace/trace.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
@@ -87,17 +87,37 @@ double most_area_across_m2(const WallScene& scene) {
   return cells * WallGrid::kColumn_m * rows.height_m;
 }
 
-bool may_stand_across(double pair_m2, const WallChoice& choice) {
-  if (!choice.any()) return true;  // what stands across may tell why
-  const bool may = pair_m2 > choice.score_m2;
-  POSE_WALL_NOTE(
-      if (!may) trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair_m2 / choice.score_m2, 1.0, true));
-  return may;
+bool may_stand_across(double pair_m2, const WallChoice& choice, const Settings& s) {
+  if (!choice.any() || pair_m2 > limit_of<gate::ACROSS>(s) * choice.score_m2) return true;
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
+  POSE_WALL_NOTE(passes<gate::ACROSS>(pair_m2 / choice.score_m2, s));
+  return false;
 }
 
-bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice) {
+bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice, const Settings& s) {
   constexpr double kMissedAtMost = 0.15;
-  return may_stand_across(ahead_m2 + kMissedAtMost * choice.score_m2 + most_behind_m2, choice);
+  return may_stand_across(ahead_m2 + kMissedAtMost * choice.score_m2 + most_behind_m2, choice, s);
+}
+
+void refuse_where_across(const WallScene& scene, Random* random, ProposeScratch* scratch, WallChoice* choice) {
+  const Settings& s = scene.settings;
+  if (scratch->work->is_spent()) return;
+  const double most_m2 = choice->any() ? most_area_across_m2(scene) : 0.0;
+  if (!may_stand_across(2.0 * most_m2, *choice, s)) return;
+  const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
+  const SideView ends[2] = {{l, f}, {l, -f}};
+  WallCandidates ahead, behind;
+  draw_walls(scene, ends[0], nullptr, random, &scratch->search[0]);
+  weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
+  if (scratch->work->is_spent()) return;
+  // With the most that could be behind, what is ahead may still be too little.
+  const WallCandidate* const best = ahead.strongest();
+  if (!is_behind_to_be_drawn(best != nullptr ? best->evidence.score_m2 : 0.0, most_m2, *choice, s)) return;
+  draw_walls(scene, ends[1], nullptr, random, &scratch->search[1]);
+  exchange_directions(scratch->search);
+  weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
+  weigh_walls(scene, ends[1], &scratch->search[1], scratch, &behind);
+  refuse_if_across(ahead, behind, s, choice);
 }
 
 }  // namespace pose_wall

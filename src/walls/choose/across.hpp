@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Whether the planes ahead and behind could make a better roadway than the sides do, told without looking for them.
+// Whether the machine stands across the road: the planes ahead and behind make a better roadway than the sides do.
 
 #pragma once
 
+#include "base/math/random.hpp"
 #include "walls/choose/choose.hpp"
+#include "walls/propose/candidates.hpp"
 #include "walls/scene.hpp"
 
 namespace pose_wall {
@@ -16,10 +18,14 @@ namespace pose_wall {
 double most_area_across_m2(const WallScene& scene);
 
 // False where two planes that show no more than this together show no more than what is chosen: then none need be
-// looked for, or not the second one.
-bool may_stand_across(double pair_m2, const WallChoice& choice);
+// looked for, or not the second one. Where nothing was chosen, what stands across may tell why.
+bool may_stand_across(double pair_m2, const WallChoice& choice, const Settings& settings);
 // So with what the draws ahead have found, while none were made behind, whose directions may show more ahead: up to a
 // share of what is chosen, or the draws would have found it.
-bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice);
+bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice, const Settings& settings);
+
+// Nothing is reported of a machine that stands across the road, nor of one that may, as long as nobody has looked. The
+// planes ahead and behind are looked for only where they could show more than what is chosen.
+void refuse_where_across(const WallScene& scene, Random* random, ProposeScratch* scratch, WallChoice* choice);
 
 }  // namespace pose_wall

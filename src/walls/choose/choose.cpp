@@ -5,27 +5,17 @@
 
 #include <cmath>
 
-#include "base/math/elementary.hpp"
-#include "trace/trace.hpp"
+#include "base/estimation/near_plane.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
 
-constexpr double kRivalShare = 0.5;
-constexpr double kBehindShare = 0.3;
-constexpr double kGoesOnShare = 0.05;
-constexpr double kStopsShare = 0.1;
-// A lone wall is solid over at least this share of its span; a boulder and a far spot in line with it are not.
-constexpr double kFilledShare = 0.5;
 constexpr double kParallelScale_rad = 0.07;  // 4 degrees: walls of one road rarely differ by more
-// Both walls of a pair together: two flat spots of two metres each may be parallel by chance.
-constexpr double kPairLengthMin_m = 6.0;
 // A second wall that is not parallel casts doubt on the first unless it is this much weaker.
 constexpr double kDoubtShare = 0.5;
 constexpr double kSplayedCosMin = 0.8;  // 37 degrees
 constexpr double kAcrossCos = 0.7;      // planes across the road are at more than 45 degrees to the side walls
-constexpr double kPairShare = 0.7;
-constexpr double kLoneCrossShare = 1.5;
 
 struct Pair {
   const WallCandidate* a = nullptr;
@@ -33,17 +23,24 @@ struct Pair {
   double score = 0.0;
 };
 
+double parallel_by(const Plane& a, const Plane& b) {
+  return std::fabs(a.n.dot(b.n));
+}
+
+bool may_be_pair(const WallCandidate& a, const WallCandidate& b, const Settings& s) {
+  const bool parallel = passes<gate::PAIR_PARALLEL>(parallel_by(a.plane, b.plane), s);
+  return passes<gate::PAIR_LENGTH>(a.evidence.length_m + b.evidence.length_m, s) && parallel;
+}
+
 // Parallel pairs only; the nearer to parallel, the better.
-Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parallel_cos) {
+Pair best_pair(const WallCandidates& as, const WallCandidates& bs, const Settings& s) {
+  POSE_WALL_NOTE(const trace::Silence until_chosen);
   Pair best;
   double best_likely = 0.0;
   for (std::uint32_t i = 0; i < as.count; ++i) {
-    if (as.item[i].faults != 0) continue;
+    if (as.item[i].failed != 0) continue;
     for (std::uint32_t j = 0; j < bs.count; ++j) {
-      if (bs.item[j].faults != 0) continue;
-      const double cosine = std::fabs(as.item[i].plane.n.dot(bs.item[j].plane.n));
-      if (!(cosine > parallel_cos)) continue;
-      if (!(as.item[i].evidence.length_m + bs.item[j].evidence.length_m >= kPairLengthMin_m)) continue;
+      if (bs.item[j].failed != 0 || !may_be_pair(as.item[i], bs.item[j], s)) continue;
       const double score = as.item[i].evidence.score_m2 + bs.item[j].evidence.score_m2;
       const double apart = angle_in_plan(as.item[i].plane, bs.item[j].plane) / kParallelScale_rad;
       const double likely = score / (1.0 + apart * apart);
@@ -57,15 +54,14 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, double parall
 
 // Two strong walls that are not parallel are no road with one direction; a weak plane that happens to be parallel to
 // one of them does not make it one.
-bool contested(const Pair& pair, const WallCandidates* const (&lists)[2], double parallel_cos) {
+bool contested(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
   const WallCandidate* const chosen[2] = {pair.a, pair.b};
   for (int side = 0; side < 2; ++side) {
-    const Plane& opposite = chosen[1 - side]->plane;
     for (std::uint32_t i = 0; i < lists[side]->count; ++i) {
       const WallCandidate& c = lists[side]->item[i];
-      const double cosine = std::fabs(c.plane.n.dot(opposite.n));
-      if (c.faults != 0 || cosine > parallel_cos || cosine < kSplayedCosMin) continue;
-      if (c.evidence.length_m >= kPairLengthMin_m &&
+      const double parallel = parallel_by(c.plane, chosen[1 - side]->plane);
+      if (c.failed != 0 || parallel > limit_of<gate::PAIR_PARALLEL>(s) || parallel < kSplayedCosMin) continue;
+      if (c.evidence.length_m >= limit_of<gate::PAIR_LENGTH>(s) &&
           chosen[side]->evidence.score_m2 < kDoubtShare * c.evidence.score_m2) {
         return true;
       }
@@ -74,25 +70,40 @@ bool contested(const Pair& pair, const WallCandidates* const (&lists)[2], double
   return false;
 }
 
-const WallCandidate* best_single(const WallCandidates& list, double length_min_m) {
+// Solid over a part of its span, without holes as between a boulder and a far spot in line with it.
+bool is_filled(const WallCandidate& c, const Settings& s) {
+  const double span_m = c.evidence.along_max_m - c.evidence.along_min_m;
+  return passes<gate::WALL_FILLED>(span_m > 0.0 ? c.evidence.length_m / span_m : 1.0, s);
+}
+
+bool can_stand_alone(const WallCandidate& c, const Settings& s) {
+  const bool long_enough = passes<gate::WALL_LENGTH_ALONE>(c.evidence.length_m, s);
+  return is_filled(c, s) && long_enough;
+}
+
+const WallCandidate* best_single(const WallCandidates& list, bool (*accepts)(const WallCandidate&, const Settings&),
+                                 const Settings& s) {
+  POSE_WALL_NOTE(const trace::Silence until_chosen);
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
-    const double span_m = c.evidence.along_max_m - c.evidence.along_min_m;
-    if (c.faults != 0 || !(c.evidence.length_m >= length_min_m)) continue;
-    if (!(c.evidence.length_m >= kFilledShare * span_m)) continue;
+    if (c.failed != 0 || !accepts(c, s)) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
 }
 
-// Why a side has no wall: the gates that its best plane fails.
-std::uint32_t faults_of(const WallCandidates& list, double length_min_m) {
-  const WallCandidate* const best = strongest(list);
-  if (best == nullptr) return POSE_WALL_R_WALL_NOT_FOUND;
-  std::uint32_t reasons = POSE_WALL_R_WALL_NOT_FOUND | best->faults;
-  if (!(best->evidence.length_m >= length_min_m)) reasons |= POSE_WALL_R_WALL_SHORT;
-  return reasons;
+// Why a side has no wall: what its strongest plane fails.
+std::uint32_t why_none(const WallCandidates& list, const Settings& s) {
+  Verdict why;
+  const WallCandidate* const best = list.strongest();
+  if (best != nullptr) {
+    why.reasons = best->failed;
+    demand<gate::WALL_LENGTH_ALONE>(&why, best->evidence.length_m, s);
+    POSE_WALL_NOTE(is_filled(*best, s));
+  }
+  demand<gate::WALL_CHOSEN>(&why, false);
+  return why.reasons;
 }
 
 // Whether a plane lies parallel behind another one: a vehicle or a curtain hides most of the wall behind it, and
@@ -136,178 +147,147 @@ bool stops_before(const WallCandidate& rival, const WallCandidate& chosen) {
   return rival.evidence.stopped >= kStopsMin && lies_behind(chosen.plane, rival.plane);
 }
 
-double rival_share(const WallCandidate& rival, const WallCandidate& chosen) {
-  if (goes_on_behind(rival, chosen) || goes_on_before(rival, chosen)) return kGoesOnShare;
-  if (stops_before(rival, chosen)) return kStopsShare;
-  return lies_behind(rival.plane, chosen.plane) ? kBehindShare : kRivalShare;
+// Whether a plane shows too little, beside the chosen one, to be the wall as well.
+bool is_weaker(const WallCandidate& rival, const WallCandidate& chosen, const Settings& s) {
+  const double share = rival.evidence.score_m2 / chosen.evidence.score_m2;
+  if (goes_on_behind(rival, chosen) || goes_on_before(rival, chosen)) return passes<gate::WALL_RIVAL_ENDS>(share, s);
+  if (stops_before(rival, chosen)) return passes<gate::WALL_RIVAL_STOPS>(share, s);
+  if (lies_behind(rival.plane, chosen.plane)) return passes<gate::WALL_RIVAL_BEHIND>(share, s);
+  return passes<gate::WALL_RIVAL>(share, s);
 }
 
 // Few points are no excuse here: they are enough to cast doubt.
-const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate* chosen) {
+const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate& chosen, const Settings& s) {
+  POSE_WALL_NOTE(const trace::Silence until_chosen);
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
-    if (&c == chosen || (c.faults & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS)) != 0) continue;
-    if (!(c.evidence.score_m2 >= rival_share(c, *chosen) * chosen->evidence.score_m2)) continue;
+    if (&c == &chosen || (c.failed & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS)) != 0) continue;
+    if (is_weaker(c, chosen, s)) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
 }
 
-#ifdef POSE_WALL_TRACE
-double parallel_by(const Plane& a, const Plane& b) {
-  return std::fabs(a.n.dot(b.n));
+void refuse_both(const Verdict& verdict, WallChoice* out) {
+  for (Verdict& of_side : out->verdict) of_side.add(verdict);
 }
 
+#ifdef POSE_WALL_TRACE
 // Of the planes that pass their own gates, the strongest of each side: why these are no pair.
 void note_pair(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
-  const WallCandidate* a = pair.a != nullptr ? pair.a : best_single(*lists[0], 0.0);
-  const WallCandidate* b = pair.b != nullptr ? pair.b : best_single(*lists[1], 0.0);
-  trace::subject(POSE_WALL_TRACE_WALLS);
-  if (a == nullptr || b == nullptr) return;
-  const double cosine = parallel_by(a->plane, b->plane), length_m = a->evidence.length_m + b->evidence.length_m;
-  trace::gate(POSE_WALL_TRACE_PAIR_PARALLEL, cosine, s.wall_parallel_cos, cosine > s.wall_parallel_cos);
-  trace::gate(POSE_WALL_TRACE_PAIR_LENGTH, length_m, kPairLengthMin_m, length_m >= kPairLengthMin_m);
-  if (pair.a != nullptr) trace::gate(POSE_WALL_TRACE_PAIR_CONTESTED, !contested(pair, lists, s.wall_parallel_cos));
-}
-
-// Two that are long enough to stand alone, and are no pair.
-void note_not_parallel(const WallChoice& out, const WallCandidates* const (&lists)[2], const Settings& s) {
-  const WallCandidate* const a = best_single(*lists[0], s.wall_alone_length_min);
-  const WallCandidate* const b = best_single(*lists[1], s.wall_alone_length_min);
-  for (int side = 0; side < 2; ++side) {
-    if ((out.reasons[side] & POSE_WALL_R_WALLS_NOT_PARALLEL) == 0) continue;
-    trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALLS_PARALLEL, parallel_by(a->plane, b->plane),
-                   s.wall_parallel_cos, false);
-  }
-}
-
-void note_lone_across(double lone_m2, double sides_m2) {
-  trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS_ALONE, lone_m2 / sides_m2, kLoneCrossShare,
-                 !(lone_m2 > kLoneCrossShare * sides_m2));
-}
-
-// As faults_of() and best_single() ask; where both sides were refused together, that is all that is said.
-void note_none(const WallCandidates& list, int side, bool refused, double length_min_m) {
-  const WallCandidate* const best = strongest(list);
-  if (refused || best == nullptr) return;
-  const WallEvidence& e = best->evidence;
-  const double span_m = e.along_max_m - e.along_min_m, filled = span_m > 0.0 ? e.length_m / span_m : 0.0;
-  const std::uint32_t subject = trace::side_subject(side);
-  trace::gate_of(subject, POSE_WALL_TRACE_WALL_LENGTH_ALONE, e.length_m, length_min_m, e.length_m >= length_min_m);
-  trace::gate_of(subject, POSE_WALL_TRACE_WALL_FILLED, filled, kFilledShare, e.length_m >= kFilledShare * span_m);
-  trace::gate_of(subject, POSE_WALL_TRACE_WALL_CHOSEN, 0.0, 1.0, false);
-}
-
-void note_rival(const WallChoice& out, int side) {
-  const WallCandidate* const rival = out.rival[side];
-  if (rival == nullptr) return;
-  const WallCandidate& chosen = *out.side[side];
-  trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_WALL_RIVAL,
-                 rival->evidence.score_m2 / chosen.evidence.score_m2, rival_share(*rival, chosen), false);
+  const WallCandidate* const a = pair.a != nullptr ? pair.a : best_single(*lists[0], is_filled, s);
+  const WallCandidate* const b = pair.b != nullptr ? pair.b : best_single(*lists[1], is_filled, s);
+  if (a != nullptr && b != nullptr) may_be_pair(*a, *b, s);
 }
 #endif
 
-void refuse_both(std::uint32_t reason, WallChoice* out) {
-  for (int side = 0; side < 2; ++side) {
-    out->refused[side] = true;
-    out->reasons[side] |= reason;
+// The best pair, unless a stronger plane runs apart from it, or it shows much less than one wall alone: then it is one
+// by chance.
+Pair choose_pair(const WallCandidates* const (&lists)[2], const Settings& s) {
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
+  const Pair pair = best_pair(*lists[0], *lists[1], s);
+  POSE_WALL_NOTE(note_pair(pair, lists, s));
+  if (pair.a == nullptr || !passes<gate::PAIR_CONTESTED>(!contested(pair, lists, s))) return {};
+  double alone = 0.0;
+  for (const WallCandidates* list : lists) {
+    const WallCandidate* lone = best_single(*list, can_stand_alone, s);
+    if (lone != nullptr && lone->evidence.score_m2 > alone) alone = lone->evidence.score_m2;
   }
+  return passes<gate::PAIR_SHARE>(alone > 0.0 ? pair.score / alone : 1.0, s) ? pair : Pair{};
+}
+
+// One that makes no pair with the longest wall of the other side.
+void add_no_pair(int side, WallChoice* out) {
+  POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
+  Verdict no_pair;
+  demand<gate::WALLS_PARALLEL>(&no_pair, false);
+  out->verdict[side].reasons |= no_pair.reasons;
 }
 
 // No parallel pair: one wall alone, unless the other side's plane casts doubt on it.
-void choose_single(const WallCandidates* const lists[2], double length_min_m, WallChoice* out) {
-  const WallCandidate* best[2] = {best_single(*lists[0], length_min_m), best_single(*lists[1], length_min_m)};
+void choose_single(const WallCandidates* const (&lists)[2], const Settings& s, WallChoice* out) {
+  const WallCandidate* best[2] = {best_single(*lists[0], can_stand_alone, s),
+                                  best_single(*lists[1], can_stand_alone, s)};
   if (best[0] != nullptr && best[1] != nullptr) {
     const double a = best[0]->evidence.score_m2, b = best[1]->evidence.score_m2;
     const int weaker = a < b ? 0 : 1;
-    if ((a < b ? a / b : b / a) >= kDoubtShare) {
-      refuse_both(POSE_WALL_R_WALLS_NOT_PARALLEL, out);
-      return;
-    }
+    add_no_pair(weaker, out);
     best[weaker] = nullptr;
-    out->reasons[weaker] |= POSE_WALL_R_WALLS_NOT_PARALLEL;
+    if ((a < b ? a / b : b / a) >= kDoubtShare) {
+      add_no_pair(1 - weaker, out);
+      best[1 - weaker] = nullptr;
+      for (Verdict& verdict : out->verdict) verdict.refused = true;
+    }
   }
   for (int side = 0; side < 2; ++side) out->side[side] = best[side];
 }
 
-// Whether the planes ahead and behind make a better roadway than the chosen sides. Against one wall alone, planes of
-// few points count too: they are enough to doubt which way the road runs.
-bool stands_across(const WallChoice& sides, const WallCandidates& ahead, const WallCandidates& behind,
-                   const Settings& s) {
-  const bool alone = sides.side[0] == nullptr || sides.side[1] == nullptr;
-  const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
-  const auto across = [&](WallCandidates list) {
-    for (std::uint32_t i = 0; i < list.count; ++i) {
-      WallCandidate& c = list.item[i];
-      if (alone) c.faults &= ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
-      if (!(std::fabs(c.plane.n.dot(side.n)) < kAcrossCos)) c.faults |= POSE_WALL_R_WALL_NOT_FOUND;
+// A side without a wall gets its reason, one with a wall the best that could stand in for it.
+void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& s, WallChoice* out) {
+  for (int side = 0; side < 2; ++side) {
+    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
+    Verdict& verdict = out->verdict[side];
+    if (out->side[side] == nullptr) {
+      if (!verdict.refused) verdict.reasons |= why_none(*lists[side], s);
+      verdict.refused = true;
+    } else {
+      out->rival[side] = rival_of(*lists[side], *out->side[side], s);
+      POSE_WALL_NOTE(if (out->rival[side] != nullptr) is_weaker(*out->rival[side], *out->side[side], s));
     }
-    return list;
-  };
-  const WallCandidates a = across(ahead), b = across(behind);
-  POSE_WALL_NOTE(const double pair = best_pair(a, b, s.wall_parallel_cos).score);
-  POSE_WALL_NOTE(trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, pair / sides.score_m2, 1.0,
-                                !(pair > sides.score_m2)));
-  if (best_pair(a, b, s.wall_parallel_cos).score > sides.score_m2) return true;
-  if (!alone) return false;
-  for (const WallCandidate* lone : {best_single(a, s.wall_length_min), best_single(b, s.wall_length_min)}) {
-    POSE_WALL_NOTE(if (lone != nullptr) note_lone_across(lone->evidence.score_m2, sides.score_m2));
-    if (lone != nullptr && lone->evidence.score_m2 > kLoneCrossShare * sides.score_m2) return true;
   }
-  return false;
 }
 
-// A side without a wall gets its reason, one with a wall the best that could stand in for it.
-void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& settings, WallChoice* out) {
-  for (int side = 0; side < 2; ++side) {
-    if (out->side[side] == nullptr) {
-      POSE_WALL_NOTE(note_none(*lists[side], side, out->refused[side], settings.wall_alone_length_min));
-      if (!out->refused[side]) out->reasons[side] |= faults_of(*lists[side], settings.wall_alone_length_min);
-      out->refused[side] = true;
-    } else {
-      out->rival[side] = rival_of(*lists[side], out->side[side]);
-      POSE_WALL_NOTE(note_rival(*out, side));
-    }
+// Planes across the road. Against one wall alone, those of few points count too: they are enough to doubt which way the
+// road runs.
+WallCandidates across(const WallCandidates& list, const WallChoice& sides, bool alone) {
+  WallCandidates out = list;
+  const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
+  for (std::uint32_t i = 0; i < out.count; ++i) {
+    WallCandidate& c = out.item[i];
+    if (alone) c.failed &= ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
+    if (!(std::fabs(c.plane.n.dot(side.n)) < kAcrossCos)) c.failed |= POSE_WALL_R_WALL_NOT_FOUND;
   }
+  return out;
+}
+
+// Whether the planes ahead and behind make a better roadway than the chosen sides.
+void judge_across(const WallChoice& sides, const WallCandidates& ahead, const WallCandidates& behind, const Settings& s,
+                  Verdict* verdict) {
+  const bool alone = sides.side[0] == nullptr || sides.side[1] == nullptr;
+  const WallCandidates a = across(ahead, sides, alone), b = across(behind, sides, alone);
+  if (!demand<gate::ACROSS>(verdict, best_pair(a, b, s).score / sides.score_m2, s) || !alone) return;
+  for (const WallCandidate* lone : {best_single(a, is_filled, s), best_single(b, is_filled, s)}) {
+    if (lone != nullptr) demand<gate::ACROSS_ALONE>(verdict, lone->evidence.score_m2 / sides.score_m2, s);
+  }
+}
+
+// Share of the band that lies on the chosen walls.
+double explained_share(const WallScene& scene, const WallChoice& choice) {
+  const auto slab = [&](const WallCandidate* wall) {
+    if (wall == nullptr) return Slab::empty();
+    return Slab(wall->plane, on_wall_m(scene.settings));
+  };
+  const Slab left = slab(choice.side[0]), right = slab(choice.side[1]);
+  const PointSet& band = scene.band_level;
+  FourInts explained{};  // true is -1
+  for_each_four_points(band, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    explained -= counts & (left.holds(x, y, z) | right.holds(x, y, z));
+  });
+  return band.count > 0 ? static_cast<double>(sum_of_lanes(explained)) / static_cast<double>(band.count) : 0.0;
 }
 
 }  // namespace
 
-const WallCandidate* strongest(const WallCandidates& list) {
-  const WallCandidate* best = nullptr;
-  for (std::uint32_t i = 0; i < list.count; ++i) {
-    if (best == nullptr || list.item[i].evidence.score_m2 > best->evidence.score_m2) best = &list.item[i];
-  }
-  return best;
-}
-
-double angle_in_plan(const Plane& a, const Plane& b) {
-  const double cross = a.n.x() * b.n.y() - a.n.y() * b.n.x(), dot = a.n.x() * b.n.x() + a.n.y() * b.n.y();
-  return arc_tangent2(std::fabs(cross), std::fabs(dot));
-}
-
 WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const Settings& settings) {
   WallChoice out;
   const WallCandidates* const lists[2] = {&left, &right};
-  Pair pair = best_pair(left, right, settings.wall_parallel_cos);
-  POSE_WALL_NOTE(note_pair(pair, lists, settings));
-  if (pair.a != nullptr && contested(pair, lists, settings.wall_parallel_cos)) pair = Pair{};
-  double alone = 0.0;
-  for (const WallCandidates* list : lists) {
-    const WallCandidate* lone = best_single(*list, settings.wall_alone_length_min);
-    if (lone != nullptr && lone->evidence.score_m2 > alone) alone = lone->evidence.score_m2;
-  }
-  POSE_WALL_NOTE(if (pair.a != nullptr) trace::gate_of(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_PAIR_SHARE,
-                                                       alone > 0.0 ? pair.score / alone : 1.0, kPairShare,
-                                                       pair.score >= kPairShare * alone));
-  // A pair that shows much less than one wall alone is a pair by chance.
-  if (pair.a != nullptr && pair.score >= kPairShare * alone) {
+  const Pair pair = choose_pair(lists, settings);
+  if (pair.a != nullptr) {
     out.side[0] = pair.a;
     out.side[1] = pair.b;
   } else {
-    choose_single(lists, settings.wall_alone_length_min, &out);
-    POSE_WALL_NOTE(note_not_parallel(out, lists, settings));
+    choose_single(lists, settings, &out);
   }
   for (const WallCandidate* c : out.side) out.score_m2 += c != nullptr ? c->evidence.score_m2 : 0.0;
   say_why_or_rival(lists, settings, &out);
@@ -316,9 +296,23 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
 
 void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind, const Settings& settings,
                       WallChoice* choice) {
-  const bool across = choice->any() ? stands_across(*choice, ahead, behind, settings)
-                                    : best_pair(ahead, behind, settings.wall_parallel_cos).a != nullptr;
-  if (across) refuse_both(POSE_WALL_R_CROSS_ROAD, choice);
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
+  Verdict verdict;
+  if (choice->any()) {
+    judge_across(*choice, ahead, behind, settings, &verdict);
+  } else {
+    // Beside sides that show nothing any pair is the better one.
+    const Pair pair = best_pair(ahead, behind, settings);
+    if (pair.a != nullptr) demand<gate::ACROSS>(&verdict, pair.score / choice->score_m2, settings);
+  }
+  refuse_both(verdict, choice);
+}
+
+void refuse_unexplained(const WallScene& scene, WallChoice* choice) {
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
+  Verdict verdict;
+  demand<gate::EXPLAINED>(&verdict, explained_share(scene, *choice), scene.settings);
+  refuse_both(verdict, choice);
 }
 
 }  // namespace pose_wall

@@ -7,40 +7,73 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
-#include "trace/trace.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
 
+// The rival was looked at in passing: it is not known to the centimetre.
 constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
-constexpr double kSilentMax = 0.025;
-constexpr double kOpenDoubt = 0.01;
-constexpr double kOpenMax = 0.1;
 // What passes through small gaps ends right behind them, on whatever is there, and what is hardly seen may be anything:
 // the wall may be this far behind.
 constexpr double kMayBeBehind_m = 2.0;
-constexpr double kToplessMax = 0.08;
 
-#ifdef POSE_WALL_TRACE
-void note_sight(const WallSight& sight, const WallEdges& edges, bool grooved) {
-  trace::gate(POSE_WALL_TRACE_WALL_BRIGHT, !sight.dim);
-  trace::gate(POSE_WALL_TRACE_WALL_TOP_SEEN, !edges.top_unseen);
-  trace::gate(POSE_WALL_TRACE_WALL_OPEN_DOUBT, sight.open, kOpenDoubt, !(sight.open > kOpenDoubt));
-  trace::gate(POSE_WALL_TRACE_WALL_GROOVES, !grooved);
-  trace::gate(POSE_WALL_TRACE_WALL_SILENT, sight.silent, kSilentMax, sight.silent <= kSilentMax);
-  trace::gate(POSE_WALL_TRACE_WALL_OPEN, sight.open, kOpenMax, sight.open <= kOpenMax);
-  trace::gate(POSE_WALL_TRACE_WALL_TOPLESS, sight.topless, kToplessMax, sight.topless <= kToplessMax);
-  trace::gate(POSE_WALL_TRACE_WALL_ISLAND, !edges.island);
-  trace::gate(POSE_WALL_TRACE_WALL_LOW, !edges.low);
-  trace::gate(POSE_WALL_TRACE_WALL_LAYER, !edges.layer_behind);
+// A wall that is seen only well ahead of the machine, or behind it: in between the road may bend.
+Doubt by_distance(double away_m, const Settings& s) {
+  constexpr double kMayBend_rad = 0.44;  // 25 degrees
+  Doubt doubt;
+  if (!demand<gate::WALL_AWAY>(&doubt, away_m, s)) doubt.yaw_to_rival_rad = kMayBend_rad;
+  return doubt;
 }
-#endif
+
+// The truth may be the rival: the protection levels reach to it.
+Doubt by_rival(const WallScene& scene, const Plane& rival, int side, const FittedWall& wall) {
+  Doubt doubt;
+  doubt.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
+  doubt.yaw_to_rival_rad = std::fabs(yaw_of(along_of(rival, scene.forward_level), scene.forward_level) - wall.yaw_rad);
+  for (int end = 0; end < 2; ++end) {
+    const double distance = distance_at(rival, scene.sample_level_m[side][end]);
+    doubt.distance_m[end] = kRivalStretch * std::fabs(distance - wall.distance_m[end]) + kRivalMargin_m;
+  }
+  return doubt;
+}
+
+// The fit may have wandered off, or shrunk to what is no wall any more.
+Doubt by_wandering(const WallCandidate& chosen, const SideView& view, const Plane& fitted, const WallGrid& grid,
+                   const Settings& s) {
+  Doubt doubt;
+  doubt.reasons = failed_gates(fitted, grid.evidence(), s);
+  const bool stayed = doubt.reasons == 0 && SameWall{view}(fitted, chosen.plane);
+  demand<gate::FIT_STAYED>(&doubt, stayed);
+  return doubt;
+}
+
+// What is hardly seen, or shows something behind it, may be no wall; the wall is then behind it. One demand each, for
+// all are told.
+Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved, const Settings& s) {
+  Doubt doubt;
+  const bool doubts[] = {
+      !demand<gate::WALL_BRIGHT>(&doubt, !sight.dim), !demand<gate::WALL_TOP_SEEN>(&doubt, !edges.top_unseen),
+      !demand<gate::WALL_OPEN_DOUBT>(&doubt, sight.open, s), !demand<gate::WALL_GROOVES>(&doubt, !grooved),
+      !demand<gate::WALL_LAYER>(&doubt, !edges.layer_behind)};
+  for (const bool one : doubts) {
+    if (!one) continue;
+    const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
+    for (double& distance_m : doubt.distance_m) distance_m = behind_m;
+  }
+  demand<gate::WALL_SILENT>(&doubt, sight.silent, s);
+  demand<gate::WALL_OPEN>(&doubt, sight.open, s);
+  demand<gate::WALL_TOPLESS>(&doubt, sight.topless, s);
+  demand<gate::WALL_ISLAND>(&doubt, !edges.island);
+  demand<gate::WALL_LOW>(&doubt, !edges.low);
+  return doubt;
+}
 
 // How far what is seen on the other side of the road runs apart from a wall that stands alone: what was chosen there
 // and was no wall after all, what its fit came to, and whatever else could be a wall by itself, be it much weaker.
 // Radians.
-double apart_from_other_side(const WallCandidate& wall, const WallCandidate* chosen, const WallResult& fitted,
+double apart_from_other_side(const WallCandidate& wall, const WallCandidate* chosen, const FittedWall& fitted,
                              const WallCandidates& seen, const Settings& s) {
   constexpr double kWeakestShare = 0.1;
   double apart = chosen != nullptr ? angle_in_plan(wall.plane, chosen->plane) : 0.0;
@@ -48,90 +81,103 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
   for (std::uint32_t i = 0; i < seen.count; ++i) {
     const WallCandidate& c = seen.item[i];
     // Few points are no excuse: they are enough to doubt which way the road runs.
-    const std::uint32_t faults = c.faults & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
-    if (faults != 0 || !(c.evidence.length_m >= s.wall_alone_length_min)) continue;
+    const std::uint32_t failed = c.failed & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
+    if (failed != 0 || !(c.evidence.length_m >= s.wall_alone_length_min)) continue;
     if (!(c.evidence.score_m2 >= kWeakestShare * wall.evidence.score_m2)) continue;
     apart = larger(apart, angle_in_plan(wall.plane, c.plane));
   }
   return apart;
 }
 
-// What is left of a pair of which the other one was no wall after all must be as long as a wall that stands alone.
-void doubt_what_is_left(const WallCandidate& left, const Settings& s, WallResult* out) {
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_LEFT_ALONE, left.evidence.length_m, s.wall_alone_length_min,
-                             left.evidence.length_m >= s.wall_alone_length_min));
-  if (left.evidence.length_m >= s.wall_alone_length_min) return;
-  out->fit.refuse(POSE_WALL_R_WALL_SHORT);
+// What was seen of the other side runs apart from this wall: within the gate that is the walls' own.
+Doubt by_other_side(double apart_rad, const Settings& s) {
+  Doubt doubt;
+  if (!demand<gate::ALONE_APART>(&doubt, apart_rad, s)) doubt.yaw_rad = apart_rad;
+  return doubt;
 }
 
 }  // namespace
 
-void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallResult* wall) {
-  const double yaw = yaw_of(along_of(rival, scene.forward_level), scene.forward_level);
-  wall->yaw_to_rival_rad = larger(wall->yaw_to_rival_rad, std::fabs(yaw - wall->yaw_rad));
-  for (int end = 0; end < 2; ++end) {
-    const double distance = distance_at(rival, scene.sample_level_m[side][end]);
-    // The rival was looked at in passing: it is not known to the centimetre.
-    wall->distance_bound_m[end][POSE_WALL_PART_RIVAL] +=
-        kRivalStretch * std::fabs(distance - wall->distance_m[end]) + kRivalMargin_m;
-  }
-  wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
-}
-
-void extend_to_machine(double away_m, WallResult* wall) {
-  constexpr double kAwayMax_m = 2.0;
-  constexpr double kMayBend_rad = 0.44;  // 25 degrees
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_AWAY, away_m, kAwayMax_m, !(away_m > kAwayMax_m)));
-  if (!(away_m > kAwayMax_m)) return;
-  wall->fit.reasons |= POSE_WALL_R_EXTRAPOLATED;
-  wall->yaw_to_rival_rad = kMayBend_rad;
-}
-
-void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, WallResult* wall) {
-  const Plane& plane = wall->fit.plane;
-  const WallSight sight = look_at(scene, plane, wall->along_level, kWellBehind_m, &scratch->sight);
-  const WallEdges edges = look_past(scene, plane, wall->along_level, on_wall_m(scene.settings), &scratch->edges);
-  const bool little_seen = sight.dim || edges.top_unseen, shows_behind = sight.open > kOpenDoubt || edges.layer_behind;
-  POSE_WALL_NOTE(note_sight(sight, edges, grooved));
-  if (little_seen) wall->fit.reasons |= POSE_WALL_R_WALL_FEW_INLIERS;
-  if (shows_behind) wall->fit.reasons |= POSE_WALL_R_WALL_SEEN_THROUGH;
-  if (grooved) wall->fit.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
-  if (little_seen || shows_behind || grooved) {
-    const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
-    for (ProtectionParts& bound : wall->distance_bound_m) bound[POSE_WALL_PART_RIVAL] += behind_m;
-  }
-  const bool whole = sight.silent <= kSilentMax && sight.open <= kOpenMax && sight.topless <= kToplessMax;
-  if (whole && !edges.island && !edges.low) return;
-  wall->fit.refuse(POSE_WALL_R_WALL_SEEN_THROUGH);
+JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
+                      const FittedWall& fitted, WallsScratch* scratch) {
+  const Settings& s = scene.settings;
+  const WallCandidate& chosen = *choice.side[side];
+  JudgedWall wall(fitted);
+  wall.add(by_distance(chosen.evidence.away_m, s));
+  if (choice.rival[side] != nullptr) wall.add(by_rival(scene, choice.rival[side]->plane, side, fitted));
+  demand<gate::WALL_SOLID_DOUBT>(&wall.fit, chosen.evidence.seen_through, s);
+  demand<gate::FIT_INLIERS>(&wall.fit, fitted.fit.inliers, s);
+  demand<gate::WALL_YAW>(&wall.fit, std::fabs(fitted.yaw_rad), s);
+  if (!fitted.fit.found) return wall;
+  wall.add(by_wandering(chosen, view, fitted.fit.plane, scratch->grid, s));
+  const Plane& plane = fitted.fit.plane;
+  const WallSight sight = look_at(scene, plane, fitted.along_level, kWellBehind_m, &scratch->sight);
+  const WallEdges edges = look_past(scene, plane, fitted.along_level, on_wall_m(s), &scratch->edges);
+  wall.add(by_close_look(sight, edges, fitted.grooved, s));
+  return wall;
 }
 
 void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCandidates (&beside)[2],
-                       WallResult (*walls)[2]) {
+                       JudgedWall (*walls)[2]) {
   for (int side = 0; side < 2; ++side) {
     const int other = 1 - side;
     if (choice.side[side] == nullptr || !(*walls)[other].fit.refused) continue;
+    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
     const WallCandidate& wall = *choice.side[side];
-    POSE_WALL_NOTE(trace::subject(trace::side_subject(side)));
     const double apart = apart_from_other_side(wall, choice.side[other], (*walls)[other], beside[other], s);
-    POSE_WALL_NOTE(
-        trace::gate(POSE_WALL_TRACE_ALONE_APART, apart, WallResult::kApart_rad, apart <= WallResult::kApart_rad));
-    (*walls)[side].reach_to_other_side(apart);
-    if (choice.side[other] != nullptr) doubt_what_is_left(wall, s, &(*walls)[side]);
+    (*walls)[side].add(by_other_side(apart, s));
+    // What is left of a pair must be as long as a wall that stands alone.
+    if (choice.side[other] != nullptr) demand<gate::LEFT_ALONE>(&(*walls)[side].fit, wall.evidence.length_m, s);
   }
 }
 
-void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, WallResult (*walls)[2]) {
-  constexpr double kUnlike_rad = 0.14;  // 8 degrees: walls of one road rarely differ by four
+void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, JudgedWall (*walls)[2]) {
   if (choice.side[0] == nullptr || choice.side[1] == nullptr) return;
   const double apart = angle_in_plan((*walls)[0].fit.plane, (*walls)[1].fit.plane);
   for (int side = 0; side < 2; ++side) {
     if (choice.side[side]->evidence.length_m >= s.wall_alone_length_min) continue;
-    POSE_WALL_NOTE(trace::gate_of(trace::side_subject(side), POSE_WALL_TRACE_SHORT_APART, apart, kUnlike_rad,
-                                  !(apart > kUnlike_rad)));
-    if (!(apart > kUnlike_rad)) continue;
-    (*walls)[side].fit.reasons |= POSE_WALL_R_WALLS_NOT_PARALLEL;
-    for (ProtectionParts& bound : (*walls)[side].distance_bound_m) bound[POSE_WALL_PART_RIVAL] += kMayBeBehind_m;
+    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
+    Doubt doubt;
+    if (!demand<gate::SHORT_APART>(&doubt, apart, s)) doubt.distance_m[0] = doubt.distance_m[1] = kMayBeBehind_m;
+    (*walls)[side].add(doubt);
   }
+}
+
+void refuse_blocked_sides(const IngestCounts& counts, const Settings& s, JudgedWall (*walls)[2]) {
+  constexpr double kShareOfReturns = 0.02;  // judgement, 2026-11-22: a mast before the sensor is no wall
+  // Of what came back: whether the others are left out, zero or not finite must not matter.
+  const double returns = static_cast<double>(counts.points_in - counts.dropped_not_finite - counts.dropped_zero);
+  const Quadrant sides[2] = {kLeft, kRight};
+  for (int side = 0; side < 2; ++side) {
+    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
+    JudgedWall& wall = (*walls)[side];
+    JudgedWall& other = (*walls)[1 - side];
+    const bool counted = wall.fit.found && !wall.fit.refused;
+    const double near = counts.near_by_quadrant[sides[side]], kept = counts.kept_by_quadrant[sides[side]];
+    if (demand<gate::WALL_NEAR>(&wall.fit, near, larger(kept, kShareOfReturns * returns))) continue;
+    // Blocked or not, it may have known the road's direction better than the one that is left.
+    POSE_WALL_NOTE(const trace::About of_other(trace::side_subject(1 - side)));
+    if (counted) other.add(by_other_side(std::fabs(wall.yaw_rad - other.yaw_rad), s));
+  }
+}
+
+Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&beside)[2]) {
+  constexpr double kLeansMin_rad = 0.2;          // 11.5 degrees: simulated and real walls lean by 10
+  constexpr double kWallsThemselves_rad = 0.17;  // so much of it may yet be the walls' own
+  constexpr double kAreaMin_m2 = 4.0;
+  double lean[2] = {};
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (int side = 0; side < 2; ++side) {
+    const WallCandidate* const best = beside[side].strongest();
+    if (best == nullptr || !(best->evidence.area_m2 >= kAreaMin_m2)) return Eigen::Vector3d::Zero();
+    lean[side] = lean_of(best->plane);
+    along += 0.5 * along_of(best->plane, scene.forward_level);
+  }
+  const bool same_way = lean[0] * lean[1] < 0.0;
+  if (!same_way || !(std::fabs(lean[0]) > kLeansMin_rad && std::fabs(lean[1]) > kLeansMin_rad)) {
+    return Eigen::Vector3d::Zero();
+  }
+  return (0.5 * std::fabs(lean[0] - lean[1]) + kWallsThemselves_rad) * along;
 }
 
 }  // namespace pose_wall

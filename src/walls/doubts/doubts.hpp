@@ -1,33 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What speaks against a wall that was chosen and measured: its rival, its distance from the machine, what is seen of it
-// from close by, and the wall on the other side. It widens the protection levels, or refuses the wall.
+// What speaks against a wall that was chosen and fitted: its own gates, its rival, its distance from the machine, what
+// is seen of it from close by, the wall on the other side, and what blocks the view.
 
 #pragma once
 
-#include "types.hpp"
 #include "walls/choose/choose.hpp"
 #include "walls/scratch.hpp"
+#include "walls/wall.hpp"
 
 namespace pose_wall {
 
-// The truth may be the rival: the protection levels reach to it. side: 0 left, 1 right.
-void reach_to_rival(const WallScene& scene, const Plane& rival, int side, WallResult* wall);
+// The fitted wall of a side with all doubts that concern it alone. side: 0 left, 1 right. The grid is marked with it.
+JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
+                      const FittedWall& fitted, WallsScratch* scratch);
 
-// A wall that is seen only well ahead of the machine, or behind it: in between the road may bend.
-void extend_to_machine(double away_m, WallResult* wall);
-
-// Near the sensor, what passes for a wall and is none gives itself away. grooved: its surface lies in two depths.
-void look_closely(const WallScene& scene, bool grooved, WallsScratch* scratch, WallResult* wall);
-
-// A wall that stands alone tells the road's direction only as well as the other side does not speak against it.
-// beside: all that could be walls, by side.
+// A wall that stands alone tells the road's direction only as well as the other side does not speak against it, and
+// must be long enough by itself. beside: all that could be walls, by side.
 void doubt_those_alone(const Settings& settings, const WallChoice& choice, const WallCandidates (&beside)[2],
-                       WallResult (*walls)[2]);
+                       JudgedWall (*walls)[2]);
 
 // Two walls vouch for each other as far as they run alike. One that is too short to stand alone, beside one that runs
 // otherwise, may be a boulder.
-void doubt_short_ones_apart(const Settings& settings, const WallChoice& choice, WallResult (*walls)[2]);
+void doubt_short_ones_apart(const Settings& settings, const WallChoice& choice, JudgedWall (*walls)[2]);
+
+// Returns nearer than range_min that take up most of a side hide what is behind them: that side is refused.
+void refuse_blocked_sides(const IngestCounts& counts, const Settings& settings, JudgedWall (*walls)[2]);
+
+// Both sides lean the same way about the road: one out, the other in. Each wall may lean by itself, but where both do
+// so by this much it is the level that is wrong: a heap's flank was taken for the floor. Returns the turn by which the
+// level may be off, as a vector along the road, rad. Zero unless both are sure.
+Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&beside)[2]);
 
 }  // namespace pose_wall

@@ -14,7 +14,7 @@ namespace {
 constexpr double kModelError_rad = 0.0035;
 
 // A doubtful wall must not turn a good one.
-bool can_share(const WallResult& wall) {
+bool can_share(const JudgedWall& wall) {
   constexpr std::uint32_t kDoubtful =
       POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED | POSE_WALL_R_EXTRAPOLATED;
   return !wall.fit.refused && (wall.fit.reasons & kDoubtful) == 0;
@@ -37,7 +37,7 @@ Plane turned(const Plane& plane, const Eigen::Vector3d& pivot, double angle_rad)
   return out;
 }
 
-void turn(const WallScene& scene, int side, double angle_rad, WallResult* wall) {
+void turn(const WallScene& scene, int side, double angle_rad, JudgedWall* wall) {
   wall->fit.plane = turned(wall->fit.plane, wall->pivot_level_m, angle_rad);
   wall->along_level = along_of(wall->fit.plane, scene.forward_level);
   for (int end = 0; end < 2; ++end) {
@@ -49,9 +49,9 @@ void turn(const WallScene& scene, int side, double angle_rad, WallResult* wall) 
 
 }  // namespace
 
-void share_direction(const WallScene& scene, WallResult (*walls)[2]) {
-  WallResult& left = (*walls)[0];
-  WallResult& right = (*walls)[1];
+void share_direction(const WallScene& scene, JudgedWall (*walls)[2]) {
+  JudgedWall& left = (*walls)[0];
+  JudgedWall& right = (*walls)[1];
   if (!can_share(left) || !can_share(right)) return;
   const double difference = left.yaw_rad - right.yaw_rad;
   const double share = share_of(difference, radians(scene.settings.wall_parallel_within_deg));

@@ -5,8 +5,8 @@
 
 #pragma once
 
-#include "types.hpp"
 #include "walls/scene.hpp"
+#include "walls/wall.hpp"
 
 namespace pose_wall {
 
@@ -14,6 +14,6 @@ namespace pose_wall {
 // of their distances what that moved. Roughness, doors and the sensor's own motion during a scan turn the walls apart
 // by a degree; two metres from the machine's centre that is centimetres. Walls that truly run apart by more than
 // wall_parallel_within_deg keep their own directions. yaw_rad of each wall stays as measured.
-void share_direction(const WallScene& scene, WallResult (*walls)[2]);
+void share_direction(const WallScene& scene, JudgedWall (*walls)[2]);
 
 }  // namespace pose_wall

@@ -14,11 +14,6 @@ namespace pose_wall {
 namespace {
 
 constexpr double kScaleMin_m = 0.003;
-constexpr double kWideInThresholds = 5.0;
-constexpr double kNarrowInThresholds = 3.0;
-constexpr double kGateInThresholds = 4.0;
-// Points this far behind a plane passed through it. Below, they are the rock's own roughness.
-constexpr double kBehindInThresholds = 3.0;
 constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
 // What the strips may have moved the surface by, of their step; measured on simulated steel sets.
 constexpr double kStripsLeftOver = 0.05;
@@ -30,13 +25,11 @@ constexpr double kLayersLeftOver = 0.5;
 constexpr int kCutsMax = 6;
 // Shares of a whole fit's points: a cut asks less than a fit does, and the second fit may cost half the first.
 constexpr std::uint32_t kCutPointsMax = WallPoints::kMost * 3 / 8, kAgainPointsMax = WallPoints::kMost / 2;
-constexpr int kQuickRounds = 3;
-constexpr std::uint32_t kQuickPointsMax = 500;
 constexpr int kRounds = 8;
 
 IrlsSettings fit_settings(const Settings& s) {
   const double thresh_m = s.wall_ransac_thresh;
-  return {kGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds, kBeforePatches};
+  return {kFitGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds, kBeforePatches};
 }
 
 // Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
@@ -140,32 +133,6 @@ void cut(const WallScene& scene, const WallSurface& fit, const Plane& start, con
 }
 
 }  // namespace
-
-Span<std::uint32_t> points_near(const BoundedPoints& points, const Plane& plane, double gate_m,
-                                Span<std::uint32_t> out) {
-  std::uint32_t count = 0;
-  for_each_in(points, Slab(plane, gate_m), [&](std::uint32_t i, float) { out[count++] = i; });
-  return out.first(count);
-}
-
-bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
-                       RefineWidth width, WallFitScratch* scratch, Plane* plane) {
-  const IrlsSettings quick = quick_irls(kNarrowInThresholds * thresh_m, kScaleMin_m, thresh_m, kQuickRounds);
-  const double gate_m = (width == RefineWidth::kWide ? kWideInThresholds : kNarrowInThresholds) * thresh_m;
-  const Span<std::uint32_t> near = thinned(points_near(band_level, *plane, gate_m, scratch->near), kQuickPointsMax);
-  const IrlsResult refined = irls_tukey(band_level, near, *plane, along_level, quick, &scratch->points.at);
-  if (refined.solved) *plane = refined.plane;
-  return refined.solved;
-}
-
-void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level, MarkWidth width,
-               WallGrid* grid) {
-  const double thresh_m = scene.settings.wall_ransac_thresh;
-  const WallGrid::Reach reach = width == MarkWidth::kThreshold
-                                    ? WallGrid::Reach{thresh_m, kBehindInThresholds * thresh_m}
-                                    : WallGrid::Reach{kGateInThresholds * thresh_m, kGateInThresholds * thresh_m};
-  grid->mark(scene, plane, along_level, reach);
-}
 
 WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch) {
   const Eigen::Vector3d along = along_of(start, scene.forward_level);

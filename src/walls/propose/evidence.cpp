@@ -11,6 +11,9 @@
 namespace pose_wall {
 namespace {
 
+// Points this far behind a plane passed through it. Below, they are the rock's own roughness.
+constexpr double kBehindInThresholds = 3.0;
+
 constexpr double kRow_m = 0.3;
 
 void count_up(std::uint16_t* counter, std::uint32_t by) {
@@ -180,6 +183,15 @@ FourTruths WallGrid::solid_at(FourFloats along_m, FourFloats z_level_m, FourTrut
     if (cells[lane] < 0 || !solid(cell) || !column_is_solid(cell % kColumns)) counts[lane] = 0;
   }
   return counts;
+}
+
+void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level, MarkWidth width,
+               WallGrid* grid) {
+  const double thresh_m = scene.settings.wall_ransac_thresh;
+  const WallGrid::Reach reach = width == MarkWidth::kThreshold
+                                    ? WallGrid::Reach{thresh_m, kBehindInThresholds * thresh_m}
+                                    : WallGrid::Reach{kFitGateInThresholds * thresh_m, kFitGateInThresholds * thresh_m};
+  grid->mark(scene, plane, along_level, reach);
 }
 
 }  // namespace pose_wall

@@ -87,4 +87,12 @@ class WallGrid {
   double inliers_ = 0.0, passed_ = 0.0;  // measured points on it, and behind it
 };
 
+// So far from its plane a fit takes points, in RANSAC thresholds: rough rock stays in, what stands before it does not.
+constexpr double kFitGateInThresholds = 4.0;
+
+// Marks the grid with a plane: with the RANSAC threshold to judge a hypothesis, or as wide as the fit reaches.
+enum class MarkWidth { kThreshold, kFit };
+void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level, MarkWidth width,
+               WallGrid* grid);
+
 }  // namespace pose_wall

@@ -99,7 +99,7 @@ bool solid_around(const WallGrid& grid, double along_m) {
 }  // namespace
 
 AtSample look_at_sample(const WallScene& scene, const WallSurface& surface, const WallGrid& grid,
-                        const WallResult& wall, const Eigen::Vector3d& sample_level_m) {
+                        const FittedWall& wall, const Eigen::Vector3d& sample_level_m) {
   const double along_m = wall.along_level.dot(sample_level_m);
   const Plane& plane = wall.fit.plane;
   const Plane across{wall.along_level, -along_m};
@@ -111,7 +111,6 @@ AtSample look_at_sample(const WallScene& scene, const WallSurface& surface, cons
       larger(solid_around(grid, along_m) ? 0.0 : steps_back_at(scene, plane, across), around.profile.behind_m());
   AtSample seen;
   seen.hole_m = around.profile.hole_m();
-  seen.interrupted = out_m > 0.0 || back_m > 0.0;
   seen.bound_m = with_margin(out_m) + kBackMargin * back_m;
   return seen;
 }

@@ -5,21 +5,21 @@
 
 #pragma once
 
-#include "types.hpp"
 #include "walls/fit/surface.hpp"
 #include "walls/propose/evidence.hpp"
 #include "walls/scene.hpp"
+#include "walls/wall.hpp"
 
 namespace pose_wall {
 
 struct AtSample {
-  bool interrupted = false;  // the wall stands out there, steps back, or a road branches off
-  double bound_m = 0.0;      // by which the distance may be off for it
-  double hole_m = 0.0;       // length around it in which nothing is seen of the plane
+  double bound_m =
+      0.0;  // by which the distance may be off, where the wall stands out, steps back or a road branches off
+  double hole_m = 0.0;  // length around it in which nothing is seen of the plane
 };
 
 // wall: its plane and direction are set.
 AtSample look_at_sample(const WallScene& scene, const WallSurface& surface, const WallGrid& grid,
-                        const WallResult& wall, const Eigen::Vector3d& sample_level_m);
+                        const FittedWall& wall, const Eigen::Vector3d& sample_level_m);
 
 }  // namespace pose_wall

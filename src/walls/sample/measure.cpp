@@ -9,19 +9,14 @@
 #include "base/estimation/near_plane.hpp"
 #include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
-#include "trace/trace.hpp"
+#include "gates/gate.hpp"
 #include "walls/sample/at_sample.hpp"
 
 namespace pose_wall {
 namespace {
 
-constexpr double kExtrapolated_m = 0.75;
-// A post hides less of a wall. Where more is not seen, or the wall is seen to one side only, it may end or step
-// anywhere.
-constexpr double kHoleMax_m = 0.6;
+// Where a wall is not seen it may end or step, by up to this much: judgement, 2026-11-21, as deep as a niche.
 constexpr double kMayStep_m = 2.0;
-// A bend is told where it takes up this much of an alert limit.
-constexpr double kBendMatters = 0.2;
 // By how much more the direction errs than the covariance says. Which columns are strips is told by the plane that they
 // then tell. And rock is rough over more lengths than one: of what neighbouring patches have in common, a part reaches
 // further than is looked at. Measured on simulated roads, thousands of looks by four sensors: 1.3 to 1.7 times with
@@ -48,7 +43,7 @@ void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
 }
 
 // Turning the plane by its slope along u turns the yaw by as much; the sign follows from which way u points.
-void set_yaw(const WallScene& scene, const WallSurface& surface, WallResult* out) {
+void set_yaw(const WallScene& scene, const WallSurface& surface, FittedWall* out) {
   const PatchFit& patch = surface.patch;
   const TangentFrame& f = surface.frame();
   const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(out->fit.plane.n);
@@ -60,10 +55,8 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, WallResult* out
   out->yaw_sigma_rad *= surface.strips != nullptr ? kStripsStretch : (rock ? kRockStretch : 1.0);
   out->yaw_bias_rad_per_m = -sign * patch.bias_response[1] / upright;
   const double bend_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
-  const double bend_max_rad = kBendMatters * radians(scene.settings.alert_limit_angle_deg);
   out->yaw_bound_rad[POSE_WALL_PART_BEND] = bend_rad;
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_BEND, bend_rad, bend_max_rad, !(bend_rad > bend_max_rad)));
-  if (bend_rad > bend_max_rad) out->fit.reasons |= POSE_WALL_R_CURVED;
+  demand<gate::WALL_BEND>(&out->fit, bend_rad, scene.settings);
 }
 
 // How far the surface that is seen a little below a height or a little above it, ahead or behind, lies from the plane,
@@ -102,21 +95,16 @@ bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double 
 }
 
 #ifdef POSE_WALL_TRACE
-void note_sample(const Settings& s, int quantity, double offset_m, double gap_m, bool in_rock, const AtSample& seen) {
-  const auto subject = static_cast<std::uint32_t>(POSE_WALL_TRACE_QUANTITY + quantity);
-  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_OFFSET, offset_m, kBendMatters * s.alert_limit_distance,
-                 !(offset_m > kBendMatters * s.alert_limit_distance));
-  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_GAP, gap_m, kExtrapolated_m, !(gap_m > kExtrapolated_m));
-  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_HOLE, seen.hole_m, kHoleMax_m, !(seen.hole_m > kHoleMax_m));
-  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_BEFORE, in_rock ? 0.0 : 1.0, 1.0, !in_rock);
-  trace::gate_of(subject, POSE_WALL_TRACE_SAMPLE_STEP, seen.bound_m, 0.0, !seen.interrupted);
+std::uint32_t quantity_subject(int side, int end) {
+  return static_cast<std::uint32_t>(POSE_WALL_TRACE_QUANTITY + POSE_WALL_D_LF + 2 * side + end);
 }
 #endif
 
 void set_distances(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
-                   WallResult* out) {
+                   FittedWall* out) {
   const TangentFrame& f = surface.frame();
   const PatchFit& patch = surface.patch;
+  const Settings& s = scene.settings;
   for (int end = 0; end < 2; ++end) {
     const Eigen::Vector3d& sample = scene.sample_level_m[side][end];
     const double u = f.u.dot(sample - f.origin), v = f.v.dot(sample - f.origin);
@@ -124,21 +112,22 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     out->distance_m[end] = distance_at(out->fit.plane, sample);
     out->distance_sigma_m[end] = std::sqrt(patch.variance_at(u, v));
     const double bend = std::fabs(patch.bend_at(u, v));
-    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_SAMPLE_BEND, bend, kBendMatters * scene.settings.alert_limit_distance,
-                               !(bend > kBendMatters * scene.settings.alert_limit_distance)));
-    if (bend > kBendMatters * scene.settings.alert_limit_distance) out->fit.reasons |= POSE_WALL_R_CURVED;
+    demand<gate::SAMPLE_BEND>(&out->fit, bend, s);
+    POSE_WALL_NOTE(const trace::About about(quantity_subject(side, end)));
     const bool leaves_plane = sample.z() >= scene.z_min_level_m && may_leave_plane(scene, surface, sample.z());
     const double offset_m = leaves_plane ? offset_at_height(scene, out->fit.plane, out->along_level, sample.z()) : 0.0;
     const double along_m = out->along_level.dot(sample);
     const AtSample seen = look_at_sample(scene, surface, grid, *out, sample);
     const double gap_m = grid.gap_to_solid_m(along_m);
-    const bool unseen = gap_m > kExtrapolated_m || seen.hole_m > kHoleMax_m;
+    const bool near = passes<gate::SAMPLE_GAP>(gap_m, s);
+    const bool unseen = !passes<gate::SAMPLE_HOLE>(seen.hole_m, s) || !near;
     // A distance has no sign: of a point in the rock it looks like one before it.
-    const bool in_rock = out->fit.plane.signed_distance(sample) < 0.0;
-    out->extrapolated[end] = seen.interrupted || unseen || in_rock;
-    POSE_WALL_NOTE(note_sample(scene.settings, POSE_WALL_D_LF + 2 * side + end, offset_m, gap_m, in_rock, seen));
+    const bool in_rock = !passes<gate::SAMPLE_BEFORE>(!(out->fit.plane.signed_distance(sample) < 0.0));
+    const bool interrupted = !passes<gate::SAMPLE_STEP>(seen.bound_m, s);
+    out->extrapolated[end] = interrupted || unseen || in_rock;
+    POSE_WALL_NOTE(passes<gate::SAMPLE_OFFSET>(offset_m, s));
     ProtectionParts& bound = out->distance_bound_m[end];
-    bound[POSE_WALL_PART_RANGE_BIAS] = scene.settings.range_bias_max * std::fabs(bias);
+    bound[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(bias);
     bound[POSE_WALL_PART_BEND] = bend + offset_m;
     bound[POSE_WALL_PART_EXTRAPOLATION] =
         seen.bound_m + (unseen ? kMayStep_m : 0.0) + (in_rock ? 2.0 * out->distance_m[end] : 0.0);
@@ -147,14 +136,11 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
 
 }  // namespace
 
-WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid) {
-  WallResult out;
+FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid) {
+  FittedWall out;
   const PatchFit& patch = surface.patch;
-  POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_WALL_FIT, patch.solved));
-  if (!patch.solved) {
-    out.fit.refuse(POSE_WALL_R_WALL_SHORT);
-    return out;
-  }
+  out.grooved = surface.grooved;
+  if (!demand<gate::WALL_FIT>(&out.fit, patch.solved)) return out;
   out.fit.found = true;
   out.fit.plane = surface.plane();
   out.along_level = along_of(out.fit.plane, scene.forward_level);

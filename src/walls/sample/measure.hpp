@@ -5,12 +5,12 @@
 
 #pragma once
 
-#include "types.hpp"
 #include "walls/fit/surface.hpp"
+#include "walls/wall.hpp"
 
 namespace pose_wall {
 
 // side: 0 left, 1 right. grid: marked with the RANSAC threshold.
-WallResult measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid);
+FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid);
 
 }  // namespace pose_wall

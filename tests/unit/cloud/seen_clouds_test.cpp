@@ -16,14 +16,14 @@ constexpr std::int64_t kSecond_ns = 1000000000;
 
 TEST(SeenClouds, ANewOneIsNoRepeat) {
   SeenClouds seen;
-  for (std::uint64_t k = 1; k <= 20; ++k) EXPECT_FALSE(seen.note(k, 0).is_one) << k;
+  for (std::uint64_t k = 1; k <= 20; ++k) EXPECT_FALSE(seen.keep(k, 0).is_one) << k;
 }
 
 TEST(SeenClouds, IsAsOldAsItsFirstCopy) {
   SeenClouds seen;
-  seen.note(7, kSecond_ns);
+  seen.keep(7, kSecond_ns);
   for (int k = 2; k <= 10; ++k) {
-    const Repeat repeat = seen.note(7, k * kSecond_ns);
+    const Repeat repeat = seen.keep(7, k * kSecond_ns);
     EXPECT_TRUE(repeat.is_one);
     EXPECT_DOUBLE_EQ(repeat.age_s, k - 1.0);
   }
@@ -34,17 +34,17 @@ TEST(SeenClouds, BuffersThatAreHandedOutByTurnsAreKnownAgain) {
     SeenClouds seen;
     for (std::uint32_t k = 0; k < 3 * buffers; ++k) {
       const bool known = k >= buffers && buffers <= SeenClouds::kCount;
-      EXPECT_EQ(seen.note(1 + k % buffers, k * kSecond_ns).is_one, known) << buffers << " buffers, frame " << k;
+      EXPECT_EQ(seen.keep(1 + k % buffers, k * kSecond_ns).is_one, known) << buffers << " buffers, frame " << k;
     }
   }
 }
 
 TEST(SeenClouds, AClockThatWentBackGivesAnAgeBelowZero) {
   SeenClouds seen;
-  seen.note(7, kSecond_ns);
-  EXPECT_LT(seen.note(7, 0).age_s, 0.0);
-  EXPECT_GT(seen.note(7, INT64_MAX).age_s, 0.0);
-  EXPECT_LT(seen.note(7, INT64_MIN).age_s, 0.0);
+  seen.keep(7, kSecond_ns);
+  EXPECT_LT(seen.keep(7, 0).age_s, 0.0);
+  EXPECT_GT(seen.keep(7, INT64_MAX).age_s, 0.0);
+  EXPECT_LT(seen.keep(7, INT64_MIN).age_s, 0.0);
 }
 
 }  // namespace

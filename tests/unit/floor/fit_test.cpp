@@ -24,7 +24,7 @@ FloorResult fit_within(test::FloorFixture* g, const PointSet& within, const Plan
                        const Eigen::Vector3d& sensor_base_m = Eigen::Vector3d::Zero()) {
   test::Placed<FloorScratch> scratch(g->points().set().capacity());
   scratch->grid.find_open(g->points().set(), 15.0, sensor_base_m.z(), scratch->low, &scratch->open_base);
-  return fit_floor({3.0, g->points().set(), within}, start, g->settings(), sensor_base_m, scratch.get());
+  return fit_floor(g->scene(sensor_base_m), {3.0, g->points().set(), within}, start, scratch.get());
 }
 
 FloorResult fit(test::FloorFixture* g, const Plane& start,

@@ -12,6 +12,7 @@
 
 #include "base/math/elementary.hpp"
 #include "support/stage_fixtures.hpp"
+#include "walls/doubts/doubts.hpp"
 
 namespace pose_wall {
 namespace {
@@ -25,8 +26,8 @@ FloorResult good_floor() {
   return f;
 }
 
-WallResult good_wall(double yaw = 0.02, double sigma = 0.001) {
-  WallResult w;
+JudgedWall good_wall(double yaw = 0.02, double sigma = 0.001) {
+  JudgedWall w;
   w.fit.found = true;
   w.yaw_rad = yaw;
   w.yaw_sigma_rad = sigma;
@@ -42,7 +43,7 @@ WallResult good_wall(double yaw = 0.02, double sigma = 0.001) {
 struct Scene {
   FloorResult floor = good_floor();
   Levelling levelling;
-  WallResult walls[2] = {good_wall(), good_wall()};
+  JudgedWall walls[2] = {good_wall(), good_wall()};
   Settings settings = test::settings_with({{"range_bias_max", "0.03"}, {"protection_factor", "5"}});
 
   Measurements measured() const { return measure_quantities(floor, levelling, walls, settings); }
@@ -88,7 +89,7 @@ TEST(Quality, RefusedFitsMeasureNothingAndSayWhy) {
 
 TEST(Quality, WithoutWallsNoYawAndBothReasons) {
   Scene scene;
-  for (WallResult& w : scene.walls) w.fit.refused = true;
+  for (JudgedWall& w : scene.walls) w.fit.refused = true;
   scene.walls[0].fit.reasons = POSE_WALL_R_WALL_SHORT;
   scene.walls[1].fit.reasons = POSE_WALL_R_WALL_NOT_FOUND;
   const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
@@ -140,7 +141,7 @@ TEST(Quality, WallsFurtherApartAreNeverKnownBetter) {
       for (double apart = 0.0; apart < 0.03; apart += 0.0001) {
         Scene scene;
         scene.walls[1] = good_wall(scene.walls[0].yaw_rad + apart, second_sigma);
-        for (WallResult& wall : scene.walls) wall.dof_slope = dof;
+        for (JudgedWall& wall : scene.walls) wall.dof_slope = dof;
         const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
         EXPECT_GE(yaw.protection.sum(), last.protection.sum()) << apart << " " << second_sigma << " " << dof;
         EXPECT_GE(yaw.sigma, last.sigma) << apart << " " << second_sigma << " " << dof;
@@ -155,7 +156,7 @@ TEST(Quality, WallsThatDifferWidenTheLevelToReachEither) {
   scene.walls[0].yaw_rad = 0.00;
   scene.walls[1].yaw_rad = 0.06;
   const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
-  for (const WallResult& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.protection.sum());
+  for (const JudgedWall& w : scene.walls) EXPECT_LE(std::fabs(yaw.raw - w.yaw_rad), yaw.protection.sum());
 }
 
 // The weaker wall's rival as well: where the road bends ahead, both walls are those behind the bend.
@@ -225,14 +226,14 @@ TEST(Quality, BeyondTheAlertLimitIsSaid) {
 }
 
 TEST(Quality, ASideFullOfNearReturnsIsRefused) {
-  WallResult walls[2] = {good_wall(), good_wall()};
+  JudgedWall walls[2] = {good_wall(), good_wall()};
   IngestCounts counts;
   counts.points_in = 10000;
   counts.near_by_quadrant[kLeft] = 2000;
   counts.kept_by_quadrant[kLeft] = 500;
   counts.near_by_quadrant[kRight] = 100;  // housing, a hand: not what blocks a side
   counts.kept_by_quadrant[kRight] = 50;
-  refuse_blocked_sides(counts, &walls);
+  refuse_blocked_sides(counts, Scene().settings, &walls);
   EXPECT_TRUE(walls[0].fit.refused);
   EXPECT_NE(walls[0].fit.reasons & POSE_WALL_R_WALL_TOO_NEAR, 0U);
   EXPECT_FALSE(walls[1].fit.refused);

@@ -38,7 +38,7 @@ pose_wall_odometry place(double x_m, double y_m, double yaw_rad, double roll_rad
 struct Road {
   FloorResult floor;
   Levelling levelling;
-  WallResult walls[2];
+  JudgedWall walls[2];
   Measurements measured;
 
   Road() {

@@ -102,14 +102,17 @@ WallChoice chosen_of(double score_m2, const WallCandidate* left) {
   return choice;
 }
 
+const Settings kSettings = test::settings_with({});
+
 TEST(WallsAcross, InARoadNothingNeedBeLookedFor) {
   BandFixture band;
   band.add_wall(2.5, {-20.0, 20.0, 0.3, 2.4});
   band.add_wall(-2.5, {-20.0, 20.0, 0.3, 2.4});
   band.add_face(20.0, -2.5, 2.5);
   const WallCandidate wall;
-  EXPECT_FALSE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(2.0 * 40.0 * 2.1, &wall)));
-  EXPECT_TRUE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(10.0, &wall)))
+  EXPECT_FALSE(
+      may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(2.0 * 40.0 * 2.1, &wall), kSettings));
+  EXPECT_TRUE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(10.0, &wall), kSettings))
       << "short walls may be faces";
 }
 
@@ -120,23 +123,23 @@ TEST(WallsAcross, AcrossARoadItIs) {
   band.add_face(2.5, -12.0, 12.0);
   band.add_face(-2.5, -12.0, 12.0);
   const WallCandidate wall;
-  EXPECT_TRUE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(2.0 * 4.0 * 2.1, &wall)));
+  EXPECT_TRUE(may_stand_across(2.0 * most_area_across_m2(band.scene()), chosen_of(2.0 * 4.0 * 2.1, &wall), kSettings));
 }
 
 TEST(WallsAcross, WhatIsAheadAndTheMostBehindMayBeTooLittle) {
   const WallCandidate wall;
-  EXPECT_TRUE(may_stand_across(10.0 + 31.0, chosen_of(40.0, &wall)));
-  EXPECT_FALSE(may_stand_across(10.0 + 30.0, chosen_of(40.0, &wall))) << "as much is no better";
+  EXPECT_TRUE(may_stand_across(10.0 + 31.0, chosen_of(40.0, &wall), kSettings));
+  EXPECT_FALSE(may_stand_across(10.0 + 30.0, chosen_of(40.0, &wall), kSettings)) << "as much is no better";
 }
 
 // Directions from behind may show something ahead where its own draws have found nothing.
 TEST(WallsAcross, BehindIsDrawnWhereItMightTellOfMoreAhead) {
   const WallCandidate wall;
   const WallChoice choice = chosen_of(40.0, &wall);
-  EXPECT_FALSE(is_behind_to_be_drawn(10.0, 23.9, choice));
-  EXPECT_TRUE(is_behind_to_be_drawn(10.0, 24.1, choice));
-  EXPECT_FALSE(is_behind_to_be_drawn(0.0, 33.9, choice));
-  EXPECT_TRUE(is_behind_to_be_drawn(0.0, 34.1, choice));
+  EXPECT_FALSE(is_behind_to_be_drawn(10.0, 23.9, choice, kSettings));
+  EXPECT_TRUE(is_behind_to_be_drawn(10.0, 24.1, choice, kSettings));
+  EXPECT_FALSE(is_behind_to_be_drawn(0.0, 33.9, choice, kSettings));
+  EXPECT_TRUE(is_behind_to_be_drawn(0.0, 34.1, choice, kSettings));
 }
 
 std::uint32_t reasons_between(bool face_behind) {
@@ -158,7 +161,7 @@ TEST(WallsAcross, WhatIsBehindIsWeighedWhereItMayTellWithWhatIsAhead) {
 }
 
 TEST(WallsAcross, WhereNothingIsChosenWhatStandsAcrossMayTellWhy) {
-  EXPECT_TRUE(may_stand_across(0.0, WallChoice{}));
+  EXPECT_TRUE(may_stand_across(0.0, WallChoice{}, kSettings));
 }
 
 TEST(WallsAcross, WhatMayTurnFurtherCrossesTheRoadOnMoreOfItsLength) {

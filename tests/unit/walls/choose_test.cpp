@@ -21,7 +21,7 @@ WallCandidate candidate(double azimuth_rad, double d, double score_m2, std::uint
   c.plane.d = d;
   c.evidence.score_m2 = c.evidence.area_m2 = score_m2;
   c.evidence.length_m = 12.0;
-  c.faults = faults;
+  c.failed = faults;
   return c;
 }
 
@@ -56,7 +56,7 @@ TEST(WallSelect, TheParallelPairWins) {
   const WallChoice chosen = c.choose();
   EXPECT_EQ(chosen.side[0], &c.left.item[0]) << "not the larger one that is not parallel";
   EXPECT_EQ(chosen.side[1], &c.right.item[0]);
-  EXPECT_FALSE(chosen.refused[0] || chosen.refused[1]);
+  EXPECT_FALSE(chosen.verdict[0].refused || chosen.verdict[1].refused);
 }
 
 TEST(WallSelect, FaultyOnesAreNeverChosenAndSayWhy) {
@@ -65,8 +65,8 @@ TEST(WallSelect, FaultyOnesAreNeverChosenAndSayWhy) {
   c.right = list({right_wall(2.5, 20.0)});
   const WallChoice chosen = c.choose();
   EXPECT_EQ(chosen.side[0], nullptr);
-  EXPECT_TRUE(chosen.refused[0]);
-  EXPECT_NE(chosen.reasons[0] & POSE_WALL_R_WALL_SEEN_THROUGH, 0U);
+  EXPECT_TRUE(chosen.verdict[0].refused);
+  EXPECT_NE(chosen.verdict[0].reasons & POSE_WALL_R_WALL_SEEN_THROUGH, 0U);
   EXPECT_EQ(chosen.side[1], &c.right.item[0]);
 }
 
@@ -75,9 +75,9 @@ TEST(WallSelect, TwoThatAreNotParallelCastDoubtOnEachOther) {
   c.left = list({left_wall(2.5, 20.0)});
   c.right = list({right_wall(2.5, 18.0, 0.6)});
   const WallChoice chosen = c.choose();
-  EXPECT_TRUE(chosen.refused[0] && chosen.refused[1]);
-  EXPECT_NE(chosen.reasons[0] & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
-  EXPECT_NE(chosen.reasons[1] & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
+  EXPECT_TRUE(chosen.verdict[0].refused && chosen.verdict[1].refused);
+  EXPECT_NE(chosen.verdict[0].reasons & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
+  EXPECT_NE(chosen.verdict[1].reasons & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
 }
 
 TEST(WallSelect, AMuchWeakerOneCastsNoDoubt) {
@@ -86,8 +86,8 @@ TEST(WallSelect, AMuchWeakerOneCastsNoDoubt) {
   c.right = list({right_wall(2.5, 2.0, 0.6)});
   const WallChoice chosen = c.choose();
   EXPECT_EQ(chosen.side[0], &c.left.item[0]);
-  EXPECT_FALSE(chosen.refused[0]);
-  EXPECT_TRUE(chosen.refused[1]);
+  EXPECT_FALSE(chosen.verdict[0].refused);
+  EXPECT_TRUE(chosen.verdict[1].refused);
 }
 
 // A strong wall on either side, apart by an angle, and beside one of them a weak plane that is parallel to the other.
@@ -121,8 +121,8 @@ TEST(WallSelect, AWeakParallelPlaneMakesNoRoadOfTwoStrongWallsApart) {
       SCOPED_TRACE(::testing::Message() << side << " " << apart_rad);
       EXPECT_EQ(chosen.side[0], nullptr);
       EXPECT_EQ(chosen.side[1], nullptr);
-      EXPECT_TRUE(chosen.refused[0] && chosen.refused[1]);
-      EXPECT_NE(chosen.reasons[0] & chosen.reasons[1] & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
+      EXPECT_TRUE(chosen.verdict[0].refused && chosen.verdict[1].refused);
+      EXPECT_NE(chosen.verdict[0].reasons & chosen.verdict[1].reasons & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
     }
   }
 }
@@ -139,7 +139,7 @@ TEST(WallSelect, WhatIsShortOrWeakOrFarFromParallelContestsNoPair) {
     for (int side = 0; side < 2; ++side) {
       const WallCandidates& on_side = side == 0 ? road.left : road.right;
       EXPECT_EQ(chosen.side[side], &on_side.item[on_side.count - 1]) << &road - harmless << ", the parallel one";
-      EXPECT_FALSE(chosen.refused[side]) << &road - harmless;
+      EXPECT_FALSE(chosen.verdict[side].refused) << &road - harmless;
     }
   }
 }
@@ -151,21 +151,21 @@ TEST(WallSelect, ABetterRoadwayAcrossRefusesBoth) {
   c.ahead = list({candidate(M_PI, 2.0, 30.0)});
   c.behind = list({candidate(0.0, 2.0, 30.0)});
   const WallChoice chosen = c.choose();
-  EXPECT_TRUE(chosen.refused[0] && chosen.refused[1]);
-  EXPECT_NE(chosen.reasons[0] & POSE_WALL_R_CROSS_ROAD, 0U);
+  EXPECT_TRUE(chosen.verdict[0].refused && chosen.verdict[1].refused);
+  EXPECT_NE(chosen.verdict[0].reasons & POSE_WALL_R_CROSS_ROAD, 0U);
 }
 
 TEST(WallSelect, APairAcrossTellsWhyNothingStandsBeside) {
   Choice c;
   c.ahead = list({candidate(M_PI, 2.0, 30.0)});
   const WallChoice by_one = c.choose();
-  EXPECT_EQ((by_one.reasons[0] | by_one.reasons[1]) & POSE_WALL_R_CROSS_ROAD, 0U);
+  EXPECT_EQ((by_one.verdict[0].reasons | by_one.verdict[1].reasons) & POSE_WALL_R_CROSS_ROAD, 0U);
   c.behind = list({candidate(0.0, 2.0, 30.0)});
   const WallChoice by_two = c.choose();
   for (int side = 0; side < 2; ++side) {
-    EXPECT_TRUE(by_two.refused[side]);
-    EXPECT_NE(by_two.reasons[side] & POSE_WALL_R_WALL_NOT_FOUND, 0U);
-    EXPECT_NE(by_two.reasons[side] & POSE_WALL_R_CROSS_ROAD, 0U);
+    EXPECT_TRUE(by_two.verdict[side].refused);
+    EXPECT_NE(by_two.verdict[side].reasons & POSE_WALL_R_WALL_NOT_FOUND, 0U);
+    EXPECT_NE(by_two.verdict[side].reasons & POSE_WALL_R_CROSS_ROAD, 0U);
   }
 }
 
@@ -175,7 +175,7 @@ TEST(WallSelect, AFaceAloneRefusesNoPair) {
   c.right = list({right_wall(2.5, 15.0)});
   c.ahead = list({candidate(M_PI, 4.0, 40.0)});
   const WallChoice chosen = c.choose();
-  EXPECT_FALSE(chosen.refused[0] || chosen.refused[1]);
+  EXPECT_FALSE(chosen.verdict[0].refused || chosen.verdict[1].refused);
 }
 
 TEST(WallSelect, ARivalNearlyAsGoodIsNamed) {
@@ -238,8 +238,8 @@ TEST(WallSelect, NothingAnywhere) {
   const WallChoice chosen = Choice().choose();
   for (int side = 0; side < 2; ++side) {
     EXPECT_EQ(chosen.side[side], nullptr);
-    EXPECT_TRUE(chosen.refused[side]);
-    EXPECT_NE(chosen.reasons[side] & POSE_WALL_R_WALL_NOT_FOUND, 0U);
+    EXPECT_TRUE(chosen.verdict[side].refused);
+    EXPECT_NE(chosen.verdict[side].reasons & POSE_WALL_R_WALL_NOT_FOUND, 0U);
   }
 }
 

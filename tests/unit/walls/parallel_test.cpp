@@ -14,8 +14,8 @@
 namespace pose_wall {
 namespace {
 
-WallResult wall(bool is_left, double yaw, double sigma) {
-  WallResult w;
+JudgedWall wall(bool is_left, double yaw, double sigma) {
+  JudgedWall w;
   w.fit.found = true;
   const double s = is_left ? 1.0 : -1.0;
   w.fit.plane.n = Eigen::Vector3d(s * std::sin(yaw), -s * std::cos(yaw), 0.0);
@@ -29,14 +29,14 @@ WallResult wall(bool is_left, double yaw, double sigma) {
   return w;
 }
 
-double yaw_of_plane(const WallResult& w) {
+double yaw_of_plane(const JudgedWall& w) {
   return yaw_of(along_of(w.fit.plane, Eigen::Vector3d::UnitX()), Eigen::Vector3d::UnitX());
 }
 
 TEST(WallsParallel, NearlyParallelWallsShareOneDirectionAndPayForIt) {
   test::BandFixture band;
-  WallResult walls[2] = {wall(true, 0.010, 0.002), wall(false, 0.000, 0.002)};
-  const WallResult before[2] = {walls[0], walls[1]};
+  JudgedWall walls[2] = {wall(true, 0.010, 0.002), wall(false, 0.000, 0.002)};
+  const JudgedWall before[2] = {walls[0], walls[1]};
   share_direction(band.scene(), &walls);
   EXPECT_NEAR(yaw_of_plane(walls[0]), 0.005, 1e-9);
   EXPECT_NEAR(yaw_of_plane(walls[1]), 0.005, 1e-9);
@@ -53,7 +53,7 @@ TEST(WallsParallel, NearlyParallelWallsShareOneDirectionAndPayForIt) {
 
 TEST(WallsParallel, TheBetterWallMovesLess) {
   test::BandFixture band;
-  WallResult walls[2] = {wall(true, 0.010, 0.001), wall(false, 0.000, 0.010)};
+  JudgedWall walls[2] = {wall(true, 0.010, 0.001), wall(false, 0.000, 0.010)};
   share_direction(band.scene(), &walls);
   EXPECT_GT(yaw_of_plane(walls[0]), 0.0075);
   EXPECT_NEAR(yaw_of_plane(walls[0]), yaw_of_plane(walls[1]), 1e-9);
@@ -63,7 +63,7 @@ TEST(WallsParallel, SplayedDoubtfulAndRefusedWallsAreLeftAlone) {
   for (int which = 0; which < 4; ++which) {
     test::BandFixture band;
     if (which == 3) band.settings().wall_parallel_within_deg = 0.0;
-    WallResult walls[2] = {wall(true, which == 0 ? 0.06 : 0.010, 0.002), wall(false, 0.0, 0.002)};
+    JudgedWall walls[2] = {wall(true, which == 0 ? 0.06 : 0.010, 0.002), wall(false, 0.0, 0.002)};
     if (which == 1) walls[1].fit.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
     if (which == 2) walls[1].fit.refused = true;
     const double before = walls[0].distance_m[0];

@@ -30,8 +30,8 @@ TEST(WallScene, FollowsTheSpecificationForAllAxesAndTilts) {
     level.R_level_base = level_rotation(Eigen::Vector3d(0.1, -0.2, 1.0).normalized());
     level.floor_z_level_m = -1.3;
     const Axes machine{forward, left};
-    const WallScene s =
-        wall_scene(none.set(), none.set(), none.set(), *no_returns, settings, level, machine, extrinsic);
+    const WallScene s = wall_scene({none.set(), none.set(), none.set(), *no_returns, IngestCounts{}}, settings, level,
+                                   machine, extrinsic);
     EXPECT_LT((s.sensor_level_m - level.R_level_base * extrinsic.sensor_base_m).norm(), 1e-12);
     EXPECT_EQ(s.forward_level.z(), 0.0);
     EXPECT_NEAR(s.forward_level.norm(), 1.0, 1e-12);

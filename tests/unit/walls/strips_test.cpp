@@ -12,6 +12,7 @@
 #include "support/ray_scene.hpp"
 #include "support/rock.hpp"
 #include "walls/fit/surface.hpp"
+#include "walls/propose/candidates.hpp"
 #include "walls/sample/measure.hpp"
 
 namespace pose_wall {
@@ -86,7 +87,7 @@ Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed, boo
   Plane start{Eigen::Vector3d(std::sin(0.009), -std::cos(0.009), 0.0), kWall_m - 0.5 * strips.depth_m};
   for (const RefineWidth width : {RefineWidth::kWide, RefineWidth::kNarrow}) {
     if (!refine_hypothesis(scene.band_level, scene.settings.wall_ransac_thresh, Eigen::Vector3d::UnitX(), width,
-                           scratch.get(), &start))
+                           scratch->near, &scratch->points.at, &start))
       return {};
   }
   const WallSurface surface = fit_surface(scene, start, grid.get(), scratch.get());

@@ -21,7 +21,7 @@ using test::kLongWall;
 // 160 x 21 points of 1 cm on each wall, voxels not involved: offset 0.2 mm, direction 0.05 mrad. Ten times that.
 constexpr double kDistance_m = 0.002, kYaw_rad = 0.0005;
 
-bool is_good(const WallResult& wall) {
+bool is_good(const JudgedWall& wall) {
   return wall.fit.found && !wall.fit.refused;
 }
 
@@ -36,7 +36,7 @@ TEST(Walls, BothSidesOfAStraightRoad) {
     EXPECT_NEAR(r.side[1].distance_m[end], 2.0, kDistance_m);
     EXPECT_FALSE(r.side[0].extrapolated[end]);
   }
-  for (const WallResult& wall : r.side) {
+  for (const JudgedWall& wall : r.side) {
     EXPECT_NEAR(wall.yaw_rad, 0.0, kYaw_rad);
     EXPECT_NEAR(wall.lean_rad, 0.0, 0.005);
     EXPECT_NEAR(wall.along_min_m, -8.0, 0.6);
@@ -106,7 +106,7 @@ TEST(Walls, AWallThatLeansTooMuchIsRefused) {
 
 TEST(Walls, NoPointsNoWalls) {
   BandFixture band;
-  for (const WallResult& wall : band.walls().side) {
+  for (const JudgedWall& wall : band.walls().side) {
     EXPECT_FALSE(is_good(wall));
     EXPECT_TRUE(wall.fit.refused);
     EXPECT_NE(wall.fit.reasons & POSE_WALL_R_WALL_NOT_FOUND, 0U);
@@ -127,13 +127,13 @@ TEST(Walls, AFaceAheadIsNoSide) {
 TEST(Walls, OnlyAFaceMakesNoWallsAtAll) {
   BandFixture band;
   band.add_face(3.0, -6.0, 6.0);
-  for (const WallResult& wall : band.walls().side) EXPECT_FALSE(is_good(wall));
+  for (const JudgedWall& wall : band.walls().side) EXPECT_FALSE(is_good(wall));
 }
 
 TEST(Walls, AShortPatchIsRefused) {
   BandFixture band;
   band.add_wall(2.5, {-0.5, 0.5, 0.3, 2.4});
-  const WallResult left = band.walls().side[0];
+  const JudgedWall left = band.walls().side[0];
   EXPECT_TRUE(left.fit.refused);
   EXPECT_NE(left.fit.reasons, 0U);
 }
@@ -141,7 +141,7 @@ TEST(Walls, AShortPatchIsRefused) {
 TEST(Walls, FewPointsAreRefused) {
   BandFixture band({{"wall_inlier_min", "50000"}});
   band.add_wall(2.5, kLongWall);
-  const WallResult left = band.walls().side[0];
+  const JudgedWall left = band.walls().side[0];
   EXPECT_TRUE(left.fit.refused);
   EXPECT_NE(left.fit.reasons & POSE_WALL_R_WALL_FEW_INLIERS, 0U);
 }
@@ -161,7 +161,7 @@ TEST(Walls, ARailInFrontIsNotTheWall) {
   band.add_wall(-2.5, kLongWall);
   // A pipe as a strip of two decimetres, half a metre before the left wall, with the wall seen over and under it.
   for (int copy = 0; copy < 4; ++copy) band.add_wall(2.0, {-8.0, 8.0, 1.0, 1.2});
-  const WallResult left = band.walls().side[0];
+  const JudgedWall left = band.walls().side[0];
   if (is_good(left)) {
     EXPECT_NEAR(left.distance_m[0], 2.5, left.distance_bound_m[0].sum() + 0.02);
   }
@@ -371,7 +371,7 @@ TEST(Walls, WorkIsBoundedByTheConfig) {
   band.add_wall(2.5, kLongWall);
   band.add_wall(-2.5, kLongWall);
   // Draws, the last frame's plane and a few offsets of the other side's direction.
-  for (const WallResult& wall : band.walls().side) EXPECT_LE(wall.fit.iterations, 60U + 16U);
+  for (const JudgedWall& wall : band.walls().side) EXPECT_LE(wall.fit.iterations, 60U + 16U);
 }
 
 }  // namespace

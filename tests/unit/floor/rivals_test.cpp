@@ -6,7 +6,7 @@
 // table as long as the road is told of as well. What lies beside a floor that is seen to all sides, a ramp or heap
 // further on, costs nothing. Does not prove what share of a floor must be seen: next to nothing of it is too little.
 
-#include "floor/beside.hpp"
+#include "floor/rivals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -120,8 +120,7 @@ struct TwoPlanes {
     FloorResult floor;
     floor.fit.plane = {Eigen::Vector3d::UnitZ(), test::kFloorBelow_m};
     Random random(1);
-    reach_to_floors_beside(points, g->settings(), {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()},
-                           Eigen::Vector3d::Zero(), &random, scratch.get(), &floor);
+    reach_to_floors_beside(g->scene(), &random, scratch.get(), &floor);
     return floor;
   }
 };
@@ -145,8 +144,7 @@ TEST(FloorBeside, ARoofThatTheProlongedPlaneMeetsIsNoFloor) {
     const Eigen::Vector3d n = Eigen::Vector3d(-kSlope, 0.0, 1.0).normalized();
     floor.fit.plane = {n, -n.dot(Eigen::Vector3d(2.0, 0.0, -test::kFloorBelow_m))};
     Random random(1);
-    reach_to_floors_beside(points, g.settings(), {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()},
-                           Eigen::Vector3d::Zero(), &random, scratch.get(), &floor);
+    reach_to_floors_beside(g.scene(), &random, scratch.get(), &floor);
     EXPECT_TRUE(is_ambiguous(floor)) << (has_roof ? "below a roof" : "without");
   }
 }

@@ -4,7 +4,7 @@
 // Proves: hypotheses for the floor lie below the sensor by an allowed height and tilt, lead with the floor, differ from
 // each other and are bounded in number.
 
-#include "floor/search.hpp"
+#include "floor/candidates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,10 +53,8 @@ TEST(FloorSearch, TheFloorLeadsAndTheWorkIsBounded) {
   for (std::uint32_t i = 0; i < g.points().set().count; ++i) {
     if (g.points().set().z[i] < -1.0F) low.push_back(i);
   }
-  const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-  const FloorDraw in{g.points().set(), Span<const std::uint32_t>(low.data(), static_cast<std::uint32_t>(low.size())),
-                     sensor, nullptr};
-  const std::uint32_t scored = search_floor(in, g.settings(), &random, subset.get(), &list);
+  const FloorDraw in{g.points().set(), Span<const std::uint32_t>(low.data(), static_cast<std::uint32_t>(low.size()))};
+  const std::uint32_t scored = search_floor(g.scene(), in, &random, subset.get(), &list);
   EXPECT_LE(scored, 100U);
   ASSERT_GT(list.count(), 0U);
   EXPECT_NEAR(list[0].plane.d, test::kFloorBelow_m, 0.05);
@@ -72,9 +70,8 @@ TEST(FloorSearch, TooFewLowPointsGiveNothing) {
   test::Placed<PointSet> subset(kFloorSubset);
   FloorShortlist list;
   Random random(1);
-  const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-  const FloorDraw in{g.points().set(), {}, sensor, nullptr};
-  EXPECT_EQ(search_floor(in, g.settings(), &random, subset.get(), &list), 0U);
+  const FloorDraw in{g.points().set(), {}};
+  EXPECT_EQ(search_floor(g.scene(), in, &random, subset.get(), &list), 0U);
   EXPECT_EQ(list.count(), 0U);
 }
 

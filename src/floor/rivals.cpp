@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "floor/beside.hpp"
+#include "floor/rivals.hpp"
 
 #include <cmath>
 
@@ -9,10 +9,28 @@
 #include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
 #include "base/math/rotation.hpp"
-#include "floor/notes.hpp"
+#include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
+
+// A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
+constexpr double kSmallArea_m2 = 5.0;
+// Through a floor of this size only reflections are seen.
+constexpr double kSureArea_m2 = 10.0;
+constexpr double kSteep_rad = 0.17;  // 10 degrees; a radius takes in part of a flank, which lies at 30 to 40
+
+// Planes that lie alike say the same of roll and pitch, whichever of them is the floor.
+bool lie_alike(const Plane& a, const Plane& b) {
+  constexpr double kAlike_rad = 0.0175;  // 1 degree
+  return a.n.cross(b.n).squaredNorm() <= kAlike_rad * kAlike_rad;
+}
+
+// A machine stands about upright: where the best plane does not lie so, weaker ones may be the floor as well.
+bool is_weaker(double share, const Plane& floor, const Settings& s) {
+  return tilt_of_up(floor.n) > kSteep_rad ? passes<gate::FLOOR_RIVAL_STEEP>(share, s)
+                                          : passes<gate::FLOOR_RIVAL>(share, s);
+}
 
 constexpr double kOffInThresholds = 3.0;
 constexpr double kOneSide = 0.8;  // of the points
@@ -112,9 +130,55 @@ bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, 
 
 }  // namespace
 
-void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, const Axes& axes,
-                            const Eigen::Vector3d& sensor_base_m, Random* random, FloorScratch* scratch,
-                            FloorResult* floor) {
+// Where the floor itself is small, what is seen through it may be no reflection but the floor.
+void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> candidates, const Settings& s,
+                     FloorResult* floor) {
+  const RollPitch a = roll_pitch_of_up(best.plane.n);
+  double roll = 0.0, pitch = 0.0;
+  for (const FloorCandidate& rival : candidates) {
+    if (&rival == &best || (rival.ghost && best.evidence.area_m2 >= kSureArea_m2)) continue;
+    const double share = rival.evidence.score_m2 / best.evidence.score_m2;
+    if (is_weaker(share, best.plane, s)) continue;
+    POSE_WALL_NOTE(trace::fate(rival.plane, POSE_WALL_TRACE_RIVAL));
+    const RollPitch b = roll_pitch_of_up(rival.plane.n);
+    roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad));
+    pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
+    floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+    const bool may_be_alone = best.evidence.area_m2 >= kSmallArea_m2 || rival.ghost;
+    if (!may_be_alone && !lie_alike(best.plane, rival.plane)) demand<gate::FLOOR_ALONE>(&floor->fit, share, s);
+  }
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += roll;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += pitch;
+}
+
+// Within another radius the floor looks otherwise: the levels reach to that too, and beyond, for the other is not the
+// truth either. A wider look that was refused may yet have found the truth, or taken it for a rival.
+void reach_to_other_look(const FloorResult& other, const Settings& s, FloorResult* floor) {
+  constexpr double kBeyond = 1.5;
+  const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= limit_of<gate::FLOOR_AREA>(s);
+  if (other.fit.refused && !wider_look) return;
+  const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
+  const Protections known = protections_of(*floor, s);
+  // What was refused has no level of its own, but its bound tells of its rivals.
+  const auto of_rivals = [&](const ProtectionParts& bound) { return other.fit.refused ? bound.sum() : 0.0; };
+  const double roll = kBeyond * std::fabs(a.roll_rad - b.roll_rad) + of_rivals(other.roll_bound_rad);
+  const double pitch = kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + of_rivals(other.pitch_bound_rad);
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, roll - known.roll_rad);
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, pitch - known.pitch_rad);
+}
+
+void widen_by_claims(std::uint32_t claims, const Settings& s, FloorResult* floor) {
+  constexpr double kPerOtherClaim = 1.0 / 16.0;
+  if (floor->fit.refused) return;
+  const double curse = kPerOtherClaim * static_cast<double>(claims - 1);
+  const Protections known = protections_of(*floor, s);
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.roll_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.pitch_rad;
+}
+
+void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratch* scratch, FloorResult* floor) {
+  const Settings& s = scene.settings;
+  const Eigen::Vector3d& sensor_base_m = scene.sensor_base_m;
   const PointSet &open = scratch->open_base, &left_over = scratch->within_base;
   const Plane plane = floor->fit.plane;
   scratch->work.add(open.count, steps::kPointWithin);
@@ -124,26 +188,48 @@ void reach_to_floors_beside(const BoundedPoints& cloud_base, const Settings& s, 
   if (left_over.count < kPointsMin) return;
   FloorCandidates found;
   POSE_WALL_NOTE(trace::attempt(POSE_WALL_TRACE_ATTEMPTS_MAX));  // of none of the radii
-  find_candidates({left_over, cloud_base, sensor_base_m, nullptr, true}, s, axes, random, scratch, &found);
+  const FloorScene without_last{scene.cloud_base, s, scene.axes, sensor_base_m, nullptr};
+  find_candidates(without_last, left_over, Among::kLeftOver, random, scratch, &found);
   POSE_WALL_NOTE(trace::attempt(0));
   scratch->grid.mark(open, plane, s.ground_ransac_thresh);
   const RollPitch a = roll_pitch_of_up(plane.n);
   for (const FloorCandidate& other : found.all()) {
     if (scratch->work.is_spent()) return;
     scratch->work.add(open.count, steps::kPointWeighed);
-    if (other.ghost || is_reflection(open, plane, other.plane, s, sensor_base_m, scratch->grid)) continue;
+    if (other.ghost || is_reflection(scene, open, plane, other.plane, scratch->grid)) continue;
     if (!may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;
     const RollPitch b = roll_pitch_of_up(other.plane.n);
-    POSE_WALL_NOTE(trace::gate(POSE_WALL_TRACE_FLOOR_BESIDE,
-                               larger(std::fabs(a.roll_rad - b.roll_rad), std::fabs(a.pitch_rad - b.pitch_rad)), 0.0,
-                               false));
+    const double roll_rad = a.roll_rad - b.roll_rad, pitch_rad = a.pitch_rad - b.pitch_rad;
+    if (demand<gate::FLOOR_BESIDE>(&floor->fit, larger(std::fabs(roll_rad), std::fabs(pitch_rad)), s)) continue;
     const auto reach_to = [](double apart_rad, ProtectionParts* bound_rad) {
       bound_rad->reach(kStretch * std::fabs(apart_rad) + kMargin_rad, POSE_WALL_PART_RIVAL);
     };
-    reach_to(a.roll_rad - b.roll_rad, &floor->roll_bound_rad);
-    reach_to(a.pitch_rad - b.pitch_rad, &floor->pitch_bound_rad);
-    floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+    reach_to(roll_rad, &floor->roll_bound_rad);
+    reach_to(pitch_rad, &floor->pitch_bound_rad);
   }
+}
+
+// The machine stands on its floor, and about upright. Where more than one plane may be that floor and this one is
+// steep, it may be a heap's flank as well, and so may its rivals: the levels reach to upright, of roll and of pitch, as
+// nothing tells which way the rivals lean.
+void reach_to_upright(FloorResult* floor) {
+  if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
+  const double tilt_rad = tilt_of_up(floor->fit.plane.n);
+  if (!(tilt_rad > kSteep_rad)) return;
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += tilt_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += tilt_rad;
+}
+
+FloorResult doubted_by_walls(const FloorResult& floor, const Eigen::Vector3d& tilt_level_rad, const Settings& s,
+                             const Levelling& levelling) {
+  FloorResult out = floor;
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));
+  if (demand<gate::FLOOR_BY_WALLS>(&out.fit, std::sqrt(tilt_level_rad.squaredNorm()), s)) return out;
+  // About base X a turn is roll, about base Y pitch.
+  const Eigen::Vector3d tilt_base_rad = levelling.R_level_base.transpose() * tilt_level_rad;
+  out.roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.x());
+  out.pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.y());
+  return out;
 }
 
 }  // namespace pose_wall

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the floor is looked for in, and what its stage works in.
+
+#pragma once
+
+#include "base/containers/arena.hpp"
+#include "base/containers/bounded_points.hpp"
+#include "base/containers/work.hpp"
+#include "base/estimation/patch_fit.hpp"
+#include "base/estimation/surface_patches.hpp"
+#include "base/estimation/tangent_points.hpp"
+#include "base/estimation/uneven_plane.hpp"
+#include "config.hpp"
+#include "floor/evidence.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+struct FloorScene {
+  const BoundedPoints& cloud_base;
+  const Settings& settings;
+  const Axes& axes;
+  Eigen::Vector3d sensor_base_m;
+  const Plane* last_floor;  // the last frame's, or nullptr: scored like any other hypothesis
+};
+
+// Points of a fit: a floor known to 0.01 degrees needs no more, and time goes with them.
+constexpr std::uint32_t kFloorFitPoints = 8192;
+// Points that hypotheses are first scored on.
+constexpr std::uint32_t kFloorSubset = 512;
+
+struct FloorScratch {
+  PointSet open_base;    // points with nothing standing on them, within the greatest radius
+  PointSet within_base;  // of those, within the radius that is tried
+  // Where each point lies, until it is known which are open; then which of those within are the lowest part, then which
+  // of the open ones a fit takes.
+  Span<std::uint32_t> low;
+  TangentPoints points;  // of these, as many as a fit takes
+  PointSet subset;
+  FloorGrid grid;
+  PatchGrid patches;
+  SurfacePatches surface;
+  UnevenPlane uneven;
+  Work work;
+
+  void lay_out(Arena& arena, std::uint32_t points_max) {
+    open_base.lay_out(arena, points_max);
+    within_base.lay_out(arena, points_max);
+    low = arena.take<std::uint32_t>(points_max + kFour);
+    points.lay_out(arena, kFloorFitPoints);
+    subset.lay_out(arena, kFloorSubset);
+    grid.lay_out(arena);
+    patches.lay_out(arena);
+    surface.lay_out(arena);
+    uneven.lay_out(arena);
+  }
+};
+
+}  // namespace pose_wall

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// A gate holds a value against a limit. gates.def is the table of all; the rules ask them here, and one call both
+// judges and, in the traced library, notes. In the engine that is delivered a gate is the bare comparison.
+
+#pragma once
+
+#include <cmath>
+
+#include "base/containers/work.hpp"
+#include "base/math/elementary.hpp"
+#include "config.hpp"
+#include "trace/trace.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+namespace gate {
+
+enum Id : std::uint32_t {
+#define GATE(id, ...) id,
+#include "gates/gates.def"
+#undef GATE
+  kCount
+};
+enum Sense { AT_LEAST, AT_MOST, BELOW, IS_SO };
+enum Effect { TELLS, DOUBTS, REFUSES };
+
+// A bend is told where it takes up this much of the alert limit: judgement, 2026-11-21.
+constexpr double kBendMatters = 0.2;
+
+// The rows as types: sense, effect, reasons and limit(settings). A limit that is left to the caller is no number here.
+template <Id id>
+struct Row;
+constexpr double BY_CALLER = -1.0;
+#define GATE(id, name, sense_, limit_, unit, key, effect_, reasons_, origin, asks)                  \
+  template <>                                                                                       \
+  struct Row<id> {                                                                                  \
+    static constexpr Sense sense = sense_;                                                          \
+    static constexpr Effect effect = effect_;                                                       \
+    static constexpr std::uint32_t reasons = reasons_;                                              \
+    static constexpr bool by_caller = #limit_[0] == 'B';                                            \
+    static double limit([[maybe_unused]] const Settings& s) { return static_cast<double>(limit_); } \
+  };
+#include "gates/gates.def"
+#undef GATE
+
+}  // namespace gate
+
+// What the gate holds its values against.
+template <gate::Id id>
+double limit_of(const Settings& s) {
+  static_assert(!gate::Row<id>::by_caller, "the caller knows this limit");
+  double limit = gate::Row<id>::limit(s);
+  POSE_WALL_NOTE(limit = trace::limit_or(id, limit));
+  return limit;
+}
+
+namespace gate {
+
+// NaN passes no gate.
+template <Id id>
+bool judge(double value, double limit) {
+  const bool at_most = Row<id>::sense == BELOW ? value < limit : value <= limit;
+  const bool passed = Row<id>::sense == AT_LEAST || Row<id>::sense == IS_SO ? value >= limit : at_most;
+  POSE_WALL_NOTE(trace::note_gate(id, value, limit, passed));
+  return passed;
+}
+
+}  // namespace gate
+
+// Whether the value passes. By the table's limit:
+template <gate::Id id>
+bool passes(double value, const Settings& s) {
+  return gate::judge<id>(value, limit_of<id>(s));
+}
+// By a limit that the caller knows:
+template <gate::Id id>
+bool passes(double value, double limit) {
+  static_assert(gate::Row<id>::by_caller, "gates.def has the limit");
+  POSE_WALL_NOTE(limit = trace::limit_or(id, limit));
+  return gate::judge<id>(value, limit);
+}
+// A bare yes or no:
+template <gate::Id id>
+bool passes(bool is_so) {
+  static_assert(gate::Row<id>::sense == gate::IS_SO, "this gate holds a number against a limit");
+  double limit = 1.0;
+  POSE_WALL_NOTE(limit = trace::limit_or(id, limit));
+  return gate::judge<id>(is_so ? 1.0 : 0.0, limit);
+}
+
+// The same, and where the value does not pass, the verdict gets the gate's reasons, and refuses where the gate does.
+template <gate::Id id, typename... Limit>
+bool demand(Verdict* verdict, const Limit&... value_and_limit) {
+  if (passes<id>(value_and_limit...)) return true;
+  verdict->reasons |= gate::Row<id>::reasons;
+  if (gate::Row<id>::effect == gate::REFUSES) verdict->refused = true;
+  return false;
+}
+
+// What a frame may cost (work_max): where it is spent, what was not finished is refused.
+inline bool demand_work_left(const Work& work, Verdict* verdict) {
+  return demand<gate::WORK>(verdict, static_cast<double>(work.done()), static_cast<double>(work.most()));
+}
+
+}  // namespace pose_wall

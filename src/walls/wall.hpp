@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// A wall on its way through the stage: WallCandidate (propose/) -> FittedWall -> JudgedWall.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "base/math/larger.hpp"
+#include "types.hpp"
+
+namespace pose_wall {
+
+// What the points of one side's wall say. u: metres along the road from the foot of the origin, v: metres up from the
+// origin's level.
+struct FittedWall {
+  PlaneFit fit;
+  Eigen::Vector3d along_level = Eigen::Vector3d::Zero();  // horizontal unit vector, towards the machine's front
+  double lean_rad = 0.0;
+  double yaw_rad = 0.0;  // by this wall alone
+  double yaw_sigma_rad = 0.0;
+  double yaw_bias_rad_per_m = 0.0;                          // signed response to a constant range error
+  ProtectionParts yaw_bound_rad;                            // misfit
+  Eigen::Vector3d pivot_level_m = Eigen::Vector3d::Zero();  // turning about here changes the fit least
+  double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
+  double distance_sigma_m[2] = {0.0, 0.0};
+  ProtectionParts distance_bound_m[2];
+  double layer_sigma_m = 0.0;  // what ribs and cables may have moved the surface, part of the standard deviations
+  bool extrapolated[2] = {false, false};
+  double dof = 1.0;        // independent pieces behind the distances' variance
+  double dof_slope = 1.0;  // and behind the direction's
+  double along_min_m = 0.0;
+  double along_max_m = 0.0;
+  double area_m2 = 0.0;
+  bool grooved = false;  // its surface lies in two depths along its length, like pipes one above the other
+};
+
+// What speaks against a wall, from one point of view. It widens the protection levels, or refuses the wall.
+struct Doubt : Verdict {
+  double distance_m[2] = {0.0, 0.0};  // at s_front, s_back: the wall may be so far off
+  double yaw_rad = 0.0;               // the direction may be so far off
+  double yaw_to_rival_rad = 0.0;      // or it is another one altogether
+};
+
+// The wall with all doubts in its bounds.
+struct JudgedWall : FittedWall {
+  double yaw_to_rival_rad = 0.0;  // where its rival is the wall, or the road bends before it
+
+  JudgedWall() = default;
+  explicit JudgedWall(const FittedWall& fitted) : FittedWall(fitted) {}
+
+  void add(const Doubt& doubt) {
+    fit.add(doubt);
+    for (int end = 0; end < 2; ++end) distance_bound_m[end][POSE_WALL_PART_RIVAL] += doubt.distance_m[end];
+    yaw_bound_rad[POSE_WALL_PART_RIVAL] += doubt.yaw_rad;
+    yaw_to_rival_rad = larger(yaw_to_rival_rad, doubt.yaw_to_rival_rad);
+  }
+};
+
+struct WallsResult {
+  JudgedWall side[2];  // left, right
+  // The turn by which the level may be off, by what the lean of both sides says; zero unless they are sure.
+  Eigen::Vector3d tilt_level_rad = Eigen::Vector3d::Zero();
+};
+
+}  // namespace pose_wall
