@@ -74,6 +74,7 @@ double read_field(const unsigned char* point, const pose_wall_field& field, bool
 }
 
 double time_unit_s(double spread) {
+  // What drivers write: s, ms, us, ns. A scan takes 10 ms to 1 s, so no two of them fit one cloud.
   constexpr double kUnits_s[] = {1.0, 1e-3, 1e-6, 1e-9};
   for (const double unit_s : kUnits_s) {
     const double scan_s = spread * unit_s;
@@ -96,7 +97,7 @@ bool is_plain_xyz32(const pose_wall_cloud& cloud) {
 }
 
 bool is_xyz32_in_a_row(const pose_wall_cloud& cloud) {
-  constexpr std::uint32_t kBytes = sizeof(float), kOfFour = 4 * kBytes;
+  constexpr std::uint32_t kBytes = sizeof(float), kOfFour = 4 * kBytes;  // one load reads x, y, z and what follows
   return is_plain_xyz32(cloud) && cloud.y.offset - cloud.x.offset == kBytes &&
          cloud.z.offset - cloud.y.offset == kBytes && cloud.point_step - cloud.x.offset >= kOfFour;
 }

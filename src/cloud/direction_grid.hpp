@@ -18,6 +18,8 @@ namespace pose_wall {
 // lidar frame, where a spinning sensor sees a row alike at every azimuth.
 class DirectionGrid {
  public:
+  // 2.8 degrees wide and, near the horizon, 1.8 high. Judgement, 2026-11-21: finer cells tell smaller gaps, coarser
+  // ones expect more returns each; a grid takes 16 KiB. A power of two each, for the masks below:
   static constexpr std::uint32_t kColumns = 128;
   static constexpr std::uint32_t kRows = 64;
 
@@ -32,7 +34,7 @@ class DirectionGrid {
   // Of four rays at once, finite ones; norm2: their squared lengths. Of rays shorter than 1e-19 it is some cell.
   static FourInts cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2);
   void add(std::uint32_t cell, std::uint32_t returns) {
-    constexpr std::uint32_t kCountMax = 0xFFFF;
+    constexpr std::uint32_t kCountMax = 0xFFFF;  // a counter of 16 bits stays full
     const std::uint32_t sum = counts_[cell] + returns;
     counts_[cell] = static_cast<std::uint16_t>(sum < kCountMax ? sum : kCountMax);
   }
@@ -79,6 +81,7 @@ inline std::uint32_t DirectionGrid::cell_of(const Eigen::Vector3d& ray) {
 }
 
 inline FourInts DirectionGrid::cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2) {
+  // The way around the square is 4 long, sines reach from -1 to 1.
   constexpr float kColumnsPerWay = kColumns / 4.0F, kRowsPerSine = kRows / 2.0F;
   const FourFloats none{};
   const FourFloats around = magnitude_of(x) + magnitude_of(y);

@@ -6,11 +6,13 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kGrowth = 1.26;  // about the cube root of 2
+constexpr double kGrowth = 1.26;  // about the cube root of 2: cells that fill space become half as many
 // What stands on a floor is told by what lies above it within 0.75 m, in two layers at least. Voxels too large for that
-// show the layers of their own lattice instead, wherever points fill the air, and these look like floors and walls.
+// show the layers of their own lattice instead, wherever points fill the air, and these look like floors and walls:
+// with half a metre, 131,000 points spread evenly over 40 x 40 x 5 m gave roll and pitch, degraded, at 0.1 degrees.
 constexpr double kMost_m = 0.26;
-// So many fewer voxels than when a smaller leaf was tried in vain, and it is tried again.
+// So many fewer voxels than when a smaller leaf was tried in vain, and it is tried again. Judgement, 2026-11-22: a try
+// costs one more pass over the cloud, waiting keeps the leaf one growth too large.
 constexpr double kFewer = 0.95;
 
 // By so many growths, or fewer where the largest is reached.

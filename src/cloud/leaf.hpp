@@ -19,6 +19,7 @@ namespace pose_wall {
 // The leaves that are tried for one cloud, one after the other, each by how often it has grown to 1.26 times its size.
 class LeafSearch {
  public:
+  // In vain with the last leaf, the next one, the middle of what is left, and the largest: bounds what a cloud costs.
   static constexpr std::uint32_t kPassesMost = 4;
 
   // room: for so many voxels.
@@ -34,7 +35,7 @@ class LeafSearch {
   LeafMemory memory(bool fits, std::uint32_t voxels) const;
 
  private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;  // more growths than any leaf has
 
   bool are_as_many_as_last(std::uint32_t voxels) const;
   std::uint32_t next_larger() const;

@@ -11,7 +11,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint8_t kKeepFour[kFour] = {1, 1, 1, 1};
+constexpr std::uint8_t kKeepFour[kFour] = {1, 1, 1, 1};  // the marks of four that are kept, compared at once
 
 class NeighbourCounter {
  public:
@@ -54,11 +54,14 @@ class NeighbourCounter {
   std::uint64_t steps_done() const { return steps_ + columns_.searched() * steps::kColumnSearched; }
 
  private:
+  // So far in the list, each way. Of 2, 3 and 4 the cheapest, by instructions counted (bench/README.md).
   static constexpr std::uint32_t kLook = 3;
   // Of four points: whether that so many places further on in the list is near.
   struct Ahead {
     FourTruths by_1{}, by_2{}, by_3{};
   };
+  // Between two looks whether there are enough. Judgement, 2026-11-22: larger counts points for nothing, smaller asks
+  // more often.
   static constexpr std::uint32_t kAtOnce = 64;
   static constexpr std::uint64_t kRun = 12;  // steps: its ends are searched for
 

@@ -23,6 +23,8 @@ struct Repeat {
 // The last few that differ: drivers hand out a few buffers by turns. A recording that is played in a loop comes round
 // later than that.
 struct SeenClouds {
+  // Judgement, 2026-11-23: two buffers by turns were met, and empty frames between copies; more keeps longer what may
+  // come again by right.
   static constexpr std::uint32_t kCount = 4;
 
   // A cloud that is new is remembered instead of the oldest.

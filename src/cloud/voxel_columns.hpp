@@ -17,6 +17,7 @@ class VoxelColumns {
   // Of a grid after extract(), until its next begin(). reach_m: at most kReachMost columns.
   VoxelColumns(VoxelGrid* grid, double reach_m);
 
+  // The config allows 2 m (outlier_radius) over columns of 4 x 0.01 m (voxel_leaf): 50.
   static constexpr std::uint32_t kReachMost = 64;
 
   // visit(begin, end) for runs of the list that hold, together, all voxels within the reach of the i-th, itself among
@@ -53,6 +54,7 @@ class VoxelColumns {
   template <typename Visit>
   bool visit_columns(std::uint32_t from, std::uint32_t to, std::uint32_t z_from, std::uint32_t z_to,
                      const Visit& visit) {
+    // Few enough to look at all of them, rather than search for two heights. Judgement, 2026-11-22.
     constexpr std::uint32_t kFew = 16;
     for (std::uint32_t c = from; c < to;) {
       std::uint32_t begin = begin_[c], end = begin_[c + 1];

@@ -22,6 +22,8 @@ constexpr std::uint32_t kWeightOne = 16;
 // what floats tell apart over the whole reach.
 class VoxelGrid {
  public:
+  // A cell is 1024 steps wide: centroids of 5 cm cells are exact to 0.02 mm. With a cell's 21 bits (VoxelKey) a step's
+  // number still is a positive integer of 32 bits.
   static constexpr std::uint32_t kStepBits = 10;
 
   void lay_out(Arena& arena, std::uint32_t capacity);
@@ -82,7 +84,7 @@ class VoxelGrid {
   std::uint64_t fingerprint() const { return fingerprint_; }
 
  private:
-  static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;
+  static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;  // the step within its cell
 
   std::uint64_t fingerprint_of_cells() const;
   void write_sorted(PointSet* out);

@@ -8,7 +8,8 @@
 namespace pose_wall {
 namespace {
 
-// What a side of a branching leads to: a key's index, or another branching's index and the bit that it asks for.
+// What a side of a branching leads to: a key's index, or another branching's index and the bit that it asks for. The
+// index takes 20 bits (kCapacityMost), the number of a bit of 64 takes six, the highest bit tells the two apart:
 constexpr std::uint32_t kBranching = 1U << 31;
 constexpr std::uint32_t kBitShift = 20, kBitMask = 63;
 

@@ -19,9 +19,10 @@ namespace pose_wall {
 // who goes on to the tree does so again, and an index does not tell where its key lies.
 class VoxelHash {
  public:
-  static constexpr std::uint32_t kFull = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kFull = 0xFFFFFFFFU;  // no index is as large
   // Of random keys few go further, even in a table half full, and the tree costs as much as some more probes would.
   static constexpr std::uint32_t kProbesMost = 8;
+  // Twenty bits of an index are what a link of the tree has room for; points_max is 400,000 at most.
   static constexpr std::uint32_t kCapacityMost = 1U << 20;
 
   // capacity: how many keys, up to kCapacityMost; the table has at least twice as many slots.
@@ -116,7 +117,7 @@ class VoxelHash {
   Span<std::uint32_t> second_side() const { return sides_[1]; }
 
  private:
-  static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kFree = 0xFFFFFFFFU;  // all ones, so that clearing is a fill; no index is as large
 
   // Index of a key that found no room among its slots, and `count` where it is new: then it has its place in the tree.
   // kFull where a new key does not fit.

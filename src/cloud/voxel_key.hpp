@@ -17,7 +17,9 @@
 namespace pose_wall {
 
 struct VoxelKey {
-  // Cells are counted from the far corner: below 2^21 along each axis.
+  // Cells are counted from the far corner: below 2^21 along each axis. Columns of 4 x 4 cells left 6 % of the voxels
+  // without neighbours next to them in the list, single cells 28 % (bench/README.md). From z up the parts of a key
+  // follow each other, 63 bits in all:
   static constexpr std::uint32_t kInColumnBits = 2;
   static constexpr std::uint32_t kColumnCells = 1U << kInColumnBits;
   static constexpr std::uint32_t kColumnBits = 19;
@@ -66,8 +68,8 @@ struct VoxelKey {
   }
 
  private:
-  static constexpr std::uint32_t kInColumn = kColumnCells - 1;
-  static constexpr std::uint32_t kHalf = 32;  // bits
+  static constexpr std::uint32_t kInColumn = kColumnCells - 1;  // masks a cell's place within its column
+  static constexpr std::uint32_t kHalf = 32;                    // bits of a lane, half of a key
   static_assert(kXShift >= kHalf && kYShift < kHalf && kYShift + kColumnBits > kHalf, "y lies across the halves");
   using FourLongs = std::uint64_t __attribute__((vector_size(32)));
 

@@ -22,6 +22,7 @@ enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // k
 
 // Points are worked on by the block: turned and judged four at a time; only what goes into tables goes one by one.
 struct PointBlock {
+  // Some 4 KiB, which stay in the nearest cache; whole fours. Judgement, 2026-11-21.
   static constexpr std::uint32_t kSize = 64;
   std::uint32_t count = 0;
   float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];
@@ -37,7 +38,7 @@ struct PointBlock {
 
 // Doubles may be larger than any float: they are too far in either case.
 float to_float(double value) {
-  constexpr double kMost = 1e38;
+  constexpr double kMost = 1e38;  // a float ends at 3.4e38
   if (value > kMost && is_finite(value)) return static_cast<float>(kMost);
   if (value < -kMost && is_finite(value)) return static_cast<float>(-kMost);
   return static_cast<float>(value);

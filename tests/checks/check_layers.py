@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """Includes go one way, in the order in which a frame goes through the house: base <- config <- trace <- gates <- cloud
-<- floor <- walls <- output <- engine <- c_api; within the walls scene <- propose <- choose <- fit <- sample <- doubts.
-Motion takes the base and the cloud reader and is no part of the engine; all take nothing but Eigen and small parts of the
+<- floor <- walls <- output <- engine <- c_api; within the walls propose <- choose <- fit <- sample <- doubts. Motion
+takes the base and the cloud reader and is no part of the engine; all take nothing but Eigen and small parts of the
 standard library; tools and the runtime see them by their headers.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""

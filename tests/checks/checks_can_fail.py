@@ -242,6 +242,70 @@ class Stack(BrokenProject):
         self.fails("nothing was checked", *self.check())
 
 
+class Constants(BrokenProject):
+    def check(self, *lines, folders=()):
+        if lines:
+            self.write("src/walls/walls.cpp", LICENCE + "\n" + "\n".join(lines) + "\n")
+        return CHECKS / "check_constants.py", self.root, *(folders or ["walls"])
+
+    def test_passes(self):
+        self.passes(*self.check(
+            "// A wall that ends sooner is none.", "constexpr double kEnd_m = 2.0;",
+            "// Layout of a key, from the lowest bit:", "constexpr unsigned kZ = 3;", "constexpr unsigned kY = 2 * kZ;",
+            "constexpr double square(double x) { return x * x; }  // not looked at", "constexpr Pair kPair{1, 2};",
+            "struct Grid {", "  static constexpr std::uint32_t kSide = 8,  // a row is a byte",
+            "                                 kCells =",
+            "                                     kSide * kSide;  // cells of the square", "};", "double at(int k) {",
+            "  constexpr double kTable[] = {1.0, 2.0};  // by signs of x", "  return kTable[k];", "}"))
+
+    def test_says_how_many(self):
+        status, text = self.run_check(*self.check("constexpr int kA = 1, kB = 2;  // one for each side"))
+        self.assertEqual((status, text), (0, "2 constants, 0 without a reason\n"))
+
+    def test_no_comment(self):
+        self.fails("src/walls/walls.cpp:4 kEnd_m", *self.check("constexpr double kEnd_m = 2.0;"))
+
+    def test_two_words(self):
+        self.fails("kEnd_m", *self.check("constexpr double kEnd_m = 2.0;  // two metres"))
+
+    def test_two_words_beside_a_reason_above(self):
+        self.passes(*self.check("// A wall that ends sooner is none.", "constexpr double kEnd_m = 2.0;  // two metres"))
+
+    def test_in_a_function(self):
+        self.fails("walls.cpp:5 kMost", *self.check("int f() {", "  constexpr int kMost = 3;", "  return kMost;", "}"))
+
+    def test_member_on_the_next_line(self):
+        self.fails("walls.cpp:6 kCells", *self.check(
+            "struct Grid {", "  static constexpr std::uint32_t kSide = 8,  // a row is a byte",
+            "                                 kCells = kSide * kSide;", "};"))
+
+    def test_comment_above_holds_for_one(self):
+        self.fails("walls.cpp:6 kOther", *self.check(
+            "// A wall that ends sooner is none.", "constexpr double kEnd_m = 2.0;", "constexpr double kOther = 3.0;"))
+
+    def test_row_ends_with_a_blank_line(self):
+        self.fails("walls.cpp:7 kY", *self.check(
+            "// Layout of a key, from the lowest bit:", "constexpr int kZ = 3;", "", "constexpr int kY = 6;"))
+
+    def test_row_ends_with_what_is_no_constant(self):
+        self.fails("walls.cpp:7 kY", *self.check(
+            "// Layout of a key, from the lowest bit:", "constexpr int kZ = 3;", "int f();", "constexpr int kY = 6;"))
+
+    def test_comment_goes_on_for_the_line_before(self):
+        self.fails("walls.cpp:6 kOther", *self.check(
+            "constexpr double kEnd_m = 2.0;  // a wall that ends sooner", "                                // is none",
+            "constexpr double kOther = 3.0;"))
+
+    def test_note_to_a_tool(self):
+        self.fails("kEnd_m", *self.check("constexpr double kEnd_m = 2.0;  // NO" "LINT(some-rule-of-a-tool)"))
+
+    def test_no_sources(self):
+        self.fails("floor holds no sources", *self.check("int f();", folders=["floor"]))
+
+    def test_no_constants(self):
+        self.fails("nothing was checked", *self.check("int f();"))
+
+
 class House(BrokenProject):
     def check(self):
         return CHECKS / "check_house.py", self.root

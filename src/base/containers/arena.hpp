@@ -46,7 +46,7 @@ class Arena {
 
  private:
   void* advance(std::uint64_t bytes) {
-    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;
+    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;  // what is taken ends where the next may begin
     void* place = block_ != nullptr ? block_ + used_ : nullptr;
     used_ += (bytes + kMask) & ~kMask;
     return place;

@@ -12,6 +12,7 @@ namespace pose_wall {
 // Points and, for each block of them that follow each other in the list, the box they lie in. In a list that is in the
 // order of its places a block is small, and who looks for points near a plane passes over most blocks unread.
 struct BoundedPoints : PointSet {
+  // Measured on an OS1-64 (bench/README.md): boxes of 32 points left 78.9 M instructions a frame, of 16 points 79.4 M.
   static constexpr std::uint32_t kBlock = 32;
 
   // Of each block's box the centre and half its edges. Rows go on for a four, as those of points do.

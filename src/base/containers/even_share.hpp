@@ -20,13 +20,13 @@ class EvenShare {
   }
 
   bool takes() {
-    constexpr std::uint32_t kGoldenTurn = 0x9E3779B9U;
+    constexpr std::uint32_t kGoldenTurn = 0x9E3779B9U;  // 2^32 over the golden ratio, odd
     turn_ += kGoldenTurn;
     return turn_ < limit_;
   }
 
  private:
-  static constexpr std::uint64_t kWhole = 1ULL << 32;
+  static constexpr std::uint64_t kWhole = 1ULL << 32;  // a turn is a word of 32 bits
   std::uint64_t limit_;
   std::uint32_t turn_ = 0;
 };

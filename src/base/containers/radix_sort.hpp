@@ -9,8 +9,10 @@
 
 namespace pose_wall {
 
+// With an origin of the voxels' grid that suits it, three passes for a cloud's keys, where 11 bits took five
+// (2026-11-22); the counters take 16 KiB.
 constexpr std::uint32_t kRadixBits = 12;
-constexpr std::uint32_t kRadixSize = 1U << kRadixBits;
+constexpr std::uint32_t kRadixSize = 1U << kRadixBits;  // a counter for each digit
 
 // Indices of the keys in ascending order, equal keys in theirs, least digit first. Only bits that differ between keys
 // cost passes: a digit begins at the lowest of them that is not sorted by yet, so keys of several short fields take one

@@ -16,7 +16,7 @@ namespace pose_wall {
 
 class Work {
  public:
-  static constexpr std::uint64_t kNoEnd = ~0ULL;
+  static constexpr std::uint64_t kNoEnd = ~0ULL;  // no frame takes as many steps
 
   Work() = default;
   explicit Work(std::uint64_t most) : most_(most) {}
@@ -43,22 +43,22 @@ constexpr std::uint64_t kPointRead = 11, kPointUnskewed = 16, kFourSlots = 2, kV
 // looked at.
 constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kColumnSearched = 16, kFourLookedAt = 2;
 // Floor: a voxel that is told open or not; an open point within a radius; a hypothesis; a plane that is refined,
-// weighed, and a point that it is weighed by; a point that a fit selects from, and one that goes into its patches.
+// weighed, and a point that it is weighed by; a point that a fit selects from, and one that goes into its patches:
 constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 10, kFloorDrawn = 400, kFloorRefined = 4000;
 constexpr std::uint64_t kFloorWeighed = 8000, kPointWeighed = 7, kPointSelected = 8, kPointPatched = 12;
 // Band: a voxel that is turned and cut.
 constexpr std::uint64_t kVoxelLevelled = 8;
 // Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis; a plane that
 // is refined, weighed, and a point of the band that it is weighed by; what is looked at about a wall that was fitted,
-// and a point of the band for it.
+// and a point of the band for it:
 constexpr std::uint64_t kPointParted = 16, kPointSided = 1, kWallDrawn = 350, kWallRefined = 7000, kWallWeighed = 5000;
 constexpr std::uint64_t kPointMarked = 2, kWallLookedAt = 150000, kPointLookedAt = 11;
 // A fit of a wall: a point of the band for it, one that is taken; a profile of strips; a point that is told by columns,
-// summed in patches; and one of which it is asked whether the surface bends.
+// summed in patches; and one of which it is asked whether the surface bends:
 constexpr std::uint64_t kPointGathered = 2, kPointTaken = 12, kProfile = 30000, kPointByColumn = 12, kPointSummed = 3;
 constexpr std::uint64_t kPointBent = 8;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those
-// around it; two patches of a floor that waves.
+// around it; two patches of a floor that waves:
 constexpr std::uint64_t kPointRound = 1, kCell = 4, kPatch = 20, kPatchMeasured = 60, kPatchPaired = 300;
 constexpr std::uint64_t kPatchesWaved = 16;
 

@@ -14,8 +14,11 @@
 namespace pose_wall {
 namespace {
 
-// A voxel right in front of the sensor stands for hundreds of points, but the rock under it is one piece.
+// A voxel right in front of the sensor stands for hundreds of points, but the rock under it is one piece. Judgement,
+// 2026-11-21: a larger cap gives the near rock more say, a smaller one wastes ranges that average out.
 constexpr float kWeightCap = 8.0F;
+// Standard deviation of the points across their longer side: of less a slope tells nothing. The default voxel's edge;
+// judgement, 2026-11-21.
 constexpr double kSpreadMin_m = 0.05;
 
 // What a round needs to know of the plane and its weights, as floats.

@@ -12,6 +12,7 @@
 namespace pose_wall {
 
 // Metres and slopes: where a fit stands still that is followed by one over patches, which takes a step of its own.
+// Saved 0.9 M of 107.5 M instructions (bench/README.md); a twentieth of a millimetre is far below any level.
 constexpr double kBeforePatches = 5e-5;
 
 struct IrlsSettings {

@@ -18,7 +18,7 @@ namespace pose_wall {
 
 class PanelCholesky {
  public:
-  static constexpr std::uint32_t kRowsMost = 96;
+  static constexpr std::uint32_t kRowsMost = 96;  // a row for each of SurfacePatches::kMost
   // Floats of four rows, and of four right sides.
   static constexpr std::uint32_t kPanel = kFour * kRowsMost;
 

@@ -55,10 +55,13 @@ struct PatchFit {
 // nothing about the offset, but as much about the slopes as their own straightness allows.
 class PatchGrid {
  public:
-  static constexpr std::uint32_t kCapacity = 1536;  // patches of all layers
-  static constexpr std::uint32_t kLayersMax = 2;
-  static constexpr std::uint32_t kPatchesMin = 8;  // of the surface
-  static constexpr int kLags = 5;                  // patches further apart count as independent
+  // Of all layers: 64 m by 3 m in half metres, twice; an extent beyond gets larger patches. 4096 at first, 2026-11-21.
+  static constexpr std::uint32_t kCapacity = 1536;
+  static constexpr std::uint32_t kLayersMax = 2;   // the surface, and the fronts of strips
+  static constexpr std::uint32_t kPatchesMin = 8;  // of the surface: more than the six terms of a quadratic
+  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: what rock has in common over more is
+  // left to who uses the covariance, and a longer reach costs pairs.
+  static constexpr int kLags = 5;
 
   void lay_out(Arena& arena);
 
@@ -102,7 +105,7 @@ class PatchGrid {
     std::int32_t iu, iv;
     std::uint32_t layer;
   };
-  static constexpr int kGiveBackRounds = 2;
+  static constexpr int kGiveBackRounds = 2;  // each takes from the variance found by the last; judgement, 2026-11-21
   // Of one layer: variance of the rock between patches and its correlation by distance.
   struct Roughness {
     double tau2 = 0.0;
@@ -146,8 +149,9 @@ class PatchGrid {
     Eigen::Matrix3d rock = Eigen::Matrix3d::Zero();   // times the rock's variance
     Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();  // of the points: together, the variance were no rock shared
   };
+  // Pairs cost the most of a fit: bounds its work. Judgement, 2026-11-25: fewer know the correlation less well.
   static constexpr std::uint32_t kPairedMost = 384;
-  static constexpr std::uint32_t kNeighboursMost = (kLags + 1) * (2 * kLags + 1);
+  static constexpr std::uint32_t kNeighboursMost = (kLags + 1) * (2 * kLags + 1);  // its own row and those above
   // Those of p's layer within kLags, in its own row and the rows above, each pair of patches once. Returns how many.
   std::uint32_t neighbours_after(const Mean& p, Neighbour* out) const;
   template <typename Visit>

@@ -14,13 +14,14 @@ namespace pose_wall {
 
 // With next to no weight a point would still count as one that tells how the points scatter: up to here it is left out.
 constexpr float kPatchWeightLeast = 1e-6F;
-// A patch's own scatter counts beside this many more points of the scatter that is expected.
+// A patch's own scatter counts beside this many more points of the scatter that is expected. Judgement, 2026-11-21:
+// fewer believe the scatter of a few points, more deny patches their own.
 constexpr double kPatchPriorPoints = 10.0;
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
 constexpr double kPatchNoiseMin_m = 0.001;
 
 struct PatchSums {
-  static constexpr double kWeightMin = 1e-9;
+  static constexpr double kWeightMin = 1e-9;  // below a single point's least (kPatchWeightLeast)
 
   FourFloats first{};   // w, wu, wv, wr
   FourFloats second{};  // wrr, wb, and without weights r, rr

@@ -36,7 +36,7 @@ class ScaleHistogram {
 
   // The gate where nothing lies inside.
   double scale_m() const {
-    constexpr double kMadToSigma = 1.4826;
+    constexpr double kMadToSigma = 1.4826;  // one over the normal's upper quartile, 0.6745
     const std::uint32_t inside = sum_of_lanes(inside_);
     if (inside == 0) return gate_m_;
     std::uint32_t below = 0, b = 0;
@@ -47,7 +47,7 @@ class ScaleHistogram {
   }
 
  private:
-  static constexpr std::uint32_t kBins = 256;
+  static constexpr std::uint32_t kBins = 256;  // of a gate of 25 cm or less: below a millimetre each
   double gate_m_;
   float bins_per_m_;
   FourInts inside_{};                   // how many, in four parts

@@ -27,7 +27,7 @@ class Shortlist {
   void clear() { count_ = 0; }
   // Hypotheses that cost this much or more are not taken.
   double too_much() const {
-    constexpr double kAnyCost = 1e300;
+    constexpr double kAnyCost = 1e300;  // no hypothesis costs as much
     return count_ == kCapacity ? items_[count_ - 1].cost : kAnyCost;
   }
 

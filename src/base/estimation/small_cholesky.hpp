@@ -18,7 +18,7 @@ class SmallCholesky {
 
   // solved() is false where the matrix is not positive definite, to what doubles tell.
   explicit SmallCholesky(const Matrix& m) {
-    constexpr double kLeast = 1e-13;  // what a pivot has to keep of its diagonal
+    constexpr double kLeast = 1e-13;  // what a pivot has to keep of its diagonal: rounding leaves some 1e-16 a term
     solved_ = true;
     for (int i = 0; i < kSize; ++i) {
       for (int j = 0; j < i; ++j) factor_(i, j) = left_of(m, i, j) / factor_(j, j);

@@ -13,14 +13,18 @@ namespace {
 
 static_assert(SurfacePatches::kMost <= PanelCholesky::kRowsMost, "a row for each patch");
 constexpr std::uint32_t kRightSides = 2;  // panels of them: 1, u, v, residual; bias
-constexpr std::uint32_t kPatchesMin = 8;
+constexpr std::uint32_t kPatchesMin = 8;  // five more than the terms of a plane; judgement, 2026-11-21
+// From a patch (0.5 m) to what a first radius (3 m) shows of a wave; longer ones are the surface's own slope. Twice as
+// long each time, as their likelihoods are averaged. Judgement, 2026-11-21.
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
-// Share of the unevenness that neighbouring patches do not have in common.
+// Share of the unevenness that neighbouring patches do not have in common: little, or nearly half. The least keeps the
+// covariance positive definite in floats. Judgement, 2026-11-21.
 constexpr double kOwnShares[] = {0.05, 0.4};
-// An exactly flat surface has nothing left to scale by.
+// An exactly flat surface has nothing left to scale by: a thousandth of the expected errors is kept.
 constexpr double kScaleLeast = 1e-6;
-constexpr int kModelsMax = 1 + 4 * 2;
-// Factors of a determinant whose logarithm is taken at once: each lies between 1e-6 and 1e6.
+constexpr int kModelsMax = 1 + 4 * 2;  // no waves, or a length and a share
+// Factors of a determinant whose logarithm is taken at once: each lies between 1e-6 and 1e6, their product within a
+// double's 1e-308 to 1e308.
 constexpr std::uint32_t kLogEvery = 16;
 
 // Variance of the patches about their plane beyond their noise: a first guess, for the ratio of the two. Patches count

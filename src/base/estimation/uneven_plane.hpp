@@ -39,7 +39,8 @@ class UnevenPlane {
   struct Model;
   struct Models;
 
-  // Matern's correlation by distance, off a table: it is asked for every two patches and length.
+  // Matern's correlation by distance, off a table: it is asked for every two patches and length. It ends at 16 lengths,
+  // where 2e-6 are left; between its steps of a 64th lines err by 3e-5 at most:
   static constexpr std::uint32_t kMaternSteps = 1024;
   static constexpr double kMaternPerUnit = 64.0;
   void fill_matern();

@@ -12,7 +12,7 @@ namespace pose_wall {
 namespace {
 
 constexpr double kLn2High = 6.93147180369123816490e-01;  // upper bits of ln 2: k * kLn2High is exact
-constexpr double kLn2Low = 1.90821492927058770002e-10;
+constexpr double kLn2Low = 1.90821492927058770002e-10;   // what they leave of it
 
 // c[0] + c[1] x + ... by Horner's rule: a product and a sum a term, and no division. Told term by term, for a loop
 // takes as much again.
@@ -79,8 +79,8 @@ struct Quadrant {
 };
 
 Quadrant reduce(double x) {
-  constexpr double kHalfPiHigh = 1.57079632673412561417;  // upper bits of pi/2
-  constexpr double kHalfPiLow = 6.07710050650619224932e-11;
+  constexpr double kHalfPiHigh = 1.57079632673412561417;     // upper bits of pi/2: 2^20 times it is exact
+  constexpr double kHalfPiLow = 6.07710050650619224932e-11;  // what they leave of it
   const double turns = std::floor(x * (2.0 / kPi) + 0.5);
   const int quarter = static_cast<int>(static_cast<std::int64_t>(turns) & 3);
   return {quarter, (x - turns * kHalfPiHigh) - turns * kHalfPiLow};
@@ -122,6 +122,7 @@ double natural_log(double x) {
   }
   // log(m) = 2 atanh(s), s = (m - 1) / (m + 1), |s| <= 0.1716.
   const double s = (mantissa - 1.0) / (mantissa + 1.0);
+  // Of atanh; the first dropped term is below 1e-18.
   static constexpr double kC[] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0,  1.0 / 9.0, 1.0 / 11.0,
                                   1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0};
   const double sum = s * polynomial(kC, s * s);

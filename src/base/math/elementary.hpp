@@ -9,7 +9,7 @@
 
 namespace pose_wall {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = 3.14159265358979323846;  // to more digits than a double tells
 
 constexpr double radians(double degrees) {
   return degrees * (kPi / 180.0);

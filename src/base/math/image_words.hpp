@@ -14,18 +14,19 @@
 
 namespace pose_wall {
 
+// The units of an image's integers, by tools/plc/image.def and the motion image:
 constexpr double kMilliDegreesPerRadian = 180000.0 / 3.14159265358979323846;
 constexpr double kMillimetresPerMetre = 1000.0;
 constexpr double kMillisecondsPerSecond = 1000.0;
 constexpr double kNanosecondsPerSecond = 1e9;
-constexpr std::uint32_t kMillisecondsNotKnown = 0xFFFFFFFFU;
+constexpr std::uint32_t kMillisecondsNotKnown = 0xFFFFFFFFU;  // as the images document it
 
 inline double within(double value, double limit) {
   if (value > limit) return limit;
   return value < -limit ? -limit : value;
 }
 
-constexpr double kIntegerMax = 2147483647.0;
+constexpr double kIntegerMax = 2147483647.0;  // 2^31 - 1, of an int32; -2^31 is left out
 
 inline std::int32_t nearest_integer(double value) {
   return static_cast<std::int32_t>(within(std::floor(value + 0.5), kIntegerMax));
@@ -36,7 +37,7 @@ inline std::int32_t integer_above(double value) {
 }
 
 inline std::uint32_t milliseconds_above(double seconds) {
-  constexpr double kUnsignedMax = 4294967295.0;
+  constexpr double kUnsignedMax = 4294967295.0;  // kMillisecondsNotKnown as a number
   const double milliseconds = std::ceil(seconds * kMillisecondsPerSecond);
   return milliseconds >= 0.0 && milliseconds < kUnsignedMax ? static_cast<std::uint32_t>(milliseconds)
                                                             : kMillisecondsNotKnown;

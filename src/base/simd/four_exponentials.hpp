@@ -11,7 +11,7 @@ namespace pose_wall {
 inline FourFloats four_exponentials(FourFloats x) {
   // ln 2 in two parts, of which the first times any exponent is exact.
   constexpr float kLn2High = 0.693359375F, kLn2Low = -2.12194440e-4F;
-  constexpr std::int32_t kBias = 127, kMantissaBits = 23;
+  constexpr std::int32_t kBias = 127, kMantissaBits = 23;  // as IEEE 754 lays out a float
   // Counted from below every exponent, so that cutting off the fraction rounds down.
   const FourInts biased = cut_off(x * (1.0F / (kLn2High + kLn2Low)) + (kBias + 0.5F));
   const FourFloats k = __builtin_convertvector(biased - kBias, FourFloats);

@@ -18,7 +18,7 @@
 namespace pose_wall {
 
 using FourFloats = float __attribute__((vector_size(16)));
-constexpr std::uint32_t kFour = 4;
+constexpr std::uint32_t kFour = 4;  // floats of a register of NEON and of SSE
 
 struct FourPlaces {
   FourFloats x, y, z;
@@ -77,7 +77,7 @@ inline FourFloats root_of(FourFloats four) {
 }
 
 inline FourFloats magnitude_of(FourFloats four) {
-  constexpr std::int32_t kAllButSign = 0x7FFFFFFF;
+  constexpr std::int32_t kAllButSign = 0x7FFFFFFF;  // IEEE 754: the highest bit is the sign
   FourInts bits;
   std::memcpy(&bits, &four, sizeof(bits));
   bits &= FourInts{kAllButSign, kAllButSign, kAllButSign, kAllButSign};

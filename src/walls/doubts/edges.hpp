@@ -1,16 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the sensor sees past the edges of a chosen plane, place by place along it: two ends and the top.
+// A chosen plane looked past: at its ends, over its top and through it.
 
 #pragma once
 
+#include <cstdint>
 #include "base/containers/arena.hpp"
+#include "base/containers/span.hpp"
 #include "base/estimation/plane.hpp"
-#include "walls/doubts/edge_places.hpp"
+#include "base/simd/four_floats.hpp"
 #include "walls/scene.hpp"
 
 namespace pose_wall {
+
+// What is counted of a plane's two ends, its top and what lies behind it, place by place along it, and what that tells.
+
+// Measured points by place, which is half a metre along the plane, on either side of the sensor.
+class EndPlaces {
+ public:
+  static constexpr std::uint32_t kPlaces = 30;  // on either side
+  static constexpr double kPlace_m = 0.5;
+  // An end beyond this place (6 m) is not near.
+  static constexpr std::uint32_t kNearPlaces = 12;
+  static constexpr double kOnMin = 2.0;
+  static constexpr double kPastMin = 4.0;
+
+  void clear() { *this = EndPlaces(); }
+  // Of four points. What lies too far away is counted where nobody looks.
+  static FourInts places_of(FourFloats along_m);
+  void add_on(std::int32_t place, float points) { on_[place] += static_cast<double>(points); }
+  void add_past(std::int32_t place, float points) { past_[place] += static_cast<double>(points); }
+  void add_just_behind(std::int32_t place, float points) { just_behind_[place] += static_cast<double>(points); }
+  bool both_are_looked_past() const { return is_looked_past(0) && is_looked_past(kPlaces); }
+
+ private:
+  static constexpr std::uint32_t kElsewhere = 2 * kPlaces;
+  // Of the end whose places begin here.
+  bool is_looked_past(std::uint32_t begin) const;
+
+  double on_[kElsewhere + 1] = {}, past_[kElsewhere + 1] = {}, just_behind_[kElsewhere + 1] = {};
+};
+
+// Measured points by place and by the height at which their rays meet the plane, in steps from the lowest.
+class TopPlaces {
+ public:
+  static constexpr double kOverMin = 4.0;  // fewer have not come over the top
+
+  void lay_out(Arena& arena) { cell_ = arena.take<float>(kPlaces * kPlaceCells); }
+  void clear() { cell_.fill(0.0F); }
+  static constexpr std::int32_t kNoCell = -1;
+  // Of four points; height: 0 (lowest) to 1. What lies outside has no cell.
+  static FourInts cells_of(FourFloats along_m, FourFloats height, FourTruths is_past);
+  void add(std::int32_t cell, float points) { cell_[static_cast<std::uint32_t>(cell)] += points; }
+  bool is_looked_over() const;
+
+ private:
+  static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;
+  static constexpr std::uint32_t kSteps = 32;
+  static constexpr std::uint32_t kPlaceCells = 2 * kSteps;  // on the plane, and past it
+  Span<float> cell_;
+};
+
+// Measured points behind a plane by how far behind it they lie, and over which places along it.
+class DepthsBehind {
+ public:
+  static constexpr double kPointsMin = 20.0;
+
+  void clear() { *this = DepthsBehind(); }
+  void add(double behind_m, double along_m, double points);
+  // on_plane: how many lie on the plane itself.
+  bool hold_a_layer(double on_plane) const;
+
+ private:
+  static constexpr std::uint32_t kSteps = 20;
+  struct Step {
+    double points = 0.0;
+    std::uint64_t places = 0;  // a bit for each half metre
+  };
+  Step step_[kSteps];
+};
+
+// What the sensor sees past the edges of a chosen plane, place by place along it: two ends and the top.
 
 struct WallEdges {
   // It looks past both ends, near itself: a curtain or a vehicle that hides the wall. A wall goes on until it is out of

@@ -8,7 +8,7 @@
 
 #include "base/estimation/plane.hpp"
 #include "cloud/direction_grid.hpp"
-#include "walls/doubts/sight_expected.hpp"
+#include "walls/doubts/sight_lines.hpp"
 #include "walls/scene.hpp"
 
 namespace pose_wall {
