@@ -11,8 +11,8 @@
 namespace pose_wall::bench {
 
 // Counters: points, voxels and measured_of_7 of a frame; ms_* of each stage; points_per_s; median_ms, p99_ms and
-// worst_ms of all frames of the run (these and ms_* are wall time); x_floor, the engine's processor time as a multiple
-// of the floor pass's on the same frames.
+// worst_ms of all frames of the run (these and ms_* are wall time); x_least, the engine's processor time as a multiple
+// of the least pass's on the same frames.
 void run_frames(benchmark::State& state, const FrameInput& input);
 
 }  // namespace pose_wall::bench

@@ -8,7 +8,7 @@
 
 #include "bench_frames.hpp"
 #include "cpu_time.hpp"
-#include "floor_time.hpp"
+#include "least_time.hpp"
 #include "peer_pcl_pipeline.hpp"
 #include "quantiles.hpp"
 
@@ -50,7 +50,7 @@ void run_on_road(std::uint32_t road, Contest* contest) {
   api::Engine engine;
   if (engine.open(settings) != POSE_WALL_OK) throw std::runtime_error("the engine refused its config");
   engine.set_clock(cpu_clock);
-  FloorPass floor;
+  LeastPass least;
   for (std::uint32_t i = 0; i < plan.frames; ++i) {
     pose_wall_result result = api::make_result();
     const pose_wall_cloud cloud = cloud_of(recorded.frames[i], (i + 1) * kPeriod_ns);
@@ -61,7 +61,7 @@ void run_on_road(std::uint32_t road, Contest* contest) {
       contest->contestants[method == PclMethod::kRansac ? 1 : 2].turns.push_back(
           pcl_turn(recorded.frames[i], pcl_settings(settings, radius_m), method, recorded.truths[i].value));
     }
-    contest->floor_ms.push_back(floor_time_ms(&floor, recorded.frames[i]));
+    contest->least_ms.push_back(least_time_ms(&least, recorded.frames[i]));
     contest->points.push_back(result.points_in);
     contest->voxels.push_back(result.voxels);
   }

@@ -40,7 +40,7 @@ struct ContestPlan {
 struct Contest {
   std::string sensor;
   ContestPlan plan;
-  std::vector<double> points, voxels, floor_ms;  // one a frame
+  std::vector<double> points, voxels, least_ms;  // one a frame
   std::vector<Contestant> contestants;           // pose_wall first
 };
 

@@ -27,7 +27,7 @@ constexpr float kRadiusMax_m = 100.0F;
 
 constexpr const char* kHelp =
     "usage: pose_wall_peer_pcl [--roads N] [--frames N] [--pcl-ground-radius M] [SENSOR ...]\n\n"
-    "Runs pose_wall, the same pipeline from PCL's parts (SACSegmentation by RANSAC and by MLESAC) and the floor pass\n"
+    "Runs pose_wall, the same pipeline from PCL's parts (SACSegmentation by RANSAC and by MLESAC) and the least pass\n"
     "(read, turn, range test, one hash insertion a point) on the same simulated frames, turn by turn, one thread "
     "each,\n"
     "and prints a table of times, stage by stage, and one of errors against the simulator's truth.\n\n"

@@ -44,12 +44,12 @@ void print_stages(const Contest& contest) {
   std::vector<double> totals_ms;
   for (const Contestant& one : contest.contestants) totals_ms.push_back(one.median_total_ms());
   print_row("total", totals_ms);
-  const double floor_ms = median(contest.floor_ms);
-  fmt::print("{:14}", "x floor pass");
+  const double least_ms = median(contest.least_ms);
+  fmt::print("{:14}", "x least pass");
   for (std::size_t i = 0; i < totals_ms.size(); ++i) {
-    fmt::print(" {:12.1f}{}", totals_ms[i] / floor_ms, i > 0 ? "        " : "");
+    fmt::print(" {:12.1f}{}", totals_ms[i] / least_ms, i > 0 ? "        " : "");
   }
-  fmt::print("\n{:14} {:12.3f}\n\n", "floor pass", floor_ms);
+  fmt::print("\n{:14} {:12.3f}\n\n", "least pass", least_ms);
 }
 
 void print_accuracy(const Contest& contest) {

@@ -8,8 +8,8 @@
 #include "cloud/voxels.hpp"
 #include "floor/levelling.hpp"
 #include "floor/result.hpp"
+#include "output/measurements.hpp"
 #include "pose_wall.h"
-#include "types.hpp"
 #include "walls/wall.hpp"
 
 namespace pose_wall {

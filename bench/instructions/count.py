@@ -27,7 +27,7 @@ SENSORS = ["vlp16", "mid360", "os1-64", "os0-128"]
 FRAMES = 3
 GROWTH_OF = "os0-128"
 GROWTH = [5000, 16000, 32000, 65000, 131000, 260000]
-STAGES = ["floor", "voxels", "outliers", "ground", "band", "walls", "output"]
+STAGES = ["least", "voxels", "outliers", "floor", "band", "walls", "output"]
 TOLERANCE = 0.05
 # A stage below this share of its frame may grow by this share: a few instructions are no regression.
 SMALL_SHARE = 0.005
@@ -69,12 +69,12 @@ def count(plugin, program, sensor, folder, points=0):
     if len(frames) != FRAMES or len(marks) != FRAMES * per_frame:
         sys.exit(f"{sensor}: {len(frames)} frames, {len(marks)} marks; expected {FRAMES} and {FRAMES * per_frame}")
     row = {"sensor": sensor}
-    for k, name in enumerate(["points", "floor_cells", "voxel_count", "measured", "work"]):
+    for k, name in enumerate(["points", "least_cells", "voxel_count", "measured", "work"]):
         row[name] = round(sum(f[k] for f in frames) / FRAMES)
     for k, stage in enumerate(STAGES):
         steps = [marks[f * per_frame + k + 1] - marks[f * per_frame + k] for f in range(FRAMES)]
         row[stage] = round(sum(steps) / FRAMES)
-    row["frame"] = sum(row[s] for s in STAGES if s != "floor")
+    row["frame"] = sum(row[s] for s in STAGES if s != "least")
     return row
 
 
@@ -92,24 +92,24 @@ def millions(instructions):
 
 
 def ratios(row):
-    """Instructions per point, and in floor passes."""
-    return [f"{row['frame'] / row['points']:.0f}", f"{row['frame'] / row['floor']:.1f}"]
+    """Instructions per point, and in least passes."""
+    return [f"{row['frame'] / row['points']:.0f}", f"{row['frame'] / row['least']:.1f}"]
 
 
 def show(rows):
     counted = STAGES + ["frame"]
-    print_head(["sensor", "points", "voxel_count", "measured"] + counted + ["per point", "x floor"])
+    print_head(["sensor", "points", "voxel_count", "measured"] + counted + ["per point", "x least"])
     for r in rows:
         numbers = [r["points"], r["voxel_count"], r["measured"]] + [millions(r[c]) for c in counted]
         print_row([r["sensor"]] + numbers + ratios(r))
 
 
 def show_growth(plugin, program, folder):
-    print_head(["frame", "points", "voxel_count", "measured", "floor", "frame", "per point", "x floor"])
+    print_head(["frame", "points", "voxel_count", "measured", "least", "frame", "per point", "x least"])
     for name in (GROWTH_OF, "spread"):
         for points in GROWTH:
             r = count(plugin, program, name, folder, points)
-            numbers = [r["points"], r["voxel_count"], r["measured"], millions(r["floor"]), millions(r["frame"])]
+            numbers = [r["points"], r["voxel_count"], r["measured"], millions(r["least"]), millions(r["frame"])]
             print_row([name] + numbers + ratios(r))
 
 
@@ -144,7 +144,7 @@ def show_functions(plugin, program, sensor, folder):
         if line.isdigit():
             stage = STAGES[(mark - 1) % (len(STAGES) + 1)] if mark % (len(STAGES) + 1) else None
             for name, spent in of_mark.items():
-                if stage and stage != "floor":
+                if stage and stage != "least":
                     stages[name][stage] += spent / FRAMES
             of_mark = {}
             mark += 1

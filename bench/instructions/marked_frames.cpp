@@ -17,7 +17,7 @@
 #include <string>
 
 #include "bench_frames.hpp"
-#include "floor_pass.hpp"
+#include "least_pass.hpp"
 #include "support/dear_clouds.hpp"
 
 namespace pose_wall::bench {
@@ -42,14 +42,14 @@ std::vector<tools::sim::Frame> input(const std::string& name, std::uint32_t coun
   return out;
 }
 
-void print(const pose_wall_result& result, std::uint32_t floor_cells) {
+void print(const pose_wall_result& result, std::uint32_t least_cells) {
   int measured = 0;
   for (const pose_wall_value& value : result.quantity) measured += value.state >= POSE_WALL_DEGRADED ? 1 : 0;
-  std::printf("%u %u %u %d %llu\n", result.points_in, floor_cells, result.voxels, measured,
+  std::printf("%u %u %u %d %llu\n", result.points_in, least_cells, result.voxels, measured,
               static_cast<unsigned long long>(result.work));
 }
 
-// With the settings that nobody has changed, and without a floor pass.
+// With the settings that nobody has changed, and without a least pass.
 int run_dear(const std::string& kind, std::uint32_t count, std::uint32_t points) {
   static test::DearCloud cloud;
   api::Engine engine;
@@ -75,13 +75,13 @@ int run(const std::string& sensor, std::uint32_t count, std::uint32_t points) {
     return EXIT_FAILURE;
   }
   engine.set_clock(mark);
-  FloorPass floor;
+  LeastPass least;
   pose_wall_result result = api::make_result();
   std::int64_t stamp_ns = 0;
   for (const tools::sim::Frame& frame : input(sensor, count, points)) {
     const pose_wall_cloud cloud = cloud_of(frame, stamp_ns += kPeriod_ns);
     mark(nullptr);
-    const std::uint32_t cells = floor.run(frame);
+    const std::uint32_t cells = least.run(frame);
     if (engine.process(cloud, result) != POSE_WALL_OK) {
       std::fprintf(stderr, "the engine refused a frame of %s\n", sensor.c_str());
       return EXIT_FAILURE;

@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-#include "types.hpp"
+#include "cloud/result.hpp"
 
 namespace pose_wall {
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "cloud/direction_grid.hpp"
+#include "cloud/result.hpp"
 #include "cloud/voxel_grid.hpp"
 #include "config.hpp"
 #include "pose_wall.h"

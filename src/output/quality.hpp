@@ -8,7 +8,7 @@
 #include "config.hpp"
 #include "floor/levelling.hpp"
 #include "floor/result.hpp"
-#include "types.hpp"
+#include "output/measurements.hpp"
 #include "walls/wall.hpp"
 
 namespace pose_wall {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "config.hpp"
+#include "output/measurements.hpp"
 #include "output/temporal_motion.hpp"
 #include "pose_wall.h"
 #include "types.hpp"

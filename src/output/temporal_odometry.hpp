@@ -11,6 +11,7 @@
 #include "config.hpp"
 #include "floor/levelling.hpp"
 #include "floor/result.hpp"
+#include "output/measurements.hpp"
 #include "output/temporal_motion.hpp"
 #include "pose_wall.h"
 #include "types.hpp"

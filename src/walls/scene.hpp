@@ -10,6 +10,7 @@
 #include "base/containers/bounded_points.hpp"
 #include "base/estimation/plane.hpp"
 #include "cloud/direction_grid.hpp"
+#include "cloud/result.hpp"
 #include "config.hpp"
 #include "floor/levelling.hpp"
 #include "types.hpp"

@@ -14,9 +14,9 @@
 
 namespace pose_wall::bench {
 
-class FloorPass {
+class LeastPass {
  public:
-  FloorPass() : keys_(kSlots) {}
+  LeastPass() : keys_(kSlots) {}
 
   // Returns the number of voxels.
   std::uint32_t run(const tools::sim::Frame& frame) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What a frame has measured, before it meets the frames before it.
+
+#pragma once
+
+#include <cstdint>
+
+#include "pose_wall.h"
+#include "types.hpp"
+
+namespace pose_wall {
+
+// One of the seven quantities, as this frame measured it.
+struct Measurement {
+  bool measured = false;
+  bool weak = false;  // measured, but never better than degraded
+  double raw = 0.0;
+  double sigma = 0.0;
+  ProtectionParts protection;
+  std::uint32_t reasons = 0;
+};
+
+struct Measurements {
+  Measurement quantity[POSE_WALL_QUANTITIES];
+  double left_right_yaw_difference_rad = 0.0;
+  bool has_yaw_difference = false;
+};
+
+// What a frame says of itself, apart from its geometry.
+struct FrameTiming {
+  double dt_s = 0.0;  // since the last frame, 0 for the first
+  bool first = false;
+  bool still = false;  // the last frame's stamp again
+  bool back = false;   // older than the last frame's
+  bool leap = false;   // more than stamp_gap_max ahead
+  std::uint32_t reasons = 0;
+};
+
+}  // namespace pose_wall
