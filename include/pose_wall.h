@@ -409,12 +409,13 @@ enum pose_wall_reason {
                                               against it */
   /* the walls */
   POSE_WALL_R_WALL_NOT_FOUND = 1 << 10,
-  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min, so dim that a gap would go unnoticed, or
-                                              not seen high enough to be told from a conveyor */
+  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min */
   POSE_WALL_R_WALL_SHORT = 1 << 12,        /* supported over less than wall_length_min along the road */
   POSE_WALL_R_WALL_LEANS = 1 << 13,        /* leans more than wall_lean_max_deg */
-  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* rays pass it or nothing answers where it should be solid, over its top or
-                                              past both of its ends: pipes, props, conveyor, vehicle, curtain */
+  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* it does not show itself solid like a wall: rays pass it, its top or both
+                                              of its ends; nothing answers where it should, or so little that a gap
+                                              would go unnoticed; or it is seen too low to be told from a conveyor:
+                                              pipes, props, conveyor, vehicle, curtain */
   POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well, or did in
                                                one of the three frames before; or it is grooved along its length like
                                                pipes one above the other */

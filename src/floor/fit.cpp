@@ -19,19 +19,19 @@ namespace pose_wall {
 namespace {
 
 constexpr double kGateInThresholds = 3.0;
-// Not below the noise of one range: where voxels average tens of points their scatter is far less, and of a voxel layer
-// that the plane cuts in two the thinner half would count as outliers.
-constexpr double kScaleMin_m = 0.010;
+// The scale is no less than this part of a range's noise: where voxels average tens of points their scatter is far
+// less, and of a voxel layer that the plane cuts in two the thinner half would count as outliers. Judgement,
+// 2026-11-21.
+constexpr double kScaleLeastInNoise = 0.5;
 constexpr double kPatch_m = 0.5;
 // In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
 constexpr double kStretch = 1.25;
 constexpr int kRounds = 5;
 constexpr int kSelections = 3;
-// Residuals up to here may be the sensor's.
-constexpr double kSensorNoise_m = 0.02;
 
 IrlsSettings irls_settings(const Settings& s) {
-  return {kGateInThresholds * s.ground_ransac_thresh, kScaleMin_m, s.ground_ransac_thresh, kRounds, kBeforePatches};
+  return {kGateInThresholds * s.ground_ransac_thresh, kScaleLeastInNoise * s.range_noise, s.ground_ransac_thresh,
+          kRounds, kBeforePatches};
 }
 
 // A floor that waves by more than the threshold would be cut to the parts that happen to lie in one plane.
@@ -99,16 +99,17 @@ Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f)
 }
 
 // In the coordinates of the fit's points, whose residuals are by the plane over theirs.
-void fill_patches(const IrlsResult& irls, double radius_m, const Eigen::Vector3d& sensor_base_m,
-                  FloorScratch* scratch) {
+void fill_patches(const FloorScene& scene, const IrlsResult& irls, double radius_m, FloorScratch* scratch) {
+  const Eigen::Vector3d& sensor_base_m = scene.sensor_base_m;
+  const double range_noise_m = scene.settings.range_noise;
   const TangentPoints& points = scratch->points;
   const double reach_m = kStretch * radius_m;
-  scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m);
+  scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m, range_noise_m);
   scratch->surface.begin(reach_m, kPatch_m);
   // A range that errs moves a point along the ray: height and place err together, which tilts a plane that is seen over
   // a short length. On a floor no rougher than the ranges the error is taken back along the ray, to where that meets
   // the plane.
-  const double rougher = irls.scale_m / kScaleMin_m - 1.0;
+  const double rougher = irls.scale_m / (kScaleLeastInNoise * range_noise_m) - 1.0;
   const auto noise_share = static_cast<float>(rougher < 1.0 ? 1.0 - rougher : 0.0);
   const auto inside = static_cast<float>(irls.plane.signed_distance(sensor_base_m));
   const auto per_cutoff = static_cast<float>(1.0 / (kTukeyCutoff * irls.scale_m));
@@ -122,7 +123,7 @@ void fill_patches(const IrlsResult& irls, double radius_m, const Eigen::Vector3d
     const FourFloats way = 1.0F + noise_share * (inside / (inside - r) - 1.0F);
     const FourFloats u = sensor.x() + du * way, v = sensor.y() + dv * way;
     const FourFloats weights =
-        flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff) * load_four(&points.weight[k]);
+        flat_top_weights(r, static_cast<float>(range_noise_m), per_cutoff) * load_four(&points.weight[k]);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (counts[lane] == 0 || !(weights[lane] > kPatchWeightLeast)) continue;
       const PatchPoint point = PatchPoint::of(u[lane], v[lane], r[lane], weights[lane], bias[lane]);
@@ -215,7 +216,7 @@ FloorResult fit_floor(const FloorScene& scene, const FloorLook& look, const Plan
     out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
     return out;
   }
-  if (irls.solved) fill_patches(irls, look.radius_m, scene.sensor_base_m, scratch);
+  if (irls.solved) fill_patches(scene, irls, look.radius_m, scratch);
   const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
   scratch->work.add(scratch->points.count, steps::kPointPatched);

@@ -57,7 +57,7 @@ const std::vector<Row> kRows = {
     {POSE_WALL_R_FLOOR_AMBIGUOUS, POSE_WALL_ROLL, {"humps"}, {"rough"}},
     // the walls
     {POSE_WALL_R_WALL_NOT_FOUND, POSE_WALL_D_RF, {"one_wall"}, {"clean"}},
-    {POSE_WALL_R_WALL_FEW_INLIERS, POSE_WALL_D_LF, {"wet_wall"}, {"dropout"}},
+    {POSE_WALL_R_WALL_FEW_INLIERS, POSE_WALL_D_LF, {"clean", {}, {{"wall_inlier_min", "100000"}}}, {"dropout"}},
     {POSE_WALL_R_WALL_SHORT, POSE_WALL_YAW, {"cavern"}, {"one_wall"}},
     {POSE_WALL_R_WALL_LEANS, POSE_WALL_D_LF, {"trapezoid", {"lean_left_deg=25"}}, {"trapezoid", {"lean_left_deg=10"}}},
     {POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_D_LF, {"props_before_void"}, {"pipes"}},

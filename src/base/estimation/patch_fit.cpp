@@ -16,9 +16,9 @@ namespace {
 // step two do (2026-11-22, bench/README.md):
 constexpr int kScatterRounds = 4;
 constexpr int kScatterRoundsOfAStep = 2;
-// More is not the sensor's: taken for it, rock seen from the side moved walls by 20 mm instead of 13 on steel sets.
-// Judgement, 2026-11-21: half as much again as the 2 cm of the simulated VLP-16 and Mid-360.
-constexpr double kSensorNoise_m = 0.03;
+// So many standard deviations of a range the scatter along it may have; more is not the sensor's: taken for it, rock
+// seen from the side moved walls by 20 mm instead of 13 on steel sets. Judgement, 2026-11-21: half as much again.
+constexpr double kScatterMost = 1.5;
 // Of the scatter seen square on, where least squares leave nothing: no patch is known a hundred times better than
 // others. Judgement.
 constexpr double kScatterLeast = 0.01;
@@ -32,7 +32,8 @@ void PatchGrid::lay_out(Arena& arena) {
 }
 
 void PatchGrid::begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m,
-                      std::uint32_t layers) {
+                      double range_noise_m, std::uint32_t layers) {
+  range_noise_m_ = range_noise_m;
   layers_ = layers;
   u_min_ = static_cast<float>(u_min_m);
   v_min_ = static_cast<float>(v_min_m);
@@ -98,7 +99,8 @@ PatchGrid::Scatter PatchGrid::scatter_by_incidence(std::uint32_t first, std::uin
     if (!(out.range > 0.0)) out = Scatter{gs / g, 0.0};
     if (!(out.surface > 0.0) && gcc > 0.0) out = Scatter{0.0, gcs / gcc};
     // Rock is seen less rough from the side, by its bumps: more than a sensor's noise is not the sensor's.
-    if (!(out.range <= kSensorNoise_m * kSensorNoise_m)) out = Scatter{gs / g, 0.0};
+    const double most_m = kScatterMost * range_noise_m_;
+    if (!(out.range <= most_m * most_m)) out = Scatter{gs / g, 0.0};
   }
   return out;
 }

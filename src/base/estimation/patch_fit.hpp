@@ -65,8 +65,10 @@ class PatchGrid {
 
   void lay_out(Arena& arena);
 
-  // Patches of patch_m, or larger where the extent needs more than there is room for.
-  void begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m, std::uint32_t layers = 1);
+  // Patches of patch_m, or larger where the extent needs more than there is room for. range_noise_m: standard deviation
+  // of one range.
+  void begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m, double range_noise_m,
+             std::uint32_t layers = 1);
   void add(const PatchPoint& point, std::uint32_t layer = 0);
 
   // For who has the points in the order of their patches, and looks at all of them again and again: which patch each is
@@ -174,6 +176,7 @@ class PatchGrid {
   Span<PatchSums> cells_;
   Span<Mean> means_;
   Span<std::int32_t> mean_of_cell_;  // index into means_, -1 for an empty cell
+  double range_noise_m_ = 0.0;       // standard deviation of one range
   std::uint32_t columns_ = 1, rows_ = 1, layers_ = 1;
   float u_min_ = 0, v_min_ = 0, cells_per_m_ = 1;  // of the patches
 };

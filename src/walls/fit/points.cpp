@@ -64,6 +64,7 @@ void WallPoints::lay_out(Arena& arena) {
 void WallPoints::begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level) {
   at.begin(around, Eigen::Vector3d::Zero(), along_level);
   sensor = at.in_frame(scene.sensor_level_m);
+  range_noise_m = scene.settings.range_noise;
   z_at_origin_m = at.frame.origin.z();
   z_per_v = at.frame.v.z();
   z_per_r = around.n.z();
@@ -86,7 +87,7 @@ void WallPoints::sort_by_patch(PatchGrid* grid, Span<std::uint32_t> places) {
     of_v.add(counts ? load_four(&at.v[k]) : FourFloats{});
   });
   // Room for the strips' fronts, too.
-  grid->begin(of_u.from(), of_u.to(), of_v.from(), of_v.to(), kPatch_m, PatchGrid::kLayersMax);
+  grid->begin(of_u.from(), of_u.to(), of_v.from(), of_v.to(), kPatch_m, range_noise_m, PatchGrid::kLayersMax);
   patches = patch_room.first(grid->patches());
   patches.fill(Patch{});
   for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {

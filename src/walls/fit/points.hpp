@@ -23,6 +23,7 @@ struct WallPoints {
   double measured_per_weight = 1.0;  // of the points that belong here, only a part is; together they stand for all
   Span<float> bias;                  // change of r per metre of range bias
   Eigen::Vector3d sensor;            // u, v, r
+  double range_noise_m = 0.0;        // standard deviation of one range
   double z_at_origin_m = 0.0;        // z_level = z_at_origin + v z_per_v + r z_per_r
   double z_per_v = 1.0, z_per_r = 0.0;
   // Of each patch of PatchGrid the places behind its last points: a point of a strip may be the surface's as well, by

@@ -160,7 +160,7 @@ class FourWeights {
                                                : 0.0F) {}
 
   FourFloats of_surface(std::uint32_t k, FourFloats r) const {
-    FourFloats weights = flat_top_weights(r, static_cast<float>(kSensorNoise_m), per_cutoff_);
+    FourFloats weights = flat_top_weights(r, static_cast<float>(surface_.points->range_noise_m), per_cutoff_);
     if (surface_.strips != nullptr) return weights * surface_.points->surface_probability(k);
     return surface_.layers.found ? weights * surface_.layers.surface_probability(r) : weights;
   }

@@ -38,9 +38,6 @@ struct StripFronts {
   double scale_m = 0.0;
 };
 
-// Residuals up to here may be the sensor's.
-constexpr double kSensorNoise_m = 0.015;
-
 struct WallSurface {
   const WallPoints* points = nullptr;
   IrlsOver irls;                         // over the points' plane
@@ -64,7 +61,7 @@ struct WallSurface {
 
   // Weight of a point as one of the surface, by its place along the road and its distance from the plane of irls.
   double weight(double u_m, double residual_m) const {
-    const double weight = flat_top_weight(residual_m, kSensorNoise_m, irls.scale_m);
+    const double weight = flat_top_weight(residual_m, points->range_noise_m, irls.scale_m);
     if (strips != nullptr) return weight * strips->surface_probability(u_m);
     return layers.found ? weight * layers.surface_probability(residual_m) : weight;
   }

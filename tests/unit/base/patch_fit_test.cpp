@@ -22,6 +22,8 @@
 namespace pose_wall {
 namespace {
 
+constexpr double kRangeNoise_m = 0.02;
+
 using test::Rock;
 
 constexpr double kLength_m = 8.0, kHeight_m = 2.0;
@@ -31,7 +33,7 @@ constexpr int kRuns = 300;
 template <typename Surface>
 PatchFit fit(PatchGrid* grid, double noise_m, double scale_m, test::Noise* noise, const Surface& surface,
              int points = kPoints) {
-  grid->begin(-kLength_m / 2, kLength_m / 2, 0.0, kHeight_m, 0.5);
+  grid->begin(-kLength_m / 2, kLength_m / 2, 0.0, kHeight_m, 0.5, kRangeNoise_m);
   for (int i = 0; i < points; ++i) {
     const double u = noise->uniform(-kLength_m / 2, kLength_m / 2), v = noise->uniform(0.0, kHeight_m);
     const double r = surface(u, v) + noise->normal(noise_m);
@@ -100,7 +102,7 @@ TEST(PatchFit, FarFromTheOriginTheErrorsAreTheSame) {
       test::Noise noise(7);
       const Rock rock(0.03, 0.5, &noise);
       const double from_m = far != 0 ? 24.0 : 0.0;
-      grid->begin(from_m, from_m + 8.0, 0.0, 2.0, 0.5, layers);
+      grid->begin(from_m, from_m + 8.0, 0.0, 2.0, 0.5, kRangeNoise_m, layers);
       for (int i = 0; i < kPoints; ++i) {
         const double u = noise.uniform(0.0, 8.0), v = noise.uniform(0.0, 2.0);
         if (u > 2.0 && u < 3.0 && v < 1.0) continue;  // a hole
@@ -139,7 +141,7 @@ TEST(PatchFit, ABiasMovesTheFitAsTheResponseSays) {
   PatchFit fits[2];
   for (int biased = 0; biased < 2; ++biased) {
     test::Noise noise(4);
-    grid->begin(-4, 4, 0, 2, 0.5);
+    grid->begin(-4, 4, 0, 2, 0.5, kRangeNoise_m);
     for (int i = 0; i < kPoints; ++i) {
       const double u = noise.uniform(-4, 4), v = noise.uniform(0, 2);
       const double along_normal = -2.0 / std::sqrt(4.0 + u * u);  // ray . normal of a wall 2 m away
@@ -190,7 +192,7 @@ TEST(PatchFit, OnRoughRockTheCurvatureIsChance) {
       int bends = 0;
       for (int run = 0; run < kRuns; ++run) {
         const Rock rock(0.05, length_m, &noise);
-        grid->begin(-half_wall_m, half_wall_m, 0.0, kHeight_m, 0.5);
+        grid->begin(-half_wall_m, half_wall_m, 0.0, kHeight_m, 0.5, kRangeNoise_m);
         for (int i = 0; i < kPoints / 2; ++i) {
           const double u = noise.uniform(-half_wall_m, half_wall_m), v = noise.uniform(0.0, kHeight_m);
           const double r = rock.at(u, v) + noise.normal(0.01);
@@ -214,7 +216,7 @@ TEST(PatchFit, CurvatureThatNoPointsShowIsUnknown) {
     test::Placed<PatchGrid> grid;
     test::Noise noise(7);
     const Rock rock(rock_m, 0.3, &noise);
-    grid->begin(-kLength_m / 2, kLength_m / 2, 0.0, kHeight_m, 0.5);
+    grid->begin(-kLength_m / 2, kLength_m / 2, 0.0, kHeight_m, 0.5, kRangeNoise_m);
     for (int i = 0; i < kPoints; ++i) {
       const double u = noise.uniform(-kLength_m / 2, kLength_m / 2), v = i % 2 == 0 ? 0.3 : 0.8;
       grid->add(test::patch_point(u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0));
@@ -245,18 +247,18 @@ TEST(PatchFit, AFootThatStandsOutAllAlongIsABendForSure) {
 
 TEST(PatchFit, RefusesWhatHoldsNoPlane) {
   test::Placed<PatchGrid> grid;
-  grid->begin(-4, 4, 0, 2, 0.5);
+  grid->begin(-4, 4, 0, 2, 0.5, kRangeNoise_m);
   EXPECT_FALSE(grid->fit().solved) << "empty";
   for (int i = 0; i < 1000; ++i) grid->add(test::patch_point(1.1, 1.1, 0.0, 1.0, 1.0));
   EXPECT_FALSE(grid->fit().solved) << "one place";
-  grid->begin(-4, 4, 0, 2, 0.5);
+  grid->begin(-4, 4, 0, 2, 0.5, kRangeNoise_m);
   for (int i = 0; i < 1000; ++i) grid->add(test::patch_point(-4.0 + 0.008 * i, 1.1, 0.001 * (i % 3), 1.0, 1.0));
   EXPECT_FALSE(grid->fit().solved) << "one line";
 }
 
 TEST(PatchFit, PointsOutsideTheGridAndNaNAreLeftOut) {
   test::Placed<PatchGrid> grid;
-  grid->begin(0, 4, 0, 2, 0.5);
+  grid->begin(0, 4, 0, 2, 0.5, kRangeNoise_m);
   test::Noise noise(7);
   for (int i = 0; i < 500; ++i)
     grid->add(test::patch_point(noise.uniform(0, 4), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
@@ -271,7 +273,7 @@ TEST(PatchFit, PointsOutsideTheGridAndNaNAreLeftOut) {
 
 TEST(PatchFit, AnExtentLargerThanTheGridGetsLargerPatches) {
   test::Placed<PatchGrid> grid;
-  grid->begin(-100, 100, 0, 2, 0.5);
+  grid->begin(-100, 100, 0, 2, 0.5, kRangeNoise_m);
   test::Noise noise(8);
   for (int i = 0; i < 5000; ++i)
     grid->add(test::patch_point(noise.uniform(-100, 100), noise.uniform(0, 2), noise.normal(0.01), 1.0, 1.0));
@@ -286,7 +288,7 @@ TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
   PatchFit fits[3];
   for (int k = 0; k < 3; ++k) {  // no second layer, one 0.1 m before it, one 0.4 m before it
     test::Noise noise(9);
-    grid->begin(-8, 8, 0, 2, 0.5, k == 0 ? 1 : 2);
+    grid->begin(-8, 8, 0, 2, 0.5, kRangeNoise_m, k == 0 ? 1 : 2);
     const auto surface = [](double u, double v) { return 0.01 + 0.002 * u + 0.001 * v; };
     for (int i = 0; i < kPoints; ++i) {
       const double u = noise.uniform(-1.5, 1.5), v = noise.uniform(0, 2);
@@ -312,7 +314,7 @@ TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
 TEST(PatchFit, SumsOfPatchesAreThoseOfTheirPoints) {
   constexpr std::uint32_t kMany = 900;
   test::Placed<PatchGrid> one, sorted;
-  for (auto* grid : {one.get(), sorted.get()}) grid->begin(-4, 4, 0, 2, 0.5);
+  for (auto* grid : {one.get(), sorted.get()}) grid->begin(-4, 4, 0, 2, 0.5, kRangeNoise_m);
   test::Noise noise(10);
   std::vector<std::vector<std::array<float, 4>>> of_patch(sorted->patches());
   for (std::uint32_t i = 0; i < kMany; ++i) {
@@ -356,7 +358,7 @@ TEST(PatchFit, SumsOfPatchesAreThoseOfTheirPoints) {
 
 TEST(PatchFit, EveryPlaceHasAPatch) {
   test::Placed<PatchGrid> grid;
-  grid->begin(-4, 4, 0, 2, 0.5);
+  grid->begin(-4, 4, 0, 2, 0.5, kRangeNoise_m);
   const FourInts patch = grid->patch_of(FourFloats{-1e9F, -4.0F, 4.0F, 1e9F}, FourFloats{-1e9F, 0.0F, 2.0F, 1e9F});
   EXPECT_EQ(patch[0], 0);
   EXPECT_EQ(patch[1], 0);

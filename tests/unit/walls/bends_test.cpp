@@ -48,6 +48,8 @@ double ledge(double z_m) {
   return z_m > 0.1 ? (z_m < 0.3 ? z_m - 0.1 : 0.2) : 0.0;
 }
 
+constexpr double kNoise_m = 0.01;  // of a range, as the config says
+
 struct Fitted {
   bool solved = false;
   double lean_rad = 0.0;
@@ -59,10 +61,10 @@ Fitted fitted(Profile profile, const Lidar& lidar, std::uint32_t seed) {
   Noise noise(seed);
   const Rock rock(0.05, 0.3, &noise);
   RayScene scene;
-  scene.set_noise(0.01);
+  scene.set_noise(kNoise_m);
   scene.add(test::side_panel(kWall_m, {-16.0, 16.0}, {kFloorZ_m, 2.0}));
   scene.set_relief(kWall_m, [&](const Eigen::Vector3d& p) { return -rock.at(p.x(), p.z()) - profile(p.z()); });
-  BandFixture band;
+  BandFixture band({{"range_noise", "0.01"}});
   scene.scan(lidar, &band);
   const WallScene walls = band.scene();
   test::Placed<WallGrid> grid;

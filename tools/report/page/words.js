@@ -88,7 +88,7 @@ const WORDS = {
       stamp_back: '时间戳倒退', stamp_leap: '时间戳向前跳变', frozen: '点云与上一帧完全相同：传感器冻结',
       floor_not_found: '传感器下方没有可作地面的平面', floor_few_inliers: '地面内点不足',
       floor_thin: '地面点近于一条线或面积过小', floor_ambiguous: '另一高度或坡度同样能解释地面',
-      wall_not_found: '该侧未找到墙面', wall_few_inliers: '墙面内点不足或过暗', wall_short: '墙面沿巷道支撑长度不足',
+      wall_not_found: '该侧未找到墙面', wall_few_inliers: '墙面内点不足', wall_short: '墙面沿巷道支撑长度不足',
       wall_leans: '墙面倾斜过大', wall_seen_through: '应为实体处有射线穿过：管路、立柱、输送机、车辆或风帘',
       wall_ambiguous: '该侧另一平面同样能解释', walls_not_parallel: '两侧墙不平行', yaw_out_of_range: '航向超出 yaw_max_deg',
       cross_road: '横向存在更好的墙对', curved: '墙面或地面明显弯曲', extrapolated: '采样点处未见墙面，由平面外推',
