@@ -14,17 +14,11 @@ mkdir -p build/logs
 # Clang reads no headers that gcc precompiled.
 cmake --preset release -B build/tidy -DPOSE_WALL_BUILD_TESTS=OFF -DPOSE_WALL_QUICK_BUILD=OFF \
   > build/logs/tidy_configure.log
-# Most files are compiled twice: as delivered, and with the notes of a traced frame, which has all of the other. What
-# only gcc knows of optimisation (tools/cmake/pose_wall_engine.cmake) is no error of the file.
+# Most files are compiled twice: as delivered, and with the notes of a traced frame, which has all of the other.
 python3 - build/tidy/compile_commands.json << 'END'
 import json, sys
 commands = sorted(json.load(open(sys.argv[1])), key=lambda c: "pose_wall_traced_objects" in c["command"])
-commands = {c["file"]: c for c in commands}
-for c in commands.values():
-    for known_to_gcc in ("split-paths", "shrink-wrap-separate", "tree-pre"):
-        c["command"] = c["command"].replace(f" -fno-{known_to_gcc} ", " ")
-    c["command"] = c["command"].replace(" -fira-region=one ", " ")
-json.dump(list(commands.values()), open(sys.argv[1], "w"))
+json.dump(list({c["file"]: c for c in commands}.values()), open(sys.argv[1], "w"))
 END
 
 files() {

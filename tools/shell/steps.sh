@@ -9,9 +9,11 @@ step_log_dir=${step_log_dir:-build/logs}
 step_log=
 
 step() {
-  local name=$1 started=$SECONDS status=0
+  local name=$1 started=$SECONDS status=0 busy
   shift
   mkdir -p "$step_log_dir"
+  step_processor_s
+  busy=$step_busy
   step_log=$step_log_dir/$(printf '%s' "$name" | tr -cs 'A-Za-z0-9\n' '_').log
   if [ -t 1 ]; then
     "$@" > "$step_log" 2>&1 < /dev/null &
@@ -26,7 +28,13 @@ step() {
     printf '\n%s failed with status %s after %s s. Whole log: %s\n' "$name" "$status" $((SECONDS - started)) "$step_log"
     exit 1
   fi
-  printf 'done (%s s)\n' $((SECONDS - started))
+  step_processor_s
+  printf 'done (%s s, %s of processors)\n' $((SECONDS - started)) $((step_busy - busy))
+}
+
+step_processor_s() { # step_busy: seconds that the programs run so far have kept a processor busy
+  times > "$step_log_dir/times"
+  step_busy=$(sed -n '2s/[ms]/ /gp' "$step_log_dir/times" | awk '{ printf "%d", 60 * ($1 + $3) + $2 + $4 }')
 }
 
 step_watch() { # pid, name: shows progress until the process ends, returns its status
