@@ -49,6 +49,7 @@ class Inside {
 };
 
 std::int32_t check_inputs(const pose_wall_inputs* inputs) {
+  // The bits of pose_wall_inputs.given; others are of a later version.
   constexpr std::uint32_t kKnown =
       POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE | POSE_WALL_INPUT_ODOMETRY;
   if (inputs == nullptr) return POSE_WALL_OK;
@@ -58,6 +59,7 @@ std::int32_t check_inputs(const pose_wall_inputs* inputs) {
 }
 
 std::int32_t check_moment(const pose_wall_moment* moment) {
+  // The bits of pose_wall_moment.known; others are of a later version.
   constexpr std::uint32_t kKnown = POSE_WALL_MOMENT_BOOT | POSE_WALL_MOMENT_WALL | POSE_WALL_MOMENT_SAME_CLOCK;
   if (moment == nullptr) return POSE_WALL_OK;
   const std::int32_t status = pose_wall::check_struct_size(moment->struct_size, pose_wall::kMomentSizes);

@@ -13,7 +13,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kNumbersOfBox = 6;
+constexpr std::uint32_t kNumbersOfBox = 6;  // x, y and z, from and to
 
 // A row of the table, with where pose_wall_config stores it.
 struct Row {
@@ -73,7 +73,7 @@ constexpr Row kRows[] = {
 #undef POSE_WALL_COUNT
 #undef POSE_WALL_BOX
 };
-constexpr std::uint32_t kRowCount = sizeof(kRows) / sizeof(kRows[0]);
+constexpr std::uint32_t kRowCount = sizeof(kRows) / sizeof(kRows[0]);  // as many as the table has
 
 // Tells a config of this table from one of another build.
 constexpr std::uint32_t kLayout = 0x50570000U + kRowCount * 256U + kNumbersUsed;
@@ -151,7 +151,7 @@ std::int32_t set_choice(pose_wall_config* config, const Row& row, const char* va
 // Six numbers with spaces, one comma or both between them, in brackets or not; or nothing. Returns how many there were,
 // more than six where it is anything else.
 std::uint32_t read_box(const char* at, double (*numbers)[kNumbersOfBox]) {
-  constexpr std::uint32_t kNoBox = kNumbersOfBox + 1;
+  constexpr std::uint32_t kNoBox = kNumbersOfBox + 1;  // a number of numbers that no box has
   skip_spaces(&at);
   const bool bracket = *at == '[';
   if (bracket) ++at;
@@ -280,7 +280,7 @@ Settings read_settings(const pose_wall_config& config) {
 }
 
 double reach_of(const Settings& s) {
-  constexpr double kRounding_m = 0.01;
+  constexpr double kRounding_m = 0.01;  // more than floats of a ray of range_max round by
   return s.range_max + kRounding_m +
          std::sqrt(s.extrinsic_x * s.extrinsic_x + s.extrinsic_y * s.extrinsic_y + s.extrinsic_z * s.extrinsic_z);
 }

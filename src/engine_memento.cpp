@@ -5,12 +5,14 @@
 
 #include <cstring>
 
+#include "base/math/elementary.hpp"
+
 namespace pose_wall {
 namespace {
 
-// To be changed with what visit() walks over.
+// 'pose-m' in ASCII and a count: raise it with each change to what visit() walks over.
 constexpr std::uint64_t kVersion = 0x706F73652D6D0005ULL;
-constexpr std::uint64_t kHeadWords = 2;  // version, checksum
+constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
 // Every member is one word of eight bytes, least significant first.
 void put_word(std::uint64_t word, unsigned char* to) {
@@ -226,7 +228,6 @@ void take_up(const Memory& memory, const pose_wall_moment& then, const pose_wall
     engine->set_memory(memory);
     return;
   }
-  constexpr double kNanosecond_s = 1e-9;
   // In floating point: the difference of two arbitrary stamps need not fit an int64.
   const double by_wall_s = (static_cast<double>(now.wall_ns) - static_cast<double>(then.wall_ns)) * kNanosecond_s;
   const double before_save_s =

@@ -13,7 +13,7 @@
 namespace pose_wall {
 namespace {
 
-// The floats of "no value" and "no bound". A float that is known stays within +-kFloatMax.
+// The floats of "no value" and "no bound", -2^31 and 2^31. Floats that are known stay within +-kFloatMax:
 constexpr float kNoValue = -2147483648.0F;
 constexpr float kNoBound = 2147483648.0F;
 constexpr double kFloatMax = 2147483520.0;  // the last float before 2^31

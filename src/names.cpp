@@ -8,8 +8,8 @@
 namespace pose_wall {
 namespace {
 
-// Each table is one string, its texts one after the other and each with its end, the last for a number that is none:
-// there are no pointers that a loader would have to place, and it takes a ninth of the code of a switch.
+// Each table is one string of all its texts, the last one for unknown numbers. A loader has no pointers to place, and
+// the code is a ninth of a switch's:
 constexpr char kStatusTexts[] =
 #define STATUS(number, text) text "\0"
 #include "names.def"
@@ -34,7 +34,6 @@ constexpr char kStageNames[] =
 #define STAGE(stage, name) name "\0"
 #include "names.def"
     "unknown";
-
 constexpr char kPartNames[] =
 #define PART(part, name) name "\0"
 #include "names.def"
@@ -44,6 +43,7 @@ constexpr char kSenseNames[] =
 #include "names.def"
     "unknown";
 
+// The numbers of the same rows, in the order of their texts:
 constexpr std::int8_t kStatuses[] = {
 #define STATUS(number, text) number,
 #include "names.def"
@@ -64,7 +64,6 @@ constexpr std::int64_t kStages[] = {
 #define STAGE(stage, name) stage,
 #include "names.def"
 };
-
 constexpr std::int64_t kParts[] = {
 #define PART(part, name) part,
 #include "names.def"

@@ -12,7 +12,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::int64_t kPeriod_ns = 100000000;
+constexpr std::int64_t kPeriod_ns = 100000000;  // a tenth of a second, as LiDARs turn
 
 // The road; with steel sets; with a side that is open; without a floor. What may be told of them differs.
 constexpr SelfTestScene kScenes[POSE_WALL_SELF_TEST_FRAMES] = {

@@ -3,9 +3,13 @@
 
 #include "self_test_road.hpp"
 
+#include "base/math/elementary.hpp"
+
 namespace pose_wall {
 namespace {
 
+// The road of the self test: metres from the sensor to its surfaces, and its steel sets. Made up; kSelfTestTruth
+// follows from them:
 constexpr double kToLeft_m = 2.6, kToRight_m = 2.2, kToFloor_m = 1.5, kToRoof_m = 1.9, kToFace_m = 30.0;
 constexpr double kSteel_m = 0.14, kSteelShare = 0.15;
 constexpr double kNoise_m = 0.02;  // from end to end
@@ -38,7 +42,7 @@ double chance(std::uint64_t of) {
 
 // Range to a plane of the road at a distance ahead or behind along an axis; beyond everything where it is not there.
 double range_m(double along, double ahead_m, bool ahead, double behind_m, bool behind) {
-  constexpr double kNothing_m = 1e9;
+  constexpr double kNothing_m = 1e9;  // beyond all of the road
   if (along > 0.0 && ahead) return ahead_m / along;
   return along < 0.0 && behind ? behind_m / -along : kNothing_m;
 }
@@ -69,7 +73,6 @@ double range_of_ray_m(const SelfTestScene& scene, const double (&ray_base)[3]) {
 const double kSelfTestTruth[7] = {0.019999333, -0.029997750, -0.039994667, 2.520032, 2.679968, 2.279968, 2.120032};
 
 std::uint32_t scan_self_test_road(const SelfTestScene& scene, std::uint32_t frame, float (*points_base_m)[3]) {
-  constexpr double kPi = 3.141592653589793;
   std::uint32_t count = 0;
   for (std::uint32_t line = 0; line < kSelfTestLines; ++line) {
     const double share = (static_cast<double>(line) + 0.5) / kSelfTestLines;

@@ -3,10 +3,11 @@
 
 #include "cloud/seen_clouds.hpp"
 
+#include "base/math/elementary.hpp"
+
 namespace pose_wall {
 
 Repeat SeenClouds::keep(std::uint64_t fingerprint, std::int64_t stamp_ns) {
-  constexpr double kNanosecond_s = 1e-9;  // the unit of stamps
   for (const SeenCloud& seen : cloud) {
     if (seen.fingerprint != fingerprint) continue;
     // In floating point: the difference of two arbitrary stamps need not fit an int64.

@@ -26,20 +26,20 @@ enum Id : std::uint32_t {
 enum Sense { AT_LEAST, AT_MOST, BELOW, IS_SO };
 enum Effect { TELLS, DOUBTS, REFUSES };
 
-// A bend is told where it takes up this much of the alert limit: judgement, 2026-11-21.
+// Bends matter from a fifth of the alert limit on: judgement, 2026-11-21.
 constexpr double kBendMatters = 0.2;
 
 // The rows as types: sense, effect, reasons and limit(settings). A limit that is left to the caller is no number here.
 template <Id id>
 struct Row;
-constexpr double BY_CALLER = -1.0;
+constexpr double BY_CALLER = -1.0;  // no limit of a row: the caller tells it
 #define GATE(id, name, sense_, limit_, unit, key, effect_, reasons_, origin, asks)                  \
   template <>                                                                                       \
   struct Row<id> {                                                                                  \
     static constexpr Sense sense = sense_;                                                          \
     static constexpr Effect effect = effect_;                                                       \
-    static constexpr std::uint32_t reasons = reasons_;                                              \
-    static constexpr bool by_caller = #limit_[0] == 'B';                                            \
+    static constexpr std::uint32_t reasons = reasons_;   /* as the row says */                      \
+    static constexpr bool by_caller = #limit_[0] == 'B'; /* BY_CALLER alone begins so */            \
     static double limit([[maybe_unused]] const Settings& s) { return static_cast<double>(limit_); } \
   };
 #include "gates/gates.def"

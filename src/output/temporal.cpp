@@ -12,13 +12,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kNanosecond_s = 1e-9;
-constexpr std::uint32_t kConfirmations = 3;
-constexpr std::uint32_t kStillFramesMax = 2;
-// A memory that is so long is that of 10 s at 20 Hz, the most that temporal_smoothing_tau and a quick sensor ask for.
+constexpr std::uint32_t kConfirmations = 3;   // judgement, 2026-11-21: fewer believe a wrong look, more lag a jump
+constexpr std::uint32_t kStillFramesMax = 2;  // judgement, 2026-11-21: so long a held value ages by the usual period
+// Frames of two time constants of 10 s at 20 Hz, the most that temporal_smoothing_tau and a quick sensor ask for.
 constexpr std::uint32_t kFramesUntilSettled = 400;
-// No LiDAR is that quick: it is the same frame again, or the stamps are no nanoseconds, by which everything would be
-// held a thousand times too long.
+// A millisecond: no LiDAR is that quick, so it is the same frame again, or stamps that are no nanoseconds.
 constexpr std::int64_t kStillBelow_ns = 1000000;
 
 // A level that is not a number must not be hidden by one that is.
@@ -70,8 +68,8 @@ void reach_to_last_good(std::uint32_t quantity, const Settings& s, const Track& 
 // How far smoothing may take the value from raw: a quarter of its protection, and not so far that it is no longer
 // valid.
 double lag_most(double protection, double alert) {
-  constexpr double kShare = 0.25;
-  constexpr double kOfRoom = 0.99;  // the parts' sum is rounded
+  constexpr double kShare = 0.25;   // judgement, 2026-11-24: more would hide a good measurement (README, Time)
+  constexpr double kOfRoom = 0.99;  // a hundredth for rounding of the parts' sum
   const double share = kShare * protection, room = kOfRoom * (alert - protection);
   return room > 0.0 && room < share ? room : share;
 }

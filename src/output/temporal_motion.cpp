@@ -10,10 +10,6 @@
 namespace pose_wall {
 namespace {
 
-// As pose_wall_inputs documents them: what no roadheader does is a wrong unit or a broken sensor.
-constexpr double kSpeedMost_m_s = 50.0;
-constexpr double kTurnRateMost_rad_s = 10.0;
-
 struct Known {
   bool given = false;
   double rate = 0.0;

@@ -13,6 +13,10 @@
 
 namespace pose_wall {
 
+// As pose_wall_inputs documents them. A roadheader is never as fast: more is a wrong unit or a broken sensor:
+constexpr double kSpeedMost_m_s = 50.0;
+constexpr double kTurnRateMost_rad_s = 10.0;
+
 struct Change {
   double carry[POSE_WALL_QUANTITIES] = {};   // what is known of it: a held value moves by it
   double growth[POSE_WALL_QUANTITIES] = {};  // what is not: a held level grows by it

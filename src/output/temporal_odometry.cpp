@@ -14,7 +14,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kNobodyKnows = std::numeric_limits<double>::infinity();
+constexpr double kNobodyKnows = std::numeric_limits<double>::infinity();  // a level without bound
 
 enum Direction { kAlong = 0, kAcross = 1, kUp = 2, kTurns = 3 };  // and turns about the three
 
@@ -213,16 +213,17 @@ void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levellin
 }  // namespace
 
 bool is_sound(const pose_wall_odometry& o) {
-  constexpr double kFar_m = 1e7, kLarge = 1e12, kFast_m_s = 50.0, kFast_rad_s = 10.0;
+  // Sane inputs: a double tells nanometres at 10,000 km; no drift comes near 1e12. Judgement, 2026-11-25.
+  constexpr double kFar_m = 1e7, kLarge = 1e12;
   const double* q = o.quaternion;
   const double norm2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
   const Eigen::Vector3d along = vector_of(o.along), across = vector_of(o.across);
-  constexpr int kAll = POSE_WALL_ODOMETRY_DIRECTIONS;
+  constexpr int kAll = POSE_WALL_ODOMETRY_DIRECTIONS;  // directions of the interface, each with its drift
   return o.run != OdometryMemory::kNoRun && all_within(o.position_m, 3, -kFar_m, kFar_m) &&
          std::fabs(norm2 - 1.0) < 1e-5 && is_unit(along) && is_unit(across) && std::fabs(along.dot(across)) < 1e-3 &&
          all_within(o.level, kAll, 0.0, kNobodyKnows) && all_within(o.drift_variance, kAll, 0.0, kLarge) &&
-         all_within(o.drift, kAll, 0.0, kLarge) && all_within(o.velocity_m_s, 3, -kFast_m_s, kFast_m_s) &&
-         all_within(o.turn_rate_rad_s, 3, -kFast_rad_s, kFast_rad_s) &&
+         all_within(o.drift, kAll, 0.0, kLarge) && all_within(o.velocity_m_s, 3, -kSpeedMost_m_s, kSpeedMost_m_s) &&
+         all_within(o.turn_rate_rad_s, 3, -kTurnRateMost_rad_s, kTurnRateMost_rad_s) &&
          all_within(o.rate_level, kAll, 0.0, kNobodyKnows);
 }
 

@@ -33,7 +33,7 @@ struct SeenSurface {
 
 // The machine's last place, and what it saw until then.
 struct OdometryMemory {
-  static constexpr std::uint64_t kNoRun = 0;
+  static constexpr std::uint64_t kNoRun = 0;  // the interface counts runs from 1
 
   std::uint64_t run = kNoRun;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();

@@ -19,6 +19,7 @@ constexpr pose_wall_trace_info kGates[] = {
 static_assert(sizeof kGates / sizeof kGates[0] == POSE_WALL_TRACE_GATES, "gates.def and pose_wall_trace.h differ");
 
 #define GATE(id, ...) POSE_WALL_TRACE_##id,
+// The numbers of the rows, in their order.
 constexpr std::uint32_t kIds[] = {
 #include "gates/gates.def"
 };

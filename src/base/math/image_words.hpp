@@ -11,11 +11,12 @@
 #include <cstring>
 
 #include "base/math/crc32.hpp"
+#include "base/math/elementary.hpp"
 
 namespace pose_wall {
 
 // The units of an image's integers, by tools/plc/image.def and the motion image:
-constexpr double kMilliDegreesPerRadian = 180000.0 / 3.14159265358979323846;
+constexpr double kMilliDegreesPerRadian = 180000.0 / kPi;
 constexpr double kMillimetresPerMetre = 1000.0;
 constexpr double kMillisecondsPerSecond = 1000.0;
 constexpr double kNanosecondsPerSecond = 1e9;
