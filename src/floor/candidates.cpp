@@ -16,17 +16,16 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kTriangleMin_m2 = 0.10;  // twice the area of the three points: slivers give wild normals
-constexpr std::uint32_t kDrawsPerIteration = 8;
-constexpr std::uint32_t kQuickPointsMax = 500;
-constexpr double kGhostShare = 0.4;
-constexpr double kBelowShareMax = 0.05;
-// Neither a floor nor a rival of one, whose score is at most twice its area: where no floor is within the radius, all
-// planes are such splinters.
+constexpr double kTriangleMin_m2 = 0.10;         // judgement, 2026-11-21: twice its area; slivers give wild normals
+constexpr std::uint32_t kDrawsPerIteration = 8;  // judgement, 2026-11-21: failed draws a hypothesis; caps the loop
+constexpr std::uint32_t kQuickPointsMax = 500;   // 1000 points took 1.0 M of 92.1 M instructions more (bench/README.md)
+constexpr double kGhostShare = 0.4;              // judgement, 2026-11-21: a plane seen through so often is a reflection
+constexpr double kBelowShareMax = 0.05;  // judgement, 2026-11-21: only strays and reflections lie below; 0.3 at first
+// A plane scores at most twice its area: below this score it can neither be the floor nor rival it.
 double tells_nothing_m2(const Settings& s) {
   return 0.5 * limit_of<gate::FLOOR_RIVAL>(s) * limit_of<gate::FLOOR_AREA>(s);
 }
-constexpr double kOutlierSpan_m = 4.0;
+constexpr double kOutlierSpan_m = 4.0;  // judgement, 2026-11-21: MLESAC spreads outliers over a road's height
 
 #ifdef POSE_WALL_TRACE
 void note_floor_plane(const Plane& plane, pose_wall_trace_fate fate, double support,
@@ -55,7 +54,7 @@ class BestOutside {
       : subset_(subset), settings_(settings), sensor_base_m_(sensor_base_m) {}
 
   void offer(const Plane& plane) {
-    constexpr double kSteepest_rad = 1.05;  // what is steeper is a wall
+    constexpr double kSteepest_rad = 1.05;  // 60 degrees, the most of ground_tilt_max_deg: steeper is a wall
     if (may_be_floor(plane, FloorLimits(settings_), sensor_base_m_) || tilt_of_up(plane.n) > kSteepest_rad) return;
     const bool steep = tilt_of_up(plane.n) > radians(settings_.ground_tilt_max_deg);
     Hypothesis& best = steep ? steep_ : displaced_;
@@ -64,7 +63,7 @@ class BestOutside {
   }
 
   void note() const {
-    constexpr double kAnything = 0.9;  // what explains less is chance
+    constexpr double kAnything = 0.9;  // judgement, 2026-11-22: a plane that explains less than a tenth is chance
     for (const Hypothesis* best : {&displaced_, &steep_}) {
       if (best->cost < kAnything) {
         note_floor_plane(best->plane, POSE_WALL_TRACE_OUT_OF_RANGE, 1.0 - best->cost, sensor_base_m_);
@@ -89,13 +88,13 @@ std::uint32_t drawn(const FloorDraw& from, bool of_low, Random* random) {
 // Half from the low points, half from all, so that a floor counts as a whole even where the machine leans and the
 // lowest points are one side of it only.
 void fill_subset(const FloorDraw& from, Random* random, PointSet* subset) {
-  for (std::uint32_t k = 0; k < kFloorSubset; ++k) {
+  for (std::uint32_t k = 0; k < kSubsetPoints; ++k) {
     const std::uint32_t i = drawn(from, k % 2 == 0, random);
     subset->x[k] = from.open_base.x[i];
     subset->y[k] = from.open_base.y[i];
     subset->z[k] = from.open_base.z[i];
   }
-  subset->count = kFloorSubset;
+  subset->count = kSubsetPoints;
 }
 
 // The plane through three drawn points, normal up; false for slivers.
@@ -113,9 +112,9 @@ bool draw_plane(const FloorDraw& from, bool of_low, Random* random, Plane* plane
 
 // The lowest percentile by z, off a histogram of centimetres.
 std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::uint32_t> out) {
-  constexpr std::uint32_t kBins = 2048;
-  constexpr float kFloor_m = -10.24F;
-  std::uint32_t bins[kBins + 1] = {};  // the last: of none
+  constexpr std::uint32_t kBins = 2048;  // centimetres: 20.48 m, 8 KiB on the stack
+  constexpr float kFloor_m = -10.24F;    // half of the bins lie below base; the end bins take the rest
+  std::uint32_t bins[kBins + 1] = {};    // the last: of none
   const auto bins_of = [](FourFloats z) {
     const FourFloats place = (z - kFloor_m) * 100.0F;
     return cut_off(smaller_of(larger_of(place, FourFloats{}), all_four(kBins - 1.0F)));
@@ -176,7 +175,7 @@ void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorSh
 }
 
 bool is_below(const Plane& above, const Plane& below, const Eigen::Vector3d& sensor_base_m) {
-  constexpr double kBelow_m = 0.1;
+  constexpr double kBelow_m = 0.1;  // judgement, 2026-11-23: three thresholds; a nearer plane is the same floor
   return below.signed_distance(sensor_base_m) > above.signed_distance(sensor_base_m) + kBelow_m;
 }
 
@@ -210,8 +209,8 @@ bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Ve
 }
 
 bool same_floor(const Plane& a, const Plane& b) {
-  constexpr double kReach_m = 2.0;
-  constexpr double kApart_m = 0.08;
+  constexpr double kReach_m = 2.0;   // judgement, 2026-11-21: compared under the machine and so far around it
+  constexpr double kApart_m = 0.08;  // judgement, 2026-11-21: below three thresholds (9 cm); nearer planes are one
   const double places[][2] = {{0.0, 0.0}, {kReach_m, 0.0}, {-kReach_m, 0.0}, {0.0, kReach_m}, {0.0, -kReach_m}};
   for (const auto& p : places) {
     const double za = -(a.n.x() * p[0] + a.n.y() * p[1] + a.d) / a.n.z();

@@ -14,8 +14,7 @@
 
 namespace pose_wall {
 
-// So many different surfaces are weighed: floor, bench, deck and reflection at once are four.
-constexpr std::uint32_t kFloorShortlist = 8;
+constexpr std::uint32_t kFloorShortlist = 8;  // judgement, 2026-11-21: floor, bench, deck and reflection are 4
 using FloorShortlist = Shortlist<kFloorShortlist>;
 
 struct FloorCandidate {
@@ -57,7 +56,7 @@ struct FloorDraw {
   Span<const std::uint32_t> low;  // the lowest part of them
 };
 
-// Fills the list; returns how many hypotheses were scored. subset: scratch of kFloorSubset points.
+// Fills the list; returns how many hypotheses were scored. subset: scratch of kSubsetPoints points.
 std::uint32_t search_floor(const FloorScene& scene, const FloorDraw& from, Random* random, PointSet* subset,
                            FloorShortlist* list);
 

@@ -13,14 +13,14 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide
-constexpr double kHeightBin_m = 0.125;
-constexpr float kHeightBins = 64.0F;
-constexpr double kBelowSensor_m = 5.5;  // the lowest bin; the highest ends 2.5 m above the sensor
-// What stands on a point or hangs under it: in two of six bins, from the second on. One bin alone may be dust.
-constexpr std::uint64_t kSixBins = 0x3F;
-constexpr int kFirstBin = 2;
-constexpr int kSixthBin = 7;
+constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide; open floor in its own track counts twice
+constexpr double kHeightBin_m = 0.125;       // 8 m of height in 64 bins
+constexpr float kHeightBins = 64.0F;         // one bit of a word each
+constexpr double kBelowSensor_m = 5.5;       // sensors stand up to 3.5 m high (ground_height_max), slopes get 2 m
+// A point is not open where two of six bins above or below it hold points; one bin alone may be dust.
+constexpr std::uint64_t kSixBins = 0x3F;  // six in a row: from 0.25 m to 1 m away
+constexpr int kFirstBin = 2;              // the floor's own scatter and slope reach the next bin
+constexpr int kSixthBin = 7;              // kFirstBin and five more
 
 bool two_or_more(std::uint64_t bits) {
   return (bits & (bits - 1)) != 0;
@@ -88,8 +88,8 @@ class FloorGrid::FourBins {
   FourTruths within{};
   FourInts place{};
 
-  static constexpr std::int32_t kNowhere = -1;
-  static constexpr std::int32_t kBins = static_cast<std::int32_t>(kHeightBins);
+  static constexpr std::int32_t kNowhere = -1;  // outside of the grid: no place is negative
+  static constexpr std::int32_t kBins = static_cast<std::int32_t>(kHeightBins);  // kHeightBins as an integer
 
  private:
   float radius2_, lowest_m_;
@@ -100,8 +100,8 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
   eighths_.fill(0);
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
   FourBins four(radius_m, lowest_m_);
-  FourInts within{};  // true is -1
-  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);
+  FourInts within{};                                                         // true is -1
+  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);  // without sign, as places are listed
   std::uint32_t last = kNowhere;  // points come in the order of their places, more or less
   for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     four.look_at(x, y, z);
@@ -135,7 +135,7 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
 
 FourTruths FloorGrid::clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m,
                                    FourTruths counts) const {
-  constexpr float kAround_m = 0.1F;
+  constexpr float kAround_m = 0.1F;  // judgement, 2026-11-21: keeps clear of a wall's foot; 0.25 m at first
   const FourFloats place = (z_base_m - static_cast<float>(lowest_m_)) * static_cast<float>(1.0 / kHeightBin_m);
   const FourTruths looked_at = counts & (place >= FourFloats{}) & (place < all_four(kHeightBins));
   const FourInts bin = cut_off(looked_at ? place : FourFloats{});
@@ -187,7 +187,7 @@ void FloorGrid::mark(const PointSet& open_base, const Plane& plane, double thres
 }
 
 FloorEvidence FloorGrid::evidence(const Axes& axes) const {
-  constexpr double kCellArea_m2 = kCell_m * kCell_m;
+  constexpr double kCellArea_m2 = kCell_m * kCell_m;  // of a cell in plan
   FloorEvidence out;
   NormalEquations spread;
   for (std::int32_t iy = bounds_.y_min; iy <= bounds_.y_max; ++iy) {
@@ -211,8 +211,8 @@ bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
 }
 
 bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const {
-  constexpr int kSteps = 8;
-  constexpr double kStep_m = 0.5;
+  constexpr int kSteps = 8;        // judgement, 2026-11-21: looks 4 m behind the place, on the ray prolonged
+  constexpr double kStep_m = 0.5;  // two cells: marks reach one further, so no marked cell is missed
   const double dx = place_base_m.x() - sensor_base_m.x(), dy = place_base_m.y() - sensor_base_m.y();
   const double away = std::sqrt(dx * dx + dy * dy);
   if (!(away > 0.0)) return marked_near(place_base_m.x(), place_base_m.y());
@@ -225,9 +225,8 @@ bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen:
 
 bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
                     double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max) {
-  // The floor may fall away from its local plane by this much, and more the farther away.
-  constexpr double kBelow_m = 0.2;
-  constexpr double kFall = 0.03;
+  constexpr double kBelow_m = 0.2;  // judgement, 2026-11-21: a floor dips so far below its plane; benches lie higher
+  constexpr double kFall = 0.03;    // judgement, 2026-11-21: and by 3 cm more for each metre away (1.7 degrees)
   const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   const auto most = static_cast<std::uint32_t>(share_max * marked.points_within());
   std::uint32_t below = 0;

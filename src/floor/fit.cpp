@@ -18,23 +18,20 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kGateInThresholds = 3.0;
-// The scale is no less than this part of a range's noise: where voxels average tens of points their scatter is far
-// less, and of a voxel layer that the plane cuts in two the thinner half would count as outliers. Judgement,
-// 2026-11-21.
+constexpr double kGateInThresholds = 3.0;  // judgement, 2026-11-21: 9 cm around the start; Tukey's weights do the rest
+// Of a range's noise. Centroids of dense voxels scatter far less, but a finer scale made the thinner half of a voxel
+// layer that the plane cuts outliers: mean z2 2 to 6 (README, tried and dropped).
 constexpr double kScaleLeastInNoise = 0.5;
-constexpr double kPatch_m = 0.5;
-// In the plane's own coordinates, nothing lies further out than the radius and the tilt's stretch of it.
-constexpr double kStretch = 1.25;
-constexpr int kRounds = 5;
-constexpr int kSelections = 3;
+constexpr double kStretch = 1.25;  // a floor of 30 degrees stretches a radius by 1.155; the gate lets points rise
+constexpr int kRounds = 5;         // judgement, 2026-11-21: most fits stand still earlier
+constexpr int kSelections = 3;     // judgement, 2026-11-21: the gate widens after the first; two more let it settle
 
 IrlsSettings irls_settings(const Settings& s) {
   return {kGateInThresholds * s.ground_ransac_thresh, kScaleLeastInNoise * s.range_noise, s.ground_ransac_thresh,
           kRounds, kBeforePatches};
 }
 
-// A floor that waves by more than the threshold would be cut to the parts that happen to lie in one plane.
+// A scale that fills so much of the threshold: the gate cuts off waves, and doubles. Judgement, 2026-11-21:
 constexpr double kFull = 0.7;
 constexpr double kWider = 2.0;
 
@@ -43,9 +40,9 @@ void widen(IrlsSettings* tukey) {
   tukey->scale_max_m *= kWider;
 }
 
-// By no more than that another selection would choose the same points.
+// The plane moved so little that a new selection would choose the same points.
 bool stands_still(const Plane& a, const Plane& b) {
-  constexpr double kStill = 2e-4;  // metres, and slopes
+  constexpr double kStill = 2e-4;  // metres, and slopes: hardly a point crosses the gate; judgement, 2026-11-21
   return std::fabs(a.d - b.d) < kStill && (a.n - b.n).cwiseAbs().maxCoeff() < kStill;
 }
 
@@ -104,8 +101,8 @@ void fill_patches(const FloorScene& scene, const IrlsResult& irls, double radius
   const double range_noise_m = scene.settings.range_noise;
   const TangentPoints& points = scratch->points;
   const double reach_m = kStretch * radius_m;
-  scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, kPatch_m, range_noise_m);
-  scratch->surface.begin(reach_m, kPatch_m);
+  scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, PatchGrid::kPatch_m, range_noise_m);
+  scratch->surface.begin(reach_m, PatchGrid::kPatch_m);
   // A range that errs moves a point along the ray: height and place err together, which tilts a plane that is seen over
   // a short length. On a floor no rougher than the ranges the error is taken back along the ray, to where that meets
   // the plane.

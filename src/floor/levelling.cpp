@@ -26,7 +26,7 @@ void part_by_height(const PointSet& cloud_base, const Levelling& levelling, cons
                     PointSet* beyond_level) {
   const auto z_min = static_cast<float>(levelling.floor_z_level_m + settings.wall_z_min);
   const auto z_max = static_cast<float>(levelling.floor_z_level_m + settings.wall_z_max);
-  // The band is averaged over cells of twice the size, some three times the area: one of three keeps the balance.
+  // The band's cells are twice as long, of some three times the area: one point of three keeps the balance.
   constexpr std::uint32_t kBalance = 3;
   const std::uint32_t share = cloud_base.count / (kBalance * kBeyondMax) + 1, every = kBalance * share;
   beyond_level->count = 0;

@@ -22,7 +22,7 @@ struct Levelling {
 
 Levelling levelling_by(const Plane& floor_base, const Axes& axes);
 
-// Room for the points outside the band.
+// Room for the points outside the band: a part of all directions. Judgement, 2026-11-21.
 constexpr std::uint32_t kBeyondMax = 8192;
 
 // Levelled points between wall_z_min and wall_z_max above the floor, averaged once more, and a part of those above and

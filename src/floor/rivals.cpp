@@ -14,15 +14,14 @@
 namespace pose_wall {
 namespace {
 
-// A small floor must stand alone: where nothing is floor, many little planes through this and that are about as good.
+// A smaller floor must stand alone: where nothing is floor, many little planes are as good. Judgement, 2026-11-21.
 constexpr double kSmallArea_m2 = 5.0;
-// Through a floor of this size only reflections are seen.
-constexpr double kSureArea_m2 = 10.0;
-constexpr double kSteep_rad = 0.17;  // 10 degrees; a radius takes in part of a flank, which lies at 30 to 40
+constexpr double kSureArea_m2 = 10.0;  // judgement, 2026-11-21: only reflections are seen through so large a floor
+constexpr double kSteep_rad = 0.17;    // 10 degrees; a heap's flanks lay at 11 and 15 (hard_day, seed 648, 2026-11-22)
 
 // Planes that lie alike say the same of roll and pitch, whichever of them is the floor.
 bool lie_alike(const Plane& a, const Plane& b) {
-  constexpr double kAlike_rad = 0.0175;  // 1 degree
+  constexpr double kAlike_rad = 0.0175;  // 1 degree, the default alert limit: judgement, 2026-11-21
   return a.n.cross(b.n).squaredNorm() <= kAlike_rad * kAlike_rad;
 }
 
@@ -32,15 +31,13 @@ bool is_weaker(double share, const Plane& floor, const Settings& s) {
                                           : passes<gate::FLOOR_RIVAL>(share, s);
 }
 
-constexpr double kOffInThresholds = 3.0;
-constexpr double kOneSide = 0.8;  // of the points
-// So well is the line known in which two floors meet.
-constexpr double kNearLine_m = 0.3;
-// A floor all over below another one that lies alike, a table's or a belt's: more than a kerb is high.
-constexpr double kLower_m = 0.3;
-constexpr double kAlike = 0.3;  // slope
-constexpr std::uint32_t kPointsMin = 20;
-// The other plane was looked at in passing.
+constexpr double kOffInThresholds = 3.0;  // judgement, 2026-11-23: within 9 cm points are the floor's own
+constexpr double kOneSide = 0.8;  // judgement, 2026-11-23: a fifth of the points may be strays where both planes meet
+constexpr double kNearLine_m = 0.3;  // judgement, 2026-11-23: so well is the line known in which two floors meet
+constexpr double kLower_m = 0.3;  // a belt's or a table's height, more than a kerb's; 0.5 before a review, 2026-11-23
+constexpr double kAlike = 0.3;    // slope of a table over a floor, 17 degrees; 0.1 before a review, 2026-11-23
+constexpr std::uint32_t kPointsMin = 20;  // judgement, 2026-11-23: fewer left-over points draw no plane
+// An angle to a plane that was looked at in passing counts a quarter and 1.5 degrees more. Judgement, 2026-11-23:
 constexpr double kStretch = 1.25;
 constexpr double kMargin_rad = 0.026;
 
@@ -72,7 +69,7 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m, d
 
 // To all sides of the machine, but for less than half a turn: then it stands on it.
 bool surround_machine(const Eighths& floor) {
-  constexpr std::uint32_t kEmptyMost = 2;
+  constexpr std::uint32_t kEmptyMost = 2;  // judgement, 2026-11-23: the machine's body hides a quarter of a turn
   std::uint32_t empty = 0;
   for (std::uint32_t k = 0; k < 16; ++k) {
     empty = floor.holds_any(k % 8) ? 0 : empty + 1;
@@ -85,7 +82,7 @@ bool surround_machine(const Eighths& floor) {
 // lies high over a steep plane that is prolonged.
 void copy_left_over(const PointSet& open, const Plane& floor, double off_m, const Eigen::Vector3d& sensor_base_m,
                     PointSet* out) {
-  constexpr float kBelowRoof = 1.6F;
+  constexpr float kBelowRoof = 1.6F;  // judgement, 2026-11-23: heights of the sensor; what lies higher is roof
   const FourDistances heights(floor);
   const FourFloats off = all_four(static_cast<float>(off_m));
   const FourFloats highest = all_four(static_cast<float>(floor.signed_distance(sensor_base_m)));
@@ -154,7 +151,7 @@ void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> cand
 // Within another radius the floor looks otherwise: the levels reach to that too, and beyond, for the other is not the
 // truth either. A wider look that was refused may yet have found the truth, or taken it for a rival.
 void reach_to_other_look(const FloorResult& other, const Settings& s, FloorResult* floor) {
-  constexpr double kBeyond = 1.5;
+  constexpr double kBeyond = 1.5;  // judgement, 2026-11-21: the other look is not the truth either
   const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= limit_of<gate::FLOOR_AREA>(s);
   if (other.fit.refused && !wider_look) return;
   const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
@@ -168,7 +165,7 @@ void reach_to_other_look(const FloorResult& other, const Settings& s, FloorResul
 }
 
 void widen_by_claims(std::uint32_t claims, const Settings& s, FloorResult* floor) {
-  constexpr double kPerOtherClaim = 1.0 / 16.0;
+  constexpr double kPerOtherClaim = 1.0 / 16.0;  // a quarter at first; fewer radii, less choice (bench/README.md)
   if (floor->fit.refused) return;
   const double curse = kPerOtherClaim * static_cast<double>(claims - 1);
   const Protections known = protections_of(*floor, s);

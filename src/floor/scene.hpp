@@ -8,6 +8,7 @@
 #include "base/containers/arena.hpp"
 #include "base/containers/bounded_points.hpp"
 #include "base/containers/work.hpp"
+#include "base/estimation/mlesac.hpp"
 #include "base/estimation/patch_fit.hpp"
 #include "base/estimation/surface_patches.hpp"
 #include "base/estimation/tangent_points.hpp"
@@ -26,10 +27,8 @@ struct FloorScene {
   const Plane* last_floor;  // the last frame's, or nullptr: scored like any other hypothesis
 };
 
-// Points of a fit: a floor known to 0.01 degrees needs no more, and time goes with them.
+// Points of a fit, as many as a wall's: more tell no more, for rock and waves limit it. Judgement, 2026-11-21.
 constexpr std::uint32_t kFloorFitPoints = 8192;
-// Points that hypotheses are first scored on.
-constexpr std::uint32_t kFloorSubset = 512;
 
 struct FloorScratch {
   PointSet open_base;    // points with nothing standing on them, within the greatest radius
@@ -50,7 +49,7 @@ struct FloorScratch {
     within_base.lay_out(arena, points_max);
     low = arena.take<std::uint32_t>(points_max + kFour);
     points.lay_out(arena, kFloorFitPoints);
-    subset.lay_out(arena, kFloorSubset);
+    subset.lay_out(arena, kSubsetPoints);
     grid.lay_out(arena);
     patches.lay_out(arena);
     surface.lay_out(arena);

@@ -17,8 +17,12 @@
 
 namespace pose_wall {
 
-// Returns this far behind a plane have passed through it: hollows of rough rock are not behind the wall.
+// Returns this far behind a plane passed through it: hollows of rough rock are less deep. Judgement, 2026-11-21.
 constexpr double kWellBehind_m = 0.25;
+// Where a wall is not seen it may lie so much further: judgement, 2026-11-21, as deep as a niche.
+constexpr double kMayStep_m = 2.0;
+// Judgement, 2026-11-21: the top of a wall is looked for so far above the band, up to most roofs.
+constexpr double kAboveBand_m = 1.0;
 
 // What is seen of them.
 struct WallView {
@@ -51,7 +55,7 @@ WallScene wall_scene(const WallView& view, const Settings& settings, const Level
 
 // What lies this near to a wall's plane, to either side, is the wall.
 inline double on_wall_m(const Settings& settings) {
-  constexpr double kInThresholds = 3.0;
+  constexpr double kInThresholds = 3.0;  // judgement, 2026-11-21: 15 cm by default; what lies as near is the wall
   return kInThresholds * settings.wall_ransac_thresh;
 }
 

@@ -13,6 +13,9 @@
 
 namespace pose_wall {
 
+// Points of a first score. A share of them errs by 2.2 % at most: enough to nominate a plane, not to choose it.
+constexpr std::uint32_t kSubsetPoints = 512;
+
 // Mean of min(r^2, threshold^2) / threshold^2 over the points: 0 perfect, 1 nothing near the plane. The points are in
 // random order: once those looked at say by three standard errors that the mean will be too_much or more, the rest is
 // not looked at and the answer is too_much (a sequential test after Wald 1945, as in Matas and Chum 2005).

@@ -55,6 +55,8 @@ struct PatchFit {
 // nothing about the offset, but as much about the slopes as their own straightness allows.
 class PatchGrid {
  public:
+  // Of floors and walls: longer than most roughness correlates, short enough for many. Judgement, 2026-11-21.
+  static constexpr double kPatch_m = 0.5;
   // Of all layers: 64 m by 3 m in half metres, twice; an extent beyond gets larger patches. 4096 at first, 2026-11-21.
   static constexpr std::uint32_t kCapacity = 1536;
   static constexpr std::uint32_t kLayersMax = 2;   // the surface, and the fronts of strips

@@ -11,11 +11,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kParallelScale_rad = 0.07;  // 4 degrees: walls of one road rarely differ by more
-// A second wall that is not parallel casts doubt on the first unless it is this much weaker.
-constexpr double kDoubtShare = 0.5;
-constexpr double kSplayedCosMin = 0.8;  // 37 degrees
-constexpr double kAcrossCos = 0.7;      // planes across the road are at more than 45 degrees to the side walls
+// 4 degrees: walls of one road rarely differ by more; judgement, 2026-11-21.
+constexpr double kParallelScale_rad = 0.07;
+constexpr double kDoubtShare = 0.5;     // judgement, 2026-11-21: a wall half as strong, not parallel, doubts the first
+constexpr double kSplayedCosMin = 0.8;  // 37 degrees: beyond, no side of the same road; judgement, 2026-11-21
+constexpr double kAcrossCos = 0.7;      // 45 degrees: what is turned further from the side walls stands across the road
 
 struct Pair {
   const WallCandidate* a = nullptr;
@@ -109,8 +109,8 @@ std::uint32_t why_none(const WallCandidates& list, const Settings& s) {
 // Whether a plane lies parallel behind another one: a vehicle or a curtain hides most of the wall behind it, and
 // little of that wall is enough to doubt what stands before it.
 bool lies_behind(const Plane& plane, const Plane& other) {
-  constexpr double kParallelCos = 0.995;
-  constexpr double kBehind_m = 0.2;
+  constexpr double kParallelCos = 0.995;  // planes within 5.7 degrees are parallel: judgement, 2026-11-21
+  constexpr double kBehind_m = 0.2;       // more than lies on a wall (15 cm): judgement, 2026-11-21
   return plane.n.dot(other.n) > kParallelCos && plane.d > other.d + kBehind_m;
 }
 
@@ -120,9 +120,9 @@ double past_ends_m(const WallEvidence& plane, const WallEvidence& other) {
   return (before_m > 0.0 ? before_m : 0.0) + (after_m > 0.0 ? after_m : 0.0);
 }
 
-constexpr double kPastEndsMin_m = 3.0;
-constexpr double kGoesOnLengthMin_m = 3.0;
-constexpr double kBesideWall_m = 4.0;  // what stands along a wall is no further from it
+constexpr double kPastEndsMin_m = 3.0;  // judgement, 2026-11-22: past both ends, more is a wall that the plane hides
+constexpr double kGoesOnLengthMin_m = 3.0;  // judgement, 2026-11-22: a wall beside a crosscut's mouth shows it
+constexpr double kBesideWall_m = 4.0;       // what stands along a wall is nearer; a mouth's end was 15 m off (seed 642)
 
 // A curtain or a long vehicle ends, and the wall behind it goes on where it ends. An opening in a wall shows what lies
 // behind only between the wall's own parts.
@@ -143,7 +143,7 @@ bool goes_on_before(const WallCandidate& rival, const WallCandidate& chosen) {
 // solid: rather the wall, with ghosts behind it that a wet or shining face throws, or a mesh. Rays tell, not cells: few
 // that lie far apart fill as many cells as many that lie close.
 bool stops_before(const WallCandidate& rival, const WallCandidate& chosen) {
-  constexpr double kStopsMin = 0.75;
+  constexpr double kStopsMin = 0.75;  // judgement, 2026-11-24: props and conveyors, which rays pass, stop fewer
   return rival.evidence.stopped >= kStopsMin && lies_behind(chosen.plane, rival.plane);
 }
 

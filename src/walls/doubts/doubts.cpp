@@ -12,16 +12,13 @@
 namespace pose_wall {
 namespace {
 
-// The rival was looked at in passing: it is not known to the centimetre.
+// A rival was looked at in passing: its distance may be 5 % and 3 cm more. Judgement, 2026-11-21:
 constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
-// What passes through small gaps ends right behind them, on whatever is there, and what is hardly seen may be anything:
-// the wall may be this far behind.
-constexpr double kMayBeBehind_m = 2.0;
 
 // A wall that is seen only well ahead of the machine, or behind it: in between the road may bend.
 Doubt by_distance(double away_m, const Settings& s) {
-  constexpr double kMayBend_rad = 0.44;  // 25 degrees
+  constexpr double kMayBend_rad = 0.44;  // 25 degrees until the wall is seen: judgement, 2026-11-23
   Doubt doubt;
   if (!demand<gate::WALL_AWAY>(&doubt, away_m, s)) doubt.yaw_to_rival_rad = kMayBend_rad;
   return doubt;
@@ -59,7 +56,7 @@ Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved
       !demand<gate::WALL_LAYER>(&doubt, !edges.layer_behind)};
   for (const bool one : doubts) {
     if (!one) continue;
-    const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayBeBehind_m);
+    const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayStep_m);
     for (double& distance_m : doubt.distance_m) distance_m = behind_m;
   }
   demand<gate::WALL_SILENT>(&doubt, sight.silent, s);
@@ -75,7 +72,7 @@ Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved
 // Radians.
 double apart_from_other_side(const WallCandidate& wall, const WallCandidate* chosen, const FittedWall& fitted,
                              const WallCandidates& seen, const Settings& s) {
-  constexpr double kWeakestShare = 0.1;
+  constexpr double kWeakestShare = 0.1;  // a lone wall was 13 degrees off its road (seed 517, 2026-11-22)
   double apart = chosen != nullptr ? angle_in_plan(wall.plane, chosen->plane) : 0.0;
   if (fitted.fit.found) apart = larger(apart, angle_in_plan(wall.plane, fitted.fit.plane));
   for (std::uint32_t i = 0; i < seen.count; ++i) {
@@ -138,13 +135,13 @@ void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, JudgedW
     if (choice.side[side]->evidence.length_m >= s.wall_alone_length_min) continue;
     POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
     Doubt doubt;
-    if (!demand<gate::SHORT_APART>(&doubt, apart, s)) doubt.distance_m[0] = doubt.distance_m[1] = kMayBeBehind_m;
+    if (!demand<gate::SHORT_APART>(&doubt, apart, s)) doubt.distance_m[0] = doubt.distance_m[1] = kMayStep_m;
     (*walls)[side].add(doubt);
   }
 }
 
 void refuse_blocked_sides(const IngestCounts& counts, const Settings& s, JudgedWall (*walls)[2]) {
-  constexpr double kShareOfReturns = 0.02;  // judgement, 2026-11-22: a mast before the sensor is no wall
+  constexpr double kShareOfReturns = 0.02;  // judgement, 2026-11-22: dust on the window gives fewer returns
   // Of what came back: whether the others are left out, zero or not finite must not matter.
   const double returns = static_cast<double>(counts.points_in - counts.dropped_not_finite - counts.dropped_zero);
   const Quadrant sides[2] = {kLeft, kRight};
@@ -162,9 +159,9 @@ void refuse_blocked_sides(const IngestCounts& counts, const Settings& s, JudgedW
 }
 
 Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&beside)[2]) {
-  constexpr double kLeansMin_rad = 0.2;          // 11.5 degrees: simulated and real walls lean by 10
-  constexpr double kWallsThemselves_rad = 0.17;  // so much of it may yet be the walls' own
-  constexpr double kAreaMin_m2 = 4.0;
+  constexpr double kLeansMin_rad = 0.2;          // 11.5 degrees: simulated and real walls lean by 10 at most
+  constexpr double kWallsThemselves_rad = 0.17;  // 10 degrees of the lean may be the walls' own
+  constexpr double kAreaMin_m2 = 4.0;  // judgement, 2026-11-21: some 2 m of a wall, before its lean doubts the floor
   double lean[2] = {};
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   for (int side = 0; side < 2; ++side) {

@@ -11,34 +11,27 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kPlace_m = EndPlaces::kPlace_m;
-// So many points just behind the plane, within so many places of its end, are its own bend.
+constexpr double kPlace_m = EndPlaces::kPlace_m;  // the places of EndPlaces
+// So many points just behind the plane, within 2 m of its end, are its own bend. Judgement, 2026-11-21:
 constexpr std::uint32_t kBendPlaces = 4;
 constexpr double kBendMin = 4.0;
-// What comes over the top is so many times that of the plane at such heights, and from places so far apart: a hollow at
-// the shoulder, where roof has come down, is looked into at one place.
-constexpr double kOverRatio = 3.0;
-constexpr double kOverSpan_m = 1.5;
+constexpr double kOverRatio = 3.0;   // judgement, 2026-11-21: points over the top for each of the plane as high
+constexpr double kOverSpan_m = 1.5;  // judgement, 2026-11-21: a hollow at the shoulder opens at one place
 
-// What lies behind, by decimetres.
-constexpr double kDepth_m = 0.1;
-constexpr double kLayerShare = 0.6;
-constexpr double kLayerOfPlane = 0.01;  // hollows of rough rock are fewer
-constexpr int kLayerPlacesMin = 5;
-constexpr double kLayerSpan_m = 6.0;
+constexpr double kDepth_m = 0.1;        // steps of depth: a layer lies within two (README, Edges)
+constexpr double kLayerShare = 0.6;     // judgement, 2026-11-22: of all up to 2 m behind; a branching road is deep
+constexpr double kLayerOfPlane = 0.01;  // judgement, 2026-11-22: hollows of rough rock hold fewer
+constexpr int kLayerPlacesMin = 5;      // judgement, 2026-11-22: half metres with points of the layer
+constexpr double kLayerSpan_m = 6.0;    // niches are shorter; 984 frames of 164 classes lost no value (seed 517)
 
-constexpr double kBend_m = 0.5;  // so far behind the plane lies what may be its own bend
-// The top is looked for in the wall band and this much above it.
-constexpr double kAboveBand_m = 1.0;
-// Conveyors, pipes and vehicles end in the lower part of the wall band (1.7 m by default). On simulated walls even a
-// sensor that looks up by 7 degrees has 18 points or more above, far ahead.
-constexpr double kHighShare = 0.65;
-constexpr double kHighMin = 8.0;
-constexpr double kHighReach_m = 15.0;
+constexpr double kBend_m = 0.5;        // judgement, 2026-11-21: so far behind its plane a wall may still bend
+constexpr double kHighShare = 0.65;    // conveyors, pipes and vehicles end below: 1.7 m of the default band
+constexpr double kHighMin = 8.0;       // simulated walls show 18 points, even to a sensor that looks up by 7 degrees
+constexpr double kHighReach_m = 15.0;  // judgement, 2026-11-21: there such a sensor sees 1.8 m higher than itself
 
 // Over a low thing the sensor may see nothing nearer than range_max. Returns how many returns that is.
 double add_what_is_too_far(const WallScene& scene, const SightLines& lines, double height_m, TopPlaces* tops) {
-  constexpr double kMostOfACell = 0.5;
+  constexpr double kMostOfACell = 0.5;  // a cell is too far where most of its returns are
   double added = 0.0;
   const auto look_at = [&](std::uint32_t row, std::uint32_t column) {
     const std::uint32_t count = scene.returns_lidar.too_far.count(row, column);
@@ -144,9 +137,9 @@ class EdgeGlance {
   // it goes on where an end is not near any more: of so many more points on it than may pass it there, some place holds
   // more than pass it and than kOnMin.
   bool rules_out_edges(double too_far) const {
-    constexpr double kPastMin = EndPlaces::kPastMin;
-    constexpr double kFarPlaces = EndPlaces::kPlaces - EndPlaces::kNearPlaces;
-    constexpr double kGoesOnMin = kFarPlaces * EndPlaces::kOnMin + kPastMin;
+    constexpr double kPastMin = EndPlaces::kPastMin;                            // as EndPlaces asks for
+    constexpr double kFarPlaces = EndPlaces::kPlaces - EndPlaces::kNearPlaces;  // places beyond the near ones
+    constexpr double kGoesOnMin = kFarPlaces * EndPlaces::kOnMin + kPastMin;  // then some place holds more than kOnMin
     static_assert(kPastMin <= TopPlaces::kOverMin && kPastMin <= DepthsBehind::kPointsMin, "what any edge takes");
     if (!(sum_of_lanes(past_) + too_far < kPastMin)) return false;
     return sum_of_lanes(ahead_) > kGoesOnMin || sum_of_lanes(behind_) > kGoesOnMin;

@@ -19,12 +19,11 @@ namespace pose_wall {
 // Measured points by place, which is half a metre along the plane, on either side of the sensor.
 class EndPlaces {
  public:
-  static constexpr std::uint32_t kPlaces = 30;  // on either side
-  static constexpr double kPlace_m = 0.5;
-  // An end beyond this place (6 m) is not near.
-  static constexpr std::uint32_t kNearPlaces = 12;
-  static constexpr double kOnMin = 2.0;
-  static constexpr double kPastMin = 4.0;
+  static constexpr std::uint32_t kPlaces = 30;      // on either side: 15 m, as far as kHighReach_m
+  static constexpr double kPlace_m = 0.5;           // as long as a column of the wall's grid
+  static constexpr std::uint32_t kNearPlaces = 12;  // judgement, 2026-11-21: 6 m: curtains and vehicles end within
+  static constexpr double kOnMin = 2.0;             // judgement, 2026-11-21: one or two points may be strays
+  static constexpr double kPastMin = 4.0;           // judgement, 2026-11-21: so many points looked past an end
 
   void clear() { *this = EndPlaces(); }
   // Of four points. What lies too far away is counted where nobody looks.
@@ -35,7 +34,7 @@ class EndPlaces {
   bool both_are_looked_past() const { return is_looked_past(0) && is_looked_past(kPlaces); }
 
  private:
-  static constexpr std::uint32_t kElsewhere = 2 * kPlaces;
+  static constexpr std::uint32_t kElsewhere = 2 * kPlaces;  // behind the places of both sides: too far away
   // Of the end whose places begin here.
   bool is_looked_past(std::uint32_t begin) const;
 
@@ -45,19 +44,19 @@ class EndPlaces {
 // Measured points by place and by the height at which their rays meet the plane, in steps from the lowest.
 class TopPlaces {
  public:
-  static constexpr double kOverMin = 4.0;  // fewer have not come over the top
+  static constexpr double kOverMin = 4.0;  // of 1338 planes with walls none had more than 2 (README, Edges)
 
   void lay_out(Arena& arena) { cell_ = arena.take<float>(kPlaces * kPlaceCells); }
   void clear() { cell_.fill(0.0F); }
-  static constexpr std::int32_t kNoCell = -1;
+  static constexpr std::int32_t kNoCell = -1;  // outside: no cell is negative
   // Of four points; height: 0 (lowest) to 1. What lies outside has no cell.
   static FourInts cells_of(FourFloats along_m, FourFloats height, FourTruths is_past);
   void add(std::int32_t cell, float points) { cell_[static_cast<std::uint32_t>(cell)] += points; }
   bool is_looked_over() const;
 
  private:
-  static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;
-  static constexpr std::uint32_t kSteps = 32;
+  static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;  // both sides of EndPlaces
+  static constexpr std::uint32_t kSteps = 32;  // judgement, 2026-11-21: of some 10 cm, over the band and kAboveBand_m
   static constexpr std::uint32_t kPlaceCells = 2 * kSteps;  // on the plane, and past it
   Span<float> cell_;
 };
@@ -65,7 +64,7 @@ class TopPlaces {
 // Measured points behind a plane by how far behind it they lie, and over which places along it.
 class DepthsBehind {
  public:
-  static constexpr double kPointsMin = 20.0;
+  static constexpr double kPointsMin = 20.0;  // judgement, 2026-11-22: noise makes no layer of so many
 
   void clear() { *this = DepthsBehind(); }
   void add(double behind_m, double along_m, double points);
@@ -73,7 +72,7 @@ class DepthsBehind {
   bool hold_a_layer(double on_plane) const;
 
  private:
-  static constexpr std::uint32_t kSteps = 20;
+  static constexpr std::uint32_t kSteps = 20;  // decimetres: 2 m, as kMayStep_m
   struct Step {
     double points = 0.0;
     std::uint64_t places = 0;  // a bit for each half metre

@@ -10,11 +10,13 @@
 namespace pose_wall {
 namespace {
 
-// What the fits do not know of: scans skewed by motion, walls that are not planes. Keeps one wall from ruling alone.
+// 0.2 degrees that the fits do not know of: scans skewed by motion, walls that are no planes. Keeps one wall from
+// ruling alone. Judgement, 2026-11-21.
 constexpr double kModelError_rad = 0.0035;
 
 // A doubtful wall must not turn a good one.
 bool can_share(const JudgedWall& wall) {
+  // Any of these bars a wall from turning the other one.
   constexpr std::uint32_t kDoubtful =
       POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED | POSE_WALL_R_EXTRAPOLATED;
   return !wall.fit.refused && (wall.fit.reasons & kDoubtful) == 0;

@@ -13,20 +13,14 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kColumns = DirectionGrid::kColumns;
-// Of what its directions expect, the plane answers this much, or it is dim.
-constexpr double kDimShare = 0.35;
-// Gaps this wide that are seen through are roads and doors, if the wall itself has parts this wide and they are few.
-constexpr double kWide_m = 0.7;
-constexpr int kRoadsMax = 2;
-// And so may be one that is no wider than this share of the wall.
-constexpr double kOneGapShare = 0.34;
-constexpr double kDeepShare = 0.95;
-// What is silent elsewhere too, by this much more, tells nothing.
-constexpr double kBlindFactor = 1.5;
-constexpr double kBlindTopsMax = 0.1;
-// More silence than this that is only explained by silence elsewhere leaves a doubt.
-constexpr double kUnexplainedMax = 0.05;
+constexpr std::uint32_t kColumns = DirectionGrid::kColumns;  // of the directions' grid
+constexpr double kDimShare = 0.35;     // judgement, 2026-11-21: of the expected returns; a dimmer plane hides its gaps
+constexpr double kWide_m = 0.7;        // judgement, 2026-11-21: wider gaps are roads and doors; 1 m at first
+constexpr int kRoadsMax = 2;           // judgement, 2026-11-21: more gaps are a row of props
+constexpr double kOneGapShare = 0.34;  // judgement, 2026-11-21: one gap of up to a third of the wall may be a road, too
+constexpr double kBlindFactor = 1.5;   // judgement, 2026-11-21: few cells tell of silence elsewhere: half more passes
+constexpr double kBlindTopsMax = 0.1;  // judgement, 2026-11-21: with more tops silent elsewhere, silence tells nothing
+constexpr double kUnexplainedMax = 0.05;  // judgement, 2026-11-21: silence, twice what wall_silent allows
 
 // Weights may go by intensity.
 FourInts points_of(FourFloats weights) {
@@ -65,7 +59,7 @@ double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, S
     const bool near = to_plane * to_plane * ray.squaredNorm() <= SightLines::kReach_m * SightLines::kReach_m;
     if (scene.in_band(z_level_m) && near) depths.add(-r);
   });
-  return depths.at_share(kDeepShare);
+  return depths.at_share(Distances::kNearlyAll);
 }
 
 // The columns that look at the plane, side by side from one end to the other.

@@ -8,25 +8,19 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kRows = DirectionGrid::kRows;
-constexpr std::uint32_t kColumns = DirectionGrid::kColumns;
-// Above the wall band, up to here, only what is seen over the plane's top counts.
-constexpr double kAboveBand_m = 1.0;
-// Fewer expected returns do not tell silence from chance.
-constexpr double kExpectedMin = 3.0;
-// A cell is silent with fewer returns than this share of what is expected, seen through when more than this share of
-// its returns comes from behind.
-constexpr double kSilentShare = 0.25;
-constexpr double kThroughShare = 0.5;
-// A column is a gap when it is silent or seen through over more than this.
-constexpr double kGapShare = 0.2;
-constexpr double kBrightRank = 0.75;
-constexpr double kDeadShare = 0.1;
-constexpr double kBrightShare = 0.7;
-constexpr double kBrightCellsMin = 0.05;
-constexpr std::uint32_t kCellsMin = 20;
-constexpr double kZoneCellsMin = 60.0;
-constexpr double kZoneColumnsMin = 10.0;
+constexpr std::uint32_t kRows = DirectionGrid::kRows;        // of the directions' grid
+constexpr std::uint32_t kColumns = DirectionGrid::kColumns;  // of the directions' grid
+constexpr double kExpectedMin = 3.0;   // by Poisson, where three are expected none comes in 5 % by chance
+constexpr double kSilentShare = 0.25;  // judgement, 2026-11-21: of the expected returns, less what chance takes
+constexpr double kThroughShare = 0.5;  // most of a cell's returns come from behind
+constexpr double kGapShare = 0.2;     // judgement, 2026-11-21: a column silent or seen through over more of it is a gap
+constexpr double kBrightRank = 0.75;  // the upper quartile: half of a wall may be wet, or hidden
+constexpr double kDeadShare = 0.1;    // judgement, 2026-11-21: of the expected returns
+constexpr double kBrightShare = 0.7;  // judgement, 2026-11-21: of the expected returns
+constexpr double kBrightCellsMin = 0.05;  // judgement, 2026-11-21: bright among half dead: things before a dark wall
+constexpr std::uint32_t kCellsMin = 20;   // judgement, 2026-11-21: a rank among fewer means nothing
+constexpr double kZoneCellsMin = 60.0;    // judgement, 2026-11-21: a share of as many errs by 6 % at most
+constexpr double kZoneColumnsMin = 10.0;  // judgement, 2026-11-21: a tenth of the tops (kBlindTopsMax) takes ten
 
 // Chance that fewer than `limit` come where `mean` are expected (Poisson).
 double chance_below(double limit, double mean) {
@@ -81,7 +75,7 @@ bool SightColumns::in_band(const SightLines::Crossing& crossing) const {
 }
 
 double SightColumns::brightness() const {
-  constexpr std::uint32_t kBins = 64;
+  constexpr std::uint32_t kBins = 64;  // 64ths of the expected returns
   std::uint32_t bins[kBins] = {}, cells = 0;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
     if (!may_show(column)) continue;
@@ -107,7 +101,7 @@ double SightColumns::brightness() const {
 }
 
 SightColumn SightColumns::at(std::uint32_t column, double brightness, bool with_chance) const {
-  constexpr double kLowest_m = -1e3;
+  constexpr double kLowest_m = -1e3;  // below every height
   SightColumn out;
   if (!may_show(column)) return out;
   double top_level_m = kLowest_m;

@@ -9,14 +9,13 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kRows = DirectionGrid::kRows;
-constexpr std::uint32_t kColumns = DirectionGrid::kColumns;
-// Half of the directions may be dark, or blocked, or hidden.
-constexpr double kExpectedRank = 0.75;
-constexpr std::uint32_t kSeenMin = kColumns / 8;
-constexpr double kEmptyShare = 0.05;
-constexpr std::uint32_t kBlockedColumns = 5;  // 14 degrees
-constexpr int kSectorsForgiven = 2;
+constexpr std::uint32_t kRows = DirectionGrid::kRows;        // of the directions' grid
+constexpr std::uint32_t kColumns = DirectionGrid::kColumns;  // of the directions' grid
+constexpr double kExpectedRank = 0.75;  // the upper quartile: half of the directions may be dark, blocked or hidden
+constexpr std::uint32_t kSeenMin = kColumns / 8;  // judgement, 2026-11-21: a row of fewer expects nothing
+constexpr double kEmptyShare = 0.05;              // judgement, 2026-11-21: a column that answers less is empty
+constexpr std::uint32_t kBlockedColumns = 5;      // judgement, 2026-11-21: 14 degrees: a post or a cabin blocks as much
+constexpr int kSectorsForgiven = 2;               // judgement, 2026-11-21: two are the machine's, more are the road's
 
 struct Sector {
   std::uint32_t from = 0, columns = 0;
@@ -34,8 +33,7 @@ Sector widest_sector(const bool (&empty)[kColumns]) {
   return widest;
 }
 
-// Cosine of the angle from the normal: rays that run along the plane say nothing about it.
-constexpr double kTowardsMin = 0.2;
+constexpr double kTowardsMin = 0.2;  // judgement, 2026-11-21: cosine from the normal; flatter rays smear over cells
 
 }  // namespace
 
@@ -116,8 +114,9 @@ SightLines::Crossing SightLines::within(double reach_m, double towards_min, std:
 }
 
 SightLines::Zone SightLines::zone(std::uint32_t row, std::uint32_t column) const {
-  constexpr double kAlongCos = 0.8;
-  constexpr double kUpSine = 0.34;  // 20 degrees
+  constexpr double kAlongCos = 0.8;  // 37 degrees about the road, where all may be too far: judgement, 2026-11-21
+  // 20 degrees: steeper rays meet roof or floor, not the other wall; judgement, 2026-11-21.
+  constexpr double kUpSine = 0.34;
   const Eigen::Vector3d ray = ray_lidar(row, column);
   if (std::fabs(along_lidar_.dot(ray)) > kAlongCos) return kAlong;
   const double up = up_lidar_.dot(ray);

@@ -8,10 +8,10 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kCut_m = 0.25;
-constexpr double kSpanMin_m = 0.5;  // the cut must leave so much of what is seen: less does not tell a lean
-constexpr double kCurvatureInSigmas = 3.5;
-constexpr double kBulgeMin_m = 0.04;
+constexpr double kCut_m = 0.25;     // judgement, 2026-11-21: rows are cut off by so much at a time
+constexpr double kSpanMin_m = 0.5;  // is left; a sensor that looks up by 7 degrees sees half of the band (seed 531)
+constexpr double kCurvatureInSigmas = 3.5;  // judgement, 2026-11-21: by chance hardly a wall is cut (0.02 %)
+constexpr double kBulgeMin_m = 0.04;  // judgement, 2026-11-21: smaller bulges are inliers (wall_ransac_thresh, 5 cm)
 
 // Weighted sums over the surface's points: their heights and their distances from the plane.
 struct Row {
@@ -55,8 +55,8 @@ class Rows {
   double upper_slope() const { return sum(middle(), last_ + 1).slope(); }
 
  private:
-  static constexpr int kRows = 32;
-  static constexpr double kStrayShare = 0.01;  // of the surface: what is less, at an end, is stray points
+  static constexpr int kRows = 32;             // of the band, 7 cm each by default
+  static constexpr double kStrayShare = 0.01;  // judgement, 2026-11-22: of the surface: less at an end is stray points
 
   int middle() const { return (first_ + last_ + 1) / 2; }
   Row sum(int from, int to) const {

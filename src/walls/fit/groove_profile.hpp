@@ -26,7 +26,7 @@ class GrooveProfile {
   bool is_grooved() const;
 
  private:
-  static constexpr std::uint32_t kRows = 64;
+  static constexpr std::uint32_t kRows = 64;  // of 5 cm: 3.2 m, stretched where the band is higher
   struct Row {
     FourFloats sums{};         // how many, their residuals, and the squares of these
     std::uint64_t places = 0;  // a bit for each metre of the length with points

@@ -17,7 +17,7 @@ namespace pose_wall {
 
 // u along the road, v up, r towards the machine.
 struct WallPoints {
-  static constexpr std::uint32_t kMost = 8192;
+  static constexpr std::uint32_t kMost = 8192;  // 16384 before shares were even (2026-11-22)
 
   TangentPoints at;
   double measured_per_weight = 1.0;  // of the points that belong here, only a part is; together they stand for all

@@ -10,20 +10,20 @@
 namespace pose_wall {
 namespace {
 
-constexpr int kRowBits = 16;
-constexpr int kRowsMin = 4;          // a column seen at fewer heights says nothing
-constexpr std::int32_t kAround = 6;  // columns to each side that make up the local level
-constexpr std::uint32_t kAroundMin = 5;
-constexpr double kLevelQuantile = 0.3;  // strips may take up to 60 % of what is seen around
-constexpr std::uint32_t kColumnsMin = 24;
-constexpr double kSigmaMin_m = 0.004;
-constexpr double kGainMin = 4.0;  // natural logarithm of the likelihood ratio
-constexpr double kApartInSigmas = 2.0;
-constexpr double kGainPerColumn = 0.04;
-constexpr std::int32_t kStripsMin = 3;  // one or two could be bulges of the rock
-constexpr std::int32_t kStripMax = 6;   // columns: wider things are no strips
-constexpr std::int32_t kFlank = 2;
-constexpr double kWideShareMax = 0.34;
+constexpr int kRowBits = 16;             // a bit for each height
+constexpr int kRowsMin = 4;              // judgement, 2026-11-21: at fewer heights a column's mean is the rock's there
+constexpr std::int32_t kAround = 6;      // judgement, 2026-11-21: columns to each side for the local level, 0.65 m
+constexpr std::uint32_t kAroundMin = 5;  // judgement, 2026-11-21: a quantile of fewer columns is no level
+constexpr double kLevelQuantile = 0.3;   // the rock's as long as strips take up to 60 % of what is seen around
+constexpr std::uint32_t kColumnsMin = 24;  // judgement, 2026-11-21: 1.2 m before two Gaussians are told apart
+constexpr double kSigmaMin_m = 0.004;      // judgement, 2026-11-21: the mean over a column does not scatter less
+constexpr double kGainMin = 4.0;        // judgement, 2026-11-21: log likelihood; twice it is chi-square(3)'s 95 % point
+constexpr double kApartInSigmas = 2.0;  // two equal Gaussians further apart have two tops
+constexpr double kGainPerColumn = 0.04;  // judgement, 2026-11-21: crooked rock, over many columns, must not pass
+constexpr std::int32_t kStripsMin = 3;   // one or two could be bulges of the rock
+constexpr std::int32_t kStripMax = 6;    // columns, 0.3 m: steel sets and props are a decimetre wide
+constexpr std::int32_t kFlank = 2;       // columns to each side: the flanks of a strip belong to it
+constexpr double kWideShareMax = 0.34;   // judgement, 2026-11-21: one wide thing to three strips
 
 }  // namespace
 

@@ -10,32 +10,31 @@
 namespace pose_wall {
 namespace {
 
-// Strips are looked for within this many times the wall's distance: further out they hide the wall between them.
-constexpr double kSeenWithin = 1.5;
-constexpr double kProfileReach_m = 32.0;
-constexpr int kRings = 4;  // each twice as far as the last
-// A ring that adds no more than this share of the points judged by then would tell the plane once more that is known:
-// its points are told apart, and count in the last fit.
+constexpr double kSeenWithin = 1.5;  // judgement, 2026-11-21: of the wall's distance; further, strips hide the rock
+constexpr double kProfileReach_m = 32.0;  // to each side, as far as the wall's grid
+constexpr int kRings = 4;  // each twice as far; three and four times as far changed nothing (bench/README.md)
+// A ring that adds a smaller share of points is judged, but not fitted: nothing errs more, 2.2 M of 59.8 M instructions
+// less (bench/README.md). Its points count in the last fit.
 constexpr double kWorthAFit = 0.12;
-constexpr double kLayerPointsMin = 100.0;
-constexpr double kLayerGainPerPoint = 0.02;
-constexpr double kLayerStepMin_m = 0.045;  // less is the noise of a sensor, parted by the voxels
-constexpr double kLayersApartInSigmas = 2.5;
-constexpr int kStepRounds = 4;  // of the surface alone: it tells its roughness, the plane comes of both
-// The round that moves the plane by no more than this is the last. Of a ring's fit the next ring needs the direction.
+constexpr double kLayerPointsMin = 100.0;    // judgement, 2026-11-21: fewer points tell no layers apart
+constexpr double kLayerGainPerPoint = 0.02;  // judgement, 2026-11-21: of log likelihood
+constexpr double kLayerStepMin_m = 0.045;    // three times kSensorNoise_m: less is the sensor's noise, parted by voxels
+constexpr double kLayersApartInSigmas = 2.5;  // judgement, 2026-11-21: clearly apart; two tops need two
+constexpr int kStepRounds = 4;  // judgement, 2026-11-21: for the surface's roughness; the plane comes of both
+// A round that moves the plane less is the last. The next ring needs the direction alone of a ring's fit.
 struct JointRounds {
   int most;
   double offset_stands_still_m, slopes_stand_still;
 };
-constexpr double kAnyOffset_m = 1e9;
+constexpr double kAnyOffset_m = 1e9;  // beyond every offset
 constexpr JointRounds kOfARing{3, kAnyOffset_m, 5e-4};
 constexpr JointRounds kLast{8, 2e-4, 2e-4};
-constexpr double kAgreeInSigmas = 3.5;
-constexpr std::uint32_t kFrontPointsMin = 60;
-constexpr double kFrontStepMin_m = 0.06;
-constexpr int kFrontRounds = 4;
-constexpr double kFrontScaleMin_m = 0.005;
-constexpr double kFrontScaleMax_m = 0.03;
+constexpr double kAgreeInSigmas = 3.5;  // judgement, 2026-11-21: fronts that disagree more are out (Hausman 1978)
+constexpr std::uint32_t kFrontPointsMin = 60;  // judgement, 2026-11-21: fewer points are no fronts
+constexpr double kFrontStepMin_m = 0.06;       // chosen by residual, fronts of a smaller step look too straight
+constexpr int kFrontRounds = 4;                // 0.6^4 = 0.13: the window narrows from two steps to a quarter of one
+constexpr double kFrontScaleMin_m = 0.005;     // judgement, 2026-11-21: half of a range's noise, which voxels average
+constexpr double kFrontScaleMax_m = 0.03;      // judgement, 2026-11-21: fronts of steel are straight
 
 void fill_strips(const WallPoints& points, StripProfile* strips) {
   const TangentPoints& at = points.at;

@@ -13,23 +13,18 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kScaleMin_m = 0.003;
-constexpr double kScaleMaxInThresholds = 1.5;  // rough rock: the scale follows the rock
-// What the strips may have moved the surface by, of their step; measured on simulated steel sets.
-constexpr double kStripsLeftOver = 0.05;
-// What a split into two layers may leave of the nearer one in the surface, of its share times its step.
-constexpr double kLayersLeftOver = 0.5;
-// A wall is fitted twice at most, with all that tells its surface: as it is seen, and again once what bends is cut off.
-// How much that is, fits between the two tell, on fewer points and without covariance; all they are asked is whether
-// the surface still bends.
-constexpr int kCutsMax = 6;
-// Shares of a whole fit's points: a cut asks less than a fit does, and the second fit may cost half the first.
+constexpr double kScaleMaxInThresholds = 1.5;  // judgement, 2026-11-21: the scale follows rough rock so far
+constexpr double kStripsLeftOver = 0.05;       // of the strips' step: measured on simulated steel sets
+constexpr double kLayersLeftOver = 0.5;  // of share times step: judgement, 2026-11-21 (README, What else stands out)
+constexpr int kCutsMax = 6;              // of kCut_m: 1.5 m of a band of 2.25 m; kSpanMin_m is left
+// A wall is fitted twice at most: as it is seen, and again once its bends are cut off. Quick fits in between, on fewer
+// points and without covariance, tell whether it still bends. The second fit may cost half the first (2026-11-25).
 constexpr std::uint32_t kCutPointsMax = WallPoints::kMost * 3 / 8, kAgainPointsMax = WallPoints::kMost / 2;
-constexpr int kRounds = 8;
+constexpr int kRounds = 8;  // judgement, 2026-11-21: most fits stand still earlier
 
 IrlsSettings fit_settings(const Settings& s) {
   const double thresh_m = s.wall_ransac_thresh;
-  return {kFitGateInThresholds * thresh_m, kScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds, kBeforePatches};
+  return {kFitGateInThresholds * thresh_m, kFitScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds, kBeforePatches};
 }
 
 // Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.

@@ -12,16 +12,16 @@
 namespace pose_wall {
 namespace {
 
-constexpr int kRounds = 30;
-constexpr int kTrialRounds = 5;
-constexpr double kGainLeast = 1e-3;  // in log likelihood: less decides nothing
-constexpr double kShareMin = 0.06;
-constexpr double kShareMax = 0.65;
-constexpr double kStepMin_m = 0.03;
-constexpr double kUniformShare = 0.05;  // strays
+constexpr int kRounds = 30;          // judgement, 2026-11-21: caps EM, which ends where it gains less than kGainLeast
+constexpr int kTrialRounds = 5;      // a short run (Biernacki et al. 2003); 1.4 M instructions less (bench/README.md)
+constexpr double kGainLeast = 1e-3;  // in log likelihood: less decides nothing, where 4 are asked for
+constexpr double kShareMin = 0.06;   // judgement, 2026-11-21: a smaller layer is not told from strays
+constexpr double kShareMax = 0.65;  // judgement, 2026-11-21: the nearer layer may be the larger one, but not nearly all
+constexpr double kStepMin_m = 0.03;     // judgement, 2026-11-21: callers ask for more
+constexpr double kUniformShare = 0.05;  // judgement, 2026-11-21: strays at any distance; keeps the logarithm finite
 
 using Histogram = LayerHistogram;
-constexpr std::uint32_t kBins = LayerHistogram::kBins;
+constexpr std::uint32_t kBins = LayerHistogram::kBins;  // the histogram's number of bins
 
 struct Mixture {
   double centre, sigma, step, share;  // share 0: one layer

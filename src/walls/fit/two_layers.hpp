@@ -15,7 +15,7 @@ namespace pose_wall {
 // Distances from a surface within +-gate_m, in 80 bins. Positive: towards the sensor.
 class LayerHistogram {
  public:
-  static constexpr std::uint32_t kBins = 80;
+  static constexpr std::uint32_t kBins = 80;  // 5 mm each of a gate of 0.2 m to both sides; whole fours
 
   explicit LayerHistogram(double gate_m) : gate_m_(gate_m) {}
   void add(double distance_m);

@@ -14,13 +14,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kThinMost = 4096;
-// A hypothesis is refined in thresholds, on no more points and in no more rounds than tell one plane from another.
-constexpr double kWideInThresholds = 5.0;
-constexpr double kNarrowInThresholds = 3.0;
-constexpr double kScaleMin_m = 0.003;
-constexpr int kQuickRounds = 3;
-constexpr std::uint32_t kQuickPointsMax = 500;
+constexpr std::uint32_t kThinMost = 4096;    // judgement, 2026-11-21: of the band, to score hypotheses; half of a fit's
+constexpr double kWideInThresholds = 5.0;    // the fit sees the lean of a wall that a vertical hypothesis cuts
+constexpr double kNarrowInThresholds = 3.0;  // judgement, 2026-11-21: the lean is known; as near lies on a wall
+constexpr int kQuickRounds = 3;              // judgement, 2026-11-21: they refine a hypothesis to within the threshold
+constexpr std::uint32_t kQuickPointsMax = 500;  // 800 at first; 250 missed rivals that cast doubt (bench/README.md)
 
 #ifdef POSE_WALL_TRACE
 std::uint32_t subject_of(const WallScene& scene, const SideView& view) {
@@ -107,7 +105,7 @@ std::uint32_t failed_gates(const Plane& plane, const WallEvidence& evidence, con
 
 bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
                        RefineWidth width, Span<std::uint32_t> near, TangentPoints* points, Plane* plane) {
-  const IrlsSettings quick = quick_irls(kNarrowInThresholds * thresh_m, kScaleMin_m, thresh_m, kQuickRounds);
+  const IrlsSettings quick = quick_irls(kNarrowInThresholds * thresh_m, kFitScaleMin_m, thresh_m, kQuickRounds);
   const double gate_m = (width == RefineWidth::kWide ? kWideInThresholds : kNarrowInThresholds) * thresh_m;
   const Span<std::uint32_t> part = thinned(points_near(band_level, *plane, gate_m, near), kQuickPointsMax);
   const IrlsResult refined = irls_tukey(band_level, part, *plane, along_level, quick, points);

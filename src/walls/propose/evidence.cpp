@@ -11,10 +11,7 @@
 namespace pose_wall {
 namespace {
 
-// Points this far behind a plane passed through it. Below, they are the rock's own roughness.
-constexpr double kBehindInThresholds = 3.0;
-
-constexpr double kRow_m = 0.3;
+constexpr double kRow_m = 0.3;  // judgement, 2026-11-21: tells pipes from a wall, and a sparse sensor fills it
 
 void count_up(std::uint16_t* counter, std::uint32_t by) {
   const std::uint32_t sum = *counter + by;
@@ -110,7 +107,7 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
   rows_ = rows_of(scene);
   FourMarks in_band(scene, wall, along_level, reach);
   mark_points(scene.band_level, Rays::kOneAPoint, &in_band);
-  constexpr double kNothing_m = -1.0;  // what lies outside the band is not on the wall
+  constexpr double kNothing_m = -1.0;  // negative: points outside the band are not on the wall
   FourMarks beyond(scene, wall, along_level, {kNothing_m, reach.behind_m});
   mark_points(scene.beyond_level, Rays::kByWeight, &beyond);
   for (std::uint32_t column = 0; column < kColumns; ++column) count_rows(column);
@@ -158,7 +155,7 @@ WallEvidence WallGrid::evidence() const {
 }
 
 double WallGrid::gap_to_solid_m(double along_m) const {
-  constexpr double kNone_m = 1e3;
+  constexpr double kNone_m = 1e3;  // beyond every distance
   double nearest = kNone_m;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
     if (!column_is_solid(column)) continue;
@@ -189,7 +186,7 @@ void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d
                WallGrid* grid) {
   const double thresh_m = scene.settings.wall_ransac_thresh;
   const WallGrid::Reach reach = width == MarkWidth::kThreshold
-                                    ? WallGrid::Reach{thresh_m, kBehindInThresholds * thresh_m}
+                                    ? WallGrid::Reach{thresh_m, on_wall_m(scene.settings)}
                                     : WallGrid::Reach{kFitGateInThresholds * thresh_m, kFitGateInThresholds * thresh_m};
   grid->mark(scene, plane, along_level, reach);
 }

@@ -34,9 +34,9 @@ struct WallEvidence {
 // not matter, so neither does how near or shiny a thing is.
 class WallGrid {
  public:
-  static constexpr std::uint32_t kColumns = 128;
-  static constexpr std::uint32_t kRowsMax = 16;
-  static constexpr double kColumn_m = 0.5;
+  static constexpr std::uint32_t kColumns = 128;  // 64 m: 32 m to both sides
+  static constexpr std::uint32_t kRowsMax = 16;   // 4.8 m of height; the default band has 8
+  static constexpr double kColumn_m = 0.5;        // judgement, 2026-11-21: a door or a niche fills one or more
 
   void lay_out(Arena& arena);
 
@@ -80,15 +80,17 @@ class WallGrid {
     return solid_rows_[column] > 0 && solid_rows_[column] >= open_rows_[column];
   }
 
-  static constexpr std::uint32_t kCells = kColumns * kRowsMax;
+  static constexpr std::uint32_t kCells = kColumns * kRowsMax;  // of the fullest grid
   Span<std::uint16_t> counters_;  // hits of each cell, what passes through each, and whatever lies in none
   std::uint8_t solid_rows_[kColumns] = {}, open_rows_[kColumns] = {};
   Rows rows_;
   double inliers_ = 0.0, passed_ = 0.0;  // measured points on it, and behind it
 };
 
-// So far from its plane a fit takes points, in RANSAC thresholds: rough rock stays in, what stands before it does not.
+// A fit takes points so far from its plane that rough rock stays in and things before it do not: one threshold more
+// than lies on a wall. Judgement, 2026-11-21.
 constexpr double kFitGateInThresholds = 4.0;
+constexpr double kFitScaleMin_m = 0.003;  // judgement, 2026-11-21: centroids of dense voxels scatter no less
 
 // Marks the grid with a plane: with the RANSAC threshold to judge a hypothesis, or as wide as the fit reaches.
 enum class MarkWidth { kThreshold, kFit };

@@ -11,15 +11,15 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kBaselineMin_m = 1.0;
-constexpr std::uint32_t kDrawsPerIteration = 16;
-constexpr std::uint32_t kPointsMin = 30;
-constexpr double kDrawSlack_deg = 5.0;  // hypotheses may lie a little outside: refinement moves them
+constexpr double kBaselineMin_m = 1.0;  // judgement, 2026-11-21: 5 cm of rock over a metre turn a draw by 3 degrees
+constexpr std::uint32_t kDrawsPerIteration = 16;  // judgement, 2026-11-21: twice the floor's, as fewer draws pass
+constexpr std::uint32_t kPointsMin = 30;          // judgement, 2026-11-21: fewer points of the band draw no wall
+constexpr double kDrawSlack_deg = 5.0;            // judgement, 2026-11-21: past yaw_max_deg, for refinement moves them
 
 }  // namespace
 
 bool SameWall::operator()(const Plane& a, const Plane& b) const {
-  constexpr double kReach_m = 3.0;
+  constexpr double kReach_m = 3.0;  // judgement, 2026-11-21: compared beside the machine and so far along the road
   const double across_a = a.n.dot(view.side_level), across_b = b.n.dot(view.side_level);
   if (!(std::fabs(across_a) > 1e-3 && std::fabs(across_b) > 1e-3)) return false;
   for (const double s : {-kReach_m, 0.0, kReach_m}) {
@@ -43,7 +43,7 @@ bool may_be_wall(const Plane& plane, const SideView& view, const WallLimits& lim
 
 void WallSearch::lay_out(Arena& arena, std::uint32_t points_max) {
   side_ = arena.take<std::uint32_t>(points_max);
-  subset_.lay_out(arena, kWallSubset);
+  subset_.lay_out(arena, kSubsetPoints);
 }
 
 void WallSearch::begin(const PointSet& band_level, const SideView& view, const Settings& settings, Random* random) {
@@ -61,7 +61,7 @@ void WallSearch::begin(const PointSet& band_level, const SideView& view, const S
       if (here[lane] != 0) side_[count_++] = i + lane;
     }
   });
-  subset_.count = count_ < kPointsMin ? 0 : kWallSubset;
+  subset_.count = count_ < kPointsMin ? 0 : kSubsetPoints;
   for (std::uint32_t k = 0; k < subset_.count; ++k) {
     const std::uint32_t i = side_[random->below(count_)];
     subset_.x[k] = band_level.x[i];
@@ -100,10 +100,10 @@ void WallSearch::draw() {
 }
 
 void WallSearch::offer_offsets(const Eigen::Vector3d& normal_level) {
-  constexpr std::uint32_t kBins = 640;
-  constexpr double kBin_m = 0.05;
-  constexpr int kPeaks = 4;
-  constexpr std::uint32_t kApart = 3;  // bins between peaks
+  constexpr std::uint32_t kBins = 640;  // 32 m, as far as the wall's grid
+  constexpr double kBin_m = 0.05;       // the inlier threshold's default
+  constexpr int kPeaks = 4;  // judgement, 2026-11-21: the wall, what stands before it, behind it, and one more
+  constexpr std::uint32_t kApart = 3;  // bins between peaks: 15 cm, as SameWall::kApart_m
   const double flat = std::sqrt(normal_level.x() * normal_level.x() + normal_level.y() * normal_level.y());
   if (!(flat > 0.5)) return;
   Plane plane;

@@ -14,10 +14,8 @@
 
 namespace pose_wall {
 
-constexpr std::uint32_t kWallShortlist = 10;
-constexpr std::uint32_t kWallSubset = 512;
-// Refined, a wall may be turned further than yaw_max_deg by this.
-constexpr double kRefineSlack_deg = 5.0;
+constexpr std::uint32_t kWallShortlist = 10;  // judgement, 2026-11-21: the wall behind the winner stays in the race
+constexpr double kRefineSlack_deg = 5.0;      // judgement, 2026-11-21: past yaw_max_deg, which gates the fit
 
 // A direction to look along and the horizontal direction to the side that is searched (both unit, levelled frame).
 // Searching ahead and behind is searching beside a direction that is turned by 90 degrees.
@@ -29,7 +27,7 @@ struct SideView {
 // Whether two planes beside the same direction mean the same wall: are no further apart, beside the machine, than
 // apart_m.
 struct SameWall {
-  static constexpr double kApart_m = 0.15;
+  static constexpr double kApart_m = 0.15;  // three default thresholds: nearer planes are the same wall
   SideView view;
   double apart_m = kApart_m;
   bool operator()(const Plane& a, const Plane& b) const;

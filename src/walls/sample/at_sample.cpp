@@ -18,10 +18,9 @@ double with_margin(double other_m) {
   return other_m > 0.0 ? 1.25 * other_m + 0.05 : 0.0;
 }
 
-constexpr double kBackMargin = 2.5;  // the deepest part of an opening is in its shadow
+constexpr double kBackMargin = 2.5;  // judgement, 2026-11-21: the deepest part of an opening is in its shadow
 
-constexpr std::uint32_t kOtherPointsMin = 10;
-constexpr double kOff_m = 0.1;
+constexpr double kOff_m = 0.1;  // judgement, 2026-11-21: two thresholds off the plane is not on it
 
 // Of the band, what lies to this side of the plane or behind it.
 struct Around {
@@ -31,16 +30,16 @@ struct Around {
   // Where the wall is not seen near a sampling point because something stands before it from top to bottom, that may be
   // the wall itself, standing out: by how much it is nearer to the sampling point than the plane. 0 where nothing is.
   double stands_out_m(double to_machine_m) const {
-    return nearer.count() >= kOtherPointsMin ? to_machine_m - nearer.at_rank(kOtherPointsMin) : 0.0;
+    return nearer.count() >= StepProfile::kPointsMin ? to_machine_m - nearer.at_rank(StepProfile::kPointsMin) : 0.0;
   }
 };
 
 // across: through the sampling point, which is to_machine_m before the wall.
 Around look_around(const WallScene& scene, const WallSurface& surface, const WallGrid& grid, const Plane& wall,
                    const Plane& across, double to_machine_m) {
-  constexpr double kWindow_m = 2.0;
-  constexpr double kStep_m = 0.05;
-  constexpr double kPerRoughness = 3.0;
+  constexpr double kWindow_m = 2.0;  // judgement, 2026-11-21: what stands so far beside may be nearer than the plane
+  constexpr double kStep_m = 0.05;   // a smaller step is the rock's; a narrow road was valid and 12 cm off (seed 513)
+  constexpr double kPerRoughness = 3.0;  // of the rock's own standard deviations: less is no step
   const double on_plane_m = kStep_m + kPerRoughness * surface.patch.tau_m;
   // What lies nearer is the machine's; of a machine that touches the wall, the wall is not.
   const double nearest_m = larger(to_machine_m - kOff_m, on_plane_m);
@@ -68,9 +67,8 @@ Around look_around(const WallScene& scene, const WallSurface& surface, const Wal
 // or a road branches off. 0 where it is not open. What lies right behind the opening's edge is in its shadow, so the
 // rays tell more than the points beside the sampling point do.
 double steps_back_at(const WallScene& scene, const Plane& wall, const Plane& across) {
-  constexpr double kWindow_m = 0.5;
-  constexpr double kDeepShare = 0.95;
-  constexpr double kShadowFactor = 2.5;  // nothing tells how deep a shadow is
+  constexpr double kWindow_m = 0.5;      // a column of the grid to either side
+  constexpr double kShadowFactor = 2.5;  // judgement, 2026-11-21: nothing tells how deep a shadow is
   const double inside_m = wall.signed_distance(scene.sensor_level_m),
                sensor_m = across.signed_distance(scene.sensor_level_m);
   Distances passing, beside;
@@ -81,8 +79,8 @@ double steps_back_at(const WallScene& scene, const Plane& wall, const Plane& acr
     if (std::fabs(sensor_m + (beside_m - sensor_m) * way_to_plane(inside_m, r)) <= kWindow_m) passing.add(-r);
     if (std::fabs(beside_m) <= kWindow_m) beside.add(-r);
   }
-  const bool in_shadow = beside.count() < kOtherPointsMin;
-  const double passing_m = passing.count() >= kOtherPointsMin ? passing.at_share(kDeepShare) : 0.0;
+  const bool in_shadow = beside.count() < StepProfile::kPointsMin;
+  const double passing_m = passing.count() >= StepProfile::kPointsMin ? passing.at_share(Distances::kNearlyAll) : 0.0;
   const double beside_m = in_shadow ? kShadowFactor * passing_m : beside.at_share(0.5);
   return larger(passing_m, beside_m);
 }

@@ -10,6 +10,8 @@ namespace pose_wall {
 // A histogram of distances in bins of 5 cm, 0 to 10 m; what is further is in the last bin.
 class Distances {
  public:
+  static constexpr double kNearlyAll = 0.95;  // judgement, 2026-11-21: leaves out the furthest strays; 0.8 at first
+
   void add(double distance_m) {
     if (!(distance_m >= 0.0)) return;
     const double place = distance_m / kBin_m;
@@ -30,8 +32,8 @@ class Distances {
   }
 
  private:
-  static constexpr std::uint32_t kBins = 200;
-  static constexpr double kBin_m = 0.05;
+  static constexpr std::uint32_t kBins = 200;  // 10 m of 5 cm each
+  static constexpr double kBin_m = 0.05;       // the inlier threshold's default; margins on what is read off are larger
   std::uint32_t bins_[kBins] = {};
   std::uint32_t count_ = 0;
 };

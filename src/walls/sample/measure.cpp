@@ -15,16 +15,13 @@
 namespace pose_wall {
 namespace {
 
-// Where a wall is not seen it may end or step, by up to this much: judgement, 2026-11-21, as deep as a niche.
-constexpr double kMayStep_m = 2.0;
-// By how much more the direction errs than the covariance says. Which columns are strips is told by the plane that they
-// then tell. And rock is rough over more lengths than one: of what neighbouring patches have in common, a part reaches
-// further than is looked at. Measured on simulated roads, thousands of looks by four sensors: 1.3 to 1.7 times with
-// strips, 1.1 to 1.25 times on rock without, once on flat walls. Distances near the sensor hang on the offset, which
-// has standard deviations of its own for both.
+// Yaw errs more than its covariance says: strips are told by the plane that they then determine, and rock is rough over
+// more lengths than neighbouring patches show. Measured on thousands of simulated looks by four sensors, 2026-11-21:
+// 1.3 to 1.7 times with strips, 1.1 to 1.25 on rock, once on flat walls. The offset has standard deviations of its own
+// for both:
 constexpr double kStripsStretch = 1.5;
 constexpr double kRockStretch = 1.2;
-constexpr double kRockFrom_m = 0.005;  // roughness between patches
+constexpr double kRockFrom_m = 0.005;  // judgement, 2026-11-21: roughness between patches from which on a wall is rock
 
 void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
   const TangentPoints& points = surface.points->at;
@@ -62,9 +59,9 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, FittedWall* out
 // How far the surface that is seen a little below a height or a little above it, ahead or behind, lies from the plane,
 // whichever is furthest.
 double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along, double z_level_m) {
-  constexpr double kWindow_m = 0.3;
-  constexpr double kGate_m = 0.4;
-  constexpr double kPointsMin = 10.0;
+  constexpr double kWindow_m = 0.3;    // judgement, 2026-11-21: above and below, a row of the grid
+  constexpr double kGate_m = 0.4;      // judgement, 2026-11-21: an arch is no further off its plane so near
+  constexpr double kPointsMin = 10.0;  // judgement, 2026-11-21: ten points make a mean
   double sum[4] = {}, count[4] = {};
   for (const BoundedPoints* const points : {&scene.band_level, &scene.beyond_level}) {
     for_each_in(*points, Slab(plane, kGate_m), [&](std::uint32_t i, float r) {
@@ -86,12 +83,12 @@ double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen:
 // Whether the wall may leave its plane at some height: where it was cut off, where it bends more than it scatters, and
 // where the plane is prolonged above the band.
 bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double z_level_m) {
-  constexpr double kCurvatureInSigmas = 2.0;
+  constexpr double kMayBendInSigmas = 2.0;  // judgement, 2026-11-23: suspected; kCurvatureInSigmas, which cuts, is sure
   const Heights& heights = surface.heights;
   const PatchFit& patch = surface.patch;
   return heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m ||
          z_level_m > scene.z_max_level_m || !(patch.curvature_v_sigma > 0.0) ||  // not known
-         !(std::fabs(patch.curvature_v) <= kCurvatureInSigmas * patch.curvature_v_sigma);
+         !(std::fabs(patch.curvature_v) <= kMayBendInSigmas * patch.curvature_v_sigma);
 }
 
 #ifdef POSE_WALL_TRACE

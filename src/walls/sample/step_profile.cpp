@@ -10,10 +10,9 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kNear = 2;    // slices: so well is the place known, and where a voxel's points lie in it
-constexpr std::uint32_t kRunMin = 6;  // slices
-constexpr std::uint32_t kPointsMin = 10;
-constexpr std::uint32_t kOffPerOn = 8;  // at an edge, a voxel may hold points of both
+constexpr std::uint32_t kNear = 2;      // slices, about a leaf (8 cm): a voxel's points lie anywhere in it
+constexpr std::uint32_t kRunMin = 6;    // slices, 0.3 m: a post is shorter (README, At a sampling point)
+constexpr std::uint32_t kOffPerOn = 8;  // judgement, 2026-11-21: at an edge, a voxel may hold points of both
 
 // 64 of 0.05, from 58 degrees below the horizontal to as much above it.
 std::uint64_t elevation_bit(double elevation) {
@@ -62,7 +61,7 @@ double StepProfile::hole_m() const {
 
 // Slices without a point neither end a step nor make one longer at its ends.
 double StepProfile::step(Way way) const {
-  constexpr std::uint32_t kPlace = kCount / 2;
+  constexpr std::uint32_t kPlace = kCount / 2;  // the slice of the sampling point
   for (std::uint32_t k = 0; k < kCount; ++k) {
     if (lies_on(k, way)) continue;
     std::uint32_t first = kCount, last = 0;
@@ -83,7 +82,7 @@ double StepProfile::step(Way way) const {
 
 // By what lies in two steps of depth: dust takes all elevations, too, but is no surface, nor as dense.
 bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
-  constexpr std::uint32_t kOnPerBefore = 2;
+  constexpr std::uint32_t kOnPerBefore = 2;  // half as dense as the plane (README): dust is thinner
   const Before &far = before_[depth][part], &near = before_[depth + 1][part];
   std::uint32_t on = 0;
   for (std::uint32_t k = 0; k < kSlicesPerPart; ++k) on += slices_[part * kSlicesPerPart + k].on;
@@ -93,6 +92,7 @@ bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
 
 // By how much what hides the plane around the place lies before it, at most.
 double StepProfile::hides_m() const {
+  // 0.6 m: posts are shorter; 48, not 165 of 1080 recorded values were valid and wrong (2026-11-24).
   constexpr std::uint32_t kPartsMin = 3;
   for (std::uint32_t depth = kDepths; depth-- > kHides;) {
     std::uint32_t first = kParts / 2, last = kParts / 2;

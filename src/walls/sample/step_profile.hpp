@@ -14,7 +14,8 @@ namespace pose_wall {
 
 class StepProfile {
  public:
-  static constexpr double kHalf_m = 1.0;  // to both sides of the place
+  static constexpr double kHalf_m = 1.0;           // to both sides of the place: judgement, 2026-11-21
+  static constexpr std::uint32_t kPointsMin = 10;  // judgement, 2026-11-21: fewer points may be strays
 
   // step_m: points closer to the plane are on it.
   explicit StepProfile(double step_m) : step_m_(step_m) {}
@@ -35,13 +36,13 @@ class StepProfile {
   double hole_m() const;
 
  private:
-  static constexpr double kSlice_m = 0.05;
-  static constexpr std::uint32_t kCount = 40;
-  static constexpr double kDepth_m = 0.15;
-  static constexpr std::uint32_t kHides = 3, kDepths = 27;  // from 0.45 m on: pipes along a wall lie closer to it
-  static constexpr std::uint32_t kParts = 10,
-                                 kSlicesPerPart =
-                                     kCount / kParts;  // a sparse sensor's points lie some centimetres apart
+  static constexpr double kSlice_m = 0.05;      // judgement, 2026-11-21: less than a voxel of the band (8 cm)
+  static constexpr std::uint32_t kCount = 40;   // slices of twice kHalf_m
+  static constexpr double kDepth_m = 0.15;      // judgement, 2026-11-24: a surface lies within two (README)
+  static constexpr std::uint32_t kHides = 3;    // from 0.45 m on: pipes along a wall lie closer to it
+  static constexpr std::uint32_t kDepths = 27;  // 4 m: what stands along a wall is no further from it
+  static constexpr std::uint32_t kParts = 10;   // of 0.2 m: a sparse sensor's points lie some centimetres apart
+  static constexpr std::uint32_t kSlicesPerPart = kCount / kParts;  // four of 5 cm
   enum Way : std::uint32_t { kStepsOut, kStepsBack };
 
   struct Off {

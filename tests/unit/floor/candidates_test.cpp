@@ -46,7 +46,7 @@ TEST(FloorSearch, SameFloorIsLocal) {
 TEST(FloorSearch, TheFloorLeadsAndTheWorkIsBounded) {
   test::FloorFixture g({{"ground_iterations", "100"}});
   g.add_road();
-  test::Placed<PointSet> subset(kFloorSubset);
+  test::Placed<PointSet> subset(kSubsetPoints);
   FloorShortlist list;
   Random random(1);
   std::vector<std::uint32_t> low;
@@ -67,7 +67,7 @@ TEST(FloorSearch, TheFloorLeadsAndTheWorkIsBounded) {
 TEST(FloorSearch, TooFewLowPointsGiveNothing) {
   test::FloorFixture g;
   g.add_road();
-  test::Placed<PointSet> subset(kFloorSubset);
+  test::Placed<PointSet> subset(kSubsetPoints);
   FloorShortlist list;
   Random random(1);
   const FloorDraw in{g.points().set(), {}};
