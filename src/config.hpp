@@ -19,7 +19,7 @@ struct Box {
   bool holds_something() const { return x_max > x_min && y_max > y_min && z_max > z_min; }
   // Whether one that came with a frame can be used.
   bool is_sound() const {
-    constexpr double kMost_m = 1000.0;
+    constexpr double kMost_m = 1000.0;  // no machine is as large: more is a wrong unit
     return is_within(x_min, x_max, kMost_m) && is_within(y_min, y_max, kMost_m) && is_within(z_min, z_max, kMost_m);
   }
   bool contains(double x, double y, double z) const {

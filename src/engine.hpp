@@ -84,8 +84,8 @@ class Engine {
   static std::uint64_t guarded_bytes() { return sizeof(Engine) - sizeof(Scratch); }
 
  private:
-  static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;
-  // Far apart in bits: one that falls over is no call that is inside.
+  static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;  // 'pose-wal' in ASCII: an engine was placed here
+  // Far apart in bits: one that falls over is no call that is inside:
   static constexpr std::uint64_t kNobodyInside = 0x6964CC33A55A6C65ULL;
   static constexpr std::uint64_t kOneInside = 0x96813C5A5AA5939AULL;
 

@@ -8,7 +8,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr int kDigitsKept = 18;  // fits a uint64
+constexpr int kDigitsKept = 18;  // as many as fit a uint64
 
 struct Mantissa {
   std::uint64_t digits = 0;

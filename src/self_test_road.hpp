@@ -10,9 +10,9 @@
 
 namespace pose_wall {
 
-constexpr std::uint32_t kSelfTestLines = 32;
-constexpr std::uint32_t kSelfTestTurns = 600;  // rays of a line
-constexpr std::uint32_t kSelfTestPointsMax = kSelfTestLines * kSelfTestTurns;
+constexpr std::uint32_t kSelfTestLines = 32;                                   // of the sensor, over 45 degrees
+constexpr std::uint32_t kSelfTestTurns = 600;                                  // rays of a line
+constexpr std::uint32_t kSelfTestPointsMax = kSelfTestLines * kSelfTestTurns;  // every ray returns at most once
 
 // What of the road is there. The roof always is. Steel sets stand before the walls, 15 cm of every metre.
 struct SelfTestScene {

@@ -32,7 +32,7 @@ constexpr double kBendMatters = 0.2;
 // The rows as types: sense, effect, reasons and limit(settings). A limit that is left to the caller is no number here.
 template <Id id>
 struct Row;
-constexpr double BY_CALLER = -1.0;  // no limit of a row: the caller tells it
+constexpr double BY_CALLER = -1.0;  // NOLINT(readability-identifier-naming): as gates.def spells it
 #define GATE(id, name, sense_, limit_, unit, key, effect_, reasons_, origin, asks)                  \
   template <>                                                                                       \
   struct Row<id> {                                                                                  \
