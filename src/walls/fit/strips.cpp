@@ -16,9 +16,9 @@ constexpr int kRings = 4;  // each twice as far; three and four times as far cha
 // A ring that adds a smaller share of points is judged, but not fitted: nothing errs more, 2.2 M of 59.8 M instructions
 // less (bench/README.md). Its points count in the last fit.
 constexpr double kWorthAFit = 0.12;
-constexpr double kLayerPointsMin = 100.0;    // judgement, 2026-11-21: fewer points tell no layers apart
-constexpr double kLayerGainPerPoint = 0.02;  // judgement, 2026-11-21: of log likelihood
-constexpr double kLayerStepMin_m = 0.045;    // three times kSensorNoise_m: less is the sensor's noise, parted by voxels
+constexpr double kLayerPointsMin = 100.0;     // judgement, 2026-11-21: fewer points tell no layers apart
+constexpr double kLayerGainPerPoint = 0.02;   // judgement, 2026-11-21: of log likelihood
+constexpr double kLayerStepMin_m = 0.045;     // judgement, 2026-11-21: less is a sensor's noise, parted by voxels
 constexpr double kLayersApartInSigmas = 2.5;  // judgement, 2026-11-21: clearly apart; two tops need two
 constexpr int kStepRounds = 4;  // judgement, 2026-11-21: for the surface's roughness; the plane comes of both
 // A round that moves the plane less is the last. The next ring needs the direction alone of a ring's fit.
@@ -33,7 +33,7 @@ constexpr double kAgreeInSigmas = 3.5;  // judgement, 2026-11-21: fronts that di
 constexpr std::uint32_t kFrontPointsMin = 60;  // judgement, 2026-11-21: fewer points are no fronts
 constexpr double kFrontStepMin_m = 0.06;       // chosen by residual, fronts of a smaller step look too straight
 constexpr int kFrontRounds = 4;                // 0.6^4 = 0.13: the window narrows from two steps to a quarter of one
-constexpr double kFrontScaleMin_m = 0.005;     // judgement, 2026-11-21: half of a range's noise, which voxels average
+constexpr double kFrontScaleMin_m = 0.005;     // judgement, 2026-11-21: voxels average a range's noise
 constexpr double kFrontScaleMax_m = 0.03;      // judgement, 2026-11-21: fronts of steel are straight
 
 void fill_strips(const WallPoints& points, StripProfile* strips) {
