@@ -85,7 +85,8 @@ void WallPoints::sort_by_patch(PatchGrid* grid, Span<std::uint32_t> places) {
     of_v.add(counts ? load_four(&at.v[k]) : FourFloats{});
   });
   // Room for the strips' fronts, too.
-  grid->begin(of_u.from(), of_u.to(), of_v.from(), of_v.to(), PatchGrid::kPatch_m, range_noise_m, PatchGrid::kLayersMax);
+  grid->begin(of_u.from(), of_u.to(), of_v.from(), of_v.to(), PatchGrid::kPatch_m, range_noise_m,
+              PatchGrid::kLayersMax);
   patches = patch_room.first(grid->patches());
   patches.fill(Patch{});
   for_each_four(at.count, [&](std::uint32_t k, FourTruths counts) {
