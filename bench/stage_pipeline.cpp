@@ -8,7 +8,7 @@
 #include "cloud/voxels.hpp"
 #include "floor/floor.hpp"
 #include "floor/levelling.hpp"
-#include "walls/doubts/parallel.hpp"
+#include "walls/doubts/doubts.hpp"
 #include "walls/walls.hpp"
 
 namespace pose_wall::bench {

@@ -7,7 +7,6 @@
 #include "walls/choose/across.hpp"
 #include "walls/choose/choose.hpp"
 #include "walls/doubts/doubts.hpp"
-#include "walls/doubts/parallel.hpp"
 #include "walls/sample/measure.hpp"
 
 namespace pose_wall {

@@ -68,7 +68,7 @@ class Layers(BrokenProject):
         self.write(path, LICENCE + line + "\n")
 
     def test_passes(self):
-        self.include("src/walls/walls.cpp", '#include "types.hpp"\n#include "walls/propose/search.hpp"')
+        self.include("src/walls/walls.cpp", '#include "types.hpp"\n#include "walls/propose/candidates.hpp"')
         self.include("src/walls/propose/search.hpp", "#include <Eigen/Core>")
         self.include("src/types.hpp", "#include <cstdint>")
         self.passes(*self.check())

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What speaks against a wall that was chosen and fitted: its own gates, its rival, its distance from the machine, what
-// is seen of it from close by, the wall on the other side, and what blocks the view.
+// What speaks against a wall that was chosen and fitted, and the direction that two walls share.
 
 #pragma once
 
 #include "walls/choose/choose.hpp"
+#include "walls/scene.hpp"
 #include "walls/scratch.hpp"
 #include "walls/wall.hpp"
 
 namespace pose_wall {
+
+// The two walls of a road share one direction.
+
+// Turns two walls of nearly the same direction onto their weighted mean, each about its pivot, and adds to the bounds
+// of their distances what that moved. Roughness, doors and the sensor's own motion during a scan turn the walls apart
+// by a degree; two metres from the machine's centre that is centimetres. Walls that truly run apart by more than
+// wall_parallel_within_deg keep their own directions. yaw_rad of each wall stays as measured.
+void share_direction(const WallScene& scene, JudgedWall (*walls)[2]);
+
+// What speaks against a wall that was chosen and fitted: its own gates, its rival, its distance from the machine, what
+// is seen of it from close by, the wall on the other side, and what blocks the view.
 
 // The fitted wall of a side with all doubts that concern it alone. side: 0 left, 1 right. The grid is marked with it.
 JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,

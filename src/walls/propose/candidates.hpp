@@ -5,13 +5,81 @@
 
 #pragma once
 
+#include "base/containers/point_set.hpp"
 #include "base/containers/work.hpp"
+#include "base/estimation/shortlist.hpp"
 #include "base/estimation/tangent_points.hpp"
+#include "base/math/random.hpp"
+#include "config.hpp"
+#include "types.hpp"
 #include "walls/propose/evidence.hpp"
-#include "walls/propose/search.hpp"
 #include "walls/scene.hpp"
 
 namespace pose_wall {
+
+// Hypotheses for vertical planes on one side of a direction: two points and the vertical, drawn, scored and kept as a
+// short list of different surfaces.
+
+constexpr std::uint32_t kWallShortlist = 10;  // judgement, 2026-11-21: the wall behind the winner stays in the race
+constexpr double kRefineSlack_deg = 5.0;      // judgement, 2026-11-21: past yaw_max_deg, which gates the fit
+
+// A direction to look along and the horizontal direction to the side that is searched (both unit, levelled frame).
+// Searching ahead and behind is searching beside a direction that is turned by 90 degrees.
+struct SideView {
+  Eigen::Vector3d along_level;
+  Eigen::Vector3d side_level;
+};
+
+// Whether two planes beside the same direction mean the same wall: are no further apart, beside the machine, than
+// apart_m.
+struct SameWall {
+  static constexpr double kApart_m = 0.15;  // three default thresholds: nearer planes are the same wall
+  SideView view;
+  double apart_m = kApart_m;
+  bool operator()(const Plane& a, const Plane& b) const;
+};
+
+using WallShortlist = Shortlist<kWallShortlist>;
+
+// How far a wall may turn from the direction and lean, worked out once for all hypotheses.
+struct WallLimits {
+  double cos_angle_max, cos_lean_max;
+
+  WallLimits(double angle_max_rad, double lean_max_rad);
+};
+
+// A plane that could be this side's wall: near vertical, not turned too far, its foot on the side.
+bool may_be_wall(const Plane& plane, const SideView& view, const WallLimits& limits);
+
+class WallSearch {
+ public:
+  void lay_out(Arena& arena, std::uint32_t points_max);
+
+  // Points of the band on this side become the ones to draw from.
+  void begin(const PointSet& band_level, const SideView& view, const Settings& settings, Random* random);
+  void offer(const Plane& plane);
+  void draw();
+  // The one-point problem: with the direction known, every offset at once by a histogram; the best few are offered.
+  void offer_offsets(const Eigen::Vector3d& normal_level);
+
+  WallShortlist& list() { return list_; }
+  std::uint32_t scored() const { return scored_; }
+
+ private:
+  bool draw_plane(const WallLimits& limits, Plane* plane);
+
+  const PointSet* band_ = nullptr;
+  const Settings* settings_ = nullptr;
+  Random* random_ = nullptr;
+  SideView view_{};
+  Span<std::uint32_t> side_;  // indices of the points on this side, count_ of them
+  std::uint32_t count_ = 0;
+  PointSet subset_;
+  WallShortlist list_;
+  std::uint32_t scored_ = 0;
+};
+
+// What may be a wall: planes beside a direction, drawn, refined and weighed by the solid area that they show.
 
 struct WallCandidate {
   Plane plane;

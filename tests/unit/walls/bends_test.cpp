@@ -6,7 +6,7 @@
 // is left whole, and of what is seen half a metre stays. Scenes are cast ray by ray. Does not prove it for voxels or
 // bends along the road.
 
-#include "walls/fit/bends.hpp"
+#include "walls/fit/surface.hpp"
 
 #include <gtest/gtest.h>
 
