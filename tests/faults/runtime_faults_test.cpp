@@ -32,9 +32,9 @@ std::atomic<int> lock_error{kForReal}, priority_error{kForReal};
 }  // namespace
 
 extern "C" int pthread_create_for_real(pthread_t*, const pthread_attr_t*, void* (*)(void*),
-                                       void*) __asm__("__real_" POSE_WALL_WRAPPED_PTHREAD_CREATE);
+                                       void*) __asm__("__real_" POSE_WALL_WRAPPED_pthread_create);
 extern "C" int pthread_create_wrapped(pthread_t*, const pthread_attr_t*, void* (*)(void*),
-                                      void*) __asm__("__wrap_" POSE_WALL_WRAPPED_PTHREAD_CREATE);
+                                      void*) __asm__("__wrap_" POSE_WALL_WRAPPED_pthread_create);
 
 extern "C" int pthread_create_wrapped(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
                                       void* user) {
@@ -42,8 +42,8 @@ extern "C" int pthread_create_wrapped(pthread_t* thread, const pthread_attr_t* a
   return pthread_create_for_real(thread, attributes, run, user);
 }
 
-extern "C" int mlock_for_real(const void*, std::size_t) __asm__("__real_" POSE_WALL_WRAPPED_MLOCK);
-extern "C" int mlock_wrapped(const void*, std::size_t) __asm__("__wrap_" POSE_WALL_WRAPPED_MLOCK);
+extern "C" int mlock_for_real(const void*, std::size_t) __asm__("__real_" POSE_WALL_WRAPPED_mlock);
+extern "C" int mlock_wrapped(const void*, std::size_t) __asm__("__wrap_" POSE_WALL_WRAPPED_mlock);
 
 extern "C" int mlock_wrapped(const void* block, std::size_t bytes) {
   if (lock_error == kForReal) return mlock_for_real(block, bytes);
@@ -52,9 +52,9 @@ extern "C" int mlock_wrapped(const void* block, std::size_t bytes) {
 }
 
 extern "C" int set_scheduling_for_real(pthread_t, int,
-                                       const sched_param*) __asm__("__real_" POSE_WALL_WRAPPED_PTHREAD_SETSCHEDPARAM);
+                                       const sched_param*) __asm__("__real_" POSE_WALL_WRAPPED_pthread_setschedparam);
 extern "C" int set_scheduling_wrapped(pthread_t, int,
-                                      const sched_param*) __asm__("__wrap_" POSE_WALL_WRAPPED_PTHREAD_SETSCHEDPARAM);
+                                      const sched_param*) __asm__("__wrap_" POSE_WALL_WRAPPED_pthread_setschedparam);
 
 extern "C" int set_scheduling_wrapped(pthread_t thread, int policy, const sched_param* parameters) {
   if (priority_error == kForReal) return set_scheduling_for_real(thread, policy, parameters);
