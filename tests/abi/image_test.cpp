@@ -207,7 +207,7 @@ TEST(Image, OfFramesOfAnEngine) {
 // A reader waits for another sequence: the first frame must differ from what was told before it.
 TEST(Image, TheSequenceTellsTheFirstFrameFromNone) {
   EngineUnderTest engine(small_config());
-  const auto sequence_of = [&engine](const pose_wall_result& result) {
+  const auto sequence_of = [](const pose_wall_result& result) {
     pose_wall_image image;
     image.struct_size = sizeof image;
     EXPECT_EQ(pose_wall_image_fill(&result, &image), POSE_WALL_OK);
