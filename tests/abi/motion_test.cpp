@@ -18,6 +18,7 @@
 #include "soak/heap_count.hpp"
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
+#include "support/garbage.hpp"
 #include "support/motion_contract.hpp"
 #include "support/motion_under_test.hpp"
 #include "support/room.hpp"
@@ -313,10 +314,7 @@ TEST(MotionHeap, NoCallAllocates) {
   Points garbage(20000);
   std::mt19937 random(3);
   for (auto& p : garbage) {
-    for (float& c : p) {
-      const auto bits = static_cast<std::uint32_t>(random());
-      std::memcpy(&c, &bits, sizeof c);
-    }
+    for (float& c : p) c = any_bits(&random);
   }
   frames.push_back(garbage);
   const pose_wall_config config = config_with();

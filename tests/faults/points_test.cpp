@@ -180,7 +180,6 @@ const PointCase kPointCases[] = {
     {"x_and_y_swapped", "VVhhhhh", true, [](auto* p) { swap_axes(p, 0, 1); }},
     {"x_and_z_swapped", "x", true, [](auto* p) { swap_axes(p, 0, 2); }},
     {"y_and_z_swapped", "VVhhhhh", true, [](auto* p) { swap_axes(p, 1, 2); }},
-    {"scaled_by_a_fifth_more", "...DDDD", true, [](auto* p) { scale(p, 1.2F); }},
 
     {"left_half_only", "...LLhh", true, [](auto* p) { keep(p, [](const Point& q) { return q[1] > 0.0F; }); }},
     {"right_half_only", "...hhLL", true, [](auto* p) { keep(p, [](const Point& q) { return q[1] < 0.0F; }); }},

@@ -17,6 +17,7 @@
 #include "fault_room.hpp"
 #include "faults/fault.hpp"
 #include "pose_wall_box.h"
+#include "support/record.hpp"
 #include "support/runtime_under_test.hpp"
 #include "wrapped_symbols.h"
 
@@ -68,15 +69,13 @@ namespace {
 struct FaultyDisk {
   std::uint64_t writes = 0, fails_at = 0;
   bool for_good = false;
-  std::vector<unsigned char> bytes;
+  Record bytes;
 
   static std::int32_t write(void* self, std::uint64_t offset, const void* from, std::uint64_t count) {
     FaultyDisk& disk = *static_cast<FaultyDisk*>(self);
     const std::uint64_t now = disk.writes++;
     if (now == disk.fails_at || (disk.for_good && now > disk.fails_at)) return 28;
-    if (disk.bytes.size() < offset + count) disk.bytes.resize(offset + count);
-    std::memcpy(disk.bytes.data() + offset, from, count);
-    return 0;
+    return write_record(&disk.bytes, offset, from, count);
   }
 };
 

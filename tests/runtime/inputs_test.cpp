@@ -15,19 +15,11 @@
 #include "runtime/box_layout.hpp"
 #include "runtime/checksums.hpp"
 #include "support/engine_under_test.hpp"
+#include "support/record.hpp"
 #include "support/runtime_under_test.hpp"
 
 namespace pose_wall::test {
 namespace {
-
-using Record = std::vector<unsigned char>;
-
-std::int32_t append(void* to, std::uint64_t offset, const void* bytes, std::uint64_t count) {
-  Record& record = *static_cast<Record*>(to);
-  if (record.size() < offset + count) record.resize(offset + count);
-  std::memcpy(record.data() + offset, bytes, count);
-  return 0;
-}
 
 // Another one for every frame; of some none.
 bool inputs_of(std::uint32_t frame, pose_wall_inputs* inputs) {
@@ -87,7 +79,7 @@ TEST(RuntimeInputs, GoWithTheirFrame) {
 TEST(RuntimeInputs, AreInTheBlackBoxAndComputeToTheSameBits) {
   Record bytes;
   RuntimeUnderTest runtime([&](pose_wall_runtime_options* o) {
-    o->sink = append;
+    o->sink = write_record;
     o->sink_user = &bytes;
     o->box_bytes = 64 << 20;
   });
@@ -156,7 +148,7 @@ TEST(RuntimeInputs, DoNotSpeakOfTheTimeOfADroppedFrame) {
 TEST(RuntimeInputs, ABoxOfAnotherFormatIsRefused) {
   Record bytes;
   RuntimeUnderTest runtime([&](pose_wall_runtime_options* o) {
-    o->sink = append;
+    o->sink = write_record;
     o->sink_user = &bytes;
     o->box_bytes = 1 << 20;
     o->box_clouds = 0;
