@@ -13,6 +13,7 @@
 #include "soak/heap_count.hpp"
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
+#include "support/garbage.hpp"
 #include "support/moments.hpp"
 #include "support/room.hpp"
 
@@ -90,10 +91,7 @@ TEST_F(NoHeap, NotOnGarbageEither) {
   Points points(30000);
   std::mt19937 random(1);
   for (auto& p : points) {
-    for (float& c : p) {
-      const auto bits = static_cast<std::uint32_t>(random());
-      std::memcpy(&c, &bits, sizeof c);
-    }
+    for (float& c : p) c = any_bits(&random);
   }
   EngineUnderTest engine(config_with({{"points_max", "5000"}}));
   pose_wall_result result{};

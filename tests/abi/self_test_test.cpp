@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the self test passes on this machine in whatever block, gives the same report each time, takes no more memory
-// than it says, and refuses wrong calls without a word in the report.
+// Proves: the self test passes on this machine in whatever block, gives the same report each time, and takes
+// no more memory than it says.
 
 #include <gtest/gtest.h>
 
@@ -58,29 +58,6 @@ TEST(SelfTest, LeavesTheBlockForAnEngine) {
   passed_in(&block);
   pose_wall_engine* engine = nullptr;
   EXPECT_EQ(pose_wall_open(&config, block.data(), bytes, &engine), POSE_WALL_OK);
-}
-
-TEST(SelfTest, RefusesWrongCallsAndLeavesTheReport) {
-  AlignedBlock block(pose_wall_self_test_bytes() + POSE_WALL_BLOCK_ALIGNMENT, Dirt::kRandom);
-  const std::uint64_t enough = pose_wall_self_test_bytes();
-  const std::vector<unsigned char> held(static_cast<unsigned char*>(block.data()),
-                                        static_cast<unsigned char*>(block.data()) + enough);
-  pose_wall_self_test_report report = fresh_report(), before = report;
-  EXPECT_EQ(pose_wall_self_test(nullptr, enough, &report), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_self_test(block.data(), enough, nullptr), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_self_test(block.data(), enough - 1, &report), POSE_WALL_E_BLOCK_SMALL);
-  EXPECT_EQ(pose_wall_self_test(block.data(), 0, &report), POSE_WALL_E_BLOCK_SMALL);
-  for (const std::size_t off : {1U, 8U, 32U, 63U}) {
-    EXPECT_EQ(pose_wall_self_test(static_cast<unsigned char*>(block.data()) + off, enough, &report),
-              POSE_WALL_E_BLOCK_ALIGN);
-  }
-  EXPECT_EQ(std::memcmp(&report, &before, sizeof report), 0);
-  for (const std::uint32_t size : {0U, 4U, 0xFFFFFFFFU}) {
-    report.struct_size = before.struct_size = size;
-    EXPECT_NE(pose_wall_self_test(block.data(), enough, &report), POSE_WALL_OK);
-    EXPECT_EQ(std::memcmp(&report, &before, sizeof report), 0);
-  }
-  EXPECT_EQ(std::memcmp(block.data(), held.data(), held.size()), 0) << "a refused call writes nothing";
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ def programs():
         yield TESTS / f"pose_wall_{kind}_tests", [f"--gtest_filter=-{MANY_DRAWS}"]
     for program in sorted(TESTS.glob("pose_wall_*_replay")):
         name = re.sub("pose_wall_(.*)_replay", r"\1", program.name)
-        yield program, [str(ROOT / "tests/fuzz/corpus" / name)]
+        yield program, ["--changed", "100", str(ROOT / "tests/fuzz/corpus" / name)]
     yield TESTS / "pose_wall_digest", []
 
 

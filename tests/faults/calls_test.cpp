@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: calls out of order, twice, in between or with the wrong bytes are refused or mean what the header says.
-
-#include <vector>
+// Proves: calls out of order, twice or in between mean what the header says. What is refused is in tests/abi/refusals.
 
 #include "fault_room.hpp"
-#include "support/moments.hpp"
 
 namespace pose_wall::test {
 namespace {
-
-using Bytes = std::vector<unsigned char>;
 
 pose_wall_result empty_result() {
   pose_wall_result r{};
@@ -31,14 +26,6 @@ struct Site {
   std::string states_after(std::int64_t stamp_ns) {
     return process(stamp_ns) == POSE_WALL_OK ? states_of(result) : "refused";
   }
-  Bytes saved() const {
-    Bytes memento(pose_wall_memento_bytes());
-    EXPECT_EQ(pose_wall_save(engine, nullptr, memento.data(), memento.size()), POSE_WALL_OK);
-    return memento;
-  }
-  std::int32_t load(const Bytes& memento) {
-    return pose_wall_load(engine, &pose_wall::test::kSameClock, memento.data(), memento.size());
-  }
 
   static std::uint64_t bytes_of(const pose_wall_config& config) {
     std::uint64_t bytes = 0;
@@ -52,42 +39,6 @@ struct Site {
   pose_wall_result result = empty_result();
   std::uint32_t frame = 0;
 };
-
-// Blocks in which nothing was opened, by what they hold.
-class NotOpened : public ::testing::TestWithParam<Dirt> {};
-
-TEST_P(NotOpened, EveryCallIsRefused) {
-  Site site(GetParam());
-  site.engine = static_cast<pose_wall_engine*>(site.block.data());
-  Bytes memento(pose_wall_memento_bytes());
-  pose_wall_points points;
-  pose_wall_image image{};
-  image.struct_size = sizeof image;
-  EXPECT_EQ(site.process(0), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_age(site.engine, 0, &site.result), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_reset(site.engine), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_set_clock(site.engine, nullptr, nullptr), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_save(site.engine, nullptr, memento.data(), memento.size()), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(site.load(memento), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_last_points(site.engine, &points), POSE_WALL_E_ENGINE);
-  EXPECT_EQ(pose_wall_image_fill(&site.result, &image), POSE_WALL_E_RESULT);
-}
-
-INSTANTIATE_TEST_SUITE_P(Faults, NotOpened, ::testing::Values(Dirt::kZeros, Dirt::kOnes, Dirt::kRandom),
-                         [](const auto& test) {
-                           return test.param == Dirt::kZeros ? "zeros"
-                                                             : (test.param == Dirt::kOnes ? "ones" : "random");
-                         });
-
-TEST(CallFaults, AgeBeforeTheFirstFrame) {
-  FaultRoom room;
-  pose_wall_result r = empty_result();
-  ASSERT_EQ(pose_wall_age(room.engine(), 0, &r), POSE_WALL_OK);
-  EXPECT_EQ(room.watch().aged(r), "");
-  EXPECT_EQ(states_of(r), "IIIIIII");
-  for (const pose_wall_value& v : r.quantity) EXPECT_NE(v.reasons & POSE_WALL_R_NEVER_MEASURED, 0U);
-  EXPECT_EQ(states_of(room.good(0)), "VVVVVVV");
-}
 
 TEST(CallFaults, LastPointsBeforeTheFirstFrame) {
   FaultRoom room;
@@ -172,14 +123,6 @@ TEST(CallFaults, OpenedWithOtherSettingsOnTheSameBlock) {
   EXPECT_EQ(misleading(site.result, kRoomTruth), "");
 }
 
-TEST(CallFaults, TheBlockHoldsGarbageAgain) {
-  Site site;
-  ASSERT_EQ(site.open(), POSE_WALL_OK);
-  site.process(0);
-  std::memset(site.block.data(), 0xA5, static_cast<std::size_t>(site.block.size()));
-  EXPECT_EQ(site.process(kPeriod_ns), POSE_WALL_E_ENGINE);
-}
-
 TEST(CallFaults, TheBlockWasClearedBehindTheEngine) {
   Site site;
   ASSERT_EQ(site.open(), POSE_WALL_OK);
@@ -229,64 +172,6 @@ TEST(CallFaults, ResultUsedForTheNextCallAsItIs) {
     EXPECT_EQ(room.watch().processed(r), "");
   }
 }
-
-TEST(CallFaults, AnImageOfAResultThatNobodyFilled) {
-  FaultRoom room;
-  const pose_wall_result r = empty_result();
-  pose_wall_image image{};
-  image.struct_size = sizeof image;
-  EXPECT_EQ(pose_wall_image_fill(&r, &image), POSE_WALL_E_RESULT);
-  EXPECT_NE(pose_wall_image_check(&image), POSE_WALL_OK) << "nothing was written";
-}
-
-TEST(CallFaults, AnImageThatWasNeverFilled) {
-  pose_wall_image image{};
-  EXPECT_NE(pose_wall_image_check(&image), POSE_WALL_OK);
-}
-
-// What load is given: the saved bytes, spoilt.
-struct Memento {
-  const char* name;
-  std::int32_t status;
-  void (*spoil)(Bytes*);
-};
-
-void PrintTo(const Memento& m, std::ostream* out) {
-  *out << m.name;
-}
-
-const Memento kMementos[] = {
-    {"as_saved", POSE_WALL_OK, [](Bytes*) {}},
-    {"with_more_behind", POSE_WALL_OK, [](Bytes* m) { m->push_back(7); }},
-    {"one_byte_short", POSE_WALL_E_MEMENTO, [](Bytes* m) { m->pop_back(); }},
-    {"of_no_bytes", POSE_WALL_E_MEMENTO, [](Bytes* m) { m->resize(0), m->reserve(1); }},
-    {"all_zeros", POSE_WALL_E_MEMENTO, [](Bytes* m) { std::fill(m->begin(), m->end(), std::uint8_t{0}); }},
-    {"all_ones", POSE_WALL_E_MEMENTO, [](Bytes* m) { std::fill(m->begin(), m->end(), std::uint8_t{0xFF}); }},
-    {"of_another_version", POSE_WALL_E_MEMENTO, [](Bytes* m) { ++m->front(); }},
-    {"with_another_sum", POSE_WALL_E_MEMENTO, [](Bytes* m) { ++(*m)[8]; }},
-    {"with_the_first_byte_changed", POSE_WALL_E_MEMENTO, [](Bytes* m) { (*m)[16] ^= 1; }},
-    {"with_the_last_byte_changed", POSE_WALL_E_MEMENTO, [](Bytes* m) { m->back() ^= 0x80; }},
-    {"moved_by_a_word", POSE_WALL_E_MEMENTO, [](Bytes* m) { std::rotate(m->begin() + 16, m->begin() + 24, m->end()); }},
-    {"backwards", POSE_WALL_E_MEMENTO, [](Bytes* m) { std::reverse(m->begin(), m->end()); }},
-};
-
-class Mementos : public ::testing::TestWithParam<Memento> {};
-
-TEST_P(Mementos, AreTakenWholeOrNotAtAll) {
-  Site from, to;
-  ASSERT_EQ(from.open(), POSE_WALL_OK);
-  ASSERT_EQ(to.open(), POSE_WALL_OK);
-  from.process(0);
-  Bytes memento = from.saved();
-  GetParam().spoil(&memento);
-  EXPECT_EQ(to.load(memento), GetParam().status);
-  const bool taken = GetParam().status == POSE_WALL_OK;
-  ASSERT_EQ(pose_wall_age(to.engine, kPeriod_ns, &to.result), POSE_WALL_OK);
-  EXPECT_EQ(states_of(to.result), taken ? "HHHHHHH" : "IIIIIII");
-}
-
-INSTANTIATE_TEST_SUITE_P(Faults, Mementos, ::testing::ValuesIn(kMementos),
-                         [](const auto& test) { return name_of(test.param.name); });
 
 }  // namespace
 }  // namespace pose_wall::test

@@ -13,17 +13,15 @@ BEGIN, END = "<!-- cases -->\n", "<!-- /cases -->\n"
 
 # What is done, and what must come of it. A group that is missing here, or has no cases, is an error.
 GROUPS = {
-    "Descriptions": ("a cloud's description lies", "refused, nothing changed; or read as it says, nothing wrong"),
-    "CoordinateTypes": ("every type of x, y, z", "refused but for floats"),
+    "Descriptions": ("a cloud's description is odd, or a lie that nobody can tell", "read as it says, nothing wrong"),
     "IntensityTypes": ("any bytes as intensity", "measured, right"),
     "PointFaults": ("points without number, range, shape or sense", "states of the table, nothing wrong, back at once"),
     "UndetectableFaults": ("axes mirrored, scaled", "measured; in a sequence the jump is degraded, level up to both"),
     "Capacity": ("points_max and one more or less", "the leaf grows from one more on"),
     "Stamps": ("stamps still, back, ahead, at the ends", "states of the table, flagged, nothing wrong"),
-    "NotOpened": ("every call without open", "refused"),
     "CallFaults": ("calls out of order or twice", "as the header says"),
-    "Mementos": ("load of spoilt bytes", "refused, nothing taken"),
     "Keys": ("no value of a key, each key", "refused, nothing changed"),
+    "Members": ("NaN written into a config past the functions", "found by the check"),
     "NumberKeys": ("below and above a key's range, and at its ends", "refused; at its ends the contract holds"),
     "Rules": ("keys that contradict each other", "nothing is opened"),
     "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),

@@ -138,6 +138,17 @@ const PointCase kPointCases[] = {
      [](auto* p) { make(p, [](float i) {
                      return Point{part(i, 151) * 12 - 6, 2.5F, part(i, 97) * 3 - 1.4F};
                    }); }},
+    {"pairs", "H", false,
+     [](auto* p) { make(p, [](float i) {
+                     return Point{part(i, 2) * 2, 3, part(i, 997) * 0.02F};
+                   }); }},
+    {"a_floor_and_a_line_beside_it", "LLhhhhh", false,
+     [](auto* p) {
+       make(p, [](float i) {
+         const bool floor = part(i, 2) == 0.0F;
+         return floor ? Point{part(i, 151) * 12 - 6, part(i, 97) * 5 - 2.5F, -1.4F} : Point{part(i, 151) * 9, 2.5F, 0};
+       });
+     }},
     {"a_lattice_that_fills_the_air", "x", false,
      [](auto* p) {
        make(p, [](float i) { return Point{part(i, 29) * 12 - 6, part(i, 31) * 8 - 4, part(i, 23) * 4 - 2}; });
@@ -169,7 +180,6 @@ const PointCase kPointCases[] = {
     {"x_and_y_swapped", "VVhhhhh", true, [](auto* p) { swap_axes(p, 0, 1); }},
     {"x_and_z_swapped", "x", true, [](auto* p) { swap_axes(p, 0, 2); }},
     {"y_and_z_swapped", "VVhhhhh", true, [](auto* p) { swap_axes(p, 1, 2); }},
-    {"scaled_by_a_fifth_more", "...DDDD", true, [](auto* p) { scale(p, 1.2F); }},
 
     {"left_half_only", "...LLhh", true, [](auto* p) { keep(p, [](const Point& q) { return q[1] > 0.0F; }); }},
     {"right_half_only", "...hhLL", true, [](auto* p) { keep(p, [](const Point& q) { return q[1] < 0.0F; }); }},

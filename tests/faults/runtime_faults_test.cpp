@@ -17,6 +17,7 @@
 #include "fault_room.hpp"
 #include "faults/fault.hpp"
 #include "pose_wall_box.h"
+#include "support/record.hpp"
 #include "support/runtime_under_test.hpp"
 #include "wrapped_symbols.h"
 
@@ -32,9 +33,9 @@ std::atomic<int> lock_error{kForReal}, priority_error{kForReal};
 }  // namespace
 
 extern "C" int pthread_create_for_real(pthread_t*, const pthread_attr_t*, void* (*)(void*),
-                                       void*) __asm__("__real_" POSE_WALL_WRAPPED_PTHREAD_CREATE);
+                                       void*) __asm__("__real_" POSE_WALL_WRAPPED_pthread_create);
 extern "C" int pthread_create_wrapped(pthread_t*, const pthread_attr_t*, void* (*)(void*),
-                                      void*) __asm__("__wrap_" POSE_WALL_WRAPPED_PTHREAD_CREATE);
+                                      void*) __asm__("__wrap_" POSE_WALL_WRAPPED_pthread_create);
 
 extern "C" int pthread_create_wrapped(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*),
                                       void* user) {
@@ -42,8 +43,8 @@ extern "C" int pthread_create_wrapped(pthread_t* thread, const pthread_attr_t* a
   return pthread_create_for_real(thread, attributes, run, user);
 }
 
-extern "C" int mlock_for_real(const void*, std::size_t) __asm__("__real_" POSE_WALL_WRAPPED_MLOCK);
-extern "C" int mlock_wrapped(const void*, std::size_t) __asm__("__wrap_" POSE_WALL_WRAPPED_MLOCK);
+extern "C" int mlock_for_real(const void*, std::size_t) __asm__("__real_" POSE_WALL_WRAPPED_mlock);
+extern "C" int mlock_wrapped(const void*, std::size_t) __asm__("__wrap_" POSE_WALL_WRAPPED_mlock);
 
 extern "C" int mlock_wrapped(const void* block, std::size_t bytes) {
   if (lock_error == kForReal) return mlock_for_real(block, bytes);
@@ -52,9 +53,9 @@ extern "C" int mlock_wrapped(const void* block, std::size_t bytes) {
 }
 
 extern "C" int set_scheduling_for_real(pthread_t, int,
-                                       const sched_param*) __asm__("__real_" POSE_WALL_WRAPPED_PTHREAD_SETSCHEDPARAM);
+                                       const sched_param*) __asm__("__real_" POSE_WALL_WRAPPED_pthread_setschedparam);
 extern "C" int set_scheduling_wrapped(pthread_t, int,
-                                      const sched_param*) __asm__("__wrap_" POSE_WALL_WRAPPED_PTHREAD_SETSCHEDPARAM);
+                                      const sched_param*) __asm__("__wrap_" POSE_WALL_WRAPPED_pthread_setschedparam);
 
 extern "C" int set_scheduling_wrapped(pthread_t thread, int policy, const sched_param* parameters) {
   if (priority_error == kForReal) return set_scheduling_for_real(thread, policy, parameters);
@@ -68,15 +69,13 @@ namespace {
 struct FaultyDisk {
   std::uint64_t writes = 0, fails_at = 0;
   bool for_good = false;
-  std::vector<unsigned char> bytes;
+  Record bytes;
 
   static std::int32_t write(void* self, std::uint64_t offset, const void* from, std::uint64_t count) {
     FaultyDisk& disk = *static_cast<FaultyDisk*>(self);
     const std::uint64_t now = disk.writes++;
     if (now == disk.fails_at || (disk.for_good && now > disk.fails_at)) return 28;
-    if (disk.bytes.size() < offset + count) disk.bytes.resize(offset + count);
-    std::memcpy(disk.bytes.data() + offset, from, count);
-    return 0;
+    return write_record(&disk.bytes, offset, from, count);
   }
 };
 

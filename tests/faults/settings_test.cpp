@@ -75,10 +75,33 @@ TEST_P(Keys, RefuseWhatIsNoneOfTheirValues) {
                                  -std::numeric_limits<double>::infinity()}) {
     if (is_number(key)) expect_number_refused(key.name, no_number);
   }
-  for (const char* no_number : {"nan", "inf", "-inf", "1e999"}) {
-    pose_wall_config config = config_with();
-    EXPECT_NE(pose_wall_config_set(&config, key.name, no_number), POSE_WALL_OK) << key.name << ": " << no_number;
+  for (const char* no_number : {"nan", "NaN", "inf", "-inf", "infinity"}) {
+    expect_refused(key.name, no_number, POSE_WALL_E_VALUE_TYPE);
   }
+  for (const char* beyond_all : {"1e999", "-1e999"}) {
+    expect_refused(key.name, beyond_all, is_number(key) ? POSE_WALL_E_VALUE_RANGE : POSE_WALL_E_VALUE_TYPE);
+  }
+  if (key.type == POSE_WALL_KEY_INTEGER) {
+    expect_refused(key.name, text_of(key.minimum + 0.5), POSE_WALL_E_VALUE_TYPE);
+    expect_number_refused(key.name, key.minimum + 0.5);
+  }
+  if (key.type == POSE_WALL_KEY_BOX) expect_refused(key.name, "1 0 0 1 0 1", POSE_WALL_E_VALUE_RANGE);
+}
+
+// What a program wrote past the functions is found before anything is opened.
+TEST(Members, HoldNumbersOrAreFound) {
+  pose_wall_config config = config_with();
+  int read = 0;
+  for (double& member : config.number) {
+    const double before = member;
+    member = std::numeric_limits<double>::quiet_NaN();
+    pose_wall_rule_fault fault{};
+    const std::int32_t status = pose_wall_config_check(&config, &fault);
+    EXPECT_TRUE(status == POSE_WALL_OK || (status == POSE_WALL_E_CONFIG_RULE && fault.key != nullptr));
+    read += status == POSE_WALL_E_CONFIG_RULE ? 1 : 0;
+    member = before;
+  }
+  EXPECT_GE(read, static_cast<int>(keys_of_numbers().size())) << "the others are room for keys to come";
 }
 
 class NumberKeys : public ::testing::TestWithParam<std::uint32_t> {};

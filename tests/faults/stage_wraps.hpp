@@ -59,14 +59,34 @@ using test::wraps::fails;
 using test::wraps::kNan;
 using test::wraps::refuse;
 
-// POSE_WALL_WRAP(result, SYMBOL, name, (parameters)): declares name_for_real, and begins the function that stands for
-// it.
-#define POSE_WALL_WRAP(result, SYMBOL, name, parameters)                           \
-  result name##_for_real parameters __asm__("__real_" POSE_WALL_WRAPPED_##SYMBOL); \
-  result name##_wrapped parameters __asm__("__wrap_" POSE_WALL_WRAPPED_##SYMBOL);  \
-  result name##_wrapped parameters
+// The type of a method of C, from that of a function that takes self first.
+template <typename Function>
+struct AsMethod;
+template <typename R, typename C, typename... A>
+struct AsMethod<R(C*, A...)> {
+  using type = R (C::*)(A...);
+};
+template <typename R, typename C, typename... A>
+struct AsMethod<R(const C*, A...)> {
+  using type = R (C::*)(A...) const;
+};
 
-POSE_WALL_WRAP(VoxelResult, BUILD_VOXELS, build_voxels,
+// POSE_WALL_WRAP(result, function, (parameters)): declares function_for_real, and begins what stands for it. The linker
+// knows nothing of types, so the function is cast to what is declared here: where they differ nothing compiles.
+// _OVERLOAD and _METHOD (whose self comes first) are called by a name of their own, as in wrapped_symbols.txt.
+#define POSE_WALL_WRAP_BEGIN(result, name, parameters)                           \
+  result name##_for_real parameters __asm__("__real_" POSE_WALL_WRAPPED_##name); \
+  result name##_wrapped parameters __asm__("__wrap_" POSE_WALL_WRAPPED_##name);  \
+  result name##_wrapped parameters
+#define POSE_WALL_WRAP_OVERLOAD(result, name, function, parameters)            \
+  using name##_is_so = decltype(static_cast<result(*) parameters>(&function)); \
+  POSE_WALL_WRAP_BEGIN(result, name, parameters)
+#define POSE_WALL_WRAP(result, function, parameters) POSE_WALL_WRAP_OVERLOAD(result, function, function, parameters)
+#define POSE_WALL_WRAP_METHOD(result, name, method, parameters)                           \
+  using name##_is_so = decltype(static_cast<AsMethod<result parameters>::type>(&method)); \
+  POSE_WALL_WRAP_BEGIN(result, name, parameters)
+
+POSE_WALL_WRAP(VoxelResult, build_voxels,
                (const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& s,
                 const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
                 ReturnsByDirection* returns, PointSet* out)) {
@@ -77,7 +97,7 @@ POSE_WALL_WRAP(VoxelResult, BUILD_VOXELS, build_voxels,
   return r;
 }
 
-POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
+POSE_WALL_WRAP(std::uint32_t, remove_outliers,
                (const Settings& s, VoxelGrid* grid, Span<std::uint8_t> marks, BoundedPoints* points, Work* work)) {
   const std::uint32_t before = points->count;
   const std::uint32_t outliers = remove_outliers_for_real(s, grid, marks, points, work);
@@ -86,7 +106,7 @@ POSE_WALL_WRAP(std::uint32_t, REMOVE_OUTLIERS, remove_outliers,
   return before;
 }
 
-POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor, (const FloorScene& scene, Random* random, FloorScratch* scratch)) {
+POSE_WALL_WRAP(FloorResult, find_floor, (const FloorScene& scene, Random* random, FloorScratch* scratch)) {
   FloorResult r = find_floor_for_real(scene, random, scratch);
   if (fails(Fault::kFloorNotFound)) {
     r = FloorResult{};
@@ -99,7 +119,7 @@ POSE_WALL_WRAP(FloorResult, FIND_FLOOR, find_floor, (const FloorScene& scene, Ra
   return r;
 }
 
-POSE_WALL_WRAP(std::uint32_t, FIND_CANDIDATES, find_candidates,
+POSE_WALL_WRAP(std::uint32_t, find_candidates,
                (const FloorScene& scene, const PointSet& within, Among among, Random* random, FloorScratch* scratch,
                 FloorCandidates* out)) {
   const std::uint32_t scored = find_candidates_for_real(scene, within, among, random, scratch, out);
@@ -108,37 +128,38 @@ POSE_WALL_WRAP(std::uint32_t, FIND_CANDIDATES, find_candidates,
   return 0;
 }
 
-POSE_WALL_WRAP(FloorResult, FIT_FLOOR, fit_floor,
+POSE_WALL_WRAP(FloorResult, fit_floor,
                (const FloorScene& scene, const FloorLook& look, const Plane& start, FloorScratch* scratch)) {
   FloorResult r = fit_floor_for_real(scene, look, start, scratch);
   if (fails(Fault::kFloorFitFails)) refuse(&r.fit, POSE_WALL_R_FLOOR_THIN);
   return r;
 }
 
-POSE_WALL_WRAP(UnevenFit, FLOOR_WAVES, floor_waves, (UnevenPlane * self, Span<const SurfacePatch> patches)) {
+POSE_WALL_WRAP_METHOD(UnevenFit, floor_waves, UnevenPlane::fit,
+                      (UnevenPlane * self, Span<const SurfacePatch> patches)) {
   if (fails(Fault::kFloorWavesUnsolved)) return {};
   return floor_waves_for_real(self, patches);
 }
 
-POSE_WALL_WRAP(double, HALVES, halves,
+POSE_WALL_WRAP(double, reach_of_halves,
                (Span<const SurfacePatch> patches, const Eigen::Vector3d& correction, const Eigen::Vector3d& of)) {
-  return fails(Fault::kHalvesNan) ? kNan : halves_for_real(patches, correction, of);
+  return fails(Fault::kHalvesNan) ? kNan : reach_of_halves_for_real(patches, correction, of);
 }
 
-POSE_WALL_WRAP(Levelling, LEVELLING_BY, levelling_by, (const Plane& floor, const Axes& axes)) {
+POSE_WALL_WRAP(Levelling, levelling_by, (const Plane& floor, const Axes& axes)) {
   Levelling r = levelling_by_for_real(floor, axes);
   if (fails(Fault::kLevelNan)) r.roll_rad = r.pitch_rad = r.forward_up = r.floor_z_level_m = kNan;
   return r;
 }
 
-POSE_WALL_WRAP(void, CUT_WALL_BAND, cut_wall_band,
+POSE_WALL_WRAP(void, cut_wall_band,
                (const PointSet& cloud, const Levelling& levelling, const Settings& s, VoxelGrid* grid,
                 BoundedPoints* band, BoundedPoints* beyond)) {
   cut_wall_band_for_real(cloud, levelling, s, grid, band, beyond);
   if (fails(Fault::kBandEmpty)) band->count = beyond->count = 0;
 }
 
-POSE_WALL_WRAP(WallsResult, FIND_WALLS, find_walls,
+POSE_WALL_WRAP(WallsResult, find_walls,
                (const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch)) {
   WallsResult r = find_walls_for_real(scene, last, random, scratch);
   const bool both = fails(Fault::kWallsNotFound);
@@ -149,7 +170,7 @@ POSE_WALL_WRAP(WallsResult, FIND_WALLS, find_walls,
   return r;
 }
 
-POSE_WALL_WRAP(void, PROPOSE_WALLS, propose_walls,
+POSE_WALL_WRAP(void, propose_walls,
                (const WallScene& scene, const SideView (&views)[2], const Plane* const last[2], Random* random,
                 ProposeScratch* scratch, WallCandidates (*out)[2])) {
   propose_walls_for_real(scene, views, last, random, scratch, out);
@@ -157,8 +178,7 @@ POSE_WALL_WRAP(void, PROPOSE_WALLS, propose_walls,
   for (WallCandidates& side : *out) side.count = 0;
 }
 
-POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
-               (const WallCandidates& left, const WallCandidates& right, const Settings& s)) {
+POSE_WALL_WRAP(WallChoice, choose_walls, (const WallCandidates& left, const WallCandidates& right, const Settings& s)) {
   WallChoice r = choose_walls_for_real(left, right, s);
   if (!fails(Fault::kChooseNone)) return r;
   r = WallChoice{};
@@ -170,67 +190,68 @@ POSE_WALL_WRAP(WallChoice, CHOOSE_WALLS, choose_walls,
 }
 
 // "Found" without a look: no column is judged then.
-POSE_WALL_WRAP(bool, FIND_STRIPS, strips,
-               (StripProfile * self, const PlaneOver& over, double u_m, double reach_m, double gate_m)) {
+POSE_WALL_WRAP_METHOD(bool, strips, StripProfile::find,
+                      (StripProfile * self, const PlaneOver& over, double u_m, double reach_m, double gate_m)) {
   if (fails(Fault::kStripsUnjudgedFound)) return true;
   return !fails(Fault::kStripsNotFound) && strips_for_real(self, over, u_m, reach_m, gate_m);
 }
 
-POSE_WALL_WRAP(double, JUDGE_STRIPS, judge_strips,
-               (StripProfile * self, const PlaneOver& over, double u_m, double reach_m)) {
+POSE_WALL_WRAP_METHOD(double, judge_strips, StripProfile::judge,
+                      (StripProfile * self, const PlaneOver& over, double u_m, double reach_m)) {
   return fails(Fault::kStripsNotJudged) ? 0.0 : judge_strips_for_real(self, over, u_m, reach_m);
 }
 
-POSE_WALL_WRAP(TwoLayers, TWO_LAYERS, two_layers, (const LayerHistogram& histogram, const LayerDemands& demands)) {
+POSE_WALL_WRAP(TwoLayers, find_two_layers, (const LayerHistogram& histogram, const LayerDemands& demands)) {
   if (fails(Fault::kLayersNotFound)) return {};
-  TwoLayers r = two_layers_for_real(histogram, demands);
+  TwoLayers r = find_two_layers_for_real(histogram, demands);
   if (fails(Fault::kLayersNan)) r = {true, kNan, kNan, kNan, kNan};
   return r;
 }
 
-POSE_WALL_WRAP(bool, GROOVES, grooves, (const GrooveProfile* self)) {
+POSE_WALL_WRAP_METHOD(bool, grooves, GrooveProfile::is_grooved, (const GrooveProfile* self)) {
   return fails(Fault::kGroovedAll) || grooves_for_real(self);
 }
 
-POSE_WALL_WRAP(WallSurface, FIT_SURFACE, fit_surface,
+POSE_WALL_WRAP(WallSurface, fit_surface,
                (const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch)) {
   WallSurface r = fit_surface_for_real(scene, start, grid, scratch);
   if (fails(Fault::kSurfaceUnsolved)) r.patch.solved = false;
   return r;
 }
 
-POSE_WALL_WRAP(PatchFit, PATCHES, patches, (PatchGrid * self, PatchGrid::Errors errors)) {
+POSE_WALL_WRAP_METHOD(PatchFit, patches, PatchGrid::fit, (PatchGrid * self, PatchGrid::Errors errors)) {
   if (fails(Fault::kPatchesUnsolved)) return {};
   return patches_for_real(self, errors);
 }
 
-POSE_WALL_WRAP(IrlsResult, IRLS_CLOUD, irls_cloud,
-               (const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
-                const Eigen::Vector3d& u_hint, const IrlsSettings& s, TangentPoints* points)) {
+POSE_WALL_WRAP_OVERLOAD(IrlsResult, irls_cloud, irls_tukey,
+                        (const PointSet& cloud, Span<const std::uint32_t> indices, const Plane& start,
+                         const Eigen::Vector3d& u_hint, const IrlsSettings& s, TangentPoints* points)) {
   IrlsResult r = irls_cloud_for_real(cloud, indices, start, u_hint, s, points);
   if (fails(Fault::kIrlsCloudUnsolved)) r.solved = false;
   return r;
 }
 
-POSE_WALL_WRAP(IrlsOver, IRLS_POINTS, irls_points,
-               (const TangentPoints& points, std::uint32_t count, const PlaneOver& start, const IrlsSettings& s)) {
+POSE_WALL_WRAP_OVERLOAD(IrlsOver, irls_points, irls_tukey,
+                        (const TangentPoints& points, std::uint32_t count, const PlaneOver& start,
+                         const IrlsSettings& s)) {
   IrlsOver r = irls_points_for_real(points, count, start, s);
   if (fails(Fault::kIrlsPointsUnsolved)) r.solved = false;
   return r;
 }
 
-POSE_WALL_WRAP(FittedWall, MEASURE_WALL, measure_wall,
+POSE_WALL_WRAP(FittedWall, measure_wall,
                (const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid)) {
   FittedWall r = measure_wall_for_real(scene, surface, side, grid);
   if (fails(Fault::kMeasureRefused)) refuse(&r.fit, POSE_WALL_R_WALL_SHORT);
   return r;
 }
 
-POSE_WALL_WRAP(void, LEARN_DIRECTIONS, learn_directions, (const WallScene& scene, SightScratch* scratch)) {
+POSE_WALL_WRAP(void, learn_directions, (const WallScene& scene, SightScratch* scratch)) {
   if (!fails(Fault::kDirectionsNotLearnt)) learn_directions_for_real(scene, scratch);
 }
 
-POSE_WALL_WRAP(WallSight, LOOK_AT, look_at,
+POSE_WALL_WRAP(WallSight, look_at,
                (const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along, double behind_m,
                 SightScratch* scratch)) {
   WallSight r = look_at_for_real(scene, wall, along, behind_m, scratch);
@@ -240,7 +261,7 @@ POSE_WALL_WRAP(WallSight, LOOK_AT, look_at,
   return r;
 }
 
-POSE_WALL_WRAP(AtSample, LOOK_AT_SAMPLE, look_at_sample,
+POSE_WALL_WRAP(AtSample, look_at_sample,
                (const WallScene& scene, const WallSurface& surface, const WallGrid& grid, const FittedWall& wall,
                 const Eigen::Vector3d& sample_m)) {
   AtSample r = look_at_sample_for_real(scene, surface, grid, wall, sample_m);
@@ -249,12 +270,15 @@ POSE_WALL_WRAP(AtSample, LOOK_AT_SAMPLE, look_at_sample,
   return r;
 }
 
-// The way a step goes is an enumeration of the profile's own, of 32 bits.
-POSE_WALL_WRAP(double, SHORT_STEP, short_step, (const StepProfile* self, std::uint32_t way)) {
-  return fails(Fault::kShortStepNan) ? kNan : short_step_for_real(self, way);
+POSE_WALL_WRAP_METHOD(double, step_before, StepProfile::before_m, (const StepProfile* self)) {
+  return fails(Fault::kShortStepNan) ? kNan : step_before_for_real(self);
 }
 
-POSE_WALL_WRAP(WallEdges, LOOK_PAST, look_past,
+POSE_WALL_WRAP_METHOD(double, step_behind, StepProfile::behind_m, (const StepProfile* self)) {
+  return fails(Fault::kShortStepNan) ? kNan : step_behind_for_real(self);
+}
+
+POSE_WALL_WRAP(WallEdges, look_past,
                (const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along, double margin_m,
                 EdgeScratch* scratch)) {
   WallEdges r = look_past_for_real(scene, wall, along, margin_m, scratch);
@@ -264,49 +288,50 @@ POSE_WALL_WRAP(WallEdges, LOOK_PAST, look_past,
   return r;
 }
 
-POSE_WALL_WRAP(double, DISTANCE_AT, distance_at, (const Plane& plane, const Eigen::Vector3d& sample_m)) {
+POSE_WALL_WRAP(double, distance_at, (const Plane& plane, const Eigen::Vector3d& sample_m)) {
   return fails(Fault::kDistanceNan) ? kNan : distance_at_for_real(plane, sample_m);
 }
 
-POSE_WALL_WRAP(void, SHARE_DIRECTION, share_direction, (const WallScene& scene, JudgedWall (*walls)[2])) {
+POSE_WALL_WRAP(void, share_direction, (const WallScene& scene, JudgedWall (*walls)[2])) {
   if (!fails(Fault::kDirectionNotShared)) share_direction_for_real(scene, walls);
 }
 
-POSE_WALL_WRAP(void, REFUSE_BLOCKED_SIDES, blocked_sides,
-               (const IngestCounts& counts, const Settings& s, JudgedWall (*walls)[2])) {
-  blocked_sides_for_real(counts, s, walls);
+POSE_WALL_WRAP(void, refuse_blocked_sides, (const IngestCounts& counts, const Settings& s, JudgedWall (*walls)[2])) {
+  refuse_blocked_sides_for_real(counts, s, walls);
   if (!fails(Fault::kSidesBlocked)) return;
   for (JudgedWall& wall : *walls) refuse(&wall.fit, POSE_WALL_R_WALL_TOO_NEAR);
 }
 
-POSE_WALL_WRAP(Measurements, MEASURE_QUANTITIES, quantities,
+POSE_WALL_WRAP(Measurements, measure_quantities,
                (const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                 const Settings& s)) {
-  Measurements r = quantities_for_real(floor, levelling, walls, s);
+  Measurements r = measure_quantities_for_real(floor, levelling, walls, s);
   if (!fails(Fault::kNothingMeasured)) return r;
   r = Measurements{};
   for (Measurement& m : r.quantity) m.reasons = POSE_WALL_R_ALERT_LIMIT;
   return r;
 }
 
-POSE_WALL_WRAP(FrameTiming, TIME_FRAME, timing,
-               (const TemporalState& state, std::int64_t stamp_ns, const Settings& settings)) {
-  FrameTiming r = timing_for_real(state, stamp_ns, settings);
+POSE_WALL_WRAP(FrameTiming, time_frame, (const TemporalState& state, std::int64_t stamp_ns, const Settings& settings)) {
+  FrameTiming r = time_frame_for_real(state, stamp_ns, settings);
   if (fails(Fault::kTimeNan)) r.dt_s = kNan;
   if (fails(Fault::kTimeUnknown)) r = {};
   return r;
 }
 
-POSE_WALL_WRAP(void, SMOOTH_AND_HOLD, smoothing,
+POSE_WALL_WRAP(void, smooth_and_hold,
                (const Measurements& measured, const FrameTiming& timing, std::int64_t stamp_ns, const Change& change,
                 const Settings& s, TemporalState* state, pose_wall_value (*values)[POSE_WALL_QUANTITIES])) {
-  if (!fails(Fault::kSmoothingSilent)) smoothing_for_real(measured, timing, stamp_ns, change, s, state, values);
+  if (!fails(Fault::kSmoothingSilent)) smooth_and_hold_for_real(measured, timing, stamp_ns, change, s, state, values);
 }
 
-POSE_WALL_WRAP(void, REPORT_FINDINGS, report, (const FrameFindings& found, pose_wall_result* result)) {
-  if (!fails(Fault::kReportSilent)) report_for_real(found, result);
+POSE_WALL_WRAP(void, report_findings, (const FrameFindings& found, pose_wall_result* result)) {
+  if (!fails(Fault::kReportSilent)) report_findings_for_real(found, result);
 }
 
 #undef POSE_WALL_WRAP
+#undef POSE_WALL_WRAP_OVERLOAD
+#undef POSE_WALL_WRAP_METHOD
+#undef POSE_WALL_WRAP_BEGIN
 
 }  // namespace pose_wall

@@ -39,6 +39,8 @@ const StampCase kStampCases[] = {
     {"back_by_1_ns", {0, kAt, kAt - 1}, 'V', 'I', POSE_WALL_R_STAMP_BACK},
     {"back_by_a_frame", {0, kAt, 2 * kAt, kAt}, 'V', 'I', POSE_WALL_R_STAMP_BACK},
     {"back_by_an_hour", {0, kAt, kAt - kHour_ns}, 'V', 'I', POSE_WALL_R_STAMP_BACK},
+    {"goes_on_after_5_s_back", {0, kAt, kAt - 5000 * kMs_ns, 2 * kAt - 5000 * kMs_ns}, 'V', 'H', 0},
+    {"goes_on_after_a_leap", {0, kAt, kHour_ns, kHour_ns + kAt}, 'V', 'H', 0},
     {"ever_back", {0, -kAt, -2 * kAt, -3 * kAt}, 'V', 'I', POSE_WALL_R_STAMP_BACK},
     {"swapped_with_the_next", {0, kAt, 3 * kAt, 2 * kAt, 4 * kAt}, 'V', 'H', 0},
     {"ahead_by_1_ns", {0, kAt, kAt + 1}, 'H', 'H', POSE_WALL_R_STAMP_STILL},
@@ -64,7 +66,15 @@ class Stamps : public ::testing::TestWithParam<StampCase> {};
 TEST_P(Stamps, OfGoodFrames) {
   FaultRoom room;
   pose_wall_result r{};
-  for (const std::int64_t stamp_ns : GetParam().stamps_ns) r = room.good(stamp_ns);
+  int held = 0;
+  for (const std::int64_t stamp_ns : GetParam().stamps_ns) {
+    r = room.good(stamp_ns);
+    held = states_of(r) == "HHHHHHH" ? held + 1 : 0;
+    if (held == 0) continue;
+    for (const pose_wall_value& v : r.quantity) {
+      EXPECT_NEAR(v.age_s, 0.1 * held, 1e-6) << "a frame takes as long as the last one did";
+    }
+  }
   EXPECT_EQ(states_of(r), std::string(POSE_WALL_QUANTITIES, GetParam().good));
   EXPECT_EQ(r.frame_reasons, GetParam().frame_reason);
   EXPECT_EQ(r.stamp_ns, GetParam().stamps_ns.back());

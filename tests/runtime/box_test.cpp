@@ -20,12 +20,13 @@
 #include "runtime/box_layout.hpp"
 #include "runtime/checksums.hpp"
 #include "support/engine_under_test.hpp"
+#include "support/record.hpp"
 #include "support/runtime_under_test.hpp"
 
 namespace pose_wall::test {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
+using Bytes = Record;
 
 // A disk in memory, with a gate before it, which breaks on demand.
 struct Disk {
@@ -37,9 +38,7 @@ struct Disk {
     Disk& disk = *static_cast<Disk*>(self);
     disk.gate.pass();
     if (disk.broken) return 5;
-    if (disk.bytes.size() < offset + count) disk.bytes.resize(offset + count);
-    std::memcpy(disk.bytes.data() + offset, from, count);
-    return 0;
+    return write_record(&disk.bytes, offset, from, count);
   }
 };
 

@@ -383,20 +383,5 @@ TEST(RuntimeImage, TwoHasItsSource) {
   EXPECT_EQ(image2_of(runtime, POSE_WALL_RUNTIME_E_STALE).publication, 2U) << "nobody publishes";
 }
 
-TEST(RuntimeImage, Refusals) {
-  RuntimeUnderTest runtime;
-  runtime.start();
-  pose_wall_image image{};
-  EXPECT_EQ(pose_wall_runtime_image(runtime.get(), &image), POSE_WALL_E_STRUCT_SIZE);
-  image.struct_size = sizeof image;
-  EXPECT_EQ(pose_wall_runtime_image(nullptr, &image), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_runtime_image(runtime.get(), nullptr), POSE_WALL_E_NULL);
-  pose_wall_image2 second{};
-  EXPECT_EQ(pose_wall_runtime_image2(runtime.get(), &second), POSE_WALL_E_STRUCT_SIZE);
-  second.struct_size = sizeof second;
-  EXPECT_EQ(pose_wall_runtime_image2(nullptr, &second), POSE_WALL_E_NULL);
-  EXPECT_EQ(pose_wall_runtime_image2(runtime.get(), nullptr), POSE_WALL_E_NULL);
-}
-
 }  // namespace
 }  // namespace pose_wall::test

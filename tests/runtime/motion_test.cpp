@@ -16,20 +16,13 @@
 #include "pose_wall_box.h"
 #include "support/engine_under_test.hpp"
 #include "support/motion_under_test.hpp"
+#include "support/record.hpp"
 #include "support/runtime_under_test.hpp"
 
 namespace pose_wall::test {
 namespace {
 
 using Change = RuntimeUnderTest::Change;
-using Record = std::vector<unsigned char>;
-
-std::int32_t append(void* to, std::uint64_t offset, const void* bytes, std::uint64_t count) {
-  Record& record = *static_cast<Record*>(to);
-  if (record.size() < offset + count) record.resize(offset + count);
-  std::memcpy(record.data() + offset, bytes, count);
-  return 0;
-}
 
 Change with_motion(const pose_wall_motion_functions* functions = pose_wall_motion_functions_get()) {
   return [functions](pose_wall_runtime_options* o) {
@@ -511,7 +504,7 @@ TEST(RuntimeMotion, TheBlackBoxHoldsItAndComputesToTheSameBits) {
   const std::vector<Frame> frames = road();
   RuntimeUnderTest runtime([&](pose_wall_runtime_options* o) {
     with_motion()(o);
-    o->sink = append;
+    o->sink = write_record;
     o->sink_user = &bytes;
     o->box_bytes = 64 << 20;
   });

@@ -128,52 +128,6 @@ TEST(Sequences, AFrozenSensorIsNoticed) {
   EXPECT_LE(frames_to_recover(frames, to + 1, POSE_WALL_YAW), kRecoveryFrames);
 }
 
-TEST(Sequences, StampsThatJumpBackAreFlaggedAndAgesStayRight) {
-  sim::SceneSetup setup = scene("stamp_jump");
-  setup.sequence.stamp_jump_s = -5.0;
-  const std::vector<JudgedFrame> frames = run_frames(setup, 1, 25);
-  std::uint32_t flagged = 0;
-  for (std::uint32_t i = 0; i < frames.size(); ++i) {
-    expect_within_level(frames[i], i);
-    const bool flag = (frames[i].result.frame_reasons & POSE_WALL_R_STAMP_BACK) != 0;
-    EXPECT_EQ(flag, i == frame_at(setup, setup.sequence.stamp_jump_at_s)) << i;
-    flagged += flag ? 1U : 0U;
-    for (const pose_wall_value& v : frames[i].result.quantity) {
-      EXPECT_TRUE(is_live(v)) << i;
-      EXPECT_EQ(v.age_s, 0.0);
-    }
-  }
-  EXPECT_EQ(flagged, 1U);
-}
-
-TEST(Sequences, StampsThatLeapAheadAreFlagged) {
-  sim::SceneSetup setup = scene("stamp_jump");
-  setup.sequence.stamp_jump_s = 20.0;
-  const std::vector<JudgedFrame> frames = run_frames(setup, 1, 25);
-  for (std::uint32_t i = 0; i < frames.size(); ++i) {
-    expect_within_level(frames[i], i);
-    EXPECT_EQ((frames[i].result.frame_reasons & POSE_WALL_R_STAMP_LEAP) != 0,
-              i == frame_at(setup, setup.sequence.stamp_jump_at_s));
-  }
-}
-
-TEST(Sequences, StampsThatStandStillMeasureNothingNew) {
-  const sim::SceneSetup setup = scene("stamp_still");  // from 1 to 2 s
-  const std::vector<JudgedFrame> frames = run_frames(setup, 1, 30);
-  std::uint32_t flagged = 0;
-  for (std::uint32_t i = 0; i < frames.size(); ++i) {
-    expect_within_level(frames[i], i);
-    if ((frames[i].result.frame_reasons & POSE_WALL_R_STAMP_STILL) == 0) continue;
-    ++flagged;
-    const std::uint32_t state = flagged <= 2 ? POSE_WALL_HELD : POSE_WALL_INVALID;
-    for (const pose_wall_value& v : frames[i].result.quantity) {
-      EXPECT_EQ(v.state, state) << "twice the same frame again, then a clock that stands still, frame " << i;
-      EXPECT_NEAR(v.age_s, 0.1 * flagged, 1e-6) << "a frame takes as long as the last one did";
-    }
-  }
-  EXPECT_GE(flagged, 8U);
-}
-
 TEST(Sequences, ASuddenTurnIsFollowedByTheLimitAndTold) {
   const sim::SceneSetup setup = scene("turn_step");  // 10 degrees at 1 s
   const std::vector<JudgedFrame> frames = run_frames(setup, 1, 40);

@@ -60,6 +60,7 @@ class EngineUnderTest {
   }
 
   pose_wall_engine* get() { return engine_; }
+  AlignedBlock& block() { return block_; }
 
  private:
   static std::uint64_t needed(const pose_wall_config& config) {

@@ -39,6 +39,7 @@ class MotionUnderTest {
   }
   void reset() { expect(pose_wall_motion_reset(motion_)); }
   pose_wall_motion* get() { return motion_; }
+  AlignedBlock& block() { return block_; }
 
  private:
   static void expect(std::int32_t status) {

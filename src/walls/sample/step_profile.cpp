@@ -80,6 +80,15 @@ double StepProfile::step(Way way) const {
   return 0.0;
 }
 
+double StepProfile::before_m() const {
+  const double step_m = step(kStepsOut);
+  return step_m == 0.0 ? hides_m() : step_m;
+}
+
+double StepProfile::behind_m() const {
+  return step(kStepsBack);
+}
+
 // By what lies in two steps of depth: dust takes all elevations, too, but is no surface, nor as dense.
 bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
   constexpr std::uint32_t kOnPerBefore = 2;  // half as dense as the plane (README): dust is thinner

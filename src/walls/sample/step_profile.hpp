@@ -26,11 +26,8 @@ class StepProfile {
   // By how much the surface lies before or behind the plane at the place, on average over the step; 0 where it lies on
   // the plane, or off it for less than 0.3 m, 0.6 m where the plane is seen behind it: that is a post or a gap between
   // two.
-  double before_m() const {
-    const double step_m = step(kStepsOut);
-    return step_m == 0.0 ? hides_m() : step_m;
-  }
-  double behind_m() const { return step(kStepsBack); }
+  double before_m() const;
+  double behind_m() const;
 
   // Length around the place within which nothing lies on the plane; all of it where that is so to one of its ends.
   double hole_m() const;

@@ -12,6 +12,7 @@
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/garbage_from_input.hpp"
 #include "fuzz/road_from_input.hpp"
+#include "fuzz/stamps_from_input.hpp"
 #include "support/motion_contract.hpp"
 
 namespace {
@@ -124,23 +125,9 @@ void look_at_map(const Pair& pair) {
   }
 }
 
-void move_stamp(Input* input, std::int64_t* stamp_ns) {
-  const std::uint8_t how = input->byte();
-  const auto by = [stamp_ns](std::uint64_t ns) {  // wraps like the clocks of sensors do
-    *stamp_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(*stamp_ns) + ns);
-  };
-  if (how < 180) {
-    by(100000000U);
-  } else if (how < 210) {
-    by(static_cast<std::uint64_t>(std::int64_t{input->take<std::int16_t>()} * 1000000));
-  } else if (how < 225) {
-    *stamp_ns = input->take<std::int64_t>();
-  }
-}
-
 void event(Input* input, Pair* pair) {
   const std::uint8_t what = input->byte();
-  move_stamp(input, &pair->stamp_ns);
+  move_stamp(input, {180, 210, 225}, &pair->stamp_ns);
   switch (what % 8U) {
     case 0:
       pair->road = road_by(input);

@@ -12,6 +12,7 @@
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/garbage_from_input.hpp"
 #include "fuzz/road_from_input.hpp"
+#include "fuzz/stamps_from_input.hpp"
 #include "support/contract.hpp"
 #include "support/moments.hpp"
 
@@ -106,22 +107,9 @@ void reset(Pair* pair) {
   pair->watch.forget();
 }
 
-void move_stamp(Input* input, std::int64_t* stamp_ns) {
-  const std::uint8_t how = input->byte();
-  if (how < 160) {
-    // Wraps like the clocks of sensors do.
-    *stamp_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(*stamp_ns) + 100000000U);
-  } else if (how < 200) {
-    const std::int64_t by = std::int64_t{input->take<std::int16_t>()} * 1000000;
-    *stamp_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(*stamp_ns) + static_cast<std::uint64_t>(by));
-  } else if (how < 220) {
-    *stamp_ns = input->take<std::int64_t>();
-  }
-}
-
 void event(Input* input, Pair* pair) {
   const std::uint8_t what = input->byte();
-  move_stamp(input, &pair->stamp_ns);
+  move_stamp(input, {160, 200, 220}, &pair->stamp_ns);
   switch (what % 8U) {
     case 0:
     case 1:
