@@ -21,43 +21,58 @@ Levelling levelling_by(const Plane& floor_base, const Axes& axes) {
 
 namespace {
 
+// An even part of the points outside the band.
+class Beyond {
+ public:
+  Beyond(std::uint32_t points, PointSet* to) : to_(to), share_(points / (kBalance * kBeyondMax) + 1) { to->count = 0; }
+
+  void add(float x, float y, float z) {
+    if (until_next_ > 0) {
+      --until_next_;
+      return;
+    }
+    to_->add(x, y, z, static_cast<float>(share_));
+    until_next_ = kBalance * share_ - 1;
+  }
+
+ private:
+  // The band's cells are twice as long, of some three times the area: one point of three keeps the balance.
+  static constexpr std::uint32_t kBalance = 3;
+  PointSet* to_;
+  std::uint32_t share_, until_next_ = 0;
+};
+
+// Of four points, those in the band go into its cells. There is room: never more cells than points, and both grids have
+// the same capacity.
+void add_to_band(const VoxelGrid& grid, const FourPlaces& p, FourFloats weights, FourTruths in_band,
+                 VoxelGrid::Filling* band) {
+  std::uint64_t keys[kFour];
+  VoxelGrid::Sums sums[kFour];
+  const FourFloats none{}, sixteenths = weights * static_cast<float>(kWeightOne) + 0.5F;
+  const FourInts whole = cut_off(in_band ? sixteenths : none);
+  grid.split(in_band ? p.x : none, in_band ? p.y : none, in_band ? p.z : none, reinterpret_cast<FourWords>(whole), keys,
+             sums);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (in_band[lane] != 0) band->add(keys[lane], sums[lane]);
+  }
+}
+
 // What lies in the band goes into the grid, an even part of what does not into beyond_level.
 void part_by_height(const PointSet& cloud_base, const Levelling& levelling, const Settings& settings, VoxelGrid* grid,
                     PointSet* beyond_level) {
   const auto z_min = static_cast<float>(levelling.floor_z_level_m + settings.wall_z_min);
   const auto z_max = static_cast<float>(levelling.floor_z_level_m + settings.wall_z_max);
-  // The band's cells are twice as long, of some three times the area: one point of three keeps the balance.
-  constexpr std::uint32_t kBalance = 3;
-  const std::uint32_t share = cloud_base.count / (kBalance * kBeyondMax) + 1, every = kBalance * share;
-  beyond_level->count = 0;
   grid->begin(settings.wall_voxel_leaf, reach_of(settings));
-  std::uint32_t until_next = 0;
   VoxelGrid::Filling band(grid);
+  Beyond beyond(cloud_base.count, beyond_level);
   const FourTurns to_level(levelling.R_level_base);
   for_each_four_points(cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourPlaces p = to_level.turned(x, y, z);
-    const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max), beyond = counts & ~in_band;
-    if (any_of(in_band)) {
-      std::uint64_t keys[kFour];
-      VoxelGrid::Sums sums[kFour];
-      const FourFloats none{}, sixteenths = load_four(&cloud_base.weight[i]) * static_cast<float>(kWeightOne) + 0.5F;
-      const FourInts weights = cut_off(in_band ? sixteenths : none);
-      grid->split(in_band ? p.x : none, in_band ? p.y : none, in_band ? p.z : none,
-                  reinterpret_cast<FourWords>(weights), keys, sums);
-      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-        // There is room: never more cells than points, and both grids have the same capacity.
-        if (in_band[lane] != 0) band.add(keys[lane], sums[lane]);
-      }
-    }
-    if (!any_of(beyond)) return;
+    const FourTruths in_band = counts & (p.z >= z_min) & (p.z <= z_max), outside = counts & ~in_band;
+    if (any_of(in_band)) add_to_band(*grid, p, load_four(&cloud_base.weight[i]), in_band, &band);
+    if (!any_of(outside)) return;
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (beyond[lane] == 0) continue;
-      if (until_next == 0) {
-        beyond_level->add(p.x[lane], p.y[lane], p.z[lane], static_cast<float>(share));
-        until_next = every - 1;
-      } else {
-        --until_next;
-      }
+      if (outside[lane] != 0) beyond.add(p.x[lane], p.y[lane], p.z[lane]);
     }
   });
 }
