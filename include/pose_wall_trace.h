@@ -167,8 +167,8 @@ typedef struct pose_wall_trace_info {
 int32_t pose_wall_trace_gate_info(uint32_t gate, pose_wall_trace_info* info);
 
 /* Holds a gate of all traced frames that follow, in every thread, against this limit instead of the table's; of a gate
- * without amounts 0 lets everything pass. For sweeps: `pose_wall campaign --sweep` sets limits before the frames, none
- * while they run. Fails iff: POSE_WALL_E_INDEX. */
+ * without amounts 0 lets everything pass. Not less than 1 for FLOOR_PLANES: the fit takes a plane as given. For sweeps:
+ * `pose_wall campaign --sweep` sets limits before the frames, none while they run. Fails iff: POSE_WALL_E_INDEX. */
 int32_t pose_wall_trace_set_limit(uint32_t gate, double limit);
 /* The table's limits again. */
 void pose_wall_trace_forget_limits(void);

@@ -237,6 +237,7 @@ TEST(Completion, BashOffersValuesOfOptions) {
   EXPECT_EQ(offered(folder, {"sim", "--set", "voxel_l"}), "");
   EXPECT_EQ(offered(folder, {"sim", "--scene", "clea"}), "clean");
   EXPECT_EQ(offered(folder, {"campaign", "--scenes", "rough,clea"}), "rough,clean");
+  EXPECT_EQ(offered(folder, {"campaign", "--sweep", "wall_lea"}), "wall_lean=");
   EXPECT_EQ(offered(folder, {"demo", "--sensor", "vl"}), "vlp16");
   EXPECT_EQ(offered(folder, {"completion", ""}), "bash zsh fish");
   EXPECT_EQ(offered(folder, {"run", "-c", "pose"}), "") << "files are the shell's own";

@@ -12,6 +12,7 @@
 #include "campaign/event.hpp"
 #include "campaign/folder.hpp"
 #include "campaign/motion_runs.hpp"
+#include "motion/moving_engine.hpp"
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
@@ -50,19 +51,19 @@ LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
   return load_config(choice.config_file, settings);
 }
 
-RunRecord measure(const Run& run, const EngineChoice& choice, MovingEngine& engine,
+RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& instrument,
                   const std::function<void()>& on_frame) {
   const sim::Simulator simulator(sim::make_setup(run.scene, run.sensor, true, run.seed), run.seed);
   const std::optional<Event> event = event_of(simulator.setup());
   const LoadedConfig loaded = config_for(simulator.setup(), choice);
-  demand_ok(engine.open(loaded.config, loaded.motion), run);
+  demand_ok(instrument.open(loaded), run);
   RunRecord record{run, {}};
   for (std::uint32_t i = 0; i < run.frames; ++i) {
     const sim::Frame rendered = simulator.render(i);
     Frame frame = motion_frame(rendered, simulator.setup().sequence.scan_s > 0.0);
     frame.cloud.stamp_ns = rendered.stamp_ns;
     pose_wall_result result = api::make_result();
-    demand_ok(engine.process(frame.cloud, result), run);
+    demand_ok(instrument.process(frame.cloud, result), run);
     record.frames.push_back(record_of(result, simulator.truth(i)));
     record.frames.back().frame = i;
     record.frames.back().phase = phase_of(i, event);
@@ -74,8 +75,11 @@ RunRecord measure(const Run& run, const EngineChoice& choice, MovingEngine& engi
 void run_all(const std::vector<Run>& runs, const Work& work) {
   work_on(runs, work.crew, [&work]() -> RunWork {
     const auto engine = std::make_shared<MovingEngine>();
-    return [&work, engine](const Run& run, const std::function<void()>& on_frame) {
-      write_record(record_file(work.folder, run), measure(run, work.choice, *engine, on_frame), work.campaign);
+    const Instrument instrument = {
+        [engine](const LoadedConfig& loaded) { return engine->open(loaded.config, loaded.motion); },
+        [engine](const pose_wall_cloud& cloud, pose_wall_result& result) { return engine->process(cloud, result); }};
+    return [&work, instrument](const Run& run, const std::function<void()>& on_frame) {
+      write_record(record_file(work.folder, run), measure(run, work.choice, instrument, on_frame), work.campaign);
     };
   });
 }

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -14,7 +15,7 @@
 #include "campaign/record.hpp"
 #include "campaign/workers.hpp"
 #include "config_file/load_config.hpp"
-#include "motion/moving_engine.hpp"
+#include "pose_wall.h"
 #include "sim/setup.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -22,8 +23,14 @@ namespace pose_wall::tools::campaign {
 // The choice's file first, over it what scene and sensor ask for, over all its KEY=VALUE. Throws ConfigError.
 LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice);
 
-// One run. The engine is opened anew; `on_frame` is called after each frame.
-RunRecord measure(const Run& run, const EngineChoice& choice, MovingEngine& engine,
+// What measures frames: MovingEngine, or another engine in its place. Both return a status of the engine's.
+struct Instrument {
+  std::function<std::int32_t(const LoadedConfig&)> open;
+  std::function<std::int32_t(const pose_wall_cloud&, pose_wall_result&)> process;
+};
+
+// One run. The instrument is opened anew; `on_frame` is called after each frame.
+RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& instrument,
                   const std::function<void()>& on_frame);
 
 struct Work {

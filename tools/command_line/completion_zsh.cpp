@@ -47,6 +47,8 @@ std::string action_of(const OptionGrammar& option) {
       return "_pose_wall_assignment $=_pose_wall_engine_keys";
     case ValueKind::kSimulatorKey:
       return "_pose_wall_assignment $=_pose_wall_simulator_keys";
+    case ValueKind::kGate:
+      return fmt::format("_pose_wall_assignment {}", fmt::join(value_words(option), " "));
     case ValueKind::kChoice:
     case ValueKind::kScene:
     case ValueKind::kSensor: {

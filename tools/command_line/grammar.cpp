@@ -12,6 +12,7 @@
 
 #include "config_file/key_table.hpp"
 #include "config_file/motion_settings.hpp"
+#include "explain/gate_list.hpp"
 #include "sim/parameters.hpp"
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
@@ -26,7 +27,7 @@ struct Meaning {
   ValueKind kind;
 };
 
-constexpr std::array<Meaning, 10> kMeanings = {{
+constexpr std::array<Meaning, 11> kMeanings = {{
     {"config", "FILE", ValueKind::kFile},
     {"set", "KEY=VALUE", ValueKind::kEngineKey},
     {"simulate", "KEY=VALUE", ValueKind::kSimulatorKey},
@@ -36,6 +37,7 @@ constexpr std::array<Meaning, 10> kMeanings = {{
     {"sensors", "SENSOR,...", ValueKind::kSensor},
     {"truth", "FILE", ValueKind::kFile},
     {"annotate", "FOLDER", ValueKind::kFile},
+    {"sweep", "GATE=A,B", ValueKind::kGate},
     {"title", "TEXT", ValueKind::kText},
 }};
 
@@ -162,6 +164,8 @@ std::vector<std::string> value_words(const OptionGrammar& option) {
       return config_words();
     case ValueKind::kSimulatorKey:
       return names_of(sim::parameters(), "=");
+    case ValueKind::kGate:
+      return names_of(explain::gate_list(), "=");
     case ValueKind::kScene:
       return names_of(sim::scenes());
     case ValueKind::kSensor: {

@@ -13,7 +13,7 @@
 namespace pose_wall::tools {
 
 // What may stand behind an option.
-enum class ValueKind { kNone, kText, kNumber, kFile, kChoice, kEngineKey, kSimulatorKey, kScene, kSensor };
+enum class ValueKind { kNone, kText, kNumber, kFile, kChoice, kEngineKey, kSimulatorKey, kGate, kScene, kSensor };
 
 struct OptionGrammar {
   std::vector<std::string> names;  // "-c", "--config"; the one name of a positional
@@ -46,7 +46,7 @@ void name_values(CLI::App& app);
 // Verbs of the group "" are left out: they are for scripts.
 CommandGrammar grammar_of(const CLI::App& app);
 
-// The words that may stand behind the option: choices, names of scenes and sensors, keys with "=" behind them.
+// The words that may stand behind the option: choices, names of scenes and sensors, keys and gates with "=" behind.
 std::vector<std::string> value_words(const OptionGrammar& option);
 
 }  // namespace pose_wall::tools

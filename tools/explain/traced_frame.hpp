@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// A frame computed once more by the engine that takes notes.
+// Frames by the engine that takes notes: one computed once more, or one after the other.
 
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "pose_wall.hpp"
@@ -19,6 +20,28 @@ namespace pose_wall::tools {
 // What an engine remembers before a frame.
 using Memento = std::vector<std::byte>;
 Memento memento_of(pose_wall_engine* engine);
+
+// Frames one after the other, as api::Engine measures them. Each is slower: an engine of its own is opened for it.
+class TracedEngine {
+ public:
+  // POSE_WALL_OK, or what the config is refused with. Nothing is remembered of frames before.
+  std::int32_t open(const api::Config& config);
+  std::int32_t process(const pose_wall_cloud& cloud, pose_wall_result& result);
+
+  // As if the frames before had been these.
+  void remember(Memento memento) { memento_ = std::move(memento); }
+  // Notes on the last frame.
+  const pose_wall_trace& trace() const { return *trace_; }
+
+ private:
+  struct alignas(POSE_WALL_BLOCK_ALIGNMENT) Line {
+    unsigned char bytes[POSE_WALL_BLOCK_ALIGNMENT];
+  };
+  api::Config config_;
+  std::vector<Line> block_;
+  Memento memento_;  // empty before the first frame
+  std::unique_ptr<pose_wall_trace> trace_ = std::make_unique<pose_wall_trace>();
+};
 
 struct TracedFrame {
   pose_wall_result result;

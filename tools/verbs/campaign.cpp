@@ -27,6 +27,7 @@
 #include "campaign/motion_runs.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
+#include "campaign/sweep.hpp"
 #include "config_file/load_config.hpp"
 #include "terminal/counted.hpp"
 #include "verbs/complaint.hpp"
@@ -50,6 +51,8 @@ struct CampaignOptions {
   bool card_only = false;
   bool gate = false;
   bool quiet = false;
+  std::string sweep;  // GATE=A,B,...
+  bool json = false;
 };
 
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
@@ -120,6 +123,26 @@ int tell_interrupted(const CampaignOptions& options) {
   return kExitInterrupted;
 }
 
+// Nothing is kept: the table is all there is of it.
+int run_sweep(const CampaignOptions& options) {
+  check_settings(options.engine);
+  const campaign::SweepRequest request = campaign::parse_sweep(options.sweep);
+  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  const campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  const campaign::Sweep sweep = campaign::run_sweep(request, manifest, runs, {options.jobs, !options.quiet});
+  fmt::print("{}", options.json ? campaign::sweep_json(sweep) : campaign::sweep_text(sweep));
+  return kExitDone;
+}
+
+int sweep_verb(const CampaignOptions& options) {
+  try {
+    return done_or_complaint("campaign", [&] { return run_sweep(options); });
+  } catch (const campaign::Interrupted&) {
+    fmt::print(stderr, "interrupted: a sweep keeps nothing, and begins anew\n");
+    return kExitInterrupted;
+  }
+}
+
 // The same names in another order, or twice, ask for the same campaign.
 void sort_names(std::vector<std::string>* names) {
   std::sort(names->begin(), names->end());
@@ -136,30 +159,46 @@ int run_verb(const CampaignOptions& options) {
   }
 }
 
-// The records say how they were made; nothing else can be asked of them.
-void demand_nothing_beside_card_only(const CLI::App& verb) {
-  const std::vector<std::string> allowed = {"--output", "--events", "--gate", "--quiet"};
+// Refuses all options but these. `because` says why.
+void demand_only(const CLI::App& verb, const std::vector<std::string>& allowed, const char* because) {
   std::vector<std::string> refused;
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_name();
-    const bool is_allowed = name == "--card-only" || std::find(allowed.begin(), allowed.end(), name) != allowed.end();
+    const bool is_allowed = std::find(allowed.begin(), allowed.end(), name) != allowed.end();
     if (option->count() > 0 && !is_allowed) refused.push_back(name);
   }
   if (refused.empty()) return;
-  throw std::invalid_argument(
-      fmt::format("--card-only takes the records as they are: {} cannot go with it; allowed are {}",
-                  fmt::join(refused, ", "), fmt::join(allowed, ", ")));
+  const std::vector<std::string> others(allowed.begin() + 1, allowed.end());
+  throw std::invalid_argument(fmt::format("{} {}: {} cannot go with it; allowed are {}", allowed.front(), because,
+                                          fmt::join(refused, ", "), fmt::join(others, ", ")));
+}
+
+void demand_only_what_goes_along(const CLI::App& verb, const CampaignOptions& options) {
+  if (options.card_only) {
+    // The records say how they were made; nothing else can be asked of them.
+    demand_only(verb, {"--card-only", "--output", "--events", "--gate", "--quiet"}, "takes the records as they are");
+  }
+  if (!options.sweep.empty()) {
+    demand_only(verb,
+                {"--sweep", "--size", "--scenes", "--kind", "--sensors", "--draws", "--first-draw", "--frames",
+                 "--seed", "--jobs", "--config", "--set", "--json", "--quiet"},
+                "prints a table and leaves no records");
+  }
 }
 
 // What an option is nothing without, or with.
-void demand_motion_words_go_together(const CLI::App& verb, const CampaignOptions& options) {
+void demand_words_go_together(const CLI::App& verb, const CampaignOptions& options) {
   if (options.plan.motion && verb.get_option("--kind")->count() > 0) {
     throw std::invalid_argument("--kind is of scenes; --motion has classes: name them by --scenes");
   }
   if (options.list && !options.plan.motion) {
     throw std::invalid_argument("--list is of --motion; `pose_wall sim --list` has the scenes");
   }
-  if (!options.list && options.output.empty()) throw std::invalid_argument("--output is required: a folder");
+  if (options.json && options.sweep.empty()) {
+    throw std::invalid_argument("--json is of --sweep; a campaign leaves card.json in its folder");
+  }
+  const bool leaves_records = !options.list && options.sweep.empty();
+  if (leaves_records && options.output.empty()) throw std::invalid_argument("--output is required: a folder");
 }
 
 // "rough, props" is two names, and no blank in front of the second.
@@ -194,6 +233,14 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
       ->check(whole_number());
 }
 
+void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
+  verb.add_option("--sweep", options.sweep,
+                  "GATE=A,B,...: print what the runs come to with the table's limit of a gate, and with each of these "
+                  "in its place; pose_wall explain --gates lists the gates")
+      ->check(campaign::sweep_fault, "");
+  verb.add_flag("--json", options.json, "With --sweep: the table as JSON");
+}
+
 }  // namespace
 
 void add_campaign(CLI::App& app, int& exit_code) {
@@ -215,25 +262,28 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
   verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records, and run nothing");
   verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors, nothing on stdout");
+  add_sweep_options(*verb, *options);
+  verb->add_flag("-q,--quiet", options->quiet,
+                 "Nothing on stderr but errors, nothing on stdout but the table of --sweep");
   verb->footer(
       "Examples:\n"
       "  pose_wall campaign --size small --gate --output /tmp/card\n"
       "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
       "  pose_wall campaign --motion --size small --gate --output /tmp/motion\n"
+      "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
       "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
       "another\n"
       "campaign in the folder, 3 the gate is not passed, 130 interrupted by Ctrl-C (the same command goes on).");
   verb->callback([options, verb, &exit_code] {
-    demand_motion_words_go_together(*verb, *options);
+    demand_only_what_goes_along(*verb, *options);
+    demand_words_go_together(*verb, *options);
     if (options->list) {
       fmt::print("{}", campaign::motion_class_list());
       return;
     }
-    if (options->card_only) demand_nothing_beside_card_only(*verb);
     sort_names(&options->plan.scenes);
     sort_names(&options->plan.sensors);
-    exit_code = run_verb(*options);
+    exit_code = options->sweep.empty() ? run_verb(*options) : sweep_verb(*options);
   });
 }
 

@@ -19,6 +19,7 @@
 #include "explain/explanation.hpp"
 #include "explain/explanation_json.hpp"
 #include "explain/explanation_text.hpp"
+#include "explain/gate_list.hpp"
 #include "explain/traced_frame.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "picture/frame_picture.hpp"
@@ -156,11 +157,19 @@ void add_explain(CLI::App& app, int& exit_code) {
       ->check(whole_number());
   verb->add_option("-p,--picture", options->picture, "SVG file for a picture of the frame");
   verb->add_flag("-j,--json", options->json, "Everything as one JSON object instead");
+  // As --help it needs no frame.
+  const auto print_gates = [] {
+    fmt::print("{}", explain::gate_list_text());
+    throw CLI::Success();
+  };
+  verb->add_flag_callback("--gates", print_gates, "Print the list of all gates with their limits, and no frame")
+      ->trigger_on_parse();
   verb->footer(
       "Examples:\n"
       "  pose_wall explain --config road/pose_wall.yaml --frame 12 road/frames\n"
       "  pose_wall explain -c road/pose_wall.yaml -n 12 --picture why.svg --set wall_length_min=1.5 road/frames\n"
       "  pose_wall explain -c road/pose_wall.yaml -n 12 --json road/frames | jq '.gates[] | select(.passed | not)'\n"
+      "  pose_wall explain --gates | less\n"
       "The frames before it are measured as well: what is held and smoothed hangs on them. Then it is computed twice, "
       "by\n"
       "the engine that is delivered and by one that takes notes; both give the same bits, or there is no explanation.\n"

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "campaign/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include "explain/gate_list.hpp"
+#include "explain/notes.hpp"
+#include "explain/traced_frame.hpp"
+#include "frames/text_cursor.hpp"
+#include "terminal/counted.hpp"
+#include "terminal/did_you_mean.hpp"
+
+namespace pose_wall::tools::campaign {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// The fit takes a plane as given: with none let pass it would have nothing to begin with.
+constexpr double kFewestFloorPlanes = 1.0;
+
+bool is_floor_planes(const pose_wall_trace_info& gate) {
+  return &gate == &explain::gate_list()[POSE_WALL_TRACE_FLOOR_PLANES];
+}
+
+std::string allowed_limits(const pose_wall_trace_info& gate) {
+  if (gate.sense == POSE_WALL_TRACE_IS_SO) return "0 (it lets everything pass) and 1 (as in the table) are allowed";
+  if (is_floor_planes(gate)) return "numbers from 1, separated by commas, are allowed: the fit needs a plane";
+  const std::string unit = gate.unit;
+  return fmt::format("numbers{}{}, separated by commas, are allowed", unit.empty() ? "" : " in ", unit);
+}
+
+bool is_allowed(const pose_wall_trace_info& gate, double limit) {
+  if (gate.sense == POSE_WALL_TRACE_IS_SO) return limit == 0.0 || limit == 1.0;
+  return std::isfinite(limit) && (!is_floor_planes(gate) || limit >= kFewestFloorPlanes);
+}
+
+// NaN for what is no number, or too large to be one. Blanks around it do not matter.
+double number_in(std::string_view word) {
+  const std::string_view digits = take_word(word);
+  double number = kNaN;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  const bool is_whole = error == std::errc{} && end == digits.data() + digits.size();
+  return is_whole && take_word(word).empty() ? number : kNaN;
+}
+
+struct Parsed {
+  SweepRequest request;
+  std::string fault;
+};
+
+Parsed parse(const std::string& words) {
+  Parsed parsed;
+  const std::size_t end = words.find('=');
+  const std::string name = words.substr(0, end);
+  const std::vector<std::string> names = explain::gate_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    const std::string hint = did_you_mean(name, names);
+    parsed.fault =
+        fmt::format("'{}' is no gate{}", name, hint.empty() ? "; `pose_wall explain --gates` lists them" : hint);
+    return parsed;
+  }
+  parsed.request.gate = static_cast<std::uint32_t>(found - names.begin());
+  const pose_wall_trace_info& gate = explain::gate_list()[parsed.request.gate];
+  std::istringstream limits(end == std::string::npos ? "" : words.substr(end + 1) + ",");
+  for (std::string word; std::getline(limits, word, ',');) {
+    const double limit = number_in(word);
+    if (!is_allowed(gate, limit)) {
+      parsed.fault = fmt::format("{}: '{}' is refused; {}", name, word, allowed_limits(gate));
+      return parsed;
+    }
+    parsed.request.limits.push_back(limit);
+  }
+  if (parsed.request.limits.empty()) {
+    parsed.fault = fmt::format("'{}' has no limits; GATE=A,B,... is asked for: {}", words, allowed_limits(gate));
+  }
+  return parsed;
+}
+
+// Limits stay as they were found, whatever ends the sweep.
+class LimitInPlace {
+ public:
+  LimitInPlace(std::uint32_t gate, double limit) {
+    if (!std::isnan(limit)) pose_wall_trace_set_limit(gate, limit);
+  }
+  ~LimitInPlace() { pose_wall_trace_forget_limits(); }
+  LimitInPlace(const LimitInPlace&) = delete;
+  LimitInPlace& operator=(const LimitInPlace&) = delete;
+};
+
+struct SweptRun {
+  RunRecord record;
+  GateCounts gate;
+};
+
+RunWork sweep_worker(const EngineChoice& choice, std::uint32_t gate, const std::vector<Run>& runs,
+                     std::vector<SweptRun>& swept) {
+  const auto engine = std::make_shared<TracedEngine>();
+  return [&choice, gate, &runs, &swept, engine](const Run& run, const std::function<void()>& on_frame) {
+    SweptRun& out = swept.at(static_cast<std::size_t>(&run - runs.data()));
+    const Instrument instrument = {[&](const LoadedConfig& loaded) { return engine->open(loaded.config); },
+                                   [&](const pose_wall_cloud& cloud, pose_wall_result& result) {
+                                     const std::int32_t status = engine->process(cloud, result);
+                                     if (status == POSE_WALL_OK) out.gate.add(engine->trace(), gate);
+                                     return status;
+                                   }};
+    out.record = measure(run, choice, instrument, on_frame);
+  };
+}
+
+bool same_outcome(const FrameRecord& a, const FrameRecord& b) {
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  for (std::size_t q = 0; q < a.quantity.size(); ++q) {
+    const Measured &m = a.quantity[q].measured, &n = b.quantity[q].measured;
+    if (m.state != n.state || !same(m.value, n.value) || !same(m.raw, n.raw)) return false;
+    if (!same(m.sigma, n.sigma) || !same(m.protection_level, n.protection_level)) return false;
+  }
+  return true;
+}
+
+std::size_t frames_changed(const std::vector<RunRecord>& of_table, const std::vector<RunRecord>& now) {
+  std::size_t changed = 0;
+  for (std::size_t run = 0; run < now.size(); ++run) {
+    for (std::size_t i = 0; i < now[run].frames.size(); ++i) {
+      if (!same_outcome(of_table[run].frames[i], now[run].frames[i])) ++changed;
+    }
+  }
+  return changed;
+}
+
+// `of_table`: the records of the first row, which fills them in.
+SweepRow measure_row(std::uint32_t gate, double limit, const Manifest& manifest, const std::vector<Run>& runs,
+                     const Crew& crew, std::vector<RunRecord>* of_table) {
+  std::vector<SweptRun> swept(runs.size());
+  {
+    const LimitInPlace in_place(gate, limit);
+    work_on(runs, crew, [&] { return sweep_worker(manifest.engine, gate, runs, swept); });
+  }
+  SweepRow row{std::isnan(limit), limit, {}, {}, 0};
+  std::vector<RunRecord> records;
+  for (SweptRun& one : swept) {
+    records.push_back(std::move(one.record));
+    row.gate.merge(one.gate);
+  }
+  row.judged = make_card(manifest, records, 0).judged;
+  if (row.is_of_table) *of_table = records;
+  row.frames_changed = frames_changed(*of_table, records);
+  return row;
+}
+
+}  // namespace
+
+std::string sweep_fault(const std::string& words) {
+  return parse(words).fault;
+}
+
+SweepRequest parse_sweep(const std::string& words) {
+  Parsed parsed = parse(words);
+  if (!parsed.fault.empty()) throw std::invalid_argument("--sweep: " + parsed.fault);
+  return parsed.request;
+}
+
+GateCounts::GateCounts() : limit_least(kNaN), limit_most(kNaN) {}
+
+void GateCounts::add(const pose_wall_trace& trace, std::uint32_t of_gate) {
+  notes_dropped += trace.dropped;
+  for (const explain::Note& note : explain::Notes(trace).all()) {
+    if (note.gate.gate != of_gate) continue;
+    ++asked;
+    if (!note.passed()) ++not_passed;
+    limit_least = std::fmin(limit_least, note.gate.limit);
+    limit_most = std::fmax(limit_most, note.gate.limit);
+  }
+}
+
+void GateCounts::merge(const GateCounts& other) {
+  asked += other.asked;
+  not_passed += other.not_passed;
+  notes_dropped += other.notes_dropped;
+  limit_least = std::fmin(limit_least, other.limit_least);
+  limit_most = std::fmax(limit_most, other.limit_most);
+}
+
+Sweep run_sweep(const SweepRequest& request, const Manifest& manifest, const std::vector<Run>& runs, const Crew& crew) {
+  Sweep sweep{request, manifest, {}};
+  std::vector<RunRecord> of_table;
+  std::vector<double> limits = {kNaN};
+  limits.insert(limits.end(), request.limits.begin(), request.limits.end());
+  for (const double limit : limits) {
+    if (crew.tell_progress) {
+      fmt::print(stderr, "{}: {} ({} of {}), {}\n", explain::gate_list()[request.gate].name,
+                 std::isnan(limit) ? "the table's limit" : fmt::format("limit {:g}", limit), sweep.rows.size() + 1,
+                 limits.size(), counted(runs.size(), "run"));
+    }
+    sweep.rows.push_back(measure_row(request.gate, limit, manifest, runs, crew, &of_table));
+  }
+  return sweep;
+}
+
+}  // namespace pose_wall::tools::campaign

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// All gates of the engine, whatever frame: their names, limits and where these are from.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pose_wall_trace.h"
+
+namespace pose_wall::tools::explain {
+
+// In the order of the pipeline; a gate's place is its pose_wall_trace_gate_id.
+const std::vector<pose_wall_trace_info>& gate_list();
+std::vector<std::string> gate_names();
+
+// "at least", "at most", "below", "is so".
+const char* sense_name(std::uint32_t sense);
+// "tells", "doubts", "refuses".
+const char* effect_name(std::uint32_t effect);
+
+// One row a gate: its limit as the table of gates has it, unit, key, effect, what it asks and where the limit is from.
+std::string gate_list_text();
+
+}  // namespace pose_wall::tools::explain
