@@ -26,9 +26,6 @@ enum Id : std::uint32_t {
 enum Sense { AT_LEAST, AT_MOST, BELOW, IS_SO };
 enum Effect { TELLS, DOUBTS, REFUSES };
 
-// Bends matter from a fifth of the alert limit on: judgement, 2026-11-21.
-constexpr double kBendMatters = 0.2;
-
 // The rows as types: sense, effect, reasons and limit(settings). A limit that is left to the caller is no number here.
 template <Id id>
 struct Row;

@@ -26,6 +26,7 @@
 #include "walls/fit/groove_profile.hpp"
 #include "walls/fit/strip_profile.hpp"
 #include "walls/fit/two_layers.hpp"
+#include "walls/sample/at_sample.hpp"
 #include "walls/sample/measure.hpp"
 #include "walls/sample/step_profile.hpp"
 #include "walls/walls.hpp"
