@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x12C7DA85D13B4E13ULL;
+constexpr std::uint64_t kSelfTestDigest = 0x923F0044F5AD2A9DULL;
 
 }  // namespace pose_wall

@@ -21,7 +21,7 @@ namespace {
 constexpr double kGateInThresholds = 3.0;  // judgement, 2026-11-21: 9 cm around the start; Tukey's weights do the rest
 // Of a range's noise. Centroids of dense voxels scatter far less, but a finer scale made the thinner half of a voxel
 // layer that the plane cuts outliers: mean z2 2 to 6 (README, tried and dropped).
-constexpr double kScaleLeastInNoise = 0.5;
+constexpr double kScaleLeastInNoise = 2.0 / 3.0;
 constexpr double kStretch = 1.25;  // a floor of 30 degrees stretches a radius by 1.155; the gate lets points rise
 constexpr int kRounds = 5;         // judgement, 2026-11-21: most fits stand still earlier
 constexpr int kSelections = 3;     // judgement, 2026-11-21: the gate widens after the first; two more let it settle

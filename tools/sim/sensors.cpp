@@ -84,7 +84,7 @@ std::vector<Beam> pattern_beams(const Sensor& sensor, std::uint32_t frame_index)
 const std::vector<SensorModel>& sensor_models() {
   static const std::vector<SensorModel> models = {
       {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise", 0.0,
-       few_points("15.0", "0.03"), 0.03},  // it sees the floor as a few arcs, and behind a body hardly any of it
+       few_points("15.0", "0.015"), 0.03},  // it sees the floor as a few arcs, and behind a body hardly any of it
       {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0),
        "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
        0.0,

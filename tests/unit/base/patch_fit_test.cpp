@@ -22,7 +22,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kRangeNoise_m = 0.02;
+constexpr double kRangeNoise_m = 0.015;
 
 using test::Rock;
 
