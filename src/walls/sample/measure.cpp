@@ -93,9 +93,8 @@ bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double 
 
 #ifdef POSE_WALL_TRACE
 std::uint32_t quantity_subject(int side, int end) {
-  constexpr std::uint32_t kFirst =
-      static_cast<std::uint32_t>(POSE_WALL_TRACE_QUANTITY) + POSE_WALL_D_LF;  // left, front
-  return kFirst + static_cast<std::uint32_t>(2 * side + end);
+  return static_cast<std::uint32_t>(POSE_WALL_TRACE_QUANTITY) + POSE_WALL_D_LF +
+         static_cast<std::uint32_t>(2 * side + end);
 }
 #endif
 
