@@ -40,7 +40,7 @@ void report_counts(const FrameFindings& found, pose_wall_result* result) {
   result->dropped_far = c.dropped_far;
   result->dropped_body = c.dropped_body;
   result->outliers = found.outliers;
-  result->open_points = found.floor.candidates;
+  result->open_points = found.floor.open_points;
   result->wall_points = found.wall_points;
   result->voxel_leaf_m = found.voxels.leaf_m;
   result->work = found.work;

@@ -12,7 +12,6 @@
 #include "base/estimation/protection.hpp"
 #include "base/estimation/tangent_frame.hpp"
 #include "base/estimation/tukey.hpp"
-#include "base/math/elementary.hpp"
 #include "gates/gate.hpp"
 
 namespace pose_wall {

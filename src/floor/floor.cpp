@@ -3,8 +3,6 @@
 
 #include "floor/floor.hpp"
 
-#include <cmath>
-
 #include "base/math/elementary.hpp"
 #include "base/math/rotation.hpp"
 #include "floor/candidates.hpp"
@@ -43,7 +41,7 @@ void note_choice(Span<const FloorCandidate> candidates, const FloorCandidate* be
 #endif
 
 // What the fit has to hold. It may have wandered off on a few points of something else.
-void judge(const FloorScene& scene, const FloorCandidate& best, PlaneFit* fit) {
+void judge_fit(const FloorScene& scene, const FloorCandidate& best, PlaneFit* fit) {
   const Settings& s = scene.settings;
   const double height_m = fit->plane.signed_distance(scene.sensor_base_m);
   demand<gate::FLOOR_TILT>(fit, tilt_of_up(fit->plane.n), s);
@@ -60,7 +58,7 @@ FloorResult floor_within(const FloorScene& scene, const FloorLook& look, Random*
   const PointSet& within = look.within_base;
   FloorResult none;
   none.roi_radius_m = look.radius_m;
-  none.candidates = within.count;
+  none.open_points = within.count;
   if (!demand<gate::FLOOR_POINTS>(&none.fit, within.count, scene.settings)) return none;
   FloorCandidates found;
   none.fit.iterations = find_candidates(scene, within, Among::kOpen, random, scratch, &found);
@@ -70,11 +68,11 @@ FloorResult floor_within(const FloorScene& scene, const FloorLook& look, Random*
 
   FloorResult out = fit_floor(scene, look, best->plane, scratch);
   out.fit.iterations = none.fit.iterations;
-  out.candidates = within.count;
+  out.open_points = within.count;
   out.roi_radius_m = look.radius_m;
   out.area_m2 = best->evidence.area_m2;
   reach_to_rivals(*best, found.all(), scene.settings, &out);
-  judge(scene, *best, &out.fit);
+  judge_fit(scene, *best, &out.fit);
   // A fit that came to nothing, or wandered off, says less of the floor than what it began with.
   if ((out.fit.reasons & POSE_WALL_R_FLOOR_NOT_FOUND) != 0) out.fit.plane = best->plane;
   return out;
@@ -91,7 +89,7 @@ struct Looks {
 
   void add(const FloorResult& seen, const Settings& s) {
     at[tried] = seen;
-    // Of refused ones the widest that got furthest tells why.
+    // Where all are refused, the last one that came to a fit says why.
     const bool tells_more = at[best].fit.refused && seen.fit.refused && seen.fit.found;
     if (tells_more || protections_of(seen, s).worse() < protections_of(at[best], s).worse()) best = tried;
     ++tried;

@@ -22,7 +22,7 @@ struct FloorResult {
   double dof = 1.0;  // as many independent pieces know a variance as well as this one is known
   double area_m2 = 0.0;
   double roi_radius_m = 0.0;
-  std::uint32_t candidates = 0;
+  std::uint32_t open_points = 0;  // that were looked at, within the radius
 };
 
 // Protection levels of the two angles; of a refused floor there are none.

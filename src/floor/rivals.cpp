@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/estimation/near_plane.hpp"
-#include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
 #include "base/math/rotation.hpp"
 #include "gates/gate.hpp"
@@ -141,8 +140,8 @@ void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> cand
     roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad));
     pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
     floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
-    const bool may_be_alone = best.evidence.area_m2 >= kSmallArea_m2 || rival.ghost;
-    if (!may_be_alone && !lie_alike(best.plane, rival.plane)) demand<gate::FLOOR_ALONE>(&floor->fit, share, s);
+    const bool must_stand_alone = best.evidence.area_m2 < kSmallArea_m2 && !rival.ghost;
+    if (must_stand_alone && !lie_alike(best.plane, rival.plane)) demand<gate::FLOOR_ALONE>(&floor->fit, share, s);
   }
   floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += roll;
   floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += pitch;

@@ -23,7 +23,7 @@ void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> cand
 // Within another radius the floor looks otherwise.
 void reach_to_other_look(const FloorResult& other, const Settings& settings, FloorResult* floor);
 
-// The smallest of several claims is too small, the more so the more there are.
+// Choosing the best of several levels makes it too small: it is widened for each other one.
 void widen_by_claims(std::uint32_t claims, const Settings& settings, FloorResult* floor);
 
 // A floor that is seen to one side of the machine only may not be what the machine stands on: at the foot of a ramp a

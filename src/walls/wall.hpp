@@ -38,9 +38,9 @@ struct FittedWall {
 
 // What speaks against a wall, from one point of view. It widens the protection levels, or refuses the wall.
 struct Doubt : Verdict {
-  double distance_m[2] = {0.0, 0.0};  // at s_front, s_back: the wall may be so far off
-  double yaw_rad = 0.0;               // the direction may be so far off
-  double yaw_to_rival_rad = 0.0;      // or it is another one altogether
+  double off_m[2] = {0.0, 0.0};   // at s_front, s_back: the wall may be so far off
+  double yaw_rad = 0.0;           // the direction may be so far off
+  double yaw_to_rival_rad = 0.0;  // or it is another one altogether
 };
 
 // The wall with all doubts in its bounds.
@@ -52,7 +52,7 @@ struct JudgedWall : FittedWall {
 
   void add(const Doubt& doubt) {
     fit.add(doubt);
-    for (int end = 0; end < 2; ++end) distance_bound_m[end][POSE_WALL_PART_RIVAL] += doubt.distance_m[end];
+    for (int end = 0; end < 2; ++end) distance_bound_m[end][POSE_WALL_PART_RIVAL] += doubt.off_m[end];
     yaw_bound_rad[POSE_WALL_PART_RIVAL] += doubt.yaw_rad;
     yaw_to_rival_rad = larger(yaw_to_rival_rad, doubt.yaw_to_rival_rad);
   }
@@ -60,7 +60,7 @@ struct JudgedWall : FittedWall {
 
 struct WallsResult {
   JudgedWall side[2];  // left, right
-  // The turn by which the level may be off, by what the lean of both sides says; zero unless they are sure.
+  // The turn by which the levelled frame may be off, by what the lean of both sides says; zero unless they are sure.
   Eigen::Vector3d tilt_level_rad = Eigen::Vector3d::Zero();
 };
 

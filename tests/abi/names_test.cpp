@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: through the C ABI every reason, state, quantity and stage has a name of its own, every reason a sentence, and
-// what is beyond the last one has a text, too. What the names are, tests/unit/names_test.cpp says.
+// what is beyond the last one has a text, too. What the names are, tests/unit/entry/names_test.cpp says.
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include "walls/doubts/doubts.hpp"
 
 #include <cmath>
+
 #include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
 #include "gates/gate.hpp"
@@ -69,7 +70,7 @@ Doubt by_rival(const WallScene& scene, const Plane& rival, int side, const Fitte
   doubt.yaw_to_rival_rad = std::fabs(yaw_of(along_of(rival, scene.forward_level), scene.forward_level) - wall.yaw_rad);
   for (int end = 0; end < 2; ++end) {
     const double distance = distance_at(rival, scene.sample_level_m[side][end]);
-    doubt.distance_m[end] = kRivalStretch * std::fabs(distance - wall.distance_m[end]) + kRivalMargin_m;
+    doubt.off_m[end] = kRivalStretch * std::fabs(distance - wall.distance_m[end]) + kRivalMargin_m;
   }
   return doubt;
 }
@@ -95,7 +96,7 @@ Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved
   for (const bool one : doubts) {
     if (!one) continue;
     const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayStep_m);
-    for (double& distance_m : doubt.distance_m) distance_m = behind_m;
+    for (double& off_m : doubt.off_m) off_m = behind_m;
   }
   demand<gate::WALL_SILENT>(&doubt, sight.silent, s);
   demand<gate::WALL_OPEN>(&doubt, sight.open, s);
@@ -187,7 +188,7 @@ void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, JudgedW
     if (choice.side[side]->evidence.length_m >= s.wall_alone_length_min) continue;
     POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
     Doubt doubt;
-    if (!demand<gate::SHORT_APART>(&doubt, apart, s)) doubt.distance_m[0] = doubt.distance_m[1] = kMayStep_m;
+    if (!demand<gate::SHORT_APART>(&doubt, apart, s)) doubt.off_m[0] = doubt.off_m[1] = kMayStep_m;
     (*walls)[side].add(doubt);
   }
 }

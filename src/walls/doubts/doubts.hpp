@@ -12,18 +12,14 @@
 
 namespace pose_wall {
 
-// The two walls of a road share one direction.
-
 // Turns two walls of nearly the same direction onto their weighted mean, each about its pivot, and adds to the bounds
 // of their distances what that moved. Roughness, doors and the sensor's own motion during a scan turn the walls apart
 // by a degree; two metres from the machine's centre that is centimetres. Walls that truly run apart by more than
 // wall_parallel_within_deg keep their own directions. yaw_rad of each wall stays as measured.
 void share_direction(const WallScene& scene, JudgedWall (*walls)[2]);
 
-// What speaks against a wall that was chosen and fitted: its own gates, its rival, its distance from the machine, what
-// is seen of it from close by, the wall on the other side, and what blocks the view.
-
-// The fitted wall of a side with all doubts that concern it alone. side: 0 left, 1 right. The grid is marked with it.
+// The fitted wall of a side with all doubts that concern it alone: its own gates, its rival (found in choose/), its
+// distance from the machine, and what is seen of it from close by. side: 0 left, 1 right. The grid is marked with it.
 JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
                       const FittedWall& fitted, WallsScratch* scratch);
 
@@ -41,7 +37,7 @@ void refuse_blocked_sides(const IngestCounts& counts, const Settings& settings, 
 
 // Both sides lean the same way about the road: one out, the other in. Each wall may lean by itself, but where both do
 // so by this much it is the level that is wrong: a heap's flank was taken for the floor. Returns the turn by which the
-// level may be off, as a vector along the road, rad. Zero unless both are sure.
+// levelled frame may be off, as a vector along the road, rad. Zero unless both are sure.
 Eigen::Vector3d tilt_by_walls(const WallScene& scene, const WallCandidates (&beside)[2]);
 
 }  // namespace pose_wall

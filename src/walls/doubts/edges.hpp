@@ -14,8 +14,6 @@
 
 namespace pose_wall {
 
-// What is counted of a plane's two ends, its top and what lies behind it, place by place along it, and what that tells.
-
 // Measured points by place, which is half a metre along the plane, on either side of the sensor.
 class EndPlaces {
  public:
@@ -81,7 +79,6 @@ class DepthsBehind {
 };
 
 // What the sensor sees past the edges of a chosen plane, place by place along it: two ends and the top.
-
 struct WallEdges {
   // It looks past both ends, near itself: a curtain or a vehicle that hides the wall. A wall goes on until it is out of
   // sight; one that bends away is seen just behind its end, and behind an opening there is more of it.

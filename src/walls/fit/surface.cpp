@@ -4,6 +4,7 @@
 #include "walls/fit/surface.hpp"
 
 #include <cmath>
+
 #include "base/containers/even_share.hpp"
 #include "base/estimation/near_plane.hpp"
 #include "walls/fit/groove_profile.hpp"

@@ -11,14 +11,9 @@
 
 namespace pose_wall {
 
-// Where a wall is no plane over its whole height: an arched roof begins within the band, a heap ends in it, pipes run
-// along its top.
-
-// Where the wall bends towards the machine at its top or its foot, that end is cut off. True where it was, and the fit
-// is to be repeated between what is left of the heights.
+// Where the wall bends towards the machine at its top or its foot (an arched roof, pipes, a heap), that end is cut off.
+// True where it was, and the fit is to be repeated between what is left of the heights.
 bool cut_bent_rows(const WallSurface& fit, Heights* heights);
-
-// The full fit of a chosen wall: which points are its surface, where it bends, and the plane through it.
 
 // The full fit around a hypothesis. Leaves the grid marked with it by the threshold.
 WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch);

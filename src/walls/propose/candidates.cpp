@@ -4,6 +4,7 @@
 #include "walls/propose/candidates.hpp"
 
 #include <cmath>
+
 #include "base/containers/even_share.hpp"
 #include "base/estimation/irls.hpp"
 #include "base/estimation/mlesac.hpp"

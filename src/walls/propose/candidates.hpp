@@ -79,8 +79,6 @@ class WallSearch {
   std::uint32_t scored_ = 0;
 };
 
-// What may be a wall: planes beside a direction, drawn, refined and weighed by the solid area that they show.
-
 struct WallCandidate {
   Plane plane;
   WallEvidence evidence;

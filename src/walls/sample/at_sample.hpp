@@ -13,9 +13,8 @@
 namespace pose_wall {
 
 struct AtSample {
-  double bound_m =
-      0.0;  // by which the distance may be off, where the wall stands out, steps back or a road branches off
-  double hole_m = 0.0;  // length around it in which nothing is seen of the plane
+  double bound_m = 0.0;  // the distance may be so far off: the wall stands out, steps back, or a road branches off
+  double hole_m = 0.0;   // length around it in which nothing is seen of the plane
 };
 
 // wall: its plane and direction are set.

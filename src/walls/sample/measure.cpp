@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/estimation/near_plane.hpp"
-#include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
 #include "gates/gate.hpp"
 #include "walls/sample/at_sample.hpp"
