@@ -179,7 +179,9 @@ const Refusal<R> kRuntimeTable[] = {
     {"pose_wall_runtime_options_check", "NULL", kNull, [](R* r) { r->options = nullptr; }},
     {"pose_wall_runtime_options_check", "no size", kSize, options_of_size<0>},
     {"pose_wall_runtime_options_check", "a byte short", kSize, options_of_size<kOptions - 1>},
-    {"pose_wall_runtime_options_check", "of ABI 2", POSE_WALL_E_ABI, options_of_size<kOptionsOfAbi2>},
+    // ABI 2 ran on machines of 64 bits, whose pointers its options hold; elsewhere it looks newer.
+    {"pose_wall_runtime_options_check", "of ABI 2", sizeof(void*) == 8 ? POSE_WALL_E_ABI : kNewer,
+     options_of_size<kOptionsOfAbi2>},
     {"pose_wall_runtime_options_check", "newer", kNewer, options_of_size<sizeof(pose_wall_runtime_options) + 8>},
     {"pose_wall_runtime_options_check", "the longest newer", kNewer, options_of_size<kTooLarge - 1>},
     {"pose_wall_runtime_options_check", "too large", kSize, options_of_size<kTooLarge>},
