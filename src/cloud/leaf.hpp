@@ -28,7 +28,6 @@ class LeafSearch {
   double leaf_m() const;
   // No other is tried after it, whether it fits or not.
   bool is_largest() const { return growths_ == largest_; }
-  bool has_grown() const { return growths_ > 0; }
   // After a pass with this leaf: whether another is to be tried. voxels: how many there were, if they all had room.
   bool goes_on(bool fits, std::uint32_t voxels);
   // Once it does not go on.

@@ -38,7 +38,6 @@ struct VoxelResult {
   std::uint32_t returns = 0;  // points that hold one
   LeafMemory leaf;
   double leaf_m = 0.0;
-  bool leaf_grown = false;
   std::uint64_t work = 0;
   bool fits = false;  // false: points fill the air, or points_max is far too small; there are no voxels then
   std::uint64_t fingerprint = 0;

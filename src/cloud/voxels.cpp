@@ -338,7 +338,6 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
     work.add(grid->slots() / kFour, steps::kFourSlots);
   } while (leaf.goes_on(result.fits, grid->count()));
   result.leaf_m = leaf.leaf_m();
-  result.leaf_grown = leaf.has_grown();
   result.leaf = leaf.memory(result.fits, grid->count());
   cloud_base->count = 0;
   if (result.fits) {

@@ -199,7 +199,6 @@ TEST(Voxel, TooManyVoxelsGrowTheLeafWhateverTheOrder) {
   test::Points points = scattered(2, 40000, 3, 1);
   const Settings settings = test::settings_with({{"points_max", "5000"}});
   const Voxels first = voxels_of(test::cloud_of(points, 0), settings);
-  EXPECT_TRUE(first.result.leaf_grown);
   EXPECT_TRUE(first.result.fits);
   EXPECT_GT(first.result.leaf_m, settings.voxel_leaf);
   EXPECT_LE(first.points.size(), 5000U);
@@ -222,7 +221,7 @@ TEST(Voxel, WhatTheLastCloudNeededIsTriedFirstAndGivesTheSame) {
   const Voxels second = voxels_of(test::cloud_of(points, 0), settings, at_origin(), first.result.leaf);
   EXPECT_EQ(second.result.leaf_m, first.result.leaf_m);
   EXPECT_EQ(second.result.fingerprint, first.result.fingerprint);
-  EXPECT_TRUE(second.result.leaf_grown);
+  EXPECT_GT(second.result.leaf_m, settings.voxel_leaf);
   EXPECT_EQ(second.result.counts.points_in, 40000U);
   EXPECT_EQ(second.returns, 40000U);
   // Where there is much less, the leaf is what it would have been, by the second cloud at the latest.
@@ -231,26 +230,27 @@ TEST(Voxel, WhatTheLastCloudNeededIsTriedFirstAndGivesTheSame) {
   EXPECT_LT(between.result.leaf_m, first.result.leaf_m);
   const Voxels after = voxels_of(test::cloud_of(few, 0), settings, at_origin(), between.result.leaf);
   EXPECT_EQ(after.result.leaf_m, settings.voxel_leaf);
-  EXPECT_FALSE(after.result.leaf_grown);
 }
 
 // Large voxels of points that fill the air would lie in layers, each like a floor.
 TEST(Voxel, WherePointsFillTheAirThereAreNoVoxels) {
   const test::Points points = scattered(3, 40000, 20, 2.5);
-  const Voxels v = voxels_of(test::cloud_of(points, 0), test::settings_with({{"points_max", "5000"}}));
+  const Settings settings = test::settings_with({{"points_max", "5000"}});
+  const Voxels v = voxels_of(test::cloud_of(points, 0), settings);
   EXPECT_FALSE(v.result.fits);
-  EXPECT_TRUE(v.result.leaf_grown);
+  EXPECT_GT(v.result.leaf_m, settings.voxel_leaf);
   EXPECT_TRUE(v.points.empty());
   EXPECT_LE(v.result.leaf_m, 0.26);
   EXPECT_EQ(v.result.counts.points_in, 40000U);
 }
 
 TEST(Voxel, AnEmptyCloudHasNoVoxels) {
-  const Voxels v = voxels_of(test::cloud_of({}, 0), test::settings_with());
+  const Settings settings = test::settings_with();
+  const Voxels v = voxels_of(test::cloud_of({}, 0), settings);
   EXPECT_TRUE(v.points.empty());
   EXPECT_EQ(v.result.counts.points_in, 0U);
   EXPECT_EQ(v.returns, 0U);
-  EXPECT_FALSE(v.result.leaf_grown);
+  EXPECT_LE(v.result.leaf_m, settings.voxel_leaf);
 }
 
 // Brightness shifts a centroid and nothing else: no point goes for being dark.
