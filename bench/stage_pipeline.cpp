@@ -8,7 +8,6 @@
 #include "cloud/voxels.hpp"
 #include "floor/floor.hpp"
 #include "floor/levelling.hpp"
-#include "walls/doubts/doubts.hpp"
 #include "walls/walls.hpp"
 
 namespace pose_wall::bench {

@@ -58,8 +58,8 @@ namespace gate {
 // NaN passes no gate.
 template <Id id>
 bool judge(double value, double limit) {
-  const bool at_most = Row<id>::sense == BELOW ? value < limit : value <= limit;
-  const bool passed = Row<id>::sense == AT_LEAST || Row<id>::sense == IS_SO ? value >= limit : at_most;
+  constexpr Sense sense = Row<id>::sense;
+  const bool passed = sense == AT_MOST ? value <= limit : (sense == BELOW ? value < limit : value >= limit);
   POSE_WALL_NOTE(trace::note_gate(id, value, limit, passed));
   return passed;
 }

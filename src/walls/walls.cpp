@@ -6,6 +6,7 @@
 #include "gates/gate.hpp"
 #include "walls/choose/across.hpp"
 #include "walls/choose/choose.hpp"
+#include "walls/direction.hpp"
 #include "walls/doubts/doubts.hpp"
 #include "walls/sample/measure.hpp"
 

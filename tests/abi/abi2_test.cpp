@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: a cloud of before there was a ring is read as far as it goes; two calls at once do not meet inside an engine;
-// a result tells which engine made it; the frame's inputs do what pose_wall.h says; what was saved is held only as far
+// Proves: a cloud of before there was a ring is read as far as it goes. Two calls at once do not meet inside an engine.
+// A result tells which engine made it. The frame's inputs do what pose_wall.h says. What was saved is held only as far
 // as it can be dated. Does not prove that every race is caught: only that the second call is refused while the first is
 // known to be inside. What is refused is in abi/refusals.
 

@@ -20,6 +20,7 @@
 #include "output/temporal.hpp"
 #include "report.hpp"
 #include "walls/choose/choose.hpp"
+#include "walls/direction.hpp"
 #include "walls/doubts/doubts.hpp"
 #include "walls/doubts/edges.hpp"
 #include "walls/doubts/sight.hpp"

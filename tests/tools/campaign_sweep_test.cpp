@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the traced engine gives the plain engine's bits over a sequence whose memory it carries on by itself; a
-// sweep's first row is what a card says of the same runs; another limit changes what the gate lets pass, and only while
-// it is swept; what cannot be swept is refused by name. Does not prove: that a limit of the table is the right one.
+// Proves: the traced engine gives the plain engine's bits over a sequence whose memory it carries on by itself. A
+// sweep's first row is what a card says of the same runs. Another limit changes what the gate lets pass, and only while
+// it is swept. What cannot be swept is refused by name. Does not prove: that a limit of the table is the right one.
 
 #include <gtest/gtest.h>
 

@@ -5,51 +5,11 @@
 
 #include <cmath>
 
-#include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
 #include "gates/gate.hpp"
 
 namespace pose_wall {
 namespace {
-
-// 0.2 degrees that the fits do not know of: scans skewed by motion, walls that are no planes. Keeps one wall from
-// ruling alone. Judgement, 2026-11-21.
-constexpr double kModelError_rad = 0.0035;
-
-// A doubtful wall must not turn a good one.
-bool can_share(const JudgedWall& wall) {
-  // Any of these bars a wall from turning the other one.
-  constexpr std::uint32_t kDoubtful =
-      POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED | POSE_WALL_R_EXTRAPOLATED;
-  return !wall.fit.refused && (wall.fit.reasons & kDoubtful) == 0;
-}
-
-// 1 up to the limit, falling to 0 at twice the limit.
-double share_of(double difference_rad, double limit_rad) {
-  if (!(limit_rad > 0.0)) return 0.0;
-  const double beyond = std::fabs(difference_rad) / limit_rad - 1.0;
-  if (beyond <= 0.0) return 1.0;
-  return beyond < 1.0 ? 1.0 - beyond : 0.0;
-}
-
-// Turns the plane about the vertical through the pivot.
-Plane turned(const Plane& plane, const Eigen::Vector3d& pivot, double angle_rad) {
-  const double c = cosine(angle_rad), s = sine(angle_rad);
-  Plane out;
-  out.n = Eigen::Vector3d(c * plane.n.x() - s * plane.n.y(), s * plane.n.x() + c * plane.n.y(), plane.n.z());
-  out.d = plane.d + plane.n.dot(pivot) - out.n.dot(pivot);
-  return out;
-}
-
-void turn(const WallScene& scene, int side, double angle_rad, JudgedWall* wall) {
-  wall->fit.plane = turned(wall->fit.plane, wall->pivot_level_m, angle_rad);
-  wall->along_level = along_of(wall->fit.plane, scene.forward_level);
-  for (int end = 0; end < 2; ++end) {
-    const double before = wall->distance_m[end];
-    wall->distance_m[end] = distance_at(wall->fit.plane, scene.sample_level_m[side][end]);
-    wall->distance_bound_m[end][POSE_WALL_PART_BEND] += std::fabs(wall->distance_m[end] - before);
-  }
-}
 
 // A rival was looked at in passing: its distance may be 5 % and 3 cm more. Judgement, 2026-11-21:
 constexpr double kRivalStretch = 1.05;
@@ -85,18 +45,16 @@ Doubt by_wandering(const WallCandidate& chosen, const SideView& view, const Plan
   return doubt;
 }
 
-// What is hardly seen, or shows something behind it, may be no wall; the wall is then behind it. One demand each, for
-// all are told.
+// What is hardly seen, or shows something behind it, may be no wall; the wall is then behind it.
 Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved, const Settings& s) {
   Doubt doubt;
-  const bool doubts[] = {
-      !demand<gate::WALL_BRIGHT>(&doubt, !sight.dim), !demand<gate::WALL_TOP_SEEN>(&doubt, !edges.top_unseen),
-      !demand<gate::WALL_OPEN_DOUBT>(&doubt, sight.open, s), !demand<gate::WALL_GROOVES>(&doubt, !grooved),
-      !demand<gate::WALL_LAYER>(&doubt, !edges.layer_behind)};
-  for (const bool one : doubts) {
-    if (!one) continue;
-    const double behind_m = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayStep_m);
-    for (double& off_m : doubt.off_m) off_m = behind_m;
+  demand<gate::WALL_BRIGHT>(&doubt, !sight.dim);
+  demand<gate::WALL_TOP_SEEN>(&doubt, !edges.top_unseen);
+  demand<gate::WALL_OPEN_DOUBT>(&doubt, sight.open, s);
+  demand<gate::WALL_GROOVES>(&doubt, !grooved);
+  demand<gate::WALL_LAYER>(&doubt, !edges.layer_behind);
+  if (doubt.reasons != 0) {
+    doubt.off_m[0] = doubt.off_m[1] = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayStep_m);
   }
   demand<gate::WALL_SILENT>(&doubt, sight.silent, s);
   demand<gate::WALL_OPEN>(&doubt, sight.open, s);
@@ -118,7 +76,7 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
     const WallCandidate& c = seen.item[i];
     // Few points are no excuse: they are enough to doubt which way the road runs.
     const std::uint32_t failed = c.failed & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
-    if (failed != 0 || !(c.evidence.length_m >= s.wall_alone_length_min)) continue;
+    if (failed != 0 || !(c.evidence.length_m >= limit_of<gate::WALL_LENGTH_ALONE>(s))) continue;
     if (!(c.evidence.score_m2 >= kWeakestShare * wall.evidence.score_m2)) continue;
     apart = larger(apart, angle_in_plan(wall.plane, c.plane));
   }
@@ -133,20 +91,6 @@ Doubt by_other_side(double apart_rad, const Settings& s) {
 }
 
 }  // namespace
-
-void share_direction(const WallScene& scene, JudgedWall (*walls)[2]) {
-  JudgedWall& left = (*walls)[0];
-  JudgedWall& right = (*walls)[1];
-  if (!can_share(left) || !can_share(right)) return;
-  const double difference = left.yaw_rad - right.yaw_rad;
-  const double share = share_of(difference, radians(scene.settings.wall_parallel_within_deg));
-  const double model2 = kModelError_rad * kModelError_rad;
-  const double left_variance = left.yaw_sigma_rad * left.yaw_sigma_rad + model2;
-  const double right_variance = right.yaw_sigma_rad * right.yaw_sigma_rad + model2;
-  const double sum = left_variance + right_variance;
-  turn(scene, 0, -share * difference * left_variance / sum, &left);
-  turn(scene, 1, share * difference * right_variance / sum, &right);
-}
 
 JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
                       const FittedWall& fitted, WallsScratch* scratch) {
@@ -185,7 +129,7 @@ void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, JudgedW
   if (choice.side[0] == nullptr || choice.side[1] == nullptr) return;
   const double apart = angle_in_plan((*walls)[0].fit.plane, (*walls)[1].fit.plane);
   for (int side = 0; side < 2; ++side) {
-    if (choice.side[side]->evidence.length_m >= s.wall_alone_length_min) continue;
+    if (choice.side[side]->evidence.length_m >= limit_of<gate::WALL_LENGTH_ALONE>(s)) continue;
     POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
     Doubt doubt;
     if (!demand<gate::SHORT_APART>(&doubt, apart, s)) doubt.off_m[0] = doubt.off_m[1] = kMayStep_m;

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What speaks against a wall that was chosen and fitted, and the direction that two walls share.
+// What speaks against a wall that was chosen and fitted.
 
 #pragma once
 
 #include "walls/choose/choose.hpp"
-#include "walls/scene.hpp"
 #include "walls/scratch.hpp"
 #include "walls/wall.hpp"
 
 namespace pose_wall {
-
-// Turns two walls of nearly the same direction onto their weighted mean, each about its pivot, and adds to the bounds
-// of their distances what that moved. Roughness, doors and the sensor's own motion during a scan turn the walls apart
-// by a degree; two metres from the machine's centre that is centimetres. Walls that truly run apart by more than
-// wall_parallel_within_deg keep their own directions. yaw_rad of each wall stays as measured.
-void share_direction(const WallScene& scene, JudgedWall (*walls)[2]);
 
 // The fitted wall of a side with all doubts that concern it alone: its own gates, its rival (found in choose/), its
 // distance from the machine, and what is seen of it from close by. side: 0 left, 1 right. The grid is marked with it.
