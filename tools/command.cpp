@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "command_line/grammar.hpp"
+#include "language/language.hpp"
 #include "pose_wall.h"
 #include "terminal/did_you_mean.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -38,8 +40,9 @@ bool is_unknown_verb(const CLI::App& app, int argc, const char* const* argv) {
   for (const std::string& name : names) {
     if (word == name) return false;
   }
-  fmt::print(stderr, "pose_wall: unknown verb '{}'{}\nVerbs: {}. See pose_wall --help.\n", word,
-             did_you_mean(word, names), fmt::join(names, ", "));
+  fmt::print(stderr, "{}",
+             say("pose_wall: unknown verb '{}'{}\nVerbs: {}. See pose_wall --help.\n", word, did_you_mean(word, names),
+                 fmt::join(names, ", ")));
   return true;
 }
 
@@ -63,9 +66,17 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
   const std::vector<CLI::App*> verbs = app.get_subcommands();
   const std::string verb = verbs.empty() ? "" : " " + verbs.front()->get_name();
-  fmt::print(stderr, "pose_wall{}: {}{}\nSee pose_wall{} --help.\n", verb, error.what(), unknown_option_hint(app),
-             verb);
+  fmt::print(stderr, "pose_wall{}: {}{}\n{}\n", verb, error.what(), unknown_option_hint(app),
+             say("See pose_wall{} --help.", verb));
   return kExitUsage;
+}
+
+// It was chosen before the verbs were added, for their help speaks it too; here it is checked and told.
+void add_language(CLI::App& verb) {
+  verb.add_option_function<std::string>(
+          "--language", [](const std::string&) {},
+          tr("Language of what a person reads: en or zh; default: POSE_WALL_LANGUAGE, else the locale's"))
+      ->check(one_of({"en", "zh"}));
 }
 
 void add_verbs(CLI::App& app, int& exit_code) {
@@ -85,6 +96,8 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_check_config(app, exit_code);
   add_completion(app, exit_code);
   add_man(app, exit_code);
+  for (CLI::App* verb : app.get_subcommands({})) add_language(*verb);
+  add_language(app);
   name_values(app);
   app.footer(
       "Examples:\n"
@@ -112,6 +125,7 @@ CommandGrammar command_grammar() {
 }
 
 int run_command(int argc, const char* const* argv) {
+  choose_language(language_of(argc, argv));
   CLI::App app(kDescription, "pose_wall");
   int exit_code = kExitDone;
   add_verbs(app, exit_code);

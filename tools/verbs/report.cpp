@@ -19,6 +19,7 @@
 #include "config_file/load_config.hpp"
 #include "csv/csv_file.hpp"
 #include "inputs/frame_sequence.hpp"
+#include "language/language.hpp"
 #include "motion/motion_comparison.hpp"
 #include "motion/motion_table.hpp"
 #include "motion/pose_truth.hpp"
@@ -45,7 +46,6 @@ struct ReportOptions {
   std::string output = "report.html";
   std::string truth;
   std::string title;
-  std::string language = "en";
   std::size_t points_max = 1'200'000;
 };
 
@@ -134,7 +134,7 @@ int report_frames(const ReportOptions& options) {
   }
   add_truth(options, truth, shown, &data);
   const std::string page =
-      report::page({title_of(options), options.language, options.truth, shown.complete, inputs.frames()}, loaded, data);
+      report::page({title_of(options), language_name(), options.truth, shown.complete, inputs.frames()}, loaded, data);
   output.write(page);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!options.frames.quiet) {
@@ -169,7 +169,7 @@ int report_motion(const ReportOptions& options) {
   std::vector<std::filesystem::path> read = {input};
   if (!options.truth.empty()) read.emplace_back(options.truth);
   OutputFile output(options.output, read);
-  const std::string page = report::motion_page({title_of(options), options.language, options.truth}, table, comparison);
+  const std::string page = report::motion_page({title_of(options), language_name(), options.truth}, table, comparison);
   output.write(page);
   if (!options.frames.quiet) {
     fmt::print(stderr, "{}: {:.1f} MB, {}. Open it in a browser.\n", options.output,
@@ -196,9 +196,6 @@ void add_report(CLI::App& app, int& exit_code) {
           "number among the inputs, from 0")
       ->check(CLI::ExistingFile);
   verb->add_option("--title", options->title, "Heading; default: the name of the first input");
-  verb->add_option("--language", options->language, "The page opens in: en or zh; it has a button for the other")
-      ->capture_default_str()
-      ->check(one_of({"en", "zh"}));
   verb->add_option("--points", options->points_max, "Points in the page, of all frames together: 9 bytes each")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1000}, std::size_t{20'000'000}));

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""Every text that the tools mark for translation has its Chinese, and every Chinese text its use.
+
+usage: check_translations.py ROOT     exit status 1 and one line per text that
+  - is marked in tools/ (say("..."), tr("..."), translatable("...")) and is in no tools/language/zh/*.po
+  - stands in a catalogue and is marked nowhere, or stands there twice
+  - fills in other arguments than the English one, or holds no Chinese"""
+
+import collections
+import pathlib
+import re
+import sys
+
+LITERAL = r'"((?:[^"\\\n]|\\.)*)"'
+MARKED = re.compile(rf'\b(?:say|tr|translatable)\(\s*((?:{LITERAL}\s*)+)')
+HAN = re.compile(r"[\u3400-\u9fff]")
+FIELD = re.compile(r"(?<!\{)\{(\w*)(?::[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
+ESCAPES = {"n": "\n", "t": "\t", '"': '"', "\\": "\\"}
+
+
+def unescaped(text):
+    return re.sub(r"\\(.)", lambda found: ESCAPES.get(found.group(1), found.group()), text)
+
+
+def marked(root):
+    """{text: where it is marked first}"""
+    texts = {}
+    for path in sorted((root / "tools").rglob("*.[ch]pp")):
+        source = path.read_text(encoding="utf-8")
+        for found in MARKED.finditer(source):
+            if source.count("\n", 0, found.start()) and source[: found.start()].rsplit("\n", 1)[-1].lstrip().startswith("//"):
+                continue
+            text = "".join(unescaped(part) for part in re.findall(LITERAL, found.group(1)))
+            texts.setdefault(text, f"{path.relative_to(root)}:{source.count(chr(10), 0, found.start()) + 1}")
+    return texts
+
+
+def entries(path):
+    """(line, msgid, msgstr) of a PO file."""
+    msgid = msgstr = None
+    begun = 0
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines() + [""], 1):
+        if line.startswith("msgid ") or not line:
+            if msgid and msgstr is not None:
+                yield begun, msgid, msgstr
+            msgid = msgstr = None
+        if line.startswith("msgid "):
+            begun, msgid = number, unescaped(line[7:-1])
+        elif line.startswith("msgstr "):
+            msgstr = unescaped(line[8:-1])
+        elif line.startswith('"'):
+            if msgstr is None:
+                msgid += unescaped(line[1:-1])
+            else:
+                msgstr += unescaped(line[1:-1])
+
+
+def filled_in(text):
+    """Which arguments a text takes: {} counts on, {0} and {name} name theirs."""
+    names = FIELD.findall(text)
+    return sorted(name or str(number) for number, name in enumerate(names))
+
+
+def faults(root):
+    texts = marked(root)
+    if not texts:
+        yield "tools/ marks no text: nothing was checked"
+    seen = collections.Counter()
+    for path in sorted((root / "tools/language/zh").glob("*.po")):
+        name = path.relative_to(root)
+        for line, msgid, msgstr in entries(path):
+            seen[msgid] += 1
+            shown = msgid[:60].replace("\n", "\\n")
+            if msgid not in texts:
+                yield f"{name}:{line}: marked nowhere in tools/: {shown}"
+            if seen[msgid] == 2:
+                yield f"{name}:{line}: stands in the catalogues twice: {shown}"
+            if filled_in(msgid) != sorted(set(filled_in(msgstr))) and filled_in(msgid) != filled_in(msgstr):
+                yield f"{name}:{line}: fills in {filled_in(msgstr)}, the English {filled_in(msgid)}: {shown}"
+            if not HAN.search(msgstr) and re.search(r"[A-Za-z]{3}", re.sub(r"\{[^}]*\}", "", msgid)):
+                yield f"{name}:{line}: no Chinese: {shown}"
+    for text, place in texts.items():
+        if text not in seen:
+            yield f"{place}: in no catalogue: {text[:70]!r}"
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    root = pathlib.Path(sys.argv[1]).resolve()
+    found = list(faults(root))
+    print("\n".join(found) or f"{len(marked(root))} texts, each in both languages")
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Which language is chosen, how catalogues are read, and how Chinese is laid out. That each text has its Chinese is
+// shown by tests/checks/check_translations.py.
+
+#include "language/language.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+#include "language/po_catalogue.hpp"
+#include "terminal/text_table.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+class LanguageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"POSE_WALL_LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"}) unsetenv(name);
+  }
+  void TearDown() override { choose_language(Language::kEnglish); }
+
+  static Language of(std::vector<const char*> words) {
+    words.insert(words.begin(), "pose_wall");
+    return language_of(static_cast<int>(words.size()), words.data());
+  }
+};
+
+TEST_F(LanguageTest, TheOptionGoesBeforeTheEnvironment) {
+  EXPECT_EQ(of({"run"}), Language::kEnglish);
+  EXPECT_EQ(of({"run", "--language", "zh"}), Language::kChinese);
+  EXPECT_EQ(of({"--language=zh", "run"}), Language::kChinese);
+  EXPECT_EQ(of({"--language=zh", "run", "--language", "en"}), Language::kEnglish);
+  EXPECT_EQ(of({"run", "--language"}), Language::kEnglish);
+  setenv("LANG", "zh_CN.UTF-8", 1);
+  EXPECT_EQ(of({"run"}), Language::kChinese);
+  setenv("LC_ALL", "C", 1);
+  EXPECT_EQ(of({"run"}), Language::kEnglish);
+  setenv("POSE_WALL_LANGUAGE", "zh", 1);
+  EXPECT_EQ(of({"run"}), Language::kChinese);
+  EXPECT_EQ(of({"run", "--language", "en"}), Language::kEnglish);
+}
+
+TEST_F(LanguageTest, TextsWithoutTranslationStayEnglish) {
+  choose_language(Language::kChinese);
+  EXPECT_STREQ(tr("no catalogue holds this"), "no catalogue holds this");
+  EXPECT_EQ(say("no catalogue holds {} of {:.1f}", 3, 2.0), "no catalogue holds 3 of 2.0");
+}
+
+TEST_F(LanguageTest, EveryChineseTextIsUsedInChineseAlone) {
+  ASSERT_FALSE(chinese_translations().empty());
+  for (const Translation& entry : chinese_translations()) {
+    choose_language(Language::kEnglish);
+    EXPECT_EQ(tr(entry.english.c_str()), entry.english);
+    choose_language(Language::kChinese);
+    EXPECT_EQ(tr(entry.english.c_str()), entry.translated);
+  }
+}
+
+TEST(PoCatalogue, ReadsTextsOverSeveralLinesAndPassesOverWhatIsNotTranslated) {
+  const std::vector<Translation> read = read_po(
+      "# note\nmsgid \"\"\nmsgstr \"\"\n\"Language: zh\\n\"\n\n"
+      "msgid \"\"\n\"one \"\n\"{}\\n\"\nmsgstr \"一 {}\\n\"\n\n"
+      "msgid \"two\"\nmsgstr \"\"\n\nmsgid \"a \\\"b\\\"\"\nmsgstr \"甲\\\\\"\n");
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].english, "one {}\n");
+  EXPECT_EQ(read[0].translated, "一 {}\n");
+  EXPECT_EQ(read[1].english, "a \"b\"");
+  EXPECT_EQ(read[1].translated, "甲\\");
+}
+
+TEST(PoCatalogue, RefusesWhatItWouldMisread) {
+  for (const char* text :
+       {"msgid one", "msgstr \"x\"", "msgid \"a\\q\"", "msgid_plural \"x\"", "\"alone\"", "msgid \"a"}) {
+    EXPECT_THROW(read_po(text), std::invalid_argument) << text;
+  }
+  try {
+    read_po("# first\n\nmsgid_plural \"x\"\n");
+    ADD_FAILURE() << "a plural form was read";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("line 3"), std::string::npos) << error.what();
+  }
+}
+
+TEST(TextWidth, ChineseSignsAreAsWideAsTwoLetters) {
+  EXPECT_EQ(shown_width("左墙 d"), 6U);
+  EXPECT_EQ(shown_width("°±Å"), 3U);
+  EXPECT_EQ(shown_width("，"), 2U);
+  TextTable table({"墙", "m"});
+  table.add_row({"ab", "1"});
+  EXPECT_EQ(table.text(), "墙  m\n--  -\nab  1\n");
+}
+
+TEST(TextWidth, ChineseLinesEndBetweenSignsAndNeverBeforePunctuation) {
+  EXPECT_EQ(wrapped("地面点不足，无法拟合", 0, 10), "地面点不\n足，无法拟\n合\n");
+  EXPECT_EQ(wrapped("a wall here", 2, 6), "  a wall\n  here\n");
+  EXPECT_EQ(wrapped("参见 pose_wall --help", 0, 12), "参见\npose_wall\n--help\n");
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

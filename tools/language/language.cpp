@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "language/language.hpp"
+
+#include <cstdlib>
+#include <string_view>
+#include <unordered_map>
+
+#include "language/po_catalogue.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+Language& chosen_language() {
+  static Language chosen = Language::kEnglish;
+  return chosen;
+}
+
+Language named(std::string_view name) {
+  return name.substr(0, 2) == "zh" ? Language::kChinese : Language::kEnglish;
+}
+
+using Catalogue = std::unordered_map<std::string_view, const char*>;
+
+const Catalogue& chinese() {
+  static const Catalogue catalogue = [] {
+    Catalogue made;
+    for (const Translation& entry : chinese_translations()) made.emplace(entry.english, entry.translated.c_str());
+    return made;
+  }();
+  return catalogue;
+}
+
+}  // namespace
+
+const std::vector<Translation>& chinese_translations() {
+  static const std::vector<Translation> all = read_po(chinese_catalogues());
+  return all;
+}
+
+Language language() {
+  return chosen_language();
+}
+
+void choose_language(Language chosen) {
+  chosen_language() = chosen;
+}
+
+const char* language_name() {
+  return language() == Language::kChinese ? "zh" : "en";
+}
+
+Language language_of(int argc, const char* const* argv) {
+  constexpr std::string_view kOption = "--language";
+  for (int i = argc - 1; i > 0; --i) {
+    const std::string_view word = argv[i];
+    if (word.substr(0, kOption.size()) != kOption) continue;
+    if (word.size() > kOption.size() && word[kOption.size()] == '=') return named(word.substr(kOption.size() + 1));
+    if (word.size() == kOption.size() && i + 1 < argc) return named(argv[i + 1]);
+  }
+  for (const char* variable : {"POSE_WALL_LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"}) {
+    const char* value = std::getenv(variable);
+    if (value != nullptr && *value != '\0') return named(value);
+  }
+  return Language::kEnglish;
+}
+
+const char* tr(const char* english) {
+  if (language() == Language::kEnglish) return english;
+  const auto found = chinese().find(english);
+  return found == chinese().end() ? english : found->second;
+}
+
+}  // namespace pose_wall::tools
