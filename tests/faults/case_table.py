@@ -11,29 +11,29 @@ import textwrap
 
 BEGIN, END = "<!-- cases -->\n", "<!-- /cases -->\n"
 
-# What is done, and what must come of it. A group that is missing here, or has no cases, is an error.
+# Each group's fault and its outcome. A group that is missing here, or has no cases, is an error.
 GROUPS = {
-    "Descriptions": ("a cloud's description is odd, or a lie that nobody can tell", "read as it says, nothing wrong"),
+    "Descriptions": ("a cloud's description is odd, or a lie that cannot be found", "read as described, nothing wrong"),
     "IntensityTypes": ("any bytes as intensity", "measured, right"),
     "PointFaults": ("points without number, range, shape or sense", "states of the table, nothing wrong, back at once"),
-    "UndetectableFaults": ("axes mirrored, scaled", "measured; in a sequence the jump is degraded, level up to both"),
-    "Capacity": ("points_max and one more or less", "the leaf grows from one more on"),
-    "Stamps": ("stamps still, back, ahead, at the ends", "states of the table, flagged, nothing wrong"),
-    "CallFaults": ("calls out of order or twice", "as the header says"),
-    "Keys": ("no value of a key, each key", "refused, nothing changed"),
+    "UndetectableFaults": ("axes mirrored, scaled", "measured; in a sequence degraded, the level reaches to both"),
+    "Capacity": ("points_max voxels, and one more or less", "the leaf grows from one more on"),
+    "Stamps": ("stamps that stand, go back, leap, or lie at the ends", "states of the table, flagged, nothing wrong"),
+    "CallFaults": ("calls out of order or twice", "the outcome that the header gives"),
+    "Keys": ("a text that is no value, for each key", "refused, nothing changed"),
     "Members": ("NaN written into a config past the functions", "found by the check"),
-    "NumberKeys": ("below and above a key's range, and at its ends", "refused; at its ends the contract holds"),
+    "NumberKeys": ("numbers below and above a key's range, and at its ends", "refused; at its ends the contract holds"),
     "Rules": ("keys that contradict each other", "nothing is opened"),
     "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),
-    "BitFlips": ("bits fall over in the block between calls", "state: refused until opened again; scratch: same bits"),
-    "SelfTestFaults": ("the same while the self test runs; a digest off by a bit", "the self test fails"),
-    "PoisonedSequence": ("each frame garbage, alone and with the next", "nothing wrong, back within 4 frames"),
-    "PoisonedSequencePairs": ("two of two kinds, 1 to 4 good ones between", "the same"),
-    "PoisonedSequenceItself": ("the same without; another road each time", "all valid; nothing wrong, back"),
-    "RefusedThreads": ("a thread is not made", "start says so, works the next time"),
+    "BitFlips": ("bits of the block flip between calls", "state: refused until opened again; scratch: same bits"),
+    "SelfTestFaults": ("the same during the self test; a digest off by a bit", "the self test fails"),
+    "PoisonedSequence": ("each frame is garbage, alone and with the next", "nothing wrong, back within 4 frames"),
+    "PoisonedSequencePairs": ("two frames of two kinds, 1 to 4 good ones between", "the same"),
+    "PoisonedSequenceItself": ("the same without garbage; another road each time", "all valid; nothing wrong, back"),
+    "RefusedThreads": ("a thread is not made", "start fails, and works the next time"),
     "FaultyDisks": ("the header or the n-th write of the record fails", "counted, the rest can be read, frames go on"),
-    "RefusedWishes": ("memory not locked, priority not granted", "told; start fails only if it was required"),
-    "RuntimeFaults": ("clock, callback, a step or the memory of its engine", "says so, nothing wrong, goes on"),
+    "RefusedWishes": ("memory not locked, priority not granted", "reported; start fails only if it was required"),
+    "RuntimeFaults": ("clock, callback, a step or the memory of its engine fails", "reported, nothing wrong, goes on"),
 }
 
 
@@ -61,13 +61,15 @@ def table(cases):
     unknown, missing = set(cases) - set(GROUPS), set(GROUPS) - set(cases)
     if unknown or missing:
         sys.exit(f"case_table.py: groups without a line here: {sorted(unknown)}; without cases: {sorted(missing)}")
-    out = ["| group | cases | fault | what must come of it |", "| --- | --- | --- | --- |"]
+    out = ["| group | cases | fault | outcome |", "| --- | --- | --- | --- |"]
     for group, (fault, outcome) in GROUPS.items():
         out.append(f"| `{group}` | {len(cases[group])} | {fault} | {outcome} |")
     out.append(f"| all | {sum(len(names) for names in cases.values())} | | |")
+    out += ["", "```"]
     for group in GROUPS:
-        out.append("")
-        out += textwrap.wrap(f"**{group}**: " + ", ".join(short(cases[group])) + ".", 120, break_on_hyphens=False)
+        text = f"{group}: " + ", ".join(short(cases[group]))
+        out += textwrap.wrap(text, 120, subsequent_indent="  ", break_on_hyphens=False)
+    out.append("```")
     return "\n".join(out) + "\n"
 
 
