@@ -16,12 +16,12 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kTriangleMin_m2 = 0.10;         // judgement, 2026-11-21: twice its area; slivers give wild normals
-constexpr std::uint32_t kDrawsPerIteration = 8;  // judgement, 2026-11-21: failed draws a hypothesis; caps the loop
-constexpr std::uint32_t kQuickPointsMax = 500;   // 1000 points took 1.0 M of 92.1 M instructions more (bench/README.md)
-constexpr double kGhostShare = 0.4;              // judgement, 2026-11-21: a plane seen through so often is a reflection
+constexpr double kTriangleMin_m2 = 0.10;  // judgement, 2026-11-21: twice the triangle's area; slivers give wild normals
+constexpr std::uint32_t kDrawsPerIteration = 8;  // judgement, 2026-11-21: draws for each hypothesis; caps the loop
+constexpr std::uint32_t kQuickPointsMax = 500;   // 1000 points cost 1.0 M of 92.1 M instructions more (bench/README.md)
+constexpr double kGhostShare = 0.4;              // judgement, 2026-11-21: more rays through a floor make a reflection
 constexpr double kBelowShareMax = 0.05;  // judgement, 2026-11-21: only strays and reflections lie below; 0.3 at first
-// A plane scores at most twice its area: below this score it can neither be the floor nor rival it.
+// A plane scores at most twice its area. Below this score it can neither be the floor nor rival it.
 double tells_nothing_m2(const Settings& s) {
   return 0.5 * limit_of<gate::FLOOR_RIVAL>(s) * limit_of<gate::FLOOR_AREA>(s);
 }
@@ -36,7 +36,7 @@ void note_floor_plane(const Plane& plane, pose_wall_trace_fate fate, double supp
   noted->support = support;
 }
 
-// Weaker, until more is known of it.
+// Its fate is WEAKER until more is known.
 void note_refined(const IrlsResult& refined, double support, const FloorScene& scene) {
   pose_wall_trace_fate fate = POSE_WALL_TRACE_WEAKER;
   if (!may_be_floor(refined.plane, FloorLimits(scene.settings), scene.sensor_base_m)) {
@@ -46,8 +46,7 @@ void note_refined(const IrlsResult& refined, double support, const FloorScene& s
   note_floor_plane(refined.plane, fate, support, scene.sensor_base_m);
 }
 
-// Of the planes that were drawn and lie too high, too low or too steep, those that explain most: what else may have
-// been the floor.
+// Keeps the drawn planes that explain most points but lie too high, too low or too steep: other readings of the floor.
 class BestOutside {
  public:
   BestOutside(const PointSet& subset, const Settings& settings, const Eigen::Vector3d& sensor_base_m)
@@ -80,13 +79,13 @@ class BestOutside {
 
 #endif
 
-// One of the low points, or of all.
+// Draws one of the low points, or of all.
 std::uint32_t drawn(const FloorDraw& from, bool of_low, Random* random) {
   return of_low ? from.low[random->below(from.low.size())] : random->below(from.open_base.count);
 }
 
-// Half from the low points, half from all, so that a floor counts as a whole even where the machine leans and the
-// lowest points are one side of it only.
+// Half from the low points, half from all. Otherwise a leaning machine, whose lowest points lie on one side, would see
+// half of its floor.
 void fill_subset(const FloorDraw& from, Random* random, PointSet* subset) {
   for (std::uint32_t k = 0; k < kSubsetPoints; ++k) {
     const std::uint32_t i = drawn(from, k % 2 == 0, random);
@@ -97,7 +96,7 @@ void fill_subset(const FloorDraw& from, Random* random, PointSet* subset) {
   subset->count = kSubsetPoints;
 }
 
-// The plane through three drawn points, normal up; false for slivers.
+// The plane through three drawn points, normal up. False for slivers.
 bool draw_plane(const FloorDraw& from, bool of_low, Random* random, Plane* plane) {
   const Eigen::Vector3d a = from.open_base.at(drawn(from, of_low, random));
   const Eigen::Vector3d b = from.open_base.at(drawn(from, of_low, random));
@@ -110,11 +109,11 @@ bool draw_plane(const FloorDraw& from, bool of_low, Random* random, Plane* plane
   return true;
 }
 
-// The lowest percentile by z, off a histogram of centimetres.
+// The lowest percentile by z, from a histogram of centimetres.
 std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::uint32_t> out) {
   constexpr std::uint32_t kBins = 2048;  // centimetres: 20.48 m, 8 KiB on the stack
-  constexpr float kFloor_m = -10.24F;    // half of the bins lie below base; the end bins take the rest
-  std::uint32_t bins[kBins + 1] = {};    // the last: of none
+  constexpr float kFloor_m = -10.24F;    // half of the bins lie below base; the end bins take all beyond
+  std::uint32_t bins[kBins + 1] = {};    // the last takes masked lanes
   const auto bins_of = [](FourFloats z) {
     const FourFloats place = (z - kFloor_m) * 100.0F;
     return cut_off(smaller_of(larger_of(place, FourFloats{}), all_four(kBins - 1.0F)));
@@ -137,14 +136,14 @@ std::uint32_t lowest_part(const PointSet& points, double percentile, Span<std::u
   return count;
 }
 
-// Refines what the search left, merges what became alike, and looks at each as a floor.
+// Refines the short list, drops planes that became alike, and weighs each of the rest as a floor.
 void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorShortlist* list, FloorScratch* scratch,
            FloorCandidates* out) {
   const Settings& s = scene.settings;
   const Eigen::Vector3d& sensor = scene.sensor_base_m;
   const FloorLimits limits(s);
   const IrlsSettings quick = quick_irls(2.0 * s.ground_ransac_thresh, 0.005, s.ground_ransac_thresh, 2);
-  // The low points have done their work; their room holds a part of all, enough to refine a hypothesis.
+  // The low points are not needed any more. Their room now holds a part of all points, enough to refine a hypothesis.
   std::uint32_t of_part = 0;
   for_even_share(within.count, kQuickPointsMax, [&](std::uint32_t k) { scratch->low[of_part++] = k; });
   const Span<const std::uint32_t> part = scratch->low.first(of_part);
@@ -179,7 +178,7 @@ bool is_below(const Plane& above, const Plane& below, const Eigen::Vector3d& sen
   return below.signed_distance(sensor_base_m) > above.signed_distance(sensor_base_m) + kBelow_m;
 }
 
-// Planes below another one, seen through its open floor, are reflections in wet ground.
+// Marks planes that are seen through the open floor of another plane above: reflections in wet ground.
 void mark_ghosts(const FloorScene& scene, const PointSet& within, FloorScratch* scratch,
                  Span<FloorCandidate> candidates) {
   for (const FloorCandidate& above : candidates) {
@@ -209,7 +208,7 @@ bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Ve
 }
 
 bool same_floor(const Plane& a, const Plane& b) {
-  constexpr double kReach_m = 2.0;   // judgement, 2026-11-21: compared under the machine and so far around it
+  constexpr double kReach_m = 2.0;  // judgement, 2026-11-21: planes are compared under the machine and so far around it
   constexpr double kApart_m = 0.08;  // judgement, 2026-11-21: below three thresholds (9 cm); nearer planes are one
   const double places[][2] = {{0.0, 0.0}, {kReach_m, 0.0}, {-kReach_m, 0.0}, {0.0, kReach_m}, {0.0, -kReach_m}};
   for (const auto& p : places) {
@@ -260,7 +259,7 @@ std::uint32_t search_floor(const FloorScene& scene, const FloorDraw& from, Rando
   POSE_WALL_NOTE(BestOutside outside(*subset, settings, scene.sensor_base_m));
   for (std::uint32_t draw = 0; draw < draws && scored < settings.ground_iterations; ++draw) {
     Plane plane;
-    // Every other draw from all points: where reflections lie lowest, the low points hold no floor.
+    // Every other draw takes all points: where reflections lie lowest, the low points hold no floor.
     if (!draw_plane(from, draw % 2 == 0, random, &plane)) continue;
     POSE_WALL_NOTE(outside.offer(plane));
     if (may_be_floor(plane, limits, scene.sensor_base_m)) score(plane);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What may be the floor: planes through open points, drawn and scored on a few of them, refined, and weighed by the
-// open ground they show.
+// Planes that may be the floor: drawn through open points, scored on a few of them, refined, and weighed by the open
+// ground that they cover.
 
 #pragma once
 
@@ -20,7 +20,7 @@ using FloorShortlist = Shortlist<kFloorShortlist>;
 struct FloorCandidate {
   Plane plane;
   FloorEvidence evidence;
-  bool ghost = false;  // seen through the open floor of a plane above it: a reflection in wet ground
+  bool ghost = false;  // seen through the open floor of a plane above it, so a reflection in wet ground
 };
 
 struct FloorCandidates {
@@ -28,11 +28,11 @@ struct FloorCandidates {
   std::uint32_t count = 0;
 
   Span<const FloorCandidate> all() const { return Span<const FloorCandidate>(item, count); }
-  std::uint32_t plausible() const;     // those that are no ghosts
-  const FloorCandidate* best() const;  // the one of the best score among these; nullptr where there is none
+  std::uint32_t plausible() const;     // those that are not ghosts
+  const FloorCandidate* best() const;  // the best score among these, or nullptr
 };
 
-// What the config allows of a floor, worked out once for all hypotheses.
+// The limits of a floor by the config, worked out once for all hypotheses.
 struct FloorLimits {
   double up_min;  // of the normal's z, in base
   double height_min_m, height_max_m;
@@ -43,26 +43,27 @@ struct FloorLimits {
 // A plane within the allowed tilt of base, below the sensor by an allowed height.
 bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Vector3d& sensor_base_m);
 
-// Whether two planes are the same surface around the machine.
+// True if two planes are the same surface around the machine.
 bool same_floor(const Plane& a, const Plane& b);
 
-// Whether a plane is seen through the open floor of another one above it, which marks the grid.
+// True if a plane is seen through the open floor of another plane above it. The grid is marked with that one.
 bool is_reflection(const FloorScene& scene, const PointSet& open_base, const Plane& above, const Plane& below,
                    const FloorGrid& grid);
 
-// What hypotheses are drawn from.
+// The points that hypotheses are drawn from.
 struct FloorDraw {
   const PointSet& open_base;      // open points within the region of interest
   Span<const std::uint32_t> low;  // the lowest part of them
 };
 
-// Fills the list; returns how many hypotheses were scored. subset: scratch of kSubsetPoints points.
+// Fills the list and returns the number of scored hypotheses. subset: scratch of kSubsetPoints points.
 std::uint32_t search_floor(const FloorScene& scene, const FloorDraw& from, Random* random, PointSet* subset,
                            FloorShortlist* list);
 
-// The candidates among the open points of one look, or among those that a floor leaves over: below these much may lie.
+// Candidates among the open points of one look, or among those that a floor leaves over. Below the second kind many
+// points may lie.
 enum class Among { kOpen, kLeftOver };
-// Returns how many hypotheses were scored.
+// Returns the number of scored hypotheses.
 std::uint32_t find_candidates(const FloorScene& scene, const PointSet& within_base, Among among, Random* random,
                               FloorScratch* scratch, FloorCandidates* out);
 

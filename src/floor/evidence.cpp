@@ -13,13 +13,13 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide; open floor in its own track counts twice
+constexpr double kDrivingStripHalf_m = 1.0;  // the machine is 1.2 m wide; open floor in its track counts twice
 constexpr double kHeightBin_m = 0.125;       // 8 m of height in 64 bins
 constexpr float kHeightBins = 64.0F;         // one bit of a word each
 constexpr double kBelowSensor_m = 5.5;       // sensors stand up to 3.5 m high (ground_height_max), slopes get 2 m
-// A point is not open where two of six bins above or below it hold points; one bin alone may be dust.
+// A point is closed if two of the six bins above or below it hold points; one bin may be dust.
 constexpr std::uint64_t kSixBins = 0x3F;  // six in a row: from 0.25 m to 1 m away
-constexpr int kFirstBin = 2;              // the floor's own scatter and slope reach the next bin
+constexpr int kFirstBin = 2;              // the floor's own scatter and slope reach one bin
 constexpr int kSixthBin = 7;              // kFirstBin and five more
 
 bool two_or_more(std::uint64_t bits) {
@@ -37,7 +37,7 @@ std::uint64_t bins_below(std::uint64_t heights, int bin) {
   return heights & (from > -6 ? kSixBins >> -from : 0);
 }
 
-// The bins on which something stands, all at once.
+// All bins on which something stands.
 std::uint64_t stood_on(std::uint64_t heights) {
   std::uint64_t one = 0, two = 0;
   for (int bin = kFirstBin; bin <= kSixthBin; ++bin) {
@@ -57,8 +57,8 @@ void FloorGrid::lay_out(Arena& arena) {
 }
 
 std::int32_t FloorGrid::cell_of(float coordinate_m) {
-  // Counted from far below every coordinate, so that cutting off the fraction rounds down: no call to floor(). What is
-  // further out is outside in either case.
+  // Counts from far below every coordinate, so that cutting off the fraction rounds down without a call to floor().
+  // Anything further out is outside anyway.
   constexpr std::int32_t kFar = 1 << 10;
   return static_cast<std::int32_t>(coordinate_m * static_cast<float>(1.0 / kCell_m) + (kFar + kSide / 2)) - kFar;
 }
@@ -68,7 +68,7 @@ FourInts FloorGrid::cells_of(FourFloats coordinates_m) {
   return cut_off(smaller_of(larger_of(cell, none), all_four(kSide - 1)));
 }
 
-// Where four points lie: cell and height bin as one number, or kNowhere outside the radius or the grid's height.
+// The place of four points: cell and height bin as one number, or kNowhere outside the radius or the grid's height.
 class FloorGrid::FourBins {
  public:
   FourBins(double radius_m, double lowest_m)
@@ -88,7 +88,7 @@ class FloorGrid::FourBins {
   FourTruths within{};
   FourInts place{};
 
-  static constexpr std::int32_t kNowhere = -1;  // outside of the grid: no place is negative
+  static constexpr std::int32_t kNowhere = -1;  // outside the grid; no place is negative
   static constexpr std::int32_t kBins = static_cast<std::int32_t>(kHeightBins);  // kHeightBins as an integer
 
  private:
@@ -101,8 +101,8 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
   FourBins four(radius_m, lowest_m_);
   FourInts within{};                                                         // true is -1
-  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);  // without sign, as places are listed
-  std::uint32_t last = kNowhere;  // points come in the order of their places, more or less
+  constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);  // unsigned, like the listed places
+  std::uint32_t last = kNowhere;  // points come roughly in the order of their places
   for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     four.look_at(x, y, z);
     within -= four.within & counts;
@@ -211,7 +211,7 @@ bool FloorGrid::marked_near(double x_base_m, double y_base_m) const {
 }
 
 bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const {
-  constexpr int kSteps = 8;        // judgement, 2026-11-21: looks 4 m behind the place, on the ray prolonged
+  constexpr int kSteps = 8;        // judgement, 2026-11-21: looks 4 m behind the place, along the ray
   constexpr double kStep_m = 0.5;  // two cells: marks reach one further, so no marked cell is missed
   const double dx = place_base_m.x() - sensor_base_m.x(), dy = place_base_m.y() - sensor_base_m.y();
   const double away = std::sqrt(dx * dx + dy * dy);
@@ -226,7 +226,7 @@ bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen:
 bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
                     double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max) {
   constexpr double kBelow_m = 0.2;  // judgement, 2026-11-21: a floor dips so far below its plane; benches lie higher
-  constexpr double kFall = 0.03;    // judgement, 2026-11-21: and by 3 cm more for each metre away (1.7 degrees)
+  constexpr double kFall = 0.03;    // judgement, 2026-11-21: and 3 cm more for each metre away (1.7 degrees)
   const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   const auto most = static_cast<std::uint32_t>(share_max * marked.points_within());
   std::uint32_t below = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What speaks for a plane being the floor: open ground seen in plan, not a count of points.
+// Evidence for a floor: the open ground that a plane covers in plan, not a count of points.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace pose_wall {
 
 struct FloorEvidence {
-  double score_m2 = 0.0;         // open area, the strip the machine drives on counting double
+  double score_m2 = 0.0;         // open area; the strip that the machine drives on counts double
   double area_m2 = 0.0;          // open area
   double across_spread_m = 0.0;  // standard deviation of the open cells across their main direction
 };
@@ -25,66 +25,67 @@ struct FloorEvidence {
 class FloorGrid {
  public:
   static constexpr std::int32_t kSide = 160;  // cells: 40 m, the widest ground_roi_radius to both sides
-  static constexpr double kCell_m = 0.25;     // judgement, 2026-11-21: parts a post from the floor beside it
+  static constexpr double kCell_m = 0.25;     // judgement, 2026-11-21: separates a post from the floor beside it
 
   void lay_out(Arena& arena);
 
-  // The points within the radius that have nothing standing on them or hanging under them: no points from a quarter of
-  // a metre to a metre above or below in the same cell. Floor is open and so is roof; walls, heaps, people and machines
-  // are not. Without this, a slab cut through two walls beats a sparsely seen floor by its points. places and open have
-  // room for all points, and places for a four behind them.
+  // Finds the open points within the radius: no points from a quarter of a metre to a metre above or below in the same
+  // cell. Floor and roof are open; walls, heaps, people and machines are not. Without this, a slab cut through two
+  // walls beats a sparsely seen floor by its points. places and open have room for all points, and places for a four
+  // behind them.
   void find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m, Span<std::uint32_t> places,
                  PointSet* open);
 
-  // How many points lie within the radius at all.
+  // Number of all points within the radius.
   std::uint32_t points_within() const { return points_within_; }
 
-  // Of four open points those that nothing stands next to, either: at the foot of a rough wall or heap its lowest
-  // points pass for floor, on one side more than on the other, and tilt the fit. Of the cloud last given to find_open.
+  // Of four open points, keeps those with nothing standing next to them. At the foot of a rough wall or heap its lowest
+  // points pass for floor, on one side more than on the other, and tilt the fit. Uses the cloud last given to
+  // find_open.
   FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m, FourTruths counts) const;
 
-  // Marks the cells in which a plane has points. open_base: by find_open(), all of them within the grid.
+  // Marks the cells in which a plane has points. open_base: from find_open(), all within the grid.
   void mark(const PointSet& open_base, const Plane& plane, double thresh_m);
-  // Of the marked plane.
+  // Evidence for the marked plane.
   FloorEvidence evidence(const Axes& axes) const;
-  // Whether the marked plane has floor at or next to this place.
+  // True if the marked plane has floor at or next to this place.
   [[gnu::noinline]] bool marked_near(double x_base_m, double y_base_m) const;
-  // The same, or farther out in the same direction from the sensor: a place inside the floor, be it a puddle.
+  // The same, or farther out in the same direction from the sensor. True inside the floor, even over a puddle.
   bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
 
  private:
   class FourBins;
   static std::int32_t cell_of(float coordinate_m);
-  static FourInts cells_of(FourFloats coordinates_m);  // the outermost of what is outside
+  static FourInts cells_of(FourFloats coordinates_m);  // the outermost cell for places outside
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
-  [[gnu::noinline]] void mark_cell(std::int32_t ix, std::int32_t iy);  // but once a cell
+  [[gnu::noinline]] void mark_cell(std::int32_t ix, std::int32_t iy);  // called once for each cell
   void clear_marks();
 
-  // Of the marked cells, first to last.
+  // First and last of the marked cells.
   struct Bounds {
     std::int32_t x_min = kSide, x_max = -1, y_min = kSide, y_max = -1;
   };
   Bounds bounds_;
 
   std::uint32_t points_within_ = 0;
-  double lowest_m_ = 0.0;  // of the heights
-  // Per cell a bit for each eighth of a metre: where points are, and once find_open() is done with it, on which of them
-  // something stands.
+  double lowest_m_ = 0.0;  // of the grid's heights
+  // Per cell one bit for each eighth of a metre. At first it marks points; after find_open() it marks points with
+  // something standing on them.
   Span<std::uint64_t> eighths_;
   Span<std::uint8_t> marked_;
-  Span<std::uint8_t> near_marked_;  // marked, or next to a marked cell
+  Span<std::uint8_t> near_marked_;  // marked or next to a marked cell
 };
 
-// Whether more than a share of all points within the radius lie below the marked plane without being reflections in it.
-// Nothing does below a floor; below a deck, a bench or a table there is floor, seen past the edge. The radius is that
-// of find_open, which counted all points within it.
+// True if more than a share of all points within the radius lie below the marked plane without being reflections in it.
+// Nothing lies below a floor. Below a deck, a bench or a table the floor shows past the edge. The radius is that of
+// find_open, which counted all points within it.
 bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
                     double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max);
 
-// Share of the open points on 'below' whose ray from the sensor passes through open floor of the plane marked in the
-// grid: no light comes through a floor, so such a plane is a reflection in wet ground.
+// Share of the open points on 'below' whose ray from the sensor passes through open floor of the marked plane. No light
+// comes through a floor, so such a plane is a reflection in wet ground.
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,
                           const PointSet& open_base, const Eigen::Vector3d& sensor_base_m, double thresh_m);
 

@@ -17,20 +17,21 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kGateInThresholds = 3.0;  // judgement, 2026-11-21: 9 cm around the start; Tukey's weights do the rest
-// Of a range's noise. Centroids of dense voxels scatter far less, but a finer scale made the thinner half of a voxel
-// layer that the plane cuts outliers: mean z2 2 to 6 (README, tried and dropped).
+constexpr double kGateInThresholds = 3.0;  // judgement, 2026-11-21: 9 cm around the start; Tukey's weights narrow it
+// Relative to a range's noise. Centroids of dense voxels scatter far less. But at a finer scale the thinner half of a
+// voxel layer that the plane cuts became outliers: mean z2 2 to 6 (README, tried and dropped).
 constexpr double kScaleLeastInNoise = 2.0 / 3.0;
-constexpr double kStretch = 1.25;  // a floor of 30 degrees stretches a radius by 1.155; the gate lets points rise
-constexpr int kRounds = 5;         // judgement, 2026-11-21: most fits stand still earlier
-constexpr int kSelections = 3;     // judgement, 2026-11-21: the gate widens after the first; two more let it settle
+constexpr double kStretch =
+    1.25;                       // a floor of 30 degrees stretches a radius by 1.155; the gate adds the height of points
+constexpr int kRounds = 5;      // judgement, 2026-11-21: most fits settle earlier
+constexpr int kSelections = 3;  // judgement, 2026-11-21: the gate widens after the first; two more let the fit settle
 
 IrlsSettings irls_settings(const Settings& s) {
   return {kGateInThresholds * s.ground_ransac_thresh, kScaleLeastInNoise * s.range_noise, s.ground_ransac_thresh,
           kRounds, kBeforePatches};
 }
 
-// A scale that fills so much of the threshold: the gate cuts off waves, and doubles. Judgement, 2026-11-21:
+// If the scale fills so much of its limit, the gate cuts off waves, and doubles. Judgement, 2026-11-21:
 constexpr double kFull = 0.7;
 constexpr double kWider = 2.0;
 
@@ -39,14 +40,14 @@ void widen(IrlsSettings* tukey) {
   tukey->scale_max_m *= kWider;
 }
 
-// The plane moved so little that a new selection would choose the same points.
+// True if the plane moved so little that a new selection would pick the same points.
 bool stands_still(const Plane& a, const Plane& b) {
-  constexpr double kStill = 2e-4;  // metres, and slopes: hardly a point crosses the gate; judgement, 2026-11-21
+  constexpr double kStill = 2e-4;  // metres and slopes: hardly a point crosses the gate; judgement, 2026-11-21
   return std::fabs(a.d - b.d) < kStill && (a.n - b.n).cwiseAbs().maxCoeff() < kStill;
 }
 
-// Selections go by height over the plane, clear of what stands on the floor, and within the radius where the ray meets
-// the plane: by its measured place, a ring of the sensor at the radius would keep its short ranges only, and these look
+// Selects points by height over the plane and clear of anything that stands on the floor. The radius cuts where the ray
+// meets the plane. By measured place, a ring of the sensor at the radius would keep its short ranges only, which look
 // like a higher floor.
 Span<std::uint32_t> select(const FloorLook& look, const FloorGrid& grid, const Plane& plane, double gate_m,
                            const Eigen::Vector3d& sensor_base_m, Span<std::uint32_t> out) {
@@ -89,12 +90,12 @@ struct Gradients {
   }
 };
 
-// How an angle answers to the fit's correction (offset, slope u, slope v): the normal moves by -slope u - slope v.
+// Response of an angle to the fit's correction (offset, slope u, slope v): the normal moves by -slope u - slope v.
 Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f) {
   return {0.0, -gradient.dot(f.u), -gradient.dot(f.v)};
 }
 
-// In the coordinates of the fit's points, whose residuals are by the plane over theirs.
+// Works in the coordinates of the fit's points. Their residuals are from the plane over these coordinates.
 void fill_patches(const FloorScene& scene, const IrlsResult& irls, double radius_m, FloorScratch* scratch) {
   const Eigen::Vector3d& sensor_base_m = scene.sensor_base_m;
   const double range_noise_m = scene.settings.range_noise;
@@ -102,9 +103,8 @@ void fill_patches(const FloorScene& scene, const IrlsResult& irls, double radius
   const double reach_m = kStretch * radius_m;
   scratch->patches.begin(-reach_m, reach_m, -reach_m, reach_m, PatchGrid::kPatch_m, range_noise_m);
   scratch->surface.begin(reach_m, PatchGrid::kPatch_m);
-  // A range that errs moves a point along the ray: height and place err together, which tilts a plane that is seen over
-  // a short length. On a floor no rougher than the ranges the error is taken back along the ray, to where that meets
-  // the plane.
+  // A range error moves a point along the ray. Height and place err together, which tilts a plane seen over a short
+  // length. On a floor no rougher than the ranges the error is taken back along the ray, to where it meets the plane.
   const double rougher = irls.scale_m / (kScaleLeastInNoise * range_noise_m) - 1.0;
   const auto noise_share = static_cast<float>(rougher < 1.0 ? 1.0 - rougher : 0.0);
   const auto inside = static_cast<float>(irls.plane.signed_distance(sensor_base_m));
@@ -146,16 +146,16 @@ void count_inliers(const PointSet& within_base, double thresh_m, PlaneFit* fit) 
   fit->rms_m = inside > 0 ? std::sqrt(sum_of_lanes(squares) / inside) : 0.0;
 }
 
-// bend: from PatchGrid, that tells whether the floor bends as a whole; the rest is of the plane through its waves.
+// bend: from PatchGrid, which tests the floor for a bend as a whole. The rest is from the plane through its waves.
 void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const SurfacePatch> patches,
                      const TangentFrame& f, const Plane& plane, const Settings& s, FloorResult* out) {
   const Gradients gradients(plane.n);
   const Eigen::Vector3d roll = response(gradients.roll, f), pitch = response(gradients.pitch, f);
   out->roll_sigma_rad = std::sqrt(roll.dot(uneven.covariance * roll));
   out->pitch_sigma_rad = std::sqrt(pitch.dot(uneven.covariance * pitch));
-  // Where the floor bends, the tilt under the machine (u = v = 0) is not that of the whole fit.
+  // If the floor bends, the tilt under the machine (u = v = 0) differs from that of the whole fit.
   const Eigen::Vector3d here(0.0, bend.bend_slope_u_at(0.0, 0.0), bend.bend_slope_v_at(0.0, 0.0));
-  // A bend takes a part of a kerb into itself, and a kerb of a bend.
+  // A bend absorbs part of a kerb, and a kerb part of a bend.
   const auto not_a_plane = [&](const Eigen::Vector3d& of) {
     return std::fabs(of.dot(here)) + reach_of_halves(patches, uneven.correction, of);
   };
@@ -164,7 +164,7 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   out->roll_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(roll);
   out->pitch_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
   out->dof = uneven.dof;
-  // A floor that bends one way all along has a mean plane that is well known, and is not the one under the machine.
+  // The mean plane of a floor that bends one way is well known, but it is not the plane under the machine.
   const auto protection = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
     return protection_factor(s.protection_factor, dof) * std::sqrt(of.dot(covariance * of));
   };
@@ -178,14 +178,14 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   demand<gate::FLOOR_BEND>(&out->fit, bent, s);
 }
 
-// The plane through the points about it, selected again until it stands still. The points stay in the scratch.
+// Fits the plane to the points about it and selects again until it settles. The points stay in the scratch.
 IrlsResult fit_selected(const FloorScene& scene, const FloorLook& look, const Plane& start, FloorScratch* scratch) {
   IrlsSettings tukey = irls_settings(scene.settings);
   const Eigen::Vector3d u_hint = Eigen::Vector3d::UnitX();
   IrlsResult irls;
   irls.plane = start;
   for (int selection = 0; selection < kSelections; ++selection) {
-    // The low points have done their work; their room holds the selection.
+    // The low points are not needed any more. Their room holds the selection.
     const Span<std::uint32_t> chosen =
         select(look, scratch->grid, irls.plane, tukey.gate_m, scene.sensor_base_m, scratch->low);
     const Plane before = irls.plane;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The chosen floor, refined: second selection by height over it, Tukey, patches, and what that says of roll and pitch.
+// Fits the chosen floor: selects points again by height over it, then Tukey, then patches, then the errors of roll and
+// pitch.
 
 #pragma once
 
@@ -10,9 +11,9 @@
 
 namespace pose_wall {
 
-// A radius, the open points, and those of them within it. The fit goes by where the rays meet the floor, and so chooses
-// among all that are open; its inliers are counted of those within. It takes an even share of so many open points, and
-// of half as many that lie on the floor.
+// A radius, the open points, and those within the radius. The fit selects by where the rays meet the floor, so it needs
+// all open points. Inliers are counted among those within. The fit takes an even share of open_most open points, and of
+// half as many that lie on the floor.
 struct FloorLook {
   double radius_m;
   const PointSet &open_base, &within_base;

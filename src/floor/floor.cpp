@@ -13,9 +13,9 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kRadiusGrowth = 2.25;  // valid as often as with 1.5, in fewer looks (bench/README.md)
-constexpr int kRadiusSteps = 6;  // the least first radius, 0.5 m, times 2.25^5 is 28.8 m: past the greatest last one
-// Bounds the work (2026-11-25): a fit selects from four times its points, in wider looks from as many.
+constexpr double kRadiusGrowth = 2.25;  // as many valid values as with 1.5, in fewer looks (bench/README.md)
+constexpr int kRadiusSteps = 6;  // the smallest first radius, 0.5 m, times 2.25^5 is 28.8 m: beyond any last radius
+// Bounds the work (2026-11-25): the first fit selects from four times its points, later ones from as many.
 constexpr std::uint32_t kOpenMost = 4 * kFloorFitPoints, kOpenMostAgain = kOpenMost / 4;
 constexpr double kWorthALook = 1.02;  // with 5 % roll on rough rock was valid 2 points less often (bench/README.md)
 constexpr double kGoodEnough = 0.3;   // of the alert limit; with 0.7 slivers passed (README, tried and dropped)
@@ -40,7 +40,7 @@ void note_choice(Span<const FloorCandidate> candidates, const FloorCandidate* be
 }
 #endif
 
-// What the fit has to hold. It may have wandered off on a few points of something else.
+// The fit's own gates. It may have wandered off on a few points of another surface.
 void judge_fit(const FloorScene& scene, const FloorCandidate& best, PlaneFit* fit) {
   const Settings& s = scene.settings;
   const double height_m = fit->plane.signed_distance(scene.sensor_base_m);
@@ -73,12 +73,12 @@ FloorResult floor_within(const FloorScene& scene, const FloorLook& look, Random*
   out.area_m2 = best->evidence.area_m2;
   reach_to_rivals(*best, found.all(), scene.settings, &out);
   judge_fit(scene, *best, &out.fit);
-  // A fit that came to nothing, or wandered off, says less of the floor than what it began with.
+  // A fit that failed or wandered off says less about the floor than its start.
   if ((out.fit.reasons & POSE_WALL_R_FLOOR_NOT_FOUND) != 0) out.fit.plane = best->plane;
   return out;
 }
 
-// The floor within one radius after another.
+// The results of the radii, in the order of trial.
 struct Looks {
   FloorResult at[kRadiusSteps];
   int tried = 0, best = 0;
@@ -89,13 +89,13 @@ struct Looks {
 
   void add(const FloorResult& seen, const Settings& s) {
     at[tried] = seen;
-    // Where all are refused, the last one that came to a fit says why.
+    // If all are refused, the last one with a fit gives the reason.
     const bool tells_more = at[best].fit.refused && seen.fit.refused && seen.fit.found;
     if (tells_more || protections_of(seen, s).worse() < protections_of(at[best], s).worse()) best = tried;
     ++tried;
   }
 
-  // The best, with levels that reach to what the others say.
+  // The best one, with levels that reach to the others.
   FloorResult taken(const Settings& s) const {
     FloorResult out = at[best];
     std::uint32_t claims = 0;
@@ -103,13 +103,13 @@ struct Looks {
       reach_to_other_look(other, s, &out);
       claims += other.fit.refused ? 0U : 1U;
     }
-    // The first radius is the configured one: it was not picked for its claim.
+    // The first radius is the configured one, so it was not picked for its small level.
     if (best > 0) widen_by_claims(claims, s, &out);
     return out;
   }
 };
 
-// Wider and wider, until a floor is good enough.
+// Widens the radius until a floor is good enough.
 Looks look_wider(const FloorScene& scene, Random* random, FloorScratch* scratch) {
   const Settings& s = scene.settings;
   Looks looks;
@@ -134,7 +134,7 @@ Looks look_wider(const FloorScene& scene, Random* random, FloorScratch* scratch)
   return looks;
 }
 
-// What another look would have shown is not known: a rival, or that the floor is another one.
+// A missing look could have shown a rival, or another floor.
 void refuse_unfinished(const Work& work, [[maybe_unused]] int attempt, FloorResult* out) {
   if (!work.is_spent()) return;
   POSE_WALL_NOTE(trace::attempt(static_cast<std::uint32_t>(attempt)));

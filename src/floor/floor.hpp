@@ -11,8 +11,8 @@
 
 namespace pose_wall {
 
-// Looks for the floor within ground_roi_radius, and in growing steps up to ground_roi_radius_max where it is not seen
-// well enough to be valid.
+// Looks for the floor within ground_roi_radius. Where that floor is not known well enough to be valid, the radius grows
+// in steps up to ground_roi_radius_max.
 FloorResult find_floor(const FloorScene& scene, Random* random, FloorScratch* scratch);
 
 }  // namespace pose_wall

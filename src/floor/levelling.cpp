@@ -15,7 +15,7 @@ Levelling levelling_by(const Plane& floor_base, const Axes& axes) {
   levelling.roll_rad = angles.roll_rad;
   levelling.pitch_rad = angles.pitch_rad;
   levelling.forward_up = (levelling.R_level_base * axes.forward_base).z();
-  levelling.floor_z_level_m = -floor_base.d;  // R_level takes the normal to +Z
+  levelling.floor_z_level_m = -floor_base.d;  // R_level turns the normal to +Z
   return levelling;
 }
 
@@ -36,7 +36,7 @@ class Beyond {
   }
 
  private:
-  // The band's cells are twice as long, of some three times the area: one point of three keeps the balance.
+  // The band's cells are about 1.6 times as long, of some three times the area: one point of three keeps the balance.
   static constexpr std::uint32_t kBalance = 3;
   PointSet* to_;
   std::uint32_t share_, until_next_ = 0;
@@ -82,7 +82,7 @@ void part_by_height(const PointSet& cloud_base, const Levelling& levelling, cons
 void cut_wall_band(const PointSet& cloud_base, const Levelling& levelling, const Settings& settings, VoxelGrid* grid,
                    BoundedPoints* band_level, BoundedPoints* beyond_level) {
   part_by_height(cloud_base, levelling, settings, grid, beyond_level);
-  // The cloud is in an order of its own already, whatever that of the points was.
+  // The cloud's order no longer depends on that of the points.
   grid->extract_as_they_came(band_level);
   band_level->bound();
   beyond_level->bound();

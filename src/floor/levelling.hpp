@@ -22,11 +22,12 @@ struct Levelling {
 
 Levelling levelling_by(const Plane& floor_base, const Axes& axes);
 
-// Room for the points outside the band: a part of all directions. Judgement, 2026-11-21.
+// Room for points outside the band: an even part of them in all directions. Judgement, 2026-11-21.
 constexpr std::uint32_t kBeyondMax = 8192;
 
-// Levelled points between wall_z_min and wall_z_max above the floor, averaged once more, and a part of those above and
-// below, evenly thinned, both bounded: beyond_level's weights tell how many of the band's each stands for.
+// Cuts the levelled points between wall_z_min and wall_z_max above the floor and averages them once more. Of the points
+// above and below it keeps an even part. Both lists get bounds. A weight in beyond_level is the number of points that
+// one stands for.
 void cut_wall_band(const PointSet& cloud_base, const Levelling& levelling, const Settings& settings, VoxelGrid* grid,
                    BoundedPoints* band_level, BoundedPoints* beyond_level);
 

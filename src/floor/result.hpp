@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the floor's stage hands on.
+// The result of the floor's stage.
 
 #pragma once
 
@@ -19,13 +19,13 @@ struct FloorResult {
   // Systematic part of the protection level: range bias, unevenness, rival floors, walls that lean.
   ProtectionParts roll_bound_rad;
   ProtectionParts pitch_bound_rad;
-  double dof = 1.0;  // as many independent pieces know a variance as well as this one is known
+  double dof = 1.0;  // the variance is known as well as from so many independent pieces
   double area_m2 = 0.0;
   double roi_radius_m = 0.0;
-  std::uint32_t open_points = 0;  // that were looked at, within the radius
+  std::uint32_t open_points = 0;  // open points within the radius
 };
 
-// Protection levels of the two angles; of a refused floor there are none.
+// Protection levels of the two angles. A refused floor has none.
 struct Protections {
   double roll_rad, pitch_rad;
   double worse() const { return larger(roll_rad, pitch_rad); }

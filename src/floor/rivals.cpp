@@ -13,18 +13,18 @@
 namespace pose_wall {
 namespace {
 
-// A smaller floor must stand alone: where nothing is floor, many little planes are as good. Judgement, 2026-11-21.
+// A smaller floor must stand alone: where there is no floor, many small planes are as good. Judgement, 2026-11-21.
 constexpr double kSmallArea_m2 = 5.0;
-constexpr double kSureArea_m2 = 10.0;  // judgement, 2026-11-21: only reflections are seen through so large a floor
+constexpr double kSureArea_m2 = 10.0;  // judgement, 2026-11-21: through so large a floor only reflections are seen
 constexpr double kSteep_rad = 0.17;    // 10 degrees; a heap's flanks lay at 11 and 15 (hard_day, seed 648, 2026-11-22)
 
-// Planes that lie alike say the same of roll and pitch, whichever of them is the floor.
+// Parallel planes give the same roll and pitch, whichever of them is the floor.
 bool lie_alike(const Plane& a, const Plane& b) {
   constexpr double kAlike_rad = 0.0175;  // 1 degree, the default alert limit: judgement, 2026-11-21
   return a.n.cross(b.n).squaredNorm() <= kAlike_rad * kAlike_rad;
 }
 
-// A machine stands about upright: where the best plane does not lie so, weaker ones may be the floor as well.
+// A machine stands about upright. If the best plane is steep, weaker ones may be the floor as well.
 bool is_weaker(double share, const Plane& floor, const Settings& s) {
   return tilt_of_up(floor.n) > kSteep_rad ? passes<gate::FLOOR_RIVAL_STEEP>(share, s)
                                           : passes<gate::FLOOR_RIVAL>(share, s);
@@ -32,23 +32,24 @@ bool is_weaker(double share, const Plane& floor, const Settings& s) {
 
 constexpr double kOffInThresholds = 3.0;  // judgement, 2026-11-23: within 9 cm points are the floor's own
 constexpr double kOneSide = 0.8;  // judgement, 2026-11-23: a fifth of the points may be strays where both planes meet
-constexpr double kNearLine_m = 0.3;  // judgement, 2026-11-23: so well is the line known in which two floors meet
+constexpr double kNearLine_m = 0.3;  // judgement, 2026-11-23: accuracy of the line in which two floors meet
 constexpr double kLower_m = 0.3;  // a belt's or a table's height, more than a kerb's; 0.5 before a review, 2026-11-23
 constexpr double kAlike = 0.3;    // slope of a table over a floor, 17 degrees; 0.1 before a review, 2026-11-23
 constexpr std::uint32_t kPointsMin = 20;  // judgement, 2026-11-23: fewer left-over points draw no plane
-// An angle to a plane that was looked at in passing counts a quarter and 1.5 degrees more. Judgement, 2026-11-23:
+// The plane was looked at only in passing: the angle to it counts a quarter and 1.5 degrees more. Judgement,
+// 2026-11-23:
 constexpr double kStretch = 1.25;
 constexpr double kMargin_rad = 0.026;
 
-// How many points lie in each eighth of a turn around the machine.
+// Number of points in each eighth of a turn around the machine.
 struct Eighths {
   std::uint32_t count[8] = {}, total = 0;
 
-  // By a hundredth of all points.
+  // At least a hundredth of all points.
   bool holds_any(std::uint32_t eighth) const { return total > 0 && count[eighth] * 100 >= total; }
 };
 
-// Of those no further than this from the plane, and below the sensor: a steep plane that is prolonged meets the roof.
+// Counts points within reach of the plane and below the sensor. Prolonged, a steep plane meets the roof.
 Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m, double sensor_z_base_m) {
   constexpr std::uint8_t kEighth[] = {0, 1, 7, 6, 3, 2, 4, 5};  // by signs of x and y and which of them is larger
   const FourDistances heights(plane);
@@ -66,7 +67,7 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m, d
   return out;
 }
 
-// To all sides of the machine, but for less than half a turn: then it stands on it.
+// True if the points lie on all sides of the machine, with gaps of less than half a turn: then it stands on them.
 bool surround_machine(const Eighths& floor) {
   constexpr std::uint32_t kEmptyMost = 2;  // judgement, 2026-11-23: the machine's body hides a quarter of a turn
   std::uint32_t empty = 0;
@@ -77,11 +78,11 @@ bool surround_machine(const Eighths& floor) {
   return true;
 }
 
-// Open points off the floor and below the sensor: over the floor or, not as high as a roof, in base, as flat ground
-// lies high over a steep plane that is prolonged.
+// Copies open points off the floor and below the sensor. Over the floor they may be as high as the sensor. In base they
+// may be higher, but not as high as a roof: flat ground lies high over a steep plane that is prolonged.
 void copy_left_over(const PointSet& open, const Plane& floor, double off_m, const Eigen::Vector3d& sensor_base_m,
                     PointSet* out) {
-  constexpr float kBelowRoof = 1.6F;  // judgement, 2026-11-23: heights of the sensor; what lies higher is roof
+  constexpr float kBelowRoof = 1.6F;  // judgement, 2026-11-23: heights of the sensor; higher points are roof
   const FourDistances heights(floor);
   const FourFloats off = all_four(static_cast<float>(off_m));
   const FourFloats highest = all_four(static_cast<float>(floor.signed_distance(sensor_base_m)));
@@ -93,7 +94,7 @@ void copy_left_over(const PointSet& open, const Plane& floor, double off_m, cons
   });
 }
 
-// Of the open points on one plane and off the other, the share that lies above the other.
+// Of the open points on one plane and off the other: the share that lies above the other.
 double share_above(const PointSet& open, const Plane& on, const Plane& other, double thresh_m) {
   const FourDistances from_own(on), from_other(other);
   const FourFloats thresh = all_four(static_cast<float>(thresh_m));
@@ -109,8 +110,8 @@ double share_above(const PointSet& open, const Plane& on, const Plane& other, do
   return count > 0 ? static_cast<double>(sum_of_lanes(above)) / count : 0.5;
 }
 
-// Ground that rises in a line lies on the higher one of two planes everywhere, ground that falls on the lower one: each
-// has its points on its own side of the line, and so it has the machine.
+// Where ground rises in a line, each surface is the higher one of the two planes. Where it falls, each is the lower
+// one. So each plane has its points on its own side of the line, and the machine stands on the plane of its side.
 bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, double thresh_m) {
   const double other_above = share_above(open, other, floor, thresh_m);
   const double floor_above = share_above(open, floor, other, thresh_m);
@@ -126,7 +127,7 @@ bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, 
 
 }  // namespace
 
-// Where the floor itself is small, what is seen through it may be no reflection but the floor.
+// Through a small floor the real floor may show instead of a reflection.
 void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> candidates, const Settings& s,
                      FloorResult* floor) {
   const RollPitch a = roll_pitch_of_up(best.plane.n);
@@ -147,15 +148,15 @@ void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> cand
   floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += pitch;
 }
 
-// Within another radius the floor looks otherwise: the levels reach to that too, and beyond, for the other is not the
-// truth either. A wider look that was refused may yet have found the truth, or taken it for a rival.
+// The levels reach to the floor within another radius, and beyond, since that one is not the truth either. A wider look
+// that was refused may still have found the truth, or taken it for a rival.
 void reach_to_other_look(const FloorResult& other, const Settings& s, FloorResult* floor) {
   constexpr double kBeyond = 1.5;  // judgement, 2026-11-21: the other look is not the truth either
   const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= limit_of<gate::FLOOR_AREA>(s);
   if (other.fit.refused && !wider_look) return;
   const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);
   const Protections known = protections_of(*floor, s);
-  // What was refused has no level of its own, but its bound tells of its rivals.
+  // A refused floor has no level of its own, but its bound covers its rivals.
   const auto of_rivals = [&](const ProtectionParts& bound) { return other.fit.refused ? bound.sum() : 0.0; };
   const double roll = kBeyond * std::fabs(a.roll_rad - b.roll_rad) + of_rivals(other.roll_bound_rad);
   const double pitch = kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + of_rivals(other.pitch_bound_rad);
@@ -183,7 +184,7 @@ void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratc
   copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
   if (left_over.count < kPointsMin) return;
   FloorCandidates found;
-  POSE_WALL_NOTE(trace::attempt(POSE_WALL_TRACE_ATTEMPTS_MAX));  // of none of the radii
+  POSE_WALL_NOTE(trace::attempt(POSE_WALL_TRACE_ATTEMPTS_MAX));  // outside the radii
   const FloorScene without_last{scene.cloud_base, s, scene.axes, sensor_base_m, nullptr};
   find_candidates(without_last, left_over, Among::kLeftOver, random, scratch, &found);
   POSE_WALL_NOTE(trace::attempt(0));
@@ -205,9 +206,8 @@ void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratc
   }
 }
 
-// The machine stands on its floor, and about upright. Where more than one plane may be that floor and this one is
-// steep, it may be a heap's flank as well, and so may its rivals: the levels reach to upright, of roll and of pitch, as
-// nothing tells which way the rivals lean.
+// The machine stands on its floor, and about upright. If the floor has rivals and is steep, it may be a heap's flank,
+// and so may the rivals. The levels of roll and pitch reach to upright, since nothing shows which way the rivals lean.
 void reach_to_upright(FloorResult* floor) {
   if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
   const double tilt_rad = tilt_of_up(floor->fit.plane.n);
@@ -221,7 +221,7 @@ FloorResult doubted_by_walls(const FloorResult& floor, const Eigen::Vector3d& ti
   FloorResult out = floor;
   POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));
   if (demand<gate::FLOOR_BY_WALLS>(&out.fit, std::sqrt(tilt_level_rad.squaredNorm()), s)) return out;
-  // About base X a turn is roll, about base Y pitch.
+  // A turn about base X is roll, about base Y pitch.
   const Eigen::Vector3d tilt_base_rad = levelling.R_level_base.transpose() * tilt_level_rad;
   out.roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.x());
   out.pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.y());

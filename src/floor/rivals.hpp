@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What else the floor may be: other planes of the same look, other looks, other ground that the machine may stand on,
-// and what the walls say. The protection levels reach to all that is as good, or nearly.
+// Other readings of the floor: another plane in the same look, another look, other ground under the machine, and the
+// lean of the walls. The protection levels reach to every reading that is as good, or nearly.
 
 #pragma once
 
@@ -16,25 +16,25 @@
 
 namespace pose_wall {
 
-// Planes of the same look that are nearly as good. A small floor stands alone, or is refused.
+// Planes in the same look that are nearly as good. A small floor must stand alone, or is refused.
 void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> candidates, const Settings& settings,
                      FloorResult* floor);
 
-// Within another radius the floor looks otherwise.
+// The floor within another radius.
 void reach_to_other_look(const FloorResult& other, const Settings& settings, FloorResult* floor);
 
-// Choosing the best of several levels makes it too small: it is widened for each other one.
+// Picking the smallest of several levels is optimistic: widens the level for each other one.
 void widen_by_claims(std::uint32_t claims, const Settings& settings, FloorResult* floor);
 
-// A floor that is seen to one side of the machine only may not be what the machine stands on: at the foot of a ramp a
-// sensor that hardly looks down sees the ramp ahead. Planes are looked for in the open points that the floor leaves
-// over; where the machine may stand on one of them, the levels reach to it.
+// A floor seen to one side of the machine only may not carry it: at the foot of a ramp a sensor that hardly looks down
+// sees the ramp ahead. Searches the open points that the floor leaves over for planes. Where the machine may stand on
+// one, the levels reach to it.
 void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratch* scratch, FloorResult* floor);
 
 // A floor that has rivals and is steep may be a heap's flank: the levels reach to upright.
 void reach_to_upright(FloorResult* floor);
 
-// The same floor with levels that reach to the turn by which it is off, as both walls say.
+// The same floor with levels that reach to the tilt error that both walls indicate.
 FloorResult doubted_by_walls(const FloorResult& floor, const Eigen::Vector3d& tilt_level_rad, const Settings& settings,
                              const Levelling& levelling);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the floor is looked for in, and what its stage works in.
+// The input of the floor's stage and its scratch.
 
 #pragma once
 
@@ -24,19 +24,20 @@ struct FloorScene {
   const Settings& settings;
   const Axes& axes;
   Eigen::Vector3d sensor_base_m;
-  const Plane* last_floor;  // the last frame's, or nullptr: scored like any other hypothesis
+  const Plane* last_floor;  // the last frame's, or nullptr; scored like any other hypothesis
 };
 
-// Points of a fit, as many as a wall's: more tell no more, for rock and waves limit it. Judgement, 2026-11-21.
+// Points of a fit, as many as a wall's. More points add nothing, since rock and waves limit the fit. Judgement,
+// 2026-11-21.
 constexpr std::uint32_t kFloorFitPoints = 8192;
 
 struct FloorScratch {
   PointSet open_base;    // points with nothing standing on them, within the greatest radius
-  PointSet within_base;  // of those, within the radius that is tried
-  // Where each point lies, until it is known which are open; then which of those within are the lowest part, then which
-  // of the open ones a fit takes.
+  PointSet within_base;  // those of them within the radius being tried
+  // Indices, for three uses in turn: the place of each point, until the open ones are known; the lowest part of the
+  // points within; the open points that a fit takes.
   Span<std::uint32_t> low;
-  TangentPoints points;  // of these, as many as a fit takes
+  TangentPoints points;  // the points of a fit
   PointSet subset;
   FloorGrid grid;
   PatchGrid patches;
