@@ -16,7 +16,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kTriangleMin_m2 = 0.10;  // judgement, 2026-11-21: twice the triangle's area; slivers give wild normals
+constexpr double kTriangleMin_m2 = 0.10;         // judgement, 2026-11-21: twice its area; slivers give wild normals
 constexpr std::uint32_t kDrawsPerIteration = 8;  // judgement, 2026-11-21: draws for each hypothesis; caps the loop
 constexpr std::uint32_t kQuickPointsMax = 500;   // 1000 points cost 1.0 M of 92.1 M instructions more (bench/README.md)
 constexpr double kGhostShare = 0.4;              // judgement, 2026-11-21: more rays through a floor make a reflection

@@ -21,9 +21,8 @@ constexpr double kGateInThresholds = 3.0;  // judgement, 2026-11-21: 9 cm around
 // Relative to a range's noise. Centroids of dense voxels scatter far less. But at a finer scale the thinner half of a
 // voxel layer that the plane cuts became outliers: mean z2 2 to 6 (README, tried and dropped).
 constexpr double kScaleLeastInNoise = 2.0 / 3.0;
-constexpr double kStretch =
-    1.25;                       // a floor of 30 degrees stretches a radius by 1.155; the gate adds the height of points
-constexpr int kRounds = 5;      // judgement, 2026-11-21: most fits settle earlier
+constexpr double kStretch = 1.25;  // a floor of 30 degrees stretches a radius by 1.155; the gate adds height
+constexpr int kRounds = 5;         // judgement, 2026-11-21: most fits settle earlier
 constexpr int kSelections = 3;  // judgement, 2026-11-21: the gate widens after the first; two more let the fit settle
 
 IrlsSettings irls_settings(const Settings& s) {

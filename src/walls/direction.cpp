@@ -10,8 +10,8 @@
 namespace pose_wall {
 namespace {
 
-// 0.2 degrees that the fits do not know of: scans skewed by motion, walls that are no planes. Keeps one wall from
-// ruling alone. Judgement, 2026-11-21.
+// 0.2 degrees that no fit covers: scans skewed by motion, walls that are no planes. Prevents one wall from setting the
+// direction alone. Judgement, 2026-11-21.
 constexpr double kModelError_rad = 0.0035;
 
 // A doubtful wall must not turn a good one.

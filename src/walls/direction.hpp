@@ -10,10 +10,10 @@
 
 namespace pose_wall {
 
-// Turns two walls of nearly the same direction onto their weighted mean, each about its pivot, and adds to the bounds
-// of their distances what that moved. Roughness, doors and the sensor's own motion during a scan turn the walls apart
-// by a degree; two metres from the machine's centre that is centimetres. Walls that truly run apart by more than
-// wall_parallel_within_deg keep their own directions. yaw_rad of each wall stays as measured.
+// Turns two walls of nearly the same direction onto their weighted mean, each about its pivot. The bounds of their
+// distances take in how far that moved them. Roughness, doors and the sensor's own motion during a scan turn walls
+// apart by a degree; two metres from the machine's centre that is centimetres. Walls that run apart by more than
+// wall_parallel_within_deg keep their own directions. The yaw_rad of each wall stays as measured.
 void share_direction(const WallScene& scene, JudgedWall (*walls)[2]);
 
 }  // namespace pose_wall

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Where the walls are looked at from, and how a plane is read as a wall.
+// The view on the walls, and the geometry of a plane read as a wall.
 
 #pragma once
 
@@ -17,23 +17,23 @@
 
 namespace pose_wall {
 
-// Returns this far behind a plane passed through it: hollows of rough rock are less deep. Judgement, 2026-11-21.
+// A return this far behind a plane passed through it: hollows of rough rock are shallower. Judgement, 2026-11-21.
 constexpr double kWellBehind_m = 0.25;
-// Where a wall is not seen it may lie so much further: judgement, 2026-11-21, as deep as a niche.
+// An unseen part of a wall may lie this much further away: as deep as a niche. Judgement, 2026-11-21.
 constexpr double kMayStep_m = 2.0;
-// Judgement, 2026-11-21: the top of a wall is looked for so far above the band, up to most roofs.
+// The search for the top of a wall reaches this far above the band, up to most roofs. Judgement, 2026-11-21.
 constexpr double kAboveBand_m = 1.0;
 
-// What is seen of them.
+// The points and returns in view.
 struct WallView {
   const BoundedPoints& band_level;
-  const BoundedPoints& beyond_level;  // above and below the band; weight: how many each stands for
+  const BoundedPoints& beyond_level;  // above and below the band; weight: how many points each stands for
   const BoundedPoints& cloud_base;    // all points, before the band was cut
   const ReturnsByDirection& returns_lidar;
   const IngestCounts& counts;
 };
 
-// That, and the machine, levelled.
+// The view and the levelled machine.
 struct WallScene : WallView {
   const Settings& settings;
   const Extrinsic& extrinsic;
@@ -53,9 +53,9 @@ struct WallScene : WallView {
 WallScene wall_scene(const WallView& view, const Settings& settings, const Levelling& levelling, const Axes& axes,
                      const Extrinsic& extrinsic);
 
-// What lies this near to a wall's plane, to either side, is the wall.
+// Points this near to a wall's plane, on either side, belong to the wall.
 inline double on_wall_m(const Settings& settings) {
-  constexpr double kInThresholds = 3.0;  // judgement, 2026-11-21: 15 cm by default; what lies as near is the wall
+  constexpr double kInThresholds = 3.0;  // judgement, 2026-11-21: 15 cm by default
   return kInThresholds * settings.wall_ransac_thresh;
 }
 
@@ -77,7 +77,7 @@ double lean_of(const Plane& wall);
 // Distance of the plane at a sampling point (d = |n . P + d|).
 double distance_at(const Plane& wall, const Eigen::Vector3d& sample_level_m);
 
-// Angle between two walls, seen from above: they lean as they like.
+// Angle between two walls seen from above, whatever their leans.
 double angle_in_plan(const Plane& a, const Plane& b);
 
 }  // namespace pose_wall

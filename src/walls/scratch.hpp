@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the walls' stage works in.
+// Scratch of the walls' stage.
 
 #pragma once
 

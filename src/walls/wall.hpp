@@ -12,8 +12,8 @@
 
 namespace pose_wall {
 
-// What the points of one side's wall say. u: metres along the road from the foot of the origin, v: metres up from the
-// origin's level.
+// The fit of one side's wall. u: metres along the road from the foot of the origin, v: metres up from the origin's
+// level.
 struct FittedWall {
   PlaneFit fit;
   Eigen::Vector3d along_level = Eigen::Vector3d::Zero();  // horizontal unit vector, towards the machine's front
@@ -26,7 +26,7 @@ struct FittedWall {
   double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};
   ProtectionParts distance_bound_m[2];
-  double layer_sigma_m = 0.0;  // what ribs and cables may have moved the surface, part of the standard deviations
+  double layer_sigma_m = 0.0;  // how far ribs and cables may have moved the surface; part of the standard deviations
   bool extrapolated[2] = {false, false};
   double dof = 1.0;        // independent pieces behind the distances' variance
   double dof_slope = 1.0;  // and behind the direction's
@@ -36,16 +36,16 @@ struct FittedWall {
   bool grooved = false;  // its surface lies in two depths along its length, like pipes one above the other
 };
 
-// What speaks against a wall, from one point of view. It widens the protection levels, or refuses the wall.
+// One argument against a wall. It widens the protection levels, or refuses the wall.
 struct Doubt : Verdict {
-  double off_m[2] = {0.0, 0.0};   // at s_front, s_back: the wall may be so far off
-  double yaw_rad = 0.0;           // the direction may be so far off
-  double yaw_to_rival_rad = 0.0;  // or it is another one altogether
+  double off_m[2] = {0.0, 0.0};   // at s_front, s_back: how far the wall may be off
+  double yaw_rad = 0.0;           // how far the direction may be off
+  double yaw_to_rival_rad = 0.0;  // the same, if the direction is that of another wall
 };
 
 // The wall with all doubts in its bounds.
 struct JudgedWall : FittedWall {
-  double yaw_to_rival_rad = 0.0;  // where its rival is the wall, or the road bends before it
+  double yaw_to_rival_rad = 0.0;  // if its rival is the wall, or the road bends before it
 
   JudgedWall() = default;
   explicit JudgedWall(const FittedWall& fitted) : FittedWall(fitted) {}
@@ -60,7 +60,7 @@ struct JudgedWall : FittedWall {
 
 struct WallsResult {
   JudgedWall side[2];  // left, right
-  // The turn by which the levelled frame may be off, by what the lean of both sides says; zero unless they are sure.
+  // Possible tilt error of the levelled frame, by the lean of both sides. Zero unless both are sure.
   Eigen::Vector3d tilt_level_rad = Eigen::Vector3d::Zero();
 };
 

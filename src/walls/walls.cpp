@@ -14,7 +14,7 @@ namespace pose_wall {
 namespace {
 
 #ifdef POSE_WALL_TRACE
-// The gates of the plane that is chosen, or of the one that shows most where none is.
+// Notes the gates of the chosen plane, or of the one with the best score.
 void note_candidates(const WallChoice& choice, const WallCandidates& beside, int side, const Settings& s) {
   const WallCandidate* const chosen = choice.side[side];
   const WallCandidate* const shown = chosen != nullptr ? chosen : beside.strongest();
@@ -25,7 +25,7 @@ void note_candidates(const WallChoice& choice, const WallCandidates& beside, int
 }
 #endif
 
-// The surface that the chosen plane lies on, and what it says of yaw and distances.
+// Fits the surface of the chosen plane, and measures yaw and distances on it.
 FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int side, WallsScratch* scratch) {
   Work& work = scratch->fit.work;
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
@@ -39,8 +39,8 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   return wall;
 }
 
-// Planes that nobody weighed may be the better walls, and what one wall says of the road the other one may doubt: where
-// the work was spent before the end, neither is finished.
+// A plane that was not weighed may be the better wall, and one wall may doubt what the other shows of the road. So if
+// the work ran out before the end, neither wall is finished.
 void refuse_unfinished(const Work& work, JudgedWall (*walls)[2]) {
   if (!work.is_spent()) return;
   for (int side = 0; side < 2; ++side) {
@@ -58,7 +58,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   WallCandidates beside[2];
   thin_out(scene, &scratch->propose);
   propose_walls(scene, views, last, random, &scratch->propose, &beside);
-  // Before the same searches look ahead and behind.
+  // Read before the same searches run ahead and behind.
   const std::uint32_t scored[2] = {scratch->propose.search[0].scored(), scratch->propose.search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], s);
   refuse_where_across(scene, random, &scratch->propose, &choice);

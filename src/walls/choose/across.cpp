@@ -12,8 +12,7 @@
 namespace pose_wall {
 namespace {
 
-// How many points of the band there are beside the machine, in cells as a plane across it has, wherever along the
-// machine they lie.
+// Number of points of the band beside the machine, in cells of a plane across it, at any place along the machine.
 struct PointsBeside {
   std::uint16_t in_cell[WallGrid::kRowsMax][WallGrid::kColumns] = {};
   std::uint32_t beyond = 0;
@@ -37,8 +36,7 @@ void count_points(const WallScene& scene, const WallGrid::Rows& rows, PointsBesi
   for_each_four_points(scene.band_level, count);
 }
 
-// Cells side by side that hold points, and a plane that crosses them: so many of its columns for each, and some at the
-// ends.
+// A plane that crosses a run of cells with points: the number of its columns for each cell, and some at the ends.
 struct Crossing {
   double columns_each, columns_at_ends;
 };
@@ -48,15 +46,15 @@ Crossing crossing_of(const Settings& s, double row_m) {
   const double lean_cosine = cosine(radians(s.wall_lean_max_deg));
   const double sine = std::sqrt(1.0 - cosine_least * cosine_least);
   const double lean_sine = std::sqrt(1.0 - lean_cosine * lean_cosine);
-  // Points of one row lie this far before and behind each other, by the plane's lean and by what counts as on it.
+  // Depth of the points of one row, by the plane's lean and by the width of an inlier.
   const double depth_m = (row_m * lean_sine + 2.0 * s.wall_ransac_thresh) / lean_cosine;
-  // Ends that lie within columns touch one more each.
+  // An end within a column touches one more.
   return {1.0 / cosine_least, 2.0 + depth_m * sine / (cosine_least * WallGrid::kColumn_m)};
 }
 
 constexpr double kCellsPerPoint = 0.5;  // a cell is solid by two points at least
 
-// That can be solid in one row of a plane.
+// Largest number of solid cells in one row of a plane.
 double most_cells(const std::uint16_t (&points)[WallGrid::kColumns], const Crossing& crossing) {
   double cells = 0.0;
   std::uint32_t run = 0, in_run = 0;
@@ -95,7 +93,7 @@ bool may_stand_across(double pair_m2, const WallChoice& choice, const Settings& 
 }
 
 bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice, const Settings& s) {
-  constexpr double kMissedAtMost = 0.15;  // the same bits, 1 M instructions less on a Mid-360 (bench/README.md)
+  constexpr double kMissedAtMost = 0.15;  // the same bits, 1 M instructions fewer on a Mid-360 (bench/README.md)
   return may_stand_across(ahead_m2 + kMissedAtMost * choice.score_m2 + most_behind_m2, choice, s);
 }
 
@@ -110,7 +108,7 @@ void refuse_where_across(const WallScene& scene, Random* random, ProposeScratch*
   draw_walls(scene, ends[0], nullptr, random, &scratch->search[0]);
   weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
   if (scratch->work->is_spent()) return;
-  // With the most that could be behind, what is ahead may still be too little.
+  // Even with the most that could be behind, the planes ahead may show too little.
   const WallCandidate* const best = ahead.strongest();
   if (!is_behind_to_be_drawn(best != nullptr ? best->evidence.score_m2 : 0.0, most_m2, *choice, s)) return;
   draw_walls(scene, ends[1], nullptr, random, &scratch->search[1]);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Whether the machine stands across the road: the planes ahead and behind make a better roadway than the sides do.
+// Tests whether the machine stands across the road: then the planes ahead and behind make a better roadway than the
+// sides.
 
 #pragma once
 
@@ -12,20 +13,21 @@
 
 namespace pose_wall {
 
-// What a plane across the machine can be solid over at most, wherever it stands, turned by up to yaw_max_deg and
-// kRefineSlack_deg and leaning by up to wall_lean_max_deg: no column of it is solid where nothing is seen at that place
-// beside the machine. In a road that is its width, and a little more. To what floats know of a cell's edge.
+// Largest area over which a plane across the machine can be solid, wherever it stands. It may be turned by up to
+// yaw_max_deg and kRefineSlack_deg and lean by up to wall_lean_max_deg. No column of it is solid where nothing is seen
+// at that place beside the machine. In a road that is its width, and a little more. Exact to a float's error at the
+// edges of cells.
 double most_area_across_m2(const WallScene& scene);
 
-// False where two planes that show no more than this together show no more than what is chosen: then none need be
-// looked for, or not the second one. Where nothing was chosen, what stands across may tell why.
+// False if two planes with this area together show no more than the chosen walls. Then neither, or not the second, has
+// to be sought. Without a chosen wall it is true: planes across may explain why.
 bool may_stand_across(double pair_m2, const WallChoice& choice, const Settings& settings);
-// So with what the draws ahead have found, while none were made behind, whose directions may show more ahead: up to a
-// share of what is chosen, or the draws would have found it.
+// The same with the planes found ahead, before any draws behind. Directions found behind may show more ahead, but only
+// up to a share of the chosen area, or the draws would have found it.
 bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallChoice& choice, const Settings& settings);
 
-// Nothing is reported of a machine that stands across the road, nor of one that may, as long as nobody has looked. The
-// planes ahead and behind are looked for only where they could show more than what is chosen.
+// Refuses both sides if the machine stands across the road, or may stand so and nothing was sought. The planes ahead
+// and behind are sought only where they could show more than the chosen walls.
 void refuse_where_across(const WallScene& scene, Random* random, ProposeScratch* scratch, WallChoice* choice);
 
 }  // namespace pose_wall

@@ -13,9 +13,9 @@ namespace {
 
 // 4 degrees: walls of one road rarely differ by more; judgement, 2026-11-21.
 constexpr double kParallelScale_rad = 0.07;
-constexpr double kDoubtShare = 0.5;     // judgement, 2026-11-21: a wall half as strong, not parallel, doubts the first
+constexpr double kDoubtShare = 0.5;     // judgement, 2026-11-21: half as strong a wall, not parallel, doubts the first
 constexpr double kSplayedCosMin = 0.8;  // 37 degrees: beyond, no side of the same road; judgement, 2026-11-21
-constexpr double kAcrossCos = 0.7;      // 45 degrees: what is turned further from the side walls stands across the road
+constexpr double kAcrossCos = 0.7;      // 45 degrees: planes turned further from the side walls stand across the road
 
 struct Pair {
   const WallCandidate* a = nullptr;
@@ -52,8 +52,8 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, const Setting
   return best;
 }
 
-// Two strong walls that are not parallel are no road with one direction; a weak plane that happens to be parallel to
-// one of them does not make it one.
+// Two strong walls that are not parallel make no road with one direction, even if a weak plane happens to be parallel
+// to one of them.
 bool contested(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
   const WallCandidate* const chosen[2] = {pair.a, pair.b};
   for (int side = 0; side < 2; ++side) {
@@ -70,7 +70,7 @@ bool contested(const Pair& pair, const WallCandidates* const (&lists)[2], const 
   return false;
 }
 
-// Solid over a part of its span, without holes as between a boulder and a far spot in line with it.
+// True if it is solid over enough of its span. A boulder and a far spot in line with it leave a hole.
 bool is_filled(const WallCandidate& c, const Settings& s) {
   const double span_m = c.evidence.along_max_m - c.evidence.along_min_m;
   return passes<gate::WALL_FILLED>(span_m > 0.0 ? c.evidence.length_m / span_m : 1.0, s);
@@ -93,7 +93,7 @@ const WallCandidate* best_single(const WallCandidates& list, bool (*accepts)(con
   return best;
 }
 
-// Why a side has no wall: what its strongest plane fails.
+// Why a side has no wall: the gates that its strongest plane fails.
 std::uint32_t why_none(const WallCandidates& list, const Settings& s) {
   Verdict why;
   const WallCandidate* const best = list.strongest();
@@ -106,48 +106,49 @@ std::uint32_t why_none(const WallCandidates& list, const Settings& s) {
   return why.reasons;
 }
 
-// Whether a plane lies parallel behind another one: a vehicle or a curtain hides most of the wall behind it, and
-// little of that wall is enough to doubt what stands before it.
+// True if a plane lies parallel behind another one. A vehicle or a curtain hides most of the wall behind it, so little
+// of that wall is enough for a doubt.
 bool lies_behind(const Plane& plane, const Plane& other) {
   constexpr double kParallelCos = 0.995;  // planes within 5.7 degrees are parallel: judgement, 2026-11-21
   constexpr double kBehind_m = 0.2;       // more than lies on a wall (15 cm): judgement, 2026-11-21
   return plane.n.dot(other.n) > kParallelCos && plane.d > other.d + kBehind_m;
 }
 
-// By how much a plane goes on past the ends of another one, both ends together.
+// Length by which a plane goes on past the ends of another one, both ends together.
 double past_ends_m(const WallEvidence& plane, const WallEvidence& other) {
   const double before_m = other.along_min_m - plane.along_min_m, after_m = plane.along_max_m - other.along_max_m;
   return (before_m > 0.0 ? before_m : 0.0) + (after_m > 0.0 ? after_m : 0.0);
 }
 
-constexpr double kPastEndsMin_m = 3.0;  // judgement, 2026-11-22: past both ends, more is a wall that the plane hides
+constexpr double kPastEndsMin_m =
+    3.0;  // judgement, 2026-11-22: both ends together; more is a wall that the plane hides
 constexpr double kGoesOnLengthMin_m = 3.0;  // judgement, 2026-11-22: a wall beside a crosscut's mouth shows it
-constexpr double kBesideWall_m = 4.0;       // what stands along a wall is nearer; a mouth's end was 15 m off (seed 642)
+constexpr double kBesideWall_m = 4.0;       // things along a wall are nearer; a mouth's end was 15 m off (seed 642)
 
-// A curtain or a long vehicle ends, and the wall behind it goes on where it ends. An opening in a wall shows what lies
-// behind only between the wall's own parts.
+// A curtain or a long vehicle ends, and the wall behind it goes on. Through an opening in a wall the plane behind shows
+// only between the wall's own parts.
 bool goes_on_behind(const WallCandidate& rival, const WallCandidate& chosen) {
   return lies_behind(rival.plane, chosen.plane) && rival.plane.d <= chosen.plane.d + kBesideWall_m &&
          past_ends_m(rival.evidence, chosen.evidence) >= kPastEndsMin_m;
 }
 
-// The other way round: what was chosen shows itself in the opening of a wall that goes on to its sides, as the end of a
-// crosscut does. What goes on less than kBesideWall_m before it may be props, and no wall.
+// The other way round: the chosen plane shows through an opening of a wall that goes on to both sides, like the end of
+// a crosscut. A plane less than kBesideWall_m before it may be props, and no wall.
 bool goes_on_before(const WallCandidate& rival, const WallCandidate& chosen) {
   return lies_behind(chosen.plane, rival.plane) && chosen.plane.d > rival.plane.d + kBesideWall_m &&
          rival.evidence.length_m >= kGoesOnLengthMin_m &&
          past_ends_m(rival.evidence, chosen.evidence) >= kPastEndsMin_m;
 }
 
-// What stands before what was chosen and stops nearly all that comes to it is no row of props, however little of it is
-// solid: rather the wall, with ghosts behind it that a wet or shining face throws, or a mesh. Rays tell, not cells: few
-// that lie far apart fill as many cells as many that lie close.
+// A plane before the chosen one that stops nearly all rays is no row of props, however little of it is solid. It is
+// rather the wall, with ghosts of a wet or shining face behind it, or a mesh. Counts rays, not cells: few ghosts far
+// apart fill as many cells as many points close together.
 bool stops_before(const WallCandidate& rival, const WallCandidate& chosen) {
-  constexpr double kStopsMin = 0.75;  // judgement, 2026-11-24: props and conveyors, which rays pass, stop fewer
+  constexpr double kStopsMin = 0.75;  // judgement, 2026-11-24: props and conveyors stop fewer rays
   return rival.evidence.stopped >= kStopsMin && lies_behind(chosen.plane, rival.plane);
 }
 
-// Whether a plane shows too little, beside the chosen one, to be the wall as well.
+// True if a plane shows too little, beside the chosen one, to be the wall as well.
 bool is_weaker(const WallCandidate& rival, const WallCandidate& chosen, const Settings& s) {
   const double share = rival.evidence.score_m2 / chosen.evidence.score_m2;
   if (goes_on_behind(rival, chosen) || goes_on_before(rival, chosen)) return passes<gate::WALL_RIVAL_ENDS>(share, s);
@@ -156,7 +157,7 @@ bool is_weaker(const WallCandidate& rival, const WallCandidate& chosen, const Se
   return passes<gate::WALL_RIVAL>(share, s);
 }
 
-// Few points are no excuse here: they are enough to cast doubt.
+// Planes with few points count here: they are enough for a doubt.
 const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate& chosen, const Settings& s) {
   POSE_WALL_NOTE(const trace::Silence until_chosen);
   const WallCandidate* best = nullptr;
@@ -174,7 +175,7 @@ void refuse_both(const Verdict& verdict, WallChoice* out) {
 }
 
 #ifdef POSE_WALL_TRACE
-// Of the planes that pass their own gates, the strongest of each side: why these are no pair.
+// Notes why the strongest planes of both sides that pass their own gates are no pair.
 void note_pair(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
   const WallCandidate* const a = pair.a != nullptr ? pair.a : best_single(*lists[0], is_filled, s);
   const WallCandidate* const b = pair.b != nullptr ? pair.b : best_single(*lists[1], is_filled, s);
@@ -182,8 +183,8 @@ void note_pair(const Pair& pair, const WallCandidates* const (&lists)[2], const 
 }
 #endif
 
-// The best pair, unless a stronger plane runs apart from it, or it shows much less than one wall alone: then it is one
-// by chance.
+// The best pair, unless a stronger plane runs apart from it or one wall alone shows much more. Then it is a pair by
+// chance.
 Pair choose_pair(const WallCandidates* const (&lists)[2], const Settings& s) {
   POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
   const Pair pair = best_pair(*lists[0], *lists[1], s);
@@ -197,7 +198,7 @@ Pair choose_pair(const WallCandidates* const (&lists)[2], const Settings& s) {
   return passes<gate::PAIR_SHARE>(alone > 0.0 ? pair.score / alone : 1.0, s) ? pair : Pair{};
 }
 
-// One that makes no pair with the longest wall of the other side.
+// Notes that this side's wall makes no pair with the longest wall of the other side.
 void add_no_pair(int side, WallChoice* out) {
   POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
   Verdict no_pair;
@@ -205,7 +206,7 @@ void add_no_pair(int side, WallChoice* out) {
   out->verdict[side].reasons |= no_pair.reasons;
 }
 
-// No parallel pair: one wall alone, unless the other side's plane casts doubt on it.
+// Without a parallel pair: one wall alone, unless the other side's plane doubts it.
 void choose_single(const WallCandidates* const (&lists)[2], const Settings& s, WallChoice* out) {
   const WallCandidate* best[2] = {best_single(*lists[0], can_stand_alone, s),
                                   best_single(*lists[1], can_stand_alone, s)};
@@ -223,7 +224,7 @@ void choose_single(const WallCandidates* const (&lists)[2], const Settings& s, W
   for (int side = 0; side < 2; ++side) out->side[side] = best[side];
 }
 
-// A side without a wall gets its reason, one with a wall the best that could stand in for it.
+// A side without a wall gets its reason, a side with a wall its best rival.
 void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& s, WallChoice* out) {
   for (int side = 0; side < 2; ++side) {
     POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
@@ -238,8 +239,8 @@ void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& s
   }
 }
 
-// Planes across the road. Against one wall alone, those of few points count too: they are enough to doubt which way the
-// road runs.
+// Planes across the road. Against one wall alone, planes of few points count too: they are enough to doubt the road's
+// direction.
 WallCandidates across(const WallCandidates& list, const WallChoice& sides, bool alone) {
   WallCandidates out = list;
   const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
@@ -251,7 +252,7 @@ WallCandidates across(const WallCandidates& list, const WallChoice& sides, bool 
   return out;
 }
 
-// Whether the planes ahead and behind make a better roadway than the chosen sides.
+// Doubts the chosen sides if the planes ahead and behind make a better roadway.
 void judge_across(const WallChoice& sides, const WallCandidates& ahead, const WallCandidates& behind, const Settings& s,
                   Verdict* verdict) {
   const bool alone = sides.side[0] == nullptr || sides.side[1] == nullptr;
@@ -262,7 +263,7 @@ void judge_across(const WallChoice& sides, const WallCandidates& ahead, const Wa
   }
 }
 
-// Share of the band that lies on the chosen walls.
+// Share of the band's points on the chosen walls.
 double explained_share(const WallScene& scene, const WallChoice& choice) {
   const auto slab = [&](const WallCandidate* wall) {
     if (wall == nullptr) return Slab::empty();
@@ -301,7 +302,7 @@ void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind,
   if (choice->any()) {
     judge_across(*choice, ahead, behind, settings, &verdict);
   } else {
-    // Beside sides that show nothing any pair is the better one.
+    // Without a chosen side any pair is better.
     const Pair pair = best_pair(ahead, behind, settings);
     if (pair.a != nullptr) demand<gate::ACROSS>(&verdict, pair.score / choice->score_m2, settings);
   }

@@ -16,14 +16,14 @@ namespace pose_wall {
 namespace {
 
 constexpr double kBaselineMin_m = 1.0;  // judgement, 2026-11-21: 5 cm of rock over a metre turn a draw by 3 degrees
-constexpr std::uint32_t kDrawsPerIteration = 16;  // judgement, 2026-11-21: twice the floor's, as fewer draws pass
+constexpr std::uint32_t kDrawsPerIteration = 16;  // judgement, 2026-11-21: twice the floor's, since fewer draws pass
 constexpr std::uint32_t kPointsMin = 30;          // judgement, 2026-11-21: fewer points of the band draw no wall
-constexpr double kDrawSlack_deg = 5.0;            // judgement, 2026-11-21: past yaw_max_deg, for refinement moves them
+constexpr double kDrawSlack_deg = 5.0;  // judgement, 2026-11-21: beyond yaw_max_deg, since refinement moves them
 
 constexpr std::uint32_t kThinMost = 4096;    // judgement, 2026-11-21: of the band, to score hypotheses; half of a fit's
-constexpr double kWideInThresholds = 5.0;    // the fit sees the lean of a wall that a vertical hypothesis cuts
-constexpr double kNarrowInThresholds = 3.0;  // judgement, 2026-11-21: the lean is known; as near lies on a wall
-constexpr int kQuickRounds = 3;              // judgement, 2026-11-21: they refine a hypothesis to within the threshold
+constexpr double kWideInThresholds = 5.0;    // wide enough to find the lean of a wall that a vertical hypothesis cuts
+constexpr double kNarrowInThresholds = 3.0;  // judgement, 2026-11-21: the lean is known; as near as points of a wall
+constexpr int kQuickRounds = 3;              // judgement, 2026-11-21: refine a hypothesis to within the threshold
 constexpr std::uint32_t kQuickPointsMax = 500;  // 800 at first; 250 missed rivals that cast doubt (bench/README.md)
 
 #ifdef POSE_WALL_TRACE
@@ -33,12 +33,12 @@ std::uint32_t subject_of(const WallScene& scene, const SideView& view) {
   return ahead > 0.0 ? POSE_WALL_TRACE_AHEAD : POSE_WALL_TRACE_BEHIND;
 }
 
-// Before it is refined: what comes to nothing stays so.
+// Noted before refinement. A plane without support stays UNSUPPORTED.
 void note_drawn_wall(const Plane& plane) {
   trace::candidate(POSE_WALL_TRACE_UNSUPPORTED, plane);
 }
 
-// The one that was noted last, refined, and what it is if it does not go on from here.
+// The last noted plane, refined, with its fate if it ends here.
 void note_refined_wall(const Plane& plane, pose_wall_trace_fate fate) {
   trace::refined(fate, plane);
 }
@@ -157,8 +157,8 @@ void WallSearch::draw() {
 void WallSearch::offer_offsets(const Eigen::Vector3d& normal_level) {
   constexpr std::uint32_t kBins = 640;  // 32 m, as far as the wall's grid
   constexpr double kBin_m = 0.05;       // the inlier threshold's default
-  constexpr int kPeaks = 4;  // judgement, 2026-11-21: the wall, what stands before it, behind it, and one more
-  constexpr std::uint32_t kApart = 3;  // bins between peaks: 15 cm, as SameWall::kApart_m
+  constexpr int kPeaks = 4;             // judgement, 2026-11-21: the wall, a plane before it, one behind it, one more
+  constexpr std::uint32_t kApart = 3;   // bins between peaks: 15 cm, as SameWall::kApart_m
   const double flat = std::sqrt(normal_level.x() * normal_level.x() + normal_level.y() * normal_level.y());
   if (!(flat > 0.5)) return;
   Plane plane;
@@ -250,7 +250,7 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
     Plane plane = search->list()[k].plane;
     POSE_WALL_NOTE(note_drawn_wall(plane));
     if (!refine(RefineWidth::kWide, &plane)) continue;
-    // What is this near one that is there already would come still nearer.
+    // Refined further, a plane this near to a listed one would come still nearer.
     if (holds_one_like(*out, surely_same, plane)) continue;
     if (!refine(RefineWidth::kNarrow, &plane)) continue;
     if (!may_be_wall(plane, view, limits) || holds_one_like(*out, same, plane)) continue;

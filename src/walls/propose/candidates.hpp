@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What may be a wall: planes beside a direction, drawn, refined and weighed by the solid area that they show.
+// Planes that may be a wall: drawn beside a direction, refined, and weighed by their solid area.
 
 #pragma once
 
@@ -17,20 +17,20 @@
 
 namespace pose_wall {
 
-// Hypotheses for vertical planes on one side of a direction: two points and the vertical, drawn, scored and kept as a
-// short list of different surfaces.
+// Hypotheses for vertical planes on one side of a direction: two points and the vertical make one. They are scored and
+// kept as a short list of different surfaces.
 
 constexpr std::uint32_t kWallShortlist = 10;  // judgement, 2026-11-21: the wall behind the winner stays in the race
-constexpr double kRefineSlack_deg = 5.0;      // judgement, 2026-11-21: past yaw_max_deg, which gates the fit
+constexpr double kRefineSlack_deg = 5.0;      // judgement, 2026-11-21: beyond yaw_max_deg, which gates the fit
 
-// A direction to look along and the horizontal direction to the side that is searched (both unit, levelled frame).
-// Searching ahead and behind is searching beside a direction that is turned by 90 degrees.
+// A direction to look along, and the horizontal direction to the searched side (both unit, levelled frame). A search
+// ahead and behind is a search beside a direction turned by 90 degrees.
 struct SideView {
   Eigen::Vector3d along_level;
   Eigen::Vector3d side_level;
 };
 
-// Whether two planes beside the same direction mean the same wall: are no further apart, beside the machine, than
+// True if two planes beside the same direction are the same wall: beside the machine they are no further apart than
 // apart_m.
 struct SameWall {
   static constexpr double kApart_m = 0.15;  // three default thresholds: nearer planes are the same wall
@@ -41,25 +41,25 @@ struct SameWall {
 
 using WallShortlist = Shortlist<kWallShortlist>;
 
-// How far a wall may turn from the direction and lean, worked out once for all hypotheses.
+// Limits of a wall's turn from the direction and of its lean, worked out once for all hypotheses.
 struct WallLimits {
   double cos_angle_max, cos_lean_max;
 
   WallLimits(double angle_max_rad, double lean_max_rad);
 };
 
-// A plane that could be this side's wall: near vertical, not turned too far, its foot on the side.
+// True for a plane that may be this side's wall: near vertical, not turned too far, its foot on the side.
 bool may_be_wall(const Plane& plane, const SideView& view, const WallLimits& limits);
 
 class WallSearch {
  public:
   void lay_out(Arena& arena, std::uint32_t points_max);
 
-  // Points of the band on this side become the ones to draw from.
+  // Takes the points of the band on this side to draw from.
   void begin(const PointSet& band_level, const SideView& view, const Settings& settings, Random* random);
   void offer(const Plane& plane);
   void draw();
-  // The one-point problem: with the direction known, every offset at once by a histogram; the best few are offered.
+  // The one-point problem: with a known direction a histogram holds all offsets at once. Offers the best few.
   void offer_offsets(const Eigen::Vector3d& normal_level);
 
   WallShortlist& list() { return list_; }
@@ -82,22 +82,22 @@ class WallSearch {
 struct WallCandidate {
   Plane plane;
   WallEvidence evidence;
-  std::uint32_t failed = 0;  // reasons of the gates that it does not pass
+  std::uint32_t failed = 0;  // reasons of the gates that it fails
 };
 
 struct WallCandidates {
   WallCandidate item[kWallShortlist];
   std::uint32_t count = 0;
 
-  // The one of the best score, whatever gates it fails; nullptr if there is none.
+  // The best score, whatever gates it fails; nullptr if there is none.
   const WallCandidate* strongest() const;
 };
 
-// What candidates are made in.
+// Scratch for candidates.
 struct ProposeScratch {
   WallSearch search[2];
-  BoundedPoints thin_level;  // a part of the band, enough to refine hypotheses
-  // Of other steps, which come later.
+  BoundedPoints thin_level;  // part of the band, enough to refine hypotheses
+  // Shared with later steps.
   Span<std::uint32_t> near;
   TangentPoints* points = nullptr;
   WallGrid* grid = nullptr;
@@ -106,24 +106,24 @@ struct ProposeScratch {
   void lay_out(Arena& arena, std::uint32_t points_max);
 };
 
-// An even part of the band, of each side as much, into scratch->thin_level.
+// Puts an even part of the band into scratch->thin_level, as much from each side.
 void thin_out(const WallScene& scene, ProposeScratch* scratch);
 
-// The candidates on two sides that face each other, once the band is thinned. last: planes to be scored like any other
-// hypothesis, or nullptr.
+// Candidates on two sides that face each other, after thin_out(). last: planes of the last frame or nullptr, scored
+// like any other hypothesis.
 void propose_walls(const WallScene& scene, const SideView (&views)[2], const Plane* const last[2], Random* random,
                    ProposeScratch* scratch, WallCandidates (*out)[2]);
 
-// The steps of that, for a caller who may stop between them. Directions are exchanged once both sides are drawn: each
-// side is tried with the normal that was found on the other one.
+// The steps of propose_walls(), for a caller that may stop between them. Once both sides are drawn,
+// exchange_directions() tries each side with the normal found on the other one.
 void draw_walls(const WallScene& scene, const SideView& view, const Plane* last, Random* random, WallSearch* search);
 void exchange_directions(WallSearch (&search)[2]);
 void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* search, ProposeScratch* scratch,
                  WallCandidates* out);
 
-// A few rounds of Tukey from a drawn hypothesis on points of the band, its lean set free. False where nothing holds it.
-// It is called first wide, to see the lean of a wall that an upright hypothesis cuts, then narrow. near and points:
-// scratch.
+// A few rounds of Tukey from a drawn hypothesis on points of the band, with a free lean. False if too few points
+// support it. Call it wide first, to find the lean of a wall that an upright hypothesis cuts, then narrow. near and
+// points: scratch.
 enum class RefineWidth { kWide, kNarrow };
 bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const Eigen::Vector3d& along_level,
                        RefineWidth width, Span<std::uint32_t> near, TangentPoints* points, Plane* plane);

@@ -11,7 +11,7 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kRow_m = 0.3;  // judgement, 2026-11-21: tells pipes from a wall, and a sparse sensor fills it
+constexpr double kRow_m = 0.3;  // judgement, 2026-11-21: separates pipes from a wall; a sparse sensor fills it
 
 void count_up(std::uint16_t* counter, std::uint32_t by) {
   const std::uint32_t sum = *counter + by;
@@ -24,7 +24,7 @@ void WallGrid::lay_out(Arena& arena) {
   counters_ = arena.take<std::uint16_t>(2 * kCells + 1);
 }
 
-// Four points, or the rays to them, against a plane, in floats: no cell is known to the millimetre.
+// Tests four points, or the rays to them, against a plane, in floats: no cell is known to the millimetre.
 class WallGrid::FourMarks {
  public:
   // Not inlined: it is called from two places.
@@ -39,17 +39,17 @@ class WallGrid::FourMarks {
         sensor_along_m_(static_cast<float>(along_level.dot(scene.sensor_level_m))),
         sensor_z_m_(static_cast<float>(scene.sensor_level_m.z())) {}
 
-  // What lies further before the plane tells nothing.
+  // The slab of points that count: points further before the plane show nothing.
   const Slab& slab() const { return slab_; }
 
-  // False where none of them tells anything.
+  // False if none of the four counts.
   bool look_at(FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourFloats r = slab_.distances().of(x, y, z);
     hits = counts & (r <= hit_m_) & (r >= -hit_m_);
     passes = counts & (r < behind_m_) & (r < -hit_m_);
     if (!(inside_m_ > 0.0F)) passes = FourTruths{};
     if (!any_of(hits | passes)) return false;
-    // A ray passes where it meets the plane; what lies on the plane marks its own place.
+    // A passing ray marks the place where it meets the plane, a point on the plane its own.
     const FourFloats way = hits ? all_four(1.0F) : inside_m_ / (inside_m_ - r);
     along_m = sensor_along_m_ + (along_x_ * x + along_y_ * y - sensor_along_m_) * way;
     z_level_m = sensor_z_m_ + (z - sensor_z_m_) * way;
@@ -107,7 +107,7 @@ void WallGrid::mark(const WallScene& scene, const Plane& wall, const Eigen::Vect
   rows_ = rows_of(scene);
   FourMarks in_band(scene, wall, along_level, reach);
   mark_points(scene.band_level, Rays::kOneAPoint, &in_band);
-  constexpr double kNothing_m = -1.0;  // negative: points outside the band are not on the wall
+  constexpr double kNothing_m = -1.0;  // negative: no point outside the band is on the wall
   FourMarks beyond(scene, wall, along_level, {kNothing_m, reach.behind_m});
   mark_points(scene.beyond_level, Rays::kByWeight, &beyond);
   for (std::uint32_t column = 0; column < kColumns; ++column) count_rows(column);
@@ -129,12 +129,12 @@ WallEvidence WallGrid::evidence() const {
   std::uint32_t solid_cells = 0, own_open_cells = 0, columns = 0;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
     const std::uint32_t solid_rows = solid_rows_[column], open_rows = open_rows_[column];
-    if (solid_rows == 0) continue;  // nothing of the plane here: an opening speaks against nothing
+    if (solid_rows == 0) continue;  // no part of the plane here: an opening is no evidence against it
     solid_cells += solid_rows;
     own_open_cells += open_rows;
     if (solid_rows < open_rows) continue;
     const double along = (static_cast<double>(column) - kColumns / 2) * kColumn_m;
-    // One alone may be a stray, or a stump.
+    // A single column may be a stray or a stump.
     const bool goes_on = columns > 0 && !(out.along_max_m < along);
     const double away_m = larger(larger(along - kColumn_m, -along - kColumn_m), 0.0);
     if (goes_on && away_m < out.away_m) out.away_m = away_m;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What speaks for a plane being a wall, and what against it: area that is solid, and area that is seen through.
+// Evidence for and against a wall: solid area, and area that rays pass.
 
 #pragma once
 
@@ -17,21 +17,21 @@
 namespace pose_wall {
 
 struct WallEvidence {
-  double score_m2 = 0.0;      // solid area, reduced by what is seen through
+  double score_m2 = 0.0;      // solid area, reduced by the share that is seen through
   double area_m2 = 0.0;       // solid area
-  double seen_through = 0.0;  // share of the plane's own columns that is seen through, 0..1
+  double seen_through = 0.0;  // share of its own columns that is seen through, 0..1
   double length_m = 0.0;      // solid columns along the road
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double away_m = 1e3;        // along it, from the machine to the nearest two solid columns side by side
   std::uint32_t inliers = 0;  // measured points on the plane
-  double stopped = 0.0;       // share of the returns at or behind it that came from it, wherever it may have gaps, 0..1
+  double stopped = 0.0;       // share of the returns at or behind it that came from it, wherever it has gaps, 0..1
 };
 
-// A plane cut into cells along the road and up. A cell is solid when points lie on the plane there, and seen through
-// when rays pass the plane there and end well behind it. A wall is solid wherever it is seen at all; a pipe, a row of
-// props or a conveyor is solid in some rows or columns and seen through in the others. How many points there are does
-// not matter, so neither does how near or shiny a thing is.
+// A plane cut into cells along the road and up. A cell is solid when points lie on the plane there. It is seen through
+// when rays pass the plane there and end well behind it. A wall is solid wherever it is seen. A pipe, a row of props or
+// a conveyor is solid in some rows or columns and seen through in the others. The number of points does not matter, so
+// neither does how near or shiny a thing is.
 class WallGrid {
  public:
   static constexpr std::uint32_t kColumns = 128;  // 64 m: 32 m to both sides
@@ -40,20 +40,20 @@ class WallGrid {
 
   void lay_out(Arena& arena);
 
-  // The rows that the wall band is cut into; with the columns they make the cells.
+  // The rows of the wall band. With the columns they make the cells.
   struct Rows {
     std::uint32_t count = 1;
     double z_min_level_m = 0.0, height_m = 0.3;
 
     double per_m() const { return 1.0 / height_m; }
-    // Row by row; negative outside. Of places along a line, and up.
+    // Cells of four places along a line and up, counted row by row; negative outside.
     FourInts cells_of(FourFloats along_m, FourFloats z_level_m) const;
   };
   static Rows rows_of(const WallScene& scene);
 
-  // along: horizontal, in the plane's direction. Points within hit_m of the plane make it solid; rays that end more
-  // than behind_m behind it pass through it, wherever they end: behind pipes before a dark wall, only the floor and the
-  // roof are seen.
+  // along: horizontal, in the plane's direction. Points within hit_m of the plane make it solid. Rays that end more
+  // than behind_m behind it pass through it, wherever they end: behind pipes before a dark wall only floor and roof are
+  // seen.
   struct Reach {
     double hit_m;
     double behind_m;
@@ -61,10 +61,10 @@ class WallGrid {
   void mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach);
   WallEvidence evidence() const;
 
-  // Distance along the road from a place to the nearest solid column; large where there is none.
+  // Distance along the road from a place to the nearest solid column; large if there is none.
   double gap_to_solid_m(double along_m) const;
   bool is_solid_at(double along_m) const;
-  // Of four points, of those that count, the ones where the plane is solid.
+  // Of the four points that count, those at which the plane is solid.
   FourTruths solid_at(FourFloats along_m, FourFloats z_level_m, FourTruths counts) const;
 
  private:
@@ -81,18 +81,18 @@ class WallGrid {
   }
 
   static constexpr std::uint32_t kCells = kColumns * kRowsMax;  // of the fullest grid
-  Span<std::uint16_t> counters_;  // hits of each cell, what passes through each, and whatever lies in none
+  Span<std::uint16_t> counters_;  // hits of each cell, rays through each, and a spare counter for points in no cell
   std::uint8_t solid_rows_[kColumns] = {}, open_rows_[kColumns] = {};
   Rows rows_;
-  double inliers_ = 0.0, passed_ = 0.0;  // measured points on it, and behind it
+  double inliers_ = 0.0, passed_ = 0.0;  // measured points on it and behind it
 };
 
-// A fit takes points so far from its plane that rough rock stays in and things before it do not: one threshold more
-// than lies on a wall. Judgement, 2026-11-21.
+// A fit takes points this far from its plane. Rough rock stays in, and things before it do not: one threshold more than
+// belongs to a wall. Judgement, 2026-11-21.
 constexpr double kFitGateInThresholds = 4.0;
 constexpr double kFitScaleMin_m = 0.003;  // judgement, 2026-11-21: centroids of dense voxels scatter no less
 
-// Marks the grid with a plane: with the RANSAC threshold to judge a hypothesis, or as wide as the fit reaches.
+// Marks the grid with a plane, with the RANSAC threshold to judge a hypothesis, or as wide as the fit reaches.
 enum class MarkWidth { kThreshold, kFit };
 void mark_wall(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level, MarkWidth width,
                WallGrid* grid);
