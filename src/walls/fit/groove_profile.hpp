@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Pipes and hoses that lie one above the other look like a wall: long, straight, parallel to the road, and where they
-// touch no ray gets past them. But their fronts step back between two of them, again and again with the height, and
-// everywhere along their length alike. Rock does not: what it does at one place it does not do two metres further, so
-// its mean over the length is nearly the same at every height.
+// Pipes and hoses one above the other look like a wall: long, straight, parallel to the road. Where they touch, no ray
+// passes. But between two of them their fronts step back, with each height alike along their whole length. Rock differs
+// two metres further on, so its mean over the length is nearly the same at every height.
 
 #pragma once
 
@@ -16,22 +15,22 @@ namespace pose_wall {
 
 class GrooveProfile {
  public:
-  // What is further than 32 m from the middle along the wall plays no part.
+  // Points further than 32 m from the middle along the wall do not count.
   GrooveProfile(double z_min_m, double z_max_m, double u_middle_m);
 
-  // Of four points, those that count. residual_m: signed distance from the plane of the surface, positive towards the
-  // sensor.
+  // Adds those of four points that count. residual_m: signed distance from the plane of the surface, positive towards
+  // the sensor.
   void add(FourFloats u_m, FourFloats z_m, FourFloats residual_m, FourTruths counts);
-  // Whether two grooves or more, each between what stands out above and below it, lie behind the plane.
+  // True if two grooves or more lie behind the plane, each between crests above and below.
   bool is_grooved() const;
 
  private:
   static constexpr std::uint32_t kRows = 64;  // of 5 cm: 3.2 m, stretched where the band is higher
   struct Row {
-    FourFloats sums{};         // how many, their residuals, and the squares of these
+    FourFloats sums{};         // number of points, their residuals, and the squares of these
     std::uint64_t places = 0;  // a bit for each metre of the length with points
   };
-  // Mean of a row over the length and its standard error; false where too little of the row is seen.
+  // Mean of a row over the length and its standard error; false if too little of the row is seen.
   static bool mean_of(const Row& row, double* mean_m, double* error_m);
 
   Row rows_[kRows];

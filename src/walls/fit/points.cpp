@@ -19,7 +19,7 @@ struct Extent {
   double to() const { return static_cast<double>(largest_of(most)); }
 };
 
-// What is read behind the last point counts for nothing, and must be a number.
+// Values read behind the last point do not count, but must be numbers.
 void pad(Span<float> row, std::uint32_t count) {
   store_four(FourFloats{}, &row[count]);
 }
@@ -30,7 +30,7 @@ void move_within(Span<float> row, std::uint32_t begin, std::uint32_t end, Span<c
   for (std::uint32_t k = begin; k < end; ++k) row[k] = spare[k];
 }
 
-// In the order they have within a patch.
+// The groups, in their order within a patch.
 enum Part : std::int32_t { kSurfaceOnly, kBoth, kStripOnly, kNeither, kParts };
 
 FourInts parts_of(const StripProfile::FourColumns& columns) {
@@ -41,7 +41,7 @@ FourInts parts_of(const StripProfile::FourColumns& columns) {
   return columns.surface_probability > FourFloats{} ? if_surface : if_not;
 }
 
-// A patch of which nothing is known yet but where it ends.
+// A patch with a known end and no groups yet.
 WallPoints::Patch all_surface(std::uint32_t end) {
   return {end, end, end, end};
 }
@@ -50,7 +50,7 @@ WallPoints::Patch all_surface(std::uint32_t end) {
 
 void WallPoints::lay_out(Arena& arena) {
   at.lay_out(arena, kMost);
-  const std::uint32_t row = at.u.size();  // rows change places with the points'
+  const std::uint32_t row = at.u.size();  // rows swap places with those of the points
   bias = arena.take<float>(row);
   probability = arena.take<float>(row);
   spare = arena.take<float>(row);
@@ -105,7 +105,7 @@ void WallPoints::sort_by_patch(PatchGrid* grid, Span<std::uint32_t> places) {
     patch.end = begin;
     begin += of_patch;
   }
-  // Each goes from its patch to where that has got to.
+  // Each point takes the next place of its patch.
   for (std::uint32_t& place : places.first(at.count)) place = patches[place].end++;
   for (Patch& patch : patches) patch = all_surface(patch.end);
   for_each_row([&](Span<float>* row) {
@@ -158,7 +158,7 @@ WallPoints::Patch WallPoints::put_into_order(std::uint32_t begin, std::uint32_t 
   std::uint32_t next[kParts], sum = begin;
   for (std::uint32_t of = 0; of < kParts; ++of) {
     next[of] = sum;
-    sum += ends[of];  // so far how many
+    sum += ends[of];  // the count until here, an end from here on
     ends[of] = sum;
   }
   if (!in_order) {

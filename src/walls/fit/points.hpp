@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The points a wall is fitted on. A fit goes through them some twenty times, so they lie in rows in the tangent frame
-// of the plane it began with, in the order of the patches that it averages them over; within a patch the surface's come
-// before the strips', and what is neither last: who asks for one of them passes over no other.
+// The points of a wall's fit. A fit reads them some twenty times. So they lie in rows, in the tangent frame of the
+// fit's first plane, patch by patch. Within a patch the points are ordered surface, strip, neither, so that each group
+// is one contiguous range.
 
 #pragma once
 
@@ -20,34 +20,34 @@ struct WallPoints {
   static constexpr std::uint32_t kMost = 8192;  // 16384 before shares were even (2026-11-22)
 
   TangentPoints at;
-  double measured_per_weight = 1.0;  // of the points that belong here, only a part is; together they stand for all
+  double measured_per_weight = 1.0;  // scales the weights of the taken share up to all points of the wall
   Span<float> bias;                  // change of r per metre of range bias
   Eigen::Vector3d sensor;            // u, v, r
   double range_noise_m = 0.0;        // standard deviation of one range
   double z_at_origin_m = 0.0;        // z_level = z_at_origin + v z_per_v + r z_per_r
   double z_per_v = 1.0, z_per_r = 0.0;
-  // Of each patch of PatchGrid the places behind its last points: a point of a strip may be the surface's as well, by
-  // a small probability.
+  // For each patch of PatchGrid, the ends of its groups. A point of a strip may also be the surface's, with a small
+  // probability.
   struct Patch {
     std::uint32_t surface_only_end, surface_end, strip_end, end;
   };
   Span<Patch> patches;
-  Span<float> spare;      // a row for who needs one for a while
-  TangentPoints surface;  // a copy of those that are more likely the surface's than not
+  Span<float> spare;      // a row for temporary use
+  TangentPoints surface;  // a copy of the points that are more likely the surface's than not
 
   void lay_out(Arena& arena);
-  // along_level: horizontal and in the plane, so that u tells nothing of the height.
+  // along_level: horizontal and in the plane, so that u does not depend on the height.
   void begin(const WallScene& scene, const Plane& around, const Eigen::Vector3d& along_level);
-  // Those that the list names, kMost at most.
+  // Adds the points of the list, kMost at most.
   void add(const PointSet& points_level, Span<const std::uint32_t> list);
-  // Begins the patches, and puts the points into their order. places: scratch, one for each point.
+  // Starts the patches and orders the points by them. places: scratch, one for each point.
   void sort_by_patch(PatchGrid* patches, Span<std::uint32_t> places);
   // Drops the points without weight.
   void keep(Span<const float> weights);
 
-  // Notes what the strips' columns say of each point, and puts each patch's into the order of its ends.
+  // Notes the group of each point by the strips' columns, and orders each patch by it.
   void mark_columns(const StripProfile& strips, Span<std::uint32_t> places);
-  // As the columns say: of points up to a patch's surface_end.
+  // By the columns, for points up to a patch's surface_end.
   FourFloats surface_probability(std::uint32_t k) const { return load_four(&probability[k]); }
   void copy_surface();
 
@@ -69,16 +69,16 @@ struct WallPoints {
            static_cast<float>(z_per_r) * load_four(&at.r[k]);
   }
 
-  // What belongs to a point and moves with it.
+  // All rows of a point, which move together.
   template <typename Visit>
   void for_each_row(const Visit& visit) {
     for (Span<float>* row : {&at.u, &at.v, &at.r, &at.weight, &bias}) visit(row);
   }
 
-  // Orders a patch's points by their part, within a part as they were; where the parts end.
+  // Orders a patch's points by group and keeps the order within a group. Returns the ends of the groups.
   Patch put_into_order(std::uint32_t begin, std::uint32_t end, Span<std::uint32_t> places);
 
-  Span<float> probability;  // of the surface; once columns are marked
+  Span<float> probability;  // of the surface; valid after mark_columns()
   Span<std::uint8_t> part;  // scratch of mark_columns()
   Span<Patch> patch_room;
 };

@@ -14,7 +14,7 @@ constexpr int kRowBits = 16;             // a bit for each height
 constexpr int kRowsMin = 4;              // judgement, 2026-11-21: at fewer heights a column's mean is the rock's there
 constexpr std::int32_t kAround = 6;      // judgement, 2026-11-21: columns to each side for the local level, 0.65 m
 constexpr std::uint32_t kAroundMin = 5;  // judgement, 2026-11-21: a quantile of fewer columns is no level
-constexpr double kLevelQuantile = 0.3;   // the rock's as long as strips take up to 60 % of what is seen around
+constexpr double kLevelQuantile = 0.3;   // the rock's, as long as strips take at most 60 % of the columns around
 constexpr std::uint32_t kColumnsMin = 24;  // judgement, 2026-11-21: 1.2 m before two Gaussians are told apart
 constexpr double kSigmaMin_m = 0.004;      // judgement, 2026-11-21: the mean over a column does not scatter less
 constexpr double kGainMin = 4.0;        // judgement, 2026-11-21: log likelihood; twice it is chi-square(3)'s 95 % point
@@ -55,7 +55,7 @@ void StripProfile::add(FourFloats u_m, FourFloats v_m, FourFloats r_m, FourFloat
   }
 }
 
-// The mean distance of a column's points is the distance of their mean: no point is looked at again.
+// The mean distance of a column's points is the distance of their mean, so no point is read again.
 void StripProfile::look_from(const PlaneOver& over) {
   const double foreshortening = over.foreshortening();
   for (Column& c : columns_) {
@@ -99,7 +99,7 @@ void StripProfile::find_levels(std::int32_t first, std::int32_t last) {
   }
 }
 
-// Strips are narrow and there are several; bulges of the rock are wide.
+// Strips are narrow and come in numbers; bulges of the rock are wide.
 bool StripProfile::narrow(std::int32_t first, std::int32_t last, double gate_m) const {
   std::int32_t strips = 0, wide = 0, width = 0;
   for (std::int32_t k = first; k <= last + 1; ++k) {
@@ -150,7 +150,7 @@ double StripProfile::judge(const PlaneOver& over, double u_centre_m, double reac
   std::int32_t first = column_of(u_centre_m - reach_m), last = column_of(u_centre_m + reach_m);
   if (first < 0) first = 0;
   if (last < 0) last = static_cast<std::int32_t>(kColumns) - 1;
-  // How far the rock's columns scatter about the plane, without the local level.
+  // Scatter of the rock's columns about the plane, without the local level.
   double w = 0.0, squares = 0.0;
   float points_before = 0.0F, points_now = 0.0F;
   for (const Column& c : columns_) {
@@ -168,7 +168,7 @@ double StripProfile::judge(const PlaneOver& over, double u_centre_m, double reac
     Column& c = columns_[static_cast<std::uint32_t>(k)];
     if (c.judged || !c.has_points()) continue;
     points_now += c.sums[3];
-    // The plane may drift out here: by the level around, as long as that cannot be the strips' own.
+    // The plane may drift out here. The level around corrects that, unless it may be the strips' own.
     double level = 0.0;
     const bool local = level_around(k, &level) && std::fabs(level) < 0.5 * layers_.step_m;
     c.probability =
@@ -179,7 +179,7 @@ double StripProfile::judge(const PlaneOver& over, double u_centre_m, double reac
   return static_cast<double>(points_now / (points_before + points_now));
 }
 
-// The flanks of a strip lie between it and the wall: they belong to the strip. Of columns further out nothing is known.
+// The flanks of a strip lie between it and the wall, and belong to the strip. Columns further out are still unknown.
 void StripProfile::look_at_flanks(std::int32_t first, std::int32_t last) {
   static_assert(kFlank == 2, "two columns before and two behind");
   const auto lesser = [](float a, float b) { return a < b ? a : b; };

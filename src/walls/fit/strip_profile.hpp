@@ -3,11 +3,11 @@
 //
 // Steel sets, props and posts at a wall: strips that stand out of it over its whole height, one decimetre wide.
 //
-// Point by point they drown in rough rock. But a strip stands out everywhere along its height, and the rock does not:
-// the mean over a narrow column keeps the strip's step, while the roughness averages out over the height, and what is
-// left of it over more than half a metre goes with the local level of the columns around. So the columns are told
-// apart near the sensor first, where rock is seen between the strips; the plane through that rock then tells them apart
-// further out, where the strips hide the rock behind them and would bend the plane to themselves.
+// Point by point they drown in rough rock. But a strip stands out everywhere along its height, and the rock does not.
+// The mean over a narrow column keeps the strip's step, while the roughness averages out over the height. Long waves of
+// the rock go with the local level of the columns around. So the columns are judged near the sensor first, where rock
+// is seen between the strips. The plane through that rock then judges them further out, where the strips hide the rock
+// and would bend the plane to themselves.
 
 #pragma once
 
@@ -25,17 +25,17 @@ class StripProfile {
  public:
   void lay_out(Arena& arena);
 
-  // Columns from u_min_m on; what lies beyond the last one plays no part.
+  // Columns from u_min_m on; points beyond the last one do not count.
   void begin(double u_min_m, double z_min_m, double z_max_m);
-  // Of four points in a plane's coordinates, those that count. r_m: towards the sensor; z_m: how high they are.
+  // Adds those of four points that count, in a plane's coordinates. r_m: towards the sensor; z_m: height.
   void add(FourFloats u_m, FourFloats v_m, FourFloats r_m, FourFloats z_m, FourTruths counts);
 
-  // Whether columns within reach_m of u_centre_m stand out of those around them, seen from a plane over that of the
-  // points. Fills surface_probability() there; columns further away get 0: nothing is known of them yet.
+  // True if columns within reach_m of u_centre_m stand out of those around them, seen from the plane `over`. Sets
+  // surface_probability() there. Columns further away get 0: nothing is known of them yet.
   bool find(const PlaneOver& over, double u_centre_m, double reach_m, double gate_m);
-  // Seen from the plane through the surface: tells all columns within reach_m apart by the step that was found. Columns
-  // that were judged before keep their probability. reach_m: never less than in the last call. Returns the share of all
-  // points judged by now that lie in columns judged by this call.
+  // Judges all columns within reach_m by the step found so far, seen from the plane through the surface. Columns judged
+  // before keep their probability. reach_m: never less than in the last call. Returns the share of points in newly
+  // judged columns, of the points in all judged columns.
   double judge(const PlaneOver& over, double u_centre_m, double reach_m);
 
   // A column that was judged to be a strip's.
@@ -43,12 +43,12 @@ class StripProfile {
     const std::int32_t column = column_of(u_m);
     return column >= 0 && verdicts_[static_cast<std::uint32_t>(column)].is_strip != 0;
   }
-  // That the wall's own surface is seen in the column of u, 0..1.
+  // Probability that the wall's own surface is seen in the column of u, 0..1.
   double surface_probability(double u_m) const {
     const std::int32_t column = column_of(u_m);
     return column < 0 ? 0.0 : static_cast<double>(verdicts_[static_cast<std::uint32_t>(column)].shown);
   }
-  // Of four places at once.
+  // The same for four places.
   struct FourColumns {
     FourFloats surface_probability;
     FourTruths is_strip;
@@ -71,7 +71,7 @@ class StripProfile {
   static constexpr double kColumnsPerMetre = 20.0;     // of 5 cm: half a steel set's width (README, Steel sets)
   static constexpr float kStripProbabilityMax = 0.2F;  // judgement, 2026-11-21: a column is a strip's by four to one
   struct Column {
-    FourFloats sums;     // of its points: r, u, v, and how many
+    FourFloats sums;     // of its points: r, u, v, and their number
     std::uint32_t rows;  // one bit for each sixteenth of the height with points
     float probability;
     bool judged;
@@ -82,7 +82,7 @@ class StripProfile {
     bool has_points() const { return sums[3] > 0.0F; }
     bool is_strip() const { return judged && probability < kStripProbabilityMax; }
   };
-  // What is told of a column.
+  // The verdict on a column.
   struct Verdict {
     float shown;            // smallest probability of it and its flanks
     std::int32_t is_strip;  // a truth

@@ -10,18 +10,18 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kSeenWithin = 1.5;  // judgement, 2026-11-21: of the wall's distance; further, strips hide the rock
+constexpr double kSeenWithin = 1.5;  // judgement, 2026-11-21: times the wall's distance; further, strips hide the rock
 constexpr double kProfileReach_m = 32.0;  // to each side, as far as the wall's grid
 constexpr int kRings = 4;  // each twice as far; three and four times as far changed nothing (bench/README.md)
-// A ring that adds a smaller share of points is judged, but not fitted: nothing errs more, 2.2 M of 59.8 M instructions
-// less (bench/README.md). Its points count in the last fit.
+// A ring that adds a smaller share of points is judged, but not fitted: no error grows, and 2.2 M of 59.8 M
+// instructions are saved (bench/README.md). Its points count in the last fit.
 constexpr double kWorthAFit = 0.12;
-constexpr double kLayerPointsMin = 100.0;     // judgement, 2026-11-21: fewer points tell no layers apart
+constexpr double kLayerPointsMin = 100.0;     // judgement, 2026-11-21: fewer points show no layers
 constexpr double kLayerGainPerPoint = 0.02;   // judgement, 2026-11-21: of log likelihood
-constexpr double kLayerStepMin_m = 0.045;     // judgement, 2026-11-21: less is a sensor's noise, parted by voxels
+constexpr double kLayerStepMin_m = 0.045;     // judgement, 2026-11-21: less is a sensor's noise, split by voxels
 constexpr double kLayersApartInSigmas = 2.5;  // judgement, 2026-11-21: clearly apart; two tops need two
-constexpr int kStepRounds = 4;  // judgement, 2026-11-21: for the surface's roughness; the plane comes of both
-// A round that moves the plane less is the last. The next ring needs the direction alone of a ring's fit.
+constexpr int kStepRounds = 4;                // judgement, 2026-11-21: for the surface's roughness; both give the plane
+// A round that moves the plane less is the last. Of a ring's fit the next ring needs only the direction.
 struct JointRounds {
   int most;
   double offset_stands_still_m, slopes_stand_still;
@@ -31,7 +31,7 @@ constexpr JointRounds kOfARing{3, kAnyOffset_m, 5e-4};
 constexpr JointRounds kLast{8, 2e-4, 2e-4};
 constexpr double kAgreeInSigmas = 3.5;  // judgement, 2026-11-21: fronts that disagree more are out (Hausman 1978)
 constexpr std::uint32_t kFrontPointsMin = 60;  // judgement, 2026-11-21: fewer points are no fronts
-constexpr double kFrontStepMin_m = 0.06;       // chosen by residual, fronts of a smaller step look too straight
+constexpr double kFrontStepMin_m = 0.06;       // fronts of a smaller step, chosen by residual, look too straight
 constexpr int kFrontRounds = 4;                // 0.6^4 = 0.13: the window narrows from two steps to a quarter of one
 constexpr double kFrontScaleMin_m = 0.005;     // judgement, 2026-11-21: voxels average a range's noise
 constexpr double kFrontScaleMax_m = 0.03;      // judgement, 2026-11-21: fronts of steel are straight
@@ -43,7 +43,7 @@ void fill_strips(const WallPoints& points, StripProfile* strips) {
   });
 }
 
-// Whether two fits differ by no more than their covariances allow; b uses what a uses, and more (Hausman 1978).
+// True if two fits differ by no more than their covariances allow. b uses all that a uses, and more (Hausman 1978).
 bool agree(const WallSurface& a, const WallSurface& b) {
   const Eigen::Vector3d difference = a.over().as_correction() - b.over().as_correction();
   for (int k = 1; k < 3; ++k) {
@@ -54,7 +54,7 @@ bool agree(const WallSurface& a, const WallSurface& b) {
   return true;
 }
 
-// Residuals between the two of points in strips' columns.
+// Residuals from from_m to to_m of points in strips' columns.
 Span<float> fronts_between(const WallSurface& fit, double from_m, double to_m) {
   const WallPoints& points = *fit.points;
   const double foreshortening = fit.irls.over.foreshortening();
@@ -72,7 +72,7 @@ Span<float> fronts_between(const WallSurface& fit, double from_m, double to_m) {
   return points.spare.first(count);
 }
 
-// Of those no further from the centre than the window; the centre where there are none.
+// Mean of the residuals within the window around the centre; the centre if there are none.
 double mean_within(Span<const float> residuals, double centre, double window_m) {
   const FourFloats middle = all_four(static_cast<float>(centre)), reach = all_four(static_cast<float>(window_m)),
                    none{};
@@ -88,7 +88,7 @@ double mean_within(Span<const float> residuals, double centre, double window_m) 
   return inside > 0 ? centre + sum_of_lanes(sum) / inside : centre;
 }
 
-// Flanks pull the mean down; a few rounds of a narrowing window find where most of the fronts are.
+// Flanks pull the mean down. A few rounds with a narrowing window find most of the fronts.
 double where_most_are(Span<const float> residuals, double* window_m) {
   double centre = mean_within(residuals, 0.0, 1e3);
   for (int round = 0; round < kFrontRounds; ++round) {
@@ -100,7 +100,7 @@ double where_most_are(Span<const float> residuals, double* window_m) {
 
 StripFronts measure_fronts(const WallSurface& fit) {
   StripFronts fronts;
-  // Small steps may be the rock's own, and a front of rock that was chosen by its residual looks straighter than it is.
+  // Small steps may be the rock's own, and rock chosen by its residual looks straighter than it is.
   if (fit.strips == nullptr || !(fit.strips->layers().step_m >= kFrontStepMin_m)) return fronts;
   const double step_m = fit.strips->layers().step_m;
   const Span<float> residuals = fronts_between(fit, 0.5 * step_m, 2.5 * step_m);
@@ -143,13 +143,13 @@ void set_layers_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   start.offset_m += layers.centre_m;
   fit->irls = irls_tukey(points.at, points.at.count, start, settings);
   scratch->work.add(fit->irls.work);
-  layers.centre_m = 0.0;  // by the new plane
+  layers.centre_m = 0.0;  // relative to the new plane
   fit->layers = layers;
 }
 
 namespace {
 
-// What four points weigh as the surface, as WallSurface::weight(), and as a strip's front.
+// Weights of four points: as the surface, like WallSurface::weight(), and as a strip's front.
 class FourWeights {
  public:
   explicit FourWeights(const WallSurface& surface)
@@ -173,14 +173,13 @@ class FourWeights {
   float per_cutoff_, front_per_cutoff_;
 };
 
-// Sums of the patches, of the surface and, where they are found, of the fronts. Not inlined: it is called from two
-// places.
+// Sums the patches of the surface and of the fronts, if found. Not inlined, since it is called from two places.
 [[gnu::noinline]] void sum_patches(const WallSurface& surface, PatchGrid* patches) {
   const WallPoints& points = *surface.points;
   const double foreshortening = surface.irls.over.foreshortening();
   const FourWeights weights(surface);
   patches->begin_anew(surface.fronts.found ? 2 : 1);
-  // of_four(k, distances): what four points weigh.
+  // of_four(k, distances): weights of four points.
   const auto sums = [&](std::uint32_t begin, std::uint32_t end, const auto& of_four) {
     PatchLanes out;
     for_each_four(begin, end, [&](std::uint32_t k, FourTruths counts) {
@@ -216,9 +215,9 @@ void fit_patches(PatchGrid::Errors errors, WallFitScratch* scratch, WallSurface*
 
 namespace {
 
-// Fits surface and fronts together, again and again from where the last fit left the plane, until it stands still. The
-// last correction is left to over(): the patches' sums are those of the plane before it. False where no fronts are
-// found. alone: gets the surface's own fit by the first plane, with its covariance, unless it is null.
+// Fits surface and fronts together, each time from the last plane, until it settles. The last correction is left to
+// over(), since the patches' sums belong to the plane before it. False if no fronts are found. alone: gets the
+// surface's own fit from the first plane with its covariance, unless null.
 bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSurface* joint,
                      PatchFit* alone = nullptr) {
   for (int round = 1;; ++round) {
@@ -258,14 +257,14 @@ bool join_fronts(WallFitScratch* scratch, WallSurface* fit) {
 
 namespace {
 
-// What the fit of one ring leaves for the next.
+// Results of one ring's fit for the next ring.
 struct LastRing {
   PlaneOver surface_alone, left_off;
   bool had_fronts = false;
 };
 
-// Fits the wall by what the columns say so far: the surface alone, then with the fronts of the strips. False where the
-// surface cannot be told.
+// Fits the wall by the columns judged so far: the surface alone, then with the strips' fronts. False if the surface
+// cannot be fitted.
 bool fit_ring(const IrlsSettings& step, WallFitScratch* scratch, LastRing* last, WallSurface* fit) {
   WallPoints& points = scratch->points;
   points.copy_surface();
@@ -274,7 +273,7 @@ bool fit_ring(const IrlsSettings& step, WallFitScratch* scratch, LastRing* last,
   if (!fit->irls.solved) return false;
   fit->strips = &scratch->strips;
   last->surface_alone = fit->irls.over;
-  // The next ring is judged by this ring's plane: a drift there would turn rock into strips, and it into more drift.
+  // This ring's plane judges the next ring only. A drift there would turn rock into strips, and these into more drift.
   WallSurface next = *fit;
   if (last->had_fronts) next.irls.over = last->left_off;
   last->had_fronts = fit_with_fronts(kOfARing, scratch, &next);
@@ -304,12 +303,12 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   step.rounds = kStepRounds;
   LastRing last;
   last.surface_alone = fit->irls.over;
-  bool marked = false;  // the points know what the columns say
+  bool marked = false;  // the points are marked by the columns
   for (int ring = 0; ring < kRings && !scratch->work.is_spent(); ++ring, reach_m *= 2.0) {
     const double added = ring > 0 ? strips.judge(fit->irls.over, sensor_m, reach_m) : 1.0;
     if (ring > 0) scratch->work.add(steps::kProfile);
     if (added > 0.0) marked = false;
-    if (!(added > kWorthAFit)) continue;  // also at an opening: the wall may go on behind it
+    if (!(added > kWorthAFit)) continue;  // also at an opening, since the wall may go on behind it
     points.mark_columns(strips, scratch->near);
     scratch->work.add(points.at.count, steps::kPointByColumn);
     marked = true;

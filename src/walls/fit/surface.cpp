@@ -12,12 +12,12 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kCut_m = 0.25;     // judgement, 2026-11-21: rows are cut off by so much at a time
-constexpr double kSpanMin_m = 0.5;  // is left; a sensor that looks up by 7 degrees sees half of the band (seed 531)
+constexpr double kCut_m = 0.25;     // judgement, 2026-11-21: height of one cut
+constexpr double kSpanMin_m = 0.5;  // least height left; a sensor that looks up 7 degrees sees half the band (seed 531)
 constexpr double kCurvatureInSigmas = 3.5;  // judgement, 2026-11-21: by chance hardly a wall is cut (0.02 %)
 constexpr double kBulgeMin_m = 0.04;  // judgement, 2026-11-21: smaller bulges are inliers (wall_ransac_thresh, 5 cm)
 
-// Weighted sums over the surface's points: their heights and their distances from the plane.
+// Weighted sums over the surface's points, of their heights and their distances from the plane.
 struct Row {
   double w = 0.0, z = 0.0, zz = 0.0, r = 0.0, zr = 0.0;
   void add(const Row& other) {
@@ -47,20 +47,20 @@ class Rows {
       const int i = static_cast<int>((z - min_m_) / row_m_);
       row_[i < kRows ? i : kRows - 1].add({w, w * z, w * z * z, w * r, w * z * r});
     }
-    // A sensor that hardly looks up sees little of the band.
+    // Leaves out ends with stray points only: a sensor that hardly looks up sees little of the band.
     const double stray = kStrayShare * sum(0, kRows).w;
     while (last_ > first_ && sum(0, first_ + 1).w < stray) ++first_;
     while (last_ > first_ && sum(last_, kRows).w < stray) --last_;
   }
 
   Heights seen() const { return {min_m_ + first_ * row_m_, min_m_ + (last_ + 1) * row_m_}; }
-  // Of the lower and the upper half of what is seen: how the surface leans more than the plane does.
+  // Lean of the lower and the upper half of the seen part, relative to the plane.
   double lower_slope() const { return sum(first_, middle()).slope(); }
   double upper_slope() const { return sum(middle(), last_ + 1).slope(); }
 
  private:
   static constexpr int kRows = 32;             // of the band, 7 cm each by default
-  static constexpr double kStrayShare = 0.01;  // judgement, 2026-11-22: of the surface: less at an end is stray points
+  static constexpr double kStrayShare = 0.01;  // judgement, 2026-11-22: less of the surface at an end is stray points
 
   int middle() const { return (first_ + last_ + 1) / 2; }
   Row sum(int from, int to) const {
@@ -74,21 +74,22 @@ class Rows {
   int first_ = 0, last_ = kRows - 1;
 };
 
-constexpr double kScaleMaxInThresholds = 1.5;  // judgement, 2026-11-21: the scale follows rough rock so far
+constexpr double kScaleMaxInThresholds = 1.5;  // judgement, 2026-11-21: the scale follows rough rock up to here
 constexpr double kStripsLeftOver = 0.05;       // of the strips' step: measured on simulated steel sets
 constexpr double kLayersLeftOver = 0.5;  // of share times step: judgement, 2026-11-21 (README, What else stands out)
 constexpr int kCutsMax = 6;              // of kCut_m: 1.5 m of a band of 2.25 m; kSpanMin_m is left
-// A wall is fitted twice at most: as it is seen, and again once its bends are cut off. Quick fits in between, on fewer
-// points and without covariance, tell whether it still bends. The second fit may cost half the first (2026-11-25).
+// A wall is fitted twice at most: as seen, and again once its bends are cut off. Between them quick fits, on fewer
+// points and without a covariance, test whether it still bends. The second fit may cost half the first (2026-11-25).
 constexpr std::uint32_t kCutPointsMax = WallPoints::kMost * 3 / 8, kAgainPointsMax = WallPoints::kMost / 2;
-constexpr int kRounds = 8;  // judgement, 2026-11-21: most fits stand still earlier
+constexpr int kRounds = 8;  // judgement, 2026-11-21: most fits settle earlier
 
 IrlsSettings fit_settings(const Settings& s) {
   const double thresh_m = s.wall_ransac_thresh;
   return {kFitGateInThresholds * thresh_m, kFitScaleMin_m, kScaleMaxInThresholds * thresh_m, kRounds, kBeforePatches};
 }
 
-// Only where the plane is solid: points that lie on it by chance, in a crosscut or on a pipe's line, stay out.
+// Gathers points only where the plane is solid. Points that lie on it by chance, in a crosscut or on a pipe's line,
+// stay out.
 void gather(const WallScene& scene, const Plane& start, const Eigen::Vector3d& along, const Heights& heights,
             double gate_m, std::uint32_t most, const WallGrid& grid, WallFitScratch* scratch) {
   const BoundedPoints& band = scene.band_level;
@@ -144,7 +145,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   if (!fit.irls.solved) return fit;
   set_strips_apart(settings, scratch, &fit);
   if (scratch->work.is_spent()) return fit;
-  // Before the layers: the fronts of pipes may be taken for the nearer one.
+  // Tested before the layers, which may take the fronts of pipes for the nearer layer.
   fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
@@ -156,7 +157,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   return fit;
 }
 
-// Of points that were gathered between wider heights. Strips are where they were.
+// Uses points gathered between wider heights. The strips stay where they were.
 WallSurface fit_for_a_cut(const IrlsSettings& settings, const Heights& heights, const StripProfile* strips,
                           WallFitScratch* scratch) {
   WallPoints& points = scratch->points;
@@ -177,7 +178,7 @@ WallSurface fit_for_a_cut(const IrlsSettings& settings, const Heights& heights, 
   return fit;
 }
 
-// Where the surface bends off the rest of it.
+// Cuts off the bent ends of the surface.
 void cut(const WallScene& scene, const WallSurface& fit, const Plane& start, const Eigen::Vector3d& along,
          const WallGrid& grid, WallFitScratch* scratch, Heights* heights) {
   const IrlsSettings settings = fit_settings(scene.settings);
@@ -196,7 +197,7 @@ bool cut_bent_rows(const WallSurface& fit, Heights* heights) {
   const Heights seen = rows.seen();
   const double span_m = seen.max_m - seen.min_m;
   if (span_m - kCut_m < kSpanMin_m || !(fit.patch.curvature_v * span_m * span_m > kBulgeMin_m)) return false;
-  // A wall stands more upright than an arch or a heap: the half that leans more loses its end.
+  // A wall stands more upright than an arch or a heap, so the half that leans more loses its end.
   const double lean = lean_of(fit.irls_plane());
   if (std::fabs(lean - rows.upper_slope()) >= std::fabs(lean - rows.lower_slope())) {
     heights->max_m = seen.max_m - kCut_m;
@@ -209,7 +210,7 @@ bool cut_bent_rows(const WallSurface& fit, Heights* heights) {
 WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* grid, WallFitScratch* scratch) {
   const Eigen::Vector3d along = along_of(start, scene.forward_level);
   mark_wall(scene, start, along, MarkWidth::kFit, grid);
-  scratch->work.add(2ULL * scene.band_level.count, steps::kPointMarked);  // now, and once it is fitted
+  scratch->work.add(2ULL * scene.band_level.count, steps::kPointMarked);  // now, and again after the fit
   Heights heights{scene.z_min_level_m, scene.z_max_level_m};
   WallSurface fit = fit_between(scene, start, along, heights, WallPoints::kMost, *grid, scratch);
   if (fit.patch.solved && !scratch->work.is_spent() && cut_bent_rows(fit, &heights)) {

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kRounds = 30;          // judgement, 2026-11-21: caps EM, which ends where it gains less than kGainLeast
 constexpr int kTrialRounds = 5;      // a short run (Biernacki et al. 2003); 1.4 M instructions less (bench/README.md)
-constexpr double kGainLeast = 1e-3;  // in log likelihood: less decides nothing, where 4 are asked for
-constexpr double kShareMin = 0.06;   // judgement, 2026-11-21: a smaller layer is not told from strays
+constexpr double kGainLeast = 1e-3;  // in log likelihood; a thousandth decides nothing where 4 are demanded
+constexpr double kShareMin = 0.06;   // judgement, 2026-11-21: a smaller layer looks like strays
 constexpr double kShareMax = 0.65;  // judgement, 2026-11-21: the nearer layer may be the larger one, but not nearly all
-constexpr double kStepMin_m = 0.03;     // judgement, 2026-11-21: callers ask for more
+constexpr double kStepMin_m = 0.03;     // judgement, 2026-11-21: callers demand more
 constexpr double kUniformShare = 0.05;  // judgement, 2026-11-21: strays at any distance; keeps the logarithm finite
 
 using Histogram = LayerHistogram;
@@ -27,14 +27,14 @@ struct Mixture {
   double centre, sigma, step, share;  // share 0: one layer
 };
 
-// exp(-z^2 / 2). Not inlined: it is called from many places.
+// exp(-z^2 / 2). Not inlined, since it is called from many places.
 [[gnu::noinline]] FourFloats bell(FourFloats z) {
   const FourFloats none{}, x = -0.5F * (z * z);
   const FourTruths is_near = x > -40.0F;
   return is_near ? four_exponentials(is_near ? x : none) : none;
 }
 
-// What a mixture expects at four distances: of the surface, of the nearer layer, and of strays.
+// Expected densities of a mixture at four distances: of the surface, of the nearer layer, and of strays.
 class Densities {
  public:
   Densities(const Mixture& m, double gate_m)
@@ -71,7 +71,7 @@ double log_likelihood(const Histogram& h, const Mixture& m) {
   return sum;
 }
 
-// Of one layer: its weight, and the sums of what lies off its mean as it was.
+// Of one layer: its weight, and the sums of the offsets from its old mean.
 struct LayerSums {
   FourFloats weight{}, off{}, squares{};
 
@@ -83,8 +83,8 @@ struct LayerSums {
   }
 };
 
-// One round of EM; step stays 0 for a single layer. Returns about what it gained in log likelihood: by as much as
-// means, width and share have moved, in terms of what the counts tell of each.
+// One round of EM; step stays 0 for a single layer. Returns roughly the gain in log likelihood, from the moves of
+// means, width and share relative to what the counts resolve.
 double improve(const Histogram& h, double sigma_min_m, Mixture* m) {
   const Mixture before = *m;
   const Densities expected(before, h.gate_m());
@@ -121,8 +121,8 @@ Mixture improved(const Histogram& h, double sigma_min_m, int rounds, Mixture m) 
   return m;
 }
 
-// EM climbs to the nearest top: it starts with the plane on the surface, between the layers, and on the nearer one, a
-// few rounds each, and goes on from the best (short runs; Biernacki, Celeux and Govaert 2003).
+// EM climbs to the nearest top. So it starts with the plane on the surface, between the layers, and on the nearer one,
+// runs a few rounds each, and goes on from the best (short runs; Biernacki, Celeux and Govaert 2003).
 Mixture mixture_of_two(const Histogram& h, double sigma_min_m) {
   const double gate_m = h.gate_m();
   Mixture best{};
@@ -155,7 +155,7 @@ void LayerHistogram::add(Span<const float> distances_m) {
 
 FourFloats TwoLayers::surface_probability(FourFloats residuals_m) const {
   const Mixture mixture{centre_m, sigma_m, step_m, share};
-  const Densities expected(mixture, 1.0);  // of strays nothing is asked
+  const Densities expected(mixture, 1.0);  // strays do not matter here
   const FourFloats surface = expected.surface(residuals_m), both = surface + expected.nearer(residuals_m), none{};
   return both > none ? surface / both : none;
 }

@@ -23,7 +23,7 @@ class LayerHistogram {
 
   double gate_m() const { return gate_m_; }
   double total() const { return total_; }
-  // Of four bins that follow each other.
+  // Of four successive bins.
   FourFloats four_counts(std::uint32_t bin) const { return load_four(&count_[bin]); }
   FourFloats four_centres(std::uint32_t bin) const {
     const FourFloats middles = FourFloats{0.5F, 1.5F, 2.5F, 3.5F} + static_cast<float>(bin);
@@ -37,24 +37,23 @@ class LayerHistogram {
   float count_[kBins] = {};
 };
 
-// Where found, two Gaussians of one width: the surface around `centre_m` and, `step_m` nearer to the sensor, what
-// stands out of it.
+// If found, two Gaussians of one width: the surface around `centre_m`, and a layer `step_m` nearer to the sensor.
 struct TwoLayers {
   bool found = false;
   double centre_m = 0.0;  // of the surface, relative to the plane
   double sigma_m = 0.0;
   double step_m = 0.0;
-  double share = 0.0;  // of what was counted that belongs to the nearer layer
+  double share = 0.0;  // share of the nearer layer in the counts
 
-  // Probability that a distance belongs to the surface; of four at once, or of one.
+  // Probability that a distance belongs to the surface, for four at once or for one.
   FourFloats surface_probability(FourFloats distances_m) const;
   double surface_probability(double distance_m) const {
     return static_cast<double>(surface_probability(all_four(static_cast<float>(distance_m)))[0]);
   }
 };
 
-// Expectation maximisation on the histogram. found only where two layers are clearly apart, both hold a fair share and
-// the second explains the counts better by what is demanded: one rough surface has no second layer.
+// Expectation maximisation on the histogram. found only if the two layers are clearly apart, both hold a fair share,
+// and the second explains the counts better by the demanded gain. One rough surface has no second layer.
 struct LayerDemands {
   double sigma_min_m;
   double gain_min;  // in log likelihood
