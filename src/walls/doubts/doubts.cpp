@@ -11,19 +11,19 @@
 namespace pose_wall {
 namespace {
 
-// A rival was looked at in passing: its distance may be 5 % and 3 cm more. Judgement, 2026-11-21:
+// A rival is not fitted in full: its distance may be 5 % and 3 cm more. Judgement, 2026-11-21:
 constexpr double kRivalStretch = 1.05;
 constexpr double kRivalMargin_m = 0.03;
 
-// A wall that is seen only well ahead of the machine, or behind it: in between the road may bend.
+// A wall seen only well ahead of the machine, or behind it: the road may bend in between.
 Doubt by_distance(double away_m, const Settings& s) {
-  constexpr double kMayBend_rad = 0.44;  // 25 degrees until the wall is seen: judgement, 2026-11-23
+  constexpr double kMayBend_rad = 0.44;  // 25 degrees up to the wall: judgement, 2026-11-23
   Doubt doubt;
   if (!demand<gate::WALL_AWAY>(&doubt, away_m, s)) doubt.yaw_to_rival_rad = kMayBend_rad;
   return doubt;
 }
 
-// The truth may be the rival: the protection levels reach to it.
+// The rival may be the wall: the protection levels reach to it.
 Doubt by_rival(const WallScene& scene, const Plane& rival, int side, const FittedWall& wall) {
   Doubt doubt;
   doubt.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
@@ -35,7 +35,7 @@ Doubt by_rival(const WallScene& scene, const Plane& rival, int side, const Fitte
   return doubt;
 }
 
-// The fit may have wandered off, or shrunk to what is no wall any more.
+// The fit may have wandered off, or shrunk to a surface that is no wall any more.
 Doubt by_wandering(const WallCandidate& chosen, const SideView& view, const Plane& fitted, const WallGrid& grid,
                    const Settings& s) {
   Doubt doubt;
@@ -45,7 +45,7 @@ Doubt by_wandering(const WallCandidate& chosen, const SideView& view, const Plan
   return doubt;
 }
 
-// What is hardly seen, or shows something behind it, may be no wall; the wall is then behind it.
+// A plane that is hardly seen, or shows something behind it, may be no wall. The wall is then behind it.
 Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved, const Settings& s) {
   Doubt doubt;
   demand<gate::WALL_BRIGHT>(&doubt, !sight.dim);
@@ -64,9 +64,8 @@ Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved
   return doubt;
 }
 
-// How far what is seen on the other side of the road runs apart from a wall that stands alone: what was chosen there
-// and was no wall after all, what its fit came to, and whatever else could be a wall by itself, be it much weaker.
-// Radians.
+// Angle between a wall that stands alone and the planes on the other side of the road: the chosen one that was refused,
+// the result of its fit, and any other plane that may be a wall by itself, however weak. Radians.
 double apart_from_other_side(const WallCandidate& wall, const WallCandidate* chosen, const FittedWall& fitted,
                              const WallCandidates& seen, const Settings& s) {
   constexpr double kWeakestShare = 0.1;  // a lone wall was 13 degrees off its road (seed 517, 2026-11-22)
@@ -74,7 +73,7 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
   if (fitted.fit.found) apart = larger(apart, angle_in_plan(wall.plane, fitted.fit.plane));
   for (std::uint32_t i = 0; i < seen.count; ++i) {
     const WallCandidate& c = seen.item[i];
-    // Few points are no excuse: they are enough to doubt which way the road runs.
+    // Planes of few points count: they are enough to doubt the road's direction.
     const std::uint32_t failed = c.failed & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
     if (failed != 0 || !(c.evidence.length_m >= limit_of<gate::WALL_LENGTH_ALONE>(s))) continue;
     if (!(c.evidence.score_m2 >= kWeakestShare * wall.evidence.score_m2)) continue;
@@ -83,7 +82,7 @@ double apart_from_other_side(const WallCandidate& wall, const WallCandidate* cho
   return apart;
 }
 
-// What was seen of the other side runs apart from this wall: within the gate that is the walls' own.
+// The other side runs apart from this wall. Within the gate that is the walls' own difference.
 Doubt by_other_side(double apart_rad, const Settings& s) {
   Doubt doubt;
   if (!demand<gate::ALONE_APART>(&doubt, apart_rad, s)) doubt.yaw_rad = apart_rad;
@@ -120,7 +119,7 @@ void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCa
     const WallCandidate& wall = *choice.side[side];
     const double apart = apart_from_other_side(wall, choice.side[other], (*walls)[other], beside[other], s);
     (*walls)[side].add(by_other_side(apart, s));
-    // What is left of a pair must be as long as a wall that stands alone.
+    // The rest of a pair must be as long as a wall that stands alone.
     if (choice.side[other] != nullptr) demand<gate::LEFT_ALONE>(&(*walls)[side].fit, wall.evidence.length_m, s);
   }
 }
@@ -139,7 +138,8 @@ void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, JudgedW
 
 void refuse_blocked_sides(const IngestCounts& counts, const Settings& s, JudgedWall (*walls)[2]) {
   constexpr double kShareOfReturns = 0.02;  // judgement, 2026-11-22: dust on the window gives fewer returns
-  // Of what came back: whether the others are left out, zero or not finite must not matter.
+  // Counts returns only: it must not matter whether the driver leaves no-returns out, or marks them as zero or not
+  // finite.
   const double returns = static_cast<double>(counts.points_in - counts.dropped_not_finite - counts.dropped_zero);
   const Quadrant sides[2] = {kLeft, kRight};
   for (int side = 0; side < 2; ++side) {
@@ -149,7 +149,7 @@ void refuse_blocked_sides(const IngestCounts& counts, const Settings& s, JudgedW
     const bool counted = wall.fit.found && !wall.fit.refused;
     const double near = counts.near_by_quadrant[sides[side]], kept = counts.kept_by_quadrant[sides[side]];
     if (demand<gate::WALL_NEAR>(&wall.fit, near, larger(kept, kShareOfReturns * returns))) continue;
-    // Blocked or not, it may have known the road's direction better than the one that is left.
+    // A blocked wall may still have given the road's direction better than the other one.
     POSE_WALL_NOTE(const trace::About of_other(trace::side_subject(1 - side)));
     if (counted) other.add(by_other_side(std::fabs(wall.yaw_rad - other.yaw_rad), s));
   }

@@ -12,7 +12,7 @@ namespace pose_wall {
 namespace {
 
 constexpr double kPlace_m = EndPlaces::kPlace_m;  // the places of EndPlaces
-// So many points just behind the plane, within 2 m of its end, are its own bend. Judgement, 2026-11-21:
+// So many points just behind the plane, within 2 m of its end, show its own bend. Judgement, 2026-11-21:
 constexpr std::uint32_t kBendPlaces = 4;
 constexpr double kBendMin = 4.0;
 constexpr double kOverRatio = 3.0;   // judgement, 2026-11-21: points over the top for each of the plane as high
@@ -24,14 +24,14 @@ constexpr double kLayerOfPlane = 0.01;  // judgement, 2026-11-22: hollows of rou
 constexpr int kLayerPlacesMin = 5;      // judgement, 2026-11-22: half metres with points of the layer
 constexpr double kLayerSpan_m = 6.0;    // niches are shorter; 984 frames of 164 classes lost no value (seed 517)
 
-constexpr double kBend_m = 0.5;        // judgement, 2026-11-21: so far behind its plane a wall may still bend
+constexpr double kBend_m = 0.5;        // judgement, 2026-11-21: a wall may bend so far behind its plane
 constexpr double kHighShare = 0.65;    // conveyors, pipes and vehicles end below: 1.7 m of the default band
 constexpr double kHighMin = 8.0;       // simulated walls show 18 points, even to a sensor that looks up by 7 degrees
 constexpr double kHighReach_m = 15.0;  // judgement, 2026-11-21: there such a sensor sees 1.8 m higher than itself
 
-// Over a low thing the sensor may see nothing nearer than range_max. Returns how many returns that is.
+// Over a low thing the sensor may see nothing nearer than range_max. Returns the number of such returns.
 double add_what_is_too_far(const WallScene& scene, const SightLines& lines, double height_m, TopPlaces* tops) {
-  constexpr double kMostOfACell = 0.5;  // a cell is too far where most of its returns are
+  constexpr double kMostOfACell = 0.5;  // most of a cell's returns must be too far
   double added = 0.0;
   const auto look_at = [&](std::uint32_t row, std::uint32_t column) {
     const std::uint32_t count = scene.returns_lidar.too_far.count(row, column);
@@ -39,7 +39,7 @@ double add_what_is_too_far(const WallScene& scene, const SightLines& lines, doub
     const SightLines::Crossing c = lines.far(row, column);
     if (!c.near) return;
     const double height = (c.z_level_m - scene.z_min_level_m) / height_m;
-    // Rare: one is told as four that are alike.
+    // Rare, so one place is computed as four equal ones.
     const std::int32_t cell = TopPlaces::cells_of(all_four(static_cast<float>(c.along_m)),
                                                   all_four(static_cast<float>(height)), all_four_ints(-1))[0];
     if (cell == TopPlaces::kNoCell) return;
@@ -55,7 +55,7 @@ double add_what_is_too_far(const WallScene& scene, const SightLines& lines, doub
   return added;
 }
 
-// Where along the plane four points lie, and where the rays to them meet it, or would; in floats.
+// The places of four points along the plane, and of the rays to them where they meet it; in floats.
 class FourRays {
  public:
   FourRays(const WallScene& scene, const Eigen::Vector3d& along_level, double inside_m)
@@ -73,7 +73,7 @@ class FourRays {
     point_along_m = along_base_[0] * x + along_base_[1] * y + along_base_[2] * z - sensor_along_m_;
     point_z_level_m = up_base_[0] * x + up_base_[1] * y + up_base_[2] * z;
   }
-  // Of the points that were gone to, this far from the plane.
+  // For the points of the last go_to(), at this distance from the plane.
   void cross_at(FourFloats r) {
     const FourFloats to_plane = inside_m_ / (inside_m_ - r);
     along_m = to_plane * point_along_m;
@@ -87,7 +87,7 @@ class FourRays {
   float along_base_[3], up_base_[3];
 };
 
-// Heights and distances that both looks go by.
+// Heights and distances that both looks use.
 struct EdgeLimits {
   EdgeLimits(const WallScene& scene, double margin)
       : z_min_level_m(static_cast<float>(scene.z_min_level_m)),
@@ -102,8 +102,8 @@ struct EdgeLimits {
   double height_m;
 };
 
-// The first look, which is most often the last: whether anything is seen past the plane at all, how far it goes on, and
-// how high the sensor looks.
+// The first look, usually the last: whether anything is seen past the plane at all, how far it goes on, and how high
+// the sensor looks.
 class EdgeGlance {
  public:
   EdgeGlance(const WallScene& scene, const EdgeLimits& limits)
@@ -133,11 +133,11 @@ class EdgeGlance {
     behind_ += is_ahead ? none : goes_on;
   }
 
-  // Whether a tally would find no edge. Less is seen past the plane than any of them asks for; and at one end at least
-  // it goes on where an end is not near any more: of so many more points on it than may pass it there, some place holds
-  // more than pass it and than kOnMin.
+  // True if a tally would find no edge. That takes two things. Fewer points lie past the plane than any edge needs. And
+  // at one end at least the plane goes on beyond the places near the sensor: it has so many more points there than rays
+  // past it that some place has more than these and than kOnMin.
   bool rules_out_edges(double too_far) const {
-    constexpr double kPastMin = EndPlaces::kPastMin;                            // as EndPlaces asks for
+    constexpr double kPastMin = EndPlaces::kPastMin;                            // as in EndPlaces
     constexpr double kFarPlaces = EndPlaces::kPlaces - EndPlaces::kNearPlaces;  // places beyond the near ones
     constexpr double kGoesOnMin = kFarPlaces * EndPlaces::kOnMin + kPastMin;  // then some place holds more than kOnMin
     static_assert(kPastMin <= TopPlaces::kOverMin && kPastMin <= DepthsBehind::kPointsMin, "what any edge takes");
@@ -159,7 +159,7 @@ class EdgeGlance {
   FourFloats past_{}, ahead_{}, behind_{};
 };
 
-// What the returns tell of the plane's edges. Rays to the floor right behind the plane pass it too.
+// Counts the returns at the plane's edges. Rays to the floor right behind the plane pass it too.
 class EdgeTally {
  public:
   EdgeTally(const EdgeLimits& limits, EdgeScratch* scratch)
@@ -227,7 +227,7 @@ FourInts EndPlaces::places_of(FourFloats along_m) {
 
 bool EndPlaces::is_looked_past(std::uint32_t begin) const {
   const double *const on = on_ + begin, *const past = past_ + begin, *const just_behind = just_behind_ + begin;
-  std::uint32_t beyond = 0;  // the first place behind the last that has anything on the plane
+  std::uint32_t beyond = 0;  // the first place behind the last one with points on the plane
   for (std::uint32_t k = 0; k < kPlaces; ++k) beyond = on[k] > kOnMin && on[k] > past[k] ? k + 1 : beyond;
   double passing = 0.0, bending = 0.0;
   for (std::uint32_t k = beyond; k < kPlaces; ++k) {
@@ -245,7 +245,7 @@ void DepthsBehind::add(double behind_m, double along_m, double points) {
   s.places |= 1ULL << static_cast<std::uint32_t>(place);
 }
 
-// Most of what lies up to two metres behind lies equally far behind, here and there over a wall's length: a niche is
+// True if most points up to two metres behind lie equally far behind, here and there over a wall's length. A niche is
 // shorter, and a road that branches off is deep.
 bool DepthsBehind::hold_a_layer(double on_plane) const {
   double all = 0.0, most = 0.0;
@@ -273,13 +273,13 @@ FourInts TopPlaces::cells_of(FourFloats along_m, FourFloats height, FourTruths i
   return inside ? of_place + begin + step : all_four_ints(kNoCell);
 }
 
-// There is a height with nothing of the plane above it but what has passed over it, wherever the plane is seen below.
+// True if above some height only rays that passed over the plane are seen, wherever the plane is seen below.
 bool TopPlaces::is_looked_over() const {
   struct Above {
     double on = 0.0, past = 0.0;
     std::uint32_t first_over = kPlaces, last_over = 0;
   };
-  Above above[kSteps];  // by the lowest step that counts as above
+  Above above[kSteps];  // index: the lowest step that counts as above
   for (std::uint32_t k = 0; k < kPlaces; ++k) {
     const float *const on = &cell_[k * kPlaceCells], *const past = on + kSteps;
     double on_below = 0.0, past_below = 0.0;
@@ -293,7 +293,7 @@ bool TopPlaces::is_looked_over() const {
       past_above += static_cast<double>(past[step]);
       on_below -= static_cast<double>(on[step]);
       past_below -= static_cast<double>(past[step]);
-      // An opening, or nothing is seen of it here.
+      // An opening, or the plane is not seen here.
       if (!(on_below > EndPlaces::kOnMin && on_below > past_below)) continue;
       Above& a = above[step];
       a.on += on_above;
@@ -326,7 +326,7 @@ WallEdges look_past(const WallScene& scene, const Plane& wall, const Eigen::Vect
     for_each_four_about(scene.cloud_base, slab, [&](std::uint32_t i, FourTruths counts) {
       const FourFloats x = load_four(&points.x[i]), y = load_four(&points.y[i]), z = load_four(&points.z[i]);
       const FourFloats r = slab.distances().of(x, y, z);
-      // What looks away from the plane tells nothing, and what ends before it only how high the sensor looks.
+      // Rays away from the plane do not count, and those that end before it only show how high the sensor looks.
       const double limit_m = glance.has_seen_high() && margin_m <= inside_m ? margin_m : inside_m;
       const FourTruths tells = counts & (r < static_cast<float>(limit_m));
       if (!any_of(tells)) return;

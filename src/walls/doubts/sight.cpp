@@ -21,25 +21,25 @@ constexpr double kDimShare = 0.35;     // judgement, 2026-11-21: of the expected
 constexpr double kWide_m = 0.7;        // judgement, 2026-11-21: wider gaps are roads and doors; 1 m at first
 constexpr int kRoadsMax = 2;           // judgement, 2026-11-21: more gaps are a row of props
 constexpr double kOneGapShare = 0.34;  // judgement, 2026-11-21: one gap of up to a third of the wall may be a road, too
-constexpr double kBlindFactor = 1.5;   // judgement, 2026-11-21: few cells tell of silence elsewhere: half more passes
-constexpr double kBlindTopsMax = 0.1;  // judgement, 2026-11-21: with more tops silent elsewhere, silence tells nothing
+constexpr double kBlindFactor = 1.5;   // judgement, 2026-11-21: few cells show the silence elsewhere: half more passes
+constexpr double kBlindTopsMax = 0.1;  // judgement, 2026-11-21: with more tops silent elsewhere, silence proves nothing
 constexpr double kUnexplainedMax = 0.05;               // judgement, 2026-11-21: silence, twice what wall_silent allows
 constexpr std::uint32_t kRows = DirectionGrid::kRows;  // of the directions' grid
-constexpr double kExpectedMin = 3.0;   // by Poisson, where three are expected none comes in 5 % by chance
+constexpr double kExpectedMin = 3.0;                   // by Poisson: of three expected, none comes in 5 % by chance
 constexpr double kSilentShare = 0.25;  // judgement, 2026-11-21: of the expected returns, less what chance takes
-constexpr double kThroughShare = 0.5;  // most of a cell's returns come from behind
+constexpr double kThroughShare = 0.5;  // most of a cell's returns are from behind
 constexpr double kGapShare = 0.2;     // judgement, 2026-11-21: a column silent or seen through over more of it is a gap
 constexpr double kBrightRank = 0.75;  // the upper quartile: half of a wall may be wet, or hidden
 constexpr double kDeadShare = 0.1;    // judgement, 2026-11-21: of the expected returns
 constexpr double kBrightShare = 0.7;  // judgement, 2026-11-21: of the expected returns
 constexpr double kBrightCellsMin = 0.05;  // judgement, 2026-11-21: bright among half dead: things before a dark wall
-constexpr std::uint32_t kCellsMin = 20;   // judgement, 2026-11-21: a rank among fewer means nothing
+constexpr std::uint32_t kCellsMin = 20;   // judgement, 2026-11-21: a rank among fewer has no meaning
 constexpr double kZoneCellsMin = 60.0;    // judgement, 2026-11-21: a share of as many errs by 6 % at most
 constexpr double kZoneColumnsMin = 10.0;  // judgement, 2026-11-21: a tenth of the tops (kBlindTopsMax) takes ten
 
-// Chance that fewer than `limit` come where `mean` are expected (Poisson).
+// Chance that fewer than `limit` come when `mean` are expected (Poisson).
 double chance_below(double limit, double mean) {
-  // Where so many are expected, a quarter of them never comes by chance (below 1e-19), and exp would leave its range.
+  // With so many expected, only a quarter never comes by chance (below 1e-19), and exp would leave its range.
   constexpr double kMeanMax = 100.0;
   if (!(mean < kMeanMax)) return 0.0;
   double term = exponential(-mean), sum = 0.0;
@@ -50,14 +50,14 @@ double chance_below(double limit, double mean) {
   return sum;
 }
 
-// What comes back from a plane, column of directions by column.
+// Returns from a plane, one column of directions after the other.
 
-// Numbers of cells, and of columns by their highest cell. Silent tops are those that chance does not explain.
+// Numbers of cells, and of columns by their highest cell. Silent tops are those beyond chance.
 struct SightTally {
   double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
   double columns = 0.0, silent_tops = 0.0, tops_through = 0.0;
 
-  // sign -1: takes it off.
+  // sign -1: subtracts it.
   void add(const SightTally& other, double sign = 1.0);
 };
 
@@ -69,23 +69,23 @@ struct SightColumn {
 
 class SightColumns {
  public:
-  // directions: noted by learn_directions(), and what has passed through the plane; what was kept is told when asked
-  // for.
+  // directions: from learn_directions(), with the returns that passed through the plane. Kept points are counted on
+  // demand.
   SightColumns(const WallScene& scene, SightScratch* directions, const SightLines& lines)
       : scene_(scene), directions_(*directions), lines_(lines) {}
 
-  // How much of the expected comes back where the plane is seen best, 0..1; negative where too little of it is looked
-  // at. A wet wall answers less than a dry one, but all over.
+  // Share of the expected returns where the plane is seen best, 0..1; negative if too little of it is in view. A wet
+  // wall answers less than a dry one, but all over.
   double brightness() const;
 
-  // No cells: it does not look at the plane.
+  // No cells: the column does not look at the plane.
   SightColumn at(std::uint32_t column, double brightness, bool with_chance) const;
 
-  // Shares of what is silent where the plane is not: a sensor may be blind here and there, look further up ahead than
-  // aside, or spin about another axis than the expectation supposes. 1 where too little else is looked at to know.
+  // Silent shares away from the plane. A sensor may be blind here and there, look further up ahead than aside, or spin
+  // about another axis than expected. 1 if too little else is in view to know.
   struct Blindness {
     double cells = 1.0;
-    double tops = 1.0;  // of columns: the highest cell
+    double tops = 1.0;  // of columns, by their highest cell
   };
   Blindness elsewhere() const;
 
@@ -159,7 +159,7 @@ double SightColumns::brightness() const {
     }
   }
   if (cells < kCellsMin) return -1.0;
-  // A wet wall is dark all over; where a little is bright and most of it dead, bright things stand before a dark wall.
+  // A wet wall is dark all over. If a few cells are bright and most dead, bright things stand before a dark wall.
   std::uint32_t dead = 0, bright = 0;
   for (std::uint32_t bin = 0; bin < kBins; ++bin) {
     dead += bin < kDeadShare * kBins ? bins[bin] : 0;
@@ -227,7 +227,7 @@ SightColumns::Blindness SightColumns::elsewhere() const {
     if (directions_.seen.is_seen[column]) count_elsewhere(column, &counted);
   }
   Blindness out;
-  // The least of the three: one of them may be dark too.
+  // The least of the three zones, since one of them may be dark too.
   for (int zone = 0; zone < SightLines::kAlong; ++zone) {
     const double share = counted.cells[zone] >= kZoneCellsMin ? counted.silent[zone] / counted.cells[zone] : 1.0;
     out.cells = share < out.cells ? share : out.cells;
@@ -236,7 +236,7 @@ SightColumns::Blindness SightColumns::elsewhere() const {
   return out;
 }
 
-// Weights may go by intensity.
+// Weights may depend on intensity.
 FourInts points_of(FourFloats weights) {
   const FourInts rounded = cut_off(weights + 0.5F), one = all_four_ints(1);
   return rounded > one ? rounded : one;
@@ -246,14 +246,14 @@ FourTurns to_lidar(const Extrinsic& extrinsic) {
   return FourTurns(extrinsic.R_base_lidar.transpose(), -(extrinsic.R_base_lidar.transpose() * extrinsic.sensor_base_m));
 }
 
-// Of those that count: what is read behind the last point may be anything.
+// Only for lanes that count: values behind the last point may be anything.
 FourInts cells_of(const FourTurns& to_lidar, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
   const FourPlaces ray = to_lidar(x, y, z);
   const FourFloats none{}, rx = counts ? ray.x : none, ry = counts ? ray.y : none, rz = counts ? ray.z : none;
   return DirectionGrid::cells_of(rx, ry, rz, rx * rx + ry * ry + rz * rz);
 }
 
-// Sorts what has passed through the plane by direction; returns how deep behind it most of that ends.
+// Sorts the points that passed through the plane by direction. Returns the depth within which most of them end.
 double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, SightScratch* scratch) {
   const double inside_m = wall.signed_distance(scene.sensor_level_m);
   const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
@@ -276,18 +276,18 @@ double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, S
   return depths.at_share(Distances::kNearlyAll);
 }
 
-// The columns that look at the plane, side by side from one end to the other.
+// The columns toward the plane, side by side from one end to the other.
 struct ColumnRow {
   SightColumn item[kColumns];
   std::uint32_t count = 0;
 
-  // How much would be silent by chance is only told where anything is silent.
+  // Chance is only computed if anything is silent.
   ColumnRow(const SightColumns& columns, std::uint32_t away, double brightness) {
     if (look(columns, away, brightness, false)) look(columns, away, brightness, true);
   }
 
  private:
-  // Whether anything is silent.
+  // Returns true if anything is silent.
   bool look(const SightColumns& columns, std::uint32_t away, double brightness, bool with_chance) {
     double silent = 0.0;
     count = 0;
@@ -300,7 +300,7 @@ struct ColumnRow {
   }
 };
 
-// Columns side by side that are gaps, or are none.
+// A run of columns side by side, all gaps or none.
 struct Run {
   bool is_gap = false;
   double wide_m = 0.0;
@@ -341,7 +341,7 @@ WallSight judge(const ColumnRow& row, const SightColumns& columns) {
   WallSight out;
   if (!(all.cells > 0.0)) return out;
   const double silent = all.silent / all.cells, by_chance = all.silent_by_chance / all.cells;
-  SightColumns::Blindness blind;  // what else is silent excuses only what is
+  SightColumns::Blindness blind;  // silence elsewhere excuses only silence
   if (silent > by_chance || all.silent_tops > 0.0) blind = columns.elsewhere();
   const double elsewhere = kBlindFactor * blind.cells;
   const double unexplained = silent - (by_chance > elsewhere ? by_chance : elsewhere);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// A close look at a chosen plane near the sensor, direction by direction: does everything answer that the sensor looks
-// at there, and from the plane?
+// A close look at a chosen plane near the sensor, direction by direction: does every direction toward it answer, and
+// from the plane?
 
 #pragma once
 
@@ -13,26 +13,25 @@
 
 namespace pose_wall {
 
-// Shares of what the sensor sees of the plane, 0..1. One gap that is no wider than a third of it does not count, nor do
-// one or two that are seen through and as wide as a road or a door.
+// Shares of the plane as the sensor sees it, 0..1. One gap of up to a third of it does not count, nor do one or two
+// gaps as wide as a road or a door that rays pass.
 struct WallSight {
-  // Nothing comes back, neither from the plane nor from before or behind it: pipes before a wall that is too dark to be
-  // seen.
+  // No return from the plane, from before or from behind it: pipes before a wall too dark to be seen.
   double silent = 0.0;
-  // Silent, or seen through between what lies on the plane: a row of props or pipes.
+  // Silent, or seen through between things on the plane: a row of props or pipes.
   double open = 0.0;
-  // Nearly all voxels whose rays pass the plane here lie no deeper behind it. 0: none do.
+  // Nearly all voxels whose rays pass the plane here lie within this depth behind it. 0: no ray passes.
   double depth_m = 0.0;
-  // Of its columns: over its top nothing is seen, or something behind it. A wall reaches up to the roof, a curtain, a
-  // vehicle or a conveyor does not.
+  // Share of its columns with nothing, or something behind it, over its top. A wall reaches up to the roof; a curtain,
+  // a vehicle or a conveyor does not.
   double topless = 0.0;
-  // So few returns all over it, or so much silence elsewhere too, that gaps would not be noticed.
+  // Too few returns all over it, or too much silence elsewhere, for gaps to be noticed.
   bool dim = false;
 };
 
 struct SightScratch {
-  DirectionGrid kept_lidar;    // points that are left after the filters; once tell_kept() was called
-  DirectionGrid behind_lidar;  // of these and of what is too far, what has passed through the plane
+  DirectionGrid kept_lidar;    // points left after the filters; valid after tell_kept()
+  DirectionGrid behind_lidar;  // of these and of returns too far away, those that passed through the plane
   ExpectedReturns expected;
   SeenColumns seen;
   bool kept_is_told = false;
@@ -43,13 +42,13 @@ struct SightScratch {
   }
 };
 
-// Once a frame, before any plane is looked at: tells what is to be expected of directions.
+// Call once a frame before any look_at(): finds the expected returns of all directions.
 void learn_directions(const WallScene& scene, SightScratch* scratch);
 
-// What was kept by direction, at the first call after learn_directions(): few frames ask for it.
+// Counts the kept points by direction, at the first call after learn_directions(), since few frames need it.
 void tell_kept(const WallScene& scene, SightScratch* scratch);
 
-// behind_m: returns this far behind the plane have passed through it.
+// behind_m: returns this far behind the plane passed through it.
 WallSight look_at(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, double behind_m,
                   SightScratch* scratch);
 

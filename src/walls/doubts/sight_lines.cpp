@@ -12,10 +12,10 @@ namespace {
 constexpr std::uint32_t kRows = DirectionGrid::kRows;        // of the directions' grid
 constexpr std::uint32_t kColumns = DirectionGrid::kColumns;  // of the directions' grid
 constexpr double kExpectedRank = 0.75;  // the upper quartile: half of the directions may be dark, blocked or hidden
-constexpr std::uint32_t kSeenMin = kColumns / 8;  // judgement, 2026-11-21: a row of fewer expects nothing
-constexpr double kEmptyShare = 0.05;              // judgement, 2026-11-21: a column that answers less is empty
-constexpr std::uint32_t kBlockedColumns = 5;      // judgement, 2026-11-21: 14 degrees: a post or a cabin blocks as much
-constexpr int kSectorsForgiven = 2;               // judgement, 2026-11-21: two are the machine's, more are the road's
+constexpr std::uint32_t kSeenMin = kColumns / 8;  // judgement, 2026-11-21: a row with fewer expects nothing
+constexpr double kEmptyShare = 0.05;              // judgement, 2026-11-21: a column with fewer returns is empty
+constexpr std::uint32_t kBlockedColumns = 5;      // judgement, 2026-11-21: 14 degrees, as a post or a cabin blocks
+constexpr int kSectorsForgiven = 2;               // judgement, 2026-11-21: two are the machine's, more the road's
 
 struct Sector {
   std::uint32_t from = 0, columns = 0;
@@ -94,7 +94,7 @@ SightLines::Crossing SightLines::at(std::uint32_t row, std::uint32_t column) con
 
 bool SightLines::looks_towards(std::uint32_t column) const {
   constexpr double kLittleLess = 0.99;  // rounding may make a ray a little longer than 1
-  // In the row that looks most towards the plane.
+  // For the row that looks most towards the plane.
   const double flat = -(n_lidar_.x() * column_[column].x + n_lidar_.y() * column_[column].y);
   const double most2 = (flat > 0.0 ? flat * flat : 0.0) + n_lidar_.z() * n_lidar_.z();
   return most2 > kLittleLess * kTowardsMin * kTowardsMin;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The directions that the sensor looks by: what is to be expected of them, and where they meet a plane.
+// The directions of the sensor: the returns expected from each, and where they meet a plane.
 
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace pose_wall {
 
-// What is to be expected from the directions of a frame, whatever plane is looked at.
+// Expected returns of the directions of a frame, whatever plane is looked at.
 
-// How many returns a cell of directions has where nothing is dark. A sensor looks the same way all around, so each row
-// is compared with itself.
+// Number of returns of a cell of directions if nothing is dark. A sensor looks the same way all around, so each row is
+// compared with itself.
 class ExpectedReturns {
  public:
   void look_at(const DirectionGrid& returns_lidar);
@@ -25,16 +25,16 @@ class ExpectedReturns {
   double width_[DirectionGrid::kColumns];
 };
 
-// Columns that the sensor looks at. The two widest sectors from which nothing comes at any elevation are out of sight:
-// blocked, or beyond its field of view. More of them are gaps of a row of things with nothing behind it.
+// Columns in view. The two widest sectors without a return at any elevation are out of view: blocked, or beyond the
+// field of view. More of them are gaps of a row of things with nothing behind it.
 struct SeenColumns {
   void look_at(const DirectionGrid& returns_lidar, const ExpectedReturns& expected);
   bool is_seen[DirectionGrid::kColumns];
 };
 
-// The directions in which the sensor looks at a plane.
+// The directions toward a plane.
 
-// Where the middles of the cells meet a plane.
+// Points where the middles of the cells meet a plane.
 class SightLines {
  public:
   static constexpr double kReach_m = 8.0;      // judgement, 2026-11-21: a direction (2.8 degrees) covers 0.4 m there
@@ -44,16 +44,16 @@ class SightLines {
   SightLines(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level);
 
   struct Crossing {
-    bool near;       // within the reach of a close look, not too flat
+    bool near;       // within reach of a close look, and not too flat
     double along_m;  // along the road from the sensor
     double z_level_m;
   };
   Crossing at(std::uint32_t row, std::uint32_t column) const;
-  // False only where at() is near in no row, as in about half of the columns; true where it may be.
+  // False only if at() is near in no row, as in about half of the columns; true where it may be.
   bool looks_towards(std::uint32_t column) const;
-  // The same up to kFarReach_m and at a grazing angle, where a cell's middle says little about its edges.
+  // The same up to kFarReach_m and at any grazing angle, where a cell's middle says little about its edges.
   Crossing far(std::uint32_t row, std::uint32_t column) const;
-  // Where else the sensor looks; along the road it may see nothing for being too far.
+  // Other zones of view. Along the road everything may be too far.
   enum Zone { kBeside, kAbove, kBelow, kAlong };
   Zone zone(std::uint32_t row, std::uint32_t column) const;
   // Sine of the elevation in the levelled frame.

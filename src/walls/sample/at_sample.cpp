@@ -13,35 +13,35 @@
 namespace pose_wall {
 namespace {
 
-// These distances are read off few points of surfaces nobody fitted.
+// These distances come from few points of surfaces that were not fitted.
 double with_margin(double other_m) {
   return other_m > 0.0 ? 1.25 * other_m + 0.05 : 0.0;
 }
 
 constexpr double kBackMargin = 2.5;  // judgement, 2026-11-21: the deepest part of an opening is in its shadow
 
-constexpr double kOff_m = 0.1;  // judgement, 2026-11-21: two thresholds off the plane is not on it
+constexpr double kOff_m = 0.1;  // judgement, 2026-11-21: two thresholds; such a point is not on the plane
 
-// Of the band, what lies to this side of the plane or behind it.
+// Points of the band before the plane or behind it.
 struct Around {
-  Distances nearer;     // than the plane is to the sampling point, where the plane is not seen
-  StepProfile profile;  // of what a column of the grid is too long to tell
+  Distances nearer;     // points nearer to the sampling point than the plane, where the plane is not seen
+  StepProfile profile;  // of steps that are shorter than a column of the grid
 
-  // Where the wall is not seen near a sampling point because something stands before it from top to bottom, that may be
-  // the wall itself, standing out: by how much it is nearer to the sampling point than the plane. 0 where nothing is.
+  // A thing may hide the wall from top to bottom near a sampling point. It may be the wall itself, standing out.
+  // Returns how much nearer to the sampling point it is than the plane, or 0.
   double stands_out_m(double to_machine_m) const {
     return nearer.count() >= StepProfile::kPointsMin ? to_machine_m - nearer.at_rank(StepProfile::kPointsMin) : 0.0;
   }
 };
 
-// across: through the sampling point, which is to_machine_m before the wall.
+// across: plane through the sampling point, which lies to_machine_m before the wall.
 Around look_around(const WallScene& scene, const WallSurface& surface, const WallGrid& grid, const Plane& wall,
                    const Plane& across, double to_machine_m) {
-  constexpr double kWindow_m = 2.0;  // judgement, 2026-11-21: what stands so far beside may be nearer than the plane
+  constexpr double kWindow_m = 2.0;  // judgement, 2026-11-21: things so far beside may be nearer than the plane
   constexpr double kStep_m = 0.05;   // a smaller step is the rock's; a narrow road was valid and 12 cm off (seed 513)
-  constexpr double kPerRoughness = 3.0;  // of the rock's own standard deviations: less is no step
+  constexpr double kPerRoughness = 3.0;  // standard deviations of the rock: less is no step
   const double on_plane_m = kStep_m + kPerRoughness * surface.patch.tau_m;
-  // What lies nearer is the machine's; of a machine that touches the wall, the wall is not.
+  // Nearer points are the machine's. If the machine touches the wall, points of the wall are not.
   const double nearest_m = larger(to_machine_m - kOff_m, on_plane_m);
   const Eigen::Vector3d up_level = scene.R_level_base * scene.extrinsic.R_base_lidar.col(2);  // the sensor's own
   Around around{{}, StepProfile(on_plane_m)};
@@ -63,12 +63,12 @@ Around look_around(const WallScene& scene, const WallSurface& surface, const Wal
   return around;
 }
 
-// Where the plane is open at a sampling point, how far behind it the rays end that pass it there: the wall steps back,
-// or a road branches off. 0 where it is not open. What lies right behind the opening's edge is in its shadow, so the
-// rays tell more than the points beside the sampling point do.
+// Depth behind the plane, where it is open at a sampling point, at which the rays that pass it there end: the wall
+// steps back, or a road branches off. 0 where it is not open. The edge of an opening shadows the place behind it, so
+// the rays show more than the points beside the sampling point do.
 double steps_back_at(const WallScene& scene, const Plane& wall, const Plane& across) {
   constexpr double kWindow_m = 0.5;      // a column of the grid to either side
-  constexpr double kShadowFactor = 2.5;  // judgement, 2026-11-21: nothing tells how deep a shadow is
+  constexpr double kShadowFactor = 2.5;  // judgement, 2026-11-21: the depth of a shadow is unknown
   const double inside_m = wall.signed_distance(scene.sensor_level_m),
                sensor_m = across.signed_distance(scene.sensor_level_m);
   Distances passing, beside;
@@ -85,8 +85,8 @@ double steps_back_at(const WallScene& scene, const Plane& wall, const Plane& acr
   return larger(passing_m, beside_m);
 }
 
-// Solid at the sampling point and to both sides of it. A column is half a metre wide and may hold the wall's last
-// points in its nearer part only.
+// True if the plane is solid at the sampling point and on both sides. A column is half a metre wide and may hold the
+// wall's last points in its nearer part only.
 bool solid_around(const WallGrid& grid, double along_m) {
   for (const double beside_m : {-0.75, -0.3, 0.3, 0.75}) {
     if (!grid.is_solid_at(along_m + beside_m)) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What is seen of the wall right at a sampling point: the plane may be right and the wall elsewhere just there.
+// The wall right at a sampling point: the plane may be right and the wall elsewhere just there.
 
 #pragma once
 
@@ -13,8 +13,8 @@
 namespace pose_wall {
 
 struct AtSample {
-  double bound_m = 0.0;  // the distance may be so far off: the wall stands out, steps back, or a road branches off
-  double hole_m = 0.0;   // length around it in which nothing is seen of the plane
+  double bound_m = 0.0;  // how far the distance may be off: the wall stands out, steps back, or a road branches off
+  double hole_m = 0.0;   // length around it without a point on the plane
 };
 
 // wall: its plane and direction are set.

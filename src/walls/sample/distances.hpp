@@ -7,7 +7,7 @@
 
 namespace pose_wall {
 
-// A histogram of distances in bins of 5 cm, 0 to 10 m; what is further is in the last bin.
+// A histogram of distances in bins of 5 cm, 0 to 10 m. The last bin takes all larger ones.
 class Distances {
  public:
   static constexpr double kNearlyAll = 0.95;  // judgement, 2026-11-21: leaves out the furthest strays; 0.8 at first
@@ -25,7 +25,7 @@ class Distances {
     while (b + 1 < kBins && below + bins_[b] < rank) below += bins_[b++];
     return (static_cast<double>(b) + 0.5) * kBin_m;
   }
-  // The least distance that at least this share of them does not exceed; 0 where there are none.
+  // The least distance that at least this share of them does not exceed; 0 if there are none.
   double at_share(double share) const {
     const auto rank = static_cast<std::uint32_t>(share * count_);
     return count_ > 0 ? at_rank(rank < share * count_ ? rank + 1 : rank) : 0.0;

@@ -14,13 +14,13 @@
 namespace pose_wall {
 namespace {
 
-// Yaw errs more than its covariance says: strips are told by the plane that they then determine, and rock is rough over
-// more lengths than neighbouring patches show. Measured on thousands of simulated looks by four sensors, 2026-11-21:
-// 1.3 to 1.7 times with strips, 1.1 to 1.25 on rock, once on flat walls. The offset has standard deviations of its own
-// for both:
+// Yaw errs more than its covariance. The plane chooses the strips that then determine it, and rock is rough over longer
+// waves than neighbouring patches show. Measured on thousands of simulated looks by four sensors, 2026-11-21: 1.3 to
+// 1.7 times with strips, 1.1 to 1.25 on rock, once on flat walls. The offset has standard deviations of its own for
+// both:
 constexpr double kStripsStretch = 1.5;
 constexpr double kRockStretch = 1.2;
-constexpr double kRockFrom_m = 0.005;  // judgement, 2026-11-21: roughness between patches from which on a wall is rock
+constexpr double kRockFrom_m = 0.005;  // judgement, 2026-11-21: least roughness between patches of rock
 
 void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
   const TangentPoints& points = surface.points->at;
@@ -38,7 +38,7 @@ void count_inliers(const WallSurface& surface, double thresh_m, PlaneFit* fit) {
   fit->rms_m = voxels > 0.0 ? std::sqrt(squares / voxels) : 0.0;
 }
 
-// Turning the plane by its slope along u turns the yaw by as much; the sign follows from which way u points.
+// A turn of the plane by its slope along u turns yaw by as much. The sign follows from the direction of u.
 void set_yaw(const WallScene& scene, const WallSurface& surface, FittedWall* out) {
   const PatchFit& patch = surface.patch;
   const TangentFrame& f = surface.frame();
@@ -55,11 +55,10 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, FittedWall* out
   demand<gate::WALL_BEND>(&out->fit, bend_rad, scene.settings);
 }
 
-// How far the surface that is seen a little below a height or a little above it, ahead or behind, lies from the plane,
-// whichever is furthest.
+// Largest distance of the surface from the plane, seen a little below or above a height, ahead or behind.
 double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along, double z_level_m) {
   constexpr double kWindow_m = 0.3;    // judgement, 2026-11-21: above and below, a row of the grid
-  constexpr double kGate_m = 0.4;      // judgement, 2026-11-21: an arch is no further off its plane so near
+  constexpr double kGate_m = 0.4;      // judgement, 2026-11-21: so near, an arch is no further off its plane
   constexpr double kPointsMin = 10.0;  // judgement, 2026-11-21: ten points make a mean
   double sum[4] = {}, count[4] = {};
   for (const BoundedPoints* const points : {&scene.band_level, &scene.beyond_level}) {
@@ -79,7 +78,7 @@ double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen:
   return offset_m >= 0.0 ? offset_m : kGate_m;
 }
 
-// Whether the wall may leave its plane at some height: where it was cut off, where it bends more than it scatters, and
+// True if the wall may leave its plane at this height: where it was cut off, where it bends more than it scatters, and
 // where the plane is prolonged above the band.
 bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double z_level_m) {
   constexpr double kMayBendInSigmas = 2.0;  // judgement, 2026-11-23: suspected; kCurvatureInSigmas, which cuts, is sure
@@ -118,7 +117,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double gap_m = grid.gap_to_solid_m(along_m);
     const bool near = passes<gate::SAMPLE_GAP>(gap_m, s);
     const bool unseen = !passes<gate::SAMPLE_HOLE>(seen.hole_m, s) || !near;
-    // A distance has no sign: of a point in the rock it looks like one before it.
+    // A distance has no sign: a point in the rock has that of one before it.
     const bool in_rock = !passes<gate::SAMPLE_BEFORE>(!(out->fit.plane.signed_distance(sample) < 0.0));
     const bool interrupted = !passes<gate::SAMPLE_STEP>(seen.bound_m, s);
     out->extrapolated[end] = interrupted || unseen || in_rock;
@@ -147,7 +146,7 @@ FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.layer_sigma_m = surface.layer_sigma_m;
   count_inliers(surface, scene.settings.wall_ransac_thresh, &out.fit);
   set_yaw(scene, surface, &out);
-  // Where offset and slope are uncorrelated.
+  // The place where offset and slope are uncorrelated.
   out.pivot_level_m = surface.frame().origin - surface.frame().u * (patch.covariance(0, 1) / patch.covariance(1, 1));
   set_distances(scene, surface, side, grid, &out);
   return out;

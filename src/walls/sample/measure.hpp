@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What a wall's surface says of yaw and of the distances at the sampling points.
+// Yaw and the distances at the sampling points, from a wall's surface.
 
 #pragma once
 

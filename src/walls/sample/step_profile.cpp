@@ -10,11 +10,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kNear = 2;      // slices, about a leaf (8 cm): a voxel's points lie anywhere in it
+constexpr std::uint32_t kNear = 2;      // slices, about a leaf (8 cm): a voxel's points may lie anywhere in it
 constexpr std::uint32_t kRunMin = 6;    // slices, 0.3 m: a post is shorter (README, At a sampling point)
 constexpr std::uint32_t kOffPerOn = 8;  // judgement, 2026-11-21: at an edge, a voxel may hold points of both
 
-// 64 of 0.05, from 58 degrees below the horizontal to as much above it.
+// 64 steps of 0.05, from 58 degrees below the horizontal to as much above it.
 std::uint64_t elevation_bit(double elevation) {
   const double bit = 20.0 * elevation + 32.0;
   return bit >= 0.0 && bit < 64.0 ? std::uint64_t{1} << static_cast<std::uint32_t>(bit) : 0U;
@@ -59,7 +59,7 @@ double StepProfile::hole_m() const {
   return first == 0 || last == kCount ? 2.0 * kHalf_m : (last - first) * kSlice_m;
 }
 
-// Slices without a point neither end a step nor make one longer at its ends.
+// Slices without a point neither end a step nor lengthen it.
 double StepProfile::step(Way way) const {
   constexpr std::uint32_t kPlace = kCount / 2;  // the slice of the sampling point
   for (std::uint32_t k = 0; k < kCount; ++k) {
@@ -89,7 +89,7 @@ double StepProfile::behind_m() const {
   return step(kStepsBack);
 }
 
-// By what lies in two steps of depth: dust takes all elevations, too, but is no surface, nor as dense.
+// Counts points in two steps of depth. Dust takes all elevations too, but it is neither a surface nor as dense.
 bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
   constexpr std::uint32_t kOnPerBefore = 2;  // half as dense as the plane (README): dust is thinner
   const Before &far = before_[depth][part], &near = before_[depth + 1][part];
@@ -99,7 +99,7 @@ bool StepProfile::hides_plane(std::uint32_t depth, std::uint32_t part) const {
   return has_bits(far.elevations | near.elevations, seen - seen / 4) && kOnPerBefore * (far.count + near.count) >= on;
 }
 
-// By how much what hides the plane around the place lies before it, at most.
+// Largest distance before the plane of a thing that hides it around the place.
 double StepProfile::hides_m() const {
   // 0.6 m: posts are shorter; 48, not 165 of 1080 recorded values were valid and wrong (2026-11-24).
   constexpr std::uint32_t kPartsMin = 3;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Whether a surface steps out of its plane for a while at one place: its points in slices of five centimetres along the
-// road. A slice is off the plane where next to nothing lies on it, from top to bottom. A sensor that looks past what
-// stands before the plane sees the plane behind it as well; that hides it where it takes whatever elevations are seen
-// there.
+// Tests whether a surface steps out of its plane over some length at one place, in slices of five centimetres along the
+// road. A slice is off the plane if next to nothing lies on it from top to bottom. A sensor that looks past a thing
+// before the plane sees the plane behind it as well. Then the thing hides the plane if it takes all elevations that are
+// seen there.
 
 #pragma once
 
@@ -23,21 +23,21 @@ class StepProfile {
   // beside_m: along the road from the place; residual_m > 0 before the plane; elevation: of the ray, as a tangent.
   void add(double beside_m, double residual_m, double elevation);
 
-  // By how much the surface lies before or behind the plane at the place, on average over the step; 0 where it lies on
-  // the plane, or off it for less than 0.3 m, 0.6 m where the plane is seen behind it: that is a post or a gap between
-  // two.
+  // Distance of the surface before or behind the plane at the place, on average over the step. 0 where it lies on the
+  // plane, or off it for less than 0.3 m: that is a post, or a gap between two. Where the plane is seen behind it, 0.6
+  // m.
   double before_m() const;
   double behind_m() const;
 
-  // Length around the place within which nothing lies on the plane; all of it where that is so to one of its ends.
+  // Length around the place without a point on the plane; the whole length if that is so up to one of its ends.
   double hole_m() const;
 
  private:
   static constexpr double kSlice_m = 0.05;      // judgement, 2026-11-21: less than a voxel of the band (8 cm)
   static constexpr std::uint32_t kCount = 40;   // slices of twice kHalf_m
-  static constexpr double kDepth_m = 0.15;      // judgement, 2026-11-24: a surface lies within two (README)
-  static constexpr std::uint32_t kHides = 3;    // from 0.45 m on: pipes along a wall lie closer to it
-  static constexpr std::uint32_t kDepths = 27;  // 4 m: what stands along a wall is no further from it
+  static constexpr double kDepth_m = 0.15;      // judgement, 2026-11-24: a surface lies within two steps (README)
+  static constexpr std::uint32_t kHides = 3;    // from 0.45 m on: pipes along a wall are closer to it
+  static constexpr std::uint32_t kDepths = 27;  // 4 m: things along a wall are no further from it
   static constexpr std::uint32_t kParts = 10;   // of 0.2 m: a sparse sensor's points lie some centimetres apart
   static constexpr std::uint32_t kSlicesPerPart = kCount / kParts;  // four of 5 cm
   enum Way : std::uint32_t { kStepsOut, kStepsBack };
@@ -67,7 +67,7 @@ class StepProfile {
 
   double step_m_;
   Slice slices_[kCount];
-  std::uint64_t elevations_ = 0;  // a bit for each
+  std::uint64_t elevations_ = 0;  // one bit for each
   Before before_[kDepths + 1][kParts];
 };
 
