@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Which of the surfaces that were found each point of the cloud lies on.
+// Labels each point of the cloud with the surface that it lies on.
 
 #pragma once
 
@@ -12,8 +12,9 @@
 
 namespace pose_wall {
 
-// Writes a POSE_WALL_LABEL_ for each point: the floor's and the walls' by ground_ransac_thresh and wall_ransac_thresh,
-// the walls' within the wall band; nothing lies on what was not found, or on walls where the floor was not.
+// Writes a POSE_WALL_LABEL_ for each point: the floor's and the walls' within ground_ransac_thresh and
+// wall_ransac_thresh, the walls' only inside the wall band. A surface that was not found gets no points, and without a
+// floor no wall does.
 void label_points(const PointSet& cloud_base, const Surfaces& found, const Settings& settings,
                   Span<std::uint8_t> labels);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What a frame has measured, before it meets the frames before it.
+// The measurements of one frame, before any other frame is considered.
 
 #pragma once
 
@@ -28,7 +28,7 @@ struct Measurements {
   bool has_yaw_difference = false;
 };
 
-// What a frame says of itself, apart from its geometry.
+// The timing of a frame, by its stamp.
 struct FrameTiming {
   double dt_s = 0.0;  // since the last frame, 0 for the first
   bool first = false;

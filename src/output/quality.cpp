@@ -19,21 +19,21 @@ constexpr std::uint32_t kWeakFloor = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_C
 constexpr std::uint32_t kWeakWall =
     POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_WALL_FEW_INLIERS | POSE_WALL_R_CURVED;
 constexpr double kSplayInSigmas = 3.0;  // judgement, 2026-11-21: parallel walls differ by more in 0.3 % of cases
-// Walls differ by so much by chance. Beyond, up to kSplayInSigmas, the rock is known less well than it seems: the
-// standard deviation is stretched to fit (Birge 1932). In seed 647 yaw's protection ended 0.06 degrees short; of 6400
-// frames no more are degraded (2026-11-22).
+// Walls may differ by so much by chance. Beyond, up to kSplayInSigmas, the rock is known less well than it seems, and
+// the standard deviation is stretched to fit (Birge 1932). In seed 647 yaw's protection ended 0.06 degrees short; of
+// 6400 frames no more are degraded (2026-11-22).
 constexpr double kLikelyInSigmas = 2.0;
-// No part of the chain is known better than some thousandth of the alert limits. Judgement, 2026-11-21:
+// No standard deviation is below about a thousandth of the alert limits. Judgement, 2026-11-21:
 constexpr double kSigmaMinAngle_rad = 1e-5;
 constexpr double kSigmaMinDistance_m = 1e-4;
-constexpr double kLayerFactor = 2.0;  // ribs move a wall to one side by a bounded amount (README, What rock shows)
+constexpr double kLayerFactor = 2.0;  // ribs move a wall to one side, within bounds (walls/fit: What rock shows)
 constexpr double kDofMin = 4.0;       // judgement, 2026-11-21: dof / (dof - 2) stretches a variance by 2 at most
 
 double with_floor(double sigma, double least) {
   return std::sqrt(sigma * sigma + least * least);
 }
 
-// A standard deviation that was itself estimated from few pieces: the errors follow Student's t, whose own is larger.
+// A standard deviation estimated from few pieces: the errors follow Student's t, whose own is larger.
 double predictive(double sigma, double dof) {
   return dof > kDofMin ? sigma * std::sqrt(dof / (dof - 2.0)) : sigma * std::sqrt(kDofMin / (kDofMin - 2.0));
 }
@@ -44,7 +44,7 @@ Measurement measurement(double raw, double sigma, const ProtectionParts& bound, 
   m.sigma = predictive(sigma, dof);
   m.protection = bound;
   m.protection[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_factor, dof) * sigma;
-  // What has no bound is no measurement.
+  // A measurement without a finite bound is none.
   m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.protection.sum());
   if (!m.measured) m.reasons = POSE_WALL_R_ALERT_LIMIT;
   return m;
@@ -81,15 +81,15 @@ void measure_distances(const JudgedWall& wall, const Settings& s, Measurement* f
   }
 }
 
-// How much of an error of the floor turns into yaw: a leaning wall, or a machine that looks up or down, turns part of a
-// tilt about the road into a turn about the vertical.
+// Share of a floor's error that turns into yaw. With a leaning wall, or a machine that looks up or down, part of a tilt
+// about the road is a turn about the vertical.
 double tilt_to_yaw(const JudgedWall& wall, const Levelling& levelling) {
   const double lean = sine(wall.lean_rad) / cosine(wall.lean_rad);
   const double up = levelling.forward_up;
   return std::fabs(lean) + std::fabs(up) / std::sqrt(1.0 - up * up);
 }
 
-// Of a wall's own bound, and of the floor's larger one.
+// A wall's own bound and the larger one of the floor.
 ProtectionParts yaw_bound_of(const JudgedWall& wall, const FloorResult& floor, const Levelling& levelling) {
   const bool by_roll = floor.roll_bound_rad.sum() > floor.pitch_bound_rad.sum();
   ProtectionParts bound = wall.yaw_bound_rad;
@@ -97,7 +97,7 @@ ProtectionParts yaw_bound_of(const JudgedWall& wall, const FloorResult& floor, c
   return bound;
 }
 
-// Adds what the floor's tilt turns into yaw: one error, whatever the number of walls.
+// Adds the floor's tilt error as yaw: one error, whatever the number of walls.
 Measurement yaw_measurement(double raw, double walls_variance, const ProtectionParts& bound, double dof,
                             double tilt_share, const FloorResult& floor, const Settings& s) {
   const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_share;
@@ -117,8 +117,8 @@ Measurement yaw_by_one(const JudgedWall& wall, const FloorResult& floor, const L
                          tilt_to_yaw(wall, levelling), floor, s);
 }
 
-// Weighted mean of both directions by their information. A range bias turns the walls against each other and cancels
-// in the mean as far as the weights are alike; the signed responses say how far.
+// Mean of both directions, weighted by their information. A range bias turns the walls against each other and cancels
+// in the mean as far as the weights are alike. The signed responses give the rest.
 Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, const Levelling& levelling,
                         const Settings& s) {
   double variance[2] = {}, information = 0.0;
@@ -133,13 +133,13 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
   ProtectionParts bound;
   bound[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(bias);
   for (int side = 0; side < 2; ++side) bound.add(yaw_bound_of(walls[side], floor, levelling), w[side]);
-  // Where a road bends ahead, both walls may be those behind the bend: the other one does not vouch for either.
+  // If a road bends ahead, both walls may be those behind the bend, so neither supports the other.
   bound[POSE_WALL_PART_RIVAL] += larger(walls[0].yaw_to_rival_rad, walls[1].yaw_to_rival_rad);
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double apart_in_sigmas = (difference - biased_apart) / std::sqrt(variance[0] + variance[1]);
   const bool splayed = apart_in_sigmas > kSplayInSigmas;
-  // The road's own direction lies between the walls'; the mean may lie at either.
+  // The road's own direction lies between the walls', and the mean may lie at either.
   if (splayed) bound[POSE_WALL_PART_BEND] += larger(w[0], w[1]) * difference;
   const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
@@ -159,7 +159,7 @@ Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, co
   }
   std::uint32_t doubts = 0;
   for (const JudgedWall& wall : walls) {
-    // With one wall left, the reasons of the other do not speak against yaw; with none, they explain it.
+    // If one wall is left, the reasons of the other do not count against yaw. If none is, they explain it.
     if (!wall.fit.refused || !m.measured) doubts |= wall.fit.reasons;
   }
   m.reasons |= doubts;

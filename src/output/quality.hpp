@@ -13,7 +13,7 @@
 
 namespace pose_wall {
 
-// walls: left, right. A refused floor or wall leaves its quantities unmeasured.
+// walls: left, right. The quantities of a refused floor or wall stay unmeasured.
 Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                                 const Settings& settings);
 

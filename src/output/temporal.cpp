@@ -12,21 +12,21 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kConfirmations = 3;   // judgement, 2026-11-21: fewer believe a wrong look, more lag a jump
+constexpr std::uint32_t kConfirmations = 3;   // judgement, 2026-11-21: fewer accept a wrong look, more delay a jump
 constexpr std::uint32_t kStillFramesMax = 2;  // judgement, 2026-11-21: so long a held value ages by the usual period
-// Frames of two time constants of 10 s at 20 Hz, the most that temporal_smoothing_tau and a quick sensor ask for.
+// Frames of two time constants of 10 s at 20 Hz: the largest temporal_smoothing_tau and a quick sensor.
 constexpr std::uint32_t kFramesUntilSettled = 400;
-// A millisecond: no LiDAR is that quick, so it is the same frame again, or stamps that are no nanoseconds.
+// A millisecond: no LiDAR is that quick, so it is the same frame again, or the stamps are no nanoseconds.
 constexpr std::int64_t kStillBelow_ns = 1000000;
 
-// A level that is not a number must not be hidden by one that is.
+// A NaN level must not be hidden by a number.
 double larger_or_nan(double a, double b) {
   return !(a <= b) ? a : b;
 }
 
-// A jump from the last good value further than machine and errors allow: either this value or that one is wrong. Both
-// stay possible until the new one has come again kConfirmations times. And where there was no good value yet and frames
-// were refused, the first that is not is one of several looks at the same thing, and the others said no.
+// A jump from the last good value further than machine and errors allow: one of the two values is wrong. Both stay
+// possible until the new one has come kConfirmations times more. If there was no good value yet and frames were
+// refused, the first measurement is one of several looks at the same thing, and the others were refused.
 void check_innovation(const Measurement& m, [[maybe_unused]] const Settings& s, Track* t) {
   const double protection = m.protection.sum();
   const double from_good = protection + t->good.raw_protection + t->good.grown.total();
@@ -40,9 +40,9 @@ void check_innovation(const Measurement& m, [[maybe_unused]] const Settings& s, 
   POSE_WALL_NOTE(if (!t->good.exists) passes<gate::CONFIRMED>(t->to_confirm, s));
 }
 
-// A rival wall that was seen a moment ago is not gone because this frame does not show it. A level that reached to one
-// falls once kConfirmations frames in a row have seen none; until then what is measured anew may be the rival. Not so
-// of floors: uneven ground shows another slope in one frame of five, and is right in the others.
+// A rival wall seen a moment ago is not gone because this frame does not show it. A level that reached to one falls
+// once kConfirmations frames in a row have seen none. Until then a new measurement may be the rival. Floors are
+// different: uneven ground shows another slope in one frame of five, and is right in the others.
 void keep_doubts(const Settings& s, Track* t, Measurement* m) {
   if ((m->reasons & POSE_WALL_R_WALL_AMBIGUOUS) != 0) {
     t->doubted_frames = kConfirmations;
@@ -53,8 +53,8 @@ void keep_doubts(const Settings& s, Track* t, Measurement* m) {
   m->protection.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown.total(), POSE_WALL_PART_RIVAL);
 }
 
-// Until a jump is confirmed the last good value may be the right one; where there was none, the level is no better than
-// what would do harm.
+// Until a jump is confirmed the last good value may be the right one. Without one, the level is no better than the
+// alert limit.
 void reach_to_last_good(std::uint32_t quantity, const Settings& s, const Track& t, Measurement* m) {
   m->reasons |= POSE_WALL_R_INNOVATION;
   if (t.good.exists) {
@@ -65,10 +65,9 @@ void reach_to_last_good(std::uint32_t quantity, const Settings& s, const Track& 
   }
 }
 
-// How far smoothing may take the value from raw: a quarter of its protection, and not so far that it is no longer
-// valid.
+// Largest distance of the value from raw: a quarter of raw's protection, and not so far that it is no longer valid.
 double lag_most(double protection, double alert) {
-  constexpr double kShare = 0.25;   // judgement, 2026-11-24: more would hide a good measurement (README, Time)
+  constexpr double kShare = 0.25;   // judgement, 2026-11-24: more would hide a good measurement (README, Smoothing)
   constexpr double kOfRoom = 0.99;  // a hundredth for rounding of the parts' sum
   const double share = kShare * protection, room = kOfRoom * (alert - protection);
   return room > 0.0 && room < share ? room : share;
@@ -79,10 +78,10 @@ double clamped(double x, double centre, double reach) {
   return x < centre - reach ? centre - reach : x;
 }
 
-// Where a steady change would have taken the value, corrected by what was measured: the g-h filter whose memory fades
-// as fast for the value as for its rate, so that it neither lags in a steady turn nor swings (Benedict and Bordner
-// 1962; Brookner 1998, eq. 1.2-16: g = 1 - theta^2, h = (1 - theta)^2). The memory is no longer than what there is to
-// remember: the second measurement gives the rate, and none of the lag of a filter that assumes rest.
+// Predicts the value by a steady change and corrects it by the measurement. In this g-h filter the memory fades as fast
+// for the value as for its rate. So it neither lags in a steady turn nor swings (Benedict and Bordner 1962; Brookner
+// 1998, eq. 1.2-16: g = 1 - theta^2, h = (1 - theta)^2). The memory is no longer than the measurements so far. The
+// second one gives the rate, without the lag of a filter that assumes rest.
 double smoothed(double raw, double trust, double tau_s, Track* t) {
   const double dt_s = t->age_s;
   const bool filters = dt_s > 0.0 && tau_s > 0.0;
@@ -96,12 +95,11 @@ double smoothed(double raw, double trust, double tau_s, Track* t) {
   return filters ? predicted + (1.0 - theta * theta) * off : raw;
 }
 
-// Moves the smoothed value; true where the yaw limit held it back. A value that follows its raw is better than one that
-// is smooth: the limit acts only within lag_most().
+// Moves the smoothed value; true if the yaw limit held it back. A value near its raw is better than a smooth one, so
+// the limit acts only within lag_most().
 bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
   const double protection = m.protection.sum(), known = t->protection.sum() + t->grown.total(), before = t->value;
-  const double trust =
-      protection > known ? known / protection : 1.0;  // a measurement that is weaker than those before pulls less
+  const double trust = protection > known ? known / protection : 1.0;  // a weaker measurement than before pulls less
   const double free = smoothed(m.raw, trust, s.temporal_smoothing_tau, t);
   const bool limited = quantity == POSE_WALL_YAW && !passes<gate::RATE>(std::fabs(free - before), s);
   const double wished = limited ? clamped(free, before, limit_of<gate::RATE>(s)) : free;
@@ -109,8 +107,7 @@ bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Tra
   return limited && t->value == wished;
 }
 
-// Member by member: a struct's copy may bring padding along that nobody wrote, and the engine's sum is over padding,
-// too.
+// Copies member by member. A struct's copy may bring unwritten padding along, and the engine's sum covers padding too.
 void keep_good(const Measurement& m, Track* t) {
   LastGood& good = t->good;
   good.exists = true;
@@ -168,7 +165,7 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   report_protection(t->protection, out);
 }
 
-// What is held is the last good value where there is one: a weak frame since then does not replace it.
+// Holds the last good value if there is one: a weak frame since then does not replace it.
 void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t, pose_wall_value* out) {
   out->reasons = m.reasons;
   if (!t->good.exists) t->to_confirm = kConfirmations;
@@ -179,7 +176,7 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   ProtectionParts last_protection = t->protection, good_protection = t->good.protection;
   last_protection[POSE_WALL_PART_AGE] += t->grown.total();
   good_protection[POSE_WALL_PART_AGE] += t->good.grown.total();
-  // A jump that nobody has confirmed yet may be one: the level of what came last reaches to both.
+  // An unconfirmed jump may be real: the level of the last value reaches to both.
   const bool hold_good = t->good.exists && t->to_confirm == 0 && good_protection.sum() < last_protection.sum();
   out->value = hold_good ? t->good.value : t->value;
   out->age_s = hold_good ? t->good.age_s : t->age_s;
@@ -187,15 +184,15 @@ void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, T
   const Unknown& grown = hold_good ? t->good.grown : t->grown;
   const bool narrow = passes<gate::PROTECTION_HELD>(out->protection_level, alert_limit(quantity, s));
   const bool within = passes<gate::HELD_AGE>(grown.blind_s, s) && narrow;
-  // A place that is not known for a while may be known again, and the value with it.
+  // A place that is unknown for a while may be known again, and the value with it.
   t->expired = !passes<gate::HELD_BEFORE>(!t->expired) || (!within && grown.steps_by_places == 0);
   const bool holds = within && !t->expired;
   if (!holds) out->reasons |= POSE_WALL_R_HOLD_EXPIRED;
   out->state = holds ? POSE_WALL_HELD : POSE_WALL_INVALID;
 }
 
-// While the clock stands still, the machine does not: a frame takes as long as the longer of the last two. So did the
-// one in whose course the clock stopped, which may have cut it short.
+// While the clock stands still, the machine does not. A frame takes as long as the longer of the last two. The frame in
+// which the clock stopped may have been cut short, and takes as long.
 double time_while_still(const TemporalState& state) {
   const double period_s = larger_or_nan(state.last_dt_s, state.dt_before_s);
   const double cut_off_s = state.still_frames == 0 ? period_s - state.last_dt_s : 0.0;
@@ -222,8 +219,8 @@ void pass_time(double elapsed_s, const Change& change, std::uint32_t quantity, T
   t->rate = 0.0;  // the value has been moved
 }
 
-// Of what places tell and what the config allows for, both hold: a held value goes by places while that leaves it
-// usable, else by the narrower of the two.
+// Places and the config's rates both bound the change. A held value goes by places while that leaves it usable, else by
+// the narrower of the two.
 const Change& narrower(const Change& by_places, const Change& by_config, double elapsed_s, std::uint32_t quantity,
                        const Settings& s, const Track& t) {
   if (!by_places.by_places[quantity] || !t.has_value) return by_places;
@@ -301,12 +298,12 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     out = blank();
     pass_time(elapsed_s, m.measured ? change : narrower(change, by_config, elapsed_s, q, settings, t), q, &t);
     POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
-    // After a jump back, or while the clock stands still, nobody knows how much time has passed: what is held has no
-    // bound any more.
+    // After a jump back, or while the clock stands still, the elapsed time is unknown: a held value has no bound any
+    // more.
     const bool unknown = timing.still && !(elapsed_s > 0.0);
     if (timing.back || unknown || state->still_frames > kStillFramesMax) t.expired = true;
     if (timing.back) t.good.exists = false;
-    // Turned so far, what was a side wall is none any more, and what is one now nobody saw.
+    // Turned so far, the old side walls are none any more, and nobody saw the new ones.
     const bool is_sideways = q >= POSE_WALL_YAW && std::fabs(carried_yaw_rad) > radians(settings.yaw_max_deg);
     if (is_sideways && !m.measured) t.expired = true;
     if (m.measured) {

@@ -18,7 +18,7 @@ struct Known {
   double most() const { return std::fabs(rate) + uncertain; }
 };
 
-// False where it is given and is no number within its range.
+// False if it is given and not a number within its range.
 bool read_known(bool given, double rate, double sigma, double most, const Settings& s, Known* known) {
   if (!given) return true;
   *known = {true, rate, s.protection_factor * sigma};
@@ -29,7 +29,7 @@ bool contradicts_standing(const Known& known) {
   return known.given && !(std::fabs(known.rate) <= known.uncertain);
 }
 
-// A machine that turns left by an angle reports a yaw that is smaller by it.
+// A machine that turns left by an angle reports a yaw smaller by it.
 void turn_yaw(const Known& turn, double elapsed_s, Change* change) {
   const double unknown = turn.uncertain * elapsed_s;
   if (!turn.given || !(unknown < change->growth[POSE_WALL_YAW])) return;
@@ -54,8 +54,8 @@ double Unknown::total() const {
   return sum + place_level_then + place_level + std::sqrt(drift2);
 }
 
-// Steps by places follow each other for as long as every frame has one; a step without ends that, and what was not
-// known until then adds up with what comes.
+// Steps by places continue while every frame has one. A step without a place ends them, and the unknown change until
+// then adds up with the next ones.
 void Unknown::grow(const Change& by, std::uint32_t q, double elapsed_s) {
   if (!by.by_places[q]) {
     blind_s += elapsed_s;

@@ -43,7 +43,7 @@ bool all_within(const double* numbers, int count, double least, double most) {
   return true;
 }
 
-// How errors of a place in the odometry's directions turn into one quantity's.
+// Response of one quantity to errors of a place in the odometry's directions.
 struct Response {
   double of[POSE_WALL_ODOMETRY_DIRECTIONS] = {};
 
@@ -75,7 +75,7 @@ int side_of(std::uint32_t quantity) {
   return quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_LB ? 0 : 1;
 }
 
-// How far a point may lie beyond what was seen of a surface, at most.
+// Largest distance of a point beyond the seen part of a surface.
 double beyond_m(const SeenSurface& wall, const Eigen::Vector3d& at_m, double unknown_m) {
   const double along_m = wall.along.dot(at_m);
   return larger(0.0, larger(wall.from_m - along_m, along_m - wall.to_m) + unknown_m);
@@ -85,7 +85,7 @@ double beyond_floor_m(const SeenSurface& floor, const Eigen::Vector3d& at_m, dou
   return larger(0.0, std::sqrt((at_m - floor.centre_m).squaredNorm()) + unknown_m - floor.radius_m);
 }
 
-// Yaw is before the walls as they were seen last: of two the one that was seen further.
+// Yaw refers to the walls as last seen: of two, to the longer one.
 const SeenSurface* surface_of(std::uint32_t quantity, const OdometryMemory& seen) {
   if (!seen.floor.exists) return nullptr;
   if (quantity < POSE_WALL_YAW) return &seen.floor;
@@ -95,7 +95,7 @@ const SeenSurface* surface_of(std::uint32_t quantity, const OdometryMemory& seen
   return left.to_m - left.from_m > right.to_m - right.from_m ? &left : &right;
 }
 
-// What one place tells of the quantities, before the surfaces that were seen.
+// The quantities at one place, relative to the surfaces that were seen.
 class View {
  public:
   View(const pose_wall_odometry& o, const OdometryMemory& seen, const Settings& s, const Axes& axes)
@@ -107,7 +107,7 @@ class View {
         settings_(s),
         axes_(axes) {}
 
-  // Errors of a place in the odometry's directions, and how they turn into one quantity's.
+  // Response of one quantity to errors of the place in the odometry's directions.
   Response response(std::uint32_t quantity) const {
     Response r;
     if (quantity == POSE_WALL_YAW) {
@@ -118,7 +118,7 @@ class View {
       r.of[kTurns + kAcross] = std::fabs(about.dot(across_));
     } else {
       const SeenSurface& wall = seen_.wall[side_of(quantity)];
-      // Where along the wall the machine stands matters by as much as the wall's direction is not known.
+      // The place along the wall matters as far as the wall's direction is unknown.
       r.of[kAlong] = std::fabs(wall.normal.dot(along_)) + wall.slope_level;
       r.of[kAcross] = std::fabs(wall.normal.dot(across_));
       r.of[kUp] = std::fabs(wall.normal.dot(along_.cross(across_)));
@@ -127,8 +127,8 @@ class View {
     return r;
   }
 
-  // Infinite where the place may lie beyond what was seen of the surface: a road may turn there by any angle. A
-  // distance changes by no more than the way beyond.
+  // Infinite if the place may lie beyond the seen part of the surface: a road may turn there by any angle. A distance
+  // changes by no more than the way beyond.
   double level(std::uint32_t quantity) const {
     const double unknown_m = odometry_.level[kAlong], told = response(quantity).level(odometry_.level);
     if (quantity < POSE_WALL_YAW) {
@@ -140,7 +140,7 @@ class View {
     return told + beyond;
   }
 
-  // Of the machine, or of a quantity's sampling point, in the run's frame.
+  // The machine, or a quantity's sampling point, in the run's frame.
   Eigen::Vector3d point_m(std::uint32_t quantity) const {
     if (quantity < POSE_WALL_D_LF) return at_.position_m;
     return at_.position_m + at_.R_run_base * sample_base(quantity, settings_, axes_);
@@ -160,7 +160,7 @@ double turn_about(const Eigen::Vector3d& up, const Eigen::Vector3d& from, const 
   return arc_tangent2(up.dot(a.cross(b)), a.dot(b));
 }
 
-// How one quantity changes between two places before a surface that stands still.
+// Change of one quantity between two places, for a surface that stands still.
 double carry_of(std::uint32_t quantity, const Place& from, const Place& to, const OdometryMemory& seen,
                 const Settings& s, const Axes& axes) {
   const Eigen::Vector3d& up = seen.floor.normal;
@@ -177,7 +177,7 @@ double carry_of(std::uint32_t quantity, const Place& from, const Place& to, cons
   return seen.wall[side_of(quantity)].normal.dot(moved_m);
 }
 
-// What a surface's own direction makes of the way before it. One radius further on, a floor's level is doubled.
+// Error of a surface's direction over the way along it. One radius further on, a floor's level is doubled.
 double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& from, const Place& to,
               const Eigen::Vector3d& to_m, const Settings& s, const Axes& axes) {
   if (quantity == POSE_WALL_YAW) return 0.0;

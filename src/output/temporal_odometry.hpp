@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What an odometry (pose_wall_odometry) says of the seven quantities: machine and surfaces in the odometry's own frame.
-// Floor and walls stand still there, so the change of a quantity follows from two places of the machine.
+// The change of the seven quantities by an odometry (pose_wall_odometry), with machine and surfaces in the odometry's
+// own frame. Floor and walls stand still there, so the change of a quantity follows from two places of the machine.
 
 #pragma once
 
@@ -19,19 +19,19 @@
 
 namespace pose_wall {
 
-// A surface as it was measured last, in the run's frame. What is known of it ends where it was no longer seen.
+// A surface as last measured, in the run's frame. Knowledge of it ends where it was no longer seen.
 struct SeenSurface {
   bool exists = false;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of the floor: up. Of a wall: towards the machine
-  // A wall's direction towards the machine's front, and the stretch along it that was seen.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // of the floor: up; of a wall: towards the machine
+  // A wall's direction towards the machine's front, and the stretch of it that was seen.
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
   double from_m = 0.0, to_m = 0.0;
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  // of a floor, and how far it was seen
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  // of a floor, with the radius within which it was seen
   double radius_m = 0.0;
-  double slope_level = 0.0;  // how well its direction is known: rad, that is metres a metre
+  double slope_level = 0.0;  // level of its direction: rad, or metres a metre
 };
 
-// The machine's last place, and what it saw until then.
+// The machine's last place, and the surfaces seen until then.
 struct OdometryMemory {
   static constexpr std::uint64_t kNoRun = 0;  // the interface counts runs from 1
 
@@ -44,20 +44,20 @@ struct OdometryMemory {
   SeenSurface floor, wall[2];
 };
 
-// Whether all its numbers are within their ranges.
+// True if all its numbers are within their ranges.
 bool is_sound(const pose_wall_odometry& odometry);
 
-// What changed since the place in memory, which is one of the same run. Where a surface was not seen there, *change
-// stays as it is. False where drift fell: then it is of another run, whatever its number says.
+// The change since the place in memory, which is of the same run. If a surface was not seen there, *change stays. False
+// if drift fell: then it is another run, whatever its number.
 bool change_by_odometry(const pose_wall_odometry& odometry, const OdometryMemory& memory, const Settings& settings,
                         const Axes& axes, Change* change);
 
-// What is not known of the motion in the course of a scan that the motion was taken out of, in levels of what it
-// measured: as if a whole surface had been seen at the scan's end. The memory has this frame's surfaces.
+// Adds the unknown motion during a scan, whose motion was removed, to the levels of its measurements: as if the whole
+// surface had been seen at the scan's end. The memory has this frame's surfaces.
 void widen_by_skew(const pose_wall_odometry& odometry, double scan_s, const OdometryMemory& memory,
                    const Settings& settings, const Axes& axes, Measurements* measured);
 
-// The place and the surfaces that this frame measured well become memory; a new run forgets those of the one before.
+// Keeps the place and the surfaces that this frame measured well. A new run drops those of the one before.
 void remember_place(const pose_wall_odometry& odometry, const FloorResult& floor, const Levelling& levelling,
                     const JudgedWall (&walls)[2], const Measurements& measured, const Settings& settings,
                     const Axes& axes, OdometryMemory* memory);
