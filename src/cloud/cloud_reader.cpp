@@ -74,7 +74,7 @@ double read_field(const unsigned char* point, const pose_wall_field& field, bool
 }
 
 double time_unit_s(double spread) {
-  // What drivers write: s, ms, us, ns. A scan takes 10 ms to 1 s, so no two of them fit one cloud.
+  // Units of drivers: s, ms, us, ns. A scan takes 10 ms to 1 s, so no two of them fit one cloud.
   constexpr double kUnits_s[] = {1.0, 1e-3, 1e-6, 1e-9};
   for (const double unit_s : kUnits_s) {
     const double scan_s = spread * unit_s;

@@ -21,7 +21,7 @@ std::uint32_t field_bytes(std::uint32_t type);
 // Reads one field of a point as a number. The type is known and the field lies inside the point (check_cloud).
 double read_field(const unsigned char* point, const pose_wall_field& field, bool swap_bytes);
 
-// The same, quick for 32-bit counters, as most times are.
+// The same, quick for 32-bit counters, the usual type of times.
 inline double read_number(const unsigned char* point, const pose_wall_field& field, bool swap_bytes) {
   if (swap_bytes || field.type != POSE_WALL_FIELD_UINT32) return read_field(point, field, swap_bytes);
   std::uint32_t value;
@@ -29,7 +29,7 @@ inline double read_number(const unsigned char* point, const pose_wall_field& fie
   return static_cast<double>(value);
 }
 
-// A scan takes 0.01 to 1 s: the unit of a cloud's times by how far they spread; 0 where no unit makes a scan of them.
+// The unit of a cloud's times, from their spread, since a scan takes 0.01 to 1 s. 0 if no unit makes a scan of them.
 double time_unit_s(double spread);
 
 // True where the cloud's byte order is not this machine's.
@@ -38,10 +38,10 @@ bool needs_swap(const pose_wall_cloud& cloud);
 // x, y and z are native floats: the common case, read without a switch per field.
 bool is_plain_xyz32(const pose_wall_cloud& cloud);
 
-// And lie one after the other, with as much of the point behind them as makes them four: read at once.
+// The same, and they lie one after the other with enough of the point behind them for a load of four.
 bool is_xyz32_in_a_row(const pose_wall_cloud& cloud);
 
-// Rows that hold points: none where they have no width, whatever the height says.
+// Number of rows with points: none if they have no width, whatever the height.
 std::uint32_t rows_of(const pose_wall_cloud& cloud);
 
 // The row's first byte; row < rows_of(cloud).

@@ -14,12 +14,12 @@
 
 namespace pose_wall {
 
-// How many returns came from each direction: columns around the z axis, rows by the sine of the elevation. In the
-// lidar frame, where a spinning sensor sees a row alike at every azimuth.
+// Number of returns from each direction: columns around the z axis, rows by the sine of the elevation. In the lidar
+// frame, where a spinning sensor sees a row alike at every azimuth.
 class DirectionGrid {
  public:
-  // 2.8 degrees wide and, near the horizon, 1.8 high. Judgement, 2026-11-21: finer cells tell smaller gaps, coarser
-  // ones expect more returns each; a grid takes 16 KiB. A power of two each, for the masks below:
+  // 2.8 degrees wide and, near the horizon, 1.8 high. Judgement, 2026-11-21: finer cells show smaller gaps, coarser
+  // ones expect more returns each. A grid takes 16 KiB. Powers of two, for the masks below:
   static constexpr std::uint32_t kColumns = 128;
   static constexpr std::uint32_t kRows = 64;
 
@@ -41,7 +41,7 @@ class DirectionGrid {
   void add(const Eigen::Vector3d& ray, std::uint32_t returns) { add(cell_of(ray), returns); }
 
   std::uint32_t count(std::uint32_t row, std::uint32_t column) const { return counts_[row * kColumns + column]; }
-  // Whether any came from this cell or the three behind it in its row.
+  // True if any came from this cell or the three behind it in its row.
   bool any_in_four(std::uint32_t row, std::uint32_t column) const {
     std::uint64_t four;
     std::memcpy(&four, &counts_[row * kColumns + column], sizeof(four));
@@ -96,10 +96,10 @@ inline FourInts DirectionGrid::cells_of(FourFloats x, FourFloats y, FourFloats z
   return ((row < last_row ? row : last_row) & kLastRow) * static_cast<std::int32_t>(kColumns) + column;
 }
 
-// What a cloud's points say by their direction alone, whatever became of them later.
+// Returns of a cloud by direction, whatever became of them later.
 struct ReturnsByDirection {
-  DirectionGrid all;      // nearer than range_min and in the body boxes too
-  DirectionGrid too_far;  // of these, beyond range_max: behind any wall, or a driver's mark for no return
+  DirectionGrid all;      // including those nearer than range_min and in the body boxes
+  DirectionGrid too_far;  // those of them beyond range_max: behind any wall, or a driver's mark for no return
 
   void lay_out(Arena& arena) {
     all.lay_out(arena);

@@ -7,15 +7,15 @@ namespace pose_wall {
 namespace {
 
 constexpr double kGrowth = 1.26;  // about the cube root of 2: cells that fill space become half as many
-// What stands on a floor is told by what lies above it within 0.75 m, in two layers at least. Voxels too large for that
-// show the layers of their own lattice instead, wherever points fill the air, and these look like floors and walls:
-// with half a metre, 131,000 points spread evenly over 40 x 40 x 5 m gave roll and pitch, degraded, at 0.1 degrees.
+// A point is closed by points within 0.75 m above it, in two layers at least. Voxels too large for that show the layers
+// of their own lattice instead, wherever points fill the air, and these look like floors and walls. With half a metre,
+// 131,000 points spread evenly over 40 x 40 x 5 m gave roll and pitch, degraded, at 0.1 degrees.
 constexpr double kMost_m = 0.26;
-// So many fewer voxels than when a smaller leaf was tried in vain, and it is tried again. Judgement, 2026-11-22: a try
+// With so many fewer voxels than at the last vain try, a smaller leaf is tried again. Judgement, 2026-11-22: a try
 // costs one more pass over the cloud, waiting keeps the leaf one growth too large.
 constexpr double kFewer = 0.95;
 
-// By so many growths, or fewer where the largest is reached.
+// The leaf after so many growths, capped at the largest.
 double grown(double least_m, std::uint32_t growths) {
   double leaf_m = least_m;
   for (std::uint32_t k = 0; k < growths && leaf_m < kMost_m; ++k) {
@@ -29,7 +29,7 @@ double grown(double least_m, std::uint32_t growths) {
 LeafSearch::LeafSearch(double least_m, std::uint32_t room, const LeafMemory& last)
     : least_m_(least_m), room_(room), last_(last) {
   while (grown(least_m, largest_) < kMost_m) ++largest_;
-  // A memory may come from anywhere: no leaf grows further than to the largest.
+  // A memory may come from anywhere, so the number of growths is capped.
   growths_ = last.begin_with < largest_ ? last.begin_with : largest_;
   last_.begin_with = growths_;
 }
@@ -57,9 +57,9 @@ bool LeafSearch::goes_on(bool fits, std::uint32_t voxels) {
     return true;
   }
   has_fit_ = growths_;
-  // A smaller one may be tried in vain, and then this one is needed again.
+  // A smaller one may be tried in vain, and then this one needs another pass.
   if (in_vain_ != kNone || passes_ + 2 > kPassesMost || are_as_many_as_last(voxels)) return false;
-  // One growth less makes them about twice as many where they fill space, and fewer on surfaces.
+  // One growth less makes about twice as many voxels where points fill space, and fewer on surfaces.
   for (std::uint64_t most = 2ULL * voxels; growths_ > 0 && most <= room_; most *= 2) --growths_;
   return growths_ < has_fit_;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// How large the voxels of a cloud are: as small as the config says, or larger where it has more of them than there is
-// room for. That is known when the room is full, which is most of a pass over the cloud, or all of it where somebody
-// wants it so; so the leaf that the last cloud of a sensor needed is tried first with the next one, and a cloud is read
-// four times at most. After a leaf in vain come the next one, the middle of what is left, and the largest. What was
-// skipped is tried by the next clouds, one growth each. Where clouds become thinner the leaf comes down in the same
-// way: at once as far as the voxels would have room even if they filled space, and from there by one growth a cloud.
+// The size of a cloud's voxels: that of the config, or larger if there is no room for so many. The lack of room shows
+// when the room is full, after most of a pass over the cloud, or after all of it if the caller goes on to the end. So
+// the leaf that the last cloud needed is tried first, and a cloud is read four times at most. After a vain leaf come
+// the next one, the middle of the rest, and the largest. The next clouds try the skipped ones, one growth each. As
+// clouds become thinner the leaf comes down the same way: at once as far as there would be room even if the voxels
+// filled space, and then by one growth a cloud.
 
 #pragma once
 
@@ -16,19 +16,20 @@
 
 namespace pose_wall {
 
-// The leaves that are tried for one cloud, one after the other, each by how often it has grown to 1.26 times its size.
+// The leaves tried for one cloud, one after the other, as numbers of growths by 1.26.
 class LeafSearch {
  public:
-  // In vain with the last leaf, the next one, the middle of what is left, and the largest: bounds what a cloud costs.
+  // The last leaf in vain, the next one, the middle of the rest, and the largest: bounds the cost of a cloud.
   static constexpr std::uint32_t kPassesMost = 4;
 
-  // room: for so many voxels.
+  // room: number of voxels that fit.
   LeafSearch(double least_m, std::uint32_t room, const LeafMemory& last);
 
   double leaf_m() const;
-  // No other is tried after it, whether it fits or not.
+  // No other is tried after the largest, whether it fits or not.
   bool is_largest() const { return growths_ == largest_; }
-  // After a pass with this leaf: whether another is to be tried. voxels: how many there were, if they all had room.
+  // Call after a pass with this leaf. Returns true if another is to be tried. voxels: their number, if they all had
+  // room.
   bool goes_on(bool fits, std::uint32_t voxels);
   // Once it does not go on.
   LeafMemory memory(bool fits, std::uint32_t voxels) const;

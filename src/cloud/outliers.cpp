@@ -11,22 +11,22 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint8_t kKeepFour[kFour] = {1, 1, 1, 1};  // the marks of four that are kept, compared at once
+constexpr std::uint8_t kKeepFour[kFour] = {1, 1, 1, 1};  // marks of four kept points, compared at once
 
 class NeighbourCounter {
  public:
   NeighbourCounter(const PointSet& points, VoxelGrid* grid, double radius_m, std::uint32_t needed)
       : points_(points), columns_(grid, radius_m), radius2_(static_cast<float>(radius_m * radius_m)), needed_(needed) {}
 
-  // Voxels next to each other in the list are neighbours, as a rule: most points are done with that. What this does not
-  // find, has_enough() may. Of the next four points, from i on; near the end of the list nothing is found.
+  // Voxels next to each other in the list are usually neighbours, which settles most points. has_enough() may find the
+  // rest. Looks at the next four points, from i on; near the end of the list nothing is found.
   FourTruths next_have_enough_in_list(std::uint32_t i) {
     static_assert(kLook == 3 && kLook < kFour, "three each way; those before are of the last four");
     if (i + kFour + kLook > points_.count) return FourTruths{};
     const FourPlaces here = four_from(i);
     const Ahead ahead = {are_near(here, four_from(i + 1)), are_near(here, four_from(i + 2)),
                          are_near(here, four_from(i + 3))};
-    // Who is near one that lies before it was told when that was asked.
+    // Neighbours before a point were found when that earlier point was looked at.
     const FourInts found = ahead.by_1 + picked<3, 4, 5, 6>(last_.by_1, ahead.by_1) +  //
                            ahead.by_2 + picked<2, 3, 4, 5>(last_.by_2, ahead.by_2) +  //
                            ahead.by_3 + picked<1, 2, 3, 4>(last_.by_3, ahead.by_3);
@@ -54,14 +54,14 @@ class NeighbourCounter {
   std::uint64_t steps_done() const { return steps_ + columns_.searched() * steps::kColumnSearched; }
 
  private:
-  // So far in the list, each way. Of 2, 3 and 4 the cheapest, by instructions counted (bench/README.md).
+  // Distance in the list, each way. Of 2, 3 and 4 the cheapest, by instructions counted (bench/README.md).
   static constexpr std::uint32_t kLook = 3;
-  // Of four points: whether that so many places further on in the list is near.
+  // For each of four points: whether the one so many places further on in the list is near.
   struct Ahead {
     FourTruths by_1{}, by_2{}, by_3{};
   };
-  // Between two looks whether there are enough. Judgement, 2026-11-22: larger counts points for nothing, smaller asks
-  // more often.
+  // Points between two checks for enough. Judgement, 2026-11-22: a larger number counts points in vain, a smaller one
+  // checks more often.
   static constexpr std::uint32_t kAtOnce = 64;
   static constexpr std::uint64_t kRun = 12;  // steps: its ends are searched for
 
@@ -90,7 +90,7 @@ class NeighbourCounter {
   Ahead last_;  // of the four before
 };
 
-// The points that are kept move up, in their order.
+// Moves the kept points up, in their order.
 std::uint32_t close_gaps(Span<const std::uint8_t> keep, PointSet* points) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < points->count;) {
@@ -113,7 +113,7 @@ void mark_those_with_neighbours(const Settings& settings, const PointSet& points
   const std::uint64_t left = work->left();
   NeighbourCounter counter(points, grid, radius_m, settings.outlier_min_neighbors);
   for (std::uint32_t i = 0; i < points.count; i += kFour) {
-    if (counter.steps_done() > left) {  // nothing is looked for among them any more
+    if (counter.steps_done() > left) {  // the work is spent: the rest is kept unchecked
       std::memset(&keep[i], 1, points.count - i);
       break;
     }

@@ -13,9 +13,9 @@
 
 namespace pose_wall {
 
-// Drops centroids with fewer than outlier_min_neighbors others within outlier_radius (two leaves where the leaf has
-// grown, or none would have any), keeping the order of the rest, and bounds these. Returns how many went. points: just
-// what the grid has extracted; keep: scratch, one byte per point.
+// Drops centroids with fewer than outlier_min_neighbors others within outlier_radius, keeps the order of the rest and
+// bounds them. Once the leaf has grown the radius is at least two leaves, or no centroid would have neighbours. Returns
+// the number of dropped ones. points: the grid's last extract; keep: scratch, one byte for each point.
 std::uint32_t remove_outliers(const Settings& settings, VoxelGrid* grid, Span<std::uint8_t> keep, BoundedPoints* points,
                               Work* work);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Which of the last clouds come again, and since when they are known: what a driver or a network delivers anew is as
-// old as its first copy, whatever its stamp says.
+// Recognises clouds that come again. A cloud that a driver or a network delivers anew is as old as its first copy,
+// whatever its stamp.
 
 #pragma once
 
@@ -20,14 +20,14 @@ struct Repeat {
   double age_s = 0.0;  // since the first copy; below 0 where the clock went back since then
 };
 
-// The last few that differ: drivers hand out a few buffers by turns. A recording that is played in a loop comes round
-// later than that.
+// The last few different clouds, since drivers hand out a few buffers by turns. A recording played in a loop comes
+// round later than that.
 struct SeenClouds {
-  // Judgement, 2026-11-23: two buffers by turns were met, and empty frames between copies; more keeps longer what may
-  // come again by right.
+  // Judgement, 2026-11-23: two buffers by turns were met, and empty frames between copies. More would keep clouds that
+  // may rightly come again.
   static constexpr std::uint32_t kCount = 4;
 
-  // A cloud that is new is remembered instead of the oldest.
+  // A new cloud takes the place of the oldest.
   Repeat keep(std::uint64_t fingerprint, std::int64_t stamp_ns);
 
   SeenCloud cloud[kCount];  // the newest first

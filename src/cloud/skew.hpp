@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// A scan takes its time, and the machine moves meanwhile: puts each point where it would have been seen at the stamp.
+// Removes the machine's motion during a scan: puts each point where it would have been seen at the stamp.
 
 #pragma once
 
@@ -14,12 +14,12 @@ namespace pose_wall {
 
 class Skew {
  public:
-  // Without an odometry, or where the cloud has no times, nothing is to be taken out.
+  // Without an odometry, or without times in the cloud, nothing is removed.
   Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry);
 
   bool is_there() const { return unit_s_ > 0.0; }
   double scan_s() const { return scan_s_; }
-  // Since the scan's first point; 0 for a time that is none.
+  // Time since the scan's first point; 0 for a time that is not finite.
   float seconds(const unsigned char* point) const;
   // To second order of the turn: 0.1 mm at 10 m in 0.1 s at 10 degrees a second.
   FourPlaces taken_out(const FourPlaces& base, FourFloats time_s) const;

@@ -10,11 +10,11 @@
 
 namespace pose_wall {
 
-// The columns of a grid's voxels, for "who is near": what is within a distance of a voxel lies in the columns around
-// its own, and there between two heights.
+// The columns of a grid's voxels, to find neighbours: the voxels within a distance of one lie in the columns around its
+// own, and there between two heights.
 class VoxelColumns {
  public:
-  // Of a grid after extract(), until its next begin(). reach_m: at most kReachMost columns.
+  // Valid for a grid after extract() until its next begin(). reach_m: at most kReachMost columns.
   VoxelColumns(VoxelGrid* grid, double reach_m);
 
   // The config allows 2 m (outlier_radius) over columns of 4 x 0.01 m (voxel_leaf): 50.

@@ -17,10 +17,10 @@ void VoxelGrid::lay_out(Arena& arena, std::uint32_t capacity) {
 
 void VoxelGrid::begin(double leaf_m, double reach_m) {
   hash_.clear();
-  sorted_ = order_.first(0);  // what lies there may be another stage's by now
+  sorted_ = order_.first(0);  // that room may belong to another stage by now
   leaf_m_ = leaf_m;
-  // Two cells to spare. Four thirds of a power of two, 10101...: the numbers of cells around the origin differ in few
-  // bits, which is what sorting them costs. The float tells whole steps up to 2^24 of them, 16384 cells.
+  // Two cells to spare. Four thirds of a power of two, 10101...: so the numbers of cells around the origin differ in
+  // few bits, which makes sorting cheap. The float holds whole steps up to 2^24 of them, 16384 cells.
   std::uint32_t power = 1;
   while ((power - 2.0) * leaf_m < reach_m) power *= 2;
   const std::uint32_t cells = 4 * power / 3;
@@ -43,9 +43,9 @@ void VoxelGrid::extract_as_they_came(PointSet* out) {
   write_sorted(out);
 }
 
-// A sum over the cells, in whatever order they came: each one's x and y times its z and weight, after key and a
-// constant of many bits have been added, and folded, so that what changes in one cell does not undo what changes in
-// another (after NH; Black, Halevi, Krawczyk, Krovetz and Rogaway 1999).
+// A sum over the cells, independent of their order. Each cell's x and y times its z and weight, after key and a
+// constant of many bits have been added, and folded. So a change in one cell does not undo one in another (after NH;
+// Black, Halevi, Krawczyk, Krovetz and Rogaway 1999).
 std::uint64_t VoxelGrid::fingerprint_of_cells() const {
   const Span<const std::uint64_t> keys = hash_.keys();
   std::uint64_t sum = keys.size();

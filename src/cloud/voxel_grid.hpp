@@ -17,9 +17,9 @@ namespace pose_wall {
 // Weights are whole sixteenths, so that sums do not depend on the order of points.
 constexpr std::uint32_t kWeightOne = 16;
 
-// Weighted centroids of the points in each cell of a grid. Coordinates are summed as whole steps, a 1024th of the
-// cell's edge each: the centroids are the same bits whatever the order of the points, and exact to half a step, or to
-// what floats tell apart over the whole reach.
+// Weighted centroids of the points in each cell of a grid. Coordinates are summed as whole steps of a 1024th of the
+// cell's edge. So the centroids are the same bits whatever the order of the points. They are exact to half a step, or
+// to a float's resolution over the whole reach.
 class VoxelGrid {
  public:
   // A cell is 1024 steps wide: centroids of 5 cm cells are exact to 0.02 mm. With a cell's 21 bits (VoxelKey) a step's
@@ -32,24 +32,23 @@ class VoxelGrid {
   void begin(double leaf_m, double reach_m);
 
   static constexpr std::uint32_t kWeightMost = 1U << 22;  // times the largest step within a cell: below 2^32
-  // What a point adds to its cell: its steps within the cell times its weight, and the weight, in sixteenths.
+  // A point's part in its cell: its steps within the cell times its weight, and the weight, in sixteenths.
   using Sums = FourWords;  // x, y, z, weight
 
-  // Of four points that reach no further than begin() was told; weights: 1 to kWeightMost.
+  // Of four points within the reach of begin(); weights: 1 to kWeightMost.
   void split(FourFloats x_m, FourFloats y_m, FourFloats z_m, FourWords weights, std::uint64_t* keys, Sums* sums) const {
     const FourInts x = steps_of(x_m), y = steps_of(y_m), z = steps_of(z_m);
     VoxelKey::of_four({x >> kStepBits, y >> kStepBits, z >> kStepBits}, keys);
     transpose(within(x) * weights, within(y) * weights, within(z) * weights, weights, sums);
   }
 
-  // Puts points in, one after the other; nobody else looks at what the grid holds meanwhile.
+  // Adds points one after the other. Nothing else may read the grid meanwhile.
   class Filling {
    public:
     explicit Filling(VoxelGrid* grid) : hash_(&grid->hash_), sums_(grid->sums_.data()) {}
 
-    // Of a point that was split(). False where it needs a new cell and there is no room: the grid is then of no use. A
-    // cell takes the weight of a quarter of a million points; what would make it more is left out, which depends on
-    // their order.
+    // Adds a point after split(). False if it needs a new cell and there is no room: the grid is then useless. A cell
+    // takes the weight of a quarter of a million points. Points beyond that are left out, which depends on their order.
     bool add(std::uint64_t key, Sums sums) {
       const std::uint32_t known = hash_.count();
       const std::uint32_t index = hash_.insert(key);
@@ -64,23 +63,23 @@ class VoxelGrid {
     Sums* const sums_;
   };
 
-  // Writes the centroids in the order of their cells' keys, or in that in which the cells came. out must have room for
-  // count(), and rows that go on for a four: whole fours are written. No point is put in any more until begin().
+  // Writes the centroids in the order of their cells' keys, or in the order in which the cells came. out must have room
+  // for count(), and rows that go on for a four, since whole fours are written. No point may be added any more until
+  // begin().
   void extract(PointSet* out);
   void extract_as_they_came(PointSet* out);
 
-  // After extract() in the order of the keys, until the next begin(): the key of the i-th centroid, and where each
-  // column's keys begin in the list, with its end as the last; nothing, and an end, before.
+  // Valid after extract() in the order of the keys, until the next begin(): the key of the i-th centroid, and the start
+  // of each column's keys in the list, with the end as the last. Before, nothing and an end.
   std::uint64_t key_in_order(std::uint32_t i) const { return hash_.key(sorted_[i]); }
   Span<const std::uint32_t> find_columns();
   double leaf_m() const { return leaf_m_; }
 
   std::uint32_t count() const { return hash_.count(); }
-  // What cells that share the hash's slots have cost since begin(), in steps of about ten instructions.
+  // Cost of cells that share the hash's slots since begin(), in steps of about ten instructions.
   std::uint64_t crowding() const { return hash_.links(); }
   std::uint32_t slots() const { return hash_.slots(); }
-  // Of all cells and their sums, as they were at the last extract(): equal clouds give equal numbers, others different
-  // ones.
+  // Of all cells and their sums at the last extract(): equal clouds give equal numbers, others different ones.
   std::uint64_t fingerprint() const { return fingerprint_; }
 
  private:
@@ -94,7 +93,7 @@ class VoxelGrid {
 
   VoxelHash hash_;
   Span<Sums> sums_;
-  Span<std::uint32_t> order_, spare_;  // on top of the hash's tree: nothing is put in once they are written
+  Span<std::uint32_t> order_, spare_;  // on top of the hash's tree: no key is added once they are written
   Span<std::uint32_t> sorted_;         // one of the two, in the end
   Span<std::uint32_t> histogram_;
   float steps_per_m_ = 1.0F, origin_step_ = 0.0F;

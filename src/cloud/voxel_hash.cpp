@@ -8,8 +8,8 @@
 namespace pose_wall {
 namespace {
 
-// What a side of a branching leads to: a key's index, or another branching's index and the bit that it asks for. The
-// index takes 20 bits (kCapacityMost), the number of a bit of 64 takes six, the highest bit tells the two apart:
+// The link on a side of a branching: a key's index, or another branching's index and its bit. The index takes 20 bits
+// (kCapacityMost) and the number of a bit of 64 six. The highest bit separates the two:
 constexpr std::uint32_t kBranching = 1U << 31;
 constexpr std::uint32_t kBitShift = 20, kBitMask = 63;
 
@@ -31,7 +31,7 @@ std::uint32_t side_of(std::uint64_t key, std::uint32_t bit) {
 
 }  // namespace
 
-// A crit-bit tree (after Morrison's PATRICIA, 1968): the bits that are asked for fall from the root on.
+// A crit-bit tree (after Morrison's PATRICIA, 1968): from the root on each branching tests a lower bit.
 std::uint32_t VoxelHash::find_or_branch(std::uint64_t key, std::uint32_t count) {
   if (root_ == kFree) {
     if (count == capacity_) return kFull;

@@ -13,16 +13,16 @@ namespace pose_wall {
 // Key to index, open addressing with linear probing over a power-of-two table at most half full. Indices are given out
 // in the order of first insertion.
 //
-// Who knows the hash can choose keys that all begin at one slot. So a key probes kProbesMost slots and no more: where
-// none of them is free or its own, it goes into a tree beside the table. The tree branches by the highest bit in which
-// keys differ, so it is never deeper than a key has bits, whatever the keys and their order. A slot is never freed:
-// who goes on to the tree does so again, and an index does not tell where its key lies.
+// An attacker who knows the hash can choose keys that all begin at one slot. So a key probes kProbesMost slots and no
+// more. If none of them is free or its own, it goes into a tree beside the table. The tree branches at the highest bit
+// in which keys differ, so it is never deeper than a key has bits, whatever the keys and their order. A slot is never
+// freed, so a key that went to the tree does so again, and its index does not show where it lies.
 class VoxelHash {
  public:
   static constexpr std::uint32_t kFull = 0xFFFFFFFFU;  // no index is as large
-  // Of random keys few go further, even in a table half full, and the tree costs as much as some more probes would.
+  // Few random keys go further, even in a table half full, and the tree costs as much as some more probes.
   static constexpr std::uint32_t kProbesMost = 8;
-  // Twenty bits of an index are what a link of the tree has room for; points_max is 400,000 at most.
+  // A link of the tree has room for twenty bits of an index; points_max is 400,000 at most.
   static constexpr std::uint32_t kCapacityMost = 1U << 20;
 
   // capacity: how many keys, up to kCapacityMost; the table has at least twice as many slots.
@@ -44,8 +44,8 @@ class VoxelHash {
     slots_.fill(kFree);
   }
 
-  // Puts keys in, one after the other: what changes with each of them lies in registers, not in the table. Nobody else
-  // looks at the table meanwhile.
+  // Adds keys one after the other and keeps the changing numbers in registers, not in the table. Nothing else may read
+  // the table meanwhile.
   class Filling {
    public:
     explicit Filling(VoxelHash* hash)
@@ -60,7 +60,7 @@ class VoxelHash {
     Filling(const Filling&) = delete;
     Filling& operator=(const Filling&) = delete;
 
-    // Index of the key, new or old; kFull where a new key does not fit. Points arrive in scan order, so the last key is
+    // Index of the key, new or old; kFull if a new key does not fit. Points arrive in scan order, so the last key is
     // often the next one too.
     std::uint32_t insert(std::uint64_t key) {
       if (key == last_key_) return last_index_;
@@ -107,20 +107,20 @@ class VoxelHash {
   std::uint64_t key(std::uint32_t index) const { return keys_[index]; }
   Span<const std::uint64_t> keys() const { return keys_.first(count_); }
 
-  // How many branchings of the tree, and slots before it, were passed since clear(): what crowding has cost.
+  // Number of branchings of the tree, and slots before it, passed since clear(): the cost of crowding.
   std::uint64_t links() const { return links_; }
   std::uint32_t slots() const { return slots_.size(); }
 
-  // Where the tree lies, as long as the capacity and one more each. Once all keys are in, it is of no use, and whoever
-  // goes on with the keys may write there until the next clear().
+  // The tree's room, of the capacity and one each. Once all keys are in, the tree is not needed, and the caller may
+  // write there until the next clear().
   Span<std::uint32_t> first_side() const { return sides_[0]; }
   Span<std::uint32_t> second_side() const { return sides_[1]; }
 
  private:
   static constexpr std::uint32_t kFree = 0xFFFFFFFFU;  // all ones, so that clearing is a fill; no index is as large
 
-  // Index of a key that found no room among its slots, and `count` where it is new: then it has its place in the tree.
-  // kFull where a new key does not fit.
+  // Index of a key that found no room among its slots. A new key gets `count` and a place in the tree; kFull if it does
+  // not fit.
   std::uint32_t find_or_branch(std::uint64_t key, std::uint32_t count);
 
   Span<std::uint32_t> slots_;  // indices
@@ -129,7 +129,7 @@ class VoxelHash {
   std::uint32_t count_ = 0;
   std::uint32_t mask_ = 1, shift_ = 63;  // of the table's slots
   // The tree. Each key but the first brings the branching at which it parted from the others; both have its index.
-  Span<std::uint32_t> sides_[2];  // by index of a branching: what lies at its side of zeros and of ones
+  Span<std::uint32_t> sides_[2];  // by index of a branching: the links at its side of zeros and of ones
   std::uint32_t root_ = kFree;
   std::uint64_t links_ = 0;
 };

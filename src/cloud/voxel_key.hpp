@@ -4,8 +4,8 @@
 // The cell of a voxel as one number.
 //
 // From the highest bit on: the place of an upright column of 4 x 4 cells along x and y, z, and x and y within the
-// column. In the order of these numbers neighbours in space are neighbours in the list, as a rule, and what lies within
-// a distance of a cell lies in a few runs of it: one for each column around.
+// column. In this order neighbours in space are usually neighbours in the list. The cells within a distance of one lie
+// in a few runs of the list, one for each column around.
 
 #pragma once
 

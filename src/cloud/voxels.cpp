@@ -17,10 +17,10 @@
 namespace pose_wall {
 namespace {
 
-// What becomes of a point. The last of these that holds counts.
+// The fate of a point. The last one that applies counts.
 enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // kBeyond: too far, zero or not a number
 
-// Points are worked on by the block: turned and judged four at a time; only what goes into tables goes one by one.
+// Points are processed by the block, turned and judged four at a time. Only entries in tables go one by one.
 struct PointBlock {
   // Some 4 KiB, which stay in the nearest cache; whole fours. Judgement, 2026-11-21.
   static constexpr std::uint32_t kSize = 64;
@@ -44,7 +44,7 @@ float to_float(double value) {
   return static_cast<float>(value);
 }
 
-// Mean intensity of the readable points: the brightness that "brighter" is measured against.
+// Mean intensity of the readable points. Brighter points are brighter than this.
 double mean_intensity(const pose_wall_cloud& cloud, bool swap) {
   double sum = 0.0;
   std::uint64_t count = 0;
@@ -86,7 +86,7 @@ class Pass {
                   quadrant_of(axes, -y_base)};
   }
 
-  // False where the grid overflows: then counts are complete only if the pass goes on to the end all the same.
+  // False if the grid overflows. The counts are then complete only if the pass goes on to the end all the same.
   bool run(bool to_the_end, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts,
            std::uint64_t* raw_fingerprint) const {
     bool fits = true;
@@ -113,7 +113,7 @@ class Pass {
   }
 
  private:
-  // Of the points as they came, in any order: freed of another motion the same cloud has other voxels.
+  // Of the raw points, in any order: with another motion removed the same cloud has other voxels.
   static std::uint64_t fingerprint_of(const PointBlock& block) {
     std::uint64_t sum = 0;
     for (std::uint32_t k = 0; k < block.count; ++k) {
@@ -187,20 +187,20 @@ class Pass {
     return weight >= 1.0 ? static_cast<std::uint32_t>(weight + 0.5) : 1U;
   }
 
-  // That an axis of base points into the middle of.
+  // The quadrant that an axis of base points into.
   static std::int32_t quadrant_of(const Axes& axes, const Eigen::Vector3d& axis_base) {
     const double ahead = axes.forward_base.dot(axis_base), left = axes.left_base.dot(axis_base);
     if (std::fabs(left) > std::fabs(ahead)) return left > 0.0 ? kLeft : kRight;
     return ahead > 0.0 ? kAhead : kBehind;
   }
 
-  // Whole fours, up to end. What is beyond may be anything: it is turned as if it were zero, and left out at the end.
+  // Whole fours, up to end. Values beyond may be anything: they are turned as if zero and left out at the end.
   void judge_and_turn(const VoxelGrid& grid, std::uint32_t end, PointBlock* b) const {
     const FourInts kept = all_four_ints(kKept), near = all_four_ints(kNear), beyond = all_four_ints(kBeyond);
     const FourInts with_x = all_four_ints(quadrants_.with_x), with_y = all_four_ints(quadrants_.with_y);
     const FourInts against_x = all_four_ints(quadrants_.against_x), against_y = all_four_ints(quadrants_.against_y);
     const FourFloats least2 = all_four(range_min2_), most2 = all_four(range_max2_), none{};
-    const FourTurns to_base = to_base_;  // nothing that is stored can be thought to change it
+    const FourTurns to_base = to_base_;  // a local copy, so that no store can seem to change it
     for (std::size_t k = 0; k < end; k += kFour) {
       FourFloats x = load_four(&b->x_lidar[k]), y = load_four(&b->y_lidar[k]), z = load_four(&b->z_lidar[k]);
       const FourFloats range2 = x * x + y * y + z * z;
@@ -286,7 +286,7 @@ class Pass {
       ++counts->dropped_not_finite;
     } else if (p.squaredNorm() == 0.0) {
       ++counts->dropped_zero;
-    } else if (p.squaredNorm() < 1.0) {  // its square is no float: it was turned as if it were zero
+    } else if (p.squaredNorm() < 1.0) {  // its square is no float, so it was turned as if zero
       ++counts->near_by_quadrant[kBehind];
       returns_lidar->all.add(p, 1);
     } else {
@@ -299,7 +299,7 @@ class Pass {
 
   const pose_wall_cloud& cloud_;
   const Skew& skew_;
-  bool by_points_;  // tells clouds that come again by their points, not by voxels
+  bool by_points_;  // recognises repeats by points instead of voxels
   FourTurns to_base_;
   float range_min2_, range_max2_;
   Box boxes_[4 + POSE_WALL_INPUT_BOXES] = {};
@@ -313,7 +313,7 @@ class Pass {
   double mean_intensity_;
 };
 
-// What holds no return is passed over in a few instructions, and whoever hands the cloud over may leave it out.
+// No-returns cost a few instructions each, and the caller may leave them out of the cloud.
 std::uint32_t returns_of(const IngestCounts& counts) {
   return counts.points_in - counts.dropped_not_finite - counts.dropped_zero;
 }
@@ -326,7 +326,7 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
   VoxelResult result;
   Work work;
   const Skew skew(cloud, odometry);
-  // Whether this very frame has an odometry or not: its other copy may not.
+  // Even if this frame has no odometry, since its other copy may have one.
   const bool by_points = settings.motion == kMotionOn && cloud.time.type != POSE_WALL_FIELD_NONE;
   const Pass pass(cloud, settings, extrinsic, axes, skew, by_points);
   std::uint64_t raw_fingerprint = 0;

@@ -15,10 +15,10 @@
 namespace pose_wall {
 
 // Filters (finite, not zero, range_min..range_max from the sensor, outside the body boxes), moves points to base and
-// averages them per voxel. When a frame needs more voxels than there is room for, it starts again with a larger leaf,
-// and with a smaller one where there are far fewer, up to three times: the leaf depends on the set of points and on
-// what the last cloud left behind, not on the points' order. returns_lidar counts all that was returned, before the
-// filters. With an odometry the points of a cloud that has times lie where they were at the stamp (voxel_skew).
+// averages them by voxel. A frame with more voxels than there is room for starts again with a larger leaf. One with far
+// fewer tries a smaller leaf. There are three such restarts at most. The leaf depends on the set of points and on the
+// last cloud's memory, not on the points' order. returns_lidar counts all returns, before the filters. With an odometry
+// the points of a cloud with times lie where they were at the stamp (skew).
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
                          const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
                          ReturnsByDirection* returns_lidar, PointSet* cloud_base);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// A gate holds a value against a limit. gates.def is the table of all; the rules ask them here, and one call both
-// judges and, in the traced library, notes. In the engine that is delivered a gate is the bare comparison.
+// A gate compares a value with a limit. The table of all gates is gates.def. Rules use them by name here, and one call
+// both judges and, in the traced library, takes the note. In the delivered engine a gate is the bare comparison.
 
 #pragma once
 
@@ -26,7 +26,7 @@ enum Id : std::uint32_t {
 enum Sense { AT_LEAST, AT_MOST, BELOW, IS_SO };
 enum Effect { TELLS, DOUBTS, REFUSES };
 
-// The rows as types: sense, effect, reasons and limit(settings). A limit that is left to the caller is no number here.
+// The rows as types: sense, effect, reasons and limit(settings). A limit left to the caller is no number here.
 template <Id id>
 struct Row;
 constexpr double BY_CALLER = -1.0;  // NOLINT(readability-identifier-naming): as gates.def spells it
@@ -44,7 +44,7 @@ constexpr double BY_CALLER = -1.0;  // NOLINT(readability-identifier-naming): as
 
 }  // namespace gate
 
-// What the gate holds its values against.
+// The limit of a gate.
 template <gate::Id id>
 double limit_of(const Settings& s) {
   static_assert(!gate::Row<id>::by_caller, "the caller knows this limit");
@@ -66,12 +66,12 @@ bool judge(double value, double limit) {
 
 }  // namespace gate
 
-// Whether the value passes. By the table's limit:
+// True if the value passes. With the table's limit:
 template <gate::Id id>
 bool passes(double value, const Settings& s) {
   return gate::judge<id>(value, limit_of<id>(s));
 }
-// By a limit that the caller knows:
+// With a limit from the caller:
 template <gate::Id id>
 bool passes(double value, double limit) {
   static_assert(gate::Row<id>::by_caller, "gates.def has the limit");
@@ -87,7 +87,7 @@ bool passes(bool is_so) {
   return gate::judge<id>(is_so ? 1.0 : 0.0, limit);
 }
 
-// The same, and where the value does not pass, the verdict gets the gate's reasons, and refuses where the gate does.
+// The same. If the value fails, the verdict gets the gate's reasons and is refused if the gate refuses.
 template <gate::Id id, typename... Limit>
 bool demand(Verdict* verdict, const Limit&... value_and_limit) {
   if (passes<id>(value_and_limit...)) return true;
@@ -96,7 +96,7 @@ bool demand(Verdict* verdict, const Limit&... value_and_limit) {
   return false;
 }
 
-// What a frame may cost (work_max): where it is spent, what was not finished is refused.
+// The budget of a frame (work_max): once it is spent, unfinished parts are refused.
 inline bool demand_work_left(const Work& work, Verdict* verdict) {
   return demand<gate::WORK>(verdict, static_cast<double>(work.done()), static_cast<double>(work.most()));
 }

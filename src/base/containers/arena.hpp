@@ -30,23 +30,23 @@ class Arena {
     return place != nullptr ? new (place) T : nullptr;
   }
 
-  // What is taken after this lies on top of what was taken since: for parts of which one is done with when the other
-  // is written.
+  // Parts taken after go_back() lie on top of those taken since place(). Use it for parts that are not needed any more
+  // when the others are written.
   std::uint64_t place() const { return used_; }
   void go_back(std::uint64_t place) {
     most_ = bytes();
     used_ = place;
   }
 
-  // What is taken after this lies on top of nothing.
+  // Parts taken after this lie behind all others.
   void go_behind_all() { used_ = bytes(); }
 
-  // At most ever in use.
+  // The most that was ever in use.
   std::uint64_t bytes() const { return used_ > most_ ? used_ : most_; }
 
  private:
   void* advance(std::uint64_t bytes) {
-    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;  // what is taken ends where the next may begin
+    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;  // a part ends where the next may begin
     void* place = block_ != nullptr ? block_ + used_ : nullptr;
     used_ += (bytes + kMask) & ~kMask;
     return place;

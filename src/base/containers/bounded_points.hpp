@@ -9,8 +9,8 @@
 
 namespace pose_wall {
 
-// Points and, for each block of them that follow each other in the list, the box they lie in. In a list that is in the
-// order of its places a block is small, and who looks for points near a plane passes over most blocks unread.
+// Points with a bounding box for each block of successive ones. In a list in spatial order a block is small, so a
+// search near a plane skips most blocks unread.
 struct BoundedPoints : PointSet {
   // Measured on an OS1-64 (bench/README.md): boxes of 32 points left 78.9 M instructions a frame, of 16 points 79.4 M.
   static constexpr std::uint32_t kBlock = 32;
@@ -21,7 +21,7 @@ struct BoundedPoints : PointSet {
   void lay_out(Arena& arena, std::uint32_t capacity);
   std::uint32_t blocks() const { return (count + kBlock - 1) / kBlock; }
 
-  // To be called when the points are what they are going to be.
+  // Call it after the last change of the points.
   void bound();
 };
 

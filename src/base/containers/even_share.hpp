@@ -9,12 +9,11 @@
 
 namespace pose_wall {
 
-// An even share of what is offered one by one. Every n-th would take one of two layers that come by turns, for any even
-// n; the multiples of the golden ratio fill the circle about evenly, and those of every n-th of them do so as well, for
-// short n.
+// Takes an even share of items offered one by one. Every n-th item would be from one of two alternating layers, for any
+// even n. The multiples of the golden ratio fill the circle about evenly, and so do those of every n-th, for short n.
 class EvenShare {
  public:
-  // Takes `most` of `all`, on the average over many that are offered.
+  // Takes `most` of `all`, on average over many items.
   EvenShare(std::uint32_t most, std::uint32_t all) : limit_(kWhole) {
     if (all > most) limit_ = (kWhole * most + all - 1) / all;
   }

@@ -12,9 +12,9 @@
 
 namespace pose_wall {
 
-// Points as a structure of arrays, in one frame that the owner's name tells. weight: how many measured points the
-// centroid stands for (times its intensity weight, where that is on). Rows go on for a four behind the capacity: the
-// last points are read four at a time too, and what comes with them is anything.
+// Points as a structure of arrays, in one frame that the owner's name gives. weight: the number of measured points in
+// the centroid (times its intensity weight, if that is on). Rows go on for a four behind the capacity. The last points
+// are read four at a time too, and the values behind them may be anything.
 struct PointSet {
   Span<float> x, y, z, weight;
   std::uint32_t count = 0;

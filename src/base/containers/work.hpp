@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What a frame has cost so far, in steps that are the same on every machine.
+// The cost of a frame so far, in steps that are the same on every machine.
 //
-// Loops over data add their steps where they begin or end, by how many items they take. A step stands for about ten
+// Loops over data add their steps where they begin or end, by the number of their items. A step stands for about ten
 // instructions of x86-64 or AArch64: `bench/instructions/count.py --dear` compares the two over ordinary and hostile
-// clouds. A frame that has spent its budget (work_max) stops at the next place that asks. What was finished before then
-// is reported, all else is refused. The count never falls, so whoever asks last also answers for all that came before.
+// clouds. A frame that has spent its budget (work_max) stops at the next check. Results finished before then are
+// reported, all else is refused. The count never falls, so the last check also covers everything before it.
 
 #pragma once
 
@@ -36,25 +36,24 @@ class Work {
 // and the hostile clouds of tests/support/dear_clouds.hpp, rounded: 8 to 13 instructions a step, stage by stage.
 namespace steps {
 
-// Reading: a return of the cloud, a pass of it through the table of voxels, by its slots; a voxel that is sorted and
-// written. What crowded keys cost more is not counted: it hangs on the order of points, and has a cap for each.
+// Reading: a return of the cloud; a pass through the table of voxels, by its slots; a voxel that is sorted and written.
+// The extra cost of crowded keys is not counted: it depends on the order of points, and each key has a cap.
 constexpr std::uint64_t kPointRead = 11, kPointUnskewed = 16, kFourSlots = 2, kVoxelWritten = 15;
-// Outliers: a voxel; one whose neighbours are looked for, a column that is searched for its height, and four that are
-// looked at.
+// Outliers: a voxel; one whose neighbours are sought; a column searched for its height; four compared voxels.
 constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kColumnSearched = 16, kFourLookedAt = 2;
-// Floor: a voxel that is told open or not; an open point within a radius; a hypothesis; a plane that is refined,
-// weighed, and a point that it is weighed by; a point that a fit selects from, and one that goes into its patches:
+// Floor: a voxel tested for open ground; an open point within a radius; a hypothesis; a plane that is refined; one that
+// is weighed, and each point of that; a point that a fit selects from, and one that goes into its patches:
 constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 10, kFloorDrawn = 400, kFloorRefined = 4000;
 constexpr std::uint64_t kFloorWeighed = 8000, kPointWeighed = 7, kPointSelected = 8, kPointPatched = 12;
 // Band: a voxel that is turned and cut.
 constexpr std::uint64_t kVoxelLevelled = 8;
 // Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis; a plane that
-// is refined, weighed, and a point of the band that it is weighed by; what is looked at about a wall that was fitted,
-// and a point of the band for it:
+// is refined; one that is weighed, and each point of that; the looks at a fitted wall, and each point of the band for
+// them:
 constexpr std::uint64_t kPointParted = 16, kPointSided = 1, kWallDrawn = 350, kWallRefined = 7000, kWallWeighed = 5000;
 constexpr std::uint64_t kPointMarked = 2, kWallLookedAt = 150000, kPointLookedAt = 11;
-// A fit of a wall: a point of the band for it, one that is taken; a profile of strips; a point that is told by columns,
-// summed in patches; and one of which it is asked whether the surface bends:
+// A fit of a wall: a point of the band, one that is taken; a profile of strips; a point assigned by columns; one summed
+// in patches; and one in a test for bends:
 constexpr std::uint64_t kPointGathered = 2, kPointTaken = 12, kProfile = 30000, kPointByColumn = 12, kPointSummed = 3;
 constexpr std::uint64_t kPointBent = 8;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those

@@ -17,11 +17,11 @@ namespace {
 // A voxel right in front of the sensor stands for hundreds of points, but the rock under it is one piece. Judgement,
 // 2026-11-21: a larger cap gives the near rock more say, a smaller one wastes ranges that average out.
 constexpr float kWeightCap = 8.0F;
-// Standard deviation of the points across their longer side: of less a slope tells nothing. The default voxel's edge;
-// judgement, 2026-11-21.
+// Least standard deviation of the points across their longer side: below it a slope is unknown. The default voxel's
+// edge; judgement, 2026-11-21.
 constexpr double kSpreadMin_m = 0.05;
 
-// What a round needs to know of the plane and its weights, as floats.
+// The plane and the weights of a round, as floats.
 struct Round {
   float offset, slope_u, slope_v, foreshortening, gate, per_cutoff;
 };

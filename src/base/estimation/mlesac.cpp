@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kSpanInSigmas = 4.0;  // residuals beyond are outliers without further ado: 6 in 100,000 by chance
 constexpr std::uint32_t kBins = 32;    // an eighth of a standard deviation each
-// The share of outliers only has to tell whether a plane explains more than none would. Judgement, 2026-11-21.
+// The share of outliers only decides whether a plane explains more than none. Judgement, 2026-11-21.
 constexpr int kEmRounds = 8;
-// Points between two looks whether a hypothesis has lost already; whole fours. Judgement: 64 until 2026-11-22.
+// Points between two checks whether a hypothesis has lost already; whole fours. Judgement: 64 until 2026-11-22.
 constexpr std::uint32_t kLook = 128;
 // A look gives up a hypothesis wrongly once in 700 times at most. Judgement, 2026-11-22.
 constexpr double kSureInSigmas = 3.0;
@@ -40,9 +40,9 @@ Histogram histogram_of_residuals(const PointSet& points, const Plane& plane, dou
   return h;
 }
 
-// Whether a mean of this many costs between 0 and 1 leaves hope for less than too_much. Costs of the same mean scatter
-// most where they are all 0 or 1; of what would just do, so much: where all so far are 1, that they scatter is yet to
-// be seen.
+// True if a mean of so many costs between 0 and 1 leaves no hope for less than too_much. Costs of one mean scatter most
+// if they are all 0 or 1. The variance is at least that of a cost that would just do, since equal costs so far do not
+// show their scatter.
 bool has_lost(double mean, std::uint32_t count, double too_much) {
   const double above = mean - too_much;
   if (!(above >= 0.0)) return false;
@@ -50,7 +50,7 @@ bool has_lost(double mean, std::uint32_t count, double too_much) {
   return above * above * count >= kSureInSigmas * kSureInSigmas * variance;
 }
 
-// Of the points from begin to end. The height of a point tells nothing of its distance from an upright plane.
+// Of the points from begin to end. The distance from an upright plane does not depend on a point's height.
 template <bool kUpright>
 FourFloats sum_of_costs(const PointSet& points, const FourDistances& distances, std::uint32_t begin, std::uint32_t end,
                         FourFloats limit_m2) {
@@ -77,7 +77,7 @@ double truncated_cost(const PointSet& points, const Plane& plane, double thresho
   const FourDistances distances(plane);
   const FourFloats limit_m2 = all_four(static_cast<float>(threshold_m * threshold_m));
   const double most_m2 = static_cast<double>(limit_m2[0]);
-  const bool upright = plane.n.z() == 0.0;  // exactly, as what is drawn as a wall
+  const bool upright = plane.n.z() == 0.0;  // exactly, as for a drawn wall
   double sum_m2 = 0.0;
   for (std::uint32_t i = 0; i < points.count;) {
     const std::uint32_t end = i + kLook < points.count ? i + kLook : points.count;

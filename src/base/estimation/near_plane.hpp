@@ -14,7 +14,7 @@
 
 namespace pose_wall {
 
-// Distances in floats: to some micrometres. Who needs them exactly asks the plane again.
+// Distances in floats, to some micrometres. For exact ones use the plane.
 class FourDistances {
  public:
   explicit FourDistances(const Plane& plane)
@@ -30,7 +30,7 @@ class FourDistances {
     return of(load_four(&points.x[from]), load_four(&points.y[from]), load_four(&points.z[from]));
   }
 
-  // How far boxes with these half edges reach across the plane to each side: as far as their edges do together.
+  // Reach of boxes with these half edges across the plane to each side: the sum of their edges' reaches.
   FourFloats reach_of(FourFloats half_x, FourFloats half_y, FourFloats half_z) const {
     return magnitude_of(nx_) * half_x + magnitude_of(ny_) * half_y + magnitude_of(nz_) * half_z;
   }
@@ -39,7 +39,7 @@ class FourDistances {
   FourFloats nx_, ny_, nz_, d_;
 };
 
-// What lies from low_m to high_m before a plane; in floats, too.
+// The space from low_m to high_m before a plane; in floats, too.
 class Slab {
  public:
   Slab(const Plane& plane, double low_m, double high_m)
@@ -50,7 +50,7 @@ class Slab {
   const FourDistances& distances() const { return distances_; }
   FourTruths holds(FourFloats r_m) const { return (r_m >= low_m_) & (r_m <= high_m_); }
   FourTruths holds(FourFloats x, FourFloats y, FourFloats z) const { return holds(distances_.of(x, y, z)); }
-  // Whether it may hold points of four blocks, from one on. Of points within a kilometre.
+  // True for blocks that may have points in it, for four blocks from one on. For points within a kilometre.
   FourTruths may_meet(const BoundedPoints& points, std::uint32_t block) const;
 
  private:

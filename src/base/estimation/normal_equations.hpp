@@ -16,7 +16,7 @@ class NormalEquations {
       : w_(w), wu_(wu), wv_(wv), wuu_(wuu), wuv_(wuv), wvv_(wvv), wr_(wr), wur_(wur), wvr_(wvr) {}
 
   void add(double u, double v, double r, double w) { add_row({1.0, u, v}, r, w); }
-  // Where the row of the design is not (1, u, v); after it only information() and right_side() tell something.
+  // For a row of the design other than (1, u, v). After it only information() and right_side() are defined.
   void add_row(const Eigen::Vector3d& row, double r, double w) {
     const double w0 = w * row[0], wu = w * row[1], wv = w * row[2];
     w_ += w0 * row[0];

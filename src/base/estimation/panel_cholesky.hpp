@@ -30,9 +30,9 @@ class PanelCholesky {
   // and with the identity's rows up to a whole panel, before factor() makes the factor of it.
   float* panel(std::uint32_t p) { return &panels_[p * kPanel]; }
 
-  // False where the matrix is not positive definite, to what floats tell.
+  // False if the matrix is not positive definite in floats.
   bool factor(std::uint32_t rows);
-  // Four right sides, value k of row c at 4 c + k: each becomes what times the factor gives it.
+  // Four right sides, value k of row c at 4 c + k. Solves for each: the factor times the result gives the old value.
   void solve(std::uint32_t rows, float* right_sides) const { eliminate(panels_of(rows), right_sides); }
   // One over the factor's diagonal.
   float inverse_pivot(std::uint32_t row) const { return panels_[row / kFour * kPanel + kFour * row + row % kFour]; }

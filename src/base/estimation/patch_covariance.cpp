@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What a patch fit knows of its own errors: correlation of the rock, covariance, and whether the surface is a plane.
+// The errors of a patch fit: correlation of the rock, covariance, and the test for a bend.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -32,9 +32,9 @@ constexpr double kVisibilityPerPatch = 0.8;
 // Judgement, 2026-11-21.
 constexpr double kNoiseLooksRough = 0.05;
 
-// How many lags away a patch is that lies so many columns and rows off: distances to the nearest patch.
+// Lag of a patch that lies so many columns and rows away: its distance to the nearest patch.
 struct Lags {
-  static constexpr int kMost = PatchGrid::kLags;  // the furthest that are asked for
+  static constexpr int kMost = PatchGrid::kLags;  // the largest lag
   std::uint8_t lag[kMost + 1][kMost + 1] = {};    // by row and column
   int reach[kMost + 1] = {};                      // columns that are within kMost, in a row
 };
@@ -61,7 +61,7 @@ Eigen::Vector3d first_three(FourFloats four) {
   return {static_cast<double>(four[0]), static_cast<double>(four[1]), static_cast<double>(four[2])};
 }
 
-// Of six terms, with what stands for the first three and for the others.
+// Six terms times the numbers for the first three and for the others.
 double sum_of_products(const Eigen::Matrix<double, 6, 1>& terms, FourFloats first, FourFloats others) {
   return terms.head<3>().dot(first_three(first)) + terms.tail<3>().dot(first_three(others));
 }
@@ -134,8 +134,8 @@ double PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) co
   return static_cast<double>(n) / static_cast<double>(visited);
 }
 
-// All that the covariance needs to know of pairs, in one pass: nothing in it depends on the correlation, which changes
-// from round to round.
+// All sums over pairs for the covariance, in one pass: none of them depends on the correlation, which changes from
+// round to round.
 void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
   for (Mean& p : means_.first(n)) {
     p.of_pairs[0] = packed(p.a, p.error);
@@ -190,7 +190,8 @@ void PatchGrid::measure_correlation(const PairSums (&sums)[kLayersMax], const Ei
   }
 }
 
-// Variance of the rock between patches, with what the fit took from it beyond the leverage of independent patches.
+// Adds to the variance of the rock between patches the part that the fit took beyond the leverage of independent
+// patches.
 void PatchGrid::give_back(std::uint32_t n, const Eigen::Matrix3d& beyond, Roughness (*roughness)[kLayersMax]) const {
   double taken[kLayersMax] = {}, patches[kLayersMax] = {};
   for (const Mean& p : means_.first(n)) {
@@ -344,8 +345,8 @@ Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& in
     const double ratio = covariance.trace() / inverse.bottomRightCorner<3, 3>().trace();
     inflation = ratio > 1.0 ? ratio : 1.0;
   }
-  // A variance out of few independent patches is itself uncertain: what chi-square and normal quantiles need to be
-  // those of F and t.
+  // A variance from few independent patches is itself uncertain: factor from chi-square and normal quantiles to those
+  // of F and t.
   const double freedom = sums.patches / inflation - kQuadraticTerms;
   return covariance * (1.0 + kFewPatches / (freedom > 2.0 ? freedom : 2.0));
 }
@@ -378,12 +379,12 @@ void PatchGrid::test_bend(std::uint32_t n, PatchFit* out) {
     p.of_pairs[1] = packed(answer.tail<3>(), 1.0);
     p.of_pairs[2] = packed(p.information * answer.tail<3>(), 0.0);
   }
-  // What the pull holds back is not known.
+  // The part held back by the pull is unknown.
   const Matrix6 held_back = inverse * pull.asDiagonal() * inverse;
   const Eigen::Matrix3d covariance =
       covariance_of_bend(n, inverse) + Eigen::Matrix3d(held_back.bottomRightCorner<3, 3>());
   const Eigen::Vector3d quadratic = bend.tail<3>();
-  // Wald's test. What is estimated of correlations need not be a covariance; then the variances alone have to do.
+  // Wald's test. A matrix from estimated correlations need not be a covariance; if not, the variances alone are used.
   const SmallCholesky<3> whole(covariance), variances(covariance.diagonal().asDiagonal());
   out->bends = quadratic.dot((whole.solved() ? whole : variances).solve(quadratic)) > kBendChi2;
   if (out->bends) out->bend = bend;

@@ -57,7 +57,7 @@ void PatchGrid::add(const PatchPoint& point, std::uint32_t layer) {
   cells_[row * columns_ + static_cast<std::uint32_t>(fu)].add(point.sums);
 }
 
-// What lies outside is counted to the patch next to it.
+// Points outside count to the nearest patch.
 FourInts PatchGrid::patch_of(FourFloats u_m, FourFloats v_m) const {
   const auto index_of = [](FourFloats place, std::uint32_t cells) {
     const FourFloats inside = smaller_of(larger_of(place, FourFloats{}), all_four(static_cast<float>(cells - 1)));

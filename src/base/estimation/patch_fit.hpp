@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The last step of every plane fit, and where its covariance comes from.
+// The last step of every plane fit, and the source of its covariance.
 //
-// Rock is rough over decimetres: the residuals of neighbouring points are one piece of rock, not independent draws,
-// and a covariance that counts points is an order of magnitude too small. So points are first averaged over patches of
-// half a metre. A patch mean varies for two reasons: the noise of its points, which averages out, and the rock, which
-// does not:  var(mean_j) = tau^2 + s_j^2 / W_j.  This is the random-effects model; tau^2 comes from the method of
-// moments (DerSimonian and Laird 1986). On a flat wall tau^2 is 0 and the fit weighs by points, near the
-// Cramer-Rao bound; on rough rock every patch weighs alike. What correlation is left between patches is measured by
-// lag and enters a sandwich covariance (Conley 1999).
+// Rock is rough over decimetres: the residuals of neighbouring points are one piece of rock, not independent draws, and
+// a covariance that counts points is an order of magnitude too small. So points are first averaged over patches of half
+// a metre. A patch mean varies for two reasons: the noise of its points, which averages out, and the rock, which does
+// not:  var(mean_j) = tau^2 + s_j^2 / W_j.  This is the random-effects model; tau^2 comes from the method of moments
+// (DerSimonian and Laird 1986). On a flat wall tau^2 is 0 and the fit weighs by points, near the Cramer-Rao bound. On
+// rough rock every patch weighs alike. The correlation left between patches is measured by lag and enters a sandwich
+// covariance (Conley 1999).
 
 #pragma once
 
@@ -61,8 +61,8 @@ class PatchGrid {
   static constexpr std::uint32_t kCapacity = 1536;
   static constexpr std::uint32_t kLayersMax = 2;   // the surface, and the fronts of strips
   static constexpr std::uint32_t kPatchesMin = 8;  // of the surface: more than the six terms of a quadratic
-  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: what rock has in common over more is
-  // left to who uses the covariance, and a longer reach costs pairs.
+  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: users of the covariance allow for longer
+  // correlation, and a longer reach costs pairs.
   static constexpr int kLags = 5;
 
   void lay_out(Arena& arena);
@@ -73,17 +73,17 @@ class PatchGrid {
              std::uint32_t layers = 1);
   void add(const PatchPoint& point, std::uint32_t layer = 0);
 
-  // For who has the points in the order of their patches, and looks at all of them again and again: which patch each is
-  // in, as long as there is no other begin(); how many patches a layer has; and for a fit of as many layers as were
-  // begun or fewer, the sums of every patch of each.
+  // For callers with points in the order of their patches, who read all of them many times: the patch of each point,
+  // until the next begin(); the number of patches of a layer; and, for a fit of as many layers as begun or fewer, the
+  // sums of every patch of each.
   FourInts patch_of(FourFloats u_m, FourFloats v_m) const;
   std::uint32_t patches() const { return columns_ * rows_; }
   void begin_anew(std::uint32_t layers) { layers_ = layers; }
   void set(std::uint32_t patch, std::uint32_t layer, const PatchLanes& sums);
 
-  // kPlaneOnly: the correction alone, without its covariance and without a look for bends. Finding those is most of the
-  // work, and a fit that is only a step on the way to the next one needs neither. kCovariance: all but the bends and
-  // the visibility. kBend: the correction and the bends.
+  // kPlaneOnly: the correction alone, without covariance and test for bends. These are most of the work, and a fit that
+  // is only a step to the next one needs neither. kCovariance: all but the bends and the visibility. kBend: the
+  // correction and the bends.
   enum class Errors { kMeasured, kCovariance, kBend, kPlaneOnly };
   PatchFit fit(Errors errors = Errors::kMeasured);
 
@@ -101,9 +101,9 @@ class PatchGrid {
     // (Frisch and Waugh 1933).
     Eigen::Vector3d a;
     double r_centred, b_centred;
-    // What sums over pairs take of it, as floats: four sums at a time, and what they leave is far below what a
-    // correlation is known to. Until test_bend: row of the design and error; the row times the information, and that to
-    // the power of 3/2. From there on the quadratic's answer to an error here, over its information: error and answers
+    // Inputs of the sums over pairs, as floats, four sums at a time. Their rounding is far below the accuracy of a
+    // correlation. Until test_bend: row of the design and error; the row times the information, and that to the power
+    // of 3/2. From there on the quadratic's response to an error here, divided by its information: error and responses
     // of 1, u, v; of uu, uv, vv, and 1, which counts pairs; these times the information.
     FourFloats of_pairs[3];
     std::int32_t iu, iv;
@@ -156,7 +156,8 @@ class PatchGrid {
   // Pairs cost the most of a fit: bounds its work. Judgement, 2026-11-25: fewer know the correlation less well.
   static constexpr std::uint32_t kPairedMost = 384;
   static constexpr std::uint32_t kNeighboursMost = (kLags + 1) * (2 * kLags + 1);  // its own row and those above
-  // Those of p's layer within kLags, in its own row and the rows above, each pair of patches once. Returns how many.
+  // Neighbours in p's layer within kLags, in its own row and the rows above, each pair of patches once. Returns their
+  // number.
   std::uint32_t neighbours_after(const Mean& p, Neighbour* out) const;
   template <typename Visit>
   double for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Sums over the points of one patch of a surface, as floats: what they leave is far below what a patch's mean is worth.
+// Sums over the points of one patch of a surface, as floats: their rounding is far below the accuracy of a patch's
+// mean.
 
 #pragma once
 
@@ -12,7 +13,7 @@
 
 namespace pose_wall {
 
-// With next to no weight a point would still count as one that tells how the points scatter: up to here it is left out.
+// Points of almost no weight would still count in the scatter of the points: up to here they are left out.
 constexpr float kPatchWeightLeast = 1e-6F;
 // A patch's own scatter counts beside this many more points of the scatter that is expected. Judgement, 2026-11-21:
 // fewer believe the scatter of a few points, more deny patches their own.
@@ -48,7 +49,7 @@ struct PatchSums {
   double scatter_or_none() const { return larger(scatter(), 0.0); }
 };
 
-// One point: where it lies in the plane, and what it adds to its patch.
+// One point: its place in the plane and its part in the patch.
 struct PatchPoint {
   float u_m, v_m;
   PatchSums sums;
@@ -67,7 +68,7 @@ struct FourPoints {
   FourFloats u_m, v_m, residual_m, bias;
 };
 
-// Of the points of one patch, each lane for itself. What does not count has no weight, but is a number all the same.
+// Sums of one patch's points, lane by lane. Points that do not count have no weight, but must be numbers.
 class PatchLanes {
  public:
   void add(const FourPoints& p, FourFloats weights) {

@@ -11,7 +11,7 @@
 namespace pose_wall {
 namespace {
 
-// Judgement, 2026-11-21: of fewer patches the three terms of a plane leave too little to tell their errors by.
+// Judgement, 2026-11-21: with fewer patches the three terms of a plane leave too little to estimate their errors.
 constexpr double kPatchesMin = 10.0;
 // A slope within two of its own standard deviations may be chance, and is no kerb. Judgement, 2026-11-21.
 constexpr double kOwnErrors = 2.0;

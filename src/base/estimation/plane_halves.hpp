@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Whether both halves of a surface slope as the whole does. A kerb of a few centimetres between two parts that slope
-// alike tilts the plane through both, and leaves residuals that look like roughness.
+// Compares the slopes of both halves of a surface with that of the whole. A kerb of a few centimetres between two parts
+// of equal slope tilts the plane through both, and leaves residuals that look like roughness.
 
 #pragma once
 
@@ -13,10 +13,9 @@
 
 namespace pose_wall {
 
-// How much further than its own error explains the slope of a half lies from that of the whole, as an angle answers to
-// it; the largest over the halves on either side of both axes. 0 where a half holds too few patches to tell.
-// correction: of the whole (offset, slope along u, slope along v), about which residuals are taken. response: of the
-// angle to such a correction.
+// Deviation of a half's slope from that of the whole beyond its own error, as the response of an angle; the largest
+// over the halves on either side of both axes. 0 if a half holds too few patches. correction: of the whole (offset,
+// slope along u, slope along v); residuals are about it. response: of the angle to such a correction.
 double reach_of_halves(Span<const SurfacePatch> patches, const Eigen::Vector3d& correction,
                        const Eigen::Vector3d& response);
 

@@ -16,9 +16,9 @@ class SmallCholesky {
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   using Vector = Eigen::Matrix<double, kSize, 1>;
 
-  // solved() is false where the matrix is not positive definite, to what doubles tell.
+  // solved() is false if the matrix is not positive definite in doubles.
   explicit SmallCholesky(const Matrix& m) {
-    constexpr double kLeast = 1e-13;  // what a pivot has to keep of its diagonal: rounding leaves some 1e-16 a term
+    constexpr double kLeast = 1e-13;  // share of its diagonal that a pivot must keep: rounding leaves some 1e-16 a term
     solved_ = true;
     for (int i = 0; i < kSize; ++i) {
       for (int j = 0; j < i; ++j) factor_(i, j) = left_of(m, i, j) / factor_(j, j);

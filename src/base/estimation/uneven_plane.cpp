@@ -14,10 +14,10 @@ namespace {
 static_assert(SurfacePatches::kMost <= PanelCholesky::kRowsMost, "a row for each patch");
 constexpr std::uint32_t kRightSides = 2;  // panels of them: 1, u, v, residual; bias
 constexpr std::uint32_t kPatchesMin = 8;  // five more than the terms of a plane; judgement, 2026-11-21
-// From a patch (0.5 m) to what a first radius (3 m) shows of a wave; longer ones are the surface's own slope. Twice as
+// From a patch (0.5 m) to the waves that a first radius (3 m) shows; longer ones are the surface's own slope. Twice as
 // long each time, as their likelihoods are averaged. Judgement, 2026-11-21.
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
-// Share of the unevenness that neighbouring patches do not have in common: little, or nearly half. The least keeps the
+// Share of the unevenness that neighbouring patches do not share: little, or nearly half. The smaller one keeps the
 // covariance positive definite in floats. Judgement, 2026-11-21.
 constexpr double kOwnShares[] = {0.05, 0.4};
 // An exactly flat surface has nothing left to scale by: a thousandth of the expected errors is kept.
@@ -27,8 +27,8 @@ constexpr int kModelsMax = 1 + 4 * 2;  // no waves, or a length and a share
 // double's 1e-308 to 1e308.
 constexpr std::uint32_t kLogEvery = 16;
 
-// Variance of the patches about their plane beyond their noise: a first guess, for the ratio of the two. Patches count
-// by what is known of them (DerSimonian and Laird 1986), or one that is hardly seen would drown the rest.
+// Variance of the patches about their plane beyond their noise: a first guess for the ratio of the two. Patches count
+// by their information (DerSimonian and Laird 1986), or one that is hardly seen would drown the rest.
 double unevenness(Span<const SurfacePatch> patches) {
   double squares = 0.0, information = 0.0;
   for (const SurfacePatch& p : patches) {
@@ -124,7 +124,7 @@ FourFloats UnevenPlane::matern(FourFloats r) const {
   return near ? below + part * (above - below) : none;
 }
 
-// In panels, as the factor's: the lower triangle, and what else is in a panel's last columns.
+// In panels like the factor's: the lower triangle, and the rest of a panel's last columns.
 void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double length_m) {
   const auto per_length = static_cast<float>(std::sqrt(3.0) / length_m);
   for (std::uint32_t first = 0; first < patches.size(); first += kFour) {

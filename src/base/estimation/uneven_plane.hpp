@@ -3,12 +3,11 @@
 //
 // A plane through a surface that waves: over decimetres like broken rock or over metres like a trodden floor.
 //
-// A plane takes much of a long wave into itself, so that what is left over looks smoother, and less correlated, than
-// the surface is. The likelihood of what is left, given that a plane was taken out (REML: Patterson and Thompson
-// 1971), knows of that. The surface is a plane, a Gaussian process with Matern's correlation of smoothness 3/2, a part
-// of each patch's own, and the noise of its points. Length and share of the wave are not chosen but averaged over, by
-// how likely they make the data (Handcock and Stein 1993). Waves longer than the greatest length are the surface's own
-// slope.
+// A plane takes much of a long wave into itself, so the residuals look smoother and less correlated than the surface
+// is. Their likelihood, given that a plane was taken out, allows for that (REML: Patterson and Thompson 1971). The
+// surface is a plane, a Gaussian process with Matern's correlation of smoothness 3/2, a part of each patch's own, and
+// the noise of its points. Length and share of the wave are not chosen but averaged over, weighted by likelihood
+// (Handcock and Stein 1993). Waves longer than the greatest length are the surface's own slope.
 
 #pragma once
 
@@ -27,7 +26,7 @@ struct UnevenFit {
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();  // offset m, slope along u, slope along v
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();  // change of the correction per metre of range bias
-  double dof = 0.0;  // as many independent pieces give a variance that is known this well
+  double dof = 0.0;  // the variance is known as well as from so many independent pieces
 };
 
 class UnevenPlane {
@@ -39,8 +38,8 @@ class UnevenPlane {
   struct Model;
   struct Models;
 
-  // Matern's correlation by distance, off a table: it is asked for every two patches and length. It ends at 16 lengths,
-  // where 2e-6 are left; between its steps of a 64th lines err by 3e-5 at most:
+  // Matern's correlation by distance, from a table, since every two patches and length need it. It ends at 16 lengths,
+  // where 2e-6 are left. Between its steps of a 64th, linear interpolation errs by 3e-5 at most:
   static constexpr std::uint32_t kMaternSteps = 1024;
   static constexpr double kMaternPerUnit = 64.0;
   void fill_matern();

@@ -14,7 +14,8 @@ inline int bits_in(std::uint64_t word) {
   return bits;
 }
 
-// The highest that is set; word: not zero. By halves: of a whole word not every processor tells it without a library.
+// The highest bit that is set; word: not zero. By halves, since not every processor can do it for a whole word without
+// a library.
 inline std::uint32_t highest_bit(std::uint64_t word) {
   const auto high = static_cast<std::uint32_t>(word >> 32), low = static_cast<std::uint32_t>(word);
   return high != 0 ? 63U - static_cast<std::uint32_t>(__builtin_clz(high))

@@ -110,7 +110,7 @@ inline FourTruths first_of_four(std::uint32_t count) {
 // visit(first index, which of the four count): from begin to end, in rows that go on for a four behind the last end.
 template <typename Visit>
 void for_each_four(std::uint32_t begin, std::uint32_t end, const Visit& visit) {
-  // One loop for whole fours and what is left: two would hold the visit twice.
+  // One loop for whole fours and the rest: two would hold the visit twice.
   for (std::uint32_t k = begin; k < end; k += kFour) visit(k, first_of_four(end - k));
 }
 template <typename Visit>
