@@ -239,7 +239,7 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
   if (Engine::is_inside(block)) return POSE_WALL_E_BUSY;
   const pose_wall::Settings settings = pose_wall::read_settings(*config);
-  // Its sum is over padding, too: whatever that holds, but nothing that nobody wrote.
+  // The engine's sum covers padding too. It may hold anything, but must be written.
   std::memset(block, 0, sizeof(Engine));
   Engine* placed = nullptr;
   Engine::lay_out(block, settings, &placed);

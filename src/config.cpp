@@ -75,7 +75,7 @@ constexpr Row kRows[] = {
 };
 constexpr std::uint32_t kRowCount = sizeof(kRows) / sizeof(kRows[0]);  // as many as the table has
 
-// Tells a config of this table from one of another build.
+// Separates a config of this table from one of another build.
 constexpr std::uint32_t kLayout = 0x50570000U + kRowCount * 256U + kNumbersUsed;
 
 bool is_initialised(const pose_wall_config& config) {
@@ -286,9 +286,9 @@ double reach_of(const Settings& s) {
 }
 
 std::uint64_t work_most(const Settings& settings, std::uint64_t returns) {
-  // Measured (bench/README.md, "The dearest frames"): as much as leaves the dearest clouds below 2.5 roads of as many
-  // returns, for 28,800 returns and more, and roads of every simulated sensor their values. What hypotheses and fits
-  // take of any cloud, and what a return takes while it is read, and as a voxel.
+  // Measured (bench/README.md, "The dearest frames"). It leaves the dearest clouds below 2.5 roads of as many returns,
+  // for 28,800 returns and more, and roads of every simulated sensor their values. One part for the hypotheses and fits
+  // of any cloud, and one for a return, while it is read and as a voxel.
   constexpr std::uint64_t kWhatever = 5'600'000, kPerReturn = 55;
   return settings.work_max > 0 ? settings.work_max : kWhatever + kPerReturn * returns;
 }
@@ -306,7 +306,7 @@ std::int32_t config_crc(const pose_wall_config& config, std::uint32_t* crc) {
   if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
   Crc32 sum;
   sum.add_word(config.layout);
-  // What the numbers are of: a build that names, orders or measures them otherwise has other settings.
+  // The names and units of the numbers: a build that names, orders or measures them otherwise has other settings.
   for (const Row& row : kRows) {
     add_text(row.info.name, &sum);
     add_text(row.info.unit, &sum);

@@ -58,13 +58,13 @@ Settings read_settings(const pose_wall_config& config);
 // No point of a frame lies further than this from the origin of base.
 double reach_of(const Settings& settings);
 
-// How many steps a frame of so many returns may take (base/containers/work.hpp): work_max where it is set.
+// Number of steps that a frame of so many returns may take (base/containers/work.hpp): work_max if it is set.
 std::uint64_t work_most(const Settings& settings, std::uint64_t returns);
 
 // The alert limit of one of the seven quantities, in its own unit (rad or m).
 double alert_limit(std::uint32_t quantity, const Settings& settings);
 
-// What the C ABI's pose_wall_config_* functions do, once their pointers are known to be there.
+// The work of the C ABI's pose_wall_config_* functions, after their pointers are checked.
 std::int32_t config_crc(const pose_wall_config& config, std::uint32_t* crc);
 std::int32_t config_init(pose_wall_config* config);
 std::int32_t config_set(pose_wall_config* config, const char* key, const char* value);

@@ -34,13 +34,13 @@ Extrinsic extrinsic_of(const Settings& s) {
           Eigen::Vector3d(s.extrinsic_x, s.extrinsic_y, s.extrinsic_z)};
 }
 
-// Of floor and walls, for they all hang on it.
+// Refuses floor and walls, since all depend on it.
 void refuse_all(const Verdict& verdict, FrameFindings* found) {
   found->floor.fit.add(verdict);
   for (JudgedWall& wall : found->walls.side) wall.fit.add(verdict);
 }
 
-// Before anything was looked for.
+// Checked before any search.
 bool is_work_left(const Work& work, FrameFindings* found) {
   if (!work.is_spent()) return true;
   demand_work_left(work, &found->floor.fit);
@@ -59,7 +59,7 @@ double least_confidence(const pose_wall_result& result) {
   return least;
 }
 
-// Nobody knows how the machine moved, but for how fast it moves now.
+// The motion is unknown, except for its present speed.
 pose_wall_odometry any_motion(const pose_wall_odometry& odometry) {
   pose_wall_odometry any = odometry;
   const auto norm = [](const double(&v)[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); };
@@ -75,8 +75,8 @@ void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   marks = arena.take<std::uint8_t>(points_max + kFour);
   returns_lidar.lay_out(arena);
   cloud_base.lay_out(arena, points_max);
-  // The stages follow each other: what only one of them needs lies on top of what only another does. The grid serves
-  // voxels and outliers, and is begun anew for the band, which is cut when the floor is found.
+  // The stages run one after the other, so buffers of one lie on top of buffers of another. The grid serves voxels and
+  // outliers, and starts anew for the band, which is cut after the floor is found.
   const std::uint64_t before_band = arena.place();
   band_level.lay_out(arena, points_max);
   beyond_level.lay_out(arena, kBeyondMax);
@@ -139,7 +139,7 @@ void Engine::leave() const {
 }
 
 #if defined(__clang__)
-__attribute__((no_sanitize("memory")))  // a block may hold what nobody has written
+__attribute__((no_sanitize("memory")))  // a block may hold bytes that were never written
 #endif
 bool Engine::is_inside(const void* block) {
   const Engine* const there = static_cast<const Engine*>(block);
@@ -152,7 +152,7 @@ void Engine::set_memory(const Memory& memory) {
   seal();
 }
 
-// Clouds that were seen before are forgotten: their stamps are of the other clock.
+// Seen clouds are forgotten, since their stamps are of the other clock.
 void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns) {
   memory_ = memory;
   rebase(elapsed_s, stamp_ns, settings_, &memory_.temporal);
@@ -162,7 +162,7 @@ void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, s
   seal();
 }
 
-// FNV-1a by words: each step maps different sums to different ones, so no change of a single word goes unnoticed.
+// FNV-1a by words: each step maps different sums to different ones, so every change of a single word shows.
 std::uint64_t Engine::sum() const {
   static_assert(alignof(Engine) == alignof(Scratch) && (sizeof(Engine) - sizeof(Scratch)) % sizeof(std::uint64_t) == 0,
                 "the scratch is the last member, and whole words stand before it");
@@ -180,7 +180,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   place(&scratch_);
   FrameFindings found;
   found.stamp_ns = cloud.stamp_ns;
-  // Each frame draws the same numbers, so that a frame's result does not hang on how many came before it.
+  // Each frame draws the same numbers, so that a frame's result does not depend on the number of frames before it.
   Random random(settings_.random_seed);
   std::int64_t at[POSE_WALL_STAGES + 1] = {now()};
   const auto stage_done = [&](pose_wall_stage stage) { at[stage + 1] = now(); };
@@ -216,9 +216,9 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   seal();
 }
 
-// Anew in every frame: a pointer that was changed since the last one would be believed, too.
+// Anew in every frame: a pointer changed since the last one would be used, too.
 void Engine::place(Scratch* scratch) const {
-  Arena arena(const_cast<Engine*>(this));  // of memory that its owner gave to be written to
+  Arena arena(const_cast<Engine*>(this));  // the owner gave this memory to be written to
   arena.take<Engine>(1);
   scratch->lay_out(arena, settings_.points_max);
 }
@@ -231,7 +231,7 @@ pose_wall_points Engine::points() const {
   return points_;
 }
 
-// Whether there is enough to look at, and work left to do it.
+// True if there are enough points, and work left to use them.
 bool Engine::can_begin(FrameFindings* found) const {
   const VoxelResult& voxels = found->voxels;
   Verdict frame, start;
@@ -279,15 +279,15 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   found->floor = doubted_by_walls(found->floor, found->walls.tilt_level_rad, settings_, found->levelling);
 }
 
-// An odometry counts where the key lets it and its numbers are sound.
+// An odometry counts if the key allows it and its numbers are sound.
 const pose_wall_odometry* Engine::odometry_in(const pose_wall_inputs* inputs) const {
   const bool given = inputs != nullptr && (inputs->given & POSE_WALL_INPUT_ODOMETRY) != 0;
   return given && settings_.motion == kMotionOn && is_sound(inputs->odometry) ? &inputs->odometry : nullptr;
 }
 
-// What it says of the change since the last frame; then this frame's place and surfaces are memory. A frame without a
-// place ends the run: what the machine did meanwhile only the config bounds. A cloud that has come before shows a
-// machine that stands, and tells no place.
+// The change since the last frame by the odometry. After that, this frame's place and surfaces are memory. A frame
+// without a place ends the run, and only the config bounds the motion since. A repeated cloud shows a standing machine
+// and gives no place.
 Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, const Change& by_config,
                                              FrameFindings* found) {
   OdometryStep step;
@@ -300,7 +300,7 @@ Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, con
     memory.run = OdometryMemory::kNoRun;
     return step;
   }
-  if ((found->reasons & POSE_WALL_R_FROZEN) != 0) {  // bent by the motion of its first copy, freed of another
+  if ((found->reasons & POSE_WALL_R_FROZEN) != 0) {  // bent by its first copy's motion, with another one removed
     widen_by_skew(any_motion(*odometry), found->voxels.scan_s, memory, settings_, axes_, &found->measured);
     memory.run = OdometryMemory::kNoRun;
     return step;
@@ -316,7 +316,7 @@ Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, con
   return step;
 }
 
-// By the odometry, else by the other inputs, where they are sound and nothing that was measured speaks against them.
+// By the odometry, else by the other inputs, if they are sound and no measurement contradicts them.
 Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found) {
   const double elapsed_s = elapsed_of(memory_.temporal, timing);
   const Change by_config = change_by_config(settings_, elapsed_s);
@@ -328,7 +328,7 @@ Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTimi
   bool boxes = true;
   for (const auto& edges_m : inputs->body_box) boxes = box_of(edges_m).is_sound() && boxes;
   const bool by_odometry = step.follows && believed(step.change);
-  // Where an odometry tells, the others only have to make sense.
+  // With an odometry, the other inputs only have to make sense.
   Change by_others = by_config;
   const std::uint32_t others = POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE;
   bool told = (inputs->given & others) == 0;
@@ -367,15 +367,15 @@ void Engine::finish(pose_wall_result* result) {
   result->mark = mark_of(*result);
 }
 
-// The very same points under a new stamp: no LiDAR does that, its driver or network does. Under the old stamp it is
-// the same frame once more, and there is nothing new to measure.
+// The very same points under a new stamp: the driver or the network repeats them, no LiDAR does. Under the old stamp it
+// is the same frame once more, with nothing new to measure.
 void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   Repeat repeat;
   if (scratch_.cloud_base.count >= limit_of<gate::POINTS>(settings_)) {
     repeat = memory_.seen.keep(found->voxels.fingerprint, found->stamp_ns);
     memory_.repeats = repeat.is_one ? memory_.repeats + 1 : 0;
   }
-  constexpr double kAnyNumber = 1e9;  // of repeats, where the clock went back since the first copy
+  constexpr double kAnyNumber = 1e9;  // of repeats, if the clock went back since the first copy
   POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_FRAME));
   const double repeats = repeat.is_one && !timing.still ? memory_.repeats : 0.0;
   Verdict verdict;
@@ -410,11 +410,11 @@ void Engine::age(std::int64_t stamp_ns, pose_wall_result* result) {
   FrameFindings nothing;
   nothing.stamp_ns = stamp_ns;
   nothing.reasons = POSE_WALL_R_NO_FRAME;
-  // A leap, or a stamp from before the last frame, is that frame's matter when it comes.
+  // A leap, or a stamp before the last frame, is judged when that frame comes.
   const double elapsed_s = time_frame(memory_.temporal, stamp_ns, settings_).dt_s;
   age_values(elapsed_s, nothing.reasons, settings_, &memory_.temporal, &result->quantity);
   report_findings(nothing, result);
-  result->frame_index = memory_.frames - 1;  // before the first frame all ones: no frame's number
+  result->frame_index = memory_.frames - 1;  // before the first frame all ones, which is no frame's number
   finish(result);
   seal();
 }

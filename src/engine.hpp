@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The pipeline, and all that it remembers.
+// The pipeline and its memory.
 
 #pragma once
 
@@ -20,11 +20,11 @@
 
 namespace pose_wall {
 
-// Buffers of one frame. Nothing in here counts that was not written in the same frame: what lies behind the last of a
-// row is read with it, and masked.
+// Buffers of one frame. A frame uses only values that it wrote itself. Values behind the last of a row are read with
+// it, and masked.
 struct Scratch {
   VoxelGrid grid;
-  Span<std::uint8_t> marks;  // per point, and for a four behind the last: keep flags, labels once they are asked for
+  Span<std::uint8_t> marks;  // for each point, and a four behind the last: keep flags, then labels on demand
   ReturnsByDirection returns_lidar;
   BoundedPoints cloud_base;
   BoundedPoints band_level;
@@ -35,26 +35,26 @@ struct Scratch {
   void lay_out(Arena& arena, std::uint32_t points_max);
 };
 
-// What one frame leaves for the next.
+// The memory of one frame for the next.
 struct Memory {
   TemporalState temporal;
   Surfaces last;
   LeafMemory leaf;
   SeenClouds seen;
   OdometryMemory odometry;
-  std::uint32_t repeats = 0;  // so many clouds in a row came before; what holds no points does not count
+  std::uint32_t repeats = 0;  // number of repeated clouds in a row; clouds without points do not count
   std::uint64_t frames = 0;
-  std::uint64_t publications = 0;  // results, those of age() too
+  std::uint64_t publications = 0;  // results, including those of age()
 };
 
-// Where everything lies in the caller's block:
+// The layout of the caller's block:
 //
 //   | Engine | marks | returns | cloud_base | band_level | beyond_level | grid  |
 //                                           | floor                             |
 //                                                                     | walls |
 //
-// Engine is written at open and lives on; the rest is scratch that each frame writes before it counts. What lies on top
-// of each other outlives none of its stages: the grid is begun anew for the band, which is cut once the floor is known.
+// Engine is written at open and lives on. The rest is scratch that each frame writes before it reads. Overlapping parts
+// are never in use at the same time: the grid starts anew for the band, which is cut once the floor is known.
 class Engine {
  public:
   // Measures (block NULL) or places an engine.
@@ -63,29 +63,29 @@ class Engine {
   void open(const Settings& settings, std::uint32_t config_crc32);
   void reset();
   void set_clock(pose_wall_clock clock, void* user);
-  // One call at a time: POSE_WALL_OK lets it in, and then leave() must follow. POSE_WALL_E_BUSY: another one is inside.
-  // POSE_WALL_E_ENGINE: not open, or somebody else has written to it since its last call.
+  // One call at a time: after POSE_WALL_OK leave() must follow. POSE_WALL_E_BUSY: another call is inside.
+  // POSE_WALL_E_ENGINE: not open, or changed from outside since its last call.
   std::int32_t enter() const;
   void leave() const;
-  // Whether a call is inside an engine in this block, which may hold anything.
+  // True if a call is inside an engine in this block, which may hold anything.
   static bool is_inside(const void* block);
   void process(const pose_wall_cloud& cloud, pose_wall_result* result);
-  // What the seven are at a time without a frame.
+  // The seven values at a time without a frame.
   void age(std::int64_t stamp_ns, pose_wall_result* result);
-  // With labels: telling them is left to whoever asks.
+  // With labels, computed on demand.
   pose_wall_points points() const;
   std::uint32_t config_crc32() const { return config_crc32_; }
   const Memory& memory() const { return memory_; }
   void set_memory(const Memory& memory);
-  // elapsed_s: since memory's stamp, in a clock that has begun anew; negative: nobody knows.
+  // elapsed_s: since memory's stamp, for a clock that started anew; negative: unknown.
   void set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns);
 
-  // From the start of the block: what the sum guards. The rest may hold anything between two calls.
+  // Number of bytes under the sum, from the start of the block. The rest may hold anything between two calls.
   static std::uint64_t guarded_bytes() { return sizeof(Engine) - sizeof(Scratch); }
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;  // 'pose-wal' in ASCII: an engine was placed here
-  // Far apart in bits: one that falls over is no call that is inside:
+  // Far apart in bits, so that a flipped bit does not look like a call inside:
   static constexpr std::uint64_t kNobodyInside = 0x6964CC33A55A6C65ULL;
   static constexpr std::uint64_t kOneInside = 0x96813C5A5AA5939AULL;
 
@@ -97,8 +97,8 @@ class Engine {
   void conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result);
   void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
   struct OdometryStep {
-    bool sound = true;     // or none was given
-    bool follows = false;  // the last frame's, in one run
+    bool sound = true;     // or not given
+    bool follows = false;  // it follows the last frame's, in one run
     Change change;
   };
   OdometryStep follow_odometry(const pose_wall_inputs* inputs, const Change& by_config, FrameFindings* found);
@@ -111,10 +111,10 @@ class Engine {
   bool is_whole() const { return seal_ == sum(); }
   void seal() { seal_ = sum(); }
 
-  // The sum of all that follows, but for the scratch. Settings and memory are believed as they stand: a bit that falls
-  // over in them between two calls would be told as a value.
+  // The sum of all that follows, except the scratch. A bit of settings or memory flipped between two calls would become
+  // a wrong value.
   std::uint64_t seal_ = 0;
-  mutable std::uint64_t inside_ = kNobodyInside;  // outside of the sum: calls that are refused look at it, too
+  mutable std::uint64_t inside_ = kNobodyInside;  // outside the sum, since refused calls read it, too
   std::uint64_t magic_ = 0;
   const Engine* self_ = nullptr;
   std::uint32_t config_crc32_ = 0;
@@ -125,7 +125,7 @@ class Engine {
   void* clock_user_ = nullptr;
   Memory memory_;
   pose_wall_points points_{};
-  Surfaces labelled_by_;  // what the points are labelled by
+  Surfaces labelled_by_;  // the surfaces for the labels of the points
   Scratch scratch_;
 };
 

@@ -10,7 +10,7 @@
 namespace pose_wall {
 namespace {
 
-// 'pose-m' in ASCII and a count: raise it with each change to what visit() walks over.
+// 'pose-m' in ASCII and a count: raise it with each change of visit().
 constexpr std::uint64_t kVersion = 0x706F73652D6D0005ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
@@ -146,7 +146,7 @@ void visit(Way* way, Track* t) {
             &good.age_s);
 }
 
-// What tells when it was saved.
+// The moment of the save.
 template <typename Way>
 void visit(Way* way, pose_wall_moment* moment) {
   std::uint64_t halves[2];
@@ -170,8 +170,8 @@ void visit(Way* way, Memory* m) {
   visit(way, &m->odometry);
 }
 
-// FNV-1a: for accidents, not for attackers. Begun with the config's, so that what was measured by another config, with
-// its axes and extrinsic, is never held by this one.
+// FNV-1a: for accidents, not for attackers. Starts with the config's checksum, so that no config holds values that
+// another one measured, with other axes and extrinsic.
 std::uint64_t checksum(std::uint32_t config_crc32, const unsigned char* bytes, std::uint64_t count) {
   std::uint64_t sum = 0xCBF29CE484222325ULL ^ config_crc32;
   for (std::uint64_t i = 0; i < count; ++i) sum = (sum ^ bytes[i]) * 0x100000001B3ULL;
@@ -214,7 +214,7 @@ bool load_memory(const void* from, std::uint32_t config_crc32, pose_wall_moment*
   visit(&reader, &read_moment);
   visit(&reader, &read);
   if (!reader.good()) return false;
-  Reader again(bytes + 8 * kHeadWords);  // a copy would bring padding along that nobody wrote
+  Reader again(bytes + 8 * kHeadWords);  // a copy would bring unwritten padding along
   visit(&again, then);
   visit(&again, memory);
   return true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What an archive shows; for all three.
+// The visibility of an archive's functions; for all three.
 
 #pragma once
 

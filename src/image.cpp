@@ -37,7 +37,7 @@ float float_above(double value) {
   return f;
 }
 
-// What angles and distances have in common: member by member both of them.
+// The common members of angles and distances.
 struct Entry {
   std::int32_t value_scaled = POSE_WALL_IMAGE_NO_VALUE;
   std::int32_t protection_scaled = POSE_WALL_IMAGE_NO_BOUND;
@@ -53,12 +53,12 @@ static_assert(sizeof(Entry) == sizeof(pose_wall_image_angle) && sizeof(Entry) ==
                   offsetof(Entry, age_ms) == offsetof(pose_wall_image_distance, age_ms),
               "the seven lie one behind the other");
 
-// What is no state is none to act on.
+// An unknown state counts as invalid.
 std::uint32_t known_state(std::uint32_t state) {
   return state <= POSE_WALL_VALID ? state : static_cast<std::uint32_t>(POSE_WALL_INVALID);
 }
 
-// A bound past what the type can tell is none.
+// A bound beyond the type's range is none.
 Entry entry_of(const pose_wall_value& v, double scale) {
   Entry n;
   n.state = known_state(v.state);
@@ -67,7 +67,7 @@ Entry entry_of(const pose_wall_value& v, double scale) {
   n.value_scaled = nearest_integer(v.value * scale);
   n.value = static_cast<float>(within(v.value, kFloatMax));
   n.age_ms = milliseconds_above(v.age_s);
-  // Of what is invalid the level may go by a clock that jumped.
+  // The level of an invalid value may come from a clock that jumped.
   if (v.state == POSE_WALL_INVALID || !is_finite(v.protection_level) || v.protection_level < 0.0) return n;
   const double rounded_scaled = std::fabs(v.value * scale - static_cast<double>(n.value_scaled));
   const double rounded = std::fabs(v.value - static_cast<double>(n.value));
@@ -76,7 +76,7 @@ Entry entry_of(const pose_wall_value& v, double scale) {
   return n;
 }
 
-// What image 2 has of each. The last member is of angles only.
+// The members of image 2 for each value. The last one is for angles only.
 struct Entry2 {
   std::int32_t value_scaled, protection_scaled;
   std::uint32_t age_ms, state, reasons, cause, positive_means;

@@ -15,10 +15,10 @@ namespace pose_wall {
 void fill_image(const pose_wall_result& result, pose_wall_image* image);
 void fill_image(const pose_wall_result& result, const pose_wall_image_source& source, pose_wall_image2* image);
 
-// What a result alone tells of where it comes from.
+// The source of a result, from the result alone.
 pose_wall_image_source source_of(const pose_wall_result& result);
 
-// POSE_WALL_OK, or what is wrong with it.
+// POSE_WALL_OK, or the status of its fault.
 std::int32_t check_image(const pose_wall_image& image);
 std::int32_t check_image(const pose_wall_image2& image);
 

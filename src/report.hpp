@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// From what the stages found to the public result.
+// From the stages' findings to the public result.
 
 #pragma once
 
@@ -32,7 +32,8 @@ struct FrameFindings {
 // What positive roll, pitch and yaw mean to the driver.
 void set_senses(std::int32_t forward_choice, std::uint32_t (*positive_means)[3]);
 
-// Of the head of a result: what an engine wrote carries it. It tells results from other memory, and is no signature.
+// A checksum of a result's head. Each result of an engine carries it. It separates results from other memory, and is no
+// signature.
 std::uint32_t mark_of(const pose_wall_result& result);
 
 void report_findings(const FrameFindings& found, pose_wall_result* result);

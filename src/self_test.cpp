@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 100000000;  // a tenth of a second, as LiDARs turn
 
-// The road; with steel sets; with a side that is open; without a floor. What may be told of them differs.
+// The road; with steel sets; with an open side; without a floor. Each allows other values.
 constexpr SelfTestScene kScenes[POSE_WALL_SELF_TEST_FRAMES] = {
     {true, true, true, false}, {true, true, true, true}, {true, false, true, false}, {false, true, true, false}};
 
@@ -43,7 +43,7 @@ bool may_be_measured(std::uint32_t quantity, const SelfTestScene& scene) {
   return scene.floor && (scene.left || !of_left);
 }
 
-// Valid and within its level, or not measured: whatever digest was noted, a wrong value does not pass.
+// Valid and within its level, or not measured. So no wrong value passes, whatever digest was noted.
 bool is_right(const pose_wall_value& v, std::uint32_t quantity, const SelfTestScene& scene) {
   if (!may_be_measured(quantity, scene)) return v.state == POSE_WALL_HELD || v.state == POSE_WALL_INVALID;
   const double error = v.value - kSelfTestTruth[quantity];

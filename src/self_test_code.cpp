@@ -19,7 +19,7 @@ extern const unsigned char engine_constants_end[] __attribute__((weak));
 namespace pose_wall {
 namespace {
 
-// Between constants AddressSanitizer keeps bytes that nobody else may read.
+// Between constants AddressSanitizer keeps bytes that nothing else may read.
 __attribute__((no_sanitize_address)) std::uint64_t add(const unsigned char* begin, const unsigned char* end,
                                                        Crc32* crc) {
   const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(begin), last = reinterpret_cast<std::uintptr_t>(end);

@@ -10,7 +10,7 @@
 namespace pose_wall {
 
 struct CodeSum {
-  std::uint64_t bytes;  // that the sum is over; 0: these objects were not linked from the archive
+  std::uint64_t bytes;  // under the sum; 0: these objects were not linked from the archive
   std::uint32_t crc32;
 };
 

@@ -14,7 +14,7 @@ constexpr std::uint32_t kSelfTestLines = 32;                                   /
 constexpr std::uint32_t kSelfTestTurns = 600;                                  // rays of a line
 constexpr std::uint32_t kSelfTestPointsMax = kSelfTestLines * kSelfTestTurns;  // every ray returns at most once
 
-// What of the road is there. The roof always is. Steel sets stand before the walls, 15 cm of every metre.
+// The parts of the road that are present. The roof always is. Steel sets stand before the walls, 15 cm of every metre.
 struct SelfTestScene {
   bool floor, left, right, steel;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Structs of callers that were built against another header. They grow at their end only, so struct_size tells the
-// version: what an earlier one lacks is read as zero and is not written. For the engine and for the runtime.
+// Structs of callers built against another header. Structs grow at their end only, so struct_size gives the version.
+// Members that an earlier one lacks read as zero and are not written. For the engine and for the runtime.
 
 #pragma once
 
@@ -18,7 +18,7 @@ struct StructSizes {
   std::uint32_t before, first, now;
 };
 
-// Larger than any struct here: what was never initialised is no newer version.
+// Larger than any struct here: uninitialised memory is no newer version.
 constexpr std::uint32_t kStructMost = 1U << 16U;
 
 constexpr std::int32_t check_struct_size(std::uint32_t size, const StructSizes& sizes) {
@@ -27,7 +27,7 @@ constexpr std::int32_t check_struct_size(std::uint32_t size, const StructSizes& 
   return size > sizes.now && size <= kStructMost ? POSE_WALL_E_STRUCT_NEWER : POSE_WALL_E_STRUCT_SIZE;
 }
 
-// The whole struct of what a caller gave.
+// The whole struct, from the one that a caller gave.
 template <typename Struct>
 Struct read_struct(const void* from, std::uint32_t size) {
   Struct whole{};

@@ -26,10 +26,10 @@ struct Extrinsic {
   Eigen::Vector3d sensor_base_m;
 };
 
-// What gates have said.
+// The verdict of gates.
 struct Verdict {
   std::uint32_t reasons = 0;  // pose_wall_reason bits that forbid or weaken it
-  bool refused = false;       // a gate said no
+  bool refused = false;       // a gate refused it
 
   void refuse(std::uint32_t why) {
     refused = true;
@@ -41,7 +41,7 @@ struct Verdict {
   }
 };
 
-// A plane with all that its fit knows about itself.
+// A plane with the figures of its fit.
 struct PlaneFit : Verdict {
   Plane plane;  // floor: base frame, normal up. wall: levelled frame, normal towards the machine
   bool found = false;
@@ -50,7 +50,7 @@ struct PlaneFit : Verdict {
   double rms_m = 0.0;
 };
 
-// What a protection level is made of: one figure for each pose_wall_part. The level is their sum.
+// The parts of a protection level, one for each pose_wall_part. The level is their sum.
 struct ProtectionParts {
   double of[POSE_WALL_PARTS] = {};
 
@@ -65,14 +65,14 @@ struct ProtectionParts {
   void add(const ProtectionParts& other, double share = 1.0) {
     for (int part = 0; part < POSE_WALL_PARTS; ++part) of[part] += share * other.of[part];
   }
-  // The level becomes at least so large; what is missing is this part's. NaN stays visible: it makes the level NaN.
+  // Raises the level to at least this and adds the difference to this part. NaN stays visible: it makes the level NaN.
   void reach(double least, pose_wall_part part) {
     const double missing = least - sum();
     if (!(missing <= 0.0)) of[part] += missing;
   }
 };
 
-// The planes that a frame stands by: what was refused is none.
+// The accepted planes of a frame.
 struct Surfaces {
   Plane floor_base;
   Plane wall_level[2];  // left, right

@@ -15,7 +15,7 @@ struct Writer {
   pose_wall_trace_candidate* last;
 };
 
-// The stages are free functions of what they are given, and the notes are to change none of them.
+// The stages are free functions of their arguments, and notes must change none of these.
 thread_local Writer writer = {nullptr, 0, 0, false, false, nullptr};
 
 // Of all threads: they are set before the frames, as a sweep does.
@@ -25,7 +25,7 @@ struct Limit {
 };
 Limit limits[POSE_WALL_TRACE_GATES];
 
-// Where there is no room, or nobody listens.
+// Used if there is no room or no trace.
 thread_local pose_wall_trace_candidate nowhere;
 
 }  // namespace
@@ -85,7 +85,7 @@ void floor_radius(std::uint32_t attempt, double radius_m) {
 
 void floor_attempt_taken(std::uint32_t attempt) {
   writer.attempt = 0;
-  writer.floor_taken = true;  // what else is said of the floor is said of this one
+  writer.floor_taken = true;  // all later notes on the floor belong to this one
   if (writer.to != nullptr) writer.to->floor_attempt = attempt;
 }
 

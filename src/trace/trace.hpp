@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Notes on why a frame comes out as it does. Only the traced library takes them (POSE_WALL_TRACE); in the engine that
-// is delivered a note is nothing at all: not even its arguments are computed. No note changes what is computed.
+// Notes on the reasons for a frame's result. Only the traced library takes them (POSE_WALL_TRACE). In the delivered
+// engine a note is nothing at all, and not even its arguments are computed. No note changes a result.
 
 #pragma once
 
@@ -16,12 +16,12 @@
 
 namespace pose_wall::trace {
 
-// On this thread, until NULL is given; without one, notes are lost.
+// On this thread, until NULL is given. Without a trace, notes are lost.
 void write_to(pose_wall_trace* trace);
 
-// What the notes that follow are about. Returns what they were about before.
+// Sets the subject of the following notes and returns the one before.
 std::uint32_t subject(std::uint32_t subject);
-// The same while it lives.
+// Sets the subject for its lifetime.
 class About {
  public:
   explicit About(std::uint32_t about) : before_(subject(about)) {}
@@ -30,7 +30,7 @@ class About {
  private:
   std::uint32_t before_;
 };
-// While it lives gates judge and are not noted: of many planes that are asked alike, those that count are asked again.
+// While it lives gates judge without notes. Of many planes only those that count are judged again with notes.
 class Silence {
  public:
   Silence();
@@ -41,20 +41,20 @@ class Silence {
 };
 
 void note_gate(std::uint32_t id, double value, double limit, bool passed);
-// The limit that pose_wall_trace_set_limit gave this gate, or the one of the table.
+// The limit of this gate from pose_wall_trace_set_limit, or the table's.
 double limit_or(std::uint32_t id, double of_table);
 void set_limit(std::uint32_t id, double limit);
 void forget_limits();
-// Notes that follow are of this attempt; 0 at a frame's start.
+// The following notes belong to this attempt; 0 at a frame's start.
 void attempt(std::uint32_t attempt);
 void floor_radius(std::uint32_t attempt, double radius_m);
 void floor_attempt_taken(std::uint32_t attempt);
 
-// The caller fills in what it knows of the candidate; the last one is the caller's until the next.
+// The caller fills in the candidate's figures. The last one is the caller's until the next.
 pose_wall_trace_candidate* candidate(pose_wall_trace_fate fate, const Plane& plane);
-// The last one is this plane now.
+// Replaces the plane of the last candidate.
 void refined(pose_wall_trace_fate fate, const Plane& plane);
-// What was noted of a plane in this attempt; nullptr if nothing was.
+// The note on a plane in this attempt, or nullptr.
 pose_wall_trace_candidate* noted(const Plane& plane);
 void fate(const Plane& plane, pose_wall_trace_fate fate);
 
