@@ -29,7 +29,7 @@ struct FrameFindings {
 };
 
 // Fills all but quantity, stage_ns and frame_index.
-// What positive roll, pitch and yaw mean to the driver.
+// Sets the meaning of positive roll, pitch and yaw for the driver.
 void set_senses(std::int32_t forward_choice, std::uint32_t (*positive_means)[3]);
 
 // A checksum of a result's head. Each result of an engine carries it. It separates results from other memory, and is no

@@ -97,7 +97,7 @@ bool is_plain_xyz32(const pose_wall_cloud& cloud) {
 }
 
 bool is_xyz32_in_a_row(const pose_wall_cloud& cloud) {
-  constexpr std::uint32_t kBytes = sizeof(float), kOfFour = 4 * kBytes;  // one load reads x, y, z and what follows
+  constexpr std::uint32_t kBytes = sizeof(float), kOfFour = 4 * kBytes;  // one load reads x, y, z and the next bytes
   return is_plain_xyz32(cloud) && cloud.y.offset - cloud.x.offset == kBytes &&
          cloud.z.offset - cloud.y.offset == kBytes && cloud.point_step - cloud.x.offset >= kOfFour;
 }

@@ -20,9 +20,9 @@ class VoxelColumns {
   // The config allows 2 m (outlier_radius) over columns of 4 x 0.01 m (voxel_leaf): 50.
   static constexpr std::uint32_t kReachMost = 64;
 
-  // visit(begin, end) for runs of the list that hold, together, all voxels within the reach of the i-th, itself among
-  // them, and others not much further away; its own column's first, those furthest along x last. It goes on until visit
-  // returns false. i must not be less than in the last call.
+  // visit(begin, end) for runs of the list. Together they hold all voxels within the reach of the i-th, itself among
+  // them, and others not much further away. Its own column's run comes first, those furthest along x last. It goes on
+  // until visit returns false. i must not be less than in the last call.
   template <typename Visit>
   void for_each_run(std::uint32_t i, const Visit& visit) {
     while (begin_[own_ + 1] <= i) ++own_;

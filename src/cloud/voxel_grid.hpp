@@ -64,13 +64,12 @@ class VoxelGrid {
   };
 
   // Writes the centroids in the order of their cells' keys, or in the order in which the cells came. out must have room
-  // for count(), and rows that go on for a four, since whole fours are written. No point may be added any more until
-  // begin().
+  // for count(), and rows that go on for a four. No point may be added any more until begin().
   void extract(PointSet* out);
   void extract_as_they_came(PointSet* out);
 
-  // Valid after extract() in the order of the keys, until the next begin(): the key of the i-th centroid, and the start
-  // of each column's keys in the list, with the end as the last. Before, nothing and an end.
+  // Valid after extract() in the order of the keys, until the next begin(). Gives the key of the i-th centroid, and the
+  // start of each column's keys in the list. The end of the list comes last. Before extract(): nothing and an end.
   std::uint64_t key_in_order(std::uint32_t i) const { return hash_.key(sorted_[i]); }
   Span<const std::uint32_t> find_columns();
   double leaf_m() const { return leaf_m_; }

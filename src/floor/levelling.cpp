@@ -57,7 +57,7 @@ void add_to_band(const VoxelGrid& grid, const FourPlaces& p, FourFloats weights,
   }
 }
 
-// What lies in the band goes into the grid, an even part of what does not into beyond_level.
+// Points in the band go into the grid, an even part of the others into beyond_level.
 void part_by_height(const PointSet& cloud_base, const Levelling& levelling, const Settings& settings, VoxelGrid* grid,
                     PointSet* beyond_level) {
   const auto z_min = static_cast<float>(levelling.floor_z_level_m + settings.wall_z_min);

@@ -34,8 +34,8 @@ constexpr std::uint32_t kFloorFitPoints = 8192;
 struct FloorScratch {
   PointSet open_base;    // points with nothing standing on them, within the greatest radius
   PointSet within_base;  // those of them within the radius being tried
-  // Indices, for three uses in turn: the place of each point, until the open ones are known; the lowest part of the
-  // points within; the open points that a fit takes.
+  // Indices, for three uses in turn. First the place of each point, until the open ones are known. Then the lowest part
+  // of the points within, and then the open points that a fit takes.
   Span<std::uint32_t> low;
   TangentPoints points;  // the points of a fit
   PointSet subset;

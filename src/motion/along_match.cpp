@@ -102,8 +102,9 @@ class CurveBuilder {
     fill_up();
   }
 
-  // The best fit of the rest at each shift comes off the misfits. It is followed from the middle outwards, so that what
-  // counts at a shift is judged by what the rest leaves of it: in a bend the far rows are beyond any cap before.
+  // Subtracts the best fit of the rest at each shift from the misfits. The fit follows the shifts from the middle
+  // outwards, so that each shift is judged by the misfits that the rest leaves. In a bend the far rows are beyond any
+  // cap before.
   void fit_the_rest() {
     const std::int32_t middle = static_cast<std::int32_t>(shifts_ / 2), end = static_cast<std::int32_t>(shifts_);
     const Rest by = fit_at(middle, Rest::Zero());
@@ -175,7 +176,7 @@ class CurveBuilder {
   }
 
  private:
-  // From what the rest is expected to be at this shift.
+  // From the expected rest at this shift.
   Rest fit_at(std::int32_t shift, const Rest& expected) {
     float* const misfits = &s_->misfit[static_cast<std::uint32_t>(shift) * kRowsMost];
     take_off(expected, misfits);
@@ -262,7 +263,8 @@ class CurveBuilder {
   bool measure_row(const Observation& o, const LocalPose& local, const Eigen::Vector3f (&axis)[3]) {
     Fit fit;
     if (!fit_observation(scan_, local, o, &fit) || fit.surface.tile->stands_free != 0) return false;
-    // What faces along tells the way by its plane alone; along a road there is none, and what looks so is relief.
+    // A surface facing along gives the way by its plane alone. Along a road there is none, and surfaces that look so
+    // are relief.
     const bool faces = faces_along(fit.normal, axis[0]);
     if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
@@ -341,7 +343,7 @@ void CurveScratch::lay_out(Arena& arena) {
 
 namespace {
 
-// Walks from the best shift to both sides while the patches exclude nothing, then looks at what lies beyond.
+// Walks from the best shift to both sides while the patches exclude nothing, then looks beyond.
 void find_rivals(CurveBuilder* builder, std::uint32_t best, std::uint32_t shifts, Curve* out) {
   for (const int side : {-1, 1}) {
     bool apart = false;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The way along the road, by the relief of the rock: how well the scan fits the map when it is shifted along, and what
-// that curve is worth. The other five directions are fitted anew at every shift, so that a bend or a slope of a smooth
-// road is no evidence.
+// The way along the road, by the relief of the rock: the fit of the scan to the map at each shift, and the significance
+// of that curve. The other five directions are fitted anew at every shift, so that a bend or a slope of a smooth road
+// is no evidence.
 
 #pragma once
 
@@ -27,7 +27,7 @@ struct Curve {
   bool told = false;  // a curve could be drawn
 };
 
-// Whether the curve tells a place: the patches agree, and exclude the ends of the search.
+// True if the curve gives a place: the patches agree, and exclude the ends of the search.
 bool is_evidence(const Curve& curve);
 
 struct CurveScratch {
@@ -38,8 +38,8 @@ struct CurveScratch {
   Span<float> gain;  // [tile]; 0 for one that no row lies on
 };
 
-// What the rows say about a shift so small that the curve is a parabola: the place of its bottom, and its standard
-// deviation by patches of rock, which err together.
+// The rows at a shift so small that the curve is a parabola: the place of its bottom, and its standard deviation by
+// patches of rock, which err together.
 struct FinePlace {
   double best_m = 0.0, sigma_m = 0.0;
   double halves_m = 0.0;  // by how much two halves of the patches differ

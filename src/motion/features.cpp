@@ -38,7 +38,7 @@ struct RowOfRanges {
   }
 };
 
-// What a row says of four points that lie side by side, from the column on.
+// The row's test of four points side by side, from the column on.
 struct FourColumns {
   explicit FourColumns(const float* at) {
     const FourFloats r = load_four(at), zero = all_four(0.0F), least = 0.9F * r - kOcclusion_m;
@@ -49,7 +49,7 @@ struct FourColumns {
       const FourFloats near = load_four(at + k);
       sum += near;
       found -= near > zero;
-      // The nearest neighbours hide a point: what lies behind an edge moves with the sensor.
+      // Points that the nearest neighbours hide: the far side of an edge moves with the sensor.
       if (k >= -2 && k <= 2) hidden |= (near > zero) & (near < least);
     }
     told = (r > zero) & (found > kAround) & ~hidden;
@@ -164,7 +164,7 @@ std::uint32_t choose_observations(const RangeImage& image, const Pose& expected,
   constexpr float kAway_m = 128.0F;  // no point is so far off
   const Eigen::Vector3f t = (expected.t - expected.t.array().floor().matrix()).cast<float>().array() + kAway_m;
   std::uint32_t count = 0;
-  // In steps of the golden ratio, so that where the cubes are full what is left out is left out evenly.
+  // In steps of the golden ratio, so that full cubes leave out points evenly.
   std::uint32_t step = static_cast<std::uint32_t>(0.618034 * image.count) | 1U;
   while (common_divisor(image.count, step) != 1) step += 2;
   std::uint32_t i = 0;

@@ -34,8 +34,7 @@ bool normal_about(const RangeImage& image, std::uint32_t point, Eigen::Vector3f*
 // The axis of the map that a normal faces; false where it faces none by 53 degrees.
 bool facing_of(const Eigen::Vector3f& normal_map, std::uint8_t* facing);
 
-// Facings of points one after the other, as they lie in the image: within half of what a normal reaches the last one's
-// holds for its neighbours.
+// Facings of successive points of the image: within half of a normal's reach the last one's holds for its neighbours.
 class FacingWalk {
  public:
   FacingWalk(const RangeImage& image, const Eigen::Matrix3f& R_map_base) : image_(image), R_(R_map_base) {}
@@ -61,7 +60,7 @@ struct ObservationScratch {
 std::uint32_t choose_observations(const RangeImage& image, const Pose& expected, ObservationScratch* scratch,
                                   Span<Observation> out);
 
-// Anew for another attitude; what faces no axis keeps what it had.
+// Recomputes the facings for another attitude; points that face no axis keep theirs.
 void face(const Eigen::Matrix3d& R_map_base, Span<Observation> observations);
 
 }  // namespace pose_wall::motion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What is known of one frame, from stage to stage.
+// The data of one frame, from stage to stage.
 
 #pragma once
 
@@ -31,7 +31,7 @@ struct Frame {
   Curve curve;
   double halves_m = -1.0;  // negative: not measured
   bool guessed = false;    // the way along is a guess that is better than the last speed
-  double slip_m = 0.0;     // what is not known of the way along since the last frame, beyond sigma
+  double slip_m = 0.0;     // the unknown way along since the last frame, beyond sigma
   std::uint32_t reasons = 0, state = POSE_WALL_ALONG_MEASURED;
   double step_s = 0.0;  // since the last frame that had a pose
   Eigen::Vector3d step_m = Eigen::Vector3d::Zero(), step_rad = Eigen::Vector3d::Zero();

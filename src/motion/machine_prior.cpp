@@ -8,7 +8,7 @@
 namespace pose_wall::motion {
 namespace {
 
-// A machine that says it stands shakes by so much.
+// Shaking of a machine that reports that it stands.
 constexpr double kStandingSigma_m = 0.001, kStandingSigma_rad = 0.0005;
 constexpr double kMost = 50.0;  // m and rad a frame: beyond all machines
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the machine knows of itself since the last frame (pose_wall_inputs), as one more measurement of motion.
+// The machine's own data since the last frame (pose_wall_inputs), as one more measurement of motion.
 
 #pragma once
 
@@ -21,9 +21,9 @@ struct MachinePrior {
 
 MachinePrior ask_machine(const pose_wall_inputs* inputs, double dt_s);
 
-// Weighs the given way into one that the rock told; way_m is that of the alignment along its axis, towards the cosine
-// between forward_axis and the axis. False where they contradict each other by more than factor deviations: then the
-// alignment is unchanged.
+// Weighs the given way into the rock's. way_m is that of the alignment along its axis; towards is the cosine between
+// forward_axis and the axis. False if they contradict each other by more than factor deviations; then the alignment is
+// unchanged.
 bool weigh_in(const MachinePrior& prior, double towards, double way_m, double factor, Alignment* alignment);
 
 }  // namespace pose_wall::motion

@@ -43,7 +43,7 @@ constexpr const char* kReasons[POSE_WALL_MOTION_REASON_COUNT][2] = {
     {"prior", "The machine's own inputs contradict what was measured, and were not used."},
     {"map_full", "The oldest part of the map gave way to the newest."}};
 
-// What lives at the start of a motion's block.
+// The head of a motion's block.
 struct Holder {
   static constexpr std::uint64_t kMagic = 0x6E6F69746F6D5750ULL;
 
@@ -98,7 +98,7 @@ std::uint64_t lay_out(void* block, Holder** out) {
   return arena.bytes();
 }
 
-// What every result of a motion has, whatever the frame.
+// The common part of all results of a motion.
 pose_wall_motion_result begun(const Holder& holder) {
   pose_wall_motion_result result{};
   result.mark = kMark;

@@ -48,7 +48,7 @@ Eigen::Vector3d vector_of(const double (&v)[3]) {
   return {v[0], v[1], v[2]};
 }
 
-// What is left of the image where a pose is told: the turns and how fast they change.
+// The rest of the image if there is a pose: the turns and their rates.
 class Turns {
  public:
   explicit Turns(const pose_wall_motion_result& r) : result_(r) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// A frame's findings as the C ABI tells them.
+// A frame's findings in the form of the C ABI.
 
 #pragma once
 

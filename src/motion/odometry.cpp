@@ -19,26 +19,26 @@ constexpr std::uint32_t kMatchedLeast = 80;
 constexpr double kShareLost = 0.2;    // of the observations on the map: less, and the scan is elsewhere
 constexpr double kShareFound = 0.45;  // more, and a guess needs no wide start
 constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by the last speed is none
-// Without evidence: what tells smooth rock from few patches, and a guess from nothing.
+// Without evidence: the limits that separate smooth rock from few patches, and a guess from nothing.
 constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
 // Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
 constexpr double kHalvesMost_m = 0.12;
-constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; a sparse sensor's are all asked
+constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; all of a sparse sensor's count
 constexpr int kPassesMost = 4;                  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
-constexpr double kReachMargin = 1.5;  // of what top speed and turn allow: a place there is not the edge of the search
+constexpr double kReachMargin = 1.5;  // of the range of top speed and turn: a place there is not the edge of the search
 constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
 constexpr int kWindowsMost = 4;                       // to each side
 constexpr double kWindowStep_m = 1.5 * kReachMost_m;  // each overlaps the next by a quarter
 constexpr double kRivalCost = 1.5;                    // of the best place's misfit: a place that fits worse is none
 constexpr double kSlipMost_m = 0.8;                   // more, and the map's rock is somewhere else
-constexpr double kBentShare = 0.1;  // of a step, while scans are bent: what near rock and far rock differ by
+constexpr double kBentShare = 0.1;  // of a step, while scans are bent: the difference of near and far rock
 constexpr double kBent_m = 0.02, kBentAt_m = 5.0;  // a scan that its motion bends by less, so far off, is straight
 // Slopes of a steady bend that spread by s over 20 m of map turn by 0.17 s a metre.
 constexpr double kBendOfSpread = 0.17;
 constexpr std::uint32_t kYoungFrames = 3;
 constexpr double kKeyframeTurn_rad = 0.1;
-constexpr float kRockRange_m = 14.0F;  // further away only what is met at 17 degrees and more makes surfaces
+constexpr float kRockRange_m = 14.0F;  // further away, only rays that meet at 17 degrees and more make surfaces
 constexpr float kFarIncidence = 0.3F;
 
 std::uint32_t bit(bool is_set, std::uint32_t reason) {
@@ -200,8 +200,8 @@ void Odometry::refine(const Scan& scan, Frame* frame) {
   const double own_m2 = place.sigma_m * place.sigma_m;
   rock_variance_m2_ = rock_variance_m2_ > 0.0 ? 0.5 * (own_m2 + rock_variance_m2_) : own_m2;
   a.covariance(0, 0) = sigma_m * sigma_m > rock_variance_m2_ ? sigma_m * sigma_m : rock_variance_m2_;
-  // Where in a cell one scan met the rock is chance, the same for all of its rows that a ring drew: a young map errs by
-  // that as a whole. Of a start in motion 8 of 8 roads erred by 5 to 30 mm, and patches told 5.
+  // The place in a cell where one scan met the rock is chance, the same for all rows that one ring drew. So a young map
+  // errs as a whole. Of a start in motion 8 of 8 roads erred by 5 to 30 mm, and patches indicated 5.
   const double cell_m = 1.0 / kAlongCells, of_map_m = cell_m / map_.keyframes();
   a.covariance(0, 0) += of_map_m * of_map_m / 12.0;
   frame->halves_m = place.halves_m;
@@ -215,9 +215,9 @@ Curve Odometry::match_near(const Frame& frame) {
   return match_along(scan_of(frame), frame.alignment, reach, shifts, &curve_);
 }
 
-// After a gap: the best of curves one beside the other, as far as the machine can have gone. Moves the alignment to
-// its middle. Where another that is not its neighbour fits nearly as well, that is a second place: it need not tell so
-// by itself.
+// After a gap: searches curves side by side, as far as the machine can have gone. Moves the alignment to the middle of
+// the best one. If another that is not its neighbour fits nearly as well, that is a second place, even if it is no
+// evidence by itself.
 Curve Odometry::match_far(Frame* frame) {
   const Alignment middle = frame->alignment;
   const double far_m = settings_.speed_max_m_s * frame->dt_s;
@@ -247,7 +247,7 @@ Curve Odometry::match_far(Frame* frame) {
   return found[best];
 }
 
-// The place along the road, and what it is worth.
+// The place along the road and its uncertainty.
 void Odometry::match_way(Frame* frame) {
   Alignment& a = frame->alignment;
   // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
@@ -271,8 +271,8 @@ void Odometry::match_way(Frame* frame) {
   a.pose.t += curve.best_m * a.axes.along;
 }
 
-// The turn since the last frame, each of its parts about the road's axes as far as it stands out of its own noise: a
-// few rings of ground tell pitch to 0.1 degrees, and ten times that a second would bend the next scan.
+// The turn since the last frame, each part about the road's axes as far as it exceeds its own noise. A few rings of
+// ground give pitch to 0.1 degrees, and ten times that a second would bend the next scan.
 Eigen::Vector3d Odometry::shrunk_turn(const Frame& frame) const {
   const RoadAxes& axes = frame.alignment.axes;
   const Eigen::Vector3d turn_map = pose_.R * frame.step_rad;
@@ -286,7 +286,7 @@ Eigen::Vector3d Odometry::shrunk_turn(const Frame& frame) const {
   return pose_.R.transpose() * out;
 }
 
-// The given way stands alone where the rock tells nothing; where it does, it is weighed in or refused.
+// The given way stands alone without evidence of the rock. Otherwise it is weighed in or refused.
 void Odometry::use_prior(Frame* frame) const {
   if (!frame->prior.has_way()) return;
   Alignment& a = frame->alignment;
@@ -299,7 +299,7 @@ void Odometry::use_prior(Frame* frame) const {
   }
 }
 
-// What is not known of the way along, beyond sigma.
+// The unknown way along, beyond sigma.
 double Odometry::slip_of(const Frame& frame, double along_m) const {
   if (frame.is(POSE_WALL_ALONG_MEASURED)) return 0.0;
   if (frame.prior.has_way()) return settings_.protection_factor * frame.prior.way_sigma_m;
@@ -328,7 +328,7 @@ void Odometry::learn_twist(const Frame& frame) {
   } else {  // a mean over a gap is that of no scan
     forget_rates();
   }
-  // Half of what this frame says: single steps are noisy, and machines are heavy.
+  // Half of this frame's step: single steps are noisy, and machines are heavy.
   const double share = since_start_ < 2 ? 1.0 : 0.5;
   twist_.velocity_m_s += share * (now.velocity_m_s - twist_.velocity_m_s);
   twist_.turn_rad_s += share * (now.turn_rad_s - twist_.turn_rad_s);
@@ -347,13 +347,13 @@ void Odometry::conclude(Frame* frame) {
   if (!measured) {
     a.covariance.row(0).setZero();
     a.covariance.col(0).setZero();
-    // Where the road bends or dips, so does the machine with what it slipped.
+    // Where the road bends or dips, the slipped machine follows it.
     const double bend_rad = kBendOfSpread * map_.unevenness() * frame->slip_m;
     a.covariance(POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_PITCH) += bend_rad * bend_rad;
     a.covariance(POSE_WALL_MOTION_YAW, POSE_WALL_MOTION_YAW) += bend_rad * bend_rad;
   }
   travel_.go(along_m);
-  const double step_slip_m = measured ? slipped_m_ : frame->slip_m;  // the first that is told makes up for the others
+  const double step_slip_m = measured ? slipped_m_ : frame->slip_m;  // the first one found makes up for the others
   frame->step = Travel::of_step(last_covariance_, a.covariance, step_slip_m, settings_.protection_factor);
   if (lost_s_ > 0.0) {
     frame->step.widen(settings_.speed_max_m_s * lost_s_, settings_.turn_max_rad_s * lost_s_);
@@ -361,7 +361,7 @@ void Odometry::conclude(Frame* frame) {
     lost_s_ = 0.0;
   }
   learn_twist(*frame);
-  // A place that the map tells again undoes what slipped since, unless guesses went into the map.
+  // A place found again in the map undoes the slip since, unless guesses went into the map.
   if (measured && guesses_) travel_.slip(slipped_m_, 0.0);
   slipped_m_ = measured ? 0.0 : slipped_m_ + frame->slip_m;
   guesses_ = !measured && (guesses_ || frame->guessed);
@@ -373,7 +373,7 @@ void Odometry::conclude(Frame* frame) {
   keep_map(*frame);
 }
 
-// A keyframe where the machine went or turned far enough; a new relief where nobody knows any more where the old is.
+// A keyframe if the machine went or turned far enough; a new relief if the place of the old one is lost.
 void Odometry::keep_map(const Frame& frame) {
   if (slipped_m_ > kSlipMost_m) {
     map_.forget_relief();
@@ -406,8 +406,8 @@ bool Odometry::begins_unbent(const Frame& frame) const {
   return frame.dt_s * (speed_m_s + kBentAt_m * turn_rad_s) > kBent_m;
 }
 
-// The first scans were taken before anybody knew how the machine moves; the map begins anew with one that is freed of
-// its motion. Where it stands, two scans that were bent alike have told.
+// The motion during the first scans was unknown. The map starts anew with a scan freed of its motion. If the machine
+// stands, two scans that were bent alike have shown that.
 void Odometry::begin_unbent(const Frame& frame) {
   const std::uint32_t count = image_.count;
   project_again(frame.cloud, reading_, twist_, &image_);
@@ -420,11 +420,11 @@ void Odometry::begin_unbent(const Frame& frame) {
   travel_.begin_with(frame.alignment.covariance);
 }
 
-// Where the frame is expected, by the last twist and by what the machine says.
+// The expected place of the frame, by the last twist and the machine's own data.
 void Odometry::expect(Frame* frame) const {
   frame->prior = ask_machine(frame->cloud.inputs, frame->dt_s);
   if (!frame->prior.sound) frame->reasons |= POSE_WALL_MOTION_R_PRIOR;
-  // Of a twist nobody knows how long it lasts.
+  // The duration of a twist is unknown.
   const double lasts_s = frame->dt_s < kTwistLasts_s ? frame->dt_s : kTwistLasts_s;
   Eigen::Vector3d step_m = twist_.velocity_m_s * lasts_s, step_rad = twist_.turn_rad_s * lasts_s;
   if (frame->prior.has_way()) {
@@ -443,7 +443,7 @@ void Odometry::look(Frame* frame) {
   frame->observations = observation_.first(count);
 }
 
-// A fit that asks for more than the machine can have done is none. Dust had it stand on its head, frame by frame.
+// A fit that needs more motion than the machine is capable of is none. Dust turned it upside down, frame by frame.
 void Odometry::check_reach(Frame* frame) const {
   const Pose& at = frame->alignment.pose;
   const Eigen::Vector3d& along = frame->alignment.axes.along;
@@ -458,7 +458,7 @@ void Odometry::check_reach(Frame* frame) const {
   frame->state = POSE_WALL_ALONG_LOST;
 }
 
-// The scan's place in the map and what follows from it; where it has none, the frame is lost.
+// The scan's place in the map and its consequences. Without a place the frame is lost.
 void Odometry::measure(Frame* frame) {
   map_.set_corner(frame->expected.t);
   if (frame->observations.size() < kObservationsLeast) {
@@ -481,7 +481,7 @@ void Odometry::measure(Frame* frame) {
   }
 }
 
-// Time counts from the last frame that had a pose: what was seen of nothing is as if it had not come.
+// Time counts from the last frame with a pose: frames of nothing have no effect.
 void Odometry::keep_time(const Frame& frame) {
   if (has_map_ && frame.observations.size() < kObservationsLeast) return;
   const bool usual = frame.dt_s > 0.0 && frame.dt_s < kPeriodMost_s;
@@ -489,7 +489,7 @@ void Odometry::keep_time(const Frame& frame) {
   stamp_ns_ = frame.cloud.stamp_ns;
 }
 
-// Where the machine is now, nobody knows better than it can have moved; the map begins anew there.
+// The machine may be as far as it can have moved. The map starts anew there.
 void Odometry::begin_anew(Frame* frame) {
   if (frame->observations.size() < kObservationsLeast) return;
   const double place_m = settings_.speed_max_m_s * frame->dt_s, turn_rad = settings_.turn_max_rad_s * frame->dt_s;
@@ -519,8 +519,8 @@ void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* re
     frame.alignment.axes = axes_;
     frame.whole = travel_.bounds(last_covariance_, slipped_m_, settings_.protection_factor);
     image_.count = 0;
-    // One frame out of order, or a clock that was set back: the second tells. How long ago the last pose was, its usual
-    // period tells best.
+    // One frame out of order, or a clock that was set back: the second one decides. The usual period is the best
+    // estimate of the time since the last pose.
     if (frame.dt_s < -kSameStamp_s && ++back_ > 1) {
       // by whole numbers that wrap: a stamp may be the least there is
       stamp_ns_ = static_cast<std::int64_t>(static_cast<std::uint64_t>(cloud.stamp_ns) -

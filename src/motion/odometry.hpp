@@ -70,7 +70,7 @@ class Odometry {
   ReliefMap map_;
   Pose pose_, start_, keyframe_;
   Twist twist_;
-  Twist seen_;      // in the last frame, as far as it tells
+  Twist seen_;      // in the last frame, as far as it is known
   Six rate_level_;  // of that
   RoadAxes axes_;
   Travel travel_;
@@ -83,11 +83,11 @@ class Odometry {
   bool has_pose_ = false;          // of the last frame
   std::uint32_t back_ = 0;         // stamps in a row that went back
   std::uint32_t since_start_ = 0;  // frames on this map
-  double slipped_m_ = 0.0;         // since something told the way
+  double slipped_m_ = 0.0;         // since the way was last known
   double lost_s_ = 0.0;            // since the last pose, where the map began anew
   bool has_map_ = false;
-  bool is_bent_ = false;  // the map's scans, by motion that nobody knew
-  bool guesses_ = false;  // keyframes that nothing told the place of, since then
+  bool is_bent_ = false;  // the map's scans, by unknown motion
+  bool guesses_ = false;  // keyframes of unknown place since then
 };
 
 }  // namespace pose_wall::motion

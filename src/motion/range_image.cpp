@@ -12,7 +12,7 @@
 namespace pose_wall::motion {
 namespace {
 
-constexpr std::uint32_t kLooks = 4096;  // points that tell a cloud's rings, elevations and times
+constexpr std::uint32_t kLooks = 4096;  // points for a cloud's rings, elevations and times
 constexpr double kRingsLeast = 4.0;     // fewer: a driver of a pattern without rings that fills in the field
 constexpr float kTurn_rad = 6.2831853F;
 constexpr std::uint32_t kBodyBoxes = sizeof(Reading::body) / sizeof(Box);
@@ -79,7 +79,7 @@ struct Layout {
   std::uint32_t share = 0xFFFFFFFFU;  // of the points that are looked at, of 2^32
 };
 
-// What an even share of a cloud's points tells: how far rings, elevations and times reach.
+// The ranges of rings, elevations and times, from an even share of a cloud's points.
 struct Extent {
   double ring_most = 0.0, time_least = 1e300, time_most = -1e300;
   float sine_least = 1.0F, sine_most = -1.0F;
@@ -187,7 +187,7 @@ class Projector {
     }
   }
 
-  // The first of a cell stays; no returns, what is out of range and the machine's own body go.
+  // The first point of a cell stays. No-returns, points out of range and the machine's own body are dropped.
   void put(const Four& four, FourTruths those) const {
     const FourPlaces raw = {load_four(four.x), load_four(four.y), load_four(four.z)};
     const FourFloats r2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;

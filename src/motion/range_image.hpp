@@ -17,8 +17,8 @@
 
 namespace pose_wall::motion {
 
-// Rows by ring, else by elevation; columns by azimuth, as many as the sensor has directions or cells allow: 64 rings in
-// 512 directions. More points of one scan tell the way along no better, and each costs time.
+// Rows by ring, else by elevation; columns by azimuth. There are as many as the sensor has directions or cells allow:
+// 64 rings in 512 directions. More points of one scan give the way along no better, and each costs time.
 constexpr std::uint32_t kImageCells = 32768;
 constexpr std::uint32_t kImageRowsMost = 64;
 constexpr std::uint32_t kImageColumnsLeast = 512, kImageColumnsMost = 2048;
@@ -35,7 +35,7 @@ struct Reading {
   Eigen::Matrix3d R_base_lidar = Eigen::Matrix3d::Identity();
   Eigen::Vector3d lidar_base_m = Eigen::Vector3d::Zero();
   double range_min_m = 0.3, range_max_m = 30.0;
-  Box body[4] = {};  // what moves with the machine, in base
+  Box body[4] = {};  // the parts that move with the machine, in base
 };
 
 struct RangeImage {
@@ -65,8 +65,8 @@ struct RangeImage {
 
 // De-skewed by the twist where the cloud has times: each point where it would have been seen from at the stamp.
 void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image);
-// The same cloud by another twist. Cells and the order of points do not hang on it, so flags stay what they were;
-// unless the machine's own body has another point in it, which shows in the count.
+// The same cloud by another twist. Cells and the order of points do not depend on it, so flags stay. The exception is
+// another point inside the machine's own body, which shows in the count.
 void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image);
 
 }  // namespace pose_wall::motion

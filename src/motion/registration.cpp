@@ -12,20 +12,20 @@
 namespace pose_wall::motion {
 namespace {
 
-// Standard deviation of a range: what LiDARs of mines' kind have (OS1 1 to 3 cm, VLP-16 3 cm typical accuracy). It sets
-// the weights of near against far surfaces only; covariances come from how patches of rock differ.
+// Standard deviation of a range, typical of LiDARs in mines (OS1 1 to 3 cm, VLP-16 3 cm typical accuracy). It sets only
+// the weights of near against far surfaces. Covariances come from the differences between patches of rock.
 constexpr float kRangeSigma_m = 0.012F;
-// What cells leave of the rock, whatever the range tells.
+// The rock's error within cells, independent of the range.
 constexpr float kCellSigma_m = 0.004F;
 // Rock about a plane where its relief is not known yet.
 constexpr float kRockSigma_m = 0.04F;
-constexpr float kTukey = 4.0F;              // deviations beyond which an observation says nothing
+constexpr float kTukey = 4.0F;              // deviations beyond which an observation does not count
 constexpr std::uint32_t kGroundLeast = 60;  // observations of ground that settle roll, pitch and height
 constexpr double kDamping = 1e-3;           // Levenberg's, of the diagonal, at the start
 constexpr double kStepLeast2 = 1e-9;        // a step of 0.03 mm and mrad is the last
 constexpr float kStill2 = 4e-6F;            // 2 mm and mrad: surfaces are found anew for more
 constexpr std::uint32_t kCountLeast = 12;   // observations for three unknowns
-constexpr float kNear_m = 0.3F;             // from a plane whose relief is not asked: most of a tile's layer
+constexpr float kNear_m = 0.3F;             // from a plane whose relief is not used: most of a tile's layer
 constexpr float kFacesAlong = 0.6F;         // cosine: within 53 degrees, as facing_of has it
 
 struct Sums {
@@ -37,8 +37,7 @@ struct Sums {
   double of_kind[2] = {}, squares[2] = {};
 };
 
-// By how much the misfits' variances exceed what noise gives: rock that is finer than the cells, of this step's
-// surfaces.
+// Excess of the misfits' variances over noise: rock of this step's surfaces that is finer than the cells.
 struct Scales {
   float variance[2] = {1.0F, 1.0F};
 
@@ -51,7 +50,8 @@ struct Scales {
   }
 };
 
-// How far the point lies from the rock, and what noise alone gives that; of a fit that holds surface and incidence.
+// The distance of the point from the rock, and its expectation from noise alone, for a fit that holds surface and
+// incidence.
 void measure(Fit* fit) {
   Relief relief;
   fit->has_relief = ReliefMap::relief(fit->surface, &relief);
@@ -61,8 +61,8 @@ void measure(Fit* fit) {
                      kCellSigma_m * kCellSigma_m + (fit->has_relief ? 0.0F : kRockSigma_m * kRockSigma_m);
 }
 
-// Walls tell roll, too. The roof does not count beside the ground: what hangs from it is seen from one side only, and
-// steel sets under it turned a VLP-16's pitch by half a degree in 6 m.
+// Walls give roll, too. The roof does not count beside the ground. Things hanging from it are seen from one side only,
+// and steel sets under it turned a VLP-16's pitch by half a degree in 6 m.
 enum Part : std::uint32_t { kOfGround = 0, kOfWalls = 1, kOfRoof = 2, kParts = 3 };
 
 Part part_of(const Observation& o) {
@@ -111,7 +111,7 @@ class Equations {
     }
   };
 
-  // Of the parts from the first to before the last, the pose moved by so much; leaves what each pulls with.
+  // The pose moved by so much. Updates the parts from the first to before the last, each with its remaining pull.
   Sums sum_up(Part first, std::uint32_t last, const int (&free)[3], const float (&by)[6], const Scales& scales,
               bool use_relief) const {
     const FourFloats zero = all_four(0.0F), one = all_four(1.0F);
@@ -146,7 +146,7 @@ class Equations {
     return lanes.sums();
   }
 
-  // What the patches of rock pull with, each as a whole: the sum of their squares.
+  // The pull of the patches of rock, each as a whole: the sum of their squares.
   Eigen::Matrix3d pulls(Part first, std::uint32_t last, const int (&free)[3], std::uint32_t tiles) const {
     for (int k = 0; k < 3; ++k) s_.sum[k].first(tiles).fill(0.0F);
     for (std::uint32_t i = begin_[first]; i < begin_[last]; ++i) {
@@ -176,7 +176,7 @@ class Equations {
     s_.tile[count_++] = static_cast<std::uint16_t>(tile);
   }
 
-  // To a whole four, with what lies too far off to count.
+  // Pads to a whole four with points too far off to count.
   void fill_up() {
     constexpr float kFar_m = 100.0F;
     for (; count_ % kFour != 0; ++count_) {
@@ -219,7 +219,7 @@ Eigen::Matrix3d covariance_of(const Sums& sums, const bool (&asked)[3], const Ei
   return inverse * B * inverse.transpose();
 }
 
-// One step: which parts of the scan tell which three of the six moves.
+// One step: the parts of the scan, and the three of the six moves that they determine.
 struct Step {
   Part first;
   std::uint32_t last;
@@ -261,7 +261,7 @@ void take_step(const Equations& equations, const Step& step, const StepOptions& 
   Sums sums;
   bool told = iterate(equations, step, options, scales, by, &sums);
   if (told && options.use_relief) {
-    // What the first rounds leave tells the noise, and the last ones go by it.
+    // The residuals of the first rounds give the noise for the last ones.
     scales.learn(sums);
     told = iterate(equations, step, options, scales, by, &sums);
     scales.learn(sums);

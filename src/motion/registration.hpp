@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// How an observation lies on the map, and the two steps of Levenberg-Marquardt on that (the document's section 3):
-// roll, pitch and height by the ground, then the place across and yaw by the rest; along only where asked for.
+// The observations on the map, and the two steps of Levenberg-Marquardt on them (the document's section 3): roll, pitch
+// and height by the ground, then the place across and yaw by the rest. The place along is optional.
 
 #pragma once
 
@@ -40,10 +40,10 @@ struct Shifts {
 std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts, bool by_plane, std::uint32_t apart,
                           float* misfit);
 
-// Hold along the axis (RoadAxes): below it no plane tells the way. What faces along are bumps of the rock then, which
-// are seen from one side only; they drew steel sets by 30 mm (2026-11, simulated).
+// Hold along the axis (RoadAxes): below it no plane gives the way. Surfaces that face along are then bumps of the rock,
+// which are seen from one side only. They drew steel sets by 30 mm (2026-11, simulated).
 constexpr double kHoldOfRoad = 0.05;
-constexpr double kHoldOfHall = 0.3;  // its own planes tell the way
+constexpr double kHoldOfHall = 0.3;  // its own planes give the way
 bool faces_along(const Eigen::Vector3f& normal, const Eigen::Vector3f& along);
 
 // The road's axes in the map: along is where the surfaces give least hold.
@@ -57,8 +57,8 @@ struct Alignment {
   RoadAxes axes;
   std::uint32_t matched = 0, ground = 0;  // observations that count
   bool ground_alone = false;              // the ground is seen well enough to do without the roof
-  // Of along, across, up, and turns about these axes; by patches of rock, so that neighbours that err together count
-  // once. The along row is zero where it was not asked for.
+  // Covariance of along, across, up, and turns about these axes, by patches of rock, so that neighbours that err
+  // together count once. The along row is zero if it was not requested.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
@@ -79,7 +79,7 @@ struct StepOptions {
   bool use_relief = false;
   bool with_along = false;
   int rounds = 3;
-  std::uint32_t every = 1;  // of so many observations one is asked
+  std::uint32_t every = 1;  // one of so many observations is used
 };
 void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* alignment);
 // Step one, by ground and walls: roll, pitch and height. Step two, by walls and roof: the place across and yaw. Whether

@@ -79,7 +79,7 @@ void ReliefMap::clear() {
 }
 
 void ReliefMap::set_corner(const Eigen::Vector3d& near_map) {
-  constexpr double kAway_m = 128.0;  // so that what is near counts from zero upwards
+  constexpr double kAway_m = 128.0;  // so that near places count from zero upwards
   for (int k = 0; k < 3; ++k) corner_[k] = static_cast<std::int32_t>(std::floor(near_map[k] - kAway_m));
 }
 
@@ -121,9 +121,9 @@ bool ReliefMap::find_again(const Eigen::Vector3f& p, const Tile* before, Surface
 
 namespace {
 
-// Between two cells' heights; of one point or of four. Steeper than 45 degrees cells cannot tell where the step is, and
-// which side of it is seen hangs on the sensor's place: anything between the two heights agrees. Steel sets stretched
-// the way by 0.6 % when a slope was drawn there.
+// Interpolates between two cells' heights, for one point or four. Steeper than 45 degrees the place of the step within
+// the cells is unknown, and the sensor's place decides which side of it is seen: anything between the two heights
+// agrees. Steel sets stretched the way by 0.6 % when a slope was drawn there.
 template <typename Number>
 Number height_between(Number h0, Number h1, Number w, Number above) {
   const Number low = h0 < h1 ? h0 : h1, high = h0 < h1 ? h1 : h0;

@@ -64,7 +64,7 @@ struct LocalPose {
   Eigen::Vector3f t;
 };
 
-// What the map says at a point.
+// The map at a point.
 struct Surface {
   const Tile* tile;
   float u, v;     // within the tile, from its middle, m
@@ -120,7 +120,7 @@ class ReliefMap {
   }
   void add(const Eigen::Vector3f& p, std::uint8_t facing);
   void end_keyframe();
-  // Planes stay, what is known of the rock about them goes.
+  // Forgets the rock about the planes; the planes stay.
   void forget_relief();
   // Root mean square of the tiles' slopes along u, about their mean, of walls or of ground and roof: how bent they are.
   double unevenness() const;

@@ -22,7 +22,7 @@ float step_most_m(float range_m) {
   return 0.15F + 0.07F * range_m;
 }
 
-// Of two neighbours one above the other: both ground where what lies between them is level.
+// Of two neighbours one above the other: both are ground if the line between them is level.
 std::uint32_t mark_ground(const Eigen::Matrix3d& R_map_base, const Reading& reading, RangeImage* image) {
   const Eigen::Vector3f up = R_map_base.row(2).transpose().cast<float>();
   const float sensor = up.dot(reading.lidar_base_m.cast<float>()) - kBelowSensor_m;
@@ -83,8 +83,8 @@ class Clusters {
  private:
   bool is_rock(std::uint16_t i) const { return i != kNoPoint && (image_.flags[i] & kGround) == 0; }
 
-  // The one of the two that is of the same surface; none where that is ground. Where the next is none of the surface,
-  // as between the lines of a pattern or in dust, the next but one is asked.
+  // The one of the two on the same surface; none if that is ground. If the next is on another surface, as between the
+  // lines of a pattern or in dust, the next but one is tried.
   std::uint16_t other_of(std::uint16_t at, std::uint16_t next, std::uint16_t but_one) const {
     for (const std::uint16_t other : {next, but_one}) {
       if (other == kNoPoint) continue;

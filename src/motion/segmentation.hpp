@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Ground marks and clusters of the range image (the document's sections 1.2 and 1.3): what is ground, and what is too
+// Ground marks and clusters of the range image (the document's sections 1.2 and 1.3): marks ground, and things too
 // small to be rock.
 
 #pragma once

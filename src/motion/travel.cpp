@@ -13,10 +13,10 @@ namespace {
 constexpr double kStays = 0.6, kStaysAlong = 0.3;
 // Metres a metre that cells and steps of the rock stretch the way by, at most: steel sets 0.2 %.
 constexpr double kStretch = 0.005;
-// Neighbouring patches of ground err together along a sensor's rings: turns were off by up to three times what patches
-// tell where rings are few (VLP-16 on rough floors).
+// Neighbouring patches of ground err together along a sensor's rings. With few rings, turns were off by up to three
+// times the patches' estimate (VLP-16 on rough floors).
 constexpr double kTurnDoubt = 3.0;
-// Places and turns that no patch tells: what cells leave of the rock.
+// Error of places and turns within cells, which no patch shows.
 constexpr double kPlaceFloor_m = 0.0005, kTurnFloor_rad = 0.00005;
 
 bool is_turn(int k) {

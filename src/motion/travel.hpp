@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What a pose is worth: the covariance of the map's place that adds up keyframe by keyframe, and the levels.
+// The uncertainty of a pose: the covariance of the map's place, which adds up keyframe by keyframe, and the levels.
 
 #pragma once
 
@@ -18,7 +18,7 @@ using SixBySix = Eigen::Matrix<double, POSE_WALL_MOTION_DIRECTIONS, POSE_WALL_MO
 struct Bounds {
   Six sigma = Six::Zero(), level = Six::Zero();
 
-  // By what is not known at all, evenly over its range.
+  // By the unknown part, evenly over its range.
   void widen(double place_m, double turn_rad);
 };
 
@@ -31,7 +31,7 @@ class Travel {
   void take_in(const SixBySix& of_alignment, std::uint32_t keyframes);
   // A new map begins with a frame: all of its errors are the map's.
   void begin_with(const SixBySix& of_alignment);
-  // Nothing told the way: known to within so many metres. The map's surfaces are those of another place then, whose
+  // The way is unknown: known to within so many metres. The map's surfaces are then those of another place, whose
   // slopes differ by the unevenness.
   void slip(double along_m, double unevenness);
   // Everything is known to within so much only: after a frame that was lost.
@@ -39,15 +39,15 @@ class Travel {
     lost_m_ += place_m;
     lost_rad_ += turn_rad;
   }
-  // slipping_m: what slipped and may yet be told again.
+  // slipping_m: the slip that may yet be undone.
   Bounds bounds(const SixBySix& of_alignment, double slipping_m, double factor) const;
-  // What comes and goes with this alignment.
+  // The part that comes and goes with this alignment.
   static Six level_of(const SixBySix& of_alignment, double slipping_m, double factor);
   // Of the way from one frame to the next, each against the same map.
   static Bounds of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor);
 
-  // What stays of each direction's errors, since reset, without lever arms: an error of two places in one map is that
-  // of either alignment and the difference of these two.
+  // The lasting part of each direction's errors since reset, without lever arms. The error between two places in one
+  // map is that of either alignment and the difference of these two.
   const Six& drift_variance() const { return drift_variance_; }
   const Six& drift() const { return drift_; }
 

@@ -31,7 +31,7 @@ Eigen::Vector3d normal_of(const Observation& o) {
 Eigen::Matrix3d upright(Span<const Observation> observations, const Eigen::Matrix3d& R_map_base,
                         const Eigen::Vector3d& sensor_base_m) {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  // Wide, then narrow: what is not ground falls out.
+  // Wide, then narrow: points off the ground drop out.
   for (const double cosine_least : {0.8, 0.9, 0.97, 0.985}) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     std::uint32_t count = 0;
@@ -109,7 +109,7 @@ double search(const ReliefMap& map, Span<Observation> observations, const Pass& 
 }  // namespace
 
 bool search_wide(const ReliefMap& map, Span<Observation> observations, const WideReach& reach, Pose* pose) {
-  // A layer of 0.35 m is met at 10 m within 2 degrees; the second pass is for what stands further away.
+  // A layer of 0.35 m spans 2 degrees at 10 m; the second pass is for things further away.
   search(map, observations, {reach.yaw_rad, 0.035, reach.place_m, 0.3}, pose);
   search(map, observations, {0.03, 0.01, 0.2, 0.1}, pose);
   return search(map, observations, {0.008, 0.004, 0.05, 0.05}, pose) > kShareLeast;

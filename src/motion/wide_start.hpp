@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Where a scan may stand when nobody knows: the level by its own normals, and a coarse search over yaw and place.
+// Finds a scan of unknown place: the level by its own normals, and a coarse search over yaw and place.
 
 #pragma once
 

@@ -303,7 +303,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     const bool unknown = timing.still && !(elapsed_s > 0.0);
     if (timing.back || unknown || state->still_frames > kStillFramesMax) t.expired = true;
     if (timing.back) t.good.exists = false;
-    // Turned so far, the old side walls are none any more, and nobody saw the new ones.
+    // Turned so far, the old side walls are none any more, and the new ones were not seen.
     const bool is_sideways = q >= POSE_WALL_YAW && std::fabs(carried_yaw_rad) > radians(settings.yaw_max_deg);
     if (is_sideways && !m.measured) t.expired = true;
     if (m.measured) {

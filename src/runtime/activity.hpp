@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the worker is at, and since when, for readers that must never wait: one word holds both, so that they are of the
-// same moment.
+// The worker's activity and its start, for readers that must never wait. One word holds both, so they are of the same
+// moment.
 
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Finds records in bytes that nobody vouches for. Every offset is checked in 64 bits before it is used.
+// Finds records in untrusted bytes. Every offset is checked in 64 bits before it is used.
 
 #include "../export.hpp"
 #include "box_layout.hpp"
@@ -75,7 +75,7 @@ bool holds_head(const unsigned char* bytes, std::uint64_t count, std::uint64_t f
   return at < count && count - at >= kHeadBytes;
 }
 
-// What stands there in a header that is damaged makes its records another run's at worst, and those are not computed.
+// A damaged header makes its records another run's at worst, and those are not computed.
 bool is_of_another_run(const unsigned char* header, std::uint64_t count, const unsigned char* head) {
   if (count < kHeaderBytes) return false;
   const unsigned char* const description = head + kHeadBytes;
@@ -83,10 +83,10 @@ bool is_of_another_run(const unsigned char* header, std::uint64_t count, const u
          get<std::uint32_t>(header + kAtHeaderConfigCrc) != get<std::uint32_t>(description + kAtConfigCrc);
 }
 
-// At `offset` is a whole head. Returns where to go on. Each byte is summed once only, or forged heads that all claim
-// the rest of the file would keep a reader busy for ever: behind a broken body it goes on where the head says that it
-// ends. A head that is whole told the truth when it was written, so there is nothing before that end, unless the disk
-// lost a part of what was written later. That is told, and the caller may look there.
+// At `offset` is a whole head. Returns the place to go on. Each byte is summed once only, or forged heads that all
+// claim the rest of the file would keep a reader busy for ever. Behind a broken body it goes on at the end that the
+// head gives. A whole head was true when it was written, so nothing lies before that end, unless the disk lost a part
+// of a later write. That is reported, and the caller may look there.
 std::uint64_t read_record(const unsigned char* bytes, std::uint64_t count, std::uint64_t offset,
                           pose_wall_box_record* record) {
   const unsigned char* const head = bytes + offset;

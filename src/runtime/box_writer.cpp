@@ -123,7 +123,7 @@ bool BoxWriter::write(const FrameSlot& slot) {
   const std::uint64_t record_bytes = kHeadBytes + body_bytes + cloud_bytes + padding;
   if (at_ + record_bytes > box_bytes_) {
     at_ = kHeaderBytes;
-    lap_ = static_cast<std::uint16_t>(lap_ == 0xFFFFU ? 1U : lap_ + 1U);  // 0 says that the ring never came round
+    lap_ = static_cast<std::uint16_t>(lap_ == 0xFFFFU ? 1U : lap_ + 1U);  // 0: the ring never came round
   }
   fill_body(slot, body);
   Crc32 crc;
@@ -132,7 +132,7 @@ bool BoxWriter::write(const FrameSlot& slot) {
   crc.add(kZeros, padding);
   fill_head(slot, record_bytes, cloud_bytes, crc.value(), head);
   const std::uint64_t at_body = at_ + kHeadBytes, at_cloud = at_body + body_bytes;
-  // The head last: what is cut off before has none.
+  // Writes the head last, so that a record cut off before has none.
   const bool written = sink(at_body, body, body_bytes) && sink(at_cloud, slot.cloud.data, cloud_bytes) &&
                        sink(at_cloud + cloud_bytes, kZeros, padding) && sink(at_, head, kHeadBytes);
   if (written) at_ += record_bytes;

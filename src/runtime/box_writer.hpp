@@ -14,15 +14,15 @@ namespace pose_wall::runtime {
 
 class BoxWriter {
  public:
-  // Of what pose_wall_runtime_open gives it: room for the parts of a record that are put together in memory.
+  // In the block of pose_wall_runtime_open: room for the parts of a record that are put together in memory.
   static std::uint64_t scratch_bytes();
   // The ring must hold at least this much.
   static std::uint64_t box_bytes_min(std::uint64_t cloud_bytes_max);
 
   void open(const pose_wall_runtime_options& options, unsigned char* scratch);
 
-  // The header; the ring begins anew. `run`, never 0, tells this start's records from those of others. False: the sink
-  // failed.
+  // Writes the header; the ring starts anew. `run`, never 0, separates this start's records from those of others.
+  // False: the sink failed.
   bool begin(const pose_wall_config& config, std::uint16_t run);
 
   // False: the sink failed; the next record takes the same place. Before the first header none is written.

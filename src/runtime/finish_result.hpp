@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// From what the engine says of the frame it got to what is published of the frame that came.
+// From the engine's result on its frame to the published result on the frame that came.
 
 #pragma once
 

@@ -68,7 +68,7 @@ Point judge(const pose_wall_cloud& cloud, const unsigned char* point) {
 
 constexpr std::uint32_t kFields = 6;  // x, y, z, intensity, time, ring
 
-// What the field holds, of any type.
+// The field's value, of any type.
 double number(const unsigned char* bytes, std::uint32_t type, bool big_endian) {
   const std::uint64_t bits = bits_of(bytes, bytes_of(type), big_endian);
   const auto low = static_cast<std::uint32_t>(bits);

@@ -11,9 +11,9 @@
 
 namespace pose_wall::runtime {
 
-// What one frame, or one silence, brought and gave. Belongs to one thread at a time: push, the worker, the recorder.
+// Input and result of one frame or one silence. Belongs to one thread at a time: push, the worker, the recorder.
 struct FrameSlot {
-  unsigned char* points = nullptr;  // packed, as `cloud` says
+  unsigned char* points = nullptr;  // packed, as described by `cloud`
   unsigned char* memento = nullptr;
   pose_wall_cloud cloud{};
   pose_wall_inputs inputs{};  // where `cloud` points to them

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// How old a publication is to who reads it now, and what is left of one that is too old. By the reader's thread alone:
-// a worker that hangs says nothing.
+// The age of a publication for its reader, and the remains of one that is too old. By the reader's thread alone, since
+// the worker may hang.
 
 #pragma once
 
@@ -18,7 +18,7 @@ class Freshness {
   // watchdog_ns 0: nothing is ever stale.
   Freshness(const pose_wall_publication& p, std::int64_t now_ns, std::int64_t watchdog_ns)
       : age_ns_(known_age_ns(difference(now_ns, p.received_ns), watchdog_ns)) {
-    // Silence is itself told anew before it gets this old, with the age of what it tells of.
+    // Silence is published anew before it gets this old, with the age of its values.
     const bool is_frame = p.cause == POSE_WALL_RUNTIME_FRAME;
     told_ns_ = known_age_ns(difference(now_ns, is_frame ? p.received_ns : p.published_ns), watchdog_ns);
     stale_ = watchdog_ns > 0 && told_ns_ >= watchdog_ns;
@@ -26,14 +26,14 @@ class Freshness {
 
   std::int64_t age_ns() const { return age_ns_; }
   bool is_stale() const { return stale_; }
-  // What has passed since the result was told.
+  // Time since the result was published.
   double elapsed_s() const {
-    constexpr double kHour_s = 3600.0;  // for what nobody knows, as the watchdog does
+    constexpr double kHour_s = 3600.0;  // for an unknown time, like the watchdog
     return told_ns_ == INT64_MAX ? kHour_s : static_cast<double>(told_ns_) * 1e-9;
   }
 
  private:
-  // A clock that was set right by a little, and one of which nobody knows any more how much time has passed.
+  // A clock that was set right by a little, and one that hides an unknown time.
   static std::int64_t known_age_ns(std::int64_t by_clock_ns, std::int64_t watchdog_ns) {
     if (by_clock_ns >= 0) return by_clock_ns;
     return by_clock_ns >= -watchdog_ns ? 0 : INT64_MAX;
@@ -55,7 +55,7 @@ inline void make_invalid(double elapsed_s, pose_wall_value* v) {
   v->cause = POSE_WALL_PART_AGE;
 }
 
-// The last values stay readable; nothing is left to act on. What the mark is of stays as it was.
+// The last values stay readable, but not usable. The mark keeps its subject.
 inline void make_stale(double elapsed_s, pose_wall_result* result) {
   pose_wall_result left{};
   left.struct_size = result->struct_size;

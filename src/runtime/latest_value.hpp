@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 //
 // The newest of a series of values, for readers that must never wait. Four cells, each with a sequence lock (Boehm
-// 2012: every word is atomic, so a torn read is a wrong read and not undefined): a reader is disturbed only by a writer
-// that comes round to its cell while it copies, and a writer that is put to sleep in the middle disturbs nobody.
-// Each cell carries a sum: a bit that falls over in it would be told as a value.
+// 2012: every word is atomic, so a torn read is a wrong read and not undefined). Only a writer that comes round to a
+// reader's cell during its copy disturbs it. A writer put to sleep in the middle disturbs nobody. Each cell carries a
+// sum, since a flipped bit would become a value.
 
 #pragma once
 
@@ -31,7 +31,7 @@ class LatestValue {
     cell.version.store(version + 1, std::memory_order_relaxed);  // odd: being written
     std::uint64_t sum = kFnv1aOfNothing;
     for (std::uint32_t i = 0; i < words(); ++i) {
-      // Release: who reads this word sees the odd version, too.
+      // Release: a reader of this word sees the odd version, too.
       const std::uint64_t word = word_of(value, i);
       cell.word[i].store(word, std::memory_order_release);
       sum = fnv1a_with(sum, word);

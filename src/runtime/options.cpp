@@ -97,7 +97,7 @@ std::int32_t read_options(const pose_wall_runtime_options& options, const char**
 }
 
 std::uint32_t slots_of(const pose_wall_runtime_options& o) {
-  // Waiting, one being filled, one in work; and what waits for the sink, with the one it is at.
+  // Waiting, one being filled, one in work; and those that wait for the sink, with its current one.
   return o.queue_frames + 2 + (o.sink != nullptr ? o.box_backlog : 0);
 }
 

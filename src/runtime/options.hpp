@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The options' defaults and ranges, and what memory they come to.
+// The options' defaults and ranges, and the memory they need.
 
 #pragma once
 
@@ -13,8 +13,8 @@ namespace pose_wall::runtime {
 
 void set_defaults(pose_wall_runtime_options* options);
 
-// The caller's, of whichever version: POSE_WALL_OK, or what is wrong with their struct_size, or
-// POSE_WALL_RUNTIME_E_OPTION, then with the option's name where it is asked for. *whole: as this version reads them.
+// Reads the caller's options of any version. Returns POSE_WALL_OK, the fault of their struct_size, or
+// POSE_WALL_RUNTIME_E_OPTION and the option's name on request. *whole: as this version reads them.
 std::int32_t read_options(const pose_wall_runtime_options& options, const char** option,
                           pose_wall_runtime_options* whole);
 

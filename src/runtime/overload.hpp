@@ -15,8 +15,8 @@ class Overload {
   Overload(std::uint32_t thinning_max, std::int64_t frame_period_max_ns)
       : thinning_max_(thinning_max), period_max_ns_(frame_period_max_ns) {}
 
-  // After each worked frame: how it had been thinned, what it took, and whether a frame was dropped since the last one.
-  // A frame that was thinned otherwise than asked for now was queued before, and says nothing.
+  // Call after each worked frame, with its thinning, its time, and whether a frame was dropped since the last one. A
+  // frame of another thinning than the present one was queued before and does not count.
   void note(std::uint32_t thinning, std::int64_t work_ns, bool dropped) {
     if (thinning != thinning_) return;
     const bool too_slow = work_ns > period_max_ns_;
@@ -50,10 +50,10 @@ class Overload {
   bool dropped_ = false;  // while it was slow
 };
 
-// Which returns stay: by a hash of their number. Every n-th would take away whole lines of a sensor that delivers
-// column by column, and steps of any fixed length do so for some number of lines. By a hash the returns of a direction
-// are thinned as if by chance, which is what the engine's test for silent directions (Poisson's law) allows for; the
-// same cloud is always thinned the same way.
+// Chooses the returns that stay, by a hash of their number. Every n-th would take away whole lines of a sensor that
+// delivers column by column, and any fixed step does so for some number of lines. A hash thins the returns of a
+// direction as if by chance, which the engine's test for silent directions allows for (Poisson's law). The same cloud
+// is always thinned the same way.
 class EvenChoice {
  public:
   explicit EvenChoice(std::uint32_t thinning) : limit_(thinning > 1 ? 0xFFFFFFFFU / thinning : 0xFFFFFFFFU) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The runtime: one lock over what changes hands, and nothing done under it but that.
+// The runtime: one lock over the slots that change hands, and nothing else done under it.
 
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace pose_wall::runtime {
 
-// Each is written by one thread: push by who is inside push, sink by the recorder, the others by the worker.
+// Each is written by one thread: push by the thread inside push, sink by the recorder, the others by the worker.
 struct Times {
   Histogram push, wait, work, motion, latency, callback, sink;
   Histogram stage[POSE_WALL_STAGES];
@@ -148,7 +148,7 @@ class Runtime {
   pose_wall_engine* engine_ = nullptr;
   void* engine_block_ = nullptr;
   std::uint64_t engine_bytes_ = 0;
-  pose_wall_result blank_{};  // what the engine tells before any frame
+  pose_wall_result blank_{};  // the engine's values before any frame
   bool wants_motion_ = false;
   pose_wall_motion* motion_ = nullptr;
   void* motion_block_ = nullptr;
@@ -170,7 +170,7 @@ class Runtime {
   SlotList free_, waiting_, to_record_;
   bool filling_ = false;                 // a push is copying
   bool busy_ = false, in_work_ = false;  // the worker is at something; it is a frame
-  bool look_ = false;                    // tick asked for a look at the clock
+  bool look_ = false;                    // tick requested a look at the clock
   bool recording_ = false;
   std::uint32_t callers_inside_ = 0;  // in wait_idle or stop: close must not pull the lock from under them
   bool dropped_since_ = false;        // overtaken since the last worked frame

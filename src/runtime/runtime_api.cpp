@@ -36,7 +36,7 @@ int32_t check(const pose_wall_runtime* handle) {
   return ok_if(runtime_of(handle)->is_open(), POSE_WALL_RUNTIME_E_HANDLE);
 }
 
-// What engine and motion need, once all else was found good; and the options as this version reads them.
+// The memory of engine and motion, after all other checks; and the options as this version reads them.
 int32_t inner_bytes(const pose_wall_config* config, const pose_wall_runtime_options* options,
                     pose_wall_runtime_options* whole, InnerBytes* bytes) {
   if (config == nullptr || options == nullptr) return POSE_WALL_E_NULL;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What readers get. No thread of the runtime is asked: neither for its word nor for a lock.
+// The readers' functions. They need no thread of the runtime, neither its word nor a lock.
 
 #include "freshness.hpp"
 #include "runtime.hpp"
@@ -21,7 +21,7 @@ pose_wall_image_source source_of(const pose_wall_publication& p) {
   return source;
 }
 
-// What is left of a motion that is too old.
+// The remains of a motion that is too old.
 pose_wall_motion_result without_pose(const pose_wall_motion_result& blank, const pose_wall_motion_result& of) {
   pose_wall_motion_result left = blank;
   left.stamp_ns = of.stamp_ns;
@@ -59,7 +59,7 @@ std::int32_t Runtime::latest(pose_wall_publication* publication) const {
   return status;
 }
 
-// The clock is read behind the copy: what was read is no older than it says.
+// The clock is read after the copy, so the copy is no older than it seems.
 std::int32_t Runtime::judge(pose_wall_publication* publication) const {
   tell_activity(publication);
   const Freshness freshness(*publication, now(), options_.watchdog_ns);

@@ -54,7 +54,7 @@ std::int32_t Runtime::open_engine() {
   return status == POSE_WALL_OK ? set_engine_clock() : status;
 }
 
-// The cheapest call that tells whether the engine is whole, so it serves to ask that, too.
+// The cheapest call that checks whether the engine is whole, so it serves for that, too.
 std::int32_t Runtime::set_engine_clock() {
   return pose_wall_set_clock(
       engine_, [](void* user) { return static_cast<const Runtime*>(user)->now(); }, this);
@@ -64,7 +64,7 @@ std::int32_t Runtime::set_engine_clock() {
 // next frame.
 void Runtime::replace_damaged_engine() {
   if (set_engine_clock() != POSE_WALL_E_ENGINE) return;
-  // What changed the engine may have changed the config beside it: then there is nothing to open a new one by.
+  // The damage may have hit the config beside the engine: then there is nothing to open a new one with.
   if (config_is_whole()) open_engine();
 }
 
@@ -74,7 +74,7 @@ bool Runtime::config_is_whole() const {
 }
 
 #if defined(__clang__)
-__attribute__((no_sanitize("memory")))  // a block may hold what nobody has written
+__attribute__((no_sanitize("memory")))  // a block may hold bytes that were never written
 #endif
 bool Runtime::is_started_in(const void* block) {
   const Runtime* const there = static_cast<const Runtime*>(block);
@@ -112,7 +112,7 @@ bool Runtime::own_thread_calls() const {
          (has_recorder_ && pthread_equal(caller, recorder_) != 0);
 }
 
-// All but what was loaded for the start that comes.
+// Everything except the memento loaded for the next start.
 std::int32_t Runtime::forget() {
   replace_damaged_engine();
   reset_motion();
@@ -221,7 +221,7 @@ std::int32_t Runtime::start_threads() {
   return ok_if(granted, POSE_WALL_RUNTIME_E_SYSTEM);
 }
 
-// Under the lock, in state STOPPING, by one thread. The worker first: what it did last is still recorded.
+// Under the lock, in state STOPPING, by one thread. The worker stops first, so its last frame is still recorded.
 void Runtime::end_threads() {
   running_.store(0, std::memory_order_release);
   joining_ = true;

@@ -23,7 +23,7 @@ std::int32_t Runtime::open_motion() {
   return options_.motion->open(&config_, settings, motion_block_, motion_bytes_, &motion_);
 }
 
-// As for the engine: what changed the motion may have changed the config, too.
+// As for the engine: the damage may have hit the config, too.
 void Runtime::open_motion_anew() {
   if (config_is_whole()) open_motion();
 }
@@ -54,7 +54,7 @@ void Runtime::move(FrameSlot* slot) {
     slot->inputs.struct_size = sizeof(slot->inputs);
     slot->cloud.inputs = &slot->inputs;
   }
-  // Places of two odometries are not comparable, so none of the caller's comes where motion has nothing to tell.
+  // Places of two odometries are not comparable, so the caller's is not used even where motion has none.
   slot->inputs.given &= ~std::uint32_t{POSE_WALL_INPUT_ODOMETRY};
   slot->inputs.odometry = {};
   p.motion.struct_size = sizeof(p.motion);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the receiving thread does.
+// The receiving thread.
 
 #include "frame_copy.hpp"
 #include "options.hpp"
@@ -23,7 +23,7 @@ std::int32_t Runtime::refusal(const pose_wall_cloud& cloud, pose_wall_runtime_dr
   return ok_if(fits, POSE_WALL_RUNTIME_E_LARGE);
 }
 
-// The engine reads times where an odometry tells how the machine moved meanwhile, and motion reads them and rings.
+// The engine reads times where an odometry gives the machine's motion, and motion reads times and rings.
 CopiedFields Runtime::copied_fields(const pose_wall_cloud& cloud) const {
   const bool is_given = cloud.inputs != nullptr && (cloud.inputs->given & POSE_WALL_INPUT_ODOMETRY) != 0;
   return {with_intensity_, wants_motion_ && (has_motion() || is_given), has_motion(), options_.point_bytes_max};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the recorder's thread does: it alone waits for the sink.
+// The recorder's thread. It alone waits for the sink.
 
 #include "runtime.hpp"
 #include "saturated.hpp"
@@ -9,7 +9,8 @@
 namespace pose_wall::runtime {
 namespace {
 
-// Starts of one runtime follow each other, so none has the number of the one before. Never 0, as nobody wrote it.
+// Starts of one runtime follow each other, so none has the number of the one before. Never 0, which unwritten bytes may
+// hold.
 std::uint16_t number_of_run(std::uint32_t seed, std::uint64_t start) {
   return static_cast<std::uint16_t>(1 + (seed + start) % 0xFFFFU);
 }
@@ -21,7 +22,7 @@ void* Runtime::run_recorder(void* runtime) {
   return nullptr;
 }
 
-// At a stop it goes on until nothing waits: what was worked last is what an incident is about.
+// At a stop it goes on until nothing waits: an incident is about the last worked frames.
 void Runtime::record() {
   const std::uint16_t run = number_of_run(run_seed_, epoch_);
   bool begun = box_.begin(config_, run);

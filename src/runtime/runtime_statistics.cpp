@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What can be read while it runs.
+// The counters, readable while it runs.
 
 #include "runtime.hpp"
 #include "saturated.hpp"

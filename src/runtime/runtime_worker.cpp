@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What the worker's thread does: frames, and the watchdog when there are none.
+// The worker's thread: frames, and the watchdog when there are none.
 
 #include <cstring>
 
@@ -56,7 +56,7 @@ void Runtime::work() {
     const bool has_frame = !silent && !waiting_.empty();
     if (has_frame && drop_if_late()) continue;
     if (!silent && !has_frame) {
-      changed_.wake_all();  // who waits for idleness must see that a tick was looked at
+      changed_.wake_all();  // a thread waiting for idleness must see that a tick was handled
       wait_for_work();
       continue;
     }
@@ -98,12 +98,12 @@ void Runtime::work_frame(FrameSlot* slot) {
   {
     Unlocked unlocked(&lock_);
     status = measure(slot, &work_ns);
-    // Silence is due at once, and tells what was measured with its age.
+    // Silence is due at once, with the measured values and their age.
     is_news = !watchdog_.is_late(now(), slot->publication.received_ns);
     if (status == POSE_WALL_OK && is_news) publish(&slot->publication);
   }
   if (status != POSE_WALL_OK) {
-    // What was told before may have been wrong already: nothing is known any more, and that cannot wait for silence.
+    // Earlier values may have been wrong already: nothing is known any more, and that cannot wait for silence.
     in_work_ = false;
     ++counters_.dropped[POSE_WALL_RUNTIME_DROP_ENGINE];
     tell_silence(slot);
@@ -158,7 +158,7 @@ std::int32_t Runtime::measure(FrameSlot* slot, std::int64_t* work_ns) {
   return POSE_WALL_OK;
 }
 
-// What the record cannot be computed from must not look as if it could.
+// A record that cannot be computed must not look as if it could.
 void Runtime::save_memento(FrameSlot* slot) {
   const std::uint64_t bytes = pose_wall_memento_bytes();
   if (slot->memento == nullptr || pose_wall_save(engine_, nullptr, slot->memento, bytes) == POSE_WALL_OK) return;
@@ -185,7 +185,7 @@ void Runtime::tell_silence(FrameSlot* slot) {
     save_memento(slot);
     p.result.struct_size = sizeof(p.result);
     const std::int64_t stamp_ns = sum(last_stamp_ns_, watchdog_.speak(now_ns));
-    // Without an engine nothing is known, and that is what is told.
+    // Without an engine nothing is known, and that is published.
     if (pose_wall_age(engine_, stamp_ns, &p.result) != POSE_WALL_OK) p.result = blank_;
     p.held_thinning = held_thinning_.note(p.result, 1);
     p.motion = no_motion();

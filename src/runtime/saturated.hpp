@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Stamps and clocks are anybody's numbers: their sums and differences end at the ends of time and do not come round.
+// Stamps and clocks are untrusted numbers: their sums and differences end at the ends of time and do not wrap around.
 
 #pragma once
 

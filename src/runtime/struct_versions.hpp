@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The sizes of the runtime's structs in each version of the header; what they are for: struct_sizes.hpp.
+// The sizes of the runtime's structs in each version of the header; struct_sizes.hpp explains them.
 
 #pragma once
 

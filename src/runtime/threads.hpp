@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// POSIX threads in the shape this runtime needs them. What fails says so by errno's numbers; nothing throws.
+// POSIX threads in the shape this runtime needs. Failures return errno's numbers; nothing throws.
 
 #pragma once
 
@@ -16,7 +16,7 @@ std::int64_t monotonic_ns();
 // Nanoseconds of CLOCK_REALTIME.
 std::int64_t wall_clock_ns();
 
-// Whoever holds it inherits the priority of who waits, where the system can do that. Holders only move pointers.
+// The holder inherits the priority of the waiting threads, if the system can do that. Holders only move pointers.
 class Mutex {
  public:
   void open();
@@ -40,7 +40,7 @@ class Locked {
   Mutex* mutex_;
 };
 
-// The other way round: for what is done outside of a lock that is taken again afterwards.
+// The other way round: for work outside a lock that is taken again afterwards.
 class Unlocked {
  public:
   explicit Unlocked(Mutex* mutex) : mutex_(mutex) { mutex_->unlock(); }

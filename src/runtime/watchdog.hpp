@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// When it is to be said that nothing new is known, and how old is what is.
+// Decides when silence is due, and how old the known values are.
 
 #pragma once
 
@@ -16,7 +16,7 @@ class Watchdog {
   // watchdog_ns 0: it never speaks.
   Watchdog(std::int64_t watchdog_ns, std::int64_t every_ns) : watchdog_ns_(watchdog_ns), every_ns_(every_ns) {}
 
-  // A start, or a frame that was worked: what is known is as old as when it came.
+  // A start, or a worked frame: the values are as old as its arrival.
   void feed(std::int64_t received_ns) {
     since_ns_ = seen_ns_ = received_ns;
     next_ns_ = sum(received_ns, watchdog_ns_);
@@ -25,8 +25,8 @@ class Watchdog {
   }
 
   // It does not speak twice while a frame waits: a callback that takes longer than every_ns would never let one
-  // through. A clock that went back by more than the watchdog's time says nothing any more: due at once. So it is where
-  // it would be due later than it ever is: a bit fell over in here.
+  // through. A clock that went back by more than the watchdog's time has no meaning any more, so silence is due at
+  // once. The same holds if it would be due later than ever: a bit in here flipped.
   bool is_due(std::int64_t now_ns, bool frame_waits) {
     if (watchdog_ns_ == 0) return false;
     const bool went_back = difference(seen_ns_, now_ns) > watchdog_ns_;
@@ -40,7 +40,7 @@ class Watchdog {
     return watchdog_ns_ > 0 && difference(now_ns, received_ns) >= watchdog_ns_;
   }
 
-  // How long there was silence, by a clock that may go back: then nobody knows, and nothing is held that long.
+  // Duration of the silence, by a clock that may go back. Then it is unknown, and longer than anything is held.
   std::int64_t speak(std::int64_t now_ns) {
     constexpr std::int64_t kNobodyKnows_ns = 3600000000000;
     const std::int64_t by_clock_ns = difference(now_ns, since_ns_);

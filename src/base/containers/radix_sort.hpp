@@ -15,9 +15,9 @@ constexpr std::uint32_t kRadixBits = 12;
 constexpr std::uint32_t kRadixSize = 1U << kRadixBits;  // a counter for each digit
 
 // Indices of the keys in ascending order, equal keys in theirs, least digit first. Only bits that differ between keys
-// cost passes: a digit begins at the lowest of them that is not sorted by yet, so keys of several short fields take one
-// pass a field. order and spare are as long as keys, histogram holds kRadixSize counters. Returns the one that holds
-// the result: order or spare.
+// cost passes. A digit begins at the lowest such bit that is not sorted yet, so keys of several short fields take one
+// pass a field. order and spare are as long as keys, histogram holds kRadixSize counters. Returns the one with the
+// result: order or spare.
 inline Span<std::uint32_t> radix_order(Span<const std::uint64_t> keys, Span<std::uint32_t> order,
                                        Span<std::uint32_t> spare, Span<std::uint32_t> histogram) {
   std::uint64_t differing = 0;

@@ -32,8 +32,8 @@ class Work {
   std::uint64_t done_ = 0, most_ = kNoEnd;
 };
 
-// Steps of one item. Each is a tenth of the instructions that its stage takes for one, as counted under qemu over roads
-// and the hostile clouds of tests/support/dear_clouds.hpp, rounded: 8 to 13 instructions a step, stage by stage.
+// Steps of one item. Each is a tenth of the instructions that its stage takes for one, rounded. They were counted under
+// qemu over roads and the hostile clouds of tests/support/dear_clouds.hpp: 8 to 13 instructions a step, stage by stage.
 namespace steps {
 
 // Reading: a return of the cloud; a pass through the table of voxels, by its slots; a voxel that is sorted and written.
@@ -41,14 +41,14 @@ namespace steps {
 constexpr std::uint64_t kPointRead = 11, kPointUnskewed = 16, kFourSlots = 2, kVoxelWritten = 15;
 // Outliers: a voxel; one whose neighbours are sought; a column searched for its height; four compared voxels.
 constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kColumnSearched = 16, kFourLookedAt = 2;
-// Floor: a voxel tested for open ground; an open point within a radius; a hypothesis; a plane that is refined; one that
-// is weighed, and each point of that; a point that a fit selects from, and one that goes into its patches:
+// Floor: a voxel tested for open ground, an open point within a radius, a hypothesis. A plane that is refined, one that
+// is weighed, and each point of that. A point that a fit selects from, and one that goes into its patches:
 constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 10, kFloorDrawn = 400, kFloorRefined = 4000;
 constexpr std::uint64_t kFloorWeighed = 8000, kPointWeighed = 7, kPointSelected = 8, kPointPatched = 12;
 // Band: a voxel that is turned and cut.
 constexpr std::uint64_t kVoxelLevelled = 8;
-// Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis; a plane that
-// is refined; one that is weighed, and each point of that; the looks at a fitted wall, and each point of the band for
+// Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis. A plane that
+// is refined, one that is weighed, and each point of that. The looks at a fitted wall, and each point of the band for
 // them:
 constexpr std::uint64_t kPointParted = 16, kPointSided = 1, kWallDrawn = 350, kWallRefined = 7000, kWallWeighed = 5000;
 constexpr std::uint64_t kPointMarked = 2, kWallLookedAt = 150000, kPointLookedAt = 11;

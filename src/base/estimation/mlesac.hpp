@@ -17,8 +17,8 @@ namespace pose_wall {
 constexpr std::uint32_t kSubsetPoints = 512;
 
 // Mean of min(r^2, threshold^2) / threshold^2 over the points: 0 perfect, 1 nothing near the plane. The points are in
-// random order: once those looked at say by three standard errors that the mean will be too_much or more, the rest is
-// not looked at and the answer is too_much (a sequential test after Wald 1945, as in Matas and Chum 2005).
+// random order. If those read so far show by three standard errors that the mean will be too_much or more, the rest is
+// skipped and the answer is too_much (a sequential test after Wald 1945, as in Matas and Chum 2005).
 double truncated_cost(const PointSet& points, const Plane& plane, double threshold_m, double too_much);
 
 struct MlesacScore {
@@ -26,8 +26,8 @@ struct MlesacScore {
   double inlier_share;  // mixing weight found by expectation maximisation
 };
 
-// Mixture of a Gaussian of the given sigma around the plane and a uniform density over outlier_span_m, the mixing
-// weight by EM over a histogram of |r|: one pass over the points, then a bounded number of passes over the bins.
+// Mixture of a Gaussian of the given sigma around the plane and a uniform density over outlier_span_m. EM finds the
+// mixing weight on a histogram of |r|: one pass over the points, then a bounded number of passes over the bins.
 MlesacScore mlesac_score(const PointSet& points, const Plane& plane, double sigma_m, double outlier_span_m);
 
 }  // namespace pose_wall

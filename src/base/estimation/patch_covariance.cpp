@@ -169,8 +169,8 @@ void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
 }
 
 // Correlation of the rock by distance between patches, from products of errors. Errors about a fitted surface are
-// smaller than the rock is, and more so the fewer independent patches there are: the fit's own variance is given back
-// to them. taken_by_fit: by lag, over all pairs.
+// smaller than the rock is, and more so with fewer independent patches. So the fit's own variance is given back to
+// them. taken_by_fit: by lag, over all pairs.
 void PatchGrid::correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough) {
   double upper = kCorrelationMax;
   for (int lag = 1; lag <= kLags; ++lag) {
@@ -327,9 +327,9 @@ Eigen::Matrix3d PatchGrid::bend_sandwich(const BendSums& sums, const Roughness& 
   return rough.tau2 * sums.rock + sums.noise + shared;
 }
 
-// Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic: about
-// the plane a bend makes neighbouring patches err alike, which looks like rough rock with few independent patches and
-// would hide the bend. Needs Mean::error about the quadratic, and its answers in Mean::of_pairs.
+// Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic. About
+// the plane a bend makes neighbouring patches err alike. That looks like rough rock with few independent patches and
+// would hide the bend. Needs Mean::error about the quadratic, and its responses in Mean::of_pairs.
 Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const {
   const double own_tau2 = rock_about_quadratic(n);
   const BendSums sums = sum_bend_pairs(n);

@@ -16,8 +16,8 @@ namespace {
 // step two do (2026-11-22, bench/README.md):
 constexpr int kScatterRounds = 4;
 constexpr int kScatterRoundsOfAStep = 2;
-// So many standard deviations of a range the scatter along it may have; more is not the sensor's: taken for it, rock
-// seen from the side moved walls by 20 mm instead of 13 on steel sets. Judgement, 2026-11-21.
+// Largest scatter along a range, in standard deviations of a range. More is not the sensor's: taken for it, rock seen
+// from the side moved walls by 20 mm instead of 13 on steel sets. Judgement, 2026-11-21.
 constexpr double kScatterMost = 2.0;
 // Of the scatter seen square on, where least squares leave nothing: no patch is known a hundred times better than
 // others. Judgement.

@@ -73,9 +73,9 @@ class PatchGrid {
              std::uint32_t layers = 1);
   void add(const PatchPoint& point, std::uint32_t layer = 0);
 
-  // For callers with points in the order of their patches, who read all of them many times: the patch of each point,
-  // until the next begin(); the number of patches of a layer; and, for a fit of as many layers as begun or fewer, the
-  // sums of every patch of each.
+  // For callers with points in the order of their patches, who read all of them many times. patch_of: the patch of each
+  // point, until the next begin(). patches: their number in a layer. set: the sums of every patch, for a fit of as many
+  // layers as begun or fewer.
   FourInts patch_of(FourFloats u_m, FourFloats v_m) const;
   std::uint32_t patches() const { return columns_ * rows_; }
   void begin_anew(std::uint32_t layers) { layers_ = layers; }

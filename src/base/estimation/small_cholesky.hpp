@@ -8,8 +8,8 @@
 
 namespace pose_wall {
 
-// Cholesky's factor of a small symmetric positive definite matrix: as many lines as it takes, where Eigen's are made
-// for matrices of every size and kind, and take a compiler a third of a minute.
+// Cholesky's factor of a small symmetric positive definite matrix, in a few lines. Eigen's are made for matrices of
+// every size and kind, and take a compiler a third of a minute.
 template <int kSize>
 class SmallCholesky {
  public:

@@ -3,9 +3,9 @@
 //
 // Points near a plane, in the plane's own coordinates.
 //
-// A fit looks at the same points again and again, each time from a plane that is turned and moved a little. In the
-// tangent frame of the first one every later plane is a height over it, a + b u + c v, and the distance of a point from
-// it is (r - a - b u - c v) / sqrt(1 + b^2 + c^2), exactly: two products instead of a turn in space.
+// A fit reads the same points many times, each time from a plane that is turned and moved a little. In the tangent
+// frame of the first plane every later one is a height over it, a + b u + c v. The distance of a point is then exactly
+// (r - a - b u - c v) / sqrt(1 + b^2 + c^2): two products instead of a turn in space.
 
 #pragma once
 

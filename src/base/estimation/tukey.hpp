@@ -17,9 +17,9 @@ inline double tukey_weight(double residual, double scale) {
   return left > 0.0 ? left * left : 0.0;
 }
 
-// Full weight within flat_m, Tukey's fall beyond. A weight that depends on the residual of a voxel's centroid biases a
-// fit where the faces of the voxels lie along the surface: they part the noise of its points into two thin layers of
-// different weight. Within the noise of the sensor nothing may depend on the residual.
+// Full weight within flat_m, Tukey's fall beyond. Voxel faces along the surface split the noise of its points into two
+// thin layers of different weight. A weight that depends on the residual of a centroid then biases the fit. So within
+// the noise of the sensor nothing may depend on the residual.
 inline double flat_top_weight(double residual_m, double flat_m, double scale_m) {
   const double size = residual_m < 0.0 ? -residual_m : residual_m;
   return size > flat_m ? tukey_weight(size - flat_m, scale_m) : 1.0;

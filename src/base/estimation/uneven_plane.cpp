@@ -160,8 +160,8 @@ bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, dou
   return factor_.factor(patches.size());
 }
 
-// What a model knows of the errors taken out of both sides: independent, and of variance 1. Returns the logarithm of
-// the covariance's determinant.
+// Whitens both sides by a model of the errors: independent, and of variance 1. Returns the logarithm of the
+// covariance's determinant.
 double UnevenPlane::whiten(Span<const SurfacePatch> patches, bool correlated, double tau2) {
   float* const first = right_sides_.data();
   float* const second = first + PanelCholesky::kPanel;

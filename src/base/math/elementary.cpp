@@ -14,8 +14,8 @@ namespace {
 constexpr double kLn2High = 6.93147180369123816490e-01;  // upper bits of ln 2: k * kLn2High is exact
 constexpr double kLn2Low = 1.90821492927058770002e-10;   // what they leave of it
 
-// c[0] + c[1] x + ... by Horner's rule: a product and a sum a term, and no division. Told term by term, for a loop
-// takes as much again.
+// c[0] + c[1] x + ... by Horner's rule: a product and a sum a term, and no division. Unrolled term by term, since a
+// loop takes as much again.
 template <std::size_t kFirst = 0, std::size_t kTerms>
 inline double polynomial(const double (&c)[kTerms], double x) {
   if constexpr (kFirst + 1 == kTerms) {

@@ -9,7 +9,7 @@
 
 namespace pose_wall {
 
-constexpr double kPi = 3.14159265358979323846;  // to more digits than a double tells
+constexpr double kPi = 3.14159265358979323846;  // to more digits than a double holds
 constexpr double kNanosecond_s = 1e-9;          // the unit of stamps
 
 constexpr double radians(double degrees) {

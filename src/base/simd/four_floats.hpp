@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Four floats that are worked on together: one register of NEON and of SSE. A vector type of GCC and Clang, not of one
-// processor (but for any_of()); each lane is what the same sum of single floats would be, so all machines agree to the
-// bit.
+// Four floats computed together: one register of NEON and of SSE. A vector type of GCC and Clang, not of one processor
+// (but for any_of()). Each lane equals the same sum of single floats, so all machines agree to the bit.
 
 #pragma once
 

@@ -64,8 +64,8 @@ Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved
   return doubt;
 }
 
-// Angle between a wall that stands alone and the planes on the other side of the road: the chosen one that was refused,
-// the result of its fit, and any other plane that may be a wall by itself, however weak. Radians.
+// Largest angle between a wall that stands alone and the planes on the other side of the road. They are the chosen one
+// that was refused, the result of its fit, and any other plane that may be a wall by itself, however weak. Radians.
 double apart_from_other_side(const WallCandidate& wall, const WallCandidate* chosen, const FittedWall& fitted,
                              const WallCandidates& seen, const Settings& s) {
   constexpr double kWeakestShare = 0.1;  // a lone wall was 13 degrees off its road (seed 517, 2026-11-22)

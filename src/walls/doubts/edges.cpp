@@ -134,7 +134,7 @@ class EdgeGlance {
   }
 
   // True if a tally would find no edge. That takes two things. Fewer points lie past the plane than any edge needs. And
-  // at one end at least the plane goes on beyond the places near the sensor: it has so many more points there than rays
+  // at one end at least the plane goes on beyond the places near the sensor. It has so many more points there than rays
   // past it that some place has more than these and than kOnMin.
   bool rules_out_edges(double too_far) const {
     constexpr double kPastMin = EndPlaces::kPastMin;                            // as in EndPlaces

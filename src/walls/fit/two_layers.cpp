@@ -121,8 +121,8 @@ Mixture improved(const Histogram& h, double sigma_min_m, int rounds, Mixture m) 
   return m;
 }
 
-// EM climbs to the nearest top. So it starts with the plane on the surface, between the layers, and on the nearer one,
-// runs a few rounds each, and goes on from the best (short runs; Biernacki, Celeux and Govaert 2003).
+// EM climbs to the nearest top. So it starts with the plane on the surface, between the layers, and on the nearer one.
+// Each start runs a few rounds, and the best one goes on (short runs; Biernacki, Celeux and Govaert 2003).
 Mixture mixture_of_two(const Histogram& h, double sigma_min_m) {
   const double gate_m = h.gate_m();
   Mixture best{};

@@ -33,7 +33,7 @@ class Distances {
 
  private:
   static constexpr std::uint32_t kBins = 200;  // 10 m of 5 cm each
-  static constexpr double kBin_m = 0.05;       // the inlier threshold's default; margins on what is read off are larger
+  static constexpr double kBin_m = 0.05;       // the inlier threshold's default; margins on the results are larger
   std::uint32_t bins_[kBins] = {};
   std::uint32_t count_ = 0;
 };
