@@ -28,7 +28,6 @@ struct FrameFindings {
   Measurements measured;
 };
 
-// Fills all but quantity, stage_ns and frame_index.
 // Sets the meaning of positive roll, pitch and yaw for the driver.
 void set_senses(std::int32_t forward_choice, std::uint32_t (*positive_means)[3]);
 
@@ -36,6 +35,7 @@ void set_senses(std::int32_t forward_choice, std::uint32_t (*positive_means)[3])
 // signature.
 std::uint32_t mark_of(const pose_wall_result& result);
 
+// Fills all but quantity, stage_ns and frame_index.
 void report_findings(const FrameFindings& found, pose_wall_result* result);
 
 }  // namespace pose_wall
