@@ -91,7 +91,7 @@ def blocks_of_markdown(text):
 
 
 def blocks_of_header(text):
-    """Comments of C: a run of lines, ended by an empty one, by a drawing (two spaces within) or by the comment's end."""
+    """Comments of C: runs of lines, ended by an empty one, a drawing (two spaces within) or the comment's end."""
     for comment in re.finditer(r"/\*.*?\*/|(?://[^\n]*\n[ \t]*)+", text, re.S):
         line = text.count("\n", 0, comment.start()) + 1
         block, start = [], line
@@ -153,7 +153,8 @@ def faults(path, name, sentences):
     for sentence in sentences:
         longest = limits(sentence)[0]
         if sentence.length > longest:
-            yield f"{name}:{sentence.line}: a sentence of {sentence.length}; {longest} are allowed: {sentence.text[:70]}..."
+            yield (f"{name}:{sentence.line}: a sentence of {sentence.length}; {longest} are allowed: "
+                   f"{sentence.text[:70]}...")
     for chinese in (False, True):
         prose = [sentence for sentence in sentences if not sentence.in_table and sentence.chinese == chinese]
         if len(prose) >= MEAN_OF and mean(prose) > limits(prose[0])[1]:
