@@ -13,12 +13,6 @@ function(pose_wall_engine_library)
   find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 
   pose_wall_engine_objects(pose_wall_objects ${engine_SOURCES})
-  set(delivered $<AND:${pose_wall_quick},$<NOT:$<BOOL:$<TARGET_PROPERTY:POSE_WALL_AT_A_DESK>>>>)
-  # Every point goes through base/ and cloud/. Behind them -O3 saves 6 % of a frame's instructions for 46 KiB of code
-  # (AArch64); in them -O2 saves 16 KiB and costs 6 %.
-  set(beyond_the_points ${engine_SOURCES})
-  list(FILTER beyond_the_points EXCLUDE REGEX "^(base|cloud)/")
-  set_source_files_properties(${beyond_the_points} PROPERTIES COMPILE_OPTIONS "$<${delivered}:-O2>")
   pose_wall_delivered_archive(pose_wall pose_wall_engine.o pose_wall_*)
   target_include_directories(pose_wall INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -27,10 +21,7 @@ endfunction()
 
 # The archive that users link, of the objects ${archive}_objects merged into one in which only `global` is global.
 function(pose_wall_delivered_archive archive object global)
-  # The engine of a release is compiled without, so that no #include is missing in it. Motion's files are all optimised
-  # alike; check_tidy.sh compiles them without.
-  string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
-  if(POSE_WALL_QUICK_BUILD AND (archive STREQUAL "pose_wall_motion" OR (type AND NOT type STREQUAL "RELEASE")))
+  if(POSE_WALL_QUICK_BUILD)  # check_tidy.sh compiles without, so that no #include is missing
     pose_wall_precompile_eigen(${archive}_objects)
   endif()
   if(POSE_WALL_CALL_GRAPH)
@@ -59,7 +50,6 @@ function(pose_wall_engine_objects target)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen)
 endfunction()
 
-# Of objects that are all optimised alike: gcc optimises all of them as the precompiled header was.
 function(pose_wall_precompile_eigen target)
   target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
 endfunction()
@@ -75,7 +65,6 @@ function(pose_wall_traced_library)
   target_compile_definitions(pose_wall_traced_objects PRIVATE POSE_WALL_TRACE=1)
   # A frame at a time: rather compiled quickly than quick. The bits are the same, as digest.traced_as_noted shows.
   target_compile_options(pose_wall_traced_objects PRIVATE $<$<CONFIG:Release>:-O1>)
-  set_target_properties(pose_wall_traced_objects PROPERTIES POSE_WALL_AT_A_DESK ON)
   if(POSE_WALL_QUICK_BUILD)
     pose_wall_precompile_eigen(pose_wall_traced_objects)
   endif()
