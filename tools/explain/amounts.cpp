@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 #include "quantities.hpp"
 
 namespace pose_wall::tools::explain {
@@ -19,13 +21,13 @@ bool is_quantity(std::uint32_t subject) {
 
 std::string amount(const Note& note, double value) {
   const std::string unit = note.info.unit;
-  if (!std::isfinite(value)) return "not a number";
+  if (!std::isfinite(value)) return tr("not a number");
   if (unit == "m") return metres(value);
   if (unit == "m2") return fmt::format("{:.2f} m²", value);
   if (unit == "rad") return degrees(value);
   if (unit == "share") return per_cent(value);
   if (unit == "s") return fmt::format("{:.3g} s", value);
-  if (unit == "steps") return fmt::format("{:.3g} million", 1e-6 * value);
+  if (unit == "steps") return say("{:.3g} million", 1e-6 * value);
   if (unit == "points" || unit == "frames") return fmt::format("{:.0f}", value);
   if (is_quantity(note.gate.subject)) return quantity_amount(note.gate.subject - POSE_WALL_TRACE_QUANTITY, value);
   return fmt::format("{:.4g}", value);
@@ -51,12 +53,12 @@ std::string quantity_amount(std::uint32_t quantity, double value) {
 }
 
 std::string value_text(const Note& note) {
-  if (note.info.sense == POSE_WALL_TRACE_IS_SO) return note.passed() ? "yes" : "no";
+  if (note.info.sense == POSE_WALL_TRACE_IS_SO) return note.passed() ? tr("yes") : tr("no");
   return amount(note, note.gate.value);
 }
 
 std::string limit_text(const Note& note) {
-  return note.info.sense == POSE_WALL_TRACE_IS_SO ? "yes" : amount(note, note.gate.limit);
+  return note.info.sense == POSE_WALL_TRACE_IS_SO ? tr("yes") : amount(note, note.gate.limit);
 }
 
 std::string key_of(const Note& note) {
@@ -85,6 +87,14 @@ std::string subject_name(std::uint32_t subject) {
     default:
       return "behind";
   }
+}
+
+std::string subject_words(std::uint32_t subject) {
+  // Marked here for subject_name.
+  constexpr const char* kNames[] = {translatable("frame"),      translatable("floor"),      translatable("left wall"),
+                                    translatable("right wall"), translatable("both walls"), translatable("ahead"),
+                                    translatable("behind")};
+  return subject < std::size(kNames) ? tr(kNames[subject]) : subject_name(subject);
 }
 
 }  // namespace pose_wall::tools::explain

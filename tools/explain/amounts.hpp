@@ -26,7 +26,9 @@ std::string limit_text(const Note& note);
 // The config's key of the limit, "" where it is a constant; of two the one that the note's subject is held to.
 std::string key_of(const Note& note);
 
-// "frame", "floor", "left wall", "both walls", "d_lf".
+// "frame", "floor", "left wall", "both walls", "d_lf": for programs, in every language.
 std::string subject_name(std::uint32_t subject);
+// The same for people.
+std::string subject_words(std::uint32_t subject);
 
 }  // namespace pose_wall::tools::explain

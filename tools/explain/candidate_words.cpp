@@ -3,15 +3,13 @@
 
 #include "explain/candidate_words.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "explain/amounts.hpp"
-#include "terminal/counted.hpp"
+#include "explain/prose.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
@@ -48,75 +46,74 @@ double turn_rad(const pose_wall_trace_candidate& c, const std::array<double, 2>&
 }
 
 std::string where_text(const pose_wall_trace_candidate& c, const std::array<double, 2>& forward) {
-  if (is_floor(c)) {
-    return fmt::format("{} {} the sensor, tilted by {}", metres(std::fabs(c.height_m)),
-                       c.height_m < 0.0 ? "above" : "below", degrees(c.tilt_rad));
-  }
-  return fmt::format("at {}, turned by {}", metres(c.d_m), degrees(turn_rad(c, forward)));
+  if (!is_floor(c)) return say("at {}, turned by {}", metres(c.d_m), degrees(turn_rad(c, forward)));
+  const std::string height = metres(std::fabs(c.height_m)), tilt = degrees(c.tilt_rad);
+  return c.height_m < 0.0 ? say("{} above the sensor, tilted by {}", height, tilt)
+                          : say("{} below the sensor, tilted by {}", height, tilt);
 }
 
 std::string shows_text(const pose_wall_trace_candidate& c) {
   if (is_floor(c)) {
-    return c.area_m2 > 0.0 ? fmt::format("{:.2f} m² of open ground", c.area_m2)
-                           : fmt::format("{} of the points tried", per_cent(c.support));
+    return c.area_m2 > 0.0 ? say("{:.2f} m² of open ground", c.area_m2)
+                           : say("{} of the points tried", per_cent(c.support));
   }
-  if (!(c.area_m2 > 0.0)) return "nothing solid";
-  return fmt::format("{} long, {:.2f} m²", metres(c.length_m), c.area_m2);
+  return c.area_m2 > 0.0 ? say("{} long, {:.2f} m²", metres(c.length_m), c.area_m2) : tr("nothing solid");
 }
 
 std::string faults_text(const pose_wall_config& config, const pose_wall_trace_candidate& c) {
   std::vector<std::string> faults;
   if ((c.reasons & POSE_WALL_R_WALL_FEW_INLIERS) != 0) {
     faults.push_back(
-        fmt::format("{:.0f} points, wall_inlier_min asks {:.0f}", c.inliers, number(config, "wall_inlier_min")));
+        say("{:.0f} points; wall_inlier_min requires {:.0f}", c.inliers, number(config, "wall_inlier_min")));
   }
   if ((c.reasons & POSE_WALL_R_WALL_SHORT) != 0) {
-    faults.push_back(fmt::format("wall_length_min asks {}", metres(number(config, "wall_length_min"))));
+    faults.push_back(say("wall_length_min requires {}", metres(number(config, "wall_length_min"))));
   }
   if ((c.reasons & POSE_WALL_R_WALL_SEEN_THROUGH) != 0) {
-    faults.push_back(fmt::format("{} of it is seen through", per_cent(c.seen_through)));
+    faults.push_back(say("{} of it is seen through", per_cent(c.seen_through)));
   }
   if ((c.reasons & POSE_WALL_R_WALL_LEANS) != 0) {
-    faults.push_back(fmt::format("leans {}, wall_lean_max_deg allows {}°", degrees(std::fabs(c.tilt_rad)),
-                                 number(config, "wall_lean_max_deg")));
+    faults.push_back(say("leans {}; wall_lean_max_deg allows {}°", degrees(std::fabs(c.tilt_rad)),
+                         number(config, "wall_lean_max_deg")));
   }
-  return fmt::format("{}", fmt::join(faults, "; "));
+  return clauses(faults);
 }
 
 std::string out_of_range_text(const pose_wall_config& config, const pose_wall_trace_candidate& c) {
   if (!is_floor(c)) {
     const bool is_side = c.subject == POSE_WALL_TRACE_LEFT || c.subject == POSE_WALL_TRACE_RIGHT;
-    return fmt::format("runs too far {} the machine (yaw_max_deg is {}°, and while planes are looked for a few more)",
-                       is_side ? "across" : "along", number(config, "yaw_max_deg"));
+    const double yaw_max_deg = number(config, "yaw_max_deg");
+    return is_side ? say("runs too far across the machine (yaw_max_deg is {}°, and the search adds a few)", yaw_max_deg)
+                   : say("runs too far along the machine (yaw_max_deg is {}°, and the search adds a few)", yaw_max_deg);
   }
   const double lowest = number(config, "ground_height_min"), highest = number(config, "ground_height_max");
-  if (c.height_m > highest) return fmt::format("ground_height_max allows {}", metres(highest));
-  if (c.height_m < 0.0) return "no floor is above the sensor";
-  if (c.height_m < lowest) return fmt::format("ground_height_min asks {}", metres(lowest));
-  return fmt::format("ground_tilt_max_deg allows {}°", number(config, "ground_tilt_max_deg"));
+  if (c.height_m > highest) return say("ground_height_max allows {}", metres(highest));
+  if (c.height_m < 0.0) return tr("no floor is above the sensor");
+  if (c.height_m < lowest) return say("ground_height_min requires {}", metres(lowest));
+  return say("ground_tilt_max_deg allows {}°", number(config, "ground_tilt_max_deg"));
 }
 
 std::string fate_text(const pose_wall_config& config, const pose_wall_trace_candidate& c, double best_score_m2) {
   const double share = best_score_m2 > 0.0 ? c.score_m2 / best_score_m2 : 0.0;
   switch (c.fate) {
     case POSE_WALL_TRACE_CHOSEN:
-      return "chosen";
+      return tr("chosen");
     case POSE_WALL_TRACE_RIVAL:
-      return fmt::format("a rival, {} of the best", per_cent(share));
+      return say("a rival, {} of the best", per_cent(share));
     case POSE_WALL_TRACE_WEAKER:
-      return share < 1.0 ? fmt::format("weaker, {} of the best", per_cent(share)) : "passed its own gates";
+      return share < 1.0 ? say("weaker, {} of the best", per_cent(share)) : tr("passed its own gates");
     case POSE_WALL_TRACE_GATES_FAILED:
       return faults_text(config, c);
     case POSE_WALL_TRACE_OUT_OF_RANGE:
       return out_of_range_text(config, c);
     case POSE_WALL_TRACE_UNSUPPORTED:
-      return "points do not hold it better than chance";
+      return tr("points do not support it better than chance");
     case POSE_WALL_TRACE_REPEATS:
-      return "the same as another one";
+      return tr("the same as another one");
     case POSE_WALL_TRACE_MUCH_BELOW:
-      return "too much is seen below it: a deck, a bench or a table";
+      return tr("too much is seen below it: a deck, a bench or a table");
     default:
-      return "seen through open floor: a reflection";
+      return tr("seen through open floor: a reflection");
   }
 }
 
@@ -141,8 +138,8 @@ bool is_told_already(const pose_wall_trace_candidate& c, const std::vector<Plane
   return std::any_of(told.begin(), told.end(), is_same);
 }
 
-std::string were(std::size_t others) {
-  return others == 1 ? "1 other plane was" : counted(others, "other plane") + " were";
+std::string considered(std::size_t others) {
+  return others == 1 ? say("{} other plane was considered", others) : say("{} other planes were considered", others);
 }
 
 }  // namespace
@@ -173,12 +170,12 @@ std::string others_sentence(const std::vector<PlaneWords>& planes) {
     if (i == 0 || p.candidate.fate == POSE_WALL_TRACE_CHOSEN) continue;
     ++others;
     const bool is_weak = p.candidate.score_m2 < kToldShare * planes.front().candidate.score_m2;
-    if (told.size() < kToldMax && !is_weak) told.push_back(fmt::format("{} ({}): {}", p.where, p.shows, p.fate));
+    if (told.size() < kToldMax && !is_weak) told.push_back(say("{} ({}): {}", p.where, p.shows, p.fate));
   }
   if (others == 0) return "";
-  if (told.empty()) return fmt::format("{} considered, and much weaker.", were(others));
-  const std::string more = others > told.size() ? fmt::format("; and {} more", others - told.size()) : "";
-  return fmt::format("{} considered: {}{}.", were(others), fmt::join(told, "; "), more);
+  if (told.empty()) return say("{}, and much weaker.", considered(others));
+  if (others > told.size()) told.push_back(say("and {} more", others - told.size()));
+  return say("{}: {}.", considered(others), clauses(told));
 }
 
 }  // namespace pose_wall::tools::explain

@@ -3,9 +3,6 @@
 
 #include "explain/explanation.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "explain/amounts.hpp"
@@ -13,6 +10,8 @@
 #include "explain/filter_words.hpp"
 #include "explain/gate_words.hpp"
 #include "explain/outcome_words.hpp"
+#include "explain/prose.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
@@ -41,8 +40,8 @@ bool is_of_any_wall(const Note& note) {
          note.is(POSE_WALL_TRACE_WALL_SOLID) || note.is(POSE_WALL_TRACE_WALL_LEAN);
 }
 
-// What a weightier one says already: a doubt where the same refuses, what a wall must be to stand alone where it is
-// none, what walls explain where there are none, and what is open because it is silent.
+// True where a weightier gate gives the same message: a doubt beside the same refusal, requirements of a wall that
+// stands alone where there is no wall, the explained share where no walls were chosen, and open area that is silent.
 bool is_said_already(const Note& note, const std::vector<Note>& refusals) {
   const Note* const silent = find(refusals, POSE_WALL_TRACE_WALL_SILENT);
   const bool open_is_silent = silent != nullptr && note.gate.value < 1.1 * silent->gate.value;
@@ -64,7 +63,7 @@ bool is_rival(const Note& note) {
   return note.is(POSE_WALL_TRACE_FLOOR_RIVAL) || note.is(POSE_WALL_TRACE_WALL_RIVAL);
 }
 
-// Every rival is asked by itself: the strongest is told, the others are counted. Empty for those.
+// Each rival has a note of its own. The strongest gets a sentence, which counts the others; theirs are empty.
 std::string rival_sentence(const Note& rival, const std::vector<Note>& notes) {
   std::size_t others = 0;
   const Note* strongest = &rival;
@@ -75,7 +74,8 @@ std::string rival_sentence(const Note& rival, const std::vector<Note>& notes) {
   }
   if (strongest != &rival) return "";
   if (others == 0) return sentence_of(rival);
-  return fmt::format("{} So it is with {} further plane{}.", sentence_of(rival), others, others == 1 ? "" : "s");
+  return paragraph({sentence_of(rival), others == 1 ? say("The same holds for {} further plane.", others)
+                                                    : say("The same holds for {} further planes.", others)});
 }
 
 void tell(const std::vector<Note>& notes, const std::vector<Note>& refusals, Paragraph* out) {
@@ -86,23 +86,25 @@ void tell(const std::vector<Note>& notes, const std::vector<Note>& refusals, Par
   }
 }
 
-// What the gates speak of, first.
+// The plane that the gates are about.
 std::string first_plane(const std::vector<PlaneWords>& planes, Verdict verdict) {
   if (planes.empty()) return "";
   const PlaneWords& p = planes.front();
   const bool chosen = p.candidate.fate == POSE_WALL_TRACE_CHOSEN;
   if (!chosen && verdict != Verdict::kRefused) return "";
-  const bool out_of_range = p.candidate.fate == POSE_WALL_TRACE_OUT_OF_RANGE;
-  return fmt::format("The plane that {} lies {} ({}){}.", chosen ? "was chosen" : "shows most", p.where, p.shows,
-                     out_of_range ? ": " + p.fate : "");
+  if (p.candidate.fate == POSE_WALL_TRACE_OUT_OF_RANGE) {
+    return say("The strongest plane lies {} ({}): {}.", p.where, p.shows, p.fate);
+  }
+  return chosen ? say("The chosen plane lies {} ({}).", p.where, p.shows)
+                : say("The strongest plane lies {} ({}).", p.where, p.shows);
 }
 
 std::string looked_for(const Notes& notes) {
   const std::uint32_t attempt = notes.floor_attempt();
   const std::string radius = metres(notes.floor_radius_m(attempt));
-  if (attempt == 0) return fmt::format("It was looked for within {} of the machine.", radius);
-  return fmt::format("It was looked for within {} of the machine, and in steps up to {}; this is of the widest look.",
-                     metres(notes.floor_radius_m(0)), radius);
+  if (attempt == 0) return say("The search reached {} around the machine.", radius);
+  return say("The search began within {} of the machine and widened to {}. The figures are of the widest search.",
+             metres(notes.floor_radius_m(0)), radius);
 }
 
 // No gate: where nothing is chosen beside the machine, walls ahead and behind say how it stands.
@@ -115,14 +117,14 @@ std::string across_sentence(const pose_wall_config& config, const pose_wall_resu
     const double beside_m2 = beside.empty() ? 0.0 : beside.front().candidate.score_m2;
     if (planes.empty() || planes.front().candidate.reasons != 0) continue;
     if (!(planes.front().candidate.score_m2 > kClearlyMore * beside_m2)) continue;
-    walls.push_back(fmt::format("{} {} ({})", subject_name(subject), planes.front().where, planes.front().shows));
+    walls.push_back(say("{} {} ({})", subject_words(subject), planes.front().where, planes.front().shows));
   }
   if (walls.empty()) return "";
-  return fmt::format("Much more wall is seen {}: the machine seems to stand across the road.",
-                     fmt::join(walls, " and "));
+  const std::string places = walls.size() == 1 ? walls[0] : say("{} and {}", walls[0], walls[1]);
+  return say("Much more wall is seen {}: the machine seems to stand across the road.", places);
 }
 
-// A frame without a floor, or without points, has nothing to say of planes.
+// Without a floor or points no plane was looked for.
 Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes,
                           std::uint32_t subject) {
   const std::vector<Note> refusals = failed(notes, subject, POSE_WALL_TRACE_REFUSES);
@@ -134,7 +136,7 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
   std::vector<PlaneWords> planes = planes_of(config, result, notes, subject);
   std::stable_partition(planes.begin(), planes.end(),
                         [](const PlaneWords& p) { return p.candidate.fate == POSE_WALL_TRACE_CHOSEN; });
-  if (nothing_looked_at) out.sentences.emplace_back("It was not looked for: see the frame.");
+  if (nothing_looked_at) out.sentences.emplace_back(tr("It was not looked for: see the frame."));
   if (is_refused && notes.floor_attempts() > 0 && subject == POSE_WALL_TRACE_FLOOR) {
     out.sentences.push_back(looked_for(notes));
   }
@@ -145,7 +147,7 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
     const std::string across = across_sentence(config, result, notes, planes);
     add_once(out.sentences, across);
     // First, for as long as that is wrong a wider gate only hides it.
-    if (!across.empty()) out.helps.insert(out.helps.begin(), "check forward_axis and extrinsic_yaw");
+    if (!across.empty()) out.helps.insert(out.helps.begin(), tr("check forward_axis and extrinsic_yaw"));
   }
   tell(doubts, refusals, &out);
   add_once(out.sentences, others_sentence(planes));
@@ -188,6 +190,17 @@ const char* verdict_name(Verdict verdict) {
   }
 }
 
+std::string verdict_words(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kAccepted:
+      return tr("accepted");
+    case Verdict::kDoubted:
+      return tr("doubted");
+    default:
+      return tr("refused");
+  }
+}
+
 Explanation explain_frame(const pose_wall_config& config, const pose_wall_result& result,
                           const pose_wall_trace& trace) {
   const Notes notes(trace);
@@ -196,7 +209,10 @@ Explanation explain_frame(const pose_wall_config& config, const pose_wall_result
   for (const std::uint32_t subject : {POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_RIGHT}) {
     out.paragraphs.push_back(plane_paragraph(config, result, notes, subject));
   }
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) out.outcome.push_back(outcome_sentence(result, notes, q));
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    out.outcome.push_back(outcome_sentence(result, notes, q));
+    for (const std::string& help : outcome_helps(result, notes, q)) add_once(out.outcome_helps, help);
+  }
   return out;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Why a frame came out as it did, in plain sentences, in the order of the pipeline.
+// The reasons for a frame's results, in plain sentences, in the order of the pipeline.
 
 #pragma once
 
@@ -14,7 +14,8 @@
 namespace pose_wall::tools::explain {
 
 enum class Verdict { kAccepted, kDoubted, kRefused };
-const char* verdict_name(Verdict verdict);  // "accepted", "doubted", "refused"
+const char* verdict_name(Verdict verdict);   // "accepted", "doubted", "refused": for programs
+std::string verdict_words(Verdict verdict);  // for people
 
 struct Paragraph {
   std::uint32_t subject;
@@ -25,7 +26,8 @@ struct Paragraph {
 
 struct Explanation {
   std::vector<Paragraph> paragraphs;  // frame, floor, left wall, right wall
-  std::vector<std::string> outcome;   // a sentence for each of the seven quantities
+  std::vector<std::string> outcome;   // some sentences for each of the seven quantities
+  std::vector<std::string> outcome_helps;
 };
 
 Explanation explain_frame(const pose_wall_config& config, const pose_wall_result& result, const pose_wall_trace& trace);

@@ -87,18 +87,23 @@ Json planes_json(const pose_wall_config& config, const pose_wall_result& result,
 
 }  // namespace
 
+Json explanation_page(const pose_wall_config& config, const FrameOutcome& outcome, const TracedFrame& traced,
+                      const Explanation& explanation) {
+  const Notes notes(*traced.trace);
+  return {{"frame", outcome.frame},
+          {"source", outcome.source},
+          {"stamp_ns", outcome.stamp_ns},
+          {"frame_reasons", reason_list(traced.result.frame_reasons)},
+          {"explanation", paragraphs_json(explanation)},
+          {"outcome", outcome_json(traced.result, explanation)},
+          {"outcome_to_look_at", explanation.outcome_helps},
+          {"gates", gates_json(notes)},
+          {"planes", planes_json(config, traced.result, notes)}};
+}
+
 std::string explanation_json(const pose_wall_config& config, const FrameOutcome& outcome, const TracedFrame& traced,
                              const Explanation& explanation) {
-  const Notes notes(*traced.trace);
-  const Json out = {{"frame", outcome.frame},
-                    {"source", outcome.source},
-                    {"stamp_ns", outcome.stamp_ns},
-                    {"frame_reasons", reason_list(traced.result.frame_reasons)},
-                    {"explanation", paragraphs_json(explanation)},
-                    {"outcome", outcome_json(traced.result, explanation)},
-                    {"gates", gates_json(notes)},
-                    {"planes", planes_json(config, traced.result, notes)}};
-  return json_text(out, 2) + "\n";
+  return json_text(explanation_page(config, outcome, traced, explanation), 2) + "\n";
 }
 
 }  // namespace pose_wall::tools::explain

@@ -9,12 +9,16 @@
 
 #include "explain/explanation.hpp"
 #include "explain/traced_frame.hpp"
+#include "results/json_words.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::explain {
 
 // One object: the frame, a paragraph for frame, floor and each wall, the outcome, every gate and every plane. Angles in
-// rad, lengths in m, as they were compared; what is no number is null.
+// rad and lengths in m, as the gates compare them; null where there is no number. Sentences are in the chosen language.
+Json explanation_page(const pose_wall_config& config, const FrameOutcome& outcome, const TracedFrame& traced,
+                      const Explanation& explanation);
+
 std::string explanation_json(const pose_wall_config& config, const FrameOutcome& outcome, const TracedFrame& traced,
                              const Explanation& explanation);
 

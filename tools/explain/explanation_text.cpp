@@ -4,7 +4,6 @@
 #include "explain/explanation_text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,8 @@
 
 #include "explain/amounts.hpp"
 #include "explain/candidate_words.hpp"
+#include "explain/prose.hpp"
+#include "language/language.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools::explain {
@@ -33,14 +34,14 @@ std::string ratio_text(const Note& note) {
 }
 
 const char* passed_text(const Note& note) {
-  if (note.passed()) return "passed";
+  if (note.passed()) return tr("passed");
   switch (note.info.effect) {
     case POSE_WALL_TRACE_REFUSES:
-      return "REFUSES";
+      return tr("REFUSES");
     case POSE_WALL_TRACE_DOUBTS:
-      return "doubts";
+      return tr("doubts");
     default:
-      return "tells";
+      return tr("tells");
   }
 }
 
@@ -68,17 +69,15 @@ std::string coloured_rows(const std::string& table, const std::vector<Note>& not
   return out;
 }
 
-// Several gates may ask for the same: each clause once.
+// Several gates may have the same remedy: each clause once.
 std::string to_look_at(const std::vector<std::string>& helps) {
-  std::vector<std::string> clauses;
+  std::vector<std::string> once;
   for (const std::string& help : helps) {
-    for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 2) {
-      end = help.find("; ", at);
-      const std::string clause = help.substr(at, end == std::string::npos ? end : end - at);
-      if (std::find(clauses.begin(), clauses.end(), clause) == clauses.end()) clauses.push_back(clause);
+    for (const std::string& clause : clauses_of(help)) {
+      if (std::find(once.begin(), once.end(), clause) == once.end()) once.push_back(clause);
     }
   }
-  return fmt::format("To look at: {}.", fmt::join(clauses, "; "));
+  return say("To look at: {}.", clauses(once));
 }
 
 }  // namespace
@@ -86,21 +85,21 @@ std::string to_look_at(const std::vector<std::string>& helps) {
 std::string sentences_text(const Explanation& explanation) {
   std::string out;
   for (const Paragraph& p : explanation.paragraphs) {
-    out += fmt::format("{}: {}\n{}", capital(subject_name(p.subject)), verdict_name(p.verdict),
-                       wrapped(fmt::format("{}", fmt::join(p.sentences, " ")), kIndent, kWidth));
-    if (!p.helps.empty()) {
-      out += wrapped(to_look_at(p.helps), kIndent, kWidth);
-    }
+    out += say("{}: {}", capital(subject_words(p.subject)), verdict_words(p.verdict)) + "\n";
+    out += wrapped(paragraph(p.sentences), kIndent, kWidth);
+    if (!p.helps.empty()) out += wrapped(to_look_at(p.helps), kIndent, kWidth);
     out += "\n";
   }
-  out += "Outcome\n";
+  out += tr("Outcome");
+  out += "\n";
   for (const std::string& sentence : explanation.outcome) out += wrapped(sentence, kIndent, kWidth);
+  if (!explanation.outcome_helps.empty()) out += wrapped(to_look_at(explanation.outcome_helps), kIndent, kWidth);
   return out;
 }
 
 std::string planes_text(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes) {
   std::size_t rows = 0;
-  TextTable table({"plane of", "lies", "shows", "became of it", "score"});
+  TextTable table({tr("plane of"), tr("lies"), tr("shows"), tr("result"), tr("score")});
   for (const std::uint32_t subject : {POSE_WALL_TRACE_FLOOR, POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_RIGHT,
                                       POSE_WALL_TRACE_AHEAD, POSE_WALL_TRACE_BEHIND}) {
     const bool is_across = subject == POSE_WALL_TRACE_AHEAD || subject == POSE_WALL_TRACE_BEHIND;
@@ -108,18 +107,18 @@ std::string planes_text(const pose_wall_config& config, const pose_wall_result& 
     for (const PlaneWords& p : planes_of(config, result, notes, subject)) {
       if (is_across && told++ == kAcrossTold) break;
       ++rows;
-      table.add_row({subject_name(subject), p.where, p.shows, p.fate, fmt::format("{:.2f} m²", p.candidate.score_m2)});
+      table.add_row({subject_words(subject), p.where, p.shows, p.fate, fmt::format("{:.2f} m²", p.candidate.score_m2)});
     }
   }
-  return rows > 0 ? table.text(4) : "none\n";
+  return rows > 0 ? table.text(4) : std::string(tr("none")) + "\n";
 }
 
-// A wall is asked the same twice, as it was drawn and as it was fitted; its bend at two places.
+// A wall meets some gates twice, as it was drawn and as it was fitted, and its bend is tested at two places.
 std::string name_of(const std::vector<Note>& all, std::size_t index) {
   const Note& note = all[index];
   const bool at_sample = note.is(POSE_WALL_TRACE_SAMPLE_BEND) && index + 1 < all.size() &&
                          all[index + 1].is(POSE_WALL_TRACE_SAMPLE_OFFSET);
-  if (at_sample) return fmt::format("{} ({})", note.info.name, subject_name(all[index + 1].gate.subject));
+  if (at_sample) return say("{} ({})", note.info.name, subject_words(all[index + 1].gate.subject));
   const bool is_of_a_plane = note.is(POSE_WALL_TRACE_WALL_INLIERS) || note.is(POSE_WALL_TRACE_WALL_LENGTH) ||
                              note.is(POSE_WALL_TRACE_WALL_SOLID) || note.is(POSE_WALL_TRACE_WALL_LEAN);
   const auto is_the_same = [&note](const Note& later) {
@@ -127,19 +126,19 @@ std::string name_of(const std::vector<Note>& all, std::size_t index) {
   };
   const bool is_asked_again =
       is_of_a_plane && std::any_of(all.begin() + static_cast<std::ptrdiff_t>(index) + 1, all.end(), is_the_same);
-  return is_asked_again ? fmt::format("{} (drawn)", note.info.name) : note.info.name;
+  return is_asked_again ? say("{} (drawn)", note.info.name) : note.info.name;
 }
 
 std::string gates_text(const Notes& notes, bool coloured) {
   const std::vector<Note> all = notes.all();
-  TextTable table({"of", "gate", "key", "value", "", "limit", "ratio", ""});
+  TextTable table({tr("of"), tr("gate"), tr("key"), tr("value"), "", tr("limit"), tr("ratio"), ""});
   for (std::size_t index = 0; index < all.size(); ++index) {
     const Note& note = all[index];
-    const char* sense = note.info.sense == POSE_WALL_TRACE_IS_SO      ? "is"
+    const char* sense = note.info.sense == POSE_WALL_TRACE_IS_SO      ? tr("is")
                         : note.info.sense == POSE_WALL_TRACE_AT_LEAST ? ">="
                         : note.info.sense == POSE_WALL_TRACE_BELOW    ? "<"
                                                                       : "<=";
-    table.add_row({subject_name(note.gate.subject), name_of(all, index), key_of(note), value_text(note), sense,
+    table.add_row({subject_words(note.gate.subject), name_of(all, index), key_of(note), value_text(note), sense,
                    limit_text(note), ratio_text(note), passed_text(note)});
   }
   return coloured ? coloured_rows(table.text(3), all) : table.text(3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// An explanation for a terminal: sentences, the planes that were considered, and a table of all gates.
+// An explanation for a terminal: sentences, a table of planes and a table of gates.
 
 #pragma once
 
@@ -13,7 +13,7 @@ namespace pose_wall::tools::explain {
 
 std::string sentences_text(const Explanation& explanation);
 
-// coloured: what did not hold in red (refuses), yellow (doubts) or blue (told only), by escape sequences.
+// coloured: gates that failed in red (refuses), yellow (doubts) or blue (tells), by escape sequences.
 std::string planes_text(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes);
 std::string gates_text(const Notes& notes, bool coloured);
 

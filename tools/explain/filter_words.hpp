@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What became of the points before any plane was looked for.
+// What became of the points before the search for planes.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace pose_wall::tools::explain {
 
 struct FilterWords {
-  std::string sentence;  // "Of 65536 points, 65000 are farther than range_max (30.00 m), ..."
+  std::string sentence;  // "65536 points came in. Of these 65000 are farther than range_max (30.00 m). ..."
   std::string help;      // what the largest part of the dropped ones asks for; empty where most were kept
 };
 

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "explain/gate_list_texts.hpp"
+#include "explain/prose.hpp"
+#include "language/language.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools::explain {
@@ -31,10 +34,26 @@ std::string without_settings_prefix(const std::string& limit) {
 }
 
 std::string limit_words(const pose_wall_trace_info& gate) {
-  if (gate.sense == POSE_WALL_TRACE_IS_SO) return sense_name(gate.sense);
-  const std::string limit = gate.limit;
-  return fmt::format("{} {}", sense_name(gate.sense),
-                     limit == "BY_CALLER" ? "what the frame allows" : without_settings_prefix(limit));
+  // Marked here for sense_name.
+  constexpr const char* kSenses[] = {translatable("at least"), translatable("at most"), translatable("is so"),
+                                     translatable("below")};
+  const std::string sense = tr(kSenses[gate.sense]), limit = gate.limit;
+  if (gate.sense == POSE_WALL_TRACE_IS_SO) return sense;
+  return fmt::format("{} {}", sense,
+                     limit == "BY_CALLER" ? tr("what the frame allows") : without_settings_prefix(limit));
+}
+
+// The whole origin in English; in Chinese its head: "judgement, 2026-11-21".
+std::string origin_words(const std::string& origin) {
+  if (language() == Language::kEnglish) return origin;
+  constexpr const char* kDivider = ", ";
+  const std::string head = origin.substr(0, origin.find(':'));
+  std::vector<std::string> parts;
+  for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 2) {
+    end = head.find(kDivider, at);
+    parts.emplace_back(tr(head.substr(at, end == std::string::npos ? end : end - at).c_str()));
+  }
+  return in_a_row(parts);
 }
 
 }  // namespace
@@ -75,12 +94,18 @@ const char* effect_name(std::uint32_t effect) {
 }
 
 std::string gate_list_text() {
-  TextTable table({"gate", "limit", "unit", "key", "effect", "what it asks (where the limit is from)"});
+  constexpr const char* kEffects[] = {translatable("tells"), translatable("doubts"), translatable("refuses")};
+  TextTable table(
+      {tr("gate"), tr("limit"), tr("unit"), tr("key"), tr("effect"), tr("what is measured (where the limit is from)")});
   for (const pose_wall_trace_info& gate : gate_list()) {
-    table.add_row({gate.name, limit_words(gate), gate.unit, gate.key, effect_name(gate.effect),
-                   fmt::format("{} ({})", gate.asks, gate.origin)});
+    table.add_row({gate.name, limit_words(gate), gate.unit, gate.key, tr(kEffects[gate.effect]),
+                   say("{} ({})", tr(gate.asks), origin_words(gate.origin))});
   }
-  return table.text(6);
+  std::string text = table.text(6);
+  if (language() != Language::kEnglish) {
+    text += fmt::format("{}\n", tr("The full grounds of each limit are in English: --language en."));
+  }
+  return text;
 }
 
 }  // namespace pose_wall::tools::explain

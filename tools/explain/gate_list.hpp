@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// All gates of the engine, whatever frame: their names, limits and where these are from.
+// All gates of the engine: their names, limits and where the limits are from.
 
 #pragma once
 
@@ -22,7 +22,7 @@ const char* sense_name(std::uint32_t sense);
 // "tells", "doubts", "refuses".
 const char* effect_name(std::uint32_t effect);
 
-// One row a gate: its limit as the table of gates has it, unit, key, effect, what it asks and where the limit is from.
+// One row for each gate: limit as in the table of gates, unit, key, effect, what is measured, and the limit's origin.
 std::string gate_list_text();
 
 }  // namespace pose_wall::tools::explain

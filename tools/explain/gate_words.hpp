@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What a gate that did not hold means, in a sentence, and what would help.
+// What a failed gate means, in a few sentences, and what would help.
 
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace pose_wall::tools::explain {
 
-// "It is supported over 1.50 m along the road; 2.00 m are needed (wall_length_min)."
+// "The plane is supported over 1.50 m along the road; 2.00 m is needed (wall_length_min)."
 std::string sentence_of(const Note& note);
 
-// "Show more of the wall, ..."; empty where nothing is to be done.
+// "show more of the wall; ..."; empty where nothing is to be done.
 std::string help_of(const Note& note);
 
 }  // namespace pose_wall::tools::explain

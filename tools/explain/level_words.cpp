@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "angles.hpp"
+#include "language/engine_words.hpp"
 #include "quantities.hpp"
 
 namespace pose_wall::tools::explain {
@@ -82,10 +83,10 @@ std::string level_sum(const pose_wall_value& value, std::uint32_t quantity) {
   std::string text;
   for (const std::uint32_t part : parts_by_size(value)) {
     if (whole[part] == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? " = " : " + ", figure(digits, whole[part]), part_words(part));
+    text += fmt::format("{}{} {}", text.empty() ? " = " : " + ", figure(digits, whole[part]), spoken_part(part));
   }
   const bool no_lag = std::isfinite(value.raw) && whole[POSE_WALL_PART_LAG] == 0;
-  return figure(digits, std::llround(value.protection_level * digits.per_unit)) + text + (no_lag ? "; lag 0" : "");
+  return figure(digits, std::llround(value.protection_level * digits.per_unit)) + text + (no_lag ? tr("; lag 0") : "");
 }
 
 }  // namespace pose_wall::tools::explain

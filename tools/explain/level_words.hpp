@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What a protection level is made of, as a sum that people can check.
+// The parts of a protection level, as a sum that people can check.
 
 #pragma once
 
@@ -16,8 +16,8 @@ namespace pose_wall::tools::explain {
 // Parts that are above zero, largest first. Empty where there is no level.
 std::vector<std::uint32_t> parts_by_size(const pose_wall_value& value);
 
-// "3.64° = 2.10° rival + 0.90° range bias + 0.64° random; lag 0". The figures add up as they stand. Lag is told of what
-// was measured in this frame, since a reader wonders. Empty where there is no level.
+// "3.64° = 2.10° rival + 0.90° range bias + 0.64° random; lag 0". The figures add up as they stand. Lag is named
+// even at 0 where this frame measured the value. Empty where there is no level.
 std::string level_sum(const pose_wall_value& value, std::uint32_t quantity);
 
 // Whether that sum has a lag above zero, as its figures are rounded.

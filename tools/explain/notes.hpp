@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What was noted of a frame, asked by subject.
+// Notes on a frame, by subject.
 
 #pragma once
 

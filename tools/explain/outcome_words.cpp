@@ -3,9 +3,6 @@
 
 #include "explain/outcome_words.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -13,6 +10,8 @@
 #include "explain/amounts.hpp"
 #include "explain/gate_words.hpp"
 #include "explain/level_words.hpp"
+#include "explain/prose.hpp"
+#include "language/engine_words.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
@@ -30,23 +29,22 @@ std::vector<std::uint32_t> planes_behind(std::uint32_t quantity) {
 }
 
 std::string head(const pose_wall_value& v, std::uint32_t quantity) {
-  std::string text = fmt::format("{}: {}", pose_wall_quantity_name(quantity), pose_wall_state_name(v.state));
+  std::vector<std::string> parts = {state_words(v.state)};
   if (std::isfinite(v.value)) {
-    text += fmt::format(", {} ± {}", quantity_amount(quantity, v.value), quantity_amount(quantity, v.protection_level));
+    parts.push_back(quantity_amount(quantity, v.value) + " ± " + quantity_amount(quantity, v.protection_level));
   }
-  if (v.age_s > 0.0) text += fmt::format(", {:.2f} s old", v.age_s);
-  return text + ".";
+  if (v.age_s > 0.0) parts.push_back(say("{:.2f} s old", v.age_s));
+  return say("{}: {}.", pose_wall_quantity_name(quantity), in_a_row(parts));
 }
 
 std::string why_unmeasured(const Notes& notes, std::uint32_t quantity) {
-  if (notes.refused(POSE_WALL_TRACE_FRAME)) return "Not measured: see the frame.";
+  if (notes.refused(POSE_WALL_TRACE_FRAME)) return tr("Not measured: see the frame.");
   std::vector<std::string> refused;
   for (const std::uint32_t subject : planes_behind(quantity)) {
     const bool both = is_side(subject) && notes.refused(POSE_WALL_TRACE_WALLS);
-    if (both || notes.refused(subject)) refused.push_back(subject_name(subject) + " refused");
+    if (both || notes.refused(subject)) refused.push_back(say("{} refused", subject_words(subject)));
   }
-  if (refused.empty()) return "Not measured.";
-  return fmt::format("Not measured: {}.", fmt::join(refused, ", "));
+  return refused.empty() ? tr("Not measured.") : say("Not measured: {}.", listed(refused));
 }
 
 // What speaks against the planes it hangs on. With one wall left, the other does not speak against yaw.
@@ -54,7 +52,7 @@ std::vector<std::string> doubted(const Notes& notes, std::uint32_t quantity) {
   std::vector<std::string> out;
   for (const std::uint32_t subject : planes_behind(quantity)) {
     if (!notes.refused(subject) && !notes.failed(subject, POSE_WALL_TRACE_DOUBTS).empty()) {
-      out.push_back(subject_name(subject) + " doubted");
+      out.push_back(say("{} doubted", subject_words(subject)));
     }
   }
   return out;
@@ -70,37 +68,48 @@ bool is_said_by_another(const Note& note, const std::vector<Note>& failed) {
 // Where the figures show it: the raw value with a level of its own. Where lag is the largest part, what it comes from.
 std::string lag_sentence(const pose_wall_value& v, std::uint32_t quantity) {
   if (!shows_lag(v, quantity)) return "";
-  const std::string raw = fmt::format(" This frame alone measured {} ± {}", quantity_amount(quantity, v.raw),
-                                      quantity_amount(quantity, v.raw_protection_level));
-  if (v.cause != POSE_WALL_PART_LAG) return raw + ".";
-  return fmt::format("{}: the value follows what earlier frames said (temporal_smoothing_tau{}).", raw,
-                     quantity == POSE_WALL_YAW ? ", yaw_rate_limit_deg" : "");
+  const std::string raw = quantity_amount(quantity, v.raw), level = quantity_amount(quantity, v.raw_protection_level);
+  if (v.cause != POSE_WALL_PART_LAG) return say("This frame alone measured {} ± {}.", raw, level);
+  return say("This frame alone measured {} ± {}: the value follows earlier frames ({}).", raw, level,
+             quantity == POSE_WALL_YAW ? "temporal_smoothing_tau, yaw_rate_limit_deg" : "temporal_smoothing_tau");
+}
+
+std::vector<Note> failed_notes(const Notes& notes, std::uint32_t quantity, bool measured) {
+  std::vector<Note> failed;
+  for (const Note& note : notes.of(POSE_WALL_TRACE_QUANTITY + quantity)) {
+    const bool of_a_refused_wall = !measured && note.info.effect == POSE_WALL_TRACE_DOUBTS;
+    if (!note.passed() && !of_a_refused_wall) failed.push_back(note);
+  }
+  const auto is_repeated = [all = failed](const Note& note) { return is_said_by_another(note, all); };
+  failed.erase(std::remove_if(failed.begin(), failed.end(), is_repeated), failed.end());
+  return failed;
 }
 
 }  // namespace
 
 std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity) {
   const pose_wall_value& v = result.quantity[quantity];
-  std::string text = head(v, quantity);
   const bool measured = std::isfinite(v.raw);
   const std::string sum = level_sum(v, quantity);
-  if (!sum.empty()) text += fmt::format(" Its level: {}.", sum);
-  if (!measured) text += " " + why_unmeasured(notes, quantity);
-  if (measured) text += lag_sentence(v, quantity);
+  std::vector<std::string> told = {head(v, quantity), sum.empty() ? "" : say("Its level: {}.", sum)};
+  told.push_back(measured ? lag_sentence(v, quantity) : why_unmeasured(notes, quantity));
   if (measured && v.state != POSE_WALL_VALID) {
     const std::vector<std::string> planes = doubted(notes, quantity);
-    if (!planes.empty()) text += fmt::format(" Degraded: {}.", fmt::join(planes, ", "));
-    if (!notes.failed(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_DOUBTS).empty()) text += " Degraded: see the frame.";
+    if (!planes.empty()) told.push_back(say("Degraded: {}.", listed(planes)));
+    if (!notes.failed(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_DOUBTS).empty()) {
+      told.emplace_back(tr("Degraded: see the frame."));
+    }
   }
-  std::vector<Note> failed;
-  for (const Note& note : notes.of(POSE_WALL_TRACE_QUANTITY + quantity)) {
-    const bool of_a_refused_wall = !measured && note.info.effect == POSE_WALL_TRACE_DOUBTS;
-    if (!note.passed() && !of_a_refused_wall) failed.push_back(note);
+  for (const Note& note : failed_notes(notes, quantity, measured)) told.push_back(sentence_of(note));
+  return paragraph(told);
+}
+
+std::vector<std::string> outcome_helps(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity) {
+  std::vector<std::string> helps;
+  for (const Note& note : failed_notes(notes, quantity, std::isfinite(result.quantity[quantity].raw))) {
+    helps.push_back(help_of(note));
   }
-  for (const Note& note : failed) {
-    if (!is_said_by_another(note, failed)) text += " " + sentence_of(note);
-  }
-  return text;
+  return helps;
 }
 
 }  // namespace pose_wall::tools::explain

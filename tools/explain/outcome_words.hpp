@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What one of the seven quantities came to, in a sentence.
+// The result of one of the seven quantities, in a few sentences.
 
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "explain/notes.hpp"
 
@@ -14,5 +15,8 @@ namespace pose_wall::tools::explain {
 
 // "d_rf: held, 1.92 m ± 0.08 m, 0.30 s old. Not measured: right wall refused."
 std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity);
+
+// What would help, by the gates of the quantity itself; some may be empty.
+std::vector<std::string> outcome_helps(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity);
 
 }  // namespace pose_wall::tools::explain

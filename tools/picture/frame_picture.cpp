@@ -3,8 +3,7 @@
 
 #include "picture/frame_picture.hpp"
 
-#include <fmt/format.h>
-
+#include "language/engine_words.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 
@@ -18,11 +17,11 @@ constexpr double kMargin = 24.0;
 void draw_title(Svg& svg, const FrameScene& scene) {
   svg.text({kMargin, 42.0}, scene.title, {kInk, 23.0, Anchor::kStart, true});
   svg.text({kMargin, 65.0}, scene.subtitle, {kFaintInk, 13.5});
-  svg.text({kWidth - kMargin, 42.0}, fmt::format("confidence {:.2f}", scene.result->confidence),
+  svg.text({kWidth - kMargin, 42.0}, say("confidence {:.2f}", scene.result->confidence),
            {kInk, 19.0, Anchor::kEnd, true});
   const pose_wall_result& result = *scene.result;
   svg.text({kWidth - kMargin, 65.0},
-           fmt::format("{} points in, {} voxels of {:.2f} m", result.points_in, result.voxels, result.voxel_leaf_m),
+           say("{} points in, {} voxels of {:.2f} m", result.points_in, result.voxels, result.voxel_leaf_m),
            {kFaintInk, 13.5, Anchor::kEnd});
 }
 
@@ -47,14 +46,14 @@ void draw_legend(Svg& svg, const Box& box) {
     svg.text({x + 10.0, y}, words, {kFaintInk, 12.0});
     x += advance;
   };
-  entry(kLeft, "left wall", 96.0);
-  entry(kRight, "right wall", 102.0);
-  entry(kFloor, "floor", 72.0);
-  entry(kOther, "other points", 130.0);
+  entry(kLeft, tr("left wall"), 96.0);
+  entry(kRight, tr("right wall"), 102.0);
+  entry(kFloor, tr("floor"), 72.0);
+  entry(kOther, tr("other points"), 130.0);
   for (const uint32_t state : {POSE_WALL_VALID, POSE_WALL_DEGRADED, POSE_WALL_HELD, POSE_WALL_INVALID}) {
-    entry(state_colour(state), pose_wall_state_name(state), 98.0);
+    entry(state_colour(state), state_words(state), 98.0);
   }
-  svg.text({box.right(), y}, "thick: from first to last inlier, dotted: prolonged. ± is the protection level",
+  svg.text({box.right(), y}, tr("thick: from first to last inlier, dotted: prolonged. ± is the protection level"),
            {kFaintInk, 12.0, Anchor::kEnd});
 }
 

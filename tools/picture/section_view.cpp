@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 #include "picture/point_layers.hpp"
@@ -35,8 +34,7 @@ void draw_floor(Svg& svg, const Viewport& view, const FrameScene& scene, const D
   svg.line(view(right.low, floor_m), view(right.high, floor_m), {kFloor, 3.6});
   const pose_wall_plane& floor = scene.result->floor;
   const Pixel below = view(0.5 * (right.low + right.high), floor_m);
-  svg.text({below.x, below.y + 22.0},
-           fmt::format("floor: {} inliers, rms {:.0f} mm", floor.inliers, 1000.0 * floor.rms_m),
+  svg.text({below.x, below.y + 22.0}, say("floor: {} inliers, rms {:.0f} mm", floor.inliers, 1000.0 * floor.rms_m),
            {kFloor, 12.5, Anchor::kMiddle, true, kPanel});
 }
 
@@ -51,7 +49,7 @@ void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const po
   const Pixel top = at(band_up_m.high);
   const bool left = wall.left_at(0.0, 0.0) > 0.0;
   const double lean_deg = std::round(plane.lean_rad * kDegPerRad * 10.0) / 10.0 + 0.0;  // + 0.0: never "-0.0"
-  svg.text({top.x + (left ? 12.0 : -12.0), top.y - label_above_px}, fmt::format("lean {:+.1f}°", lean_deg),
+  svg.text({top.x + (left ? 12.0 : -12.0), top.y - label_above_px}, say("lean {:+.1f}°", lean_deg),
            {colour, 12.5, left ? Anchor::kStart : Anchor::kEnd, true, kPanel});
 }
 
@@ -75,13 +73,13 @@ void draw_machine(Svg& svg, const Viewport& view, const FrameScene& scene, const
                                        config_number(scene, "extrinsic_z"));
   const Pixel lidar = view(-sensor.left, sensor.up);
   svg.circle(lidar, 5.0, kPanel, {kInk, 2.0});
-  svg.text({lidar.x + 14.0, lidar.y - 12.0}, "LiDAR", {kInk, 12.0, Anchor::kStart, false, kPanel});
+  svg.text({lidar.x + 14.0, lidar.y - 12.0}, tr("LiDAR"), {kInk, 12.0, Anchor::kStart, false, kPanel});
 }
 
 }  // namespace
 
 void draw_section(Svg& svg, const Box& box, const FrameScene& scene, const DrawnFrame& frame) {
-  draw_panel(svg, box, "Across the road at the machine, looking ahead, levelled by the floor");
+  draw_panel(svg, box, tr("Across the road at the machine, looking ahead, levelled by the floor"));
   const Viewport view = view_of(box, scene, frame);
   const double floor_m = frame.floor_up_m();
   const Range band{floor_m + config_number(scene, "wall_z_min"), floor_m + config_number(scene, "wall_z_max")};

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/language.hpp"
 #include "picture/palette.hpp"
 #include "picture/svg.hpp"
 
@@ -82,9 +83,9 @@ void draw_axes(Svg& svg, const Plot& plot, const StanfordScale& s) {
     svg.text({below.x, below.y + 20.0}, s.label(decade), {kInk, 13.0, Anchor::kMiddle});
     svg.text({beside.x - 10.0, beside.y + 4.5}, s.label(decade), {kInk, 13.0, Anchor::kEnd});
   }
-  svg.text({kCorner.x + 0.5 * kSide, kCorner.y + kSide + 46.0}, "error of the value",
+  svg.text({kCorner.x + 0.5 * kSide, kCorner.y + kSide + 46.0}, tr("error of the value"),
            {kInk, 15.0, Anchor::kMiddle, true});
-  svg.text({kCorner.x, kCorner.y - 14.0}, "protection level", {kInk, 15.0, Anchor::kStart, true});
+  svg.text({kCorner.x, kCorner.y - 14.0}, tr("protection level"), {kInk, 15.0, Anchor::kStart, true});
 }
 
 void draw_limits(Svg& svg, const Plot& plot, const StanfordScale& s) {
@@ -93,8 +94,7 @@ void draw_limits(Svg& svg, const Plot& plot, const StanfordScale& s) {
   svg.line(plot.at(s.low, s.alert_limit), plot.at(s.high, s.alert_limit), limit);
   svg.line(plot.at(s.low, s.low), plot.at(s.high, s.high), {kInk, 1.6});
   const Pixel end = plot.at(s.alert_limit, s.high);
-  svg.text({end.x, end.y - 8.0}, fmt::format("alert limit {}", s.label(s.alert_limit)),
-           {kFaintInk, 12.0, Anchor::kMiddle});
+  svg.text({end.x, end.y - 8.0}, say("alert limit {}", s.label(s.alert_limit)), {kFaintInk, 12.0, Anchor::kMiddle});
 }
 
 struct Name {
@@ -114,10 +114,14 @@ void draw_names(Svg& svg, const Plot& plot, const StanfordCounts& counts) {
   const Pixel low = plot.at(s.low, s.low);
   const Pixel high = plot.at(s.high, s.high);
   const Name names[] = {
-      {{low.x + 14.0, limit.y + 0.5 * (low.y - limit.y)}, Anchor::kStart, "within protection", r.within, "#2f6b3c"},
-      {{low.x + 14.0, high.y + 26.0}, Anchor::kStart, "within protection, too wide to be valid", r.too_wide, "#565d64"},
-      {{limit.x - 14.0, low.y - 34.0}, Anchor::kEnd, "value > protection", r.beyond_protection, "#9a6200"},
-      {{high.x - 14.0, low.y - 34.0}, Anchor::kEnd, "misleading if valid", r.misleading_if_valid, "#a3230f"},
+      {{low.x + 14.0, limit.y + 0.5 * (low.y - limit.y)}, Anchor::kStart, tr("within protection"), r.within, "#2f6b3c"},
+      {{low.x + 14.0, high.y + 26.0},
+       Anchor::kStart,
+       tr("within protection, too wide to be valid"),
+       r.too_wide,
+       "#565d64"},
+      {{limit.x - 14.0, low.y - 34.0}, Anchor::kEnd, tr("value > protection"), r.beyond_protection, "#9a6200"},
+      {{high.x - 14.0, low.y - 34.0}, Anchor::kEnd, tr("misleading if valid"), r.misleading_if_valid, "#a3230f"},
   };
   for (const Name& name : names) {
     svg.text(name.at, name.words, {name.colour, 16.0, name.anchor, true, kPanel});
@@ -131,7 +135,7 @@ void draw_shades(Svg& svg, const StanfordCounts& counts) {
   const double x = kCorner.x + kSide + 22.0;
   double y = kCorner.y + 20.0;
   double shown = 0.0;
-  svg.text({x, kCorner.y + 8.0}, "values per cell", {kInk, 12.0});
+  svg.text({x, kCorner.y + 8.0}, tr("values per cell"), {kInk, 12.0});
   for (std::size_t i = 0; i < kShades.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(kShades.size());
     const double from = std::ceil(std::exp(log_of_largest(counts) * share) - 1e-9);

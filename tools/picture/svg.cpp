@@ -48,7 +48,8 @@ std::string escaped(std::string_view words) {
 Svg::Svg(double width, double height, std::string_view background) {
   body_ = fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}" )"
-      R"(font-family="DejaVu Sans, Verdana, Helvetica, Arial, sans-serif">)"
+      R"(font-family="DejaVu Sans, Verdana, Helvetica, Arial, )"
+      R"(Noto Sans CJK SC, Microsoft YaHei, PingFang SC, sans-serif">)"
       "\n",
       width, height);
   rectangle({0.0, 0.0}, width, height, background);

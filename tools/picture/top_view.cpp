@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "angles.hpp"
+#include "language/engine_words.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 #include "picture/point_layers.hpp"
@@ -72,8 +73,8 @@ void draw_wall(Svg& svg, const Viewport& view, const DrawnFrame& frame, const po
 
   const double outwards = wall.left_at(0.0, 0.0) > 0.0 ? -1.0 : 1.0;
   const Pixel foot = at(along.low + 0.35);
-  const std::string words = fmt::format("{} wall: {} inliers, rms {:.0f} mm, {:+.1f} to {:+.1f} m", side, plane.inliers,
-                                        1000.0 * plane.rms_m, plane.extent_min_m, plane.extent_max_m);
+  const std::string words = say("{}: {} inliers, rms {:.0f} mm, {:+.1f} to {:+.1f} m", side, plane.inliers,
+                                1000.0 * plane.rms_m, plane.extent_min_m, plane.extent_max_m);
   const double y = std::clamp(foot.y + outwards * 26.0 + 4.0, view.corner().y + 26.0, view.corner().y + view.height());
   svg.text({foot.x, y}, words, {colour, 12.5, Anchor::kStart, true, kPanel});
 }
@@ -95,8 +96,8 @@ void draw_machine(Svg& svg, const Viewport& view, const DrawnFrame& frame) {
 
 // What is drawn is this frame's own, where it has one: a smoothed value would not fit the line beside it. The word
 // tells it from the value in the table.
-const char* kind_of(const pose_wall_value& value) {
-  return std::isfinite(value.raw) ? "raw" : pose_wall_state_name(value.state);
+std::string kind_of(const pose_wall_value& value) {
+  return std::isfinite(value.raw) ? tr("raw") : state_words(value.state);
 }
 
 // The machine's axis against the road's direction, with the angle between them.
@@ -115,7 +116,7 @@ void draw_yaw(Svg& svg, const Viewport& view, const DrawnFrame& frame, const pos
   const std::string_view colour = state_colour(yaw.state);
   svg.polyline(arc, {colour, 3.0});
   const Pixel tip = view(kArm_m + 0.65, 0.0);
-  svg.text({tip.x, tip.y + 4.5}, fmt::format("{} yaw {:+.2f}°", kind_of(yaw), frame.yaw_rad() * kDegPerRad),
+  svg.text({tip.x, tip.y + 4.5}, say("{} yaw {:+.2f}°", kind_of(yaw), frame.yaw_rad() * kDegPerRad),
            {colour, 13.5, Anchor::kStart, true, kPanel});
 }
 
@@ -131,7 +132,7 @@ void draw_distance(Svg& svg, const Viewport& view, const FrameScene& scene, cons
   const Anchor anchor = s_m >= 0.0 ? Anchor::kStart : Anchor::kEnd;
   if (!std::isfinite(value.value)) {
     const Pixel beside = view(start.along, start.left + side * 1.2);
-    svg.text(beside, fmt::format("{} not measured", distance.name), {colour, 13.0, anchor, true, kPanel});
+    svg.text(beside, say("{} not measured", distance.name), {colour, 13.0, anchor, true, kPanel});
     return;
   }
 
@@ -165,14 +166,14 @@ void draw_sampling_point(Svg& svg, const Viewport& view, const DrawnFrame& frame
 
 void draw_top_view(Svg& svg, const Box& box, const FrameScene& scene, const DrawnFrame& frame) {
   draw_panel(svg, box,
-             frame.has_yaw() ? "From above, road to the right; drawn by raw, as this frame alone measured it"
-                             : "From above, machine's axis to the right");
+             frame.has_yaw() ? tr("From above, road to the right; drawn by raw, as this frame alone measured it")
+                             : tr("From above, machine's axis to the right"));
   const Viewport view = view_of(box, scene, frame);
   draw_grid(svg, box, view);
   svg.begin_clip({box.corner.x, box.corner.y + 28.0}, box.width, box.height - 50.0);
   draw_points_from_above(svg, view, scene, frame);
-  draw_wall(svg, view, frame, scene.result->left, kLeft, "left");
-  draw_wall(svg, view, frame, scene.result->right, kRight, "right");
+  draw_wall(svg, view, frame, scene.result->left, kLeft, tr("left wall"));
+  draw_wall(svg, view, frame, scene.result->right, kRight, tr("right wall"));
   draw_machine(svg, view, frame);
   draw_yaw(svg, view, frame, scene.result->quantity[POSE_WALL_YAW]);
   for (const Distance& distance : kDistances) draw_distance(svg, view, scene, frame, distance);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "angles.hpp"
+#include "language/engine_words.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 #include "quantities.hpp"
@@ -45,25 +46,26 @@ std::string reasons_text(uint32_t reasons) {
 void draw_head(Svg& svg, const Columns& columns, double y, bool with_truth) {
   const TextStyle end{kFaintInk, 11.5, Anchor::kEnd};
   const TextStyle start{kFaintInk, 11.5};
-  svg.text({columns.name, y}, "quantity", start);
-  svg.text({columns.value, y}, "value", end);
-  svg.text({columns.protection, y}, "± protection", end);
-  if (with_truth) svg.text({columns.truth, y}, "truth", end);
-  svg.text({columns.state, y}, "state", start);
-  svg.text({columns.reasons, y}, "reasons", start);
+  svg.text({columns.name, y}, tr("quantity"), start);
+  svg.text({columns.value, y}, tr("value"), end);
+  svg.text({columns.protection, y}, tr("± protection"), end);
+  if (with_truth) svg.text({columns.truth, y}, tr("truth"), end);
+  svg.text({columns.state, y}, tr("state"), start);
+  svg.text({columns.reasons, y}, tr("reasons"), start);
 }
 
-// Below each value: what its sign means, this frame's own measurement with its level, and what the level is mostly of.
+// Below each value: the meaning of its sign, this frame's own measurement with its level, and the level's largest part.
 void draw_second_line(Svg& svg, const Columns& columns, double y, const FrameScene& scene, uint32_t quantity) {
   const pose_wall_value& value = scene.result->quantity[quantity];
   const TextStyle start{kFaintInk, 10.0}, end{kFaintInk, 10.0, Anchor::kEnd};
-  const std::string sign = positive_means(*scene.result, quantity);
+  const std::string sign = positive_words(*scene.result, quantity);
   if (!sign.empty()) svg.text({columns.name, y}, "+ " + sign, start);
   if (std::isfinite(value.raw)) {
-    svg.text({columns.value, y}, "raw " + figure(quantity, value.raw, true), end);
+    svg.text({columns.value, y}, say("raw {}", figure(quantity, value.raw, true)), end);
     svg.text({columns.protection, y}, figure(quantity, value.raw_protection_level, false), end);
   }
-  if (value.cause < POSE_WALL_PARTS) svg.text({columns.reasons, y}, "level mostly: " + part_words(value.cause), start);
+  if (value.cause < POSE_WALL_PARTS)
+    svg.text({columns.reasons, y}, say("level mostly: {}", spoken_part(value.cause)), start);
 }
 
 void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scene, uint32_t quantity) {
@@ -76,7 +78,7 @@ void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scen
     svg.text({columns.truth, y}, figure(quantity, scene.truth[quantity], true), {kFaintInk, 13.0, Anchor::kEnd});
   }
   svg.rectangle({columns.state, y - 9.0}, 80.0, 20.0, colour, 10.0);
-  svg.text({columns.state + 40.0, y + 5.5}, pose_wall_state_name(value.state), {kPanel, 12.0, Anchor::kMiddle, true});
+  svg.text({columns.state + 40.0, y + 5.5}, state_words(value.state), {kPanel, 12.0, Anchor::kMiddle, true});
   svg.text({columns.reasons, y - 0.5}, reasons_text(value.reasons), {kFaintInk, 10.5});
   draw_second_line(svg, columns, y + 11.0, scene, quantity);
 }
@@ -84,7 +86,7 @@ void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scen
 }  // namespace
 
 void draw_value_table(Svg& svg, const Box& box, const FrameScene& scene) {
-  draw_panel(svg, box, "Values to act on (smoothed or held); below: raw, by this frame alone");
+  draw_panel(svg, box, tr("Values to act on (smoothed or held); below: raw, by this frame alone"));
   const Columns columns = columns_of(box);
   double y = box.corner.y + 54.0;
   draw_head(svg, columns, y, scene.truth != nullptr);

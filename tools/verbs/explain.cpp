@@ -1,182 +1,223 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall explain: why one frame came out as it did.
+// pose_wall explain: the reasons for the results of one frame, or of a whole recording in short.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
-#include "config_file/load_config.hpp"
-#include "explain/amounts.hpp"
-#include "explain/explanation.hpp"
+#include "campaign/command_words.hpp"
+#include "explain/digest_json.hpp"
+#include "explain/digest_text.hpp"
+#include "explain/explained_recording.hpp"
 #include "explain/explanation_json.hpp"
 #include "explain/explanation_text.hpp"
+#include "explain/frame_choice.hpp"
 #include "explain/gate_list.hpp"
-#include "explain/traced_frame.hpp"
-#include "inputs/frame_sequence.hpp"
-#include "picture/frame_picture.hpp"
-#include "results/frame_runner.hpp"
+#include "explain/prose.hpp"
+#include "language/language.hpp"
 #include "terminal/colours.hpp"
-#include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
-#include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
+using explain::ChoiceKind;
+using explain::Explained;
+
 struct ExplainOptions {
   FrameOptions frames;
-  std::uint64_t frame = 0;
+  explain::FrameChoice choice;
   std::string picture;
   bool json = false;
+
+  bool shows_progress() const { return !frames.quiet && is_terminal(2); }
 };
 
-struct Explained {
-  FrameOutcome outcome;  // of the engine that is delivered
-  std::optional<TracedFrame> traced;
-  explain::Explanation explanation;
-  std::string picture;
-};
-
-void expect_frame(std::uint64_t frame, std::size_t frames) {
-  if (frame < frames) return;
-  if (frames == 0) throw std::runtime_error("no frame to explain");
-  throw std::invalid_argument(fmt::format("--frame {}: there {} {}, 0 to {}", frame, frames == 1 ? "is" : "are",
-                                          counted(frames, "frame"), frames - 1));
-}
-
-std::string picture_of(const LoadedConfig& loaded, const pose_wall_points& points, const Explained& explained,
-                       std::uint64_t frame) {
-  std::string subtitle = fmt::format("frame {}", frame);
-  for (const explain::Paragraph& p : explained.explanation.paragraphs) {
-    subtitle += fmt::format(", {} {}", p.subject == POSE_WALL_TRACE_FRAME ? "itself" : explain::subject_name(p.subject),
-                            explain::verdict_name(p.verdict));
+// The command as it was given, but without a frame.
+std::string command_of(const FrameOptions& frames) {
+  const std::pair<const char*, std::string> texts[] = {{"topic", frames.input.topic},
+                                                       {"sensor", frames.input.packets.sensor},
+                                                       {"metadata", frames.input.packets.metadata}};
+  std::string command = "pose_wall explain" + campaign::engine_words({frames.config_file, frames.settings});
+  if (frames.rate_hz != FrameOptions{}.rate_hz) command += fmt::format(" --rate {}", frames.rate_hz);
+  for (const auto& [name, text] : texts) {
+    if (!text.empty()) command += fmt::format(" --{} {}", name, campaign::shell_word(text));
   }
-  return picture::frame_picture({loaded.config.get(), &explained.traced->result, &points,
-                                 "pose_wall: why this frame came out as it did", subtitle});
+  for (const std::string& input : frames.inputs) command += " " + campaign::shell_word(input);
+  return command;
 }
 
-void explain_points(const LoadedConfig& loaded, const Memento& before, const pose_wall_cloud& cloud,
-                    const pose_wall_points& points, std::uint64_t frame, Explained* out) {
-  out->traced = trace_frame(loaded.config, before, cloud);
-  out->explanation = explain::explain_frame(*loaded.config.get(), out->traced->result, *out->traced->trace);
-  out->picture = picture_of(loaded, points, *out, frame);
-}
-
-// The frames before count: they left states and held values behind. Nothing: interrupted.
-std::optional<Explained> run_to_frame(const ExplainOptions& options, const LoadedConfig& loaded,
-                                      FrameSequence& inputs) {
-  FrameRunner runner(loaded.config, options.frames.rate_hz, loaded.motion);
+// Nothing: Ctrl-C.
+std::optional<explain::FoundFrame> found_frame(const ExplainOptions& options, FrameSequence& inputs) {
   const InterruptWatch watch;
-  ProgressBar bar(static_cast<std::size_t>(options.frame) + 1, !options.frames.quiet && is_terminal(2));
-  for (std::uint64_t i = 0; !InterruptWatch::is_interrupted(); ++i) {
-    std::optional<SourcedFrame> frame = inputs.next();
-    if (!frame) throw std::runtime_error(fmt::format("the input ended before frame {}", options.frame));
-    if (i == options.frame) {
-      const Memento before = memento_of(runner.engine());
-      Explained out;
-      out.outcome = runner.run(std::move(*frame), [&](const auto& cloud, const auto& points, const auto&) {
-        explain_points(loaded, before, cloud, points, options.frame, &out);
-      });
-      return out;
-    }
-    const FrameOutcome outcome = runner.run(std::move(*frame));
-    if (!outcome.result) bar.print_above(fmt::format("pose_wall explain: {}: {}", outcome.source, outcome.error));
-    bar.advance(outcome.source);
-  }
-  return std::nullopt;
+  ProgressBar bar(inputs.frames(), options.shows_progress());
+  return explain::find_frame(options.choice, inputs, options.frames.rate_hz, [&](const std::string& name) {
+    bar.advance(name);
+    return !InterruptWatch::is_interrupted();
+  });
 }
 
-void print_text(const ExplainOptions& options, const LoadedConfig& loaded, const Explained& explained) {
-  const pose_wall_result& result = explained.traced->result;
+std::string explanation_text(const LoadedConfig& loaded, const Explained& explained) {
   const explain::Notes notes(*explained.traced->trace);
-  fmt::print("{}: frame {}{}\n\n{}\nPlanes that were considered\n{}\nGates\n{}", explained.outcome.source,
-             options.frame,
-             options.frame > 0 ? fmt::format(", after the {} before it", counted(options.frame, "frame")) : "",
-             explain::sentences_text(explained.explanation), explain::planes_text(*loaded.config.get(), result, notes),
-             explain::gates_text(notes, wants_colours(1)));
-  if (notes.dropped() > 0) fmt::print("{} left out for lack of room.\n", counted(notes.dropped(), "note"));
+  const std::uint64_t frame = explained.outcome.frame;
+  std::string text = frame == 0 ? say("{}: frame {}", explained.outcome.source, frame)
+                                : say("{}: frame {}, measured after {} before it", explained.outcome.source, frame,
+                                      explain::frames_text(frame));
+  text += "\n\n" + explain::sentences_text(explained.explanation);
+  text += fmt::format("\n{}\n{}", tr("Planes that were considered"),
+                      explain::planes_text(*loaded.config.get(), explained.traced->result, notes));
+  text += fmt::format("\n{}\n{}", tr("Gates"), explain::gates_text(notes, wants_colours(1)));
+  if (notes.dropped() > 0) text += say("Notes left out for lack of room: {}.", notes.dropped()) + "\n";
+  return text;
 }
 
-// It is SVG whatever the file is called.
+// It is SVG whatever the name of the file.
 void expect_svg(const std::string& picture) {
   if (picture.empty() || std::filesystem::path(picture).extension() == ".svg") return;
   throw std::invalid_argument(
-      fmt::format("--picture {}: the picture is written as SVG; a file ending in .svg is allowed", picture));
+      say("--picture {}: the picture is written as SVG; a file ending in .svg is allowed", picture));
 }
 
-int explain_frame(const ExplainOptions& options) {
-  const LoadedConfig loaded = options.frames.load();
-  FrameSequence inputs = options.frames.open();
-  for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall explain: {}\n", error);
-  expect_frame(options.frame, inputs.frames());
-  std::optional<OutputFile> picture;
-  if (!options.picture.empty()) picture.emplace(options.picture, options.frames.files_read(inputs), "--picture");
-  expect_svg(options.picture);
-  const std::optional<Explained> explained = run_to_frame(options, loaded, inputs);
+int explain_one(const ExplainOptions& options, const LoadedConfig& loaded, FrameSequence& inputs, OutputFile* picture) {
+  const std::optional<explain::FoundFrame> found = found_frame(options, inputs);
+  if (!found) return kExitInterrupted;
+  const explain::RecordingRun run{loaded, options.frames.rate_hz, options.shows_progress()};
+  std::optional<FrameSequence> again;
+  if (found->read_frames) again.emplace(options.frames.open());
+  const std::optional<Explained> explained = explain::explain_one(run, again ? *again : inputs, found->frame);
   if (!explained) return kExitInterrupted;
   if (!explained->outcome.result) {
     fmt::print(stderr, "pose_wall explain: {}: {}\n", explained->outcome.source, explained->outcome.error);
     return kExitUnreadable;
   }
-  if (!same_bits(*explained->outcome.result, explained->traced->result)) {
-    throw std::runtime_error(
-        "the engine that takes notes gave another result: report this, its notes are worth nothing");
-  }
-  if (options.json) {
-    fmt::print("{}", explain::explanation_json(*loaded.config.get(), explained->outcome, *explained->traced,
-                                               explained->explanation));
-  } else {
-    print_text(options, loaded, *explained);
-  }
-  if (picture) picture->write(explained->picture);
+  if (!found->told.empty()) fmt::print(options.json ? stderr : stdout, "{}\n", found->told);
+  fmt::print("{}", options.json ? explain::explanation_json(*loaded.config.get(), explained->outcome,
+                                                            *explained->traced, explained->explanation)
+                                : explanation_text(loaded, *explained));
+  if (picture != nullptr) picture->write(explained->picture);
   return kExitDone;
+}
+
+void print_recording(const ExplainOptions& options, const LoadedConfig& loaded,
+                     const explain::ExplainedRecording& all) {
+  const Explained& worst = *all.worst;
+  const bool whole = explain::kind_of(options.choice) == ChoiceKind::kRecording;
+  const std::string command = command_of(options.frames);
+  if (options.json) {
+    Json page = explain::explanation_page(*loaded.config.get(), worst.outcome, *worst.traced, worst.explanation);
+    fmt::print("{}\n", json_text(whole ? Json{{"digest", explain::digest_json(all.digest, command)},
+                                              {"interrupted", all.interrupted},
+                                              {"worst_frame", page}}
+                                       : page,
+                                 2));
+    return;
+  }
+  if (whole) fmt::print("{}\n", explain::digest_text(all.digest, command));
+  fmt::print("{}\n\n{}",
+             say("The worst of {} is frame {}", explain::frames_text(all.digest.frames()), all.digest.worst()->frame),
+             explanation_text(loaded, worst));
+}
+
+int explain_all(const ExplainOptions& options, const LoadedConfig& loaded, FrameSequence& inputs, OutputFile* picture) {
+  if (inputs.frames() == 0) throw std::runtime_error(tr("no frame to explain"));
+  const explain::RecordingRun run{loaded, options.frames.rate_hz, options.shows_progress()};
+  const explain::ExplainedRecording all = explain::explain_all(run, inputs);
+  if (all.interrupted) {
+    fmt::print(stderr, "pose_wall explain: {}\n",
+               say("interrupted: the digest is of the first {}", explain::frames_text(all.digest.frames())));
+  }
+  if (!all.worst) {
+    if (!all.interrupted) fmt::print(stderr, "pose_wall explain: {}\n", tr("no frame could be read"));
+    return all.interrupted ? kExitInterrupted : kExitUnreadable;
+  }
+  print_recording(options, loaded, all);
+  if (picture != nullptr) picture->write(all.worst->picture);
+  if (all.interrupted) return kExitInterrupted;
+  return all.digest.unreadable() > 0 || !inputs.errors().empty() ? kExitUnreadable : kExitDone;
+}
+
+int explain_inputs(const ExplainOptions& options) {
+  const LoadedConfig loaded = options.frames.load();
+  FrameSequence inputs = options.frames.open();
+  for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall explain: {}\n", error);
+  std::optional<OutputFile> picture;
+  if (!options.picture.empty()) picture.emplace(options.picture, options.frames.files_read(inputs), "--picture");
+  expect_svg(options.picture);
+  const ChoiceKind kind = explain::kind_of(options.choice);
+  const bool all = kind == ChoiceKind::kRecording || kind == ChoiceKind::kWorst;
+  return (all ? explain_all : explain_one)(options, loaded, inputs, picture ? &*picture : nullptr);
+}
+
+void add_choice(CLI::App* verb, ExplainOptions* options) {
+  CLI::Option* frame =
+      verb->add_option("-n,--frame", options->choice.frame,
+                       tr("One frame: its number, counted from 0 as in the CSV of run; its name (000123.pcd, "
+                          "road.bag#12); or worst. Default: a digest of the whole recording and its worst frame"));
+  frame->type_name("FRAME");
+  verb->add_option(
+          "--stamp", options->choice.stamp,
+          tr("The frame of the nearest stamp: seconds, nanoseconds as in the CSV (16 to 19 digits), or +SECONDS "
+             "since the first frame"))
+      ->type_name("SECONDS")
+      ->check(explain::stamp_fault, "")
+      ->excludes(frame);
+}
+
+std::string footer() {
+  constexpr const char* kExamples[] = {
+      "  pose_wall explain -c road/pose_wall.yaml road/frames",
+      "  pose_wall explain --config road/pose_wall.yaml --frame 12 road/frames",
+      "  pose_wall explain -c road/pose_wall.yaml --frame 000012.pcd --picture why.svg road/frames",
+      "  pose_wall explain -c road/pose_wall.yaml --stamp +1.2 --set wall_length_min=1.5 road/frames",
+      "  pose_wall explain -c road/pose_wall.yaml -n 12 --json road/frames | jq '.gates[] | select(.passed | not)'",
+      "  pose_wall explain --gates | less"};
+  return fmt::format(
+      "{}\n{}\n\n{}", tr("Examples:"), fmt::join(kExamples, "\n"),
+      tr("Frames before the chosen one are measured too: held and smoothed values depend on them.\n"
+         "The frame is then computed twice, by the delivered engine and by one that takes notes.\n"
+         "Both give the same bits, or there is no explanation.\n"
+         "\n"
+         "Exit status: 0 done, 1 a frame could not be read or the picture not written, 2 bad usage or config,\n"
+         "130 interrupted by Ctrl-C."));
 }
 
 }  // namespace
 
 void add_explain(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ExplainOptions>();
-  CLI::App* verb = app.add_subcommand("explain", "Say why one frame came out as it did: gates, planes, sentences");
+  CLI::App* verb = app.add_subcommand(
+      "explain",
+      tr("Say why frames came out as they did: a digest of a recording, or one frame with gates and planes"));
   add_frame_options(verb, &options->frames);
-  verb->add_option("-n,--frame", options->frame, "Which frame, counted from 0 as in the CSV of run")
-      ->required()
-      ->check(whole_number());
-  verb->add_option("-p,--picture", options->picture, "SVG file for a picture of the frame");
-  verb->add_flag("-j,--json", options->json, "Everything as one JSON object instead");
+  add_choice(verb, options.get());
+  verb->add_option("-p,--picture", options->picture, tr("SVG file for a picture of the frame, or of the worst one"))
+      ->type_name("FILE");
+  verb->add_flag("-j,--json", options->json, tr("Everything as one JSON object instead"));
   // As --help it needs no frame.
   const auto print_gates = [] {
     fmt::print("{}", explain::gate_list_text());
     throw CLI::Success();
   };
-  verb->add_flag_callback("--gates", print_gates, "Print the list of all gates with their limits, and no frame")
+  verb->add_flag_callback("--gates", print_gates, tr("Print the list of all gates with their limits, and no frame"))
       ->trigger_on_parse();
-  verb->footer(
-      "Examples:\n"
-      "  pose_wall explain --config road/pose_wall.yaml --frame 12 road/frames\n"
-      "  pose_wall explain -c road/pose_wall.yaml -n 12 --picture why.svg --set wall_length_min=1.5 road/frames\n"
-      "  pose_wall explain -c road/pose_wall.yaml -n 12 --json road/frames | jq '.gates[] | select(.passed | not)'\n"
-      "  pose_wall explain --gates | less\n"
-      "The frames before it are measured as well: what is held and smoothed hangs on them. Then it is computed twice, "
-      "by\n"
-      "the engine that is delivered and by one that takes notes; both give the same bits, or there is no explanation.\n"
-      "Exit status: 0 done, 1 the frame could not be read or the picture not written, 2 bad usage or config,\n"
-      "130 interrupted by Ctrl-C.");
+  verb->footer(footer());
   verb->callback(
-      [options, &exit_code] { exit_code = done_or_complaint("explain", [&] { return explain_frame(*options); }); });
+      [options, &exit_code] { exit_code = done_or_complaint("explain", [&] { return explain_inputs(*options); }); });
 }
 
 }  // namespace pose_wall::tools

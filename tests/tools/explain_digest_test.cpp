@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the digest counts states, reasons and stretches as the frames have them and names the worst frame; its memory
+// is bounded; its commands explain the frames that they name; a frame is found by number, name or stamp, and a fault
+// names what is allowed. Does not prove: that the chosen frames are those that a person would choose.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bag_files.hpp"
+#include "crafted_value.hpp"
+#include "explain/digest.hpp"
+#include "explain/digest_text.hpp"
+#include "pose_wall.hpp"
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools::explain {
+namespace {
+
+using test::command;
+using test::contains;
+using test::crafted_value;
+using test::Ran;
+using test::TempFolder;
+using test::unmeasured_value;
+
+TEST(ThinnedRow, IsExactForShortRowsAndBoundedForLongOnes) {
+  ThinnedRow row;
+  EXPECT_TRUE(std::isnan(row.median()));
+  for (const double value : {3.0, 1.0, 2.0}) row.add(value);
+  EXPECT_EQ(row.median(), 2.0);
+  ThinnedRow long_row;
+  for (int i = 0; i < 1000000; ++i) long_row.add(static_cast<double>(i));
+  EXPECT_NEAR(long_row.median(), 5e5, 1e3);
+}
+
+// A frame as the engine would give it: all seven valid unless changed.
+pose_wall_result good_frame() {
+  pose_wall_result result = api::make_result();
+  for (pose_wall_value& value : result.quantity) {
+    value = crafted_value(POSE_WALL_VALID, 0.001, 0.001, {0.001, 0.002, 0.0, 0.0, 0.0, 0.0, 0.0});
+  }
+  return result;
+}
+
+pose_wall_result without_left_wall(std::uint32_t reason) {
+  pose_wall_result result = good_frame();
+  for (const std::uint32_t q : {POSE_WALL_D_LF, POSE_WALL_D_LB}) result.quantity[q] = unmeasured_value();
+  result.left.reasons = reason;
+  result.quantity[POSE_WALL_D_LF].reasons = reason;
+  return result;
+}
+
+void add(Digest* digest, const pose_wall_result& result) {
+  FrameOutcome outcome;
+  outcome.frame = digest->frames();
+  outcome.result = result;
+  digest->add(outcome);
+}
+
+TEST(Digest, CountsStatesReasonsAndStretches) {
+  const api::Config config;
+  Digest digest(*config.get());
+  EXPECT_FALSE(digest.worst());
+  add(&digest, good_frame());
+  EXPECT_TRUE(digest.is_new(without_left_wall(POSE_WALL_R_WALL_SHORT)));
+  for (int i = 0; i < 3; ++i) add(&digest, without_left_wall(POSE_WALL_R_WALL_SHORT));
+  EXPECT_FALSE(digest.is_new(without_left_wall(POSE_WALL_R_WALL_SHORT)));
+  digest.add(FrameOutcome{});  // could not be read
+  for (int i = 0; i < 2; ++i) add(&digest, without_left_wall(POSE_WALL_R_WALL_SEEN_THROUGH));
+
+  EXPECT_EQ(digest.frames(), 7U);
+  EXPECT_EQ(digest.unreadable(), 1U);
+  const QuantityDigest& left = digest.quantities()[POSE_WALL_D_LF];
+  EXPECT_EQ(left.states[POSE_WALL_INVALID], 5U);
+  EXPECT_EQ(left.states[POSE_WALL_VALID], 1U);
+  EXPECT_EQ(left.cause(), static_cast<std::uint32_t>(POSE_WALL_PART_RANGE_BIAS));
+  EXPECT_NEAR(left.levels.median(), 0.003, 1e-12);
+  std::string told;
+  for (const Stretch& s : digest.longest_stretches(10)) {
+    told += std::to_string(s.first) + "-" + std::to_string(s.last) + " " + story_words(s.story) + "\n";
+  }
+  EXPECT_EQ(told,
+            "0-0 all seven values valid\n1-3 left wall refused (wall_short)\n4-4 could not be read\n"
+            "5-6 left wall refused (wall_seen_through)\n");
+  EXPECT_EQ(digest.longest_stretches(1).at(0).first, 1U);
+  EXPECT_EQ(digest.stories().front().frames, 3U);
+  EXPECT_EQ(digest.stories().front().first, 1U);
+  const std::string text = digest_text(digest, "pose_wall explain road");
+  for (const char* part : {"7 frames; 1 of them could not be read", "wall_short", "1–3",
+                           "left wall refused (wall_short)", "pose_wall explain road --frame 1\n"}) {
+    EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
+  }
+}
+
+TEST(Digest, TheWorstHasTheLowestStatesAndThenTheLargestLevel) {
+  const api::Config config;
+  Digest digest(*config.get());
+  add(&digest, good_frame());
+  EXPECT_EQ(digest.worst()->frame, 0U);
+  pose_wall_result wide = good_frame();
+  wide.quantity[POSE_WALL_D_RF] = crafted_value(POSE_WALL_DEGRADED, 2.0, 2.0, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  EXPECT_TRUE(digest.is_worst(wide));
+  add(&digest, wide);
+  pose_wall_result wider = good_frame();
+  wider.quantity[POSE_WALL_D_RF] = crafted_value(POSE_WALL_DEGRADED, 2.0, 2.0, {3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  add(&digest, wider);
+  EXPECT_EQ(digest.worst()->frame, 2U);
+  add(&digest, without_left_wall(POSE_WALL_R_WALL_SHORT));
+  EXPECT_EQ(digest.worst()->frame, 3U);
+  EXPECT_EQ(digest.widest()->frame, 2U);
+  EXPECT_EQ(digest.widest()->widest, static_cast<std::uint32_t>(POSE_WALL_D_RF));
+  EXPECT_FALSE(digest.is_worst(wider)) << "the first of equals stays";
+  const std::vector<FrameToSee> frames = frames_to_see(digest);
+  EXPECT_EQ(frames.front().frame, 3U);
+  EXPECT_EQ(frames.front().why.size(), 2U) << "it is the first of its story, too";
+}
+
+TEST(Digest, StoriesAndStretchesAreBounded) {
+  const api::Config config;
+  Digest digest(*config.get());
+  for (std::uint32_t i = 0; i < 20000; ++i) add(&digest, without_left_wall(i % 5000 + 1));
+  for (int i = 0; i < 5; ++i) add(&digest, good_frame());
+  EXPECT_EQ(digest.stretch_count() > 1000U, true);
+  EXPECT_LE(digest.longest_stretches(100000).size(), 4001U);
+  EXPECT_LE(digest.stories().size(), 1001U);
+  EXPECT_GE(digest.longest_stretches(1).at(0).frames(), 5U);
+}
+
+// Six frames; of frames 3 and 4 the floor gives no return.
+struct MixedRoad {
+  MixedRoad() {
+    for (const char* scene : {"clean", "no_floor"}) {
+      EXPECT_EQ(command({"sim", "-q", "--scene", scene, "--sensor", "vlp16", "-n", "6", "-o", folder.file(scene)})
+                    .exit_status,
+                0);
+    }
+    for (const char* name : {"000003.pcd", "000004.pcd"}) {
+      std::filesystem::copy_file(folder.file(std::string("no_floor/frames/") + name), frames() + "/" + name,
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+  }
+  std::string frames() const { return folder.file("clean/frames"); }
+  std::string settings() const { return folder.file("clean/pose_wall.yaml"); }
+  Ran explain(const std::vector<std::string>& more) const {
+    std::vector<std::string> words = {"explain", "-q", "-c", settings(), frames()};
+    words.insert(words.end(), more.begin(), more.end());
+    return command(words);
+  }
+  nlohmann::json page(const std::vector<std::string>& more) const {
+    std::vector<std::string> words = more;
+    words.emplace_back("--json");
+    const Ran ran = explain(words);
+    EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+    return nlohmann::json::parse(ran.printed);
+  }
+
+  TempFolder folder;
+};
+
+TEST(ExplainDigest, NamesTheStretchWithoutFloorAndItsWorstFrame) {
+  const MixedRoad road;
+  const nlohmann::json page = road.page({});
+  const nlohmann::json& digest = page.at("digest");
+  EXPECT_EQ(digest.at("frames"), 6);
+  bool found = false;
+  for (const nlohmann::json& s : digest.at("stretches")) {
+    if (s.at("story").at("kind") != "floor_refused") continue;
+    found = true;
+    EXPECT_EQ(s.at("first"), 3);
+    EXPECT_EQ(s.at("last"), 4);
+  }
+  EXPECT_TRUE(found) << digest;
+  bool gates_named = false;
+  for (const nlohmann::json& reason : digest.at("reasons")) {
+    if (reason.at("reason") != "floor_not_found") continue;
+    EXPECT_EQ(reason.at("frames"), 2);
+    gates_named = !reason.at("gates").empty();
+  }
+  EXPECT_TRUE(gates_named) << digest;
+  const int worst = page.at("worst_frame").at("frame");
+  EXPECT_TRUE(worst == 3 || worst == 4) << worst;
+  EXPECT_EQ(road.page({"--frame", "worst"}), page.at("worst_frame"));
+  EXPECT_EQ(road.page({"--frame", std::to_string(worst)}), page.at("worst_frame"));
+}
+
+TEST(ExplainDigest, TextHasItsPartsAndTheCommandsOfTheFrames) {
+  const MixedRoad road;
+  const Ran ran = road.explain({"--set", "wall_length_min=1.5", "--picture", road.folder.file("worst.svg")});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  for (const char* part : {"6 frames\n", "median level", "gates behind it", "Stretches of frames alike", "3–4",
+                           "floor refused (floor_not_found)", "Frames worth a look", "The worst of 6 frames is frame ",
+                           "Planes that were considered"}) {
+    EXPECT_TRUE(contains(ran.printed, part)) << part << "\n" << ran.printed;
+  }
+  EXPECT_TRUE(contains(test::text_of(road.folder.file("worst.svg")), "floor refused"));
+  const std::string command_line =
+      "pose_wall explain --config " + road.settings() + " --set wall_length_min=1.5 " + road.frames() + " --frame ";
+  EXPECT_TRUE(contains(ran.printed, command_line)) << ran.printed;
+}
+
+TEST(ExplainDigest, UnreadableFramesAreCountedAndNothingReadableIsAFault) {
+  const MixedRoad road;
+  road.folder.write("clean/frames/000001.pcd", "no cloud");
+  const Ran ran = road.explain({});
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.printed, "6 frames; 1 of them could not be read")) << ran.printed;
+  EXPECT_TRUE(contains(ran.errors, "000001.pcd")) << ran.errors;
+  const Ran none = command({"explain", "-q", road.folder.file("clean/frames/000001.pcd")});
+  EXPECT_EQ(none.exit_status, 1);
+  EXPECT_TRUE(contains(none.errors, "no frame could be read")) << none.errors;
+}
+
+TEST(FrameChoice, AFrameIsFoundByNameOrStamp) {
+  const MixedRoad road;
+  const nlohmann::json page = road.page({"--frame", "4"});
+  EXPECT_EQ(road.page({"--frame", "000004.pcd"}), page);
+  EXPECT_EQ(road.page({"--frame", "frames/000004.pcd"}), page);
+  EXPECT_EQ(road.page({"--stamp", "+0.4"}), page);
+  EXPECT_EQ(road.page({"--stamp", "0.43"}), page);
+  EXPECT_EQ(road.page({"--stamp", "0000000400000001"}), page) << "nanoseconds, as in the CSV";
+  const Ran stamp = road.explain({"--stamp", "0.43"});
+  EXPECT_TRUE(contains(stamp.printed, "The nearest stamp is 0.400 s, -0.030 s off: frame 4")) << stamp.printed;
+  EXPECT_TRUE(contains(road.explain({"--frame", "000004.pcd"}).printed, "000004.pcd is frame 4."));
+}
+
+// Clouds of two points: no frame has enough, and all are alike.
+TEST(FrameChoice, FramesOfABagHaveNamesAndStampsToo) {
+  const TempFolder folder;
+  std::vector<test::WrittenMessage> messages;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    test::CloudMessage cloud;
+    cloud.nsec = 100000000 * i;
+    messages.push_back({0, test::ros1_message(cloud)});
+  }
+  const std::string bag = folder.write("road.bag", test::ros1_bag({{"/lidar", "sensor_msgs/PointCloud2"}}, messages));
+  const auto frame_of = [&](const std::vector<std::string>& choice) {
+    std::vector<std::string> words = {"explain", "-q", "--json", bag};
+    words.insert(words.end(), choice.begin(), choice.end());
+    const Ran ran = command(words);
+    EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+    return nlohmann::json::parse(ran.printed);
+  };
+  EXPECT_EQ(frame_of({"--frame", "road.bag#1"}).at("frame"), 1);
+  EXPECT_EQ(frame_of({"--stamp", "1700000000.19"}).at("frame"), 2);
+  EXPECT_EQ(frame_of({"--stamp", "1700000000100000000"}).at("frame"), 1);
+  EXPECT_EQ(frame_of({}).at("digest").at("stories").at(0).at("story").at("kind"), "frame_refused");
+  const Ran unknown = command({"explain", "-q", bag, "--frame", "road.bag#7"});
+  EXPECT_EQ(unknown.exit_status, 2);
+  EXPECT_TRUE(contains(unknown.errors, "(road.bag#0 to road.bag#2)")) << unknown.errors;
+}
+
+TEST(FrameChoice, FaultsNameWhatIsAllowed) {
+  const MixedRoad road;
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"--frame", "6"}, "there are 6 frames, 0 to 5"},
+      {{"--frame", "-1"}, "allowed: a number from 0 to 5"},
+      {{"--frame", "000009.pcd"}, "the name of a frame (000000.pcd to 000005.pcd), worst"},
+      {{"--frame", "00003.pcd"}, "did you mean '000003.pcd'"},
+      {{"--frame", "000003.pcd", road.folder.file("no_floor/frames")}, "2 frames have this name"},
+      {{"--stamp", "1700000000.5"}, "run from 0.000 s to 0.500 s"},
+      {{"--stamp", "noon"}, "'noon' is no stamp; allowed: seconds"},
+      {{"--stamp", "1", "--frame", "1"}, "--stamp excludes --frame"},
+  };
+  for (const auto& [words, part] : cases) {
+    const Ran ran = road.explain(words);
+    EXPECT_EQ(ran.exit_status, 2) << part;
+    EXPECT_TRUE(contains(ran.errors, part)) << part << " | " << ran.errors;
+  }
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::explain

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Texts of the engine's table of gates, marked for the catalogues. A test finds one that lacks its Chinese.
+
+#pragma once
+
+#include "language/language.hpp"
+
+namespace pose_wall::tools::explain {
+
+// What a gate measures, as in src/gates/gates.def.
+inline constexpr const char* kGateMeasures[] = {
+    translatable("edge of the voxels; voxel_leaf, where points_max has room for them, and had in the last frames"),
+    translatable("its voxels fit, with the leaf as large as it may be"),
+    translatable("voxels left after the filters"),
+    translatable("voxels with nothing standing on them or hanging under them"),
+    translatable("planes that may be the floor"),
+    translatable("its points spread far enough for a fit"),
+    translatable("tilt by its bend; a fifth of the alert limit is let pass"),
+    translatable("another plane's open area, of the chosen one's"),
+    translatable("another plane's open area, of the chosen one's, which lies steeper than 10 degrees"),
+    translatable("open area of a plane that lies otherwise, of the small chosen one's"),
+    translatable("tilt of the floor against base"),
+    translatable("height of the sensor above the floor"),
+    translatable("the fit stayed on the surface that it began with"),
+    translatable("measured points on the floor"),
+    translatable("open floor that is seen"),
+    translatable("spread of the open floor across its longer side"),
+    translatable("how far other ground lies otherwise, on which the machine may stand"),
+    translatable("tilt that the lean of both walls speaks of"),
+    translatable("there is a floor to level by"),
+    translatable("planes on this side"),
+    translatable("measured points on the plane"),
+    translatable("supported along the road"),
+    translatable("share of the plane that is seen through"),
+    translatable("lean from the vertical"),
+    translatable("|n_left . n_right| of the best planes of both sides"),
+    translatable("both lengths together"),
+    translatable("no stronger plane runs apart from the pair"),
+    translatable("what the pair shows, of one wall alone"),
+    translatable("supported along the road, without a parallel wall on the other side"),
+    translatable("solid part of its span, without a parallel wall on the other side"),
+    translatable("the longest walls of both sides make a pair"),
+    translatable("a plane of this side may be the wall"),
+    translatable("what a pair of planes across the machine shows, of what the sides show; where none was looked for, "
+                 "or none behind, what one could show at most"),
+    translatable("what one plane across the machine shows, of the one side"),
+    translatable("part of all points of the wall band that lies on the chosen walls"),
+    translatable("what another plane of this side shows, of the chosen one"),
+    translatable("what a parallel plane behind it shows, of the chosen one"),
+    translatable("what a parallel plane that goes on past its ends shows, of the chosen one"),
+    translatable("what a parallel plane before it that nothing passes shows, of the chosen one"),
+    translatable("turn by its bend; a fifth of the alert limit is let pass"),
+    translatable("its bend at a sampling point; a fifth of the alert limit is let pass"),
+    translatable("by which the wall lies off its plane at the sampling point's height"),
+    translatable("from the sampling point to the nearest part that is seen"),
+    translatable("around the sampling point in which nothing is seen of the wall"),
+    translatable("the sampling point lies before the wall"),
+    translatable("how far the wall may step out or back at the sampling point"),
+    translatable("along the road from the machine to where the wall is first seen"),
+    translatable("measured points on the fitted wall"),
+    translatable("the fit stayed on the surface that it began with, and that is a wall"),
+    translatable("turn of the wall against the machine"),
+    translatable("so much of it answers that a gap would be noticed"),
+    translatable("it is seen high enough to be told from a conveyor"),
+    translatable("near the sensor, share of it that is silent or seen through"),
+    translatable("no grooves along its length, as between pipes"),
+    translatable("near the sensor, share of it from where nothing comes back"),
+    translatable("share of its columns over whose top something behind it is seen, or nothing"),
+    translatable("the sensor does not look past both of its ends"),
+    translatable("the sensor does not look over its top"),
+    translatable("no other surface shows itself behind it, equally far behind over a wall's length"),
+    translatable("supported along the road, now that the other side is refused"),
+    translatable("turn against it of what is seen on the other side, where nothing was accepted"),
+    translatable("turn against the other wall, of one too short to stand alone"),
+    translatable("returns of this side nearer than range_min"),
+    translatable("the stamp is a millisecond or more away from the last frame's"),
+    translatable("time since the last frame"),
+    translatable("the frame's inputs are sound, and nothing that was measured speaks against them"),
+    translatable("repeats of the very same points under new stamps"),
+    translatable("protection level of this frame's own measurement"),
+    translatable("turn of the smoothed yaw since the last frame"),
+    translatable("jump from the last good value; as far as the machine can move and both may err"),
+    translatable("for how many frames more a rival wall that was seen stays in the level"),
+    translatable("how often it has to come again: frames before it were refused, and none was good yet"),
+    translatable("protection level of the smoothed value"),
+    translatable("it was measured before, so that there is something to hold"),
+    translatable("protection level of the held value, which grows"),
+    translatable("age of the held value"),
+    translatable("what is held had not expired before, by time or by a stamp that jumped or stood still"),
+    translatable("steps that the frame had taken when more were needed")};
+
+// Parts of what stands before the colon of a limit's origin.
+inline constexpr const char* kOriginParts[] = {translatable("key"),
+                                               translatable("definition"),
+                                               translatable("judgement"),
+                                               translatable("a fifth of it"),
+                                               translatable("all nominal scenes"),
+                                               translatable("recorded corridor"),
+                                               translatable("after a review"),
+                                               translatable("and what both may err by"),
+                                               translatable("scenes ghosts"),
+                                               translatable("humps and wet floors")};
+
+}  // namespace pose_wall::tools::explain
