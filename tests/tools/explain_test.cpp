@@ -100,7 +100,8 @@ TEST(Sentences, OfManyRivalsTheStrongestIsToldOnce) {
 }
 
 TEST(Sentences, WhatTwoGatesAskForIsToldOnce) {
-  const Explanation explanation{{{POSE_WALL_TRACE_FLOOR, Verdict::kRefused, {"No."}, {"a; b c", "d; b c", "a"}}}, {}};
+  const Explanation explanation{
+      {{POSE_WALL_TRACE_FLOOR, Verdict::kRefused, {"No."}, {"a; b c", "d; b c", "a"}}}, {}, {}};
   EXPECT_TRUE(contains(sentences_text(explanation), "To look at: a; b c; d.\n")) << sentences_text(explanation);
 }
 

@@ -20,9 +20,8 @@
 namespace pose_wall::tools::explain {
 namespace {
 
-// Bounds of memory and time: about 1.8 hours at 10 Hz have exact medians; the others are far above what a page shows.
+// Bounds of memory: 1.8 hours at 10 Hz have exact medians, and a page shows a small part of the stretches.
 constexpr std::size_t kLevelsKept = 65536;
-constexpr std::size_t kStoriesMax = 1000;
 constexpr std::size_t kStretchesKept = 2000;
 // Tracing a frame takes as long as measuring it.
 constexpr std::size_t kTracedMax = 40;
@@ -105,15 +104,19 @@ Badness Digest::badness_of(const pose_wall_result& result) const {
 }
 
 bool Digest::is_new(const pose_wall_result& result) const {
-  return traced_ < kTracedMax && stories_.find(story_of(result)) == stories_.end();
+  if (traced_ >= kTracedMax) return false;
+  const Story story = story_of(result);
+  const bool has_new_reason = (all_reasons(result) & ~traced_reasons_) != 0;
+  return has_new_reason || stories_.find({story.kind, story.subjects}) == stories_.end();
 }
 
 bool Digest::is_worst(const pose_wall_result& result) const {
   return !worst_ || badness_of(result).is_worse_than(*worst_);
 }
 
-void Digest::add_notes(const pose_wall_trace& trace) {
+void Digest::add_notes(const pose_wall_result& result, const pose_wall_trace& trace) {
   ++traced_;
+  traced_reasons_ |= all_reasons(result);
   for (const Note& note : Notes(trace).all()) {
     if (note.passed()) continue;
     for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -125,16 +128,17 @@ void Digest::add_notes(const pose_wall_trace& trace) {
   }
 }
 
-void Digest::add_story(const Story& given) {
-  const bool is_full = stories_.size() >= kStoriesMax && stories_.find(given) == stories_.end();
-  const Story story = is_full ? Story{} : given;
-  StoryDigest& known = stories_[story];
+void Digest::add_story(const Story& story) {
+  StoryDigest& known = stories_[{story.kind, story.subjects}];
   if (known.frames++ == 0) {
     known.story = story;
     known.first = frames_;
   }
-  if (!stretches_.empty() && stretches_.back().story == story && stretches_.back().last + 1 == frames_) {
-    stretches_.back().last = frames_;
+  known.story.merge(story);
+  Stretch* const last = stretches_.empty() ? nullptr : &stretches_.back();
+  if (last != nullptr && last->last + 1 == frames_ && last->story.shares_reasons(story)) {
+    last->last = frames_;
+    last->story.merge(story);
     return;
   }
   if (stretches_.size() >= 2 * kStretchesKept) keep_longest(&stretches_, kStretchesKept);
@@ -145,9 +149,7 @@ void Digest::add_story(const Story& given) {
 void Digest::add(const FrameOutcome& outcome) {
   if (!outcome.result) {
     ++unreadable_;
-    Story story;
-    story.kind = StoryKind::kUnreadable;
-    add_story(story);
+    add_story(Story{});
     ++frames_;
     return;
   }
@@ -170,7 +172,7 @@ void Digest::add(const FrameOutcome& outcome) {
 
 std::vector<StoryDigest> Digest::stories() const {
   std::vector<StoryDigest> all;
-  for (const auto& [story, known] : stories_) all.push_back(known);
+  for (const auto& [key, known] : stories_) all.push_back(known);
   std::stable_sort(all.begin(), all.end(), [](const StoryDigest& a, const StoryDigest& b) {
     return a.frames != b.frames ? a.frames > b.frames : a.first < b.first;
   });

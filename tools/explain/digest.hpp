@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "explain/story.hpp"
@@ -46,12 +47,14 @@ struct ReasonDigest {
   std::vector<std::uint32_t> gates;  // that failed with it in the frames that were traced, in the order of the pipeline
 };
 
+// Frames alike, wherever they stand.
 struct StoryDigest {
   Story story;
   std::size_t frames = 0;
   std::uint64_t first = 0;
 };
 
+// Frames alike in a row, with a reason in common.
 struct Stretch {
   std::uint64_t first, last;
   Story story;
@@ -71,12 +74,12 @@ class Digest {
  public:
   explicit Digest(const pose_wall_config& config);
 
-  // Whether a look at the notes is worth its time before the frame is added: it is the first of its story, or the worst
-  // so far. Few frames are.
+  // Before a frame is added: whether its notes are worth their time, since it is the first of its story or with one of
+  // its reasons, and whether it is the worst so far. Few frames are.
   bool is_new(const pose_wall_result& result) const;
   bool is_worst(const pose_wall_result& result) const;
-  // Its gates stand beside the reasons then.
-  void add_notes(const pose_wall_trace& trace);
+  // Of such a frame: its gates will stand beside the reasons.
+  void add_notes(const pose_wall_result& result, const pose_wall_trace& trace);
 
   // Frames in their order.
   void add(const FrameOutcome& outcome);
@@ -101,7 +104,8 @@ class Digest {
   std::size_t frames_ = 0, unreadable_ = 0, traced_ = 0, stretch_count_ = 0;
   std::array<QuantityDigest, POSE_WALL_QUANTITIES> quantities_;
   std::array<ReasonDigest, POSE_WALL_REASON_COUNT> reasons_;
-  std::map<Story, StoryDigest> stories_;
+  std::map<std::pair<StoryKind, std::uint32_t>, StoryDigest> stories_;  // by kind and subjects: some dozens at most
+  std::uint32_t traced_reasons_ = 0;
   std::vector<Stretch> stretches_;
   std::optional<Badness> worst_, widest_;
 };

@@ -89,7 +89,7 @@ ExplainedRecording explain_all(const RecordingRun& run, FrameSequence& inputs) {
           const bool is_worst = all.digest.is_worst(result);
           if (!is_worst && !all.digest.is_new(result)) return;
           TracedFrame traced = trace_frame(run.loaded.config, before, cloud);
-          all.digest.add_notes(*traced.trace);
+          all.digest.add_notes(result, *traced.trace);
           if (is_worst) worst = explained_of(run, std::move(traced), points, i);
         });
     tell_unreadable(bar, outcome);

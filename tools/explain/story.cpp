@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <vector>
 
 #include "explain/amounts.hpp"
@@ -46,7 +45,7 @@ std::uint32_t reasons_of_values(const pose_wall_result& r) {
   return reasons & ~kAside;
 }
 
-std::string reason_text(std::uint32_t reasons) {
+std::string names_of(std::uint32_t reasons) {
   std::vector<std::string> names;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
     if ((reasons >> bit & 1U) != 0) names.emplace_back(pose_wall_reason_name(bit));
@@ -54,63 +53,87 @@ std::string reason_text(std::uint32_t reasons) {
   return listed(names);
 }
 
-std::string refused_words(std::uint32_t subject, std::uint32_t reasons) {
-  const std::string words = subject_words(subject);
-  return reasons == 0 ? say("{} refused", words) : say("{} refused ({})", words, reason_text(reasons));
+std::string reasons_text(const Story& story, std::uint32_t subject) {
+  const std::string always = names_of(story.always[subject]), sometimes = names_of(story.sometimes[subject]);
+  if (sometimes.empty()) return always;
+  return always.empty() ? say("at times {}", sometimes) : say("{}; at times {}", always, sometimes);
 }
 
-std::string walls_words(const Story& story) {
-  const bool both = (story.refused >> kLeft & 1U) != 0 && (story.refused >> kRight & 1U) != 0;
-  if (both && story.reasons[kLeft] == story.reasons[kRight]) {
-    return refused_words(POSE_WALL_TRACE_WALLS, story.reasons[kLeft]);
+// subject may be both walls; whose reasons stand for it then is `of`.
+std::string refused_words(const Story& story, std::uint32_t subject, std::uint32_t of) {
+  const std::string words = subject_words(subject), reasons = reasons_text(story, of);
+  return reasons.empty() ? say("{} refused", words) : say("{} refused ({})", words, reasons);
+}
+
+bool has(const Story& story, std::uint32_t subject) {
+  return (story.subjects >> subject & 1U) != 0;
+}
+
+std::string refusals_words(const Story& story) {
+  const bool both_alike = has(story, kLeft) && has(story, kRight) && story.always[kLeft] == story.always[kRight] &&
+                          story.sometimes[kLeft] == story.sometimes[kRight];
+  if (both_alike) return refused_words(story, POSE_WALL_TRACE_WALLS, kLeft);
+  std::vector<std::string> refused;
+  for (std::uint32_t subject = 0; subject < story.always.size(); ++subject) {
+    if (has(story, subject)) refused.push_back(refused_words(story, subject, subject));
   }
-  std::vector<std::string> sides;
-  for (const std::uint32_t side : {kLeft, kRight}) {
-    if ((story.refused >> side & 1U) != 0) sides.push_back(refused_words(side, story.reasons[side]));
-  }
-  return clauses(sides);
+  return clauses(refused);
 }
 
 std::string doubts_words(const Story& story) {
   std::vector<std::string> doubts;
-  for (std::uint32_t subject = 0; subject < story.reasons.size(); ++subject) {
-    if (story.reasons[subject] == 0) continue;
-    doubts.push_back(say("{} doubted ({})", subject_words(subject), reason_text(story.reasons[subject])));
+  for (std::uint32_t subject = 0; subject < story.always.size(); ++subject) {
+    if (has(story, subject))
+      doubts.push_back(say("{} doubted ({})", subject_words(subject), reasons_text(story, subject)));
   }
   return clauses(doubts);
 }
 
 }  // namespace
 
-bool Story::operator<(const Story& other) const {
-  return std::tie(kind, refused, reasons) < std::tie(other.kind, other.refused, other.reasons);
+bool Story::shares_reasons(const Story& other) const {
+  if (!is_alike(other)) return false;
+  for (std::size_t i = 0; i < always.size(); ++i) {
+    const bool without = always[i] == 0 && other.always[i] == 0;
+    if (!without && (always[i] & other.always[i]) == 0) return false;
+  }
+  return true;
+}
+
+void Story::merge(const Story& other) {
+  for (std::size_t i = 0; i < always.size(); ++i) {
+    const std::uint32_t any = always[i] | sometimes[i] | other.always[i] | other.sometimes[i];
+    always[i] &= other.always[i];
+    sometimes[i] = any & ~always[i];
+  }
 }
 
 Story story_of(const pose_wall_result& r) {
   Story story;
   const std::array<std::uint32_t, 4> reasons = {r.frame_reasons & kOfFrame, r.floor.reasons, r.left.reasons,
                                                 r.right.reasons};
+  std::uint32_t refused = 0, doubted = 0;
   for (const std::uint32_t subject : {kFloor, kLeft, kRight}) {
-    if (is_refused(r, subject)) story.refused |= 1U << subject;
+    if (is_refused(r, subject)) refused |= 1U << subject;
+    if (reasons[subject] != 0) doubted |= 1U << subject;
   }
   if (all_valid(r)) {
     story.kind = StoryKind::kValid;
-  } else if ((story.refused >> kFloor & 1U) != 0) {
+  } else if ((refused >> kFloor & 1U) != 0) {
     story.kind = reasons[0] != 0 ? StoryKind::kFrameRefused : StoryKind::kFloorRefused;
-    story.refused = 1U << (reasons[0] != 0 ? std::uint32_t{POSE_WALL_TRACE_FRAME} : kFloor);
-    const std::size_t of = reasons[0] != 0 ? 0 : kFloor;
-    story.reasons[of] = reasons[of];
-  } else if (story.refused != 0) {
+    story.subjects = 1U << (reasons[0] != 0 ? std::uint32_t{POSE_WALL_TRACE_FRAME} : kFloor);
+  } else if (refused != 0) {
     story.kind = StoryKind::kWallsRefused;
-    for (const std::uint32_t side : {kLeft, kRight}) {
-      if ((story.refused >> side & 1U) != 0) story.reasons[side] = reasons[side];
-    }
-  } else if ((reasons[1] | reasons[2] | reasons[3]) != 0) {
+    story.subjects = refused;
+  } else if (doubted != 0) {
     story.kind = StoryKind::kDoubted;
-    story.reasons = {0, reasons[1], reasons[2], reasons[3]};
+    story.subjects = doubted;
   } else {
     story.kind = StoryKind::kNotValid;
-    story.reasons[0] = reasons_of_values(r);
+    story.always[0] = reasons_of_values(r);
+  }
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    if ((story.subjects >> i & 1U) != 0) story.always[i] = reasons[i];
   }
   return story;
 }
@@ -119,20 +142,14 @@ std::string story_words(const Story& story) {
   switch (story.kind) {
     case StoryKind::kUnreadable:
       return tr("could not be read");
-    case StoryKind::kFrameRefused:
-      return refused_words(POSE_WALL_TRACE_FRAME, story.reasons[0]);
-    case StoryKind::kFloorRefused:
-      return refused_words(kFloor, story.reasons[kFloor]);
-    case StoryKind::kWallsRefused:
-      return walls_words(story);
     case StoryKind::kDoubted:
       return doubts_words(story);
     case StoryKind::kNotValid:
-      return say("planes accepted, some values not valid ({})", reason_text(story.reasons[0]));
+      return say("planes accepted, some values not valid ({})", reasons_text(story, 0));
     case StoryKind::kValid:
       return tr("all seven values valid");
     default:
-      return tr("other, each of few frames");
+      return refusals_words(story);
   }
 }
 
@@ -150,10 +167,8 @@ const char* story_name(StoryKind kind) {
       return "doubted";
     case StoryKind::kNotValid:
       return "not_valid";
-    case StoryKind::kValid:
-      return "valid";
     default:
-      return "other";
+      return "valid";
   }
 }
 

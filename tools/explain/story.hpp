@@ -20,22 +20,25 @@ enum class StoryKind : std::uint32_t {
   kWallsRefused,  // one or both
   kDoubted,       // every plane was measured, some with doubts
   kNotValid,      // no plane is doubted, but some value is not valid
-  kValid,         // all seven values
-  kOther          // stands for the rest where there are too many stories
+  kValid          // all seven values
 };
 
 struct Story {
-  StoryKind kind = StoryKind::kOther;
-  std::uint32_t refused = 0;               // bits 1 << subject (pose_wall_trace_subject)
-  std::array<std::uint32_t, 4> reasons{};  // of frame, floor, left, right; of kNotValid the first: those of the values
+  StoryKind kind = StoryKind::kUnreadable;
+  std::uint32_t subjects = 0;             // that are refused or doubted; bits 1 << subject (pose_wall_trace_subject)
+  std::array<std::uint32_t, 4> always{};  // reasons of frame, floor, left, right; of kNotValid the first: the values'
+  std::array<std::uint32_t, 4> sometimes{};  // of several frames: reasons that some of them have
 
-  bool operator<(const Story& other) const;
-  bool operator==(const Story& other) const { return !(*this < other) && !(other < *this); }
+  // The same planes are refused or doubted.
+  bool is_alike(const Story& other) const { return kind == other.kind && subjects == other.subjects; }
+  // Alike, with a reason in common for each plane.
+  bool shares_reasons(const Story& other) const;
+  void merge(const Story& other);
 };
 
 Story story_of(const pose_wall_result& result);
 
-// "left wall refused (wall_seen_through)".
+// "left wall refused (wall_not_found; at times wall_short)".
 std::string story_words(const Story& story);
 
 // For programs: "walls_refused".
