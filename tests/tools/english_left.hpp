@@ -21,7 +21,7 @@ inline std::string english_in(const std::string& text) {
   return std::regex_search(words, found, kEnglish) ? found.str() : "";
 }
 
-// What a reader sees of a picture, one text a line.
+// The words of a picture, one text a line.
 inline std::string words_of_svg(const std::string& svg) {
   static const std::regex kText(R"(<text[^>]*>([^<]*)</text>)");
   std::string words;

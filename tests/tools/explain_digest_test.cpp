@@ -207,6 +207,15 @@ TEST(ExplainDigest, NamesTheStretchWithoutFloorAndItsWorstFrame) {
   EXPECT_TRUE(gates_named) << digest;
   const int worst = page.at("worst_frame").at("frame");
   EXPECT_TRUE(worst == 3 || worst == 4) << worst;
+  for (const nlohmann::json& to_see : digest.at("frames_to_look_at")) {
+    std::istringstream command_line(to_see.at("command").get<std::string>());
+    std::vector<std::string> words;
+    for (std::string word; command_line >> word;) words.push_back(word);
+    ASSERT_EQ(words.at(0), "pose_wall");
+    words.erase(words.begin());
+    words.insert(words.end(), {"-q", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(command(words).printed).at("frame"), to_see.at("frame")) << to_see;
+  }
   EXPECT_EQ(road.page({"--frame", "worst"}), page.at("worst_frame"));
   EXPECT_EQ(road.page({"--frame", std::to_string(worst)}), page.at("worst_frame"));
 }

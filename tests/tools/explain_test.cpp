@@ -32,7 +32,7 @@ using test::contains;
 using test::Ran;
 using test::TempFolder;
 
-// A frame without floor, with what is noted beside.
+// A frame without floor, with notes.
 struct Noted {
   api::Config config;
   pose_wall_result result = api::make_result();
@@ -205,7 +205,7 @@ TEST(PlanesTable, APlaneOutOfRangeIsToldAgainstWhatItShouldRunAlong) {
   }
 }
 
-// A frame that is refused, and why: by the scene, which is the truth, not by the engine.
+// A refused frame with its cause, as the scene has it.
 struct Refused {
   const char* name;
   std::vector<std::string> scene;     // words behind `sim`

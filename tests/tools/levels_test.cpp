@@ -129,11 +129,10 @@ TEST(OutcomeSentence, TellsTheRawsOwnLevelWhereItDiffers) {
 
 TEST(OutcomeSentence, NamesTheLagWhereItIsTheLargestPart) {
   const Parts parts = degrees_of({0.1, 0.1, 0.1, 0.1, 0.1, 0.12, 0.0});
-  EXPECT_EQ(
-      said_of(crafted_value(POSE_WALL_VALID, 0.0, 0.12 * kRadPerDeg, parts), POSE_WALL_YAW),
-      "yaw: valid, 0.00° ± 0.62°. Its level: 0.62° = 0.12° lag + 0.10° random + 0.10° range bias + 0.10° bend + "
-      "0.10° rival + 0.10° extrapolation. This frame alone measured 0.12° ± 0.50°: the value follows earlier "
-      "frames (temporal_smoothing_tau, yaw_rate_limit_deg).");
+  EXPECT_EQ(said_of(crafted_value(POSE_WALL_VALID, 0.0, 0.12 * kRadPerDeg, parts), POSE_WALL_YAW),
+            "yaw: valid, 0.00° ± 0.62°. Its level: 0.62° = 0.12° lag + 0.10° random + 0.10° range bias + 0.10° bend + "
+            "0.10° rival + 0.10° extrapolation. This frame alone measured 0.12° ± 0.50°: the value follows earlier "
+            "frames (temporal_smoothing_tau, yaw_rate_limit_deg).");
 }
 
 TEST(OutcomeSentence, OfWhatWasNeverMeasuredThereIsNoLevel) {

@@ -16,14 +16,14 @@ std::string metres(double value_m);
 std::string degrees(double value_rad);
 std::string per_cent(double share);
 
-// What a quantity is measured in.
+// In degrees or metres, as the quantity has it.
 std::string quantity_amount(std::uint32_t quantity, double value);
 
 // The note's value and limit, in its unit.
 std::string value_text(const Note& note);
 std::string limit_text(const Note& note);
 
-// The config's key of the limit, "" where it is a constant; of two the one that the note's subject is held to.
+// The config's key of the limit, "" where the limit is a constant. Of two keys the one for the note's subject.
 std::string key_of(const Note& note);
 
 // "frame", "floor", "left wall", "both walls", "d_lf": for programs, in every language.

@@ -15,7 +15,7 @@ namespace pose_wall::tools::explain {
 namespace {
 
 constexpr std::size_t kToldMax = 3;
-// What shows less than this of the strongest is only counted.
+// A plane with a smaller share of the strongest one's score is only counted.
 constexpr double kToldShare = 0.2;
 
 double number(const pose_wall_config& config, const char* key) {
@@ -121,7 +121,7 @@ bool is_itself(const pose_wall_trace_candidate& a, const pose_wall_trace_candida
   return std::equal(a.normal, a.normal + 3, b.normal) && !(a.d_m < b.d_m) && !(b.d_m < a.d_m);
 }
 
-// What is ahead may be weighed twice, and one surface that comes to nothing is drawn again and again.
+// The planes ahead may be weighed twice, and a rejected surface may be drawn many times.
 bool is_told_already(const pose_wall_trace_candidate& c, const std::vector<PlaneWords>& told) {
   constexpr double kSame_m = 0.1, kSameCosine = 0.9986;  // 3 degrees
   const auto is_same = [&](const PlaneWords& t) {

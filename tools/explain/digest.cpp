@@ -33,7 +33,7 @@ double alert_limit(const pose_wall_config& config, std::uint32_t quantity) {
   return is_angle(quantity) ? limit * kRadPerDeg : limit;
 }
 
-// Above it a level stands for none, in rad or m.
+// A level above it means that there is no bound, in rad or m.
 bool is_level(double level) {
   constexpr double kMost = 1e6;
   return std::isfinite(level) && level < kMost;

@@ -22,7 +22,7 @@
 
 namespace pose_wall::tools::explain {
 
-// A row of numbers for a median: all of them, or of long rows every 2nd, 4th, ... so that 65,536 at most are kept.
+// Numbers for a median. Of long rows every 2nd, 4th, ... is kept, so that at most 65,536 are stored.
 class ThinnedRow {
  public:
   void add(double value);
@@ -74,11 +74,11 @@ class Digest {
  public:
   explicit Digest(const pose_wall_config& config);
 
-  // Before a frame is added: whether its notes are worth their time, since it is the first of its story or with one of
-  // its reasons, and whether it is the worst so far. Few frames are.
+  // Both before the frame is added. is_new: it is the first of its story or has a reason without notes so far, so that
+  // its notes are worth their time. is_worst: it is worse than all before. Few frames are either.
   bool is_new(const pose_wall_result& result) const;
   bool is_worst(const pose_wall_result& result) const;
-  // Of such a frame: its gates will stand beside the reasons.
+  // Notes of such a frame: its gates will stand beside the reasons.
   void add_notes(const pose_wall_result& result, const pose_wall_trace& trace);
 
   // Frames in their order.

@@ -41,7 +41,7 @@ Explained explained_of(const RecordingRun& run, TracedFrame traced, const pose_w
 void expect_same_bits(const Explained& explained) {
   if (!explained.outcome.result || same_bits(*explained.outcome.result, explained.traced->result)) return;
   throw std::runtime_error(
-      tr("the engine that takes notes gave another result: report this, its notes are worth nothing"));
+      tr("the engine that takes notes gave another result; please report this, for its notes are worthless"));
 }
 
 void tell_unreadable(ProgressBar& bar, const FrameOutcome& outcome) {

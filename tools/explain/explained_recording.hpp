@@ -30,8 +30,8 @@ struct RecordingRun {
   bool shows_progress;
 };
 
-// Frames before it are measured too: held and smoothed values depend on them. Nothing where Ctrl-C came. Throws
-// std::runtime_error where the input ends before.
+// Frames before it are measured too: held and smoothed values depend on them. Nothing after Ctrl-C. Throws
+// std::runtime_error where the input ends before it.
 std::optional<Explained> explain_one(const RecordingRun& run, FrameSequence& inputs, std::uint64_t frame);
 
 struct ExplainedRecording {

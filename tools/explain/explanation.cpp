@@ -107,7 +107,7 @@ std::string looked_for(const Notes& notes) {
              metres(notes.floor_radius_m(0)), radius);
 }
 
-// No gate: where nothing is chosen beside the machine, walls ahead and behind say how it stands.
+// Not a gate: where no wall is chosen beside the machine, walls ahead and behind show how it stands.
 std::string across_sentence(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes,
                             const std::vector<PlaneWords>& beside) {
   constexpr double kClearlyMore = 2.0;
@@ -146,7 +146,7 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
     tell(notes.failed(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_TELLS), refusals, &out);
     const std::string across = across_sentence(config, result, notes, planes);
     add_once(out.sentences, across);
-    // First, for as long as that is wrong a wider gate only hides it.
+    // First: while these are wrong, a wider gate only hides the fault.
     if (!across.empty()) out.helps.insert(out.helps.begin(), tr("check forward_axis and extrinsic_yaw"));
   }
   tell(doubts, refusals, &out);

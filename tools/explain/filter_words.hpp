@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What became of the points before the search for planes.
+// Points that the filters dropped, and those that are left for the search for planes.
 
 #pragma once
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kWorst = "worst";
 constexpr std::int64_t kNsPerS = 1'000'000'000;
-// A stamp outside the recording by more is one of another recording.
+// A stamp farther outside the recording belongs to another one.
 constexpr std::int64_t kOutside_ns = kNsPerS;
 
 bool is_digits(const std::string& word) {
@@ -55,7 +55,7 @@ std::string seconds_text(std::int64_t ns) {
   return fmt::format("{}.{:03} s", ns / kNsPerS, std::abs(ns % kNsPerS) / 1'000'000);
 }
 
-// The whole name, or what follows a '/' in it.
+// The whole name, or its end behind a '/'.
 bool ends_in(const std::string& name, const std::string& wanted) {
   if (name.size() < wanted.size() || name.compare(name.size() - wanted.size(), wanted.size(), wanted) != 0)
     return false;

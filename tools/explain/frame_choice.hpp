@@ -24,7 +24,7 @@ struct FrameChoice {
 enum class ChoiceKind { kRecording, kWorst, kNumber, kName, kStamp };
 ChoiceKind kind_of(const FrameChoice& choice);
 
-// A wish that is no stamp: why. Empty where it is one.
+// Why the word is no stamp; empty where it is one.
 std::string stamp_fault(const std::string& word);
 
 struct FoundFrame {
@@ -34,8 +34,8 @@ struct FoundFrame {
 };
 
 // Goes through the sequence where the search needs names or stamps of frames. `step` gets the name of each
-// frame that was read, and stops the search by false: nothing is found then. Throws std::invalid_argument that names
-// what is allowed, std::runtime_error where there is no frame.
+// frame that was read; its false stops the search, and nothing is found. Throws std::invalid_argument that names the
+// allowed choices, std::runtime_error where there is no frame.
 std::optional<FoundFrame> find_frame(const FrameChoice& choice, FrameSequence& frames, double rate_hz,
                                      const std::function<bool(const std::string&)>& step);
 

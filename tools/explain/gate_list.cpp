@@ -19,7 +19,7 @@ std::vector<pose_wall_trace_info> read_table() {
   return gates;
 }
 
-// Settings stand in the table as members of s, which says nothing to a reader of keys.
+// The table writes settings as members of s; a reader knows them as keys.
 std::string without_settings_prefix(const std::string& limit) {
   std::string out;
   for (std::size_t i = 0; i < limit.size(); ++i) {

@@ -9,7 +9,7 @@
 
 namespace pose_wall::tools::explain {
 
-// What a gate measures, as in src/gates/gates.def.
+// Measured quantities of the gates, as in src/gates/gates.def.
 inline constexpr const char* kGateMeasures[] = {
     translatable("edge of the voxels; voxel_leaf, where points_max has room for them, and had in the last frames"),
     translatable("its voxels fit, with the leaf as large as it may be"),
@@ -91,7 +91,7 @@ inline constexpr const char* kGateMeasures[] = {
     translatable("what is held had not expired before, by time or by a stamp that jumped or stood still"),
     translatable("steps that the frame had taken when more were needed")};
 
-// Parts of what stands before the colon of a limit's origin.
+// Parts of a limit's origin, before its colon.
 inline constexpr const char* kOriginParts[] = {translatable("key"),
                                                translatable("definition"),
                                                translatable("judgement"),

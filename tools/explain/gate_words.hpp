@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What a failed gate means, in a few sentences, and what would help.
+// The meaning of a failed gate in a few sentences, and the remedy.
 
 #pragma once
 

@@ -35,7 +35,7 @@ std::string figure(const Digits& digits, long long whole) {
                      digits.unit);
 }
 
-// Each part is rounded down; what then lacks of the level's figure goes to those that lost most.
+// Each part is rounded down. The digits that are then missing in the sum go to the parts that lost most.
 std::array<long long, POSE_WALL_PARTS> shared_out(const pose_wall_value& value, const Digits& digits) {
   std::array<long long, POSE_WALL_PARTS> whole{};
   std::array<double, POSE_WALL_PARTS> lost{};

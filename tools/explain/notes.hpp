@@ -29,7 +29,7 @@ class Notes {
 
   std::vector<Note> all() const;
   std::vector<Note> of(std::uint32_t subject) const;
-  // Those that did not hold and have this effect (pose_wall_trace_effect).
+  // Failed notes of this effect (pose_wall_trace_effect).
   std::vector<Note> failed(std::uint32_t subject, std::uint32_t effect) const;
   bool refused(std::uint32_t subject) const { return !failed(subject, POSE_WALL_TRACE_REFUSES).empty(); }
 

@@ -20,7 +20,7 @@ bool is_side(std::uint32_t subject) {
   return subject == POSE_WALL_TRACE_LEFT || subject == POSE_WALL_TRACE_RIGHT;
 }
 
-// The planes that a quantity hangs on.
+// The planes that a quantity depends on.
 std::vector<std::uint32_t> planes_behind(std::uint32_t quantity) {
   if (quantity < POSE_WALL_YAW) return {POSE_WALL_TRACE_FLOOR};
   if (quantity == POSE_WALL_YAW) return {POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_RIGHT};
@@ -47,7 +47,7 @@ std::string why_unmeasured(const Notes& notes, std::uint32_t quantity) {
   return refused.empty() ? tr("Not measured.") : say("Not measured: {}.", listed(refused));
 }
 
-// What speaks against the planes it hangs on. With one wall left, the other does not speak against yaw.
+// Doubts about the planes it depends on. Where one wall is refused, only the other counts for yaw.
 std::vector<std::string> doubted(const Notes& notes, std::uint32_t quantity) {
   std::vector<std::string> out;
   for (const std::uint32_t subject : planes_behind(quantity)) {
@@ -65,7 +65,7 @@ bool is_said_by_another(const Note& note, const std::vector<Note>& failed) {
          });
 }
 
-// Where the figures show it: the raw value with a level of its own. Where lag is the largest part, what it comes from.
+// The raw value with its own level, where the figures differ. Where lag is the largest part, also its cause.
 std::string lag_sentence(const pose_wall_value& v, std::uint32_t quantity) {
   if (!shows_lag(v, quantity)) return "";
   const std::string raw = quantity_amount(quantity, v.raw), level = quantity_amount(quantity, v.raw_protection_level);

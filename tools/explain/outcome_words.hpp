@@ -16,7 +16,7 @@ namespace pose_wall::tools::explain {
 // "d_rf: held, 1.92 m ± 0.08 m, 0.30 s old. Not measured: right wall refused."
 std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity);
 
-// What would help, by the gates of the quantity itself; some may be empty.
+// Remedies by the gates of the quantity itself; some may be empty.
 std::vector<std::string> outcome_helps(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity);
 
 }  // namespace pose_wall::tools::explain

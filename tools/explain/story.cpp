@@ -16,10 +16,10 @@ namespace pose_wall::tools::explain {
 namespace {
 
 constexpr std::uint32_t kFloor = POSE_WALL_TRACE_FLOOR, kLeft = POSE_WALL_TRACE_LEFT, kRight = POSE_WALL_TRACE_RIGHT;
-// Reasons with which a frame may measure nothing at all; alone they need not refuse it.
+// With these reasons a frame may measure nothing at all, but need not.
 constexpr std::uint32_t kOfFrame = POSE_WALL_R_NO_POINTS | POSE_WALL_R_LEAF_GROWN | POSE_WALL_R_STAMP_STILL |
                                    POSE_WALL_R_FROZEN | POSE_WALL_R_WORK_LIMIT;
-// They stand in the values' reasons, but say nothing of a measurement.
+// Reasons of values that are no fault of a measurement.
 constexpr std::uint32_t kAside = POSE_WALL_R_RATE_LIMITED | POSE_WALL_R_PRIOR;
 
 bool is_measured(const pose_wall_result& r, std::uint32_t quantity) {
@@ -59,7 +59,7 @@ std::string reasons_text(const Story& story, std::uint32_t subject) {
   return always.empty() ? say("at times {}", sometimes) : say("{}; at times {}", always, sometimes);
 }
 
-// subject may be both walls; whose reasons stand for it then is `of`.
+// `of`: the subject whose reasons are shown; both walls have none of their own.
 std::string refused_words(const Story& story, std::uint32_t subject, std::uint32_t of) {
   const std::string words = subject_words(subject), reasons = reasons_text(story, of);
   return reasons.empty() ? say("{} refused", words) : say("{} refused ({})", words, reasons);

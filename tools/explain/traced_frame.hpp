@@ -17,18 +17,18 @@
 
 namespace pose_wall::tools {
 
-// What an engine remembers before a frame.
+// The engine's memory before a frame.
 using Memento = std::vector<std::byte>;
 Memento memento_of(pose_wall_engine* engine);
 
 // Frames one after the other, as api::Engine measures them. Each is slower: an engine of its own is opened for it.
 class TracedEngine {
  public:
-  // POSE_WALL_OK, or what the config is refused with. Nothing is remembered of frames before.
+  // POSE_WALL_OK, or the fault of the config. Starts without memory of earlier frames.
   std::int32_t open(const api::Config& config);
   std::int32_t process(const pose_wall_cloud& cloud, pose_wall_result& result);
 
-  // As if the frames before had been these.
+  // Continues after the frames of this memory.
   void remember(Memento memento) { memento_ = std::move(memento); }
   // Notes on the last frame.
   const pose_wall_trace& trace() const { return *trace_; }
@@ -51,7 +51,7 @@ struct TracedFrame {
 // Throws std::runtime_error with the status where the engine refuses config, memento or cloud.
 TracedFrame trace_frame(const api::Config& config, const Memento& before, const pose_wall_cloud& cloud);
 
-// Whether both results are the same bits, but for the times of the stages, which need a clock.
+// Whether both results have the same bits; the times of the stages are left out.
 bool same_bits(pose_wall_result a, pose_wall_result b);
 
 }  // namespace pose_wall::tools

@@ -10,7 +10,7 @@
 
 namespace pose_wall::tools::picture {
 
-// What is drawn. Pointers must hold for the call only.
+// The input of a picture. Pointers must hold for the call only.
 struct FrameScene {
   const pose_wall_config* config;
   const pose_wall_result* result;

@@ -27,7 +27,7 @@ void draw_section(Svg& svg, const Box& box, const FrameScene& scene, const Drawn
 // The seven values, their protection levels, states and reasons, the truth where it is known.
 void draw_value_table(Svg& svg, const Box& box, const FrameScene& scene);
 
-// What the colours mean.
+// The meaning of the colours.
 void draw_legend(Svg& svg, const Box& box);
 
 // White ground and heading of a part.

@@ -13,7 +13,7 @@ namespace pose_wall::tools::picture {
 namespace {
 
 constexpr uint32_t kDotsMax = 20000;
-// Behind first: what was not used must not hide what was.
+// Unused points first, so that they do not hide the used ones.
 constexpr std::array<uint8_t, 4> kOrder = {POSE_WALL_LABEL_OTHER, POSE_WALL_LABEL_FLOOR, POSE_WALL_LABEL_LEFT,
                                            POSE_WALL_LABEL_RIGHT};
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Error against protection level, counted in cells: the picture by which integrity is judged. An instrument keeps its
+// Error against protection level, counted in cells: the usual picture of integrity. An instrument keeps its
 // promise where no count lies right of the diagonal.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Writes SVG elements; knows nothing of what they mean. Coordinates in pixels, one decimal.
+// Writes SVG elements without knowing their meaning. Coordinates in pixels, one decimal.
 #pragma once
 
 #include <string>
@@ -46,7 +46,7 @@ class Svg {
   // All dots of one colour as one path: a tenth of the bytes of as many circles.
   void dots(const std::vector<Pixel>& centres, double diameter, std::string_view colour, double opacity);
   void text(Pixel at, std::string_view words, const TextStyle& style);
-  // What is drawn until end_clip() shows only inside the rectangle.
+  // Elements up to end_clip() show only inside the rectangle.
   void begin_clip(Pixel corner, double width, double height);
   void end_clip();
 

@@ -87,15 +87,15 @@ void draw_machine(Svg& svg, const Viewport& view, const DrawnFrame& frame) {
   const double nose = 0.5 * kMachineLength_m;
   const double flank = 0.5 * kMachineWidth_m;
   svg.polygon({at(-nose, flank), at(nose, flank), at(nose, -flank), at(-nose, -flank)}, kMachine, {kMachineRim, 1.6});
-  // Tracks, 1.4 m long and 1 m apart, are what the outline is drawn around.
+  // Tracks, 1.4 m long and 1 m apart; the outline is drawn around them.
   for (const double side : {0.5, -0.5}) svg.line(at(-0.7, side), at(0.7, side), {kMachineRim, 5.0});
   svg.line(at(-nose + 0.3, 0.0), at(nose + 0.55, 0.0), {kMachineRim, 2.0});
   svg.polygon({at(nose + 0.85, 0.0), at(nose + 0.5, 0.17), at(nose + 0.5, -0.17)}, kMachineRim, {kMachineRim, 1.0});
   svg.circle(at(0.0, 0.0), 5.0, kPanel, {kInk, 2.0});
 }
 
-// What is drawn is this frame's own, where it has one: a smoothed value would not fit the line beside it. The word
-// tells it from the value in the table.
+// The drawing shows this frame's own value where there is one: a smoothed value would not fit the line beside it. The
+// word sets it apart from the value in the table.
 std::string kind_of(const pose_wall_value& value) {
   return std::isfinite(value.raw) ? tr("raw") : state_words(value.state);
 }

@@ -35,7 +35,7 @@ class Viewport {
     return {corner_.x + 0.5 * width_ + (right_m - right_centre_m_) * pixels_per_m_,
             corner_.y + 0.5 * height_ - (up_m - up_centre_m_) * pixels_per_m_};
   }
-  // What the rectangle shows, in metres.
+  // The extent of the rectangle, in metres.
   Range right_m() const { return around(right_centre_m_, width_); }
   Range up_m() const { return around(up_centre_m_, height_); }
   double pixels_per_m() const { return pixels_per_m_; }

@@ -62,7 +62,7 @@ std::string command_of(const FrameOptions& frames) {
   return command;
 }
 
-// Nothing: Ctrl-C.
+// Nothing after Ctrl-C.
 std::optional<explain::FoundFrame> found_frame(const ExplainOptions& options, FrameSequence& inputs) {
   const InterruptWatch watch;
   ProgressBar bar(inputs.frames(), options.shows_progress());
