@@ -27,7 +27,7 @@ struct Meaning {
   ValueKind kind;
 };
 
-constexpr std::array<Meaning, 11> kMeanings = {{
+constexpr std::array<Meaning, 12> kMeanings = {{
     {"config", "FILE", ValueKind::kFile},
     {"set", "KEY=VALUE", ValueKind::kEngineKey},
     {"simulate", "KEY=VALUE", ValueKind::kSimulatorKey},
@@ -39,6 +39,7 @@ constexpr std::array<Meaning, 11> kMeanings = {{
     {"annotate", "FOLDER", ValueKind::kFile},
     {"sweep", "GATE=A,B", ValueKind::kGate},
     {"title", "TEXT", ValueKind::kText},
+    {"stamp", "SECONDS", ValueKind::kText},
 }};
 
 std::string long_name(const CLI::Option& option) {

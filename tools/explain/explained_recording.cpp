@@ -34,7 +34,7 @@ Explained explained_of(const RecordingRun& run, TracedFrame traced, const pose_w
   Explained out;
   out.traced = std::move(traced);
   out.explanation = explain_frame(*run.loaded.config.get(), out.traced->result, *out.traced->trace);
-  out.picture = picture_of(run, points, out, frame);
+  if (run.wants_picture) out.picture = picture_of(run, points, out, frame);
   return out;
 }
 

@@ -21,13 +21,14 @@ struct Explained {
   FrameOutcome outcome;  // of the delivered engine
   std::optional<TracedFrame> traced;
   Explanation explanation;
-  std::string picture;  // SVG
+  std::string picture;  // SVG; empty where none is wanted
 };
 
 struct RecordingRun {
   const LoadedConfig& loaded;
   double rate_hz;
   bool shows_progress;
+  bool wants_picture;
 };
 
 // Frames before it are measured too: held and smoothed values depend on them. Nothing after Ctrl-C. Throws

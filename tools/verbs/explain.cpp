@@ -96,7 +96,7 @@ void expect_svg(const std::string& picture) {
 int explain_one(const ExplainOptions& options, const LoadedConfig& loaded, FrameSequence& inputs, OutputFile* picture) {
   const std::optional<explain::FoundFrame> found = found_frame(options, inputs);
   if (!found) return kExitInterrupted;
-  const explain::RecordingRun run{loaded, options.frames.rate_hz, options.shows_progress()};
+  const explain::RecordingRun run{loaded, options.frames.rate_hz, options.shows_progress(), picture != nullptr};
   std::optional<FrameSequence> again;
   if (found->read_frames) again.emplace(options.frames.open());
   const std::optional<Explained> explained = explain::explain_one(run, again ? *again : inputs, found->frame);
@@ -135,7 +135,7 @@ void print_recording(const ExplainOptions& options, const LoadedConfig& loaded,
 
 int explain_all(const ExplainOptions& options, const LoadedConfig& loaded, FrameSequence& inputs, OutputFile* picture) {
   if (inputs.frames() == 0) throw std::runtime_error(tr("no frame to explain"));
-  const explain::RecordingRun run{loaded, options.frames.rate_hz, options.shows_progress()};
+  const explain::RecordingRun run{loaded, options.frames.rate_hz, options.shows_progress(), picture != nullptr};
   const explain::ExplainedRecording all = explain::explain_all(run, inputs);
   if (all.interrupted) {
     fmt::print(stderr, "pose_wall explain: {}\n",
