@@ -16,6 +16,7 @@
 
 #include "bag_files.hpp"
 #include "crafted_value.hpp"
+#include "english_left.hpp"
 #include "explain/digest.hpp"
 #include "explain/digest_text.hpp"
 #include "pose_wall.hpp"
@@ -233,6 +234,18 @@ TEST(ExplainDigest, TextHasItsPartsAndTheCommandsOfTheFrames) {
   const std::string command_line =
       "pose_wall explain --config " + road.settings() + " --set wall_length_min=1.5 " + road.frames() + " --frame ";
   EXPECT_TRUE(contains(ran.printed, command_line)) << ran.printed;
+}
+
+TEST(ExplainDigest, InChineseNoEnglishIsLeft) {
+  const MixedRoad road;
+  const test::EnglishAfterwards english;
+  const Ran ran = road.explain({"--language", "zh"});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  for (const char* part :
+       {"6 帧\n", "保护级中位数", "3–4（2 帧）：地面被拒绝（floor_not_found", "值得查看的帧", "6 帧中最差的是第 "}) {
+    EXPECT_TRUE(contains(ran.printed, part)) << part << "\n" << ran.printed;
+  }
+  EXPECT_EQ(test::english_in(ran.printed), "");
 }
 
 TEST(ExplainDigest, UnreadableFramesAreCountedAndNothingReadableIsAFault) {

@@ -84,16 +84,18 @@ std::string reasons_text(const Digest& digest) {
 }
 
 std::string stretches_text(const Digest& digest) {
-  TextTable table({tr("frames"), tr("count"), tr("result")});
+  std::string list;
   for (const Stretch& s : digest.longest_stretches(kStretchesShown)) {
-    const std::string frames = s.frames() == 1 ? std::to_string(s.first) : fmt::format("{}–{}", s.first, s.last);
-    table.add_row({frames, std::to_string(s.frames()), story_words(s.story)});
+    const std::string story = story_words(s.story);
+    list += wrapped(s.frames() == 1 ? say("{}: {}", s.first, story)
+                                    : say("{}–{} ({}): {}", s.first, s.last, frames_text(s.frames()), story),
+                    2, kDigestWidth);
   }
   std::string heading = tr("Stretches of frames alike");
   if (digest.stretch_count() > kStretchesShown) {
     heading += say(" (the {} longest of {})", kStretchesShown, digest.stretch_count());
   }
-  return heading + "\n" + table.text(3);
+  return heading + "\n" + list;
 }
 
 std::string to_see_text(const Digest& digest, const std::string& command) {
