@@ -11,6 +11,7 @@
 
 #include "angles.hpp"
 #include "config_file/load_config.hpp"
+#include "language/language.hpp"
 #include "picture/frame_picture.hpp"
 #include "quantities.hpp"
 #include "results/run_summary.hpp"
@@ -92,7 +93,7 @@ std::string DemoRun::picture(const DemoFrame& frame, const std::string& subtitle
   pose_wall_points points{};
   engine_.last_points(points);
   return picture::frame_picture({config_.get(), &*frame.outcome.result, &points,
-                                 "pose_wall: how the machine stands in its roadway", subtitle,
+                                 tr("pose_wall: how the machine stands in its roadway"), subtitle,
                                  frame.truth.value.data()});
 }
 

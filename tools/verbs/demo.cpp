@@ -16,6 +16,7 @@
 #include "demo/demo_setup.hpp"
 #include "demo/live_table.hpp"
 #include "frames/whole_file.hpp"
+#include "language/language.hpp"
 #include "results/result_output.hpp"
 #include "terminal/colours.hpp"
 #include "terminal/counted.hpp"
@@ -82,8 +83,8 @@ int demo(const DemoVerb& verb) {
   const DemoFrame last = process_frames(verb, run, output, truth);
   write_truth_csv(folder / "truth.csv", truth);
   write_whole_file(folder / "demo.svg",
-                   run.picture(last, fmt::format("simulated roadway '{}', sensor {}, frame {}, {:.1f} s",
-                                                 scene_name(verb), verb.demo.sensor, last.outcome.frame, last.time_s)));
+                   run.picture(last, say("simulated roadway '{}', sensor {}, frame {}, {:.1f} s", scene_name(verb),
+                                         verb.demo.sensor, last.outcome.frame, last.time_s)));
 
   if (!verb.quiet) print_end(run, folder);
   return kExitDone;
