@@ -218,7 +218,7 @@ TEST(Completion, BashOffersWhatTheParserKnows) {
     }
     EXPECT_EQ(offered(folder, {verb.name, "--"}), joined(options)) << verb.name;
   }
-  EXPECT_EQ(offered(folder, {""}), joined(verbs) + " -h --help --version");
+  EXPECT_EQ(offered(folder, {""}), joined(verbs) + " -h --help --version --language");
 }
 
 TEST(Completion, BashOffersValuesOfOptions) {
