@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: what calls of the C ABI promise beside the numbers: results built afresh, caps, repeats, memory by points_max
-// alone and as README.md tells it, empty clouds and those beyond what pointers reach. What is refused is in
-// abi/refusals.
+// alone, empty clouds and those beyond what pointers reach. How much memory that is, checks.sizes compares. What is
+// refused is in abi/refusals.
 
 #include <gtest/gtest.h>
 
@@ -81,21 +81,6 @@ TEST(AbiCalls, AnEmptyCloudIsNoError) {
   EXPECT_NE(r.frame_reasons & POSE_WALL_R_NO_POINTS, 0U);
   EXPECT_EQ(r.confidence, 0.0);
   for (const pose_wall_value& v : r.quantity) EXPECT_EQ(v.state, static_cast<std::uint32_t>(POSE_WALL_INVALID));
-}
-
-// The table in README.md. Less is good news, but the table is to say so.
-TEST(Memory, IsWhatTheReadmeSays) {
-  struct Row {
-    double points_max, mebibytes;
-  };
-  for (const Row& row : {Row{16000, 1.8}, Row{60000, 4.5}, Row{131000, 9.5}}) {
-    pose_wall_config config;
-    ASSERT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
-    ASSERT_EQ(pose_wall_config_set_number(&config, "points_max", row.points_max), POSE_WALL_OK);
-    std::uint64_t bytes = 0;
-    ASSERT_EQ(pose_wall_memory_needed(&config, &bytes), POSE_WALL_OK);
-    EXPECT_NEAR(static_cast<double>(bytes) / (1 << 20), row.mebibytes, 0.03 * row.mebibytes) << row.points_max;
-  }
 }
 
 // 2^26 points of 128 bytes are 2^33 bytes: 0 with pointers of 32 bits, where reading would begin again at the start.

@@ -2,16 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """What the archive holds: one object without state, without code that runs before main, without anything a linker would
-merge with a user's, without tables to unwind; and of the size that README.md says.
+merge with a user's, without tables to unwind; and of the size that the page of sizes says.
 
-    check_archive.py READELF ARCHIVE [--text-max BYTES] [--readme README.md ROW]
+    check_archive.py READELF ARCHIVE [--text-max BYTES] [--sizes PAGE MACHINE [--note]]
 """
 
 import argparse
-import pathlib
 import re
 import subprocess
 import sys
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+
+import sizes_page  # noqa: E402  pylint: disable=wrong-import-position
 
 HEX = r"[0-9a-f]+"
 SECTION = re.compile(rf"^\s*\[\s*[1-9]\d*\]\s+(\S+)\s+(\S+)\s+{HEX}\s+{HEX}\s+({HEX})\s+{HEX}\s+([A-Za-z]*)\s")
@@ -19,7 +22,7 @@ SYMBOL = re.compile(r"^\s*\d+: [0-9a-f]+\s+\S+\s+(\S+)\s+(GLOBAL|WEAK|UNIQUE)\s+
 # Read-only once the loader has filled in where the library lies.
 RELOCATED = ".data.rel.ro"
 FORBIDDEN = re.compile(r"^\.(init|fini|preinit|ctors|dtors|eh_frame|gcc_except_table|tdata|tbss)")
-TOLERANCE = 0.02  # of sizes in README.md, both ways
+TOLERANCE = 0.02  # of sizes on the page, both ways
 
 
 def read(readelf, archive, option):
@@ -58,26 +61,8 @@ def symbols_of(text):
     return functions, faults
 
 
-def in_readme(path, row):
-    """Numbers of a row by the heads of their columns."""
-    lines = [[cell.strip() for cell in line.strip().strip("|").split("|")]
-             for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines() if line.startswith("|")]
-    for at, cells in enumerate(lines):
-        if cells[0] == row:
-            head = next(line for line in reversed(lines[:at]) if "---" not in line[0] and "text" in line)
-            return {key: float(value.split()[0]) for key, value in zip(head[1:], cells[1:]) if value[:1].isdigit()}
-    sys.exit(f"{path}: no row '{row}' in a table with a column 'text'")
-
-
-def compare(noted, found):
-    out = []
-    for column, value in found.items():
-        before = noted.get(column)
-        if before is None:
-            out.append(f"README.md has no number for '{column}'; it is {value:.1f}")
-        elif abs(value - before) > TOLERANCE * value + 0.05:
-            out.append(f"README.md says {column} {before:g}; it is {value:.1f}")
-    return out
+def allowed(_, size):
+    return TOLERANCE * size + 0.05
 
 
 def main():
@@ -85,7 +70,7 @@ def main():
     parser.add_argument("readelf")
     parser.add_argument("archive")
     parser.add_argument("--text-max", type=int)
-    parser.add_argument("--readme", nargs=2, metavar=("README", "ROW"))
+    sizes_page.add_options(parser)
     options = parser.parse_args()
     sizes, faults = sizes_of(read(options.readelf, options.archive, "-SW"))
     functions, merged = symbols_of(read(options.readelf, options.archive, "-sW"))
@@ -94,10 +79,9 @@ def main():
         faults.append("there are section groups: a linker would keep one of two")
     if options.text_max is not None and sizes["text"] > options.text_max:
         faults.append(f"{sizes['text']} bytes of text are more than {options.text_max}")
-    if options.readme:
-        faults += compare(in_readme(*options.readme), {
-            "text": sizes["text"] / 1024, "data": sizes["writable"] / 1024,
-            "relocated": sizes["relocated"] / 1024, "functions": functions})
+    faults += sizes_page.check_or_note(options, {
+        "text, KiB": f"{sizes['text'] / 1024:.1f}", "data, KiB": f"{sizes['writable'] / 1024:.1f}",
+        "relocated, KiB": f"{sizes['relocated'] / 1024:.1f}", "functions": str(functions)}, allowed)
     print("\n".join(faults) or f"text {sizes['text'] / 1024:.1f} KiB, no writable data, "
           f"{sizes['relocated'] / 1024:.1f} KiB of relocated constants, {functions} functions")
     sys.exit(1 if faults else 0)

@@ -4,10 +4,10 @@
 """The most stack that any function of the C ABI can need, from the call graph: no recursion, no frame of unknown size,
 and at most so many bytes.
 
-    check_stack.py FOLDER LIMIT [--readme README.md ROW] [--of PREFIX]
+    check_stack.py FOLDER LIMIT [--sizes PAGE MACHINE [--note]] [--of PREFIX]
 
 FOLDER: of the objects, with the .ci files of gcc's -fcallgraph-info=su
-README.md: what its table of archives says of this machine's stack has to be so.
+PAGE: its figure of this machine's stack has to be so, within 5 %.
 PREFIX: looks at the functions that begin so; pose_wall_ where none is given.
 
 What the engine asks of the C library (memcpy, memset, sqrt) is counted as LIBRARY bytes each; the caller's own clock is
@@ -17,13 +17,18 @@ not counted.
 import argparse
 import pathlib
 import re
+import sys
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+
+import sizes_page  # noqa: E402  pylint: disable=wrong-import-position
 
 NODE = re.compile(r'^node: \{ title: "([^"]+)" label: "([^"]*)"', re.MULTILINE)
 EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.MULTILINE)
 BYTES = re.compile(r"\\n(\d+) bytes \(([^)]*)\)")
 LIBRARY = 256
 CALLER_S = "__indirect_call"
-TOLERANCE = 0.05  # of the figure in README.md, both ways
+TOLERANCE = 0.05  # of the figure on the page, both ways
 
 
 def read(folder):
@@ -56,23 +61,15 @@ def deepest(function, sizes, calls, known, path):
     return known[function]
 
 
-def differs_from(readme, row_name, worst):
-    """In words; README's row of a machine ends with the stack in KiB."""
-    text = pathlib.Path(readme).read_text(encoding="utf-8")
-    row = re.search(rf"^\| {re.escape(row_name)} \|.*\| ([0-9.]+) KiB \|$", text, re.MULTILINE)
-    if row is None:
-        return [f"{readme}: no row '| {row_name} | ... | N KiB |' to compare with"]
-    noted, found = float(row[1]), worst / 1024
-    if abs(found - noted) <= TOLERANCE * noted:
-        return []
-    return [f"README.md says {noted} KiB of stack; it is {found:.1f}"]
+def allowed(_, size):
+    return TOLERANCE * size
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
     parser.add_argument("limit", type=int)
-    parser.add_argument("--readme", nargs=2, metavar=("README", "ROW"))
+    sizes_page.add_options(parser)
     parser.add_argument("--of", default="pose_wall_", metavar="PREFIX")
     options = parser.parse_args()
     limit = options.limit
@@ -87,8 +84,7 @@ def main():
     print(f"{worst:7d} bytes at most, of {limit}; {len(roots)} functions looked at")
     if worst > limit:
         faults.append(f"{worst} bytes of stack are more than {limit}")
-    if options.readme:
-        faults += differs_from(*options.readme, worst)
+    faults += sizes_page.check_or_note(options, {"stack, KiB": f"{worst / 1024:.1f}"}, allowed)
     for fault in faults:
         print(fault)
     raise SystemExit(1 if faults else 0)

@@ -23,6 +23,12 @@ def tool(name, fallback):
     return os.environ.get(name) or shutil.which(fallback)
 
 
+def sizes_table(columns, **rows):
+    """A table of the page of sizes, with a row for each machine."""
+    head = f"| machine | {columns} |\n" + "| --- " * (columns.count("|") + 2) + "|\n"
+    return head + "".join(f"| {machine} | {cells} |\n" for machine, cells in rows.items())
+
+
 class BrokenProject(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -209,16 +215,20 @@ class Stack(BrokenProject):
         self.graph("b", [("inner", "901 bytes (static)")], [])
         self.fails("1001 bytes of stack are more than 1000", *self.check())
 
-    def test_readme(self):
+    def test_page_of_sizes(self):
         self.graph("a", [("pose_wall_open", "512 bytes (static)")], [])
-        self.write("README.md", "| aarch64 | 1 KiB | 0.5 KiB |\n")
-        noted = (*self.check(), "--readme", self.root / "README.md")
+        page = self.root / "SIZES.md"
+        noted = (*self.check(), "--sizes", page)
+        self.write("SIZES.md", sizes_table("stack, KiB", aarch64="0.5"))
         self.passes(*noted, "aarch64")
-        self.fails("no row '| armv7", *noted, "armv7")
-        self.write("README.md", "| aarch64 | 1 KiB | 0.8 KiB |\n")
-        self.fails("README.md says 0.8 KiB of stack; it is 0.5", *noted, "aarch64")
-        self.write("README.md", "")
-        self.fails("no row", *noted, "aarch64")
+        self.fails("has no 'stack, KiB' of armv7; it is 0.5", *noted, "armv7")
+        self.write("SIZES.md", sizes_table("stack, KiB", aarch64="0.8"))
+        self.fails("says stack, KiB 0.8 of aarch64; it is 0.5", *noted, "aarch64")
+        self.passes(*noted, "aarch64", "--note")
+        self.passes(*noted, "aarch64")
+        self.write("SIZES.md", "")
+        self.fails("has no 'stack, KiB' of aarch64", *noted, "aarch64")
+        self.fails("has no column 'stack, KiB'", *noted, "aarch64", "--note")
 
     def test_recursion(self):
         sizes = [("pose_wall_open", "1 bytes (static)"), ("b", "1 bytes (static)")]
@@ -452,15 +462,51 @@ class ArchiveSections(BrokenProject):
         (self.root / "readelf").chmod(0o755)
         self.fails("nothing was checked", CHECKS / "check_archive.py", self.root / "readelf", "-")
 
-    def test_readme(self):
-        readme = self.root / "README.md"
-        head = "| archive | text | data | relocated | functions |\n| --- | --- | --- | --- | --- |\n"
-        self.write("README.md", head + "| here | 0 KiB | 0 KiB | 0 KiB | 1 |\n")
-        self.passes(*self.sections(SOURCE, "--readme", readme, "here"))
-        self.write("README.md", head + "| here | 7 KiB | 0 KiB | 0 KiB | 2 |\n")
-        self.fails("README.md says text 7; it is 0.0", *self.sections(SOURCE, "--readme", readme, "here"))
-        self.fails("README.md says functions 2; it is 1.0", *self.sections(SOURCE, "--readme", readme, "here"))
-        self.fails("no row 'there'", *self.sections(SOURCE, "--readme", readme, "there"))
+    def test_page_of_sizes(self):
+        page, columns = self.root / "SIZES.md", "text, KiB | data, KiB | relocated, KiB | functions"
+        noted = (*self.sections(SOURCE, "--sizes", page),)
+        self.write("SIZES.md", sizes_table(columns, here="0.0 | 0.0 | 0.0 | 1"))
+        self.passes(*noted, "here")
+        self.write("SIZES.md", sizes_table(columns, here="7.0 | 0.0 | 0.0 | 2"))
+        self.fails("says text, KiB 7.0 of here; it is 0", *noted, "here")
+        self.fails("says functions 2 of here; it is 1", *noted, "here")
+        self.fails("has no 'functions' of there", *noted, "there")
+
+    def test_noting_one_machine_keeps_the_others(self):
+        page, columns = self.root / "SIZES.md", "text, KiB | data, KiB | relocated, KiB | functions | stack, KiB"
+        noted = (*self.sections(SOURCE, "--sizes", page),)
+        others = sizes_table(columns, armv7="9.0 | 0.0 | 0.0 | 3 | 8.0", x86_64="8.0 | 0.0 | 0.0 | 3 | -")
+        self.write("SIZES.md", "# Sizes\n\n" + others + "\nThe end.\n")
+        self.passes(*noted, "aarch64", "--note")
+        self.passes(*noted, "aarch64")
+        rows = sizes_table(columns, aarch64="0.0 | 0.0 | 0.0 | 1 | -", armv7="9.0 | 0.0 | 0.0 | 3 | 8.0",
+                           x86_64="8.0 | 0.0 | 0.0 | 3 | -")
+        self.assertEqual(page.read_text(encoding="utf-8"), "# Sizes\n\n" + rows + "\nThe end.\n")
+
+
+class Sizes(BrokenProject):
+    COLUMNS = "engine, MiB | image, bytes"
+
+    def check(self, printed, *more):
+        self.write("program", f"#!/bin/sh\nprintf '{printed}'\n")
+        (self.root / "program").chmod(0o755)
+        self.write("SIZES.md", sizes_table(self.COLUMNS, here="4.50 | 248"))
+        return CHECKS / "check_sizes.py", "--sizes", self.root / "SIZES.md", "here", *more, "--", self.root / "program"
+
+    def test_passes(self):
+        self.passes(*self.check("engine, MiB: 4.55\\nimage, bytes: 248\\n"))
+
+    def test_another_size(self):
+        self.fails("says image, bytes 248 of here; it is 249", *self.check("image, bytes: 249\\n"))
+        self.fails("says engine, MiB 4.50 of here; it is 4.7", *self.check("engine, MiB: 4.70\\n"))
+        self.fails("has no 'box, bytes' of here", *self.check("box, bytes: 1\\n"))
+
+    def test_noted(self):
+        self.passes(*self.check("image, bytes: 249\\n", "--note"))
+        self.assertIn("| here | 4.50 | 249 |", (self.root / "SIZES.md").read_text(encoding="utf-8"))
+
+    def test_nothing_to_check(self):
+        self.fails("nothing was checked", *self.check(""))
 
 
 class Digests(BrokenProject):
