@@ -509,6 +509,41 @@ class Sizes(BrokenProject):
         self.fails("nothing was checked", *self.check(""))
 
 
+class Pages(BrokenProject):
+    EXAMPLE = "```c\nmust(pose_wall_abi_version() == 2 ? 0 : -1);\n```\n"
+
+    def setUp(self):
+        super().setUp()
+        for header in ("pose_wall", "pose_wall_motion", "pose_wall_runtime"):
+            self.write(f"include/{header}.h", (CHECKS.parents[1] / f"include/{header}.h").read_text(encoding="utf-8"))
+        checks = "pose_wall_check(house COMMAND x)\npose_wall_check(header_${h} COMMAND x)\n"
+        self.write("tests/checks/CMakeLists.txt", checks)
+        self.write("CONTRIBUTING.md", "| check | guards |\n| --- | --- |\n| `house`, `header_*` | a `word` |\n")
+        self.write("include/README.md", "# Link\n\n## Build it!\n")
+
+    def check(self, readme):
+        self.write("README.md", readme)
+        return CHECKS / "check_pages.py", self.root, tool("CC", "cc")
+
+    def test_passes(self):
+        links = "[a](include/README.md#build-it) [b](https://b) `[c](d)` <!-- [e](f) -->\n"
+        self.passes(*self.check(self.EXAMPLE + links))
+
+    def test_links(self):
+        self.fails("README.md: none.png leads nowhere", *self.check(self.EXAMPLE + "![a](none.png)"))
+        self.fails("README.md has no heading of #linking", *self.check(self.EXAMPLE + "[a](include/README.md#linking)"))
+
+    def test_examples(self):
+        self.fails("pose_wall_abi_versio", *self.check("```c\nmust((int32_t)pose_wall_abi_versio());\n```\n"))
+        self.fails("nothing was checked", *self.check("```\nmake\n```\n"))
+
+    def test_table_of_checks(self):
+        self.write("tests/checks/more/CMakeLists.txt", "pose_wall_check(stack COMMAND x)\n")
+        self.fails("does not name the check stack", *self.check(self.EXAMPLE))
+        self.write("tests/checks/CMakeLists.txt", "pose_wall_check(stack COMMAND x)\n")
+        self.fails("names house, which is no check", *self.check(self.EXAMPLE))
+
+
 class Digests(BrokenProject):
     NOTED = "road 3 100 00aa 00bb 21/21\n"
 
