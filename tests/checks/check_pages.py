@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Pages keep their promises: relative links and their anchors resolve, the C examples of README.md and include/README.md
-compile, and CONTRIBUTING.md names every check of tests/checks, and no other.
+"""Pages keep their promises: relative links and their anchors resolve, the C examples of README.md and
+include/README.md compile, and CONTRIBUTING.md names every check of tests/checks, and no other.
 
 usage: check_pages.py ROOT CC...   exit status 1 and one line per broken rule"""
 

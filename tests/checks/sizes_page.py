@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The page of sizes, include/SIZES.md: the tables whose first column is `machine`. A check that measures sizes names the
-columns. It compares them with the row of its machine, or writes them into it."""
+"""The page of sizes, include/SIZES.md: the tables whose first column is `machine`. A check that measures sizes names
+the columns. It compares them with the row of its machine, or writes them into it."""
 
 import pathlib
 
@@ -28,7 +28,7 @@ def tables(lines):
 
 
 def compare(page, machine, found, allowed):
-    """In words, which of `found` {column: size} the page does not hold. `allowed(column, size)` may be the difference."""
+    """In words, which of `found` {column: size} the page does not hold; `allowed(column, size)` may differ."""
     lines = pathlib.Path(page).read_text(encoding="utf-8").splitlines()
     noted = {}
     for columns, begin, end in tables(lines):
