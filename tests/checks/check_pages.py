@@ -103,8 +103,8 @@ def checks_of(root):
 
 def table_of_checks(root):
     text = (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    rows = text[text.index("| check |"):].splitlines()[2:]
-    return {name for row in rows if row.startswith("|") for name in re.findall(r"`([\w*]+)`", row.split("|")[1])}
+    rows = text[text.index("| you change |"):].splitlines()[2:]
+    return {name for row in rows if row.startswith("|") for name in re.findall(r"`([\w*]+)`", row.split("|")[2])}
 
 
 def broken_table(root):

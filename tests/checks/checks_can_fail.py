@@ -518,7 +518,7 @@ class Pages(BrokenProject):
             self.write(f"include/{header}.h", (CHECKS.parents[1] / f"include/{header}.h").read_text(encoding="utf-8"))
         checks = "pose_wall_check(house COMMAND x)\npose_wall_check(header_${h} COMMAND x)\n"
         self.write("tests/checks/CMakeLists.txt", checks)
-        self.write("CONTRIBUTING.md", "| check | guards |\n| --- | --- |\n| `house`, `header_*` | a `word` |\n")
+        self.write("CONTRIBUTING.md", "| you change | guards |\n| --- | --- |\n| `x` | `house`, `header_*` |\n")
         self.write("include/README.md", "# Link\n\n## Build it!\n")
 
     def check(self, readme):
