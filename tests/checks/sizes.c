@@ -9,7 +9,9 @@
 #include "pose_wall.h"
 #include "pose_wall_motion.h"
 
-static double mebibytes(uint64_t bytes) { return (double)bytes / (1024.0 * 1024.0); }
+static double mebibytes(uint64_t bytes) {
+  return (double)bytes / (1024.0 * 1024.0);
+}
 
 static int print_block(unsigned points_max) {
   pose_wall_config config;
