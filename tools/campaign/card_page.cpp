@@ -55,7 +55,7 @@ std::string sigma_of(const Card& card) {
   }
   return fmt::format(
       "## Mean z² = (raw error / sigma)²\n\n"
-      "1 for a true standard deviation. Nominal classes of {2} runs or more must have {0:g} to {1:g}.\n\n"
+      "1 for a true standard deviation. From {2} nominal runs on it must be from {0:g} to {1:g} in nominal classes.\n\n"
       "{3}\n",
       kMeanZ2Min, kMeanZ2Max, kRunsForMeanZ2, table.text());
 }
