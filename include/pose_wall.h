@@ -3,13 +3,13 @@
 
 /* clang-format off */
 /*
- * pose_wall: how a tunnelling machine stands in its roadway, from one 3D LiDAR.
+ * pose_wall: the attitude and position of a tunnelling machine in its roadway, from one 3D LiDAR.
  *
- * Per frame the engine gives seven quantities: roll and pitch (from the floor), yaw (from the side walls) and
- * the distances from two points of the machine's centre line (s_front ahead, s_back behind) to the left and the
- * right wall. Each carries its own standard deviation, protection level, state, reasons and age.
+ * The engine gives seven quantities per frame. Roll and pitch come from the floor, yaw from the side walls. Four
+ * distances lead from two points of the machine's centre line (s_front ahead, s_back behind) to the left and the
+ * right wall. Each quantity carries its own standard deviation, protection level, state, reasons and age.
  *
- *     Every call returns a status to look at; it is left out here.
+ *     Check the status that every call returns; this sketch leaves it out.
  *
  *     pose_wall_config config;
  *     pose_wall_config_init(&config);                        defaults of every key
@@ -22,29 +22,29 @@
  *     for every frame: pose_wall_process(engine, &cloud, &result);
  *                                                            nothing to close: free the block
  *
- * FRAMES   lidar: as the sensor delivers. base: lidar moved by the extrinsic of the config, +Z up; everything
- *          reported is in base or in the levelled frame. levelled (_level): same origin as base, turned by
- *          R_level = Ry(pitch) * Rx(roll), which takes the floor's normal to +Z.
- * SIGNS    roll = atan2(n_y, n_z), pitch = atan2(-n_x, sqrt(n_y^2 + n_z^2)) with n the floor's upward normal in
- *          base, about base X and Y whatever forward_axis is. yaw is the angle about +Z from the machine's forward
+ * FRAMES   lidar: as the sensor delivers. base: lidar moved by the extrinsic of the config, +Z up. All results are in
+ *          base or in the levelled frame. levelled (_level): same origin as base, turned by R_level = Ry(pitch) *
+ *          Rx(roll), which takes the floor's normal to +Z.
+ * SIGNS    roll = atan2(n_y, n_z), pitch = atan2(-n_x, sqrt(n_y^2 + n_z^2)) with n the floor's upward normal in base.
+ *          Both are about base X and Y, whatever forward_axis is. yaw is the angle about +Z from the machine's forward
  *          axis to the road: a machine turned LEFT by 5 degrees reports yaw = -5 degrees. In words, with forward +X:
- *          roll > 0 is right side down, pitch > 0 is nose down; with -X both turn round for the driver; with +Y or -Y
- *          roll is the driver's pitch and pitch the driver's roll. Distances are >= 0.
+ *          roll > 0 is right side down, pitch > 0 is nose down. With -X both change sign for the driver. With +Y or -Y
+ *          the driver's pitch is roll, and the driver's roll is pitch. Distances are >= 0.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
- * MEMORY   only the caller's block, and less than 32 kB of stack. No call here allocates, blocks, prints, reads a clock
- *          or throws.
- * THREADS  one engine belongs to one thread at a time; different engines are independent. A call that finds another one
- *          inside its engine is refused (POSE_WALL_E_BUSY). There are no globals.
+ * MEMORY   only the caller's block, and less than 32 kB of stack. No call allocates, blocks, prints, reads a clock or
+ *          throws.
+ * THREADS  one engine belongs to one thread at a time; different engines are independent. A call that finds another
+ *          one inside its engine is refused (POSE_WALL_E_BUSY). There are no globals.
  * STRUCTS  every struct that begins with struct_size grows at its end only. A library takes structs of any earlier
- *          header of its ABI: it reads what is missing as zero and writes no further than struct_size. It refuses a
- *          later one's (POSE_WALL_E_STRUCT_NEWER).
- * TIME     every loop over live data has a cap from the config. A frame that has taken work_max steps stops at the next
- *          place that asks, at most a million steps later, and what is not finished is refused
+ *          header of its ABI: it reads missing members as zero and writes no further than struct_size. It refuses
+ *          structs of a later header (POSE_WALL_E_STRUCT_NEWER).
+ * TIME     every loop over live data has a cap from the config. A frame that has taken work_max steps stops at its
+ *          next check of the budget, at most a million steps later. Unfinished results are refused
  *          (POSE_WALL_R_WORK_LIMIT). Reading the cloud is never stopped. bench/README.md has the bound.
  * ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a negative pose_wall_status. A refused call
- *          changes nothing. "I was called wrongly" is a status; "I looked and could not measure" is not an error: the
- *          call returns POSE_WALL_OK, and the states and reasons in the result tell it.
- * FLOATS   IEEE 754 without fast-math; the same version and input give the same bits, on x86-64, AArch64 and ARMv7, by
+ *          changes nothing. A status reports a wrong call. A frame that could not be measured is no error: the call
+ *          returns POSE_WALL_OK, and the result's states and reasons say so.
+ * FLOATS   IEEE 754 without fast-math. The same version and input give the same bits on x86-64, AArch64 and ARMv7, by
  *          GCC and Clang, whatever the block held before.
  */
 /* clang-format on */
@@ -68,8 +68,8 @@ extern "C" {
 /* Raised when a struct or function of this header changes incompatibly. */
 #define POSE_WALL_ABI_VERSION 2
 
-/* Marks calls that can fail while a program runs. A compiler that can warns where their status is thrown away; where
- * that is meant, write (void) in C++ and assign it in C. */
+/* Marks calls that can fail while a program runs. Compilers that can do so warn when the status is ignored. To ignore
+ * it on purpose, write (void) in C++ and assign it in C. */
 #if defined(__cplusplus)
 #if __cplusplus >= 201703L
 #define POSE_WALL_CHECKED [[nodiscard]]
@@ -93,16 +93,16 @@ enum pose_wall_status {
   POSE_WALL_OK = 0,
 
   /* wrong calls */
-  POSE_WALL_E_NULL = -1,          /* a required pointer is NULL */
-  POSE_WALL_E_STRUCT_SIZE = -2,   /* struct_size unknown: set it to sizeof, or call the init function */
-  POSE_WALL_E_BLOCK_SMALL = -3,   /* block smaller than pose_wall_memory_needed() says */
-  POSE_WALL_E_BLOCK_ALIGN = -4,   /* block not aligned to POSE_WALL_BLOCK_ALIGNMENT */
-  POSE_WALL_E_ENGINE = -5,        /* engine pointer does not point to an open engine, or somebody wrote
-                                     into its block, or a bit fell over: see pose_wall_open */
-  POSE_WALL_E_INDEX = -6,         /* index out of range */
+  POSE_WALL_E_NULL = -1,        /* a required pointer is NULL */
+  POSE_WALL_E_STRUCT_SIZE = -2, /* struct_size unknown: set it to sizeof, or call the init function */
+  POSE_WALL_E_BLOCK_SMALL = -3, /* block smaller than pose_wall_memory_needed() says */
+  POSE_WALL_E_BLOCK_ALIGN = -4, /* block not aligned to POSE_WALL_BLOCK_ALIGNMENT */
+  POSE_WALL_E_ENGINE = -5, /* engine pointer does not point to an open engine, or its block was changed from outside:
+                              see pose_wall_open */
+  POSE_WALL_E_INDEX = -6,  /* index out of range */
   POSE_WALL_E_BUFFER_SMALL = -7,  /* text or memento does not fit the caller's buffer */
   POSE_WALL_E_MEMENTO = -8,       /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
-  POSE_WALL_E_BUSY = -9,          /* another call is inside this engine, or inside the one that lives in this block */
+  POSE_WALL_E_BUSY = -9,          /* another call is inside this engine, or inside the engine in this block */
   POSE_WALL_E_ABI = -10,          /* the program was built against the header of ABI 1: build it anew */
   POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer pose_wall.h than the library that is linked */
   POSE_WALL_E_INPUT = -12,        /* an unknown bit in pose_wall_inputs or pose_wall_moment, or a boot_id of zeros */
@@ -121,17 +121,17 @@ enum pose_wall_status {
   POSE_WALL_E_TEXT_LONG = -24,   /* text value longer than POSE_WALL_TEXT_MAX - 1 */
 
   /* clouds */
-  POSE_WALL_E_CLOUD_FIELD = -40, /* x, y or z missing, or a field of a type that cannot be read */
+  POSE_WALL_E_CLOUD_FIELD = -40, /* x, y or z missing, or a field of an unknown type */
   POSE_WALL_E_CLOUD_STEP = -41,  /* a field reaches past point_step, or a row past row_step */
   POSE_WALL_E_CLOUD_SIZE = -42,  /* data_bytes does not hold width x height points, or those are more than 2^26 */
 
   /* process images */
   POSE_WALL_E_IMAGE_VERSION = -60, /* an image of another version or size */
   POSE_WALL_E_IMAGE_CRC = -61,     /* its CRC is not that of its bytes: damaged, torn, or never filled */
-  POSE_WALL_E_RESULT = -62,        /* a result that no engine made: blank, or its head was changed */
+  POSE_WALL_E_RESULT = -62,        /* not a result of an engine: blank, or its head was changed */
 
   /* self test */
-  POSE_WALL_E_SELF_TEST = -80 /* the engine did not give what it must: the report tells what differs */
+  POSE_WALL_E_SELF_TEST = -80 /* the engine's results are not the noted ones: the report has the differences */
 };
 
 /* One English sentence, static storage; "unknown status" for anything else. */
@@ -143,11 +143,11 @@ const char* pose_wall_status_text(int32_t status);
 #define POSE_WALL_CONFIG_NUMBERS 160
 #define POSE_WALL_CONFIG_TEXTS 3
 
-/* All settings. Treat the members as private: write through the functions below, which know every key's name,
- * type, unit and range from the one table in src/config_keys.def. Copy it freely. */
+/* All settings. Treat the members as private and write through the functions below. They know every key's name, type,
+ * unit and range from the one table in src/config_keys.def. Copy it freely. */
 typedef struct pose_wall_config {
   uint32_t struct_size; /* set by pose_wall_config_init */
-  uint32_t layout;      /* set by pose_wall_config_init: tells configs of another table from this one's */
+  uint32_t layout;      /* set by pose_wall_config_init: identifies the table of keys */
   double number[POSE_WALL_CONFIG_NUMBERS];
   char text[POSE_WALL_CONFIG_TEXTS][POSE_WALL_TEXT_MAX];
 } pose_wall_config;
@@ -160,14 +160,14 @@ enum pose_wall_key_type {
   POSE_WALL_KEY_BOX = 5      /* six numbers: x_min x_max y_min y_max z_min z_max; empty text or "[]": no box */
 };
 
-/* What the table knows of a key. All pointers are static storage. */
+/* A key's row of the table. All pointers are static storage. */
 typedef struct pose_wall_key_info {
   const char* name;
   const char* unit;         /* "m", "rad", "deg", "s", "1", ... ; "" for texts and choices */
   const char* choices;      /* for POSE_WALL_KEY_CHOICE, else "" */
   const char* default_text; /* as it would be written in pose_wall.yaml */
   const char* group;        /* heading: "input", "frames", "filter", "ground", "walls", "quality", "temporal" */
-  const char* help;         /* what it is, what a larger value buys and costs */
+  const char* help;         /* its meaning, and what a larger value buys and costs */
   double minimum;           /* inclusive; of each number of a box */
   double maximum;
   uint32_t type; /* pose_wall_key_type */
@@ -176,14 +176,13 @@ typedef struct pose_wall_key_info {
 
 /* Fills every key with its default. Fails iff: NULL. */
 int32_t pose_wall_config_init_2(pose_wall_config* config);
-/* What a program built against ABI 1 calls first: writes nothing, and always gives POSE_WALL_E_ABI. */
+/* The name that programs built against ABI 1 call: writes nothing and always returns POSE_WALL_E_ABI. */
 int32_t pose_wall_config_init(pose_wall_config* config);
 #define pose_wall_config_init pose_wall_config_init_2
 
-/* Sets a key from text, as it stands in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"). The numbers of a
- * box are separated by spaces, one comma or both; a pair of brackets may be around them. On failure the config is
- * unchanged.
- * Fails iff: NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_KEY_UNKNOWN, POSE_WALL_E_VALUE_TYPE,
+/* Sets a key from text, as in pose_wall.yaml ("0.30", "+X", "-2.3 2.3 -0.6 0.6 -1.5 0.4"). Separate the numbers of a
+ * box by spaces, one comma or both; a pair of brackets may enclose them. On failure the config is unchanged. Fails iff:
+ * NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_KEY_UNKNOWN, POSE_WALL_E_VALUE_TYPE,
  * POSE_WALL_E_VALUE_RANGE, POSE_WALL_E_TEXT_LONG. */
 POSE_WALL_CHECKED int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value);
 
@@ -191,7 +190,7 @@ POSE_WALL_CHECKED int32_t pose_wall_config_set(pose_wall_config* config, const c
  * a fraction for an integer (POSE_WALL_E_VALUE_TYPE), POSE_WALL_E_VALUE_RANGE. */
 POSE_WALL_CHECKED int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value);
 
-/* Reads a key of one number or integer. As the two below it writes on success only, and fails iff: NULL, not
+/* Reads a key of one number or integer. This call and the two below write on success only. They fail iff: NULL, not
  * initialised, key unknown, a key of another type (POSE_WALL_E_VALUE_TYPE). */
 int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value);
 
@@ -203,8 +202,8 @@ int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key
  * (POSE_WALL_E_VALUE_TYPE). */
 int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer, uint64_t bytes);
 
-/* The table, for help texts and checks: count, and row by index in data-flow order, which may be another in another
- * build. Fails iff: NULL, POSE_WALL_E_INDEX. A key's row by its name, unit and range with it:
+/* The table, for help texts and checks: its number of rows, and a row by index in data-flow order. Another build may
+ * have another order. Fails iff: NULL, POSE_WALL_E_INDEX. To find a key's row by its name, with unit and range:
  *
  *     pose_wall_key_info info;
  *     uint32_t i = 0;
@@ -213,8 +212,7 @@ int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* ke
 uint32_t pose_wall_config_key_count(void);
 int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info);
 
-/* A rule over several keys that does not hold, or a key whose member holds what it does not take: which keys, and what
- * is asked of them. Static storage. */
+/* A broken rule: either one over several keys, or a member that holds no value of its key. Static storage. */
 typedef struct pose_wall_rule_fault {
   const char* key;
   const char* other_key; /* or "" */
@@ -222,12 +220,12 @@ typedef struct pose_wall_rule_fault {
 } pose_wall_rule_fault;
 
 /* Checks every member and the rules over several keys. Fails iff: config NULL, not initialised,
- * POSE_WALL_E_CONFIG_RULE; only then is the first fault written to *fault (fault may be NULL). pose_wall_memory_needed
- * and pose_wall_open check by the same rules. */
+ * POSE_WALL_E_CONFIG_RULE. Only in the last case does it write the first fault to *fault (fault may be NULL).
+ * pose_wall_memory_needed and pose_wall_open apply the same rules. */
 POSE_WALL_CHECKED int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault);
 
-/* CRC-32 of all settings, for a controller to see that the engine runs with the settings it was approved with. Two
- * builds whose tables of keys differ give different numbers for the same file. Fails iff: NULL, not initialised. */
+/* CRC-32 of all settings. With it a controller checks that the engine runs with its approved settings. Two builds with
+ * different tables of keys give different numbers for the same file. Fails iff: NULL, not initialised. */
 int32_t pose_wall_config_crc(const pose_wall_config* config, uint32_t* crc);
 
 /* ---------------------------------------------------------------------------------------------- clouds */
@@ -250,16 +248,16 @@ typedef struct pose_wall_field {
   uint32_t type;   /* pose_wall_field_type */
 } pose_wall_field;
 
-/* One frame as it comes, a sensor_msgs/PointCloud2 taken by reference: nothing is copied or kept after the call.
- * Any field order, any alignment, padding between points and rows, either byte order.
+/* One frame, a sensor_msgs/PointCloud2 taken by reference: nothing is copied or kept after the call. Any field order,
+ * any alignment, padding between points and rows, either byte order.
  *
- * Give every return of one scan as the sensor gave it, in the sensor's frame and in any order; points without a return
- * may be left out, zero or not finite. Whether a wall has gaps is judged by what does not come back, direction by
- * direction. A cloud that was cropped or put together from several sensors looks full of holes, and its walls may be
- * refused (POSE_WALL_R_WALL_SEEN_THROUGH). In one that was thinned, or from a sensor with fewer than about 600 returns
- * a turn in each 2 degrees of elevation, gaps may go UNNOTICED. What is to be left out belongs in range_min, range_max
- * and the body boxes. Points made by hand must be a scan, too: rays at even angles, each to the first surface, with a
- * roof where the walls end; tools/example.c makes one. */
+ * Give every return of one scan as the sensor gave it, in the sensor's frame and in any order. Points without a return
+ * may be left out, zero or not finite. The engine finds gaps in a wall by the missing returns, direction by direction.
+ * A cloud that was cropped or merged from several sensors therefore looks full of holes, and its walls may be refused
+ * (POSE_WALL_R_WALL_SEEN_THROUGH). Gaps may go UNNOTICED in a thinned cloud, or where the sensor has fewer than about
+ * 600 returns a turn in each 2 degrees of elevation. To leave points out, use range_min, range_max and the body boxes.
+ * Synthetic points must form a scan, too: rays at even angles, each to the first surface, with a roof where the walls
+ * end. tools/example.c makes one. */
 typedef struct pose_wall_cloud {
   uint32_t struct_size; /* sizeof(pose_wall_cloud) */
   uint32_t big_endian;  /* 0 or 1: byte order of the fields */
@@ -269,16 +267,15 @@ typedef struct pose_wall_cloud {
   uint32_t height;     /* rows */
   uint32_t point_step; /* bytes from point to point */
   uint32_t row_step;   /* bytes from row to row; 0: width x point_step */
-  int64_t stamp_ns;    /* nanoseconds, of any clock that runs on: ages, holding and smoothing go by it */
+  int64_t stamp_ns;    /* nanoseconds of any clock that only goes forward: ages, holding and smoothing use it */
   pose_wall_field x;   /* metres in the lidar frame; FLOAT32 or FLOAT64 */
   pose_wall_field y;
   pose_wall_field z;
   pose_wall_field intensity; /* any type; used only with intensity_weight > 0 */
   pose_wall_field
-      time; /* when each point was measured, any type; read with an odometry, and by pose_wall_motion. Counts
-               from the smallest of the cloud, in the one of s, ms, us and ns by which
-               the scan takes 0.01 to 1 s */
-  const struct pose_wall_inputs* inputs; /* what the machine knows of itself in this frame, or NULL */
+      time; /* when each point was measured, any type; read with an odometry, and by pose_wall_motion. Counts from the
+               smallest of the cloud, in the one of s, ms, us and ns by which the scan takes 0.01 to 1 s */
+  const struct pose_wall_inputs* inputs; /* the machine's own data of this frame, or NULL */
   pose_wall_field ring;                  /* which of the sensor's rings, any type, from 0. Read by pose_wall_motion */
 } pose_wall_cloud;
 
@@ -291,43 +288,45 @@ enum pose_wall_input {
 };
 #define POSE_WALL_INPUT_BOXES 4
 
-/* An odometry's levels: along the road, across it to the left, up, in m; turns about these three, in rad. In the order
- * of pose_wall_motion_direction. */
+/* Directions of an odometry's levels, in the order of pose_wall_motion_direction: along the road, across it to the
+ * left, up, in m; turns about these three, in rad. */
 #define POSE_WALL_ODOMETRY_DIRECTIONS 6
 
-/* Where the machine stands at this frame's stamp, by an odometry that measures: pose_wall_motion_give fills it, and
- * one of the caller's own may. What the engine uses is the difference between two frames of one run, so an odometry may
- * drift and its origin is its own. The error of such a difference stays within
+/* The machine's pose at this frame's stamp, by an odometry that measures. pose_wall_motion_give fills it; the caller
+ * may use an odometry of its own. The engine uses only the difference between two frames of one run. So an odometry may
+ * drift and may have any origin. The error of such a difference stays within
  *     level (then) + level (now) + protection_factor sqrt(drift_variance (now) - (then)) + drift (now) - (then). */
 typedef struct pose_wall_odometry {
   uint64_t run;               /* poses of one run are comparable; another number after each new start. Not 0 */
   double position_m[3];       /* of base, in the run's frame */
   double quaternion[4];       /* x, y, z, w: turns base into the run's frame; unit within 1e-5 */
-  double along[3], across[3]; /* unit, in the run's frame, at right angles: what the levels' directions mean here */
-  double level[POSE_WALL_ODOMETRY_DIRECTIONS];          /* what comes and goes with each frame: m, rad; 0 to infinite */
-  double drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS]; /* what stays, since the run began: m2, rad2; never falls */
-  double drift[POSE_WALL_ODOMETRY_DIRECTIONS];          /* likewise, of what has no variance: m, rad; never falls */
-  double velocity_m_s[3];    /* in base, in the course of this scan: takes the skew out of a cloud with times */
-  double turn_rate_rad_s[3]; /* likewise */
-  double rate_level[POSE_WALL_ODOMETRY_DIRECTIONS]; /* how well these two are known: m/s, rad/s; 0 to infinite */
+  double along[3], across[3]; /* unit, in the run's frame, at right angles: the directions of the levels */
+  double level[POSE_WALL_ODOMETRY_DIRECTIONS];          /* error of each frame by itself: m, rad; 0 to infinite */
+  double drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS]; /* accumulated since the run began: m2, rad2; never falls */
+  double drift[POSE_WALL_ODOMETRY_DIRECTIONS]; /* likewise, the part that is no variance: m, rad; never falls */
+  double velocity_m_s[3];                      /* in base, during this scan: removes the skew of a cloud with times */
+  double turn_rate_rad_s[3];                   /* likewise */
+  double rate_level[POSE_WALL_ODOMETRY_DIRECTIONS]; /* levels of these two: m/s, rad/s; 0 to infinite */
 } pose_wall_odometry;
 
-/* What the machine knows of itself since the last frame. All of it is optional, and none is believed against what is
- * measured: motion that contradicts itself or the measurements, or is out of range, is not used, and neither is a box
- * out of range. The frame then says POSE_WALL_R_PRIOR; sound boxes were applied all the same.
- * Without motion the levels of held values grow by hold_rate_angle and hold_rate_distance, with it as follows.
- * STANDING: none grows (age_s still does). TURN_RATE: a held yaw turns with it, and its level grows by
- * protection_factor sigma; roll and pitch are not in it. SPEED with TURN_RATE: distances grow no faster than the
- * sampling points move, |speed| + reach x |turn rate|, sigmas with it, where that is less than hold_rate_distance;
- * where a point moves to is not used. SPEED alone: nothing.
- * ODOMETRY, which stands before the others where the last frame had one of the same run: held values move as the
- * machine moved before the floor and the walls that were seen last, smoothed ones start from there, and a jump that it
- * explains is none. Their levels grow by the odometry's errors, and with the way by what is not known of a wall's own
- * direction. Beyond the stretch of a wall that was seen a distance may change by as much as the way there, and angles
- * as without odometry. hold_max does not count time through which a value was carried; one whose level passed the alert
- * limit meanwhile may come back. A cloud with times is freed of the scan's motion before anything else. The key
- * `motion` switches all this off.
- */
+/* The machine's own data since the last frame. All of it is optional, and measurements win over all of it. The engine
+ * does not use motion that contradicts itself or the measurements, motion out of range, or a box out of range. The
+ * frame then has POSE_WALL_R_PRIOR; sound boxes are applied all the same. Without motion the levels of held values grow
+ * by hold_rate_angle and hold_rate_distance. With it:
+ * STANDING: no level grows (age_s still does).
+ * TURN_RATE: a held yaw turns with it, and its level grows by protection_factor sigma. It does not affect roll and
+ * pitch.
+ * SPEED with TURN_RATE: the levels of distances grow no faster than the sampling points move, |speed| + reach x |turn
+ * rate| and their sigmas, where that is less than hold_rate_distance. The direction of that motion is not used.
+ * SPEED alone: no effect.
+ * ODOMETRY: used instead of the others where the last frame had one of the same run. Held values then move with the
+ * machine relative to the last measured floor and walls. Smoothing starts from the moved values, and a jump that the
+ * motion explains does not count as one. Levels grow by the odometry's errors, and with the distance travelled by the
+ * uncertainty of the wall's own direction. Beyond the measured stretch of a wall a distance may change by as much as
+ * the machine travelled there; angles then grow as without odometry. Time through which an odometry carried a value
+ * does not count for hold_max. A value whose level meanwhile passed the alert limit may come back. The scan's motion is
+ * first removed from a cloud with times.
+ * The key `motion` switches ODOMETRY off. */
 typedef struct pose_wall_inputs {
   uint32_t struct_size;         /* sizeof(pose_wall_inputs) */
   uint32_t given;               /* pose_wall_input bits; members whose bit is not set are not read, but body_box is */
@@ -344,15 +343,15 @@ typedef struct pose_wall_inputs {
  * or data NULL with count > 0. */
 int32_t pose_wall_cloud_xyz32_3(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
                                 int64_t stamp_ns);
-/* The same for programs built against a header whose cloud ends with inputs: writes so far. */
+/* The same for programs built against a header whose cloud ends with inputs: writes no further. */
 int32_t pose_wall_cloud_xyz32_2(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
                                 int64_t stamp_ns);
-/* For programs built against ABI 1, whose cloud is shorter: writes nothing, and always gives POSE_WALL_E_ABI. */
+/* For programs built against ABI 1, whose cloud is shorter: writes nothing and always returns POSE_WALL_E_ABI. */
 int32_t pose_wall_cloud_xyz32(pose_wall_cloud* cloud, const void* data, uint32_t count, uint32_t point_step,
                               int64_t stamp_ns);
 #define pose_wall_cloud_xyz32 pose_wall_cloud_xyz32_3
 
-/* Whether pose_wall_process would take this cloud: looks at the description only, at no point. Fails as it does: NULL,
+/* Checks whether pose_wall_process would take this cloud: the description only, no point. Fails as it does: NULL,
  * struct_size of cloud or inputs, POSE_WALL_E_CLOUD_*, POSE_WALL_E_INPUT. */
 POSE_WALL_CHECKED int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud);
 
@@ -373,76 +372,73 @@ enum pose_wall_quantity {
 enum pose_wall_state {
   POSE_WALL_INVALID = 0, /* never measured, or held until it expired (POSE_WALL_R_HOLD_EXPIRED); the last value stays
                             readable, confidence 0 */
-  POSE_WALL_HELD = 1,    /* not measured in this frame: the last good value. Its protection level grows, but for what an
-                            odometry tells of a place again */
-  POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: the protection level says how much */
+  POSE_WALL_HELD = 1,    /* not measured in this frame: the last good value. Its protection level grows, except where an
+                            odometry leads back to a measured place */
+  POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: see the protection level */
   POSE_WALL_VALID = 3     /* measured in this frame, every gate passed, protection level within the alert limit */
 };
 
-/* Why a value is not valid, or what a reader should know of it. Bits; pinned by a test. */
+/* Why a value is not valid, and notes on valid ones. Bits; pinned by a test. */
 enum pose_wall_reason {
   /* the frame */
-  POSE_WALL_R_NO_POINTS = 1 << 0,  /* too few points survive the filters */
-  POSE_WALL_R_LEAF_GROWN = 1 << 1, /* of the frame: voxel leaf enlarged to stay within points_max, or still so since the
-                                      last frames (a note, not a fault). Of a value: even voxels of 0.26 m were too
-                                      many, and nothing is told from larger ones */
-  POSE_WALL_R_STAMP_STILL = 1 << 2, /* stamp less than 1 ms after the last frame's: taken as the same frame again, and
-                                       nothing is measured. What is held ages as if the longer of the last two periods
-                                       had passed (at the first such frame also what the last one fell short of it), and
-                                       expires at the third in a row; at the first where no period is known, for no
-                                       stamp has gone on by 1 ms to stamp_gap_max yet. Of every frame: the stamps are
-                                       no nanoseconds */
-  POSE_WALL_R_STAMP_BACK =
-      1 << 3, /* stamp older than the last frame's: what is held expires, smoothing starts afresh */
-  POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing starts afresh */
-  POSE_WALL_R_FROZEN = 1 << 5,     /* the very points of one of the last four clouds again, under a new stamp: a frozen
-                                      sensor. Degraded, with a level that grows with the age of the first copy; held
-                                      after frozen_frames repeats in a row (under an old stamp they count, too), or
-                                      where the clock went back since the first copy */
+  POSE_WALL_R_NO_POINTS = 1 << 0, /* too few points survive the filters */
+  POSE_WALL_R_LEAF_GROWN =
+      1 << 1, /* of the frame: voxel leaf enlarged to stay within points_max, in this frame or in one shortly before (a
+                 note, not a fault). Of a value: even voxels of 0.26 m were too many, and larger ones are not used */
+  POSE_WALL_R_STAMP_STILL =
+      1 << 2, /* stamp less than 1 ms after the last frame's: counts as the same frame again, and nothing is measured.
+                 Held values age by the longer of the last two periods, and at the first such frame also by what the
+                 last period fell short of it. They expire at the third in a row. They expire at the first where no
+                 period is known: no stamp has advanced by 1 ms to stamp_gap_max yet. In every frame: the stamps are not
+                 in nanoseconds */
+  POSE_WALL_R_STAMP_BACK = 1 << 3, /* stamp older than the last frame's: held values expire, smoothing restarts */
+  POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing restarts */
+  POSE_WALL_R_FROZEN =
+      1 << 5, /* exactly the points of one of the last four clouds, under a new stamp: a frozen sensor. Degraded, with a
+                 level that grows with the age of the first copy. Held after frozen_frames repeats in a row (repeats
+                 under an old stamp count, too), or where the clock went back since the first copy */
   /* the floor */
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */
   POSE_WALL_R_FLOOR_THIN = 1 << 8,        /* its points lie nearly on one line, or cover too small an area */
-  POSE_WALL_R_FLOOR_AMBIGUOUS = 1 << 9,   /* another level or slope (bench, pile, reflection, uneven ground)
-                                              explains the view nearly as well, the machine may stand on other ground
-                                              than what is seen of the floor (a ramp ahead), or both walls lean
-                                              against it */
+  POSE_WALL_R_FLOOR_AMBIGUOUS =
+      1 << 9, /* another level or slope (bench, pile, reflection, uneven ground) fits nearly as well, the machine may
+                 stand on other ground than the visible floor (a ramp ahead), or both walls lean against it */
   /* the walls */
   POSE_WALL_R_WALL_NOT_FOUND = 1 << 10,
-  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11,  /* fewer than wall_inlier_min */
-  POSE_WALL_R_WALL_SHORT = 1 << 12,        /* supported over less than wall_length_min along the road */
-  POSE_WALL_R_WALL_LEANS = 1 << 13,        /* leans more than wall_lean_max_deg */
-  POSE_WALL_R_WALL_SEEN_THROUGH = 1 << 14, /* it does not show itself solid like a wall: rays pass it, its top or both
-                                              of its ends; nothing answers where it should, or so little that a gap
-                                              would go unnoticed; or it is seen too low to be told from a conveyor:
-                                              pipes, props, conveyor, vehicle, curtain */
-  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15,    /* another plane on this side explains the view nearly as well, or did in
-                                               one of the three frames before; or it is grooved along its length like
-                                               pipes one above the other */
+  POSE_WALL_R_WALL_FEW_INLIERS = 1 << 11, /* fewer than wall_inlier_min */
+  POSE_WALL_R_WALL_SHORT = 1 << 12,       /* supported over less than wall_length_min along the road */
+  POSE_WALL_R_WALL_LEANS = 1 << 13,       /* leans more than wall_lean_max_deg */
+  POSE_WALL_R_WALL_SEEN_THROUGH =
+      1 << 14, /* it is not solid like a wall, but may be pipes, props, a conveyor, vehicle or curtain. Rays pass it,
+                  its top or both of its ends; or returns are missing where the wall should be, or so sparse that a gap
+                  would go unnoticed; or it is visible only low enough to be a conveyor */
+  POSE_WALL_R_WALL_AMBIGUOUS = 1 << 15, /* another plane on this side fits nearly as well, or did in one of the three
+                                           frames before; or it is grooved along its length like stacked pipes */
   POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 16,
   POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 17, /* beyond yaw_max_deg, where side and face become ambiguous */
   POSE_WALL_R_CROSS_ROAD = 1 << 18,       /* a better pair of walls runs across the machine than along it */
   POSE_WALL_R_CURVED = 1 << 19,           /* wall or floor bends significantly */
-  POSE_WALL_R_EXTRAPOLATED = 1 << 20,     /* of a distance: no wall seen around the sampling point, to which the
-                                              plane is prolonged, or the wall steps there, or the point lies in the
-                                              rock. Of yaw: the walls are seen only well ahead or behind */
+  POSE_WALL_R_EXTRAPOLATED =
+      1 << 20, /* of a distance: no wall visible around the sampling point, so its plane is extended there; or the wall
+                  steps there, or the point lies in the rock. Of yaw: the walls are visible only well ahead or behind */
   /* the outcome */
   POSE_WALL_R_LEVEL_MISSING = 1 << 21, /* walls not searched: this frame has no floor to level by */
   POSE_WALL_R_ALERT_LIMIT = 1 << 22,   /* protection level above the alert limit */
-  POSE_WALL_R_INNOVATION = 1 << 23,    /* jumped further from the last value than the machine can move, or was refused
-                                          and never good before: waits to be confirmed by three more frames */
+  POSE_WALL_R_INNOVATION = 1 << 23, /* jumped further from the last value than the machine can move, or was refused and
+                                       never good before. Three more frames must confirm it */
   POSE_WALL_R_RATE_LIMITED = 1 << 24,  /* smoothed yaw follows by yaw_rate_limit_deg per frame */
-  POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held until its protection level passed the alert limit or its age hold_max, or
-                                          until stamps that jumped back or stood still no longer told its age */
+  POSE_WALL_R_HOLD_EXPIRED = 1 << 25,  /* held until its protection level passed the alert limit, its age passed
+                                          hold_max, or stamps that jumped back or stood still left its age unknown */
   POSE_WALL_R_WALL_TOO_NEAR = 1 << 26, /* returns nearer than range_min block the view to this side */
   POSE_WALL_R_NEVER_MEASURED = 1 << 27,
   /* between frames */
-  POSE_WALL_R_NO_FRAME = 1 << 28, /* told by pose_wall_age: no frame has come since */
+  POSE_WALL_R_NO_FRAME = 1 << 28, /* from pose_wall_age: no frame has come since */
   /* limits and inputs */
-  POSE_WALL_R_WORK_LIMIT = 1 << 29, /* the frame would have taken more steps than work_max: what was not
-                                       finished is refused */
+  POSE_WALL_R_WORK_LIMIT =
+      1 << 29,                /* the frame would have taken more steps than work_max: unfinished results are refused */
   POSE_WALL_R_PRIOR = 1 << 30 /* a part of the frame's pose_wall_inputs was not used: out of range, or contradicted by
-                                 another or by what was measured. Sound boxes were applied all the same */
+                                 another part or by the measurements. Sound boxes were applied all the same */
 };
 #define POSE_WALL_REASON_COUNT 31
 
@@ -453,31 +449,31 @@ const char* pose_wall_reason_text(uint32_t bit_index);
 const char* pose_wall_state_name(uint32_t state);
 const char* pose_wall_quantity_name(uint32_t quantity);
 
-/* What a protection level is made of; index of pose_wall_value.part. */
+/* The parts of a protection level; index of pose_wall_value.part. */
 enum pose_wall_part {
   POSE_WALL_PART_RANDOM = 0,        /* protection_factor standard deviations of the fit */
-  POSE_WALL_PART_RANGE_BIAS = 1,    /* range_bias_max, as far as it reaches this quantity */
+  POSE_WALL_PART_RANGE_BIAS = 1,    /* effect of range_bias_max on this quantity */
   POSE_WALL_PART_BEND = 2,          /* the surface is no plane: bends, waves, ribs, walls that are not parallel */
   POSE_WALL_PART_RIVAL = 3,         /* another surface may be the floor or the wall, in this frame or a moment ago */
-  POSE_WALL_PART_EXTRAPOLATION = 4, /* the wall is not seen where the distance is asked for */
+  POSE_WALL_PART_EXTRAPOLATION = 4, /* the wall is not visible at the sampling point */
   POSE_WALL_PART_LAG = 5,           /* value is not raw: smoothing */
-  POSE_WALL_PART_AGE = 6, /* motion that nobody knows: since it was measured, since a frozen cloud's first copy,
-                             or in the course of a scan that an odometry freed of it */
+  POSE_WALL_PART_AGE = 6, /* unknown motion: since the measurement, since a frozen cloud's first copy, or within a scan
+                             that an odometry corrected */
   POSE_WALL_PARTS = 7
 };
 /* "random", "range_bias"; static storage. */
 const char* pose_wall_part_name(uint32_t part);
 
 typedef struct pose_wall_value {
-  /* What a controller acts on: smoothed, or held; NaN if never measured. Smoothing is of second order over
-   * temporal_smoothing_tau: it follows a steady turn without lag. It departs from raw by at most a quarter of raw's
-   * level. */
+  /* The value for a controller to act on, if `state` allows: smoothed, or held; NaN if never measured. Smoothing is of
+   * second order over temporal_smoothing_tau: it follows a steady turn without lag. It departs from raw by at most a
+   * quarter of raw's level. */
   double value;
   double raw;   /* this frame's own measurement before smoothing; NaN if none */
   double sigma; /* standard deviation of raw: its random part, on rough rock too (held: of the last raw). Biases that
                    the engine can bound but not know (range bias, rival surfaces) are in the levels only */
-  double protection_level;     /* |value - truth| stays within it; NaN if never measured. While invalid it goes by
-                                  stamps that may have jumped: nothing to rely on */
+  double protection_level; /* |value - truth| stays within it; NaN if never measured. Do not rely on it while invalid:
+                              its stamps may have jumped */
   double raw_protection_level; /* |raw - truth| stays within it; NaN if nothing was measured */
   double confidence; /* alert limit / (alert limit + protection level); 0 when invalid; falls and rises with that level
                         while held */
@@ -502,12 +498,13 @@ typedef struct pose_wall_plane {
   double extent_min_m; /* from the base origin. walls: the supported span along the road. floor: the circle that it was
                           fitted within, so minus and plus its radius */
   double extent_max_m;
-  double area_m2; /* supported area */
-  uint32_t found; /* 0: of the other members only iterations and reasons are set. 1: a plane was fitted; whether it was
-                     used, the states of the quantities tell */
-  uint32_t inliers;    /* measured points on the plane: each voxel counts the points it stands for */
-  uint32_t iterations; /* hypotheses scored, the last frame's plane among them. floor: up to ground_iterations, in the
-                          look that it is told from. walls: up to wall_iterations, and four more along the other wall */
+  double area_m2;   /* supported area */
+  uint32_t found;   /* 0: of the other members only iterations and reasons are set. 1: a plane was fitted; the states of
+                       the quantities show whether it was used */
+  uint32_t inliers; /* measured points on the plane: each voxel counts the points it stands for */
+  uint32_t
+      iterations; /* hypotheses scored, including the last frame's plane. floor: up to ground_iterations, within the
+                     radius of the accepted floor. walls: up to wall_iterations, and four more along the other wall */
   uint32_t reasons;
 } pose_wall_plane;
 
@@ -523,7 +520,7 @@ enum pose_wall_stage {
 };
 const char* pose_wall_stage_name(uint32_t stage);
 
-/* What a positive angle means to somebody who sits in the machine and looks along forward_axis. */
+/* The meaning of a positive angle for a driver who looks along forward_axis. */
 enum pose_wall_sense {
   POSE_WALL_SENSE_UNKNOWN = 0,
   POSE_WALL_SENSE_RIGHT_DOWN = 1,
@@ -538,12 +535,12 @@ const char* pose_wall_sense_name(uint32_t sense);
 typedef struct pose_wall_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_result) before the call */
   uint32_t frame_reasons;
-  uint32_t mark;              /* the engine's: tells a result from memory that no engine wrote */
+  uint32_t mark;              /* set by the engine: shows that an engine wrote this result */
   uint32_t config_crc32;      /* pose_wall_config_crc() of the engine's config */
-  uint32_t source_id;         /* of the config: which sensor or engine of several */
+  uint32_t source_id;         /* of the config: number of this sensor or engine */
   uint32_t positive_means[3]; /* pose_wall_sense of roll, pitch and yaw, by forward_axis */
-  uint64_t publication;       /* counts the results of this engine from 1, those of pose_wall_age too */
-  uint64_t work;              /* units of work that the frame took, see work_max; the same on every machine */
+  uint64_t publication;       /* counts the results of this engine from 1, including those of pose_wall_age */
+  uint64_t work;              /* steps of work in this frame, see work_max; the same on every machine */
   int64_t stamp_ns;           /* the frame's */
   uint64_t frame_index; /* counts processed frames from 0; of pose_wall_age: the last one's, UINT64_MAX before any */
   double confidence;    /* the smallest of the seven */
@@ -564,7 +561,7 @@ typedef struct pose_wall_result {
   uint32_t dropped_body;
   uint32_t voxels;
   uint32_t outliers;
-  uint32_t open_points; /* voxels with nothing over or under them, within the radius that the floor was looked for in */
+  uint32_t open_points; /* voxels with nothing over or under them, within the radius of the search for the floor */
   uint32_t wall_points; /* voxels of the wall band */
 } pose_wall_result;
 
@@ -578,18 +575,18 @@ typedef struct pose_wall_engine pose_wall_engine;
  * initialised, POSE_WALL_E_CONFIG_RULE. */
 POSE_WALL_CHECKED int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
 
-/* Places an engine in block, which may hold anything and stays the caller's; it must outlive the engine and not move.
- * The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_CONFIG_RULE,
- * block misaligned or too small, or a call is inside an engine that lives in it (POSE_WALL_E_BUSY). A block that a
- * process left in the middle of a call, in memory that outlives it, looks so for ever: clear its first
- * POSE_WALL_BLOCK_ALIGNMENT bytes before. *engine is set only on success.
- * There is nothing to close. Cost: none to speak of; the block is cleared as it is used.
- * Settings, memory and pointers in the block carry a sum, which every call checks: where a single word of them was
- * changed from outside, the engine is refused from then on (POSE_WALL_E_ENGINE) until it is opened again. */
+/* Places an engine in block, which may hold anything and stays the caller's. The block must outlive the engine and not
+ * move. The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE),
+ * POSE_WALL_E_CONFIG_RULE, block misaligned or too small, or a call is inside an engine in this block
+ * (POSE_WALL_E_BUSY). *engine is set only on success. A block in memory that outlives its process stays busy if the
+ * process died inside a call. Clear its first POSE_WALL_BLOCK_ALIGNMENT bytes before opening it again.
+ * There is nothing to close. Cost: negligible; the engine clears the block as it uses it. A checksum covers settings,
+ * memory and pointers in the block, and every call checks it. After any change from outside the engine is refused
+ * (POSE_WALL_E_ENGINE) until it is opened again. */
 POSE_WALL_CHECKED int32_t pose_wall_open(const pose_wall_config* config, void* block, uint64_t block_bytes,
                                          pose_wall_engine** engine);
 
-/* Forgets all that was measured, as if just opened. Fails iff: NULL, engine not open. */
+/* Forgets all measurements, as if just opened. Fails iff: NULL, engine not open. */
 POSE_WALL_CHECKED int32_t pose_wall_reset(pose_wall_engine* engine);
 
 /* Gives the engine a clock for stage_ns: a function that returns monotonic nanoseconds. NULL takes it away. The
@@ -598,28 +595,29 @@ typedef int64_t (*pose_wall_clock)(void* user);
 int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user);
 
 /* One frame in, one result out. Set result->struct_size = sizeof *result first. A malformed cloud description is
- * refused with a status and leaves engine and result unchanged; a cloud of garbage points is processed, and the result
- * says what could not be measured. Fails iff: NULL, engine not open or in use (POSE_WALL_E_BUSY; so in all calls that
+ * refused with a status, and engine and result stay unchanged. A cloud of garbage points is processed, and the result
+ * shows the unmeasured quantities. Fails iff: NULL, engine not open or in use (POSE_WALL_E_BUSY; so in all calls that
  * take an engine), struct_size of cloud, inputs or result, POSE_WALL_E_CLOUD_*, POSE_WALL_E_INPUT. Cost: O(width x
  * height) for reading plus a bounded part, see TIME above. */
 POSE_WALL_CHECKED int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud,
                                             pose_wall_result* result);
 
-/* What the seven quantities are at stamp_ns when no frame has come since the last: held and aged by the rules of a
- * frame that measures nothing, then invalid, with POSE_WALL_R_NO_FRAME. For the time in which a sensor is silent;
- * stamp_ns is in the clock of the frames' stamps, and at or before the last frame's nothing ages. frame_index is the
- * last frame's (UINT64_MAX before the first), there are no planes and no counts. Set result->struct_size first. Fails
- * iff: NULL, engine not open, struct_size. It changes one thing only: what it told invalid stays so until it is
- * measured again, even where the next frame's stamp would say that less time has passed. The next frame is smoothed
+/* The seven quantities at stamp_ns, when no frame has come since the last: for the time in which a sensor is silent.
+ * Values are held and aged as in a frame that measures nothing, then invalid, with POSE_WALL_R_NO_FRAME. The argument
+ * stamp_ns uses the clock of the frames' stamps; nothing ages at or before the last frame's stamp. The result has the
+ * last frame's frame_index (UINT64_MAX before the first), no planes and no counts. Set result->struct_size first. Fails
+ * iff: NULL, engine not open, struct_size. The call has one lasting effect: a value that it reported invalid stays so
+ * until it is measured again, even if the next frame's stamp says that less time has passed. The next frame is smoothed
  * over its own time since the last one. */
 POSE_WALL_CHECKED int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result);
 
-/* When a memento is saved or loaded, as far as the caller can tell: without it nobody knows how old its values are. */
+/* The time at which a memento is saved or loaded, as far as the caller knows it. Without it the ages of its values are
+ * unknown. */
 enum pose_wall_moment_known {
-  POSE_WALL_MOMENT_BOOT = 1, /* boot_id and stamp_ns: within one boot the stamps' clock runs on */
-  POSE_WALL_MOMENT_WALL = 2, /* wall_ns and stamp_ns: a clock that goes on while the machine is off */
+  POSE_WALL_MOMENT_BOOT = 1, /* boot_id and stamp_ns: within one boot the stamps' clock goes forward */
+  POSE_WALL_MOMENT_WALL = 2, /* wall_ns and stamp_ns: a clock that runs while the machine is off */
   POSE_WALL_MOMENT_SAME_CLOCK =
-      4 /* load only: the caller vouches that the stamps go on in the clock of the saved ones */
+      4 /* load only: the caller guarantees that the stamps continue the clock of the saved ones */
 };
 typedef struct pose_wall_moment {
   uint32_t struct_size; /* sizeof(pose_wall_moment) */
@@ -630,22 +628,25 @@ typedef struct pose_wall_moment {
   int64_t stamp_ns;     /* now, in the clock of the clouds' stamps */
 } pose_wall_moment;
 
-/* All that an engine remembers from frame to frame, as bytes, so that any frame can be computed again: an engine of the
- * same version and config that loads what was saved before a frame gives the same bits for that frame. The same on
- * every machine. load checks its length (a longer one is read as far as pose_wall_memento_bytes), version, config and
- * checksum, and takes nothing of what it refuses: after a change of the config an engine begins anew. It is trusted
- * like the config, since whoever writes it can make the engine believe a past. Neither touches what
- * pose_wall_last_points gives.
+/* The engine's memory from frame to frame, as bytes, the same on every machine. With it any frame can be computed
+ * again: an engine of the same version and config loads the memento from before a frame and gives the same bits for
+ * that frame. The call load checks length (of a longer one it reads the first pose_wall_memento_bytes), version, config
+ * and checksum. It takes nothing of a memento that it refuses: after a change of the config an engine starts without
+ * memory. Trust a memento like the config: whoever writes it can make the engine believe a false past. Neither call
+ * changes the points of pose_wall_last_points.
  *
- * AGE  values are held on only where load can date them: in the same boot (POSE_WALL_MOMENT_BOOT at both times, the
- * same boot_id), by the wall clock (POSE_WALL_MOMENT_WALL at both times, and it did not go back), or on the caller's
- * word (POSE_WALL_MOMENT_SAME_CLOCK). By the wall clock they age by what passed on it, and stamps go on from the
- * moment's stamp_ns. Otherwise, and with now NULL, all values have expired; leaf and planes are still known. Only in
- * the same boot, or on the caller's word, are clouds that were seen before still known.
+ * AGE  values stay held only where load can date them:
+ * - in the same boot (POSE_WALL_MOMENT_BOOT at both times, the same boot_id),
+ * - by the wall clock (POSE_WALL_MOMENT_WALL at both times, and it did not go back), or
+ * - on the caller's word (POSE_WALL_MOMENT_SAME_CLOCK).
+ *
+ * By the wall clock values age by the time that passed on it, and stamps continue from the moment's stamp_ns.
+ * Otherwise, and with now NULL, all values have expired; leaf and planes are still known. Earlier clouds are still
+ * known only in the same boot or on the caller's word.
  *
  * Fails iff: engine or memento NULL, engine not open, moment's struct_size, an unknown bit in it or a boot_id of zeros
- * (POSE_WALL_E_INPUT);
- * save also with POSE_WALL_E_BUFFER_SMALL, load also with POSE_WALL_E_MEMENTO. Cost: no more than copying. */
+ * (POSE_WALL_E_INPUT). save fails also with POSE_WALL_E_BUFFER_SMALL, load also with POSE_WALL_E_MEMENTO. Cost: no more
+ * than copying. */
 uint64_t pose_wall_memento_bytes(void);
 POSE_WALL_CHECKED int32_t pose_wall_save(const pose_wall_engine* engine, const pose_wall_moment* now, void* memento,
                                          uint64_t bytes);
@@ -659,9 +660,9 @@ enum pose_wall_label {
   POSE_WALL_LABEL_RIGHT = 3
 };
 
-/* The voxel centroids of the last processed frame, base frame, with what became of them: for pictures and logs.
- * Pointers into the block, valid until the next call on this engine. Cost: labels are told by this call, into the
- * block, at some 150 instructions a centroid; frames pay nothing for them. Fails iff: NULL, engine not open. */
+/* The voxel centroids of the last processed frame, base frame, with their labels: for pictures and logs. The pointers
+ * lead into the block and are valid until the next call on this engine. Cost: this call computes the labels, about 150
+ * instructions a centroid; frames pay nothing for them. Fails iff: NULL, engine not open. */
 typedef struct pose_wall_points {
   const float* x_base_m;
   const float* y_base_m;
@@ -674,16 +675,16 @@ POSE_WALL_CHECKED int32_t pose_wall_last_points(const pose_wall_engine* engine, 
 
 /* ---------------------------------------------------------------------------------------------- self test */
 
-/* For start-up and proof tests: the engine measures a road that it carries, by settings of its own, through the very
- * functions of this header. Every value has to be right (valid and within its level of the truth; not measured beside
- * an open side and without a floor), and all that comes out the same bits as the library notes: results, process
- * images of layout 1, labelled points. It shows that this processor, compiler and memory compute as those that were
- * tested. It shows nothing of the sensor, of your settings, or of an engine that is open elsewhere.
+/* For start-up and proof tests. The engine measures a built-in road with built-in settings, through the functions of
+ * this header. Every value must be right: valid and within its level of the truth, but not measured beside an open side
+ * or without a floor. All outputs (results, process images of layout 1, labelled points) must have the noted bits. The
+ * test shows that this processor, compiler and memory compute as the tested ones. It shows nothing about the sensor,
+ * your settings, or an engine that is open elsewhere.
  *
- * CODE   a CRC-32 (as that of the process image) over the engine's machine code and constants, as they lie in this
- * program's memory. Note it when the program is approved and compare it at each start: it is the same for each run of
- * one program, and another for another program, for a linker fills in addresses. Tables of pointers, which a loader
- * fills in at each start, are left out. Code has to be readable, so not for memory that can only be executed.
+ * CODE   a CRC-32 (as that of the process image) over the engine's machine code and constants in this program's memory.
+ * Note it when the program is approved and compare it at each start. It is the same in each run of one program. It
+ * differs between programs, because a linker fills in addresses. Tables of pointers, which a loader fills in at each
+ * start, are left out. The code must be readable: execute-only memory does not work.
  *
  * TIME   POSE_WALL_SELF_TEST_FRAMES frames of at most POSE_WALL_SELF_TEST_POINTS points and one pass over the code:
  * always the same work. src/README.md has the figure in instructions. */
@@ -693,54 +694,55 @@ POSE_WALL_CHECKED int32_t pose_wall_last_points(const pose_wall_engine* engine, 
 
 typedef struct pose_wall_self_test_report {
   uint32_t struct_size;     /* set by the caller to sizeof(pose_wall_self_test_report) before the call */
-  uint32_t frames;          /* that were measured */
-  uint64_t digest_expected; /* FNV-1a, 64 bits, of all that came out: as the library notes it */
+  uint32_t frames;          /* measured */
+  uint64_t digest_expected; /* FNV-1a, 64 bits, of all outputs: as noted in the library */
   uint64_t digest_found;
-  uint64_t code_bytes;   /* that the CRC is over; 0: the engine was linked otherwise than by its archive */
+  uint64_t code_bytes;   /* under the CRC; 0: the engine was not linked from its archive */
   uint32_t code_crc32;   /* 0 then */
-  uint32_t values_wrong; /* of 7 in each frame: wrong, or of another state than they must have */
-  int32_t refused;       /* what a call of the engine was refused with, or POSE_WALL_OK */
+  uint32_t values_wrong; /* of 7 in each frame: wrong, or in the wrong state */
+  int32_t refused;       /* status of a refused call of the engine, or POSE_WALL_OK */
   uint32_t reserved;
 } pose_wall_self_test_report;
 
-/* Bytes of the block that the self test takes: below 2.5 MiB. It may be that of an engine which is not open yet. */
+/* Bytes of the block for the self test: below 2.5 MiB. Use the block of an engine before that engine is opened, if you
+ * like. */
 uint64_t pose_wall_self_test_bytes(void);
 
-/* Runs it in a block that holds anything, aligned to POSE_WALL_BLOCK_ALIGNMENT; what it held is lost, afterwards no
+/* Runs the self test in a block aligned to POSE_WALL_BLOCK_ALIGNMENT. The block's contents are lost, and afterwards no
  * engine is open in it. Fails iff: NULL, struct_size, block misaligned or too small, each with the report unchanged; or
  * POSE_WALL_E_SELF_TEST, with the report filled: do not measure with this program. */
 POSE_WALL_CHECKED int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report);
 
 /* ---------------------------------------------------------------------------------------------- process image */
 
-/* A result for a controller, in words of 4 bytes without gaps; small enough for one PROFINET submodule or one Modbus
- * read (125 registers). tools/plc has the structured text for it, and a function block that uses it.
+/* A result for a controller, in words of 4 bytes without gaps. It fits into one PROFINET submodule or one Modbus read
+ * (125 registers). tools/plc has the structured text for it, and a function block that uses it.
  *
  * IMAGES   image 2 (pose_wall_image2, 62 words, 124 registers) is for new controllers. Image 1 (pose_wall_image, 60
- * words, 120 registers) stays as it is, for those that read it. Both hold the same seven quantities.
+ * words, 120 registers) stays as it is, for its present readers. Both hold the same seven quantities.
  *
- * NUMBERS   scaled integers (0.001 deg, mm); image 1 has floats (rad, m) beside them, never NaN or infinite: those stop
- * some controllers. What does not fit saturates at +-2147483647. No value: POSE_WALL_IMAGE_NO_VALUE. No protection
- * level: POSE_WALL_IMAGE_NO_BOUND, the worst there is. A float has the same numbers for them. A protection level is
- * rounded up, by as much as its value was rounded, too: |value - truth| <= protection holds for each pair of numbers as
- * they stand. An age that is not known or does not fit is 4294967295.
+ * NUMBERS   scaled integers (0.001 deg, mm). Image 1 has floats (rad, m) beside them, never NaN or infinite, because
+ * those stop some controllers. Larger numbers saturate at +-2147483647. No value: POSE_WALL_IMAGE_NO_VALUE. No
+ * protection level: POSE_WALL_IMAGE_NO_BOUND, the worst there is. A float has the same numbers for them. A protection
+ * level is rounded up and includes the rounding of its value: |value - truth| <= protection holds for each pair of
+ * numbers in the image. An age that is unknown or too large is 4294967295.
  *
  * BYTES   each word is in the host's order. The CRC is over the bytes as laid out low byte first, whatever the host: a
  * controller of the other order swaps the four bytes of every word, and nothing else.
  *
  * CRC   over all struct_size bytes but its own four, begun and ended with FFFFFFFF, bits reflected. Image 1: CRC-32 of
  * IEEE 802.3 (polynomial 04C11DB7; "123456789" gives CBF43926). Image 2: CRC-32C (Castagnoli, polynomial 1EDC6F41;
- * "123456789" gives E3069283). Frames of Ethernet, and so of EtherCAT and PROFINET, carry the polynomial of image 1:
- * damage that such a frame's sum does not find, an image's of the same polynomial is less likely to find, too. The
- * distances of both are told by Koopman, 32-Bit Cyclic Redundancy Codes for Internet Applications, DSN 2002. Either
- * finds damage, not intent.
+ * "123456789" gives E3069283). Frames of Ethernet, and so of EtherCAT and PROFINET, carry the polynomial of image 1.
+ * Damage that escapes such a frame's CRC is therefore more likely to escape an image's CRC of the same polynomial.
+ * Koopman, 32-Bit Cyclic Redundancy Codes for Internet Applications, DSN 2002, has the distances of both. Either finds
+ * damage, not intent.
  *
- * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it; where it
- * stands still, the values are old ones. What pose_wall_age tells has the sequence of the last frame. It begins anew
- * with pose_wall_open and pose_wall_reset, and goes on from the memento's with pose_wall_load. PUBLICATION (image 2)
- * changes with what pose_wall_age tells, too: where it stands still, nobody publishes.
+ * SEQUENCE   frame_index + 1 (low 32 bits): 0 before the first frame, 1 with it. A new frame changes it; while it
+ * stands still, the values are old. Images of pose_wall_age have the sequence of the last frame. It restarts with
+ * pose_wall_open and pose_wall_reset, and continues from the memento's with pose_wall_load. PUBLICATION (image 2)
+ * changes with pose_wall_age, too: while it stands still, nobody publishes.
  *
- * VERSION   raised when a member moves or changes its meaning; new members come at the end and change struct_size. */
+ * VERSION   raised when a member moves or changes its meaning. New members come at the end and change struct_size. */
 
 #define POSE_WALL_IMAGE_VERSION 1
 #define POSE_WALL_IMAGE2_VERSION 2
@@ -847,17 +849,16 @@ typedef struct pose_wall_image2 {
 
 /* Up to here. */
 
-/* Writes the whole image of a result, whichever engine gave it; the config's CRC is the result's. Set
- * image->struct_size = sizeof *image and result->struct_size first. Fails iff: NULL, a struct_size of another version,
- * a result that no engine made (POSE_WALL_E_RESULT); the image is then unchanged. Cost: some thousand simple
- * operations. */
+/* Writes the whole image of a result, of any engine; the config's CRC is the result's. Set image->struct_size = sizeof
+ * *image and result->struct_size first. Fails iff: NULL, a struct_size of another version, a result that no engine made
+ * (POSE_WALL_E_RESULT); the image is then unchanged. Cost: some thousand simple operations. */
 POSE_WALL_CHECKED int32_t pose_wall_image_fill(const pose_wall_result* result, pose_wall_image* image);
 
 /* POSE_WALL_OK for an image as pose_wall_image_fill left it. Fails iff: NULL, POSE_WALL_E_IMAGE_VERSION,
  * POSE_WALL_E_IMAGE_CRC. */
 POSE_WALL_CHECKED int32_t pose_wall_image_check(const pose_wall_image* image);
 
-/* What a runtime knows of a publication, and no result. */
+/* A runtime's data of a publication, which no result holds. */
 typedef struct pose_wall_image_source {
   uint32_t struct_size;   /* sizeof(pose_wall_image_source) */
   uint32_t cause;         /* 1: a frame, 2: silence, as in pose_wall_runtime_cause; 0: not known */
@@ -867,10 +868,10 @@ typedef struct pose_wall_image_source {
   int64_t latency_ns;     /* from reception to publication; negative: not known */
 } pose_wall_image_source;
 
-/* As pose_wall_image_fill, for image 2. source may be NULL: publication is then the result's own, and the rest reads as
- * not known. Without a runtime set publication to the result's own, cause 1, or 2 for what pose_wall_age gave, thinning
- * and held_thinning 1, and latency_ns by your own clock. Fails iff: result or image NULL, a struct_size of another
- * version, POSE_WALL_E_RESULT; the image is then unchanged. */
+/* As pose_wall_image_fill, for image 2. source may be NULL: publication is then the result's own, and the other members
+ * are unknown. Without a runtime set publication to the result's own, cause 1 (2 for a result of pose_wall_age),
+ * thinning and held_thinning 1, and latency_ns by your own clock. Fails iff: result or image NULL, a struct_size of
+ * another version, POSE_WALL_E_RESULT; the image is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_image2_fill(const pose_wall_result* result, const pose_wall_image_source* source,
                                                 pose_wall_image2* image);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The C ABI of pose_wall.h for C++17 callers: it owns the engine's block of memory and initialises structs; it decides
-// nothing. Every call returns the status of the C call beneath it, and nothing here throws except std::bad_alloc from
-// Engine::open. What the numbers mean is said in pose_wall.h.
+// The C ABI of pose_wall.h for C++17 callers. It owns the engine's block of memory and initialises structs; it makes no
+// decisions. Every call returns the status of the C call beneath it. Nothing here throws except std::bad_alloc from
+// Engine::open. The manual of all numbers is pose_wall.h.
 //
 //     pose_wall::api::Config config;
 //     if (config.set("forward_axis", "+X") != POSE_WALL_OK) ...

@@ -3,9 +3,9 @@
 
 /* clang-format off */
 /*
- * The black box: what went into the engine and what came out of it, as a ring of records in one file. Every record
- * carries what the engine remembered before it (pose_wall_save), so each can be computed again without the others: old
- * ones may be overwritten, damaged ones passed over. In libpose_wall_runtime.a; reads memory, opens no file.
+ * The black box: the engine's inputs and outputs as a ring of records in one file. Every record carries the engine's
+ * memory before it (pose_wall_save). So each can be computed again without the others: old records may be overwritten,
+ * damaged ones skipped. In libpose_wall_runtime.a; reads memory, opens no file.
  *
  * FILE. Little-endian throughout; all offsets are multiples of 64. Bytes 0 to 4095 are the header:
  *
@@ -46,15 +46,15 @@
  *               motion as published, a pose_wall_motion_result; all zero: none
  *               the cloud's points
  *
- * The head is written last, so a record that was cut off by a crash has none, or an old one whose body's CRC (at 52) no
- * longer holds. A loss of power is another matter: what the sink did not bring onto the disk by then is lost, in parts
- * of any place and order.
+ * The head is written last. So a record cut off by a crash has no head, or an old one whose CRC of the body (at 52)
+ * no longer holds. A loss of power is different: all bytes that the sink did not bring onto the disk are lost, at any
+ * place and in any order.
  *
- * The header is there once, and the config with it: whoever loses a byte of it cannot compute the box. The results as
- * published can then still be read, record by record. Every start writes its header over the last one's; records of
- * earlier runs remain behind the new ones until they are overwritten, and tell themselves apart by run and config. A
- * lap's number tells the newest records and the lap before, which follow on each other without a gap, from older
- * ones that a longer lap left behind the point where the later ones ended.
+ * The file has one header, with the config in it. If a byte of it is lost, the box cannot be computed. The published
+ * results can then still be read, record by record. Every start writes its header over the last one's. Records of
+ * earlier runs remain behind the new ones until they are overwritten; run and config distinguish them. The newest
+ * records and the lap before follow each other without a gap. The number of the lap distinguishes them from older
+ * records of a longer lap, which remain behind the end of the later laps.
  *
  * CRC-32 is that of zlib and Ethernet (reflected 0xEDB88320). It finds accidents; it is no signature.
  */
@@ -94,11 +94,11 @@ enum pose_wall_box_kind {
 /* Of pose_wall_box_record.damaged: anything but 0 is nothing to compute. */
 enum pose_wall_box_damage {
   POSE_WALL_BOX_WHOLE = 0,
-  POSE_WALL_BOX_DAMAGED = 1,    /* head whole, but the rest is not what was written or is cut off: of the members only
-                                   those from the head hold: sequence, received_ns, stamp_ns, kind, thinning */
+  POSE_WALL_BOX_DAMAGED = 1,    /* head whole, but the rest is changed or cut off. Only the members from the head hold:
+                                   sequence, received_ns, stamp_ns, kind, thinning */
   POSE_WALL_BOX_OVERLAPPED = 2, /* as DAMAGED, and heads of further records lie within its bytes: see box_next */
-  POSE_WALL_BOX_OTHER_RUN = 3   /* whole, every member holds, but it is of another run or config than the header: its
-                                   sequence counts that run's events, and the box's config is not its own */
+  POSE_WALL_BOX_OTHER_RUN = 3 /* whole, every member holds, but from another run or config than the header: its sequence
+                                 counts that run's events, and the box's config is not its own */
 };
 
 typedef struct pose_wall_box_info {
@@ -109,12 +109,12 @@ typedef struct pose_wall_box_info {
 
 /* Reads the header. Fails iff: NULL, POSE_WALL_BOX_E_FORMAT, POSE_WALL_BOX_E_VERSION; *info is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_box_open_3(const void* bytes, uint64_t count, pose_wall_box_info* info);
-/* What programs built against formats 1 and 2 call first: they write nothing, and always give POSE_WALL_E_ABI. */
+/* The names that programs built against formats 1 and 2 call: they write nothing and always return POSE_WALL_E_ABI. */
 POSE_WALL_CHECKED int32_t pose_wall_box_open(const void* bytes, uint64_t count, pose_wall_box_info* info);
 POSE_WALL_CHECKED int32_t pose_wall_box_open_2(const void* bytes, uint64_t count, pose_wall_box_info* info);
 #define pose_wall_box_open pose_wall_box_open_3
 
-/* Of a box of any format: which one, and which library wrote it; for who says why POSE_WALL_BOX_E_VERSION. Fails iff:
+/* The format of any box, and the version of the library that wrote it: to explain POSE_WALL_BOX_E_VERSION. Fails iff:
  * NULL, POSE_WALL_BOX_E_FORMAT; both are then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_box_written_by(const void* bytes, uint64_t count, uint32_t* format,
                                                    char version[24]);
@@ -126,7 +126,7 @@ typedef struct pose_wall_box_record {
   int64_t received_ns;
   int64_t stamp_ns;
   uint64_t digest;
-  uint64_t passed_over; /* bytes between the record before, or the search's start, and this one that are none */
+  uint64_t passed_over; /* bytes that belong to no record, since the record before or the start of the search */
   const void* memento;
   const void* result; /* a pose_wall_result; copy it out, it may be misaligned for the machine */
   const void* points; /* NULL: the digest only */
@@ -143,20 +143,20 @@ typedef struct pose_wall_box_record {
   uint32_t left_out_zero;
 } pose_wall_box_record;
 
-/* The next record at or behind *offset (begin with POSE_WALL_BOX_HEADER_BYTES), in the order of the file, which is not
- * that of the sequence once the ring has come round. Moves *offset behind it, also behind a damaged one where its head
- * says that it ends (a cut off one: behind its head). Whatever the bytes are, it reads none outside of them, and all
- * calls together take time in proportion to their count. Further records may lie within the bytes of one that is
- * OVERLAPPED, when the disk lost parts of what was written, or somebody forged it: they are found from
- * record->offset + 64 on, at the price of reading these bytes again, which forged ones can make the caller do for every
- * 64 bytes. At the end POSE_WALL_BOX_E_END, with passed_over set. Fails else iff: NULL. */
+/* The next record at or behind *offset (begin with POSE_WALL_BOX_HEADER_BYTES), in the order of the file. That is not
+ * the order of the sequence once the ring has wrapped. Moves *offset behind the record. Behind a damaged one it moves
+ * to the end that its head names; behind a cut off one, to the end of the head. Whatever the bytes are, the call reads
+ * none outside of them, and all calls together take time in proportion to their count. At the end returns
+ * POSE_WALL_BOX_E_END, with passed_over set. Fails else iff: NULL. Further records may lie within the bytes of an
+ * OVERLAPPED one, when the disk lost parts of the file or somebody forged it. A search from record->offset + 64 on
+ * finds them, and reads these bytes again. Forged bytes can force that every 64 bytes. */
 POSE_WALL_CHECKED int32_t pose_wall_box_next(const void* bytes, uint64_t count, uint64_t* offset,
                                              pose_wall_box_record* record);
 
-/* Computes a record again, on an engine that was opened with the box's config: loads the memento, does what was done
- * with the inputs that were given, and gives the result as the runtime published it (stage_ns apart: there is no
- * clock). Set result->struct_size first. Fails iff: NULL, POSE_WALL_BOX_E_EMPTY, _RUN or _KIND, as pose_wall_load, and
- * as pose_wall_process or pose_wall_age: for these two the engine has loaded the memento already. */
+/* Computes a record again, on an engine that was opened with the box's config. Loads the memento, repeats the call with
+ * the recorded inputs, and gives the published result (except stage_ns: there is no clock). Set result->struct_size
+ * first. Fails iff: NULL, POSE_WALL_BOX_E_EMPTY, _RUN or _KIND, as pose_wall_load, and as pose_wall_process or
+ * pose_wall_age. In the last two cases the engine has already loaded the memento. */
 POSE_WALL_CHECKED int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine,
                                                 pose_wall_result* result);
 

@@ -5,9 +5,9 @@
 /*
  * pose_wall_motion: how the machine moves along its roadway, from the same LiDAR frames.
  *
- * Per frame: the pose of base, how far it went along the road, and for each of six directions a standard deviation and
- * a protection level. Along a road most odometries stand still or slip and do not say so; this one reads the relief of
- * the rock, and tells a state along the road of its own: measured, ambiguous, unobservable or lost.
+ * Per frame it gives the pose of base, the travel along the road, and for each of six directions a standard deviation
+ * and a protection level. Along a road most odometries stand still or slip without a warning. This one reads the
+ * relief of the rock, and gives a state along the road: measured, ambiguous, unobservable or lost.
  *
  *     pose_wall_motion_settings settings;
  *     pose_wall_motion_settings_init(&settings);
@@ -18,7 +18,7 @@
  *     for every frame: pose_wall_motion_process(motion, &cloud, &result);
  *     with an engine:  pose_wall_motion_process_both(motion, engine, &cloud, &result, &engine_result);
  *
- * Each call returns a status to look at; it is left out here.
+ * Check the status that each call returns; this sketch leaves it out.
  *
  * FRAMES    base as in pose_wall.h. start: base as it stood at the first frame; poses are in it. Pose: a point p of
  *           base lies at R p + position in start, with R of the quaternion. road: the axis along which the road gives
@@ -34,10 +34,10 @@
  * LINKING   libpose_wall_motion.a needs libpose_wall.a behind it, and -lm: `pkg-config --libs pose_wall_motion`, or
  *           -lpose_wall_motion -lpose_wall -lm.
  *
- * METHOD    the stages of Shan and Englot, LeGO-LOAM, IROS 2018: range image, ground, clusters, features, and two steps
- *           of Levenberg-Marquardt, roll, pitch and height before yaw and the place across. Along the road, where those
- *           tell nothing, heights of the rock about its own planes are matched with a map of them. src/motion/README.md
- *           has the method and what it costs.
+ * METHOD    the stages of Shan and Englot, LeGO-LOAM, IROS 2018: range image, ground, clusters, features, and two
+ *           steps of Levenberg-Marquardt. The first step finds roll, pitch and height, the second yaw and the position
+ *           across. These tell nothing about the way along the road. There, heights of the rock above its own planes
+ *           are matched with a map of them. src/motion/README.md has the method and its cost.
  */
 /* clang-format on */
 
@@ -60,23 +60,23 @@ uint32_t pose_wall_motion_abi_version(void);
 
 /* ---------------------------------------------------------------------------------------------- settings */
 
-/* What the config of the engine does not hold; in pose_wall.yaml these are the keys motion_speed_max, _turn_max_deg (in
- * degrees there), _range_max and _keyframe, which the command reads and pose_wall_config_set does not know. Extrinsic,
- * forward_axis, range_min, body boxes and protection_factor are read from there. */
+/* Settings that the engine's config does not hold. In pose_wall.yaml they are the keys motion_speed_max, _turn_max_deg
+ * (in degrees there), _range_max and _keyframe. The command reads these; pose_wall_config_set does not know them.
+ * Extrinsic, forward_axis, range_min, body boxes and protection_factor come from the engine's config. */
 typedef struct pose_wall_motion_settings {
   uint32_t struct_size;  /* set by pose_wall_motion_settings_init */
   uint32_t reserved;     /* 0 */
-  double speed_max_m_s;  /* 0.01 to 30: no machine is faster. How far a frame is searched for, and how fast the level
-                            along the road widens while nothing tells the way */
-  double turn_max_rad_s; /* 0.01 to 10: no machine turns faster */
+  double speed_max_m_s;  /* 0.01 to 30: top speed of the machine: reach of the search, and growth of the level along the
+                            road while travel is unobservable */
+  double turn_max_rad_s; /* 0.01 to 10: fastest turn of the machine */
   double range_max_m;    /* 3 to 100: returns further away are not used */
-  double keyframe_m;     /* 0.05 to 1: the map takes a scan in after so much travel */
+  double keyframe_m;     /* 0.05 to 1: travel between two scans of the map */
 } pose_wall_motion_settings;
 
 /* 2 m/s, a quarter turn a second, 30 m, 0.2 m. Fails iff: NULL. */
 int32_t pose_wall_motion_settings_init(pose_wall_motion_settings* settings);
 
-/* What is wrong with settings: the member's name and what it takes, static storage. */
+/* A fault of the settings: the member's name and its range, static storage. */
 typedef struct pose_wall_motion_fault {
   const char* member;
   const char* rule; /* "speed_max_m_s must be from 0.01 to 30" */
@@ -88,13 +88,13 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_settings_check(const pose_wall_motion
 
 /* ---------------------------------------------------------------------------------------------- result */
 
-/* Of the way along the road in this frame. */
+/* State of the travel along the road in this frame. */
 enum pose_wall_along_state {
   POSE_WALL_ALONG_LOST = 0,         /* the scan fits the map nowhere: no pose. The map begins anew with this scan */
-  POSE_WALL_ALONG_UNOBSERVABLE = 1, /* nothing tells the way along the road: dead reckoning by the last speed that was
-                                       measured or given, and the level widens by the top speed */
-  POSE_WALL_ALONG_AMBIGUOUS = 2,    /* two places fit alike, as periodic sets do: the nearer to the expected one, and
-                                       the level covers both */
+  POSE_WALL_ALONG_UNOBSERVABLE = 1, /* no feature shows the travel along the road: dead reckoning by the last measured
+                                       or given speed, and the level grows by the top speed */
+  POSE_WALL_ALONG_AMBIGUOUS = 2, /* two places fit alike, as with periodic steel sets. The pose is the place nearer to
+                                    the expected one, and the level covers both */
   POSE_WALL_ALONG_MEASURED = 3
 };
 /* "measured"; static storage. */
@@ -102,18 +102,18 @@ const char* pose_wall_motion_along_state_name(uint32_t state);
 
 /* Why, in bits; pinned by a test. */
 enum pose_wall_motion_reason {
-  POSE_WALL_MOTION_R_FIRST = 1 << 0,       /* the map begins with this frame */
-  POSE_WALL_MOTION_R_FEW_POINTS = 1 << 1,  /* too few points with a surface around them */
-  POSE_WALL_MOTION_R_FEW_MATCHES = 1 << 2, /* too few of them lie on the map */
-  POSE_WALL_MOTION_R_SMOOTH = 1 << 3,      /* the relief tells no place from its neighbours */
-  POSE_WALL_MOTION_R_FEW_PATCHES = 1 << 4, /* what tells the place are too few patches of rock: one person, one prop */
-  POSE_WALL_MOTION_R_HALVES_DIFFER = 1 << 5, /* two halves of the rock tell different places */
+  POSE_WALL_MOTION_R_FIRST = 1 << 0,         /* the map begins with this frame */
+  POSE_WALL_MOTION_R_FEW_POINTS = 1 << 1,    /* too few points with a surface around them */
+  POSE_WALL_MOTION_R_FEW_MATCHES = 1 << 2,   /* too few of them lie on the map */
+  POSE_WALL_MOTION_R_SMOOTH = 1 << 3,        /* the relief does not distinguish a place from its neighbours */
+  POSE_WALL_MOTION_R_FEW_PATCHES = 1 << 4,   /* too few patches of rock determine the place: one person, one prop */
+  POSE_WALL_MOTION_R_HALVES_DIFFER = 1 << 5, /* two halves of the rock fit different places */
   POSE_WALL_MOTION_R_SECOND_PEAK = 1 << 6,   /* another place fits nearly as well */
   POSE_WALL_MOTION_R_AT_EDGE = 1 << 7,       /* the best place lies further off than the machine can have moved */
-  POSE_WALL_MOTION_R_NO_GROUND = 1 << 8,     /* roll, pitch and height are told by walls and roof alone */
-  POSE_WALL_MOTION_R_STAMP = 1 << 9,  /* the stamp stood still or went back: nothing is taken from this frame, its pose
-                                          is the last one. The second stamp in a row that went back is believed */
-  POSE_WALL_MOTION_R_GAP = 1 << 10,   /* frames are missing before this one: it was searched for in a wide start */
+  POSE_WALL_MOTION_R_NO_GROUND = 1 << 8,     /* roll, pitch and height come from walls and roof alone */
+  POSE_WALL_MOTION_R_STAMP = 1 << 9,  /* the stamp stood still or went back: the frame is not used, its pose is the last
+                                         one. The second stamp in a row that went back is accepted */
+  POSE_WALL_MOTION_R_GAP = 1 << 10,   /* frames are missing before this one: a wide search found it */
   POSE_WALL_MOTION_R_PRIOR = 1 << 11, /* the frame's inputs contradict what was measured, and were not used */
   POSE_WALL_MOTION_R_MAP_FULL = 1 << 12 /* the oldest part of the map gave way to the newest */
 };
@@ -139,7 +139,7 @@ typedef struct pose_wall_motion_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_motion_result) before the call */
   uint32_t along_state; /* pose_wall_along_state */
   uint32_t reasons;     /* pose_wall_motion_reason bits */
-  uint32_t mark;        /* the library's: pose_wall_motion_image_fill tells by it a result from any other memory */
+  uint32_t mark;        /* set by the library: shows pose_wall_motion_image_fill that a motion wrote this result */
   int64_t stamp_ns;     /* the frame's */
   uint64_t frame_index; /* counts processed frames from 0 */
 
@@ -152,19 +152,19 @@ typedef struct pose_wall_motion_result {
   double road_axis[3]; /* unit, in start: the direction that along means in this frame */
   double along_m;      /* travel along the road since the first frame, backwards subtracts; NaN while lost */
 
-  /* from the last frame that had a pose to this one, in base of that frame; NaN in the first and while lost */
+  /* step from the last frame with a pose to this one, in base of that frame; NaN in the first frame and while lost */
   double step_m[3];
   double step_rad[3]; /* rotation vector */
   double step_s;
   double step_sigma[POSE_WALL_MOTION_DIRECTIONS];
   double step_protection_level[POSE_WALL_MOTION_DIRECTIONS];
 
-  /* what tells the way along; NaN where nothing was searched */
+  /* evidence for the travel along the road; NaN without a search */
   double contrast;    /* how much worse other places fit: (median - best) / best of the search curve */
   double patches;     /* how many patches of rock agree: their mean gain over its own standard error */
   double halves_m;    /* by how much two halves of the rock differ */
   double second_m;    /* where the second best place lies from the best */
-  double second_gain; /* how much of the best one's gain it has, 0 to 1 */
+  double second_gain; /* its share of the best one's gain, 0 to 1 */
 
   uint32_t points_in;
   uint32_t points_used;   /* in the range image */
@@ -175,7 +175,7 @@ typedef struct pose_wall_motion_result {
   uint32_t matched; /* plane points on the map's surfaces */
   uint32_t tiles;   /* square metres of surface in the map */
   uint32_t keyframes;
-  uint32_t wide_start; /* 1: the frame was searched for without a guess */
+  uint32_t wide_start; /* 1: the frame was searched without a starting guess */
 
   uint64_t run;          /* poses of one run are comparable: another number after each new start; 0 while lost */
   uint32_t config_crc32; /* pose_wall_config_crc() of the config that the motion was opened with */
@@ -199,38 +199,38 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_open(const pose_wall_config* config,
 /* Forgets map and pose, as if just opened. Fails iff: NULL, not open (POSE_WALL_E_ENGINE). */
 POSE_WALL_CHECKED int32_t pose_wall_motion_reset(pose_wall_motion* motion);
 
-/* One frame in, one result out. Set result->struct_size first. The cloud's time and ring fields are used where they are
- * there, and so are the speed, the turn rate and standing of its inputs. Fails as pose_wall_process does, with the
- * result unchanged. Cost: reading the cloud plus a bounded part. */
+/* One frame in, one result out. Set result->struct_size first. The motion uses the cloud's time and ring fields if
+ * present, and of its inputs the speed, the turn rate and standing. Fails as pose_wall_process does, with the result
+ * unchanged. Cost: reading the cloud plus a bounded part. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_process(pose_wall_motion* motion, const pose_wall_cloud* cloud,
                                                    pose_wall_motion_result* result);
 
-/* The last frame's pose as the engine takes it: sets POSE_WALL_INPUT_ODOMETRY and inputs->odometry, or clears the bit
- * where that frame has no pose; the rest stays as it is. Set inputs->struct_size = sizeof *inputs first. The run's
- * frame is that of the map. Fails iff: NULL, not open, struct_size. */
+/* The last frame's pose in the form that the engine takes. Sets POSE_WALL_INPUT_ODOMETRY and inputs->odometry, or
+ * clears the bit where that frame has no pose; the rest is unchanged. Set inputs->struct_size = sizeof *inputs first.
+ * The run's frame is that of the map. Fails iff: NULL, not open, struct_size. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs);
 
-/* Both at once, for one frame: pose_wall_motion_process, then pose_wall_process with the frame's inputs and this pose
- * among them, instead of an odometry of the caller's own. So the engine's held values move with the machine, its
- * smoothing does not lag, and a cloud with times is freed of the scan's motion. Give every frame to both. Fails as
- * either does; where the motion refuses a frame the engine does not see it. A damaged or busy engine refuses when the
- * motion has taken the frame already: then go on with the next one. */
+/* Both libraries for one frame. Calls pose_wall_motion_process, then pose_wall_process with the frame's inputs. This
+ * pose replaces an odometry of the caller's. So the engine's held values move with the machine, its smoothing does not
+ * lag, and the scan's motion is removed from a cloud with times. Give every frame to both. Fails as either does. If the
+ * motion refuses a frame, the engine does not see it. A damaged or busy engine refuses after the motion has taken the
+ * frame: then continue with the next one. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_process_both(pose_wall_motion* motion, pose_wall_engine* engine,
                                                         const pose_wall_cloud* cloud,
                                                         pose_wall_motion_result* motion_result,
                                                         pose_wall_result* result);
 
-/* What a moment without a frame tells: no pose (NaN, levels infinite, lost), and of the last frame its stamp_ns,
- * frame_index (before the first: 2^64 - 1) and nothing else. Set result->struct_size first. The motion is unchanged.
- * Fails iff: NULL, not open, struct_size. */
+/* The result for a moment without a frame: no pose (NaN, levels infinite, lost). Of the last frame it has stamp_ns and
+ * frame_index (before the first: 2^64 - 1), nothing else. Set result->struct_size first. The motion is unchanged. Fails
+ * iff: NULL, not open, struct_size. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_blank(const pose_wall_motion* motion, pose_wall_motion_result* result);
 
 /* ---------------------------------------------------------------------------------------------- process image */
 
-/* One frame's motion for a controller: 33 words, by the rules of the process images of pose_wall.h (NUMBERS, BYTES,
- * CRC, SEQUENCE, VERSION there), with a CRC-32C as image 2 has. Where there is no pose, or the frame before had none,
- * values are POSE_WALL_IMAGE_NO_VALUE and levels POSE_WALL_IMAGE_NO_BOUND. Its version goes on from theirs, so that a
- * controller tells all images by words 0 and 1. */
+/* One frame's motion for a controller, in 33 words. The rules of the process images of pose_wall.h hold (NUMBERS,
+ * BYTES, CRC, SEQUENCE, VERSION there), with the CRC-32C of image 2. Where there is no pose, or the frame before had
+ * none, values are POSE_WALL_IMAGE_NO_VALUE and levels POSE_WALL_IMAGE_NO_BOUND. Its version continues theirs, so words
+ * 0 and 1 identify every image. */
 #define POSE_WALL_MOTION_IMAGE_VERSION 3
 
 /* From here on written by tools/plc/generate.py from tools/plc/image.def. */
@@ -276,10 +276,10 @@ typedef struct pose_wall_motion_image {
 
 /* Up to here. */
 
-/* Writes the image of a result, whichever motion gave it. Set image->struct_size = sizeof *image first. source as in
- * pose_wall_image2_fill (held_thinning is not in this image); NULL: all that it tells reads as not known, publication
- * as sequence. Fails iff: result or image NULL, a struct_size of another version, a result that no motion made
- * (POSE_WALL_E_RESULT); the image is then unchanged. */
+/* Writes the image of a result, of any motion. Set image->struct_size = sizeof *image first. source as in
+ * pose_wall_image2_fill (held_thinning is not in this image). If source is NULL, its members are unknown and
+ * publication equals sequence. Fails iff: result or image NULL, a struct_size of another version, a result that no
+ * motion made (POSE_WALL_E_RESULT). The image is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_image_fill(const pose_wall_motion_result* result,
                                                       const pose_wall_image_source* source,
                                                       pose_wall_motion_image* image);
@@ -288,14 +288,14 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_image_fill(const pose_wall_motion_res
  * POSE_WALL_E_IMAGE_CRC. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_image_check(const pose_wall_motion_image* image);
 
-/* The map's surface points, in start, for pictures: writes up to `capacity` of them from the first-th on as x, y, z and
- * gives how many there are in all. Fails iff: motion or total NULL, xyz_m NULL with capacity > 0, not open. */
+/* The map's surface points, in start, for pictures. Writes up to `capacity` of them as x, y, z, beginning with number
+ * first, and gives their total. Fails iff: motion or total NULL, xyz_m NULL with capacity > 0, not open. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,
                                                uint32_t capacity, uint32_t* total);
 
 /* ---------------------------------------------------------------------------------------------- for a runtime */
 
-/* The functions above, for who runs a motion without being linked with it: pose_wall_runtime_options.motion. */
+/* The functions above, for a program that runs a motion without linking it: pose_wall_runtime_options.motion. */
 typedef struct pose_wall_motion_functions {
   uint32_t struct_size;
   uint32_t abi_version; /* POSE_WALL_MOTION_ABI_VERSION */

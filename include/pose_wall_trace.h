@@ -2,16 +2,16 @@
 /* Copyright (c) 2026 the pose_wall authors */
 
 /*
- * Why a frame came out as it did: one frame computed once more, with every gate it met and every plane that was
- * considered. For people at a desk and for tests. libpose_wall_traced.a is the engine of the same sources, which takes
- * notes; libpose_wall.a holds nothing of this. Both may be in one program: the traced one defines pose_wall_trace_*
- * alone. It is not installed, and no part of the ABI: what is told changes with the engine.
+ * Explains a frame. It is computed once more, and every gate and every considered plane is noted. For people at a desk
+ * and for tests. libpose_wall_traced.a is the engine of the same sources with notes; libpose_wall.a holds nothing of
+ * this. Both may be in one program: the traced one defines pose_wall_trace_* alone. It is not installed, and no part of
+ * the ABI: the notes change with the engine.
  *
  *     pose_wall_save(engine, memento, sizeof memento);     before the frame
  *     pose_wall_process(engine, &cloud, &result);
  *     pose_wall_trace_frame(&config, memento, sizeof memento, &cloud, block, bytes, &again, trace);
  *
- * result and again are the same bits (stage_ns apart, which needs a clock), so what trace tells is of both.
+ * result and again have the same bits (except stage_ns, which needs a clock), so trace describes both.
  */
 
 #ifndef POSE_WALL_TRACE_H
@@ -39,7 +39,7 @@ enum pose_wall_trace_subject {
 };
 #define POSE_WALL_TRACE_SUBJECTS (POSE_WALL_TRACE_QUANTITY + POSE_WALL_QUANTITIES)
 
-/* In the order of the pipeline. What each asks: pose_wall_trace_gate_info. */
+/* In the order of the pipeline. pose_wall_trace_gate_info has the meaning of each. */
 enum pose_wall_trace_gate_id {
   /* the frame */
   POSE_WALL_TRACE_LEAF = 0,
@@ -134,29 +134,29 @@ enum pose_wall_trace_gate_id {
   POSE_WALL_TRACE_GATES
 };
 
-/* What becomes of the subject when the gate does not hold. */
+/* Effect on the subject when the gate does not hold. */
 enum pose_wall_trace_effect {
-  POSE_WALL_TRACE_TELLS = 0,  /* it goes on otherwise */
-  POSE_WALL_TRACE_DOUBTS = 1, /* not better than degraded, or a wider protection level */
+  POSE_WALL_TRACE_TELLS = 0,  /* the next step differs */
+  POSE_WALL_TRACE_DOUBTS = 1, /* at best degraded, or a wider protection level */
   POSE_WALL_TRACE_REFUSES = 2 /* not measured in this frame */
 };
 
 enum pose_wall_trace_sense {
-  POSE_WALL_TRACE_AT_LEAST = 0, /* the value is to be the limit or more */
+  POSE_WALL_TRACE_AT_LEAST = 0, /* passes if the value is the limit or more */
   POSE_WALL_TRACE_AT_MOST = 1,
-  POSE_WALL_TRACE_IS_SO = 2, /* value 1 holds, 0 does not: no amounts */
-  POSE_WALL_TRACE_BELOW = 3  /* the value is to be less than the limit */
+  POSE_WALL_TRACE_IS_SO = 2, /* value 1 passes, 0 does not: no amounts */
+  POSE_WALL_TRACE_BELOW = 3  /* passes if the value is less than the limit */
 };
 
 typedef struct pose_wall_trace_info {
   const char* name; /* "wall_length" */
-  const char* key;  /* of the config, that sets the limit; "" where it is a constant of the engine. Two, divided by '|':
-                       of an angle and of a distance, whatever the subject is */
+  const char* key;  /* config key of the limit; "" for a constant of the engine. Two keys divided by '|': for angles and
+                       for distances */
   const char* unit; /* of value and limit: "m", "m2", "rad", "s", "points", "share" (of 1), "frames", or "": a bare
-                       number, or what the subject is measured in (PROTECTION_*, INNOVATION) */
-  const char* asks; /* "the wall is supported along the road": what the value is */
+                       number, or the subject's own unit (PROTECTION_*, INNOVATION) */
+  const char* asks; /* "the wall is supported along the road": meaning of the value */
   const char* limit;  /* as the table has it: "0.5", "s.wall_length_min", "BY_CALLER" where each frame has its own */
-  const char* origin; /* where the limit is from: "key", "definition", a scene, or a judgement and its date */
+  const char* origin; /* source of the limit: "key", "definition", a scene, or a judgement and its date */
   uint32_t sense;     /* pose_wall_trace_sense */
   uint32_t effect;    /* pose_wall_trace_effect */
   uint32_t reasons;   /* pose_wall_reason bits that it sets when it does not hold */
@@ -166,11 +166,11 @@ typedef struct pose_wall_trace_info {
 /* Static storage. Fails iff: NULL, POSE_WALL_E_INDEX. */
 int32_t pose_wall_trace_gate_info(uint32_t gate, pose_wall_trace_info* info);
 
-/* Holds a gate of all traced frames that follow, in every thread, against this limit instead of the table's; of a gate
- * without amounts 0 lets everything pass. Not less than 1 for FLOOR_PLANES: the fit takes a plane as given. For sweeps:
- * `pose_wall campaign --sweep` sets limits before the frames, none while they run. Fails iff: POSE_WALL_E_INDEX. */
+/* Replaces the limit of a gate in all following traced frames, in every thread. For a gate without amounts 0 lets
+ * everything pass. FLOOR_PLANES takes 1 or more, because the fit needs a plane. For sweeps: `pose_wall campaign
+ * --sweep` sets limits before the frames, none while they run. Fails iff: POSE_WALL_E_INDEX. */
 int32_t pose_wall_trace_set_limit(uint32_t gate, double limit);
-/* The table's limits again. */
+/* Restores the table's limits. */
 void pose_wall_trace_forget_limits(void);
 
 typedef struct pose_wall_trace_gate {
@@ -182,14 +182,14 @@ typedef struct pose_wall_trace_gate {
   double limit;
 } pose_wall_trace_gate;
 
-/* What became of a plane that was considered. */
+/* The fate of a considered plane. */
 enum pose_wall_trace_fate {
   POSE_WALL_TRACE_CHOSEN = 0,
   POSE_WALL_TRACE_RIVAL = 1,  /* nearly as good: the protection level reaches to it */
-  POSE_WALL_TRACE_WEAKER = 2, /* passed its gates; another one shows more */
+  POSE_WALL_TRACE_WEAKER = 2, /* passed its gates; another one has a higher score */
   POSE_WALL_TRACE_GATES_FAILED = 3,
   POSE_WALL_TRACE_OUT_OF_RANGE = 4, /* tilt or height (floor), direction or lean (wall) */
-  POSE_WALL_TRACE_UNSUPPORTED = 5,  /* points do not hold it: a fit came to nothing, or chance explains it as well */
+  POSE_WALL_TRACE_UNSUPPORTED = 5,  /* too few points support it: the fit failed, or it may be chance */
   POSE_WALL_TRACE_REPEATS = 6,      /* the same surface as another one */
   POSE_WALL_TRACE_MUCH_BELOW = 7,   /* floor: too much is seen below it */
   POSE_WALL_TRACE_REFLECTION = 8    /* floor: seen through open floor, a mirror image in wet ground */
@@ -204,12 +204,12 @@ typedef struct pose_wall_trace_candidate {
   double d_m;
   double height_m; /* floor: of the sensor above it */
   double tilt_rad; /* floor: against base. walls: lean from the vertical */
-  double score_m2; /* what it is chosen by: open or solid area, less what speaks against it */
+  double score_m2; /* decides the choice: open or solid area, less the evidence against it */
   double area_m2;
   double length_m; /* walls: supported along the road */
   double seen_through;
   double inliers; /* walls: measured points on it */
-  double support; /* floor: about this share of the points it was tried on lies on it */
+  double support; /* floor: approximate share of the tested points on it */
 } pose_wall_trace_candidate;
 
 #define POSE_WALL_TRACE_GATES_MAX 512
@@ -219,7 +219,7 @@ typedef struct pose_wall_trace_candidate {
 typedef struct pose_wall_trace {
   uint32_t gates;
   uint32_t candidates;
-  uint32_t dropped;        /* notes there was no room for */
+  uint32_t dropped;        /* notes without room */
   uint32_t floor_attempts; /* radii that were tried */
   uint32_t floor_attempt;  /* the one that was taken */
   uint32_t reserved;
@@ -228,15 +228,16 @@ typedef struct pose_wall_trace {
   pose_wall_trace_candidate candidate[POSE_WALL_TRACE_CANDIDATES_MAX];
 } pose_wall_trace;
 
-/* Computes one frame by a fresh engine in block (pose_wall_memory_needed bytes, POSE_WALL_BLOCK_ALIGNMENT) that
- * remembers what memento says, NULL: nothing, and fills trace with its notes. result->struct_size is to be set. Fails
- * as pose_wall_open, pose_wall_load and pose_wall_process do; trace is then empty. One frame per thread at a time. */
+/* Computes one frame by a fresh engine in block (pose_wall_memory_needed bytes, POSE_WALL_BLOCK_ALIGNMENT), and fills
+ * trace with its notes. The engine first loads memento; NULL: it starts without memory. Set result->struct_size first.
+ * Fails as pose_wall_open, pose_wall_load and pose_wall_process do; trace is then empty. One frame per thread at a
+ * time. */
 int32_t pose_wall_trace_frame(const pose_wall_config* config, const void* memento, uint64_t memento_bytes,
                               const pose_wall_cloud* cloud, void* block, uint64_t block_bytes, pose_wall_result* result,
                               pose_wall_trace* trace);
 
-/* What the engine that pose_wall_trace_frame left in block remembers, as pose_wall_save: so frames follow each other.
- * Fails as pose_wall_save does. */
+/* Saves the memory of the engine that pose_wall_trace_frame left in block, as pose_wall_save does: for a sequence of
+ * frames. Fails as pose_wall_save does. */
 int32_t pose_wall_trace_save(const void* block, void* memento, uint64_t memento_bytes);
 
 #ifdef __cplusplus

@@ -23,8 +23,8 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr const char* kDescription =
-    "How a tunnelling machine stands in its roadway, from one 3D LiDAR: roll, pitch, yaw and four wall distances per "
-    "frame.";
+    "The attitude and position of a tunnelling machine in its roadway, from one 3D LiDAR: roll, pitch, yaw and four "
+    "wall distances per frame.";
 
 std::vector<std::string> verb_names(const CLI::App& app) {
   std::vector<std::string> names;
@@ -103,15 +103,15 @@ void add_verbs(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  pose_wall demo                                               a simulated roadway, measured, with a picture\n"
       "  pose_wall sim --scene clean --frames 50 --output road        frames with their truth\n"
-      "  pose_wall doctor -o pose_wall.yaml frames                    settings for frames of your own\n"
+      "  pose_wall doctor -o pose_wall.yaml frames                    settings for your own frames\n"
       "  pose_wall run -c road/pose_wall.yaml -o out.csv road/frames  measure a folder of frames\n"
-      "  pose_wall motion -c road/pose_wall.yaml -o motion.csv road/frames    how far the machine went\n"
-      "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page to look at\n"
-      "  pose_wall info road.bag                                      what a recording holds\n"
-      "  pose_wall eval out.csv road/truth.csv                        how far off it was\n"
-      "  pose_wall campaign --size small --output card                thousands of such roads: may it be believed?\n"
-      "  pose_wall explain -c road/pose_wall.yaml --frame 12 road/frames      why frame 12 came out as it did\n"
-      "  pose_wall check-config road/pose_wall.yaml                   what the settings come to\n"
+      "  pose_wall motion -c road/pose_wall.yaml -o motion.csv road/frames    travel of the machine\n"
+      "  pose_wall report -c road/pose_wall.yaml -o report.html road/frames   the same as a page for a browser\n"
+      "  pose_wall info road.bag                                      contents of a recording\n"
+      "  pose_wall eval out.csv road/truth.csv                        errors against the truth\n"
+      "  pose_wall campaign --size small --output card                many random roads, with a card of all errors\n"
+      "  pose_wall explain -c road/pose_wall.yaml --frame 12 road/frames      explanation of frame 12\n"
+      "  pose_wall check-config road/pose_wall.yaml                   resolved settings\n"
       "Each verb has its own --help.");
 }
 

@@ -82,7 +82,7 @@ TEST(Campaign, AnInterruptKeepsWhatIsDoneAndSaysHowToGoOn) {
                                             std::filesystem::directory_iterator(),
                                             [](const auto& entry) { return entry.path().extension() == ".csv"; });
   EXPECT_GE(done, 1);
-  EXPECT_EQ(ran.errors, "interrupted: " + std::to_string(done) + " of 500 runs are done; the same command goes on\n");
+  EXPECT_EQ(ran.errors, "interrupted: " + std::to_string(done) + " of 500 runs are done; the same command continues\n");
 }
 
 TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {

@@ -177,7 +177,7 @@ TEST(Sweep, WhatCannotGoWithItIsRefusedByName) {
       << "one gate at a time";
   const Ran json_alone = campaign_with({"--json", "--output", folder.path()});
   EXPECT_EQ(json_alone.exit_status, 2);
-  EXPECT_TRUE(contains(json_alone.errors, "--json is of --sweep")) << json_alone.errors;
+  EXPECT_TRUE(contains(json_alone.errors, "--json needs --sweep")) << json_alone.errors;
 }
 
 TEST(GateList, TellsEveryGateWithItsLimitAndNeedsNoFrame) {

@@ -161,7 +161,7 @@ TEST(Interrupt, CampaignCanGoOn) {
     return count;
   };
   EXPECT_EQ(interrupted_status(words, folder.file("said"), [&] { return records() > 3; }), 130);
-  EXPECT_TRUE(contains(text_of(folder.file("said")), "the same command goes on"));
+  EXPECT_TRUE(contains(text_of(folder.file("said")), "the same command continues"));
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.file("card"))) {
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
   }

@@ -123,7 +123,8 @@ TEST(MotionCard, AnHonestDrivePasses) {
 }
 
 TEST(MotionCard, MeasuredOnASmoothLiningIsWrongEvenWhereItIsRight) {
-  EXPECT_TRUE(contains(broken("smooth"), "smooth os1-64: unobservable in 0 % of the frames; at least 99 % are asked"));
+  EXPECT_TRUE(
+      contains(broken("smooth"), "smooth os1-64: unobservable in 0 % of the frames; at least 99 % is required"));
   const auto two = [](int i, HandRow& row) { row.state = i == 50 || i == 60 ? "measured" : "unobservable"; };
   EXPECT_TRUE(contains(broken("smooth", two), "unobservable in 98 %")) << broken("smooth", two);
   const auto one = [](int i, HandRow& row) { row.state = i == 50 ? "measured" : "unobservable"; };
@@ -132,7 +133,7 @@ TEST(MotionCard, MeasuredOnASmoothLiningIsWrongEvenWhereItIsRight) {
 
 TEST(MotionCard, UnobservableOnRoughRockIsTooLittle) {
   const std::string faults = broken("rough", [](int, HandRow& row) { call_all("unobservable", row); });
-  EXPECT_TRUE(contains(faults, "measured in 0 % of the frames; at least 95 % are asked")) << faults;
+  EXPECT_TRUE(contains(faults, "measured in 0 % of the frames; at least 95 % is required")) << faults;
 }
 
 // The machine does not move for the library, which is sure of it.
@@ -190,7 +191,7 @@ TEST(MotionCard, AlongIsJudgedByTheWayThatWasDriven) {
   EXPECT_EQ(broken("rough", short_by(0.0049)), "");
   const MotionCard card = motion_card_of({drive("rough", short_by(0.02))});
   const std::string faults = joined(motion_gate_faults(card));
-  EXPECT_EQ(faults, "rough os1-64: error along is 4 times what is allowed\n");
+  EXPECT_EQ(faults, "rough os1-64: error along is 4 times the allowed one\n");
   EXPECT_NEAR(card.classes[0].along_share.at(0), 0.02, 1e-9);
   EXPECT_NEAR(card.classes[0].along_m.at(0), 0.2, 1e-9);
 }
@@ -239,8 +240,8 @@ TEST(MotionCard, AlongABendIsAlongTheRoadThere) {
   };
   EXPECT_EQ(broken("smooth_curve", bend(0.0, 0.0)), "");
   const std::string ahead = broken("smooth_curve", bend(0.06, 0.0)), aside = broken("smooth_curve", bend(0.0, 0.06));
-  EXPECT_EQ(ahead, "smooth_curve os1-64: pose beyond its level, along: 1 of 100; none may be\n");
-  EXPECT_EQ(aside, "smooth_curve os1-64: pose beyond its level, across: 1 of 100; none may be\n");
+  EXPECT_EQ(ahead, "smooth_curve os1-64: pose beyond its level, along: 1 of 100; none is allowed\n");
+  EXPECT_EQ(aside, "smooth_curve os1-64: pose beyond its level, across: 1 of 100; none is allowed\n");
 }
 
 TEST(MotionCard, ARunThatIsAlwaysLostIsToldAndNotJudged) {
@@ -264,13 +265,14 @@ TEST(MotionCard, LosingThePlaceAgainAndAgainIsNoHonesty) {
     };
   };
   EXPECT_EQ(broken("faint", lost_from(kFrames - 5)), "");
-  EXPECT_EQ(broken("faint", lost_from(kFrames - 6)), "faint os1-64: lost in 6 % of the frames; at most 5 % may be\n");
+  EXPECT_EQ(broken("faint", lost_from(kFrames - 6)),
+            "faint os1-64: lost in 6 % of the frames; at most 5 % is allowed\n");
 }
 
 TEST(MotionCard, PeriodicSetsAreMeasuredOrAmbiguous) {
   EXPECT_EQ(broken("sets", [](int i, HandRow& row) { row.state = i % 2 == 0 ? "measured" : "ambiguous"; }), "");
   EXPECT_EQ(broken("sets", [](int, HandRow& row) { row.state = "unobservable"; }),
-            "sets os1-64: measured or ambiguous in 0 % of the frames; at least 95 % are asked\n");
+            "sets os1-64: measured or ambiguous in 0 % of the frames; at least 95 % is required\n");
 }
 
 TEST(MotionCard, AnUnfinishedCampaignAndAnEmptyOneFail) {
@@ -310,7 +312,7 @@ TEST(MotionCard, JsonSaysWhatThePageSays) {
   EXPECT_EQ(page["classes"][0]["ms_mean"], 2.0);
   EXPECT_EQ(page["classes"][1]["broken"].size(), 1U);
   EXPECT_EQ(page["gate_faults"].size(), 1U);
-  EXPECT_TRUE(contains(motion_card_page(card), "Gate not passed: 1 demand does not hold"));
+  EXPECT_TRUE(contains(motion_card_page(card), "Gate not passed: 1 requirement fails"));
 }
 
 TEST(MotionCard, RefusesRowsOfAClassThatDoesNotExist) {

@@ -146,7 +146,7 @@ TEST(Words, QuietVerbsSayWhatTheyDoOfIt) {
 }
 
 TEST(Words, WhatIsSaidToNameTheScenesDoes) {
-  EXPECT_TRUE(contains(command({"demo", "--help"}).printed, "pose_wall sim --list names them"));
+  EXPECT_TRUE(contains(command({"demo", "--help"}).printed, "see pose_wall sim --list"));
   EXPECT_TRUE(contains(command({"sim", "--list"}).printed, "steel_sets"));
 }
 

@@ -37,12 +37,11 @@ std::string totals_of(const Card& card) {
                    count_with_bound(f.misleading, f.frames), count_with_bound(f.value_beyond_protection, f.frames),
                    count_with_bound(f.raw_beyond_protection, f.frames)});
   }
-  return "## Totals\n\nCounts are of frames with at least one of the seven quantities in it; in brackets the 95 % "
-         "upper "
-         "bound of the rate (Clopper-Pearson; frames of one run are not independent, runs are). *Misleading*: valid, "
-         "and the error beyond the alert limit or nothing there to measure. In *unobservable* classes the data of one "
-         "sensor cannot "
-         "tell that anything is wrong: they are shown, and left out of all else.\n\n" +
+  return "## Totals\n\n"
+         "Counts are frames with at least one such value among the seven. In brackets: the 95 % upper bound of the "
+         "rate (Clopper-Pearson). Runs are independent; frames of one run are not. *Misleading*: valid, and the error "
+         "exceeds the alert limit or there is nothing to measure. In *unobservable* classes the data of one sensor "
+         "cannot show the fault. They are listed, and left out of everything else.\n\n" +
          table.text() + "\n";
 }
 
@@ -55,8 +54,9 @@ std::string sigma_of(const Card& card) {
     table.add_row(cells);
   }
   return fmt::format(
-      "## Mean z² = (raw error / sigma)²\n\n1 for a true standard deviation; {:g} to {:g} is asked of "
-      "nominal classes of {} runs or more.\n\n{}\n",
+      "## Mean z² = (raw error / sigma)²\n\n"
+      "1 for a true standard deviation. From {2} nominal runs on it must be from {0:g} to {1:g} in nominal classes.\n\n"
+      "{3}\n",
       kMeanZ2Min, kMeanZ2Max, kRunsForMeanZ2, table.text());
 }
 
@@ -75,11 +75,12 @@ std::string classes_of(const Card& card) {
                    times_text(c.times.noticed, c.times.never_noticed),
                    times_text(c.times.recovered, c.times.never_recovered), reasons_text(c)});
   }
-  return "## Classes\n\nShares are of values that have a truth; available: valid or degraded. To alert: the longest "
-         "time in frames from an error beyond the alert limit until the state leaves valid (0: it never was). For "
-         "scenes with an event, median / longest in frames: noticed, from its begin until a value leaves valid; "
-         "recovered, from its end until all are valid that were so before it. Why not valid: the most frequent reasons "
-         "and their share of the values that are not.\n\n" +
+  return "## Classes\n\n"
+         "Shares refer to values that have a truth. Available: valid or degraded. To alert: the longest time in frames "
+         "from an error beyond the alert limit until the state leaves valid (0: it never was). Scenes with an event "
+         "have two more times, median / longest in frames. Noticed: from its begin until a value leaves valid. "
+         "Recovered: from its end until all values are valid again that were so before it. Why not valid: the most "
+         "frequent reasons and their share of the values that are not valid.\n\n" +
          table.text() + "\n";
 }
 
@@ -103,15 +104,15 @@ std::string quantities_of(const Card& card) {
       table.add_row(cells);
     }
   }
-  return "## Quantities\n\nRaw: the frame's own measurement. Value: what a controller acts on, held values included. "
-         "Counts are of values.\n\n" +
+  return "## Quantities\n\n"
+         "Raw: the frame's own measurement. Value: smoothed or held, for the controller. Counts are values.\n\n" +
          table.text() + "\n";
 }
 
 std::string events_of(const Card& card) {
   if (card.events.empty()) return "## Worst events\n\nNone.\n";
   MarkdownTable table({"breach", "scene", "sensor", "draw", "frame", "quantity", "error", "protection level", "sigma",
-                       "state", "reasons", "the same once more"},
+                       "state", "reasons", "to repeat it"},
                       3);
   for (const WorstEvent& e : card.events) {
     const bool angle = is_angle(e.quantity);
@@ -122,11 +123,10 @@ std::string events_of(const Card& card) {
                    amount(angle, e.measured.protection_level), amount(angle, e.measured.sigma),
                    pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", recipe(e, card.manifest))});
   }
-  return "## Worst events\n\nOf one run and quantity only the worst frame of its gravest breach. The command at the "
-         "end of "
-         "a row measures it once more: the last row of `DIR/out.csv`, or of `DIR/frames.csv` where frame files would "
-         "not "
-         "do, as they carry neither stamps nor a second file of settings.\n\n" +
+  return "## Worst events\n\n"
+         "One row per run and quantity: the worst frame of its gravest breach. The command at the end of a row "
+         "measures it again. It is the last row of `DIR/out.csv`. Where frame files cannot repeat it (a second file of "
+         "settings, stamps out of step), it is the last row of `DIR/frames.csv`.\n\n" +
          table.text();
 }
 

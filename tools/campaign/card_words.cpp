@@ -71,14 +71,14 @@ std::string reasons_text(const ClassCard& card) {
 
 std::string gate_text(const std::vector<std::string>& faults) {
   if (faults.empty()) return "**Gate passed.**\n\n";
-  std::string text = fmt::format("**Gate not passed: {}.**\n\n",
-                                 counted(faults.size(), "demand does not hold", "demands do not hold"));
+  std::string text =
+      fmt::format("**Gate not passed: {}.**\n\n", counted(faults.size(), "requirement fails", "requirements fail"));
   for (const std::string& fault : faults) text += "- " + fault + "\n";
   return text + "\n";
 }
 
 std::string origin_text(const Manifest& manifest) {
-  std::string text = fmt::format("Made again by `{} --output DIR`.\n\n", manifest.command());
+  std::string text = fmt::format("To make it again: `{} --output DIR`.\n\n", manifest.command());
   for (const auto& [name, value] : manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);
   return text + "\n";
 }

@@ -17,13 +17,13 @@ void demand_bounds(Faults& faults, const Card& card) {
   const FrameCounts& adversarial = card.adversarial.frames;
   faults.demand(card.judged.frames.frames > 0, "no frame was judged: unobservable classes prove nothing");
   faults.demand(card.judged.frames.misleading == 0,
-                "misleading frames: {} of {}, valid beyond the alert limit; none may be", card.judged.frames.misleading,
-                card.judged.frames.frames);
+                "misleading frames: {} of {}, valid beyond the alert limit; none is allowed",
+                card.judged.frames.misleading, card.judged.frames.frames);
   faults.demand(nominal.raw_beyond_protection == 0,
-                "nominal classes: frames with a raw error beyond the protection level: {} of {}; none may be",
+                "nominal classes: frames with a raw error beyond the protection level: {} of {}; none is allowed",
                 nominal.raw_beyond_protection, nominal.frames);
   faults.demand(nominal.value_beyond_protection == 0,
-                "nominal classes: frames with a value error beyond the protection level: {} of {}; none may be",
+                "nominal classes: frames with a value error beyond the protection level: {} of {}; none is allowed",
                 nominal.value_beyond_protection, nominal.frames);
   const auto demand_rare = [&](const char* what, std::size_t events) {
     faults.demand(

@@ -64,11 +64,11 @@ std::vector<std::string> result_cells(const MotionClassCard& one) {
 std::string results_part(const MotionCard& card) {
   MarkdownTable table(kResultHead, 2);
   for (const MotionClassCard& one : card.classes) table.add_row(result_cells(one));
-  return "## Classes\n\nStates: shares of all frames but the first of each run. Along %: error at the end over the way "
-         "that was driven, median / worst of the runs; along mm: the worst. Across, up, turn: the largest of all "
-         "frames, "
-         "in the base frame of the first one. Misleading: measured, and the error along beyond its level. Broken: how "
-         "many demands do not hold.\n\n" +
+  return "## Classes\n\n"
+         "States: shares of all frames but the first of each run. Along %: error at the end over the distance driven, "
+         "median / worst of the runs. Along mm: the worst. Across, up, turn: the largest of all frames, in the base "
+         "frame of the first one. Misleading: measured, and the error along exceeds its level. Broken: number of "
+         "failed requirements.\n\n" +
          table.text() + "\n";
 }
 
@@ -85,11 +85,12 @@ std::string levels_part(const MotionCard& card) {
   }
   const RoughTotals rough = rough_totals(card);
   return fmt::format(
-      "## Levels, sigma, evidence and time\n\nBeyond: frames with an error beyond its level: along, across, up, roll, "
-      "pitch, yaw. z²: mean of (error along / sigma)², 1 for a true sigma; over rough rock {} of the step and {} of "
-      "the "
-      "pose, in {}. Contrast and patches: 5 % / median / 95 % of the frames that have them. ms: elapsed in the "
-      "library, beside whatever else the machine did.\n\n{}\n",
+      "## Levels, sigma, evidence and time\n\n"
+      "Beyond: frames with an error beyond its level, along, across, up, roll, pitch, yaw. z²: mean of (error along / "
+      "sigma)², 1 for a true sigma. Over rough rock it is {} of the step and {} of the pose, in {}. Contrast and "
+      "patches: 5 % / median / 95 % of the frames that have them. ms: time elapsed in the library, including other "
+      "work of the machine.\n\n"
+      "{}\n",
       figure(rough.along_step.mean_z2()), figure(rough.along_pose.mean_z2()), counted(rough.runs, "run"), table.text());
 }
 
@@ -118,24 +119,24 @@ const std::vector<std::string> kLimitHead = {"class",       "the machine",     "
 std::string limits_part() {
   MarkdownTable table(kLimitHead, 3);
   for (const MotionClass& one : motion_classes()) table.add_row(limit_cells(one));
-  return "## What is right\n\nLeast shares of the frames, and the largest errors. Along: of the way, or so many "
-         "millimetres whatever the way. In every class no measured frame may mislead, and no error may be beyond its "
-         "level.\n\n" +
+  return "## Right behaviour\n\n"
+         "Least shares of the frames, and largest errors. Along: share of the way, or a length in millimetres for any "
+         "way. In every class no measured frame may mislead, and no error may exceed its level.\n\n" +
          table.text() + "\n";
 }
 
 std::string motion_events_part(const MotionCard& card) {
   if (card.events.empty()) return "## Worst\n\nNone.\n";
-  MarkdownTable table({"what", "class", "sensor", "draw", "frame", "times what is allowed", "the same once more"}, 3);
+  MarkdownTable table({"what", "class", "sensor", "draw", "frame", "times the allowed", "to repeat it"}, 3);
   for (const MotionEvent& event : card.events) {
     const auto frames = static_cast<std::uint32_t>(event.frame + 1);
     table.add_row({event.what, event.run.scene, event.run.sensor, std::to_string(event.run.draw),
                    std::to_string(event.frame), figure(event.excess),
                    fmt::format("`{}`", run_recipe(event.run, frames, card.manifest))});
   }
-  return "## Worst\n\nOf each run the worst frame of its kind. The command measures the run again up to that frame: "
-         "the "
-         "last row of `DIR/records/CLASS/SENSOR/DRAW.csv`.\n\n" +
+  return "## Worst\n\n"
+         "The worst frame of its kind in each run. The command measures the run again up to that frame, the last row "
+         "of `DIR/records/CLASS/SENSOR/DRAW.csv`.\n\n" +
          table.text();
 }
 

@@ -17,14 +17,14 @@ namespace {
 void demand_states(Faults& faults, const MotionClassCard& one) {
   const MotionLimits& limits = one.kind->limits;
   const auto demand = [&faults](const std::string& states, double share, double least) {
-    faults.demand(std::isnan(least) || share >= least, "{} in {:.4g} % of the frames; at least {:g} % are asked",
+    faults.demand(std::isnan(least) || share >= least, "{} in {:.4g} % of the frames; at least {:g} % is required",
                   states, 100.0 * share, 100.0 * least);
   };
   const double measured = one.share(POSE_WALL_ALONG_MEASURED), lost = one.share(POSE_WALL_ALONG_LOST);
   demand("measured", measured, limits.measured_min);
   demand("measured or ambiguous", measured + one.share(POSE_WALL_ALONG_AMBIGUOUS), limits.told_min);
   demand("unobservable", one.share(POSE_WALL_ALONG_UNOBSERVABLE), limits.unobservable_min);
-  faults.demand(lost <= kMotionLostMax, "lost in {:.4g} % of the frames; at most {:g} % may be", 100.0 * lost,
+  faults.demand(lost <= kMotionLostMax, "lost in {:.4g} % of the frames; at most {:g} % is allowed", 100.0 * lost,
                 100.0 * kMotionLostMax);
   faults.demand(one.states.back() == 0, "{} frames could not be read", one.states.back());
   faults.demand(one.runs_without_pose == 0, "{} of {} runs have no pose at all", one.runs_without_pose, one.runs);
@@ -32,7 +32,7 @@ void demand_states(Faults& faults, const MotionClassCard& one) {
 
 void demand_small_errors(Faults& faults, const MotionClassCard& one) {
   const MotionLimits& limits = one.kind->limits;
-  faults.demand(one.along_excess <= 1.0, "error along is {:.3g} times what is allowed", one.along_excess);
+  faults.demand(one.along_excess <= 1.0, "error along is {:.3g} times the allowed one", one.along_excess);
   const auto demand = [&faults](const char* what, double error, double limit, const char* unit) {
     faults.demand(std::isnan(limit) || error <= limit, "{} is {:.4g} {}; at most {:g} {} is allowed", what, error, unit,
                   limit, unit);
@@ -44,14 +44,14 @@ void demand_small_errors(Faults& faults, const MotionClassCard& one) {
 
 void demand_levels(Faults& faults, const MotionClassCard& one) {
   const auto demand_none = [&faults](const char* what, const Misleading& misleading) {
-    faults.demand(misleading.misleading == 0, "misleading {}: {} of {} that were called measured; none may be", what,
+    faults.demand(misleading.misleading == 0, "misleading {}: {} of {} measured ones; none is allowed", what,
                   misleading.misleading, misleading.measured);
   };
   demand_none("steps", one.steps);
   demand_none("poses", one.poses);
   const auto demand_within = [&faults](const char* what, const DirectionTotals& directions) {
     for (std::uint32_t d = 0; d < directions.size(); ++d) {
-      faults.demand(directions[d].beyond() == 0, "{} beyond its level, {}: {} of {}; none may be", what,
+      faults.demand(directions[d].beyond() == 0, "{} beyond its level, {}: {} of {}; none is allowed", what,
                     pose_wall_motion_direction_name(d), directions[d].beyond(), directions[d].count());
     }
   };

@@ -24,19 +24,19 @@ constexpr const char* kMotion = "Motion along the road";
 const std::vector<MotionKeyRow>& motion_key_rows() {
   static const std::vector<MotionKeyRow> table = {
       {{"motion_speed_max", kMotion, OutsideKey::Type::kNumber, "m/s", 0.01, 30, "",
-        "no machine drives faster: how far each frame is searched for, and how fast the level along the road widens "
-        "while nothing tells the way"},
+        "top speed of the machine; decides how far each frame is searched, and how fast the level along the road grows "
+        "while travel is unobservable"},
        &pose_wall_motion_settings::speed_max_m_s,
        1.0},
-      {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "", "no machine turns faster"},
+      {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "", "fastest turn of the machine"},
        &pose_wall_motion_settings::turn_max_rad_s,
        kRadPerDeg},
       {{"motion_range_max", kMotion, OutsideKey::Type::kNumber, "m", 3, 100, "",
-        "returns further away do not tell motion; range_max does not count here"},
+        "farther returns are not used for motion; range_max does not apply here"},
        &pose_wall_motion_settings::range_max_m,
        1.0},
       {{"motion_keyframe", kMotion, OutsideKey::Type::kNumber, "m", 0.05, 1, "",
-        "the map takes a scan in after so much travel; smaller follows rough rock better and fills the map sooner"},
+        "travel between two scans of the map; smaller follows rough rock better and fills the map sooner"},
        &pose_wall_motion_settings::keyframe_m,
        1.0},
   };

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""What `pose_wall doctor` finds on simulated mounts, beside what is true: the table in tools/README.md.
+"""What `pose_wall doctor` finds on simulated mounts, beside what is true: the table in README.md.
 
 usage: mounts.py POSE_WALL [FRAMES]     prints rows of Markdown; exit status 1 where a mount is not usable"""
 

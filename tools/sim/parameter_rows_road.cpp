@@ -20,7 +20,7 @@ const std::vector<Parameter> kRoadRows = {
     ROAD(lean_right_deg, "deg", -30.0, 30.0, "see lean_left_deg"),
     ROAD(arch_springing_m, "m", 0.0, 20.0, "0: flat roof; else an elliptic arch from this height to height_m"),
     ROAD(slope_deg, "deg", -30.0, 30.0,
-         "along the road; seen only in what stands upright by gravity: face, props, people"),
+         "along the road; visible only in things that stand upright by gravity: face, props, people"),
     ROAD(cross_fall_deg, "deg", -20.0, 20.0, "+ the floor rises to the left; walls keep upright"),
     ROAD(curve_radius_m, "m", -10000.0, 10000.0, "0: straight; + bends left"),
     ROAD(splay_left_deg, "deg", -30.0, 30.0, "+ this wall runs away from the centre line ahead"),
@@ -41,7 +41,7 @@ const std::vector<Parameter> kRoadRows = {
     ROCK(steel_depth_m, "m", 0.01, 0.5, "how far they stand out of the mean wall"),
     ROCK(steel_width_m, "m", 0.02, 1.0, "their width along the road"),
     POSE_WALL_SIM_WORDS(rock, Rock, rock_repeats, kSwitchWords, 1.0,
-                        "rough rock comes again after 205 correlation lengths; no: not within kilometres"),
+                        "yes: rough rock repeats after 205 correlation lengths; no: not within kilometres"),
     ROCK(texture, "1", 0.0, 0.5, "standard deviation of how much light the rock gives back"),
     ROCK(texture_length_m, "m", 0.05, 10.0, "where its correlation has fallen to 1/e"),
 

@@ -60,8 +60,7 @@ const std::vector<Parameter> kSensorRows = {
     SEQUENCE(partial_to_s, "s", 0.0, 1e5, "... to here; equal: never"),
     SEQUENCE(partial_share, "1", 0.0, 1.0,
              "share of the circle, from behind counter-clockwise, that a cut frame holds"),
-    SEQUENCE(duplicate_every, "1", 0.0, 1e6,
-             "so many frames come, the last of them once more, stamp and all; 0: never"),
+    SEQUENCE(duplicate_every, "1", 0.0, 1e6, "after so many frames the last one is repeated with its stamp; 0: never"),
     SEQUENCE(drop_every, "1", 0.0, 1e6, "so many frames come, then drop_length are missing; 0: never"),
     SEQUENCE(drop_length, "1", 1.0, 1000.0, "see drop_every"),
 };

@@ -99,7 +99,7 @@ std::vector<SceneChoice> sensor_scenes() {  // NOLINT(readability-function-size)
        SceneKind::kAdversarial,
        0.9,
        "stamps leap ahead",
-       "flagged; what was held is old",
+       "flagged; held values are old",
        {{"stamp_jump_s", "5", 1.5, 60.0}, {"stamp_jump_at_s", "1", 0.5, 1.5}}},
       {"stamp_still",
        SceneKind::kAdversarial,

@@ -60,8 +60,8 @@ void check_settings(const campaign::EngineChoice& engine) {
   std::error_code ignored;
   const std::string& file = engine.config_file;
   if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
-    throw std::invalid_argument(
-        fmt::format("--config {}: not a regular file; every run reads it anew, and a pipe is read once", file));
+    throw std::invalid_argument(fmt::format(
+        "--config {}: not a regular file; every run reads it again, and a pipe can be read only once", file));
   }
   load_config(engine.config_file, engine.settings);
 }
@@ -117,7 +117,7 @@ int make_card(const CampaignOptions& options, const campaign::Manifest& manifest
 
 int tell_interrupted(const CampaignOptions& options) {
   const std::vector<campaign::Run> runs = plan_of(options.plan);
-  fmt::print(stderr, "interrupted: {} of {} done; the same command{} goes on\n",
+  fmt::print(stderr, "interrupted: {} of {} done; the same command{} continues\n",
              runs.size() - campaign::pending_runs(options.output, runs).size(),
              counted(runs.size(), "run is", "runs are"), options.fresh ? " without --fresh" : "");
   return kExitInterrupted;
@@ -138,7 +138,7 @@ int sweep_verb(const CampaignOptions& options) {
   try {
     return done_or_complaint("campaign", [&] { return run_sweep(options); });
   } catch (const campaign::Interrupted&) {
-    fmt::print(stderr, "interrupted: a sweep keeps nothing, and begins anew\n");
+    fmt::print(stderr, "interrupted: a sweep keeps nothing; start it again\n");
     return kExitInterrupted;
   }
 }
@@ -189,13 +189,13 @@ void demand_only_what_goes_along(const CLI::App& verb, const CampaignOptions& op
 // What an option is nothing without, or with.
 void demand_words_go_together(const CLI::App& verb, const CampaignOptions& options) {
   if (options.plan.motion && verb.get_option("--kind")->count() > 0) {
-    throw std::invalid_argument("--kind is of scenes; --motion has classes: name them by --scenes");
+    throw std::invalid_argument("--kind applies to scenes; --motion has classes: name them by --scenes");
   }
   if (options.list && !options.plan.motion) {
-    throw std::invalid_argument("--list is of --motion; `pose_wall sim --list` has the scenes");
+    throw std::invalid_argument("--list needs --motion; `pose_wall sim --list` has the scenes");
   }
   if (options.json && options.sweep.empty()) {
-    throw std::invalid_argument("--json is of --sweep; a campaign leaves card.json in its folder");
+    throw std::invalid_argument("--json needs --sweep; a campaign writes card.json in its folder");
   }
   const bool leaves_records = !options.list && options.sweep.empty();
   if (leaves_records && options.output.empty()) throw std::invalid_argument("--output is required: a folder");
@@ -210,23 +210,23 @@ std::string trimmed(std::string name) {
 }
 
 void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
-  verb.add_option("--size", plan.size, "small (seconds), medium (minutes) or large (more than 30,000 frames)")
+  verb.add_option("--size", plan.size,
+                  "small (each scene once, seconds), medium (minutes) or large (more than 30,000 frames)")
       ->type_name("SIZE")
       ->capture_default_str();
   verb.add_flag("--motion", plan.motion, "Measure the motion library, on classes of motion instead of scenes");
   verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list, and --motion --list")
       ->delimiter(',')
       ->transform(trimmed);
-  verb.add_option("--kind", plan.kind, "Of the scenes only those: nominal, adversarial, unobservable or all")
+  verb.add_option("--kind", plan.kind, "Kind of scenes: nominal, adversarial, unobservable or all")
       ->capture_default_str()
       ->check(one_of({"nominal", "adversarial", "unobservable", "all"}));
   verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',')->transform(trimmed);
-  verb.add_option("--draws", plan.draws, "Draws per scene and sensor, instead of the size's")
-      ->check(CLI::Range(1, 1000000));
-  verb.add_option("--first-draw", plan.first_draw, "Number of the first draw: with --draws 1, one run again")
+  verb.add_option("--draws", plan.draws, "Draws per scene and sensor; overrides --size")->check(CLI::Range(1, 1000000));
+  verb.add_option("--first-draw", plan.first_draw, "Number of the first draw; with --draws 1 this repeats one run")
       ->capture_default_str()
       ->check(whole_number());
-  verb.add_option("-n,--frames", plan.frames, "Frames per draw, instead of what size and scene ask for")
+  verb.add_option("-n,--frames", plan.frames, "Frames per draw; overrides size and scene")
       ->check(CLI::Range(1, 1000000));
   verb.add_option("--seed", plan.seed, "The same seed gives the same draws")
       ->capture_default_str()
@@ -235,8 +235,8 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
 
 void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
   verb.add_option("--sweep", options.sweep,
-                  "GATE=A,B,...: print what the runs come to with the table's limit of a gate, and with each of these "
-                  "in its place; pose_wall explain --gates lists the gates")
+                  "GATE=A,B,...: print the results of the runs with the table's limit of a gate, and with each of "
+                  "these limits; pose_wall explain --gates lists the gates")
       ->check(campaign::sweep_fault, "");
   verb.add_flag("--json", options.json, "With --sweep: the table as JSON");
 }
@@ -245,23 +245,22 @@ void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
 
 void add_campaign(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CampaignOptions>();
-  CLI::App* verb = app.add_subcommand("campaign", "Measure thousands of random scenes; write the integrity card");
+  CLI::App* verb = app.add_subcommand("campaign", "Measure many random scenes; write the integrity card");
   verb->add_option("-o,--output", options->output,
-                   "Folder for records and card; an interrupted campaign goes on there");
+                   "Folder for records and card; an interrupted campaign continues there");
   add_plan_options(*verb, options->plan);
   verb->add_option("-j,--jobs", options->jobs, "Runs at a time")->capture_default_str()->check(CLI::Range(1, 1024));
-  verb->add_option("-c,--config", options->engine.config_file,
-                   "Settings; what scene and sensor ask for comes over them");
-  verb->add_option("-s,--set", options->engine.settings, "KEY=VALUE over all settings; may be repeated")
+  verb->add_option("-c,--config", options->engine.config_file, "Settings; those of scene and sensor override them");
+  verb->add_option("-s,--set", options->engine.settings, "KEY=VALUE, overrides all settings; may be repeated")
       ->allow_extra_args(false);
-  verb->add_option("--events", options->events, "How many of the worst events the card lists")
+  verb->add_option("--events", options->events, "Number of worst events on the card")
       ->capture_default_str()
       ->check(whole_number());
   verb->add_flag("--list", options->list,
-                 "With --motion: print its classes and what is right in each, and run nothing");
+                 "With --motion: print its classes with the right behaviour of each, and run nothing");
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
-  verb->add_flag("--card-only", options->card_only, "Make the card anew from the folder's records, and run nothing");
-  verb->add_flag("--gate", options->gate, "Exit with 3 unless the card shows what is asked of it");
+  verb->add_flag("--card-only", options->card_only, "Make the card again from the folder's records, and run nothing");
+  verb->add_flag("--gate", options->gate, "Exit with 3 unless the card meets all requirements");
   add_sweep_options(*verb, *options);
   verb->add_flag("-q,--quiet", options->quiet,
                  "Nothing on stderr but errors, nothing on stdout but the table of --sweep");
@@ -273,7 +272,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
       "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
       "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
       "another\n"
-      "campaign in the folder, 3 the gate is not passed, 130 interrupted by Ctrl-C (the same command goes on).");
+      "campaign in the folder, 3 the gate failed, 130 interrupted by Ctrl-C (the same command continues).");
   verb->callback([options, verb, &exit_code] {
     demand_only_what_goes_along(*verb, *options);
     demand_words_go_together(*verb, *options);

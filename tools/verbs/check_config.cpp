@@ -100,7 +100,7 @@ int check_config(const CheckConfigOptions& options) {
   if (options.keys) {
     if (!options.file.empty() || !options.settings.empty()) {
       throw std::invalid_argument(
-          "--keys prints the manual of all keys, whatever their values: neither FILE nor --set can go with it");
+          "--keys prints the manual of all keys, whatever their values: use it without FILE and --set");
     }
     print_keys();
     return kExitDone;
@@ -123,9 +123,10 @@ void add_check_config(CLI::App& app, int& exit_code) {
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
   verb->add_flag("-k,--keys", options->keys, "Print the manual of all keys instead");
   verb->footer(
-      "Examples:\n  pose_wall check-config config/pose_wall.yaml --set forward_axis=-Y\n"
+      "Examples:\n"
+      "  pose_wall check-config config/pose_wall.yaml --set forward_axis=-Y\n"
       "  pose_wall check-config --keys\n"
-      "Exit status: 0 the settings are good, 2 they are not (every fault is named with its line).");
+      "Exit status: 0 the settings are good, 2 they have faults (each is named with its line).");
   verb->callback([options, &exit_code] { exit_code = check_config(*options); });
 }
 

@@ -95,15 +95,14 @@ int demo(const DemoVerb& verb) {
 void add_demo(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<DemoVerb>();
   CLI::App* verb = app.add_subcommand("demo", "Simulate a roadway, measure in it, draw a picture");
-  verb->add_option(
-      "--scene", options->demo.scene,
-      "Scene of the simulator (pose_wall sim --list names them); default: a heading with the machine at work");
-  verb->add_option("--sensor", options->demo.sensor, "Sensor model of the simulator, named there as well")
+  verb->add_option("--scene", options->demo.scene,
+                   "Scene of the simulator, see pose_wall sim --list; default: a heading with the machine at work");
+  verb->add_option("--sensor", options->demo.sensor, "Sensor model of the simulator, see the same list")
       ->capture_default_str();
-  verb->add_option("-n,--frames", options->frames, "How many frames")
+  verb->add_option("-n,--frames", options->frames, "Number of frames")
       ->capture_default_str()
       ->check(CLI::Range(1u, 100000u));
-  verb->add_option("--seed", options->demo.seed, "Another number: other rock, other noise")
+  verb->add_option("--seed", options->demo.seed, "Seed of rock and noise")
       ->capture_default_str()
       ->check(whole_number());
   verb->add_option("-c,--config", options->demo.config_file, "Settings of the engine, as config/pose_wall.yaml");

@@ -165,8 +165,8 @@ void demand_settings_for_bound(const EvalOptions& options) {
 void tell_other_stamps(const EvalOptions& options, std::size_t other_stamps, std::size_t matched) {
   if (other_stamps == 0) return;
   fmt::print(stderr,
-             "pose_wall eval: {} against {}: matched by frame, but in {} of {} the stamps differ; where the frames of "
-             "RESULT are not the first ones of TRUTH, in its order, these errors mean nothing\n",
+             "pose_wall eval: {} against {}: matched by frame, but in {} of {} the stamps differ. These errors are "
+             "meaningless unless the frames of RESULT are the first ones of TRUTH, in its order\n",
              options.results, options.truth, other_stamps, counted(matched, "pair"));
 }
 
@@ -222,32 +222,30 @@ void add_eval(CLI::App& app, int& exit_code) {
           "CSV with frame or stamp_ns and any of roll, pitch, yaw (rad), d_lf, d_lb, d_rf, d_rb (m); of motion: "
           "x, y, z, qx, qy, qz, qw, or r00 to r22 and tx, ty, tz")
       ->required();
-  verb->add_option("-c,--config", options->config_file, "Settings the results were made with: gives the alert limits");
+  verb->add_option("-c,--config", options->config_file, "Settings of the run: source of the alert limits");
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
       ->allow_extra_args(false);
-  CLI::Option* frames = verb->add_option(
-      "-f,--frames", options->frames,
-      "Folder of the frames that RESULT was measured from: adds CRB, the least error their points allow, and RMSE/CRB. "
-      "Needs --config, the same as for run");
+  CLI::Option* frames = verb->add_option("-f,--frames", options->frames,
+                                         "Folder of the frames behind RESULT: adds CRB, the least error that their "
+                                         "points allow, and RMSE/CRB. Needs the --config of the run");
   CLI::Option* noise =
-      verb->add_option("--range-noise", options->range_noise_m, "Standard deviation of a range of these frames, m");
+      verb->add_option("--range-noise", options->range_noise_m, "Standard deviation of one range in these frames, m");
   noise->check(noise_fault, "0.0001 to 1")->needs(frames);
   frames->needs(noise);
   verb->add_flag("--json", options->json, "Print JSON instead of tables, in rad and m");
   verb->footer(
-      "Examples:\n  pose_wall eval out.csv truth.csv\n"
+      "Examples:\n"
+      "  pose_wall eval out.csv truth.csv\n"
       "  pose_wall eval out.csv clean/truth.csv -c clean/pose_wall.yaml --frames clean/frames --range-noise 0.012\n"
       "  pose_wall eval motion.csv road/truth.csv\n"
-      "the second on a road of `pose_wall sim --scene clean`, the third of a table of `pose_wall motion`: its poses "
-      "are "
-      "laid on\nthe truth at the first frame of both, and nothing is fitted.\n"
-      "Rows belong together by stamp_ns where it tells the rows of either table apart and some are in both, by frame "
-      "else.\n"
-      "raw: this frame's own measurement. value: what a controller acts on, held values included.\n"
-      "> protection: errors beyond the stated protection level. mean z²: 1 when the stated sigma is true.\n"
-      "CRB: Cramer-Rao bound on a clean road (flat floor, flat upright walls, noise along the ray), root mean square "
-      "over "
-      "frames.\n"
+      "The second example uses a road of `pose_wall sim --scene clean`. The third compares a table of `pose_wall "
+      "motion`:\n"
+      "both paths are aligned at their first common frame, and nothing is fitted.\n"
+      "Rows are paired by stamp_ns. They are paired by frame if a table has a stamp twice or the tables share none.\n"
+      "raw: this frame's own measurement. value: smoothed or held, for the controller.\n"
+      "> protection: errors beyond the stated protection level. mean z²: 1 for a true sigma.\n"
+      "CRB: Cramer-Rao bound on a clean road (flat floor, flat upright walls, noise along the ray), root mean square\n"
+      "over frames.\n"
       "Exit status: 0 done, 1 a table or frame cannot be read or does not fit, 2 bad usage or config.");
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("eval", [&] { return eval(*options); }); });
 }

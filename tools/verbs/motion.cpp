@@ -133,9 +133,8 @@ void add_motion(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("motion", "Measure how the machine moves along its road, frame by frame");
   add_frame_options(verb, &options->frames);
   verb->add_option("-o,--output", options->output, "File for the table (CSV); default, and -: standard output");
-  verb->add_option(
-      "--tum", options->tum,
-      "File for the path as other tools read it: rows `t x y z qx qy qz qw`, s and m; lost frames have none");
+  verb->add_option("--tum", options->tum,
+                   "File for the path in TUM format: rows `t x y z qx qy qz qw`, s and m; without lost frames");
   verb->add_option("--map", options->map, "File for the map's points at the end: binary PLY, x y z in m");
   verb->footer(
       "Examples:\n"
@@ -143,17 +142,16 @@ void add_motion(CLI::App& app, int& exit_code) {
       "  pose_wall motion -c road/pose_wall.yaml -o motion.csv --tum path.tum road/frames\n"
       "  pose_wall eval motion.csv road/truth.csv\n"
       "Poses are those of base, in base as it stood at the first frame. along_m is the travel along the road, and\n"
-      "along_state says whether to believe it:\n"
-      "  measured      the relief of the rock told the place\n"
-      "  ambiguous     two places fit alike, as periodic sets do; the level covers both\n"
-      "  unobservable  nothing tells the way along; the level widens by motion_speed_max\n"
-      "  lost          no pose: x to along_m are empty, and the map begins anew\n"
-      "Levels (_pl) are in m and rad: the error of the pose since the first frame stays within them. Columns step_ "
-      "are\n"
-      "of the way since the last frame. Keys: motion_speed_max, motion_turn_max_deg, motion_range_max,\n"
+      "along_state grades it:\n"
+      "  measured      the relief of the rock determines the place\n"
+      "  ambiguous     two places fit alike, as with periodic steel sets; the level covers both\n"
+      "  unobservable  no feature shows the travel; the level grows by motion_speed_max\n"
+      "  lost          no pose: x to along_m are empty, and the map restarts\n"
+      "Levels (_pl) are in m and rad. The error of the pose since the first frame stays within them. Columns step_\n"
+      "describe the step since the last frame. Keys: motion_speed_max, motion_turn_max_deg, motion_range_max,\n"
       "motion_keyframe (pose_wall check-config --keys).\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config, 130\n"
-      "interrupted by Ctrl-C: what is written is whole rows and whole files.");
+      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n"
+      "130 interrupted by Ctrl-C: written rows and files are whole.");
   verb->callback([options, &exit_code] {
     if (options->output == "-") options->output.clear();
     exit_code = motion(*options);

@@ -123,17 +123,18 @@ int replay(const ReplayOptions& options) {
 void add_replay_box(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReplayOptions>();
   CLI::App* verb = app.add_subcommand("replay-box", "Compute a black box again and compare every bit");
-  verb->add_option("FILE", options->file, "A black box, as the runtime wrote it")->required();
+  verb->add_option("FILE", options->file, "A black box of the runtime")->required();
   verb->add_option("--table", options->table,
-                   "File for a CSV of the events: whether each came out again, and the motion that was recorded with "
-                   "it");
+                   "File for a CSV of the events: the result of each comparison, and the recorded motion");
   verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->footer(
-      "Examples:\n  pose_wall replay-box box.pwbox\n  pose_wall replay-box --table events.csv box.pwbox\n"
-      "Exit status: 0 every event computes to the recorded bits and nothing is damaged or missing, 1 damaged, events "
-      "missing,\nno black box, or digests only, 3 a result differs (the first difference is named). What a ring that "
-      "came "
-      "round keeps of\nolder laps, or of earlier runs, has no gaps to count.");
+      "Examples:\n"
+      "  pose_wall replay-box box.pwbox\n"
+      "  pose_wall replay-box --table events.csv box.pwbox\n"
+      "Exit status: 0 every event gives the recorded bits, and none is damaged or missing; 1 damage, missing events,\n"
+      "no black box, or digests only; 3 a result differs (the first difference is named). Gaps in older laps of the "
+      "ring\n"
+      "and in earlier runs do not count.");
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("replay-box", [&] { return replay(*options); }); });
 }

@@ -37,10 +37,11 @@ void add_completion(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("completion", "Print a script that completes words in a shell");
   verb->add_option("SHELL", *shell, "bash, zsh or fish")->required()->check(one_of({"bash", "zsh", "fish"}));
   verb->footer(
-      "Examples:\n  source <(pose_wall completion bash)\n"
+      "Examples:\n"
+      "  source <(pose_wall completion bash)\n"
       "  pose_wall completion zsh > ~/.zfunc/_pose_wall\n"
       "  pose_wall completion fish > ~/.config/fish/completions/pose_wall.fish\n"
-      "Packages bring the scripts to where shells look for them.");
+      "Packages install the scripts where the shells find them.");
   verb->callback([shell, &app, &exit_code] { exit_code = print(completion(app, *shell)); });
 }
 

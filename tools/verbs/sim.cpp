@@ -52,11 +52,11 @@ std::string floor_text(const sim::SceneChoice& scene) {
 }
 
 void print_list() {
-  TextTable scenes({"scene", "kind", "what it holds", "floor", "what a good instrument does"});
+  TextTable scenes({"scene", "kind", "contents", "floor", "right behaviour"});
   for (const sim::SceneChoice& s : sim::scenes()) {
     scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, floor_text(s), s.expected});
   }
-  TextTable sensors({"sensor", "what it is"});
+  TextTable sensors({"sensor", "description"});
   for (const sim::SensorModel& m : sim::sensor_models()) sensors.add_row({m.sensor.name, m.help});
   TextTable keys({"key", "default", "unit", "allowed", "meaning"});
   sim::Setup defaults;
@@ -65,9 +65,10 @@ void print_list() {
     keys.add_row({p.name, sim::parameter_text(p, p.field(defaults)), p.unit, allowed, p.help});
   }
   fmt::print(
-      "{}Floor: the least share of the values with a truth that must be valid or degraded; - where none can be "
-      "asked.\n\n"
-      "{}\n{}\nSensor keys default to the chosen sensor's own; shown are those of os1-64.\n",
+      "{}Floor: the least share of the values with a truth that must be valid or degraded; - if none is required.\n\n"
+      "{}\n"
+      "{}\n"
+      "Sensor keys default to the chosen sensor's own; shown are those of os1-64.\n",
       scenes.text(5), sensors.text(2), keys.text(5));
 }
 
@@ -139,8 +140,8 @@ void refuse_folder_of_others(const SimOptions& options) {
   std::getline(std::ifstream(settings), first_line);
   if (first_line.rfind("# scene ", 0) == 0) return;
   throw std::invalid_argument(
-      fmt::format("--output {}: there are frames or settings in it that pose_wall sim did not write; choose another "
-                  "folder, it is made if need be",
+      fmt::format("--output {}: it holds frames or settings that pose_wall sim did not write; choose another folder, "
+                  "it is created if needed",
                   options.output));
 }
 
@@ -172,13 +173,13 @@ int simulate(const SimOptions& options) {
 void add_sim(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SimOptions>();
   CLI::App* verb = app.add_subcommand("sim", "Simulate LiDAR frames of a roadway, with the truth of each");
-  verb->add_option("--scene", options->scene, "What the road holds; see --list")->capture_default_str();
-  verb->add_option("--sensor", options->sensor, "Which LiDAR; see --list")->capture_default_str();
-  verb->add_option("-n,--frames", options->frames, "How many frames")
+  verb->add_option("--scene", options->scene, "Scene of the road; see --list")->capture_default_str();
+  verb->add_option("--sensor", options->sensor, "Sensor model; see --list")->capture_default_str();
+  verb->add_option("-n,--frames", options->frames, "Number of frames")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   verb->add_option("-r,--rate", options->rate_hz, "Frames per second; the same as --set rate_hz");
-  verb->add_option("--seed", options->seed, "Of rock, noise and --random: the same seed gives the same bits")
+  verb->add_option("--seed", options->seed, "Seed of rock, noise and --random; the same seed gives the same bits")
       ->capture_default_str()
       ->check(whole_number());
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the scene; may be repeated")->allow_extra_args(false);
@@ -187,12 +188,12 @@ void add_sim(CLI::App& app, int& exit_code) {
   verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->add_option("-o,--output", options->output, "Folder for frames/*.pcd, truth.csv and pose_wall.yaml");
   verb->footer(
-      "Example:\n  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
+      "Example:\n"
+      "  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
       "  pose_wall run --config /tmp/road/pose_wall.yaml --output out.csv /tmp/road/frames\n"
       "  pose_wall eval out.csv /tmp/road/truth.csv\n"
-      "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: the frames that are "
-      "there "
-      "are whole and have their truth.");
+      "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: written\n"
+      "frames are whole and have their truth.");
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("sim", [&] { return simulate(*options); }); });
 }
 
