@@ -20,6 +20,7 @@
 #include "ran_command.hpp"
 #include "report/cloud_choice.hpp"
 #include "report/columns.hpp"
+#include "results/usability.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -163,10 +164,36 @@ TEST(ReportVerb, ShowsAPartOfTheFramesWithTheirOwnTruth) {
   EXPECT_EQ(ran.errors, "");
   EXPECT_EQ(column<float>(road.data(), "truth").at(0), 0.25F);
   const Ran other = report(road.folder.write("t.csv", head + "0,7,0.5,0,0,2,2,2,2\n"));
-  EXPECT_TRUE(contains(other.errors, "in 1 of 1 pair the stamps differ")) << other.errors;
+  EXPECT_TRUE(contains(other.errors, "the stamps differ in 1 of 1 pairs")) << other.errors;
   EXPECT_EQ(column<float>(road.data(), "truth").at(0), 0.5F);
-  EXPECT_TRUE(contains(report(road.folder.write("t.csv", head + "5,7,0,0,0,2,2,2,2\n")).errors, "no row of it is of"));
+  EXPECT_TRUE(
+      contains(report(road.folder.write("t.csv", head + "5,7,0,0,0,2,2,2,2\n")).errors, "no row matches these frames"));
   EXPECT_TRUE(contains(report(road.folder.write("t.csv", head + rows + rows)).errors, "frame 0 appears twice"));
+}
+
+// The page judges by the shares of usability.hpp and names the axis of its signs; stderr has the verdict, too.
+TEST(ReportVerb, HoldsTheRuleOfTheVerdictAndTheAxisOfTheSigns) {
+  const Road road("1");
+  const Ran ran = road.report({"--set", "forward_axis=-Y"});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "\nverdict: ")) << ran.errors;
+  const nlohmann::json head = road.data().at("head");
+  EXPECT_EQ(head.at("usable_share"), kUsableShare);
+  EXPECT_EQ(head.at("in_part_share"), kInPartShare);
+  EXPECT_EQ(head.at("forward_axis"), "-Y");
+}
+
+TEST(ReportVerb, SpeaksChineseOnStderrAndInItsHelp) {
+  const Road road("1");
+  const Ran ran = road.report({"--language", "zh", "--truth", road.folder.write("t.csv", "frame,roll\n5,0\n")});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  for (const char* part : {"没有一行与这些帧匹配", "结论：", "1 帧，其中 1 帧含点云", "请用浏览器打开"}) {
+    EXPECT_TRUE(contains(ran.errors, part)) << part << " | " << ran.errors;
+  }
+  EXPECT_EQ(road.data().at("head").at("language"), "zh");
+  const Ran help = command({"report", "--language", "zh", "--help"});
+  EXPECT_TRUE(contains(help.printed, "退出码：")) << help.printed;
+  EXPECT_FALSE(contains(help.printed, "Exit status")) << help.printed;
 }
 
 TEST(ReportVerb, IsOneFileThatAsksForNothing) {

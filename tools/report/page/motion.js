@@ -41,6 +41,7 @@ function show_verdict() {
   }
   for (const state of [2, 1, 0, 4]) if (counts[state]) lines.push(element('p', w.verdict_share(w.states[STATES[state]], percent(counts[state] / motion.frames))));
   if (motion.truth) lines.push(element('p', w.misleading(motion.truth)));
+  lines.push(element('p', w.verdict_rule, 'faint'));
   fill('verdict', ...lines);
   document.getElementById('verdict').className = `panel ${grade}`;
 }
@@ -84,7 +85,7 @@ function show_frame(f) {
     [w.place, `${place} m`], [w.time, `${number_text(motion.ms[f], 2)} ms`]];
   motion.words.directions.forEach((name, d) => rows.push([`${w.level}: ${w.directions[name]}`, of_direction(d, level_of(f, d))]));
   const half = Math.ceil(rows.length / 2);
-  fill('values', table(['', w.value, '', w.value], rows.slice(0, half).map((row, i) => [...row, ...(rows[half + i] || ['', ''])])));
+  fill('values', table([w.quantity, w.value, w.quantity, w.value], rows.slice(0, half).map((row, i) => [...row, ...(rows[half + i] || ['', ''])])));
   document.getElementById('frame-note').textContent = reasons_of(f).map(said_reason).join(' · ');
   path.draw(f);
   series.forEach((one) => one.draw(f));

@@ -1,8 +1,9 @@
-// How a reader goes through the frames of a report. The page has the globals page, show_frame and show_all.
+// A reader's way through the frames of a report. The page has the globals page, show_frame and show_all.
 
 function show_heading(title, subtitle) {
   const w = words();
   document.documentElement.lang = page.language;
+  document.title = `${title} – ${w.report}`;
   document.querySelectorAll('[data-word]').forEach((node) => { node.textContent = w[node.dataset.word]; });
   document.getElementById('title').textContent = title;
   document.getElementById('subtitle').textContent = subtitle;
