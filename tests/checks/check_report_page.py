@@ -175,7 +175,7 @@ return said;
 
 
 def check_verdicts(browser, checks):
-    verdict = lambda states: browser.run(VERDICT % states)
+    verdict = lambda states: [text.replace("\u00a0", " ") for text in browser.run(VERDICT % states)]
     grade, text = verdict("2")
     checks.hold("nothing valid is not usable", grade == "bad" and text.startswith("Not usable") and
                 "Never act on roll, pitch, yaw, left front, left back, right front, right back" in text)

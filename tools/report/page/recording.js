@@ -41,6 +41,11 @@ class Recording {
     if (this.is_angle(quantity)) error = Math.atan2(Math.sin(error), Math.cos(error));
     return error * this.unit(quantity);
   }
+  // In degrees or m; an invalid value has no bound to rely on.
+  bound_of(frame, quantity) {
+    const i = this.at(frame, quantity);
+    return this.state[i] === INVALID ? NaN : this.level[i] * this.unit(quantity);
+  }
   // The value departs from raw by more than noise: three standard deviations of raw.
   differs(frame, quantity) {
     const i = this.at(frame, quantity);

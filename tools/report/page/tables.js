@@ -23,8 +23,9 @@ function fill(id, ...nodes) { document.getElementById(id).replaceChildren(...nod
 
 function words() { return WORDS[page.language]; }
 
-function percent(share) { return `${(100 * share).toFixed(1)} %`; }
-function whole_percent(share) { return `${Math.round(100 * share)} %`; }
+// A number and its sign stay on one line.
+function percent(share) { return `${(100 * share).toFixed(1)}\u00a0%`; }
+function whole_percent(share) { return `${Math.round(100 * share)}\u00a0%`; }
 
 function reason_text(bit) {
   const name = recording.words.reason_names[bit];
@@ -105,7 +106,7 @@ function parts_table(rows) {
 function show_levels(f) {
   const rows = QUANTITIES.map((name, q) => {
     const i = recording.at(f, q), unit = recording.unit(q);
-    return { q, level: recording.level[i] * unit, raw_level: recording.raw_level[i] * unit, cause: recording.cause[i],
+    return { q, level: recording.bound_of(f, q), raw_level: recording.raw_level[i] * unit, cause: recording.cause[i],
       parts: recording.parts(f, q).map((part) => part * unit), mostly: recording.has_level(f, q) ? part_text(recording.cause[i]) : '–' };
   });
   fill('levels', element('h3', words().made_of), parts_table(rows));
@@ -125,10 +126,11 @@ function show_values(f) {
   if (recording.has_truth) head.push(w.truth, w.error);
   fill('values', table(head.concat([w.why]), QUANTITIES.map((name, q) => {
     const i = recording.at(f, q), unit = recording.unit(q), state = recording.state[i], amount = (x) => amount_text(recording, q, x * unit);
-    const cells = [name_text(q), value_cell(amount(recording.value[i]), state), level_cell(q, recording.level[i] * unit), state_cell(state),
+    const is_there = state !== INVALID;
+    const cells = [name_text(q), value_cell(is_there ? amount(recording.value[i]) : '–', state), level_cell(q, recording.bound_of(f, q)), state_cell(state),
       value_cell(amount(recording.raw[i]), state), level_cell(q, recording.raw_level[i] * unit), amount(recording.sigma[i]),
       `${number_text(recording.age_s[i], 1)} s`];
-    if (recording.has_truth) cells.push(amount(recording.truth[i]), amount_text(recording, q, recording.error_of(f, q)));
+    if (recording.has_truth) cells.push(amount(recording.truth[i]), is_there ? amount_text(recording, q, recording.error_of(f, q)) : '–');
     return cells.concat([element('td', why_text(f, q), 'words')]);
   })));
   document.getElementById('signs').textContent = w.sentences([w.act_only, signs_text()]);
