@@ -207,9 +207,10 @@ def check_chinese(browser, checks):
     whole = browser.run("return document.body.innerText")
     english = re.findall(r"[A-Za-z]{2,}(?: [a-z]{2,}){2,}", whole)
     checks.hold(f"nothing is left in English {english[:3]}", not english)
-    checks.hold("so is the title", browser.run("return document.title").endswith("pose_wall 报告"))
+    title = browser.run("return document.title").rsplit(" – ", 1)[-1]
+    checks.hold(f"so is the title, {title}", re.fullmatch("pose_wall (运动)?报告", title) is not None)
     titles = browser.run("return Array.from(document.querySelectorAll('[title]'), (x) => x.title)")
-    checks.hold("so are the hints", titles and all(re.search(r"[\u3400-\u9fff]", title) for title in titles))
+    checks.hold("so are the hints", all(re.search(r"[\u3400-\u9fff]", title) for title in titles))
 
 
 def check(browser, frames, prefix):
@@ -264,6 +265,9 @@ def check(browser, frames, prefix):
     run("const c = document.getElementById('chart-yaw'), b = c.getBoundingClientRect();"
         "c.dispatchEvent(new PointerEvent('pointerdown', {clientX: b.left + 0.8 * b.width, clientY: b.top + 20}))")
     checks.hold("a click into a chart goes to the frame", slider_at() > frames // 2)
+    run("location.hash = '#2'")
+    time.sleep(0.3)
+    checks.hold("an address with a frame opens it", slider_at() == 2)
     run(slide % 0)
     run("document.getElementById('play').click()")
     time.sleep(1.0)

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -219,6 +220,19 @@ TEST(ReportVerb, AFileThatCannotBeReadIsAFrameThatSaysSo) {
   EXPECT_NE(data.at("error")[1], "");
   EXPECT_EQ(column<std::uint8_t>(data, "state")[7], POSE_WALL_VALID + 1) << "unreadable, not invalid";
   EXPECT_EQ(column<std::uint32_t>(data, "cloud_frame"), (std::vector<std::uint32_t>{0, 2}));
+}
+
+// Its guessed stamp is that of the next frame, which must keep its own truth.
+TEST(ReportVerb, AFileThatCannotBeReadLeavesTheOthersTheirTruth) {
+  const Road road("3");
+  road.folder.write("road/frames/000001b.pcd", "no cloud");
+  const Ran ran = road.report({"--truth", road.folder.file("road/truth.csv")});
+  EXPECT_FALSE(contains(ran.errors, "stamps differ")) << ran.errors;
+  const CsvTable truth = table_of(road.folder.file("road/truth.csv"));
+  const auto shown = column<float>(road.data(), "truth");
+  ASSERT_EQ(shown.size(), 4U * POSE_WALL_QUANTITIES);
+  EXPECT_FLOAT_EQ(shown[7 * 3], static_cast<float>(truth.number(2, *truth.find_column("roll"))));
+  EXPECT_FALSE(std::isfinite(shown[7 * 2])) << "nothing is known of the frame itself";
 }
 
 TEST(ReportVerb, NamesCannotBreakOutOfTheData) {

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "language/language.hpp"
+#include "pose_wall.hpp"
 #include "results/run_summary.hpp"
 #include "test_files.hpp"
 

@@ -45,7 +45,7 @@ state_picture() {
     --truth "$2/truth.csv" --output "$2.html" "$2/frames"
   # A style behind the page's own wins.
   { cat "$2.html"; echo "<style>"; cat "$here/small_report.css"; echo "</style>"; } > "$2_small.html"
-  screenshot "$2_small.html#$4" "$here/$1" 420,510 1.8
+  screenshot "$2_small.html#$4" "$here/$1" 420,510 1.6
 }
 
 states() {

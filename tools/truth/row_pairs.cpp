@@ -13,6 +13,8 @@ namespace {
 
 using Rows = std::map<std::string, std::size_t>;
 
+constexpr const char* kUnreadable = "unreadable";
+
 // Nothing where a row has no key, or two have the same.
 std::optional<Rows> told_apart(const RowKeys::Column& column) {
   if (!column) return std::nullopt;
@@ -59,8 +61,18 @@ RowPairs pairs_by(const char* by, const RowKeys::Column& results, const RowKeys:
 
 }  // namespace
 
+std::string unreadable_key(std::size_t row) {
+  return fmt::format("{} {}", kUnreadable, row);
+}
+
 RowKeys row_keys(const CsvTable& table) {
-  return {cells_of(table, "frame"), cells_of(table, "stamp_ns")};
+  RowKeys keys{cells_of(table, "frame"), cells_of(table, "stamp_ns")};
+  const RowKeys::Column status = cells_of(table, table.find_column("status") ? "status" : "along_state");
+  if (!keys.stamp_ns || !status) return keys;
+  for (std::size_t row = 0; row < status->size(); ++row) {
+    if ((*status)[row] == kUnreadable) (*keys.stamp_ns)[row] = unreadable_key(row);
+  }
+  return keys;
 }
 
 RowPairs pair_rows(const RowKeys& results, const RowKeys& truth) {
@@ -78,7 +90,8 @@ RowPairs pair_rows(const RowKeys& results, const RowKeys& truth) {
   RowPairs pairs = pairs_by("frame", results.frame, truth.frame);
   if (!have_stamps) return pairs;
   for (const auto& [result_row, truth_row] : pairs.rows) {
-    if ((*results.stamp_ns)[result_row] != (*truth.stamp_ns)[truth_row]) ++pairs.other_stamps;
+    const std::string& stamp = (*results.stamp_ns)[result_row];
+    if (stamp != unreadable_key(result_row) && stamp != (*truth.stamp_ns)[truth_row]) ++pairs.other_stamps;
   }
   return pairs;
 }

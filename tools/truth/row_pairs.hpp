@@ -22,8 +22,11 @@ struct RowKeys {
   Column stamp_ns;
 };
 
-// By the table's columns `frame` and `stamp_ns`.
+// By the table's columns `frame` and `stamp_ns`, and by `status` of run or `along_state` of motion.
 RowKeys row_keys(const CsvTable& table);
+
+// The stamp key of a frame that could not be read. Its row holds a guess, which may be the stamp of the next frame.
+std::string unreadable_key(std::size_t row);
 
 struct RowPairs {
   std::string by;                                         // "stamp_ns" or "frame"

@@ -69,7 +69,7 @@ Shown process_frames(const ReportOptions& options, FrameSequence& inputs, FrameR
     if (!outcome.result) bar.print_above(fmt::format("pose_wall report: {}: {}", outcome.source, outcome.error));
     shown.summary.add(outcome);
     shown.keys.frame->push_back(std::to_string(outcome.frame));
-    shown.keys.stamp_ns->push_back(std::to_string(outcome.stamp_ns));
+    shown.keys.stamp_ns->push_back(outcome.result ? std::to_string(outcome.stamp_ns) : unreadable_key(data.frames()));
     data.add(outcome);
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }

@@ -4,6 +4,7 @@
 
 // By pose_wall_along_state; the last marks a frame that the library never saw.
 const STATES = ['lost', 'unobservable', 'ambiguous', 'measured', 'unreadable'];
+const MEASURED = 3;
 const STATE_COLOURS = { lost: 'invalid', unobservable: 'held', ambiguous: 'degraded', measured: 'valid', unreadable: 'unreadable' };
 
 const WORDS = {
@@ -13,7 +14,7 @@ const WORDS = {
     path_caption: 'The path from above in metres, in base of the first frame: x to the right, y up. Colour: state along the road. Dashed: truth. Click: go to the nearest frame.',
     series: 'Over time', series_help: 'Band: protection level, the bound of the error; no band where there is no bound. Colour bar below: state along the road. Click: go to the frame.',
     travel: 'travel along the road [m]', step: 'travel since the last frame [m]', summary: 'Summary', reasons: 'Reasons', reason: 'reason',
-    truth: 'Compared with the truth', error: 'error', at_end: 'at the end', largest: 'largest', of_way: 'share of the way', beyond: 'poses with an error above their level',
+    truth: 'Compared with the truth', error: 'error', at_end: 'at the end', largest: 'largest', of_way: 'share of the way', beyond: 'poses above their level',
     drift: (t) => `Drift over 10 m: mean ${share_text(t.drift.mean)}, worst ${share_text(t.drift.worst)}`, no_drift: 'The way is shorter than 10 m.',
     misleading: (t) => `Measured, but with an error along the road above the level: ${t.misleading_poses.misleading} of ${t.misleading_poses.measured} poses, ` +
       `${t.misleading_steps.misleading} of ${t.misleading_steps.measured} steps.`,
