@@ -107,6 +107,11 @@ TEST(CompareWithTruth, AnUnreadableRowLeavesTheOthersTheirStamps) {
   EXPECT_EQ(comparison.matched, 2U);
   EXPECT_EQ(comparison.quantities.at(0).statistics.raw().absolute_max, 0.0);
   EXPECT_EQ(comparison.quantities.at(0).statistics.valid_without_truth(), 0U);
+  // A stamp of its own, by the file's name, counts: the frame was there and was not measured.
+  const CsvTable named = table(head + "0,10,valid,1,1,0.01,0.1,valid\n1,20,unreadable,,,,,\n");
+  const Comparison all = compare_with_truth(named, table("frame,stamp_ns,roll\n0,10,1\n1,20,2\n"), {1, 1});
+  EXPECT_EQ(all.quantities.at(0).statistics.frames(), 2U);
+  EXPECT_EQ(all.quantities.at(0).statistics.valid(), 1U);
 }
 
 TEST(CompareWithTruth, StampsThatTellNothingApartAreLeftForNumbersAndDifferencesAreCounted) {

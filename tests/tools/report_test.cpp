@@ -186,7 +186,9 @@ TEST(ReportVerb, HoldsTheRuleOfTheVerdictAndTheAxisOfTheSigns) {
 
 TEST(ReportVerb, SpeaksChineseOnStderrAndInItsHelp) {
   const Road road("1");
-  const Ran ran = road.report({"--language", "zh", "--truth", road.folder.write("t.csv", "frame,roll\n5,0\n")});
+  const Ran ran = road.report(
+      {"--language", "zh", "--truth",
+       road.folder.write("t.csv", "frame,stamp_ns,roll,pitch,yaw,d_lf,d_lb,d_rf,d_rb\n5,7,0,0,0,2,2,2,2\n")});
   ASSERT_EQ(ran.exit_status, 0) << ran.errors;
   for (const char* part : {"没有一行与这些帧匹配", "结论：", "1 帧，其中 1 帧含点云", "请用浏览器打开"}) {
     EXPECT_TRUE(contains(ran.errors, part)) << part << " | " << ran.errors;

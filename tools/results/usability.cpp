@@ -52,7 +52,7 @@ std::string usability_text(const ValidShares& valid) {
   const std::string rarely = names_where(valid, [](double x) { return x > 0.0 && x < kInPartShare; });
   const std::string never = names_where(valid, [](double x) { return !(x > 0.0); });
   std::string reasons;
-  const auto add = [&reasons](const std::string& reason) { reasons += (reasons.empty() ? "" : "; ") + reason; };
+  const auto add = [&reasons](const std::string& reason) { reasons += (reasons.empty() ? "" : tr("; ")) + reason; };
   if (!usable.empty()) add(say("{} valid in at least {} % of the frames", usable, whole_percent(kUsableShare)));
   if (!in_part.empty()) {
     add(say("{} valid in {} % to {} %", in_part, whole_percent(kInPartShare), whole_percent(kUsableShare)));

@@ -7,13 +7,17 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace pose_wall::tools {
 namespace {
 
 using Rows = std::map<std::string, std::size_t>;
 
-constexpr const char* kUnreadable = "unreadable";
+// Of no truth.
+std::string yielded_key(std::size_t row) {
+  return fmt::format("unreadable {}", row);
+}
 
 // Nothing where a row has no key, or two have the same.
 std::optional<Rows> told_apart(const RowKeys::Column& column) {
@@ -61,17 +65,24 @@ RowPairs pairs_by(const char* by, const RowKeys::Column& results, const RowKeys:
 
 }  // namespace
 
-std::string unreadable_key(std::size_t row) {
-  return fmt::format("{} {}", kUnreadable, row);
+void yield_stamps(const std::vector<bool>& is_unreadable, RowKeys* keys) {
+  std::vector<std::string>& stamps = *keys->stamp_ns;
+  std::set<std::string> taken;
+  for (std::size_t row = 0; row < stamps.size(); ++row) {
+    if (!is_unreadable[row]) taken.insert(stamps[row]);
+  }
+  for (std::size_t row = 0; row < stamps.size(); ++row) {
+    if (is_unreadable[row] && !taken.insert(stamps[row]).second) stamps[row] = yielded_key(row);
+  }
 }
 
 RowKeys row_keys(const CsvTable& table) {
   RowKeys keys{cells_of(table, "frame"), cells_of(table, "stamp_ns")};
   const RowKeys::Column status = cells_of(table, table.find_column("status") ? "status" : "along_state");
   if (!keys.stamp_ns || !status) return keys;
-  for (std::size_t row = 0; row < status->size(); ++row) {
-    if ((*status)[row] == kUnreadable) (*keys.stamp_ns)[row] = unreadable_key(row);
-  }
+  std::vector<bool> is_unreadable;
+  for (const std::string& one : *status) is_unreadable.push_back(one == "unreadable");
+  yield_stamps(is_unreadable, &keys);
   return keys;
 }
 
@@ -91,7 +102,7 @@ RowPairs pair_rows(const RowKeys& results, const RowKeys& truth) {
   if (!have_stamps) return pairs;
   for (const auto& [result_row, truth_row] : pairs.rows) {
     const std::string& stamp = (*results.stamp_ns)[result_row];
-    if (stamp != unreadable_key(result_row) && stamp != (*truth.stamp_ns)[truth_row]) ++pairs.other_stamps;
+    if (stamp != yielded_key(result_row) && stamp != (*truth.stamp_ns)[truth_row]) ++pairs.other_stamps;
   }
   return pairs;
 }

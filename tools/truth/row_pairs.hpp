@@ -25,8 +25,8 @@ struct RowKeys {
 // By the table's columns `frame` and `stamp_ns`, and by `status` of run or `along_state` of motion.
 RowKeys row_keys(const CsvTable& table);
 
-// The stamp key of a frame that could not be read. Its row holds a guess, which may be the stamp of the next frame.
-std::string unreadable_key(std::size_t row);
+// The stamp of a frame that could not be read is a guess. Where another row has the same one, such a row gives it up.
+void yield_stamps(const std::vector<bool>& is_unreadable, RowKeys* keys);
 
 struct RowPairs {
   std::string by;                                         // "stamp_ns" or "frame"

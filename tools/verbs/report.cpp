@@ -51,6 +51,7 @@ struct ReportOptions {
 struct Shown {
   RunSummary summary;
   RowKeys keys{std::vector<std::string>(), std::vector<std::string>()};
+  std::vector<bool> is_unreadable;  // by row
   bool complete = true;
 };
 
@@ -69,10 +70,12 @@ Shown process_frames(const ReportOptions& options, FrameSequence& inputs, FrameR
     if (!outcome.result) bar.print_above(fmt::format("pose_wall report: {}: {}", outcome.source, outcome.error));
     shown.summary.add(outcome);
     shown.keys.frame->push_back(std::to_string(outcome.frame));
-    shown.keys.stamp_ns->push_back(outcome.result ? std::to_string(outcome.stamp_ns) : unreadable_key(data.frames()));
+    shown.keys.stamp_ns->push_back(std::to_string(outcome.stamp_ns));
+    shown.is_unreadable.push_back(!outcome.result);
     data.add(outcome);
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
+  yield_stamps(shown.is_unreadable, &shown.keys);
   return shown;
 }
 

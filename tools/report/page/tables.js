@@ -150,6 +150,7 @@ function drawn_text(f) {
   if (held.length) lines.push(w.held_now(held));
   if (invalid.length) lines.push(w.invalid_now(invalid));
   if (!recording.floor[3 * f + 2] && !recording.error[f]) lines.push(w.no_yaw);
+  else if (recording.state[recording.at(f, YAW)] === INVALID) lines.push(w.old_yaw);
   return w.sentences(lines);
 }
 

@@ -107,6 +107,9 @@ class Viewer {
       if (!found) continue;
       const left_at = (a, h) => -(d + along * a + up * h) / left, style = colour(side ? 'right' : 'left');
       const at = (a, h) => view.place([a, left_at(a, h), h]);
+      // Pale where the engine refused it: both distances of the side are invalid.
+      const is_refused = [0, 1].every((k) => this.recording.state[this.recording.at(this.frame, 3 + 2 * side + k)] === INVALID);
+      pen.globalAlpha = is_refused ? 0.3 : 1;
       if (view === this.top) {
         stroke(pen, [at(-60, 0), at(60, 0)], style, 1.2, [3, 6]);
         stroke(pen, [at(from, 0), at(to, 0)], style, 2.6);
@@ -114,6 +117,7 @@ class Viewer {
         const low = this.floor_up();
         stroke(pen, [at(0, low), at(0, low + this.recording.head.wall_z_max)], style, 2.6);
       }
+      pen.globalAlpha = 1;
     }
   }
 
