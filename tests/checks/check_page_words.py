@@ -30,7 +30,10 @@ HAN = re.compile(r"[\u3400-\u9fff]")
 
 FLAT = """
 const out = {}, walk = (node, path) => {
-  if (typeof node === 'object') { for (const key of Object.keys(node)) walk(node[key], path ? `${path}.${key}` : key); return; }
+  if (typeof node === 'object') {
+    for (const key of Object.keys(node)) walk(node[key], path ? `${path}.${key}` : key);
+    return;
+  }
   out[path] = [typeof node, String(node)];
 };
 walk(WORDS.%s, '');
