@@ -10,7 +10,7 @@ As check_report_page.py, whose browser it uses.
 import pathlib
 import sys
 
-from check_report_page import Browser, Checks, check_quiet
+from check_report_page import Browser, Checks, check_chinese, check_quiet
 
 SLIDE = "const s = document.getElementById('slider'); s.value = %d; s.dispatchEvent(new Event('input'));"
 
@@ -45,6 +45,13 @@ def check(browser, frames, lost_frame, prefix):
     check_views(browser, checks, frames)
     run(SLIDE % lost_frame)
     checks.hold("a lost frame says so and has no place", "lost" in text("values") and "–, –, –" in text("values"))
+    grey = "return document.querySelectorAll('#values .not-valid').length"
+    checks.hold("its numbers are grey, and it has no bound", run(grey) == 9 and "0.010 m" not in text("values"))
+    run(SLIDE % 0)
+    checks.hold("those of a measured frame are not", run(grey) == 0 and "0.010 m" in text("values"))
+    checks.hold("units stand beside those of the table", "The CSV of pose_wall motion holds radians" in
+                run("return document.body.innerText"))
+    checks.hold("the rule of the verdict stands on the page", "at least 95 %" in text("verdict"))
     if prefix:
         browser.screenshot(f"{prefix}_light_en.png")
     checks.changes("the theme changes the pictures", "path", "document.getElementById('theme').click()")
@@ -52,6 +59,7 @@ def check(browser, frames, lost_frame, prefix):
     run("document.getElementById('language').click()")
     checks.hold("the other language is Chinese", text("summary") != english and "已测得" in text("summary"))
     checks.hold("so are the reasons", "地图从本帧开始" in text("reasons"))
+    check_chinese(browser, checks)
     for language in range(2):
         shown = run("return document.body.innerText")
         checks.hold("no word is missing", not any(word in shown for word in ("undefined", "NaN", "Infinity")))

@@ -12,6 +12,7 @@ language or charts do not do what they say. With a prefix, pictures are left for
 import base64
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -106,6 +107,112 @@ def check_quiet(browser, checks):
     checks.hold(f"the page asks the network for nothing {asked}", not asked)
 
 
+# One frame's numbers are changed, shown, and put back.
+CHANGED = """
+const i = recording.at(0, %d), names = ['value', 'raw', 'sigma', 'level', 'raw_level', 'state', 'cause', 'age_s'];
+const before = names.map((name) => recording[name][i]);
+%s;
+show_frame(0);
+const said = { note: document.getElementById('drawn-note').textContent,
+  row: document.querySelectorAll('#values tr')[%d + 1].textContent,
+  grey: document.querySelectorAll('#values tr')[%d + 1].querySelectorAll('.not-valid').length,
+  struck: Array.from(document.querySelectorAll('#values tr')[%d + 1].querySelectorAll('.level span'),
+    (x) => getComputedStyle(x).textDecorationLine),
+  colours: Array.from(document.querySelectorAll('#values tr')[%d + 1].querySelectorAll('.number'),
+    (x) => getComputedStyle(x).color) };
+const canvas = document.getElementById('top');
+said.ink = Array.from(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data)
+  .reduce((sum, x) => (sum * 31 + x) >>> 0, 0);
+names.forEach((name, k) => { recording[name][i] = before[k]; });
+show_frame(0);
+return said;
+"""
+
+
+def check_one_story(browser, checks):
+    """Picture, table and note of a frame agree on raw, value and state."""
+    changed = lambda q, what: browser.run(CHANGED % (q, what, q, q, q, q))
+    equal = "recording.state[i] = 3; recording.value[i] = recording.raw[i] = 0.1; recording.sigma[i] = 0.001"
+    as_it_is, apart = changed(2, equal), changed(2, equal + "; recording.value[i] = 0.2")
+    checks.hold("raw and value that agree are called so", "Raw and value agree" in as_it_is["note"] and
+                "lags behind" not in as_it_is["row"])
+    both = all(text in apart["note"] + apart["row"] for text in ("5.730°", "11.459°"))
+    checks.hold(f"raw and value apart are both named {apart['note'][:90]}",
+                "differ by more than noise" in apart["note"] and both)
+    checks.hold("the lag is a part of why", "lags behind this frame by 5.730°" in apart["row"])
+    checks.hold("the picture draws both", as_it_is["ink"] != apart["ink"])
+    distance = "recording.state[i] = 3; recording.value[i] = recording.raw[i] = 2; recording.sigma[i] = 0.001"
+    checks.hold("so for a distance", changed(3, distance)["ink"] !=
+                changed(3, distance + "; recording.value[i] = 2.5")["ink"])
+    valid = changed(3, "recording.state[i] = 3; recording.level[i] = recording.raw_level[i] = 0.01")
+    degraded = changed(3, "recording.state[i] = 2; recording.level[i] = recording.raw_level[i] = 20.9")
+    held = changed(3, "recording.state[i] = 1; recording.raw[i] = NaN; recording.age_s[i] = 0.4")
+    invalid = changed(3, "recording.state[i] = 0; recording.raw[i] = NaN")
+    checks.hold("a valid number is not grey", valid["grey"] == 0 and valid["struck"] == ["none", "none"])
+    checks.hold("numbers that are not valid are grey", min(x["grey"] for x in (degraded, held, invalid)) == 2 and
+                not set(degraded["colours"]) & set(valid["colours"]))
+    checks.hold("a level beyond the alert limit is struck through", degraded["struck"] == ["line-through"] * 2)
+    checks.hold("held is named with its age", "measured 0.4 s ago" in held["note"] and "0.4 s ago" in held["row"])
+    checks.hold("invalid is named", "Invalid, not drawn: left front" in invalid["note"])
+    checks.hold("each state has a picture of its own",
+                len({x["ink"] for x in (valid, degraded, held, invalid)}) == 4)
+
+
+# states: of (frame, quantity); the truth is put aside.
+VERDICT = """
+const state = recording.state.slice(), truth = recording.has_truth, before = Object.assign({}, summary);
+for (let f = 0; f < recording.frames; ++f) for (let q = 0; q < 7; ++q) recording.state[recording.at(f, q)] = %s;
+recording.has_truth = false;
+Object.assign(summary, summarise(recording));
+show_verdict();
+const box = document.getElementById('verdict'), said = [box.className.split(' ')[1], box.innerText];
+recording.state.set(state);
+recording.has_truth = truth;
+Object.assign(summary, before);
+show_verdict();
+return said;
+"""
+
+
+def check_verdicts(browser, checks):
+    verdict = lambda states: [text.replace("\u00a0", " ") for text in browser.run(VERDICT % states)]
+    grade, text = verdict("2")
+    checks.hold("nothing valid is not usable", grade == "bad" and text.startswith("Not usable") and
+                "Never act on roll, pitch, yaw, left front, left back, right front, right back" in text)
+    grade, text = verdict("f === 0 && q === 2 ? 3 : 2")
+    checks.hold("one valid value is not usable", grade == "bad" and "Do not rely on yaw: rarely valid" in text)
+    grade, text = verdict("q < 2 ? 3 : q === 2 && f % 4 ? 3 : 2")
+    checks.hold("angles alone are usable in part", grade == "fair" and text.startswith("Usable in part") and
+                "Usable: roll, pitch." in text and "often not valid: yaw" in text and "Never act on left front" in text)
+    grade, text = verdict("3")
+    checks.hold("all valid is usable", grade == "good" and text.startswith("Usable: every value"))
+    checks.hold("the rule stands on the page", "Rule, the same in run, report and doctor" in text and
+                "at least 90 % of the frames" in text and "from 50 %" in text)
+
+
+def check_words(browser, checks):
+    text = lambda name: browser.run(f"return document.getElementById('{name}').textContent")
+    whole = browser.run("return document.body.innerText")
+    checks.hold("nothing is called a value to act on", "value to act on" not in whole and "±" not in text("values"))
+    checks.hold("signs and units are said", "Turned left is negative; in ROS (REP 103) it is positive" in text("signs")
+                and "Signs with forward_axis +X" in text("signs") and "hold radians" in text("signs"))
+    browser.run("recording.head.forward_axis = '+Y'; show_frame(0)")
+    checks.hold("a machine along Y is explained", "roll tilts nose and tail" in text("signs"))
+    browser.run("recording.head.forward_axis = '+X'; show_frame(0)")
+    checks.hold("the title says that it is a report", browser.run("return document.title").endswith("pose_wall report"))
+
+
+def check_chinese(browser, checks):
+    """Names of files, keys and programs have no language; three English words in a row are a sentence."""
+    whole = browser.run("return document.body.innerText")
+    english = re.findall(r"[A-Za-z]{2,}(?: [a-z]{2,}){2,}", whole)
+    checks.hold(f"nothing is left in English {english[:3]}", not english)
+    title = browser.run("return document.title").rsplit(" – ", 1)[-1]
+    checks.hold(f"so is the title, {title}", re.fullmatch("pose_wall (运动)?报告", title) is not None)
+    titles = browser.run("return Array.from(document.querySelectorAll('[title]'), (x) => x.title)")
+    checks.hold("so are the hints", all(re.search(r"[\u3400-\u9fff]", title) for title in titles))
+
+
 def check(browser, frames, prefix):
     run, checks = browser.run, Checks(browser)
     text = lambda name: run(f"return document.getElementById('{name}').textContent")
@@ -125,11 +232,9 @@ def check(browser, frames, prefix):
         "  const sum = widths.reduce((total, width) => total + width, 0);"
         "  return !widths.length || Math.abs(sum - bar.getBoundingClientRect().width) < 1; })"))
     checks.hold("an angle says what its sign means", "roll (+ right side down)" in text("values"))
-    without_lag = "lags behind" not in text("values")
-    run("const i = recording.at(0, 2), cause = recording.cause[i];"
-        "recording.cause[i] = recording.words.parts.indexOf('lag'); show_frame(0); recording.cause[i] = cause;")
-    checks.hold("the lag is named where it is the largest part", without_lag and "lags behind" in text("values"))
-    run("show_frame(0)")
+    check_one_story(browser, checks)
+    check_verdicts(browser, checks)
+    check_words(browser, checks)
     for canvas in ("top", "section", "chart-yaw"):
         checks.hold(f"{canvas} is not empty", run(
             f"const c = document.getElementById('{canvas}'), pen = c.getContext('2d');"
@@ -160,6 +265,9 @@ def check(browser, frames, prefix):
     run("const c = document.getElementById('chart-yaw'), b = c.getBoundingClientRect();"
         "c.dispatchEvent(new PointerEvent('pointerdown', {clientX: b.left + 0.8 * b.width, clientY: b.top + 20}))")
     checks.hold("a click into a chart goes to the frame", slider_at() > frames // 2)
+    run("location.hash = '#2'")
+    time.sleep(0.3)
+    checks.hold("an address with a frame opens it", slider_at() == 2)
     run(slide % 0)
     run("document.getElementById('play').click()")
     time.sleep(1.0)
@@ -172,6 +280,7 @@ def check(browser, frames, prefix):
     run("document.getElementById('language').click()")
     checks.hold("the other language is Chinese", text("summary") != english and "有效" in text("summary"))
     checks.hold("so are parts and signs", "测距偏差" in text("level-parts") and "右侧下倾" in text("values"))
+    check_chinese(browser, checks)
     checks.hold("no word is missing", "undefined" not in run("return document.body.innerText") and
                 "NaN" not in run("return document.body.innerText"))
     if prefix:

@@ -160,7 +160,7 @@ TEST(EvalVerb, SaysThatRowsWithTheSameNumberHaveOtherStamps) {
   const std::string truth = folder.write("truth.csv", "frame,stamp_ns,roll\n0,17,0\n");
   const Ran ran = command({"eval", folder.file("o.csv"), truth, "--json"});
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
-  EXPECT_TRUE(contains(ran.errors, "matched by frame, but in 1 of 1 pair the stamps differ")) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "matched by frame number, but the stamps differ in 1 of 1 pairs")) << ran.errors;
   EXPECT_TRUE(contains(ran.printed, "\"other_stamps\": 1")) << ran.printed;
 }
 

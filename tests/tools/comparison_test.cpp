@@ -97,6 +97,23 @@ TEST(CompareWithTruth, MatchesAPartOfTheFramesByTheirStamps) {
   EXPECT_NEAR(comparison.quantities.at(0).statistics.raw().bias, 0.02, 1e-9);
 }
 
+// A frame that cannot be read has a guessed stamp, often that of the next frame.
+TEST(CompareWithTruth, AnUnreadableRowLeavesTheOthersTheirStamps) {
+  const std::string head = "frame,stamp_ns,status,roll,roll_raw,roll_sigma,roll_pl,roll_state\n";
+  const CsvTable results =
+      table(head + "0,10,valid,1,1,0.01,0.1,valid\n1,20,unreadable,,,,,\n" + "2,20,valid,2,2,0.01,0.1,valid\n");
+  const Comparison comparison = compare_with_truth(results, table("frame,stamp_ns,roll\n0,10,1\n1,20,2\n"), {1, 1});
+  EXPECT_EQ(comparison.matched_by, "stamp_ns");
+  EXPECT_EQ(comparison.matched, 2U);
+  EXPECT_EQ(comparison.quantities.at(0).statistics.raw().absolute_max, 0.0);
+  EXPECT_EQ(comparison.quantities.at(0).statistics.valid_without_truth(), 0U);
+  // A stamp of its own, by the file's name, counts: the frame was there and was not measured.
+  const CsvTable named = table(head + "0,10,valid,1,1,0.01,0.1,valid\n1,20,unreadable,,,,,\n");
+  const Comparison all = compare_with_truth(named, table("frame,stamp_ns,roll\n0,10,1\n1,20,2\n"), {1, 1});
+  EXPECT_EQ(all.quantities.at(0).statistics.frames(), 2U);
+  EXPECT_EQ(all.quantities.at(0).statistics.valid(), 1U);
+}
+
 TEST(CompareWithTruth, StampsThatTellNothingApartAreLeftForNumbersAndDifferencesAreCounted) {
   const std::string rows = "0,5,1,1,1,1,valid\n1,5,1,1,1,1,valid\n2,9,1,1,1,1,valid\n";
   const CsvTable standing = table(kHead + rows);

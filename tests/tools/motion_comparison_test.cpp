@@ -228,7 +228,7 @@ TEST(EvalOfMotion, PrintsTablesAndJson) {
   const Ran tables = evaluated(folder, motion, truth);
   EXPECT_EQ(tables.exit_status, 0) << tables.errors;
   for (const char* part : {"2 frames matched by stamp_ns", "way: 2.000 m", "measured +2.200 m", "+0.2000 m", "10.000 %",
-                           "measured 100.000 %", "the way is shorter", "0 of 1 pose, 0 of 0 steps"}) {
+                           "measured 100.000 %", "the way is shorter", "0 of 1 poses, 0 of 0 steps"}) {
     EXPECT_TRUE(contains(tables.printed, part)) << part << "\nin\n" << tables.printed;
   }
   const Ran json = evaluated(folder, motion, truth, {"--json"});

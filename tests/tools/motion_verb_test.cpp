@@ -203,7 +203,7 @@ TEST(ReportOfMotion, OtherTablesAndMixturesAreRefused) {
   refused({folder.write("other.csv", "frame,roll\n0,1\n")}, 1, "other.csv: the motion table has no column");
   refused({folder.file("none.csv")}, 1, "none.csv: cannot be opened");
   refused({folder.write("empty.csv", motion_csv({}))}, 1, "empty.csv: the table has no row");
-  refused({good, folder.path()}, 2, "a table is reported on alone");
+  refused({good, folder.path()}, 2, "give a table alone");
   const std::string before = text_of(good);
   EXPECT_EQ(command({"report", "-q", "-o", good, good}).exit_status, 2);
   EXPECT_EQ(text_of(good), before);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@
 #include "ran_command.hpp"
 #include "report/cloud_choice.hpp"
 #include "report/columns.hpp"
+#include "results/usability.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -163,10 +165,38 @@ TEST(ReportVerb, ShowsAPartOfTheFramesWithTheirOwnTruth) {
   EXPECT_EQ(ran.errors, "");
   EXPECT_EQ(column<float>(road.data(), "truth").at(0), 0.25F);
   const Ran other = report(road.folder.write("t.csv", head + "0,7,0.5,0,0,2,2,2,2\n"));
-  EXPECT_TRUE(contains(other.errors, "in 1 of 1 pair the stamps differ")) << other.errors;
+  EXPECT_TRUE(contains(other.errors, "the stamps differ in 1 of 1 pairs")) << other.errors;
   EXPECT_EQ(column<float>(road.data(), "truth").at(0), 0.5F);
-  EXPECT_TRUE(contains(report(road.folder.write("t.csv", head + "5,7,0,0,0,2,2,2,2\n")).errors, "no row of it is of"));
+  EXPECT_TRUE(
+      contains(report(road.folder.write("t.csv", head + "5,7,0,0,0,2,2,2,2\n")).errors, "no row matches these frames"));
   EXPECT_TRUE(contains(report(road.folder.write("t.csv", head + rows + rows)).errors, "frame 0 appears twice"));
+}
+
+// The page judges by the shares of usability.hpp and names the axis of its signs; stderr has the verdict, too.
+TEST(ReportVerb, HoldsTheRuleOfTheVerdictAndTheAxisOfTheSigns) {
+  const Road road("1");
+  const Ran ran = road.report({"--set", "forward_axis=-Y"});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "\nverdict: ")) << ran.errors;
+  const nlohmann::json head = road.data().at("head");
+  EXPECT_EQ(head.at("usable_share"), kUsableShare);
+  EXPECT_EQ(head.at("in_part_share"), kInPartShare);
+  EXPECT_EQ(head.at("forward_axis"), "-Y");
+}
+
+TEST(ReportVerb, SpeaksChineseOnStderrAndInItsHelp) {
+  const Road road("1");
+  const Ran ran = road.report(
+      {"--language", "zh", "--truth",
+       road.folder.write("t.csv", "frame,stamp_ns,roll,pitch,yaw,d_lf,d_lb,d_rf,d_rb\n5,7,0,0,0,2,2,2,2\n")});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  for (const char* part : {"没有一行与这些帧匹配", "结论：", "1 帧，其中 1 帧含点云", "请用浏览器打开"}) {
+    EXPECT_TRUE(contains(ran.errors, part)) << part << " | " << ran.errors;
+  }
+  EXPECT_EQ(road.data().at("head").at("language"), "zh");
+  const Ran help = command({"report", "--language", "zh", "--help"});
+  EXPECT_TRUE(contains(help.printed, "退出码：")) << help.printed;
+  EXPECT_FALSE(contains(help.printed, "Exit status")) << help.printed;
 }
 
 TEST(ReportVerb, IsOneFileThatAsksForNothing) {
@@ -192,6 +222,19 @@ TEST(ReportVerb, AFileThatCannotBeReadIsAFrameThatSaysSo) {
   EXPECT_NE(data.at("error")[1], "");
   EXPECT_EQ(column<std::uint8_t>(data, "state")[7], POSE_WALL_VALID + 1) << "unreadable, not invalid";
   EXPECT_EQ(column<std::uint32_t>(data, "cloud_frame"), (std::vector<std::uint32_t>{0, 2}));
+}
+
+// Its guessed stamp is that of the next frame, which must keep its own truth.
+TEST(ReportVerb, AFileThatCannotBeReadLeavesTheOthersTheirTruth) {
+  const Road road("3");
+  road.folder.write("road/frames/000001b.pcd", "no cloud");
+  const Ran ran = road.report({"--truth", road.folder.file("road/truth.csv")});
+  EXPECT_FALSE(contains(ran.errors, "stamps differ")) << ran.errors;
+  const CsvTable truth = table_of(road.folder.file("road/truth.csv"));
+  const auto shown = column<float>(road.data(), "truth");
+  ASSERT_EQ(shown.size(), 4U * POSE_WALL_QUANTITIES);
+  EXPECT_FLOAT_EQ(shown[7 * 3], static_cast<float>(truth.number(2, *truth.find_column("roll"))));
+  EXPECT_FALSE(std::isfinite(shown[7 * 2])) << "nothing is known of the frame itself";
 }
 
 TEST(ReportVerb, NamesCannotBreakOutOfTheData) {

@@ -8,15 +8,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "language/language.hpp"
 #include "motion/directions.hpp"
 #include "motion/motion_rows.hpp"
-#include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-// A machine that stands has no way of which an error could be a share.
+// The way of a standing machine is too short for a share of it.
 constexpr double kWayMin_m = 0.1;
 
 constexpr std::size_t kUnreadableState = POSE_WALL_ALONG_MEASURED + 1;
@@ -24,6 +24,20 @@ constexpr std::size_t kUnreadableState = POSE_WALL_ALONG_MEASURED + 1;
 std::string along_state_words(std::size_t state) {
   return state == kUnreadableState ? kUnreadableFrame
                                    : pose_wall_motion_along_state_name(static_cast<std::uint32_t>(state));
+}
+
+// Names that people read; those of tables and JSON have no language.
+constexpr const char* kShownStates[] = {translatable("lost"), translatable("unobservable"), translatable("ambiguous"),
+                                        translatable("measured"), translatable("unreadable")};
+constexpr const char* kShownDirections[] = {translatable("along"), translatable("across"), translatable("up"),
+                                            translatable("roll"),  translatable("pitch"),  translatable("yaw")};
+
+const char* shown_state(std::size_t state) {
+  return tr(kShownStates[state]);
+}
+
+const char* shown_direction(std::uint32_t direction) {
+  return tr(kShownDirections[direction]);
 }
 
 std::string share_of(double part, double whole) {
@@ -39,21 +53,21 @@ std::string z2_words(double mean_z2) {
 }
 
 std::string head_text(const MotionComparison& c) {
-  return fmt::format(
-      "{} matched by {}; without partner: {}, {}\nlaid on the truth at frame {}, exactly; along: {}\n"
-      "way: {:.3f} m of true path to frame {}; along the road {:+.3f} m, measured {:+.3f} m\n",
-      counted(c.matched, "frame"), c.matched_by, counted(c.table_rows_alone, "result"),
-      counted(c.truth_rows_alone, "truth"), c.first_frame,
-      c.along_is_road ? "the road's X" : "from there to the furthest place", c.way_m, c.last_frame, c.true_along_m,
-      c.measured_along_m);
+  return say(
+      "{} frames matched by {}; without partner: {} results, {} truth rows\n"
+      "Poses laid exactly on the truth at frame {}; along: {}\n"
+      "way: {:.3f} m of true path up to frame {}; along the road {:+.3f} m, measured {:+.3f} m\n",
+      c.matched, c.matched_by, c.table_rows_alone, c.truth_rows_alone, c.first_frame,
+      c.along_is_road ? tr("the road's X") : tr("from there to the furthest place"), c.way_m, c.last_frame,
+      c.true_along_m, c.measured_along_m);
 }
 
 std::string states_text(const MotionComparison& c) {
-  std::string text = "states:";
+  std::string text = tr("states along the road:");
   const char* between = " ";
   for (const std::size_t state : {3U, 2U, 1U, 0U, 4U}) {
     if (state == kUnreadableState && c.states[state] == 0) continue;
-    text += between + along_state_words(state) + " " +
+    text += between + std::string(shown_state(state)) + " " +
             share_of(static_cast<double>(c.states[state]), static_cast<double>(c.matched));
     between = ", ";
   }
@@ -61,30 +75,29 @@ std::string states_text(const MotionComparison& c) {
 }
 
 std::string travel_text(const MotionComparison& c) {
-  TextTable table({"error", "at the end", "of the way", "largest", "of the way", "at frame"});
+  TextTable table({tr("error"), tr("at the end"), tr("of the way"), tr("largest"), tr("of the way"), tr("at frame")});
   for (std::uint32_t d = 0; d < c.travel.size(); ++d) {
     const TravelError& e = c.travel[d];
-    table.add_row({pose_wall_motion_direction_name(d), fmt::format("{:+.4f} m", e.at_end), share_of_way(c, e.at_end),
+    table.add_row({shown_direction(d), fmt::format("{:+.4f} m", e.at_end), share_of_way(c, e.at_end),
                    direction_amount(d, e.largest), share_of_way(c, e.largest), std::to_string(e.largest_at_frame)});
   }
-  table.add_row({"turn", direction_amount(POSE_WALL_MOTION_YAW, c.turn.at_end), "",
+  table.add_row({tr("turn"), direction_amount(POSE_WALL_MOTION_YAW, c.turn.at_end), "",
                  direction_amount(POSE_WALL_MOTION_YAW, c.turn.largest), "", std::to_string(c.turn.largest_at_frame)});
   return table.text();
 }
 
 std::string drift_text(const MotionComparison& c) {
-  if (c.drift.count == 0) return fmt::format("drift over {:.0f} m: the way is shorter\n", kSegment_m);
-  return fmt::format("drift over {:.0f} m, from every frame on: mean {}, worst {} (from frame {}), {}\n", kSegment_m,
-                     share_of(c.drift.mean, 1.0), share_of(c.drift.worst, 1.0), c.drift.worst_from_frame,
-                     counted(c.drift.count, "segment"));
+  if (c.drift.count == 0) return say("drift over {:.0f} m: the way is shorter\n", kSegment_m);
+  return say("drift over {:.0f} m, from every frame on: mean {}, worst {} (from frame {}), {} segments\n", kSegment_m,
+             share_of(c.drift.mean, 1.0), share_of(c.drift.worst, 1.0), c.drift.worst_from_frame, c.drift.count);
 }
 
 std::string directions_text(const char* what,
                             const std::array<DirectionErrors, POSE_WALL_MOTION_DIRECTIONS>& directions) {
-  TextTable table({what, "frames", "RMSE", "max", "mean z²", "> level"});
+  TextTable table({what, tr("frames"), tr("RMSE"), tr("max error"), tr("mean z²"), tr("> level")});
   for (std::uint32_t d = 0; d < directions.size(); ++d) {
     const DirectionErrors& e = directions[d];
-    table.add_row({pose_wall_motion_direction_name(d), std::to_string(e.count()), direction_amount(d, e.rmse()),
+    table.add_row({shown_direction(d), std::to_string(e.count()), direction_amount(d, e.rmse()),
                    direction_amount(d, e.largest()), z2_words(e.mean_z2()), std::to_string(e.beyond())});
   }
   return table.text();
@@ -115,10 +128,11 @@ Json misleading_json(const Misleading& misleading) {
 
 std::string motion_comparison_text(const MotionComparison& c) {
   return head_text(c) + states_text(c) + '\n' + travel_text(c) + drift_text(c) + '\n' +
-         directions_text("pose", c.pose) + '\n' + directions_text("step", c.step) +
-         fmt::format("\nmisleading (measured, but wrong along the road by more than the level): {} of {}, {} of {}\n",
-                     c.misleading_poses.misleading, counted(c.misleading_poses.measured, "pose"),
-                     c.misleading_steps.misleading, counted(c.misleading_steps.measured, "step"));
+         directions_text(tr("pose"), c.pose) + '\n' + directions_text(tr("step"), c.step) +
+         say("\nmisleading (measured, but with an error along the road above the level): {} of {} poses, {} of {} "
+             "steps\n",
+             c.misleading_poses.misleading, c.misleading_poses.measured, c.misleading_steps.misleading,
+             c.misleading_steps.measured);
 }
 
 Json motion_comparison_json(const MotionComparison& c) {

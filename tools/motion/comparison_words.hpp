@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// What a comparison of motion with the truth came to: tables for people, JSON for scripts.
+// A comparison of motion with the truth in words: tables for people in the chosen language, JSON for scripts.
 
 #pragma once
 

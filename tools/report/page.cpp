@@ -11,6 +11,7 @@
 #include "report/assets.hpp"
 #include "report/filled_page.hpp"
 #include "results/json_words.hpp"
+#include "results/usability.hpp"
 
 namespace pose_wall::tools::report {
 Json words_json() {
@@ -70,6 +71,9 @@ Json head_json(const PageHead& head, const LoadedConfig& loaded) {
           {"inputs", head.inputs},
           {"version", pose_wall_version()},
           {"settings", settings_of(loaded)},
+          {"forward_axis", resolve_frames(loaded.config).forward_axis},
+          {"usable_share", kUsableShare},
+          {"in_part_share", kInPartShare},
           {"alert_deg", loaded.config.number("alert_limit_angle_deg")},
           {"alert_m", loaded.config.number("alert_limit_distance")},
           {"wall_z_min", loaded.config.number("wall_z_min")},

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 #include "quantities.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
@@ -76,8 +77,18 @@ void RunSummary::add(const pose_wall_value& value, Quantity* to) {
   for (std::size_t part = 0; part < to->parts.size(); ++part) to->parts[part].push_back(value.part[part]);
 }
 
+ValidShares RunSummary::valid_shares() const {
+  ValidShares shares{};
+  const auto measured = static_cast<double>(frames_ - unreadable_);
+  for (std::size_t q = 0; q < shares.size(); ++q) {
+    shares[q] = static_cast<double>(quantities_[q].states[POSE_WALL_VALID]) / measured;
+  }
+  return shares;
+}
+
 std::string RunSummary::text(double wall_s) const {
   std::string text = quantities_text() + levels_text() + '\n' + times_text(wall_s) + reasons_text();
+  if (unreadable_ < frames_) text += say("verdict: {}\n", usability_text(valid_shares()));
   if (unreadable_ > 0) text += fmt::format("unreadable: {} of {}\n", unreadable_, counted(frames_, "frame"));
   return text;
 }

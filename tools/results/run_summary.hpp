@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "results/result_csv.hpp"
+#include "results/usability.hpp"
 
 namespace pose_wall::tools {
 
@@ -22,6 +23,8 @@ class RunSummary {
 
   std::size_t frames() const { return frames_; }
   std::size_t unreadable() const { return unreadable_; }
+  // Of the frames that were read; NaN where there were none.
+  ValidShares valid_shares() const;
 
   // `wall_s`: time that the whole run took, reading included.
   std::string text(double wall_s) const;

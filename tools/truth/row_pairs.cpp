@@ -7,11 +7,17 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace pose_wall::tools {
 namespace {
 
 using Rows = std::map<std::string, std::size_t>;
+
+// Of no truth.
+std::string yielded_key(std::size_t row) {
+  return fmt::format("unreadable {}", row);
+}
 
 // Nothing where a row has no key, or two have the same.
 std::optional<Rows> told_apart(const RowKeys::Column& column) {
@@ -59,8 +65,25 @@ RowPairs pairs_by(const char* by, const RowKeys::Column& results, const RowKeys:
 
 }  // namespace
 
+void yield_stamps(const std::vector<bool>& is_unreadable, RowKeys* keys) {
+  std::vector<std::string>& stamps = *keys->stamp_ns;
+  std::set<std::string> taken;
+  for (std::size_t row = 0; row < stamps.size(); ++row) {
+    if (!is_unreadable[row]) taken.insert(stamps[row]);
+  }
+  for (std::size_t row = 0; row < stamps.size(); ++row) {
+    if (is_unreadable[row] && !taken.insert(stamps[row]).second) stamps[row] = yielded_key(row);
+  }
+}
+
 RowKeys row_keys(const CsvTable& table) {
-  return {cells_of(table, "frame"), cells_of(table, "stamp_ns")};
+  RowKeys keys{cells_of(table, "frame"), cells_of(table, "stamp_ns")};
+  const RowKeys::Column status = cells_of(table, table.find_column("status") ? "status" : "along_state");
+  if (!keys.stamp_ns || !status) return keys;
+  std::vector<bool> is_unreadable;
+  for (const std::string& one : *status) is_unreadable.push_back(one == "unreadable");
+  yield_stamps(is_unreadable, &keys);
+  return keys;
 }
 
 RowPairs pair_rows(const RowKeys& results, const RowKeys& truth) {
@@ -78,7 +101,8 @@ RowPairs pair_rows(const RowKeys& results, const RowKeys& truth) {
   RowPairs pairs = pairs_by("frame", results.frame, truth.frame);
   if (!have_stamps) return pairs;
   for (const auto& [result_row, truth_row] : pairs.rows) {
-    if ((*results.stamp_ns)[result_row] != (*truth.stamp_ns)[truth_row]) ++pairs.other_stamps;
+    const std::string& stamp = (*results.stamp_ns)[result_row];
+    if (stamp != yielded_key(result_row) && stamp != (*truth.stamp_ns)[truth_row]) ++pairs.other_stamps;
   }
   return pairs;
 }

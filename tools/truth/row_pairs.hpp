@@ -22,8 +22,11 @@ struct RowKeys {
   Column stamp_ns;
 };
 
-// By the table's columns `frame` and `stamp_ns`.
+// By the table's columns `frame` and `stamp_ns`, and by `status` of run or `along_state` of motion.
 RowKeys row_keys(const CsvTable& table);
+
+// The stamp of a frame that could not be read is a guess. Where another row has the same one, such a row gives it up.
+void yield_stamps(const std::vector<bool>& is_unreadable, RowKeys* keys);
 
 struct RowPairs {
   std::string by;                                         // "stamp_ns" or "frame"

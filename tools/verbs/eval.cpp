@@ -19,12 +19,13 @@
 #include "csv/csv_file.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
+#include "language/language.hpp"
 #include "motion/comparison_words.hpp"
 #include "motion/motion_comparison.hpp"
 #include "motion/motion_table.hpp"
 #include "motion/pose_truth.hpp"
 #include "results/json_words.hpp"
-#include "terminal/counted.hpp"
+#include "results/usability.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/comparison.hpp"
 #include "truth/efficiency.hpp"
@@ -69,41 +70,69 @@ void append_bound(std::vector<std::string>& cells, const QuantityComparison& qua
 }
 
 void print_points(const Efficiency& efficiency) {
-  fmt::print(
-      "\nCRB over {}; points per frame: floor {:.0f}, left {:.0f}, right {:.0f}; they scatter {:.2f} times as "
-      "far as the range noise says\n",
-      counted(efficiency.frames, "frame"), efficiency.floor_points, efficiency.wall_points[0],
-      efficiency.wall_points[1], efficiency.noise_ratio);
+  fmt::print("{}",
+             say("\nCRB over {} frames; points per frame: floor {:.0f}, left {:.0f}, right {:.0f}. Their scatter is "
+                 "{:.2f} times the range noise.\n",
+                 efficiency.frames, efficiency.floor_points, efficiency.wall_points[0], efficiency.wall_points[1],
+                 efficiency.noise_ratio));
   if (efficiency.is_believable()) return;
-  fmt::print(
-      "The bound is not to be believed: it holds for flat upright walls, a flat floor and the stated range noise.\n");
+  fmt::print("{}", tr("Do not trust the bound: it holds for flat upright walls, a flat floor and the stated range "
+                      "noise.\n"));
+}
+
+std::vector<std::string> raw_cells(const QuantityComparison& quantity, const std::optional<Efficiency>& efficiency) {
+  const ErrorStatistics& s = quantity.statistics;
+  std::vector<std::string> cells = {quantity.name, std::to_string(s.frames()), percent(s.measured(), s.frames())};
+  append_figures(cells, quantity, s.raw());
+  cells.push_back(percent(s.raw_beyond_protection(), s.measured()));
+  cells.push_back(std::isfinite(s.mean_z2()) ? fmt::format("{:.2f}", s.mean_z2()) : "-");
+  if (efficiency) append_bound(cells, quantity, efficiency->quantity[quantity.index]);
+  return cells;
+}
+
+// Each state apart: what may be acted on, and what not.
+std::vector<std::string> value_cells(const QuantityComparison& quantity) {
+  const ErrorStatistics& s = quantity.statistics;
+  std::vector<std::string> cells = {quantity.name, std::to_string(s.frames())};
+  for (const std::uint32_t state : {POSE_WALL_VALID, POSE_WALL_DEGRADED, POSE_WALL_HELD, POSE_WALL_INVALID}) {
+    cells.push_back(percent(s.in_state(state), s.frames()));
+  }
+  append_figures(cells, quantity, s.value());
+  cells.push_back(percent(s.value_beyond_protection(), s.value().count));
+  cells.push_back(s.valid() == 0 ? tr("none valid") : say("{} of {}", s.valid_beyond_alert(), s.valid()));
+  return cells;
+}
+
+ValidShares valid_shares(const Comparison& comparison) {
+  ValidShares shares{};
+  for (const QuantityComparison& quantity : comparison.quantities) {
+    const ErrorStatistics& s = quantity.statistics;
+    shares[quantity.index] = static_cast<double>(s.valid()) / static_cast<double>(s.frames());
+  }
+  return shares;
 }
 
 void print_tables(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
-  fmt::print("{} matched by {}; without partner: {}, {}\n\n", counted(comparison.matched, "frame"),
-             comparison.matched_by, counted(comparison.result_rows_alone, "result"),
-             counted(comparison.truth_rows_alone, "truth"));
-  std::vector<std::string> head = {"raw",  "frames", "measured", "valid",        "RMSE",
-                                   "bias", "95 %",   "max",      "> protection", "mean z²"};
-  if (efficiency) head.insert(head.end(), {"CRB", "RMSE/CRB"});
+  fmt::print("{}",
+             say("{} frames matched by {}; without partner: {} results, {} truth rows\n"
+                 "Angles in degrees, distances in millimetres; the tables RESULT and TRUTH hold radians and "
+                 "metres.\n\n",
+                 comparison.matched, comparison.matched_by, comparison.result_rows_alone, comparison.truth_rows_alone));
+  std::vector<std::string> head = {tr("raw"),  tr("frames"),    tr("measured"), tr("RMSE"),   tr("bias"),
+                                   tr("95 %"), tr("max error"), tr("> level"),  tr("mean z²")};
+  if (efficiency) head.insert(head.end(), {tr("CRB"), tr("RMSE/CRB")});
   TextTable raw(head);
-  TextTable value({"value", "frames", "usable", "RMSE", "bias", "95 %", "max", "> protection", "> alert while valid"});
+  TextTable value({tr("value"), tr("frames"), tr("valid"), tr("degraded"), tr("held"), tr("invalid"), tr("RMSE"),
+                   tr("bias"), tr("95 %"), tr("max error"), tr("> level"), tr("valid and > alert limit")});
   for (const QuantityComparison& quantity : comparison.quantities) {
-    const ErrorStatistics& s = quantity.statistics;
-    std::vector<std::string> cells = {quantity.name, std::to_string(s.frames()), percent(s.measured(), s.frames()),
-                                      percent(s.valid(), s.frames())};
-    append_figures(cells, quantity, s.raw());
-    cells.push_back(percent(s.raw_beyond_protection(), s.measured()));
-    cells.push_back(std::isfinite(s.mean_z2()) ? fmt::format("{:.2f}", s.mean_z2()) : "-");
-    if (efficiency) append_bound(cells, quantity, efficiency->quantity[quantity.index]);
-    raw.add_row(cells);
-    cells = {quantity.name, std::to_string(s.frames()), percent(s.value().count, s.frames())};
-    append_figures(cells, quantity, s.value());
-    cells.push_back(percent(s.value_beyond_protection(), s.value().count));
-    cells.push_back(fmt::format("{} of {}", s.valid_beyond_alert(), s.valid()));
-    value.add_row(cells);
+    raw.add_row(raw_cells(quantity, efficiency));
+    value.add_row(value_cells(quantity));
   }
-  fmt::print("{}\n{}", raw.text(), value.text());
+  fmt::print("{}\n{}{}", raw.text(), value.text(),
+             tr("Errors of value: valid, degraded and held ones together. Act on a value only while it is valid.\n"));
+  if (comparison.quantities.size() == POSE_WALL_QUANTITIES) {
+    fmt::print("{}", say("verdict: {}\n", usability_text(valid_shares(comparison))));
+  }
   if (efficiency) print_points(*efficiency);
 }
 
@@ -132,6 +161,9 @@ void print_json(const Comparison& comparison, const std::optional<Efficiency>& e
                                          {"frames", s.frames()},
                                          {"measured", s.measured()},
                                          {"valid", s.valid()},
+                                         {"degraded", s.in_state(POSE_WALL_DEGRADED)},
+                                         {"held", s.in_state(POSE_WALL_HELD)},
+                                         {"invalid", s.in_state(POSE_WALL_INVALID)},
                                          {"raw", error_figures_json(s.raw())},
                                          {"value", error_figures_json(s.value())},
                                          {"raw_beyond_protection", s.raw_beyond_protection()},
@@ -152,34 +184,33 @@ std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedCon
                      [&] { return efficiency_of(results, truth, comparison, options.frames, bounds); });
 }
 
-// Axes and mounting decide where the points lie: with the defaults of another road the bound would be a number of
-// nothing.
+// Axes and mounting decide where the points lie: with the settings of another road the bound would mean nothing.
 void demand_settings_for_bound(const EvalOptions& options) {
   if (options.frames.empty() || !options.config_file.empty()) return;
-  throw std::invalid_argument(
-      "--frames needs --config FILE, the settings that RESULT was measured with (pose_wall sim writes them beside its "
-      "frames; config/pose_wall.yaml holds the defaults)");
+  throw std::invalid_argument(tr(
+      "--frames needs --config FILE, the settings that RESULT was measured with. pose_wall sim writes them beside its "
+      "frames; config/pose_wall.yaml holds the defaults."));
 }
 
-// Rows with the same number may be of two runs; only their stamps can tell.
+// Rows with the same number may belong to two runs. Only their stamps reveal it.
 void tell_other_stamps(const EvalOptions& options, std::size_t other_stamps, std::size_t matched) {
   if (other_stamps == 0) return;
-  fmt::print(stderr,
-             "pose_wall eval: {} against {}: matched by frame, but in {} of {} the stamps differ. These errors are "
-             "meaningless unless the frames of RESULT are the first ones of TRUTH, in its order\n",
-             options.results, options.truth, other_stamps, counted(matched, "pair"));
+  fmt::print(stderr, "{}",
+             say("pose_wall eval: {} against {}: matched by frame number, but the stamps differ in {} of {} pairs. "
+                 "Unless the frames of RESULT are the first ones of TRUTH, in its order, these errors mean nothing.\n",
+                 options.results, options.truth, other_stamps, matched));
 }
 
-// Of a table of `pose_wall motion`.
+// For a table of `pose_wall motion`.
 int eval_motion(const EvalOptions& options, const CsvTable& results, const CsvTable& truth) {
   if (!options.frames.empty()) {
-    throw std::invalid_argument("--frames: the bound is that of a table of run; " + options.results +
-                                " is one of motion");
+    throw std::invalid_argument(
+        say("--frames: the bound is for a table of run; {} is a table of motion", options.results));
   }
   const MotionTable table = in_csv_file(options.results, [&] { return read_motion_table(results); });
   const PoseTruth poses = in_csv_file(options.truth, [&] { return read_pose_truth(truth); });
-  const MotionComparison comparison = in_csv_file(fmt::format("{} against {}", options.results, options.truth),
-                                                  [&] { return compare_motion(table, poses); });
+  const MotionComparison comparison =
+      in_csv_file(say("{} against {}", options.results, options.truth), [&] { return compare_motion(table, poses); });
   tell_other_stamps(options, comparison.other_stamps, comparison.matched);
   if (options.json) {
     fmt::print("{}\n", json_text(motion_comparison_json(comparison), 2));
@@ -196,7 +227,7 @@ int eval(const EvalOptions& options) {
   const CsvTable results = read_csv_file(options.results);
   const CsvTable truth = read_csv_file(options.truth);
   if (is_motion_table(results)) return eval_motion(options, results, truth);
-  const Comparison comparison = in_csv_file(fmt::format("{} against {}", options.results, options.truth),
+  const Comparison comparison = in_csv_file(say("{} against {}", options.results, options.truth),
                                             [&] { return compare_with_truth(results, truth, limits); });
   tell_other_stamps(options, comparison.other_stamps, comparison.matched);
   const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
@@ -208,45 +239,46 @@ int eval(const EvalOptions& options) {
 std::string noise_fault(const std::string& word) {
   const std::optional<double> noise_m = parse_number<double>(word);
   if (noise_m && *noise_m >= 1e-4 && *noise_m <= 1.0) return "";
-  return fmt::format("'{}' is refused; a number from 0.0001 to 1 is allowed", word);
+  return say("'{}' is refused; a number from 0.0001 to 1 is allowed", word);
 }
 
 }  // namespace
 
 void add_eval(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<EvalOptions>();
-  CLI::App* verb = app.add_subcommand("eval", "Compare results with the truth, per quantity");
-  verb->add_option("RESULT", options->results, "CSV written by pose_wall run or pose_wall motion")->required();
-  verb->add_option(
-          "TRUTH", options->truth,
-          "CSV with frame or stamp_ns and any of roll, pitch, yaw (rad), d_lf, d_lb, d_rf, d_rb (m); of motion: "
-          "x, y, z, qx, qy, qz, qw, or r00 to r22 and tx, ty, tz")
+  CLI::App* verb = app.add_subcommand("eval", tr("Compare results with the truth, per quantity"));
+  verb->add_option("RESULT", options->results, tr("CSV written by pose_wall run or pose_wall motion"))->required();
+  verb->add_option("TRUTH", options->truth,
+                   tr("CSV with frame or stamp_ns and any of roll, pitch, yaw (rad), d_lf, d_lb, d_rf, d_rb (m). For "
+                      "motion: x, y, z (m) and qx, qy, qz, qw, or r00 to r22 and tx, ty, tz"))
       ->required();
-  verb->add_option("-c,--config", options->config_file, "Settings of the run: source of the alert limits");
-  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
+  verb->add_option("-c,--config", options->config_file,
+                   tr("Settings that RESULT was measured with; they hold the alert limits"));
+  verb->add_option("-s,--set", options->settings, tr("KEY=VALUE over the config; may be repeated"))
       ->allow_extra_args(false);
-  CLI::Option* frames = verb->add_option("-f,--frames", options->frames,
-                                         "Folder of the frames behind RESULT: adds CRB, the least error that their "
-                                         "points allow, and RMSE/CRB. Needs the --config of the run");
+  CLI::Option* frames =
+      verb->add_option("-f,--frames", options->frames,
+                       tr("Folder of the frames that RESULT was measured from. Adds CRB, the smallest error that their "
+                          "points allow, and RMSE/CRB. Needs --config, the same as for run"));
   CLI::Option* noise =
-      verb->add_option("--range-noise", options->range_noise_m, "Standard deviation of one range in these frames, m");
-  noise->check(noise_fault, "0.0001 to 1")->needs(frames);
+      verb->add_option("--range-noise", options->range_noise_m, tr("Standard deviation of a range of these frames, m"));
+  noise->check(noise_fault, tr("0.0001 to 1"))->needs(frames);
   frames->needs(noise);
-  verb->add_flag("--json", options->json, "Print JSON instead of tables, in rad and m");
+  verb->add_flag("--json", options->json, tr("Print JSON instead of tables, in rad and m"));
   verb->footer(
-      "Examples:\n"
-      "  pose_wall eval out.csv truth.csv\n"
-      "  pose_wall eval out.csv clean/truth.csv -c clean/pose_wall.yaml --frames clean/frames --range-noise 0.012\n"
-      "  pose_wall eval motion.csv road/truth.csv\n"
-      "The second example uses a road of `pose_wall sim --scene clean`. The third compares a table of `pose_wall "
-      "motion`:\n"
-      "both paths are aligned at their first common frame, and nothing is fitted.\n"
-      "Rows are paired by stamp_ns. They are paired by frame if a table has a stamp twice or the tables share none.\n"
-      "raw: this frame's own measurement. value: smoothed or held, for the controller.\n"
-      "> protection: errors beyond the stated protection level. mean z²: 1 for a true sigma.\n"
-      "CRB: Cramer-Rao bound on a clean road (flat floor, flat upright walls, noise along the ray), root mean square\n"
-      "over frames.\n"
-      "Exit status: 0 done, 1 a table or frame cannot be read or does not fit, 2 bad usage or config.");
+      tr("Examples:\n  pose_wall eval out.csv truth.csv\n"
+         "  pose_wall eval out.csv clean/truth.csv -c clean/pose_wall.yaml --frames clean/frames --range-noise 0.012\n"
+         "  pose_wall eval motion.csv road/truth.csv\n"
+         "The second example needs a road of `pose_wall sim --scene clean`, the third a table of `pose_wall motion`.\n"
+         "Poses of motion are laid on the truth at the first frame of both; nothing is fitted.\n"
+         "Rows are matched by stamp_ns if it tells the rows of each table apart and both share some, else by frame.\n"
+         "Raw is measured by this frame alone. Value is smoothed or held; act on it only while it is valid.\n"
+         "95 % of the errors are smaller than the figure in column 95 %. Column > level has the share of errors above\n"
+         "the stated protection level. The last column counts valid values with an error above the alert limit, the\n"
+         "worst failure. Column mean z² has the mean of (error / sigma)², which is 1 if the stated sigma is true.\n"
+         "CRB: Cramer-Rao bound, root mean square over frames. It holds on a clean road: flat floor, flat upright\n"
+         "walls, noise along the ray.\n"
+         "Exit status: 0 done, 1 a table or frame cannot be read or does not fit, 2 bad usage or config."));
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("eval", [&] { return eval(*options); }); });
 }
 

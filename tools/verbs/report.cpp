@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall report: frames in, a page to look at out.
+// pose_wall report: measures frames and writes a page about them.
 
 #include <fmt/format.h>
 
@@ -27,7 +27,6 @@
 #include "report/page.hpp"
 #include "results/frame_runner.hpp"
 #include "results/run_summary.hpp"
-#include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "truth/row_pairs.hpp"
@@ -52,6 +51,7 @@ struct ReportOptions {
 struct Shown {
   RunSummary summary;
   RowKeys keys{std::vector<std::string>(), std::vector<std::string>()};
+  std::vector<bool> is_unreadable;  // by row
   bool complete = true;
 };
 
@@ -71,9 +71,11 @@ Shown process_frames(const ReportOptions& options, FrameSequence& inputs, FrameR
     shown.summary.add(outcome);
     shown.keys.frame->push_back(std::to_string(outcome.frame));
     shown.keys.stamp_ns->push_back(std::to_string(outcome.stamp_ns));
+    shown.is_unreadable.push_back(!outcome.result);
     data.add(outcome);
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
+  yield_stamps(shown.is_unreadable, &shown.keys);
   return shown;
 }
 
@@ -86,7 +88,7 @@ RowKeys keys_of(const std::vector<TruthRow>& truth) {
   return {frames, stamps_ns};
 }
 
-// The truth of each frame that was read. Which rows are meant hangs on the stamps of all of them.
+// Gives each frame that was read its truth. The stamps of all frames decide which rows belong together.
 void add_truth(const ReportOptions& options, const std::vector<TruthRow>& truth, const Shown& shown,
                report::PageData* data) {
   std::vector<const TruthRow*> of_frames(data->frames(), nullptr);
@@ -95,15 +97,19 @@ void add_truth(const ReportOptions& options, const std::vector<TruthRow>& truth,
   data->add_truth(of_frames);
   if (options.truth.empty()) return;
   if (pairs.rows.empty()) {
-    fmt::print(stderr, "pose_wall report: --truth {}: no row of it is of these frames, by stamp_ns or frame\n",
-               options.truth);
+    fmt::print(stderr, "{}",
+               say("pose_wall report: --truth {}: no row matches these frames, by stamp_ns or frame\n", options.truth));
   }
   if (pairs.other_stamps > 0) {
-    fmt::print(stderr,
-               "pose_wall report: --truth {}: matched by frame, but in {} of {} the stamps differ; where the frames "
-               "are not the first ones of the truth, in its order, the errors shown mean nothing\n",
-               options.truth, pairs.other_stamps, counted(pairs.rows.size(), "pair"));
+    fmt::print(stderr, "{}",
+               say("pose_wall report: --truth {}: matched by frame number, but the stamps differ in {} of {} pairs. "
+                   "Unless the frames are the first ones of the truth, in its order, the errors shown mean nothing.\n",
+                   options.truth, pairs.other_stamps, pairs.rows.size()));
   }
+}
+
+std::string counted_frames(std::size_t frames) {
+  return frames == 1 ? say("1 frame") : say("{} frames", frames);
 }
 
 std::string title_of(const ReportOptions& options) {
@@ -118,7 +124,7 @@ int report_frames(const ReportOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall report: {}\n", error);
-  if (inputs.frames() == 0) throw std::runtime_error("no frame to report on");
+  if (inputs.frames() == 0) throw std::runtime_error(tr("no frame to report on"));
   const std::vector<TruthRow> truth = options.truth.empty() ? std::vector<TruthRow>() : read_truth_csv(options.truth);
   std::vector<std::filesystem::path> read = options.frames.files_read(inputs);
   if (!options.truth.empty()) read.emplace_back(options.truth);
@@ -129,7 +135,7 @@ int report_frames(const ReportOptions& options) {
   const auto started = std::chrono::steady_clock::now();
   const Shown shown = process_frames(options, inputs, runner, data);
   if (shown.summary.frames() == shown.summary.unreadable()) {
-    fmt::print(stderr, "pose_wall report: no frame could be read; {} is not written\n", options.output);
+    fmt::print(stderr, "{}", say("pose_wall report: no frame could be read; {} is not written\n", options.output));
     return kExitUnreadable;
   }
   add_truth(options, truth, shown, &data);
@@ -138,12 +144,12 @@ int report_frames(const ReportOptions& options) {
   output.write(page);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!options.frames.quiet) {
-    fmt::print(stderr, "{}\n{}: {:.1f} MB, {}, points of {} of them, {:.1f} s. Open it in a browser.\n",
-               shown.summary.text(wall_s), options.output, 1e-6 * static_cast<double>(page.size()),
-               counted(data.frames(), "frame"), data.clouds(), wall_s);
+    fmt::print(stderr, "{}\n{}", shown.summary.text(wall_s),
+               say("{}: {:.1f} MB, {}, points of {} of them, {:.1f} s. Open it in a browser.\n", options.output,
+                   1e-6 * static_cast<double>(page.size()), counted_frames(data.frames()), data.clouds(), wall_s));
   }
   if (!shown.complete) {
-    fmt::print(stderr, "interrupted: the report shows {} of {} frames\n", data.frames(), inputs.frames());
+    fmt::print(stderr, "{}", say("interrupted: the report shows {} of {} frames\n", data.frames(), inputs.frames()));
     return kExitInterrupted;
   }
   return inputs.errors().empty() && shown.summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
@@ -153,18 +159,18 @@ bool is_table(const std::string& input) {
   return std::filesystem::path(input).extension() == ".csv";
 }
 
-// Of a table of `pose_wall motion` instead of frames.
+// For a table of `pose_wall motion` instead of frames.
 int report_motion(const ReportOptions& options) {
   const std::string& input = options.frames.inputs.front();
-  if (options.frames.inputs.size() > 1) throw std::invalid_argument(input + ": a table is reported on alone");
+  if (options.frames.inputs.size() > 1) throw std::invalid_argument(say("{}: give a table alone", input));
   const CsvTable cells = read_csv_file(input);
   const MotionTable table = in_csv_file(input, [&] { return read_motion_table(cells); });
-  if (table.rows.empty()) throw std::runtime_error(input + ": the table has no row");
+  if (table.rows.empty()) throw std::runtime_error(say("{}: the table has no row", input));
   std::optional<MotionComparison> comparison;
   if (!options.truth.empty()) {
     const CsvTable true_cells = read_csv_file(options.truth);
     const PoseTruth truth = in_csv_file(options.truth, [&] { return read_pose_truth(true_cells); });
-    comparison = in_csv_file(input + " against " + options.truth, [&] { return compare_motion(table, truth); });
+    comparison = in_csv_file(say("{} against {}", input, options.truth), [&] { return compare_motion(table, truth); });
   }
   std::vector<std::filesystem::path> read = {input};
   if (!options.truth.empty()) read.emplace_back(options.truth);
@@ -172,8 +178,9 @@ int report_motion(const ReportOptions& options) {
   const std::string page = report::motion_page({title_of(options), language_name(), options.truth}, table, comparison);
   output.write(page);
   if (!options.frames.quiet) {
-    fmt::print(stderr, "{}: {:.1f} MB, {}. Open it in a browser.\n", options.output,
-               1e-6 * static_cast<double>(page.size()), counted(table.rows.size(), "frame"));
+    fmt::print(stderr, "{}",
+               say("{}: {:.1f} MB, {}. Open it in a browser.\n", options.output,
+                   1e-6 * static_cast<double>(page.size()), counted_frames(table.rows.size())));
   }
   return kExitDone;
 }
@@ -187,32 +194,30 @@ int report_inputs(const ReportOptions& options) {
 
 void add_report(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReportOptions>();
-  CLI::App* verb = app.add_subcommand("report", "Measure frames and write a page to look at them in a browser");
+  CLI::App* verb = app.add_subcommand("report", tr("Measure frames and write a page about them, to open in a browser"));
   add_frame_options(verb, &options->frames);
-  verb->add_option("-o,--output", options->output, "The page")->capture_default_str();
-  verb->add_option(
-          "--truth", options->truth,
-          "truth.csv of pose_wall sim: each frame has the row of its stamp, or where stamps do not tell, of its "
-          "number among the inputs, from 0")
+  verb->add_option("-o,--output", options->output, tr("The page"))->capture_default_str();
+  verb->add_option("--truth", options->truth,
+                   tr("truth.csv of pose_wall sim. Each frame gets the row of its stamp. If the stamps do not tell the "
+                      "rows apart, it gets the row of its number among the inputs, from 0"))
       ->check(CLI::ExistingFile);
-  verb->add_option("--title", options->title, "Heading; default: the name of the first input");
-  verb->add_option("--points", options->points_max, "Points in the page, of all frames together: 9 bytes each")
+  verb->add_option("--title", options->title, tr("Heading; default: the name of the first input"));
+  verb->add_option("--points", options->points_max, tr("Points in the page, over all frames: 9 bytes each"))
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1000}, std::size_t{20'000'000}));
-  verb->footer(
-      "Example:\n"
+  verb->footer(tr(
+      "Examples:\n"
       "  pose_wall sim --scene nominal --frames 100 --output road\n"
       "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
       "  pose_wall report --truth road/truth.csv -o way.html motion.csv\n"
-      "The last is of a table of `pose_wall motion` (.csv): its path from above, states along the road, travel, "
-      "steps.\n"
-      "The page is one file and needs no network: time series with protection levels and states, every frame from\n"
-      "above and in section, summary and verdict, in English and Chinese. Of long recordings it keeps the points of\n"
-      "some 400 frames and of those in which a state changes. Ctrl-C ends it early; the page then shows what was "
-      "read.\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are shown) or the page not written, 2 bad usage "
-      "or config, 130 "
-      "interrupted.");
+      "The last example reads a table of `pose_wall motion` (.csv). Its page shows the path from above, the states\n"
+      "along the road, travel and steps.\n"
+      "The page is one file in English and Chinese and needs no network. It shows a verdict, every frame from above\n"
+      "and in section, and time series with protection levels and states. Values that are not valid are grey.\n"
+      "Of a long recording it keeps the points of some 400 frames, and of frames in which a state changes.\n"
+      "Ctrl-C ends it early; the page then shows the frames read so far.\n"
+      "Exit status: 0 done, 1 an input could not be read (the others are shown) or the page not written,\n"
+      "2 bad usage or config, 130 interrupted."));
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("report", [&] { return report_inputs(*options); }); });
 }

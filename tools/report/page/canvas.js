@@ -1,4 +1,4 @@
-// A canvas in CSS pixels, sharp on any screen, and the page's colours.
+// A canvas in CSS pixels, sharp on any screen, and the colours of the page.
 
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim(); }
 
@@ -30,7 +30,7 @@ function dot(pen, [x, y], radius, fill) {
   pen.fill();
 }
 
-// Words with the panel's colour behind them.
+// A text with the panel's colour behind it.
 function label(pen, words, x, y, style, align) {
   pen.textAlign = align || 'left';
   pen.lineWidth = 4;
@@ -39,6 +39,20 @@ function label(pen, words, x, y, style, align) {
   pen.strokeText(words, x, y);
   pen.fillStyle = style;
   pen.fillText(words, x, y);
+}
+
+// Lines of parts [text, style, is_struck], aligned as one block that begins at y.
+function label_lines(pen, lines, x, y, align) {
+  lines.forEach((parts, row) => {
+    const width = parts.reduce((total, [text]) => total + pen.measureText(text).width, 0);
+    let at = x - (align === 'right' ? width : align === 'center' ? width / 2 : 0);
+    for (const [text, style, is_struck] of parts) {
+      const end = at + pen.measureText(text).width, line_y = y + 15 * row;
+      label(pen, text, at, line_y, style);
+      if (is_struck) stroke(pen, [[at, line_y - 4], [end, line_y - 4]], style, 1.2);
+      at = end;
+    }
+  });
 }
 
 // A round step so that about `most` of them fit into the span.

@@ -45,7 +45,7 @@ class Charts {
     this.draw();
   }
 
-  // The values themselves and some of the band: a level of metres must not flatten the line.
+  // The values that were measured and some of the band: a level of metres must not flatten the line.
   range_of(q) {
     const r = this.recording, unit = r.unit(q);
     let low = Infinity, high = -Infinity;
@@ -116,7 +116,7 @@ class Charts {
         const i = r.at(k, q), v = r.value[i] * unit, level = r.level[i] * unit;
         c.state = r.state[i] === UNREADABLE || c.state === UNREADABLE ? UNREADABLE : Math.min(c.state, r.state[i]);
         if (Number.isFinite(r.truth[i])) c.truth = r.truth[i] * unit;
-        if (!Number.isFinite(v) || r.state[i] === 0) continue;
+        if (!Number.isFinite(v) || r.state[i] === INVALID) continue;
         const lower = (a, b) => (a <= b ? a : b), higher = (a, b) => (a >= b ? a : b);
         c.low = lower(c.low, v); c.high = higher(c.high, v);
         c.band_low = lower(c.band_low, v - level); c.band_high = higher(c.band_high, v + level);
@@ -127,10 +127,10 @@ class Charts {
   }
 
   draw_band(pen, columns, x_of, y_of) {
-    pen.fillStyle = colour('left');
     pen.globalAlpha = 0.22;
     for (const c of columns) {
       if (!Number.isFinite(c.band_low)) continue;
+      pen.fillStyle = colour(c.state === VALID ? 'left' : 'other');
       const x = x_of(c.f - 0.5), wide = Math.max(1, x_of(c.to + 0.5) - x);
       const top = Math.max(-10, y_of(c.band_high)), below = Math.min(1e4, y_of(c.band_low));
       pen.fillRect(x, top, wide + 0.3, Math.max(1, below - top));
@@ -147,16 +147,23 @@ class Charts {
         stroke(pen, run, style, width, dash);
         run = [];
       };
-      for (const c of columns) {
-        const points = value(c);
+      columns.forEach((c, k) => {
+        const points = value(c, columns[k - 1], columns[k + 1]);
         if (points.every(Number.isFinite)) for (const v of points) run.push([x_of((c.f + c.to) / 2), y_of(v)]);
         else finish();
-      }
+      });
       finish();
     };
     runs((c) => [c.low - alert], colour('faint'), 1, [1, 4]);
     runs((c) => [c.high + alert], colour('faint'), 1, [1, 4]);
-    runs((c) => [c.low, c.high], colour('left'), 1.6);
+    // Valid values stand out; the others are grey, and held ones dashed. Grey lines reach to their neighbours.
+    const of_state = (is_meant) => (c, before, after) => {
+      if (is_meant(c.state)) return [c.low, c.high];
+      return [before, after].some((other) => other && is_meant(other.state)) ? [c.low] : [NaN];
+    };
+    runs(of_state((state) => state < VALID && state !== HELD), colour('other'), 1.6);
+    runs(of_state((state) => state === HELD), colour('other'), 1.6, [5, 4]);
+    runs((c) => (c.state === VALID ? [c.low, c.high] : [NaN]), colour('left'), 2);
     if (this.recording.has_truth) runs((c) => [c.truth], colour('truth'), 1.2, [5, 4]);
   }
 

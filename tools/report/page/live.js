@@ -1,36 +1,5 @@
 // The live page: frames come one by one as events; the last ones are kept for the trends.
 
-Object.assign(WORDS.en, {
-  pause_live: '❚❚ Pause', resume_live: '▶ Live', trends: 'The last minutes', parts_of_daemon: 'Sensor, runtime and outputs',
-  trends_help: 'Line: the value to act on. Band: its protection level. Dotted: the alert limit about it. Below: the state.',
-  live_top_caption: 'From above, the road to the right; machine, planes and lines are drawn by raw, as this frame alone measured. Dashed boxes: the machine\'s own body, left out. Wheel or drag: zoom and move, double click: back.',
-  live_section_caption: 'Across the road at the machine (± 1.5 m), looking ahead; drawn by raw, too.',
-  mount: 'How the machine and the sensor are described', details: 'All numbers of this frame',
-  mount_help: 'Walk round the machine with this table: the sampling points must lie where the distances are wanted, the boxes round all that belongs to the machine.',
-  no_link: (s) => `Connection lost ${s} s ago: nothing below is current. It comes back by itself.`,
-  no_link_yet: 'Not connected yet.', paused: 'Paused: the picture stands still, the machine goes on.',
-  live: (r) => `Live: frame ${r.frame}, ${r.rate} frames per second, result ${r.age} ms after its cloud`,
-  silent: (s) => `No frame from the sensor for ${s} s: values age and become invalid.`,
-  part: 'part', grade: 'state', summary_of: 'what it does', facts: 'counts', what: 'what', where: 'where (base)',
-  forward: 'ahead', left_axis: 'left', sensor_at: 'sensor', sensor_turned: 'sensor turned by', sampling: 'sampling point', box: 'body box', none: 'none',
-  grades: { ok: 'good', warning: 'warning', error: 'fault', stale: 'old' },
-});
-Object.assign(WORDS.zh, {
-  pause_live: '❚❚ 暂停', resume_live: '▶ 实时', trends: '最近几分钟', parts_of_daemon: '传感器、运行时与输出',
-  trends_help: '线：供控制使用的值。色带：保护级。点线：告警限。下方色条：状态。',
-  live_top_caption: '俯视图，巷道方向向右；机器、平面与连线按原始值（仅本帧测得）绘制。虚线框：被滤除的机身。滚轮缩放，拖动平移，双击复位。',
-  live_section_caption: '机身处横断面（± 1.5 m），面向前方；同样按原始值绘制。',
-  mount: '机器与传感器的描述', details: '本帧全部数值',
-  mount_help: '请对照本表绕机器一周检查：采样点应位于需要测距之处，机身框应包住机器的全部部件。',
-  no_link: (s) => `连接已中断 ${s} 秒：以下内容均非当前值。将自动重连。`,
-  no_link_yet: '尚未连接。', paused: '已暂停：画面静止，机器仍在运行。',
-  live: (r) => `实时：第 ${r.frame} 帧，每秒 ${r.rate} 帧，结果滞后点云 ${r.age} 毫秒`,
-  silent: (s) => `传感器已 ${s} 秒没有新帧：数值正在老化并将失效。`,
-  part: '部分', grade: '状态', summary_of: '情况', facts: '计数', what: '项目', where: '位置（base 坐标）',
-  forward: '前方', left_axis: '左方', sensor_at: '传感器', sensor_turned: '传感器转角', sampling: '采样点', box: '机身框', none: '无',
-  grades: { ok: '正常', warning: '警告', error: '故障', stale: '过期' },
-});
-
 // A recording whose frames come one by one. When its room is full the older half goes.
 class LiveRecording extends Recording {
   constructor(hello, first) {
@@ -95,9 +64,12 @@ function show_tiles(f) {
     const i = recording.at(f, q), state = STATES[recording.state[i]], tile = element('div', undefined, `tile ${state}`);
     const digits = recording.is_angle(q) ? 2 : 3, unit = recording.is_angle(q) ? '°' : ' m', factor = recording.unit(q);
     const known = state !== 'invalid' && Number.isFinite(recording.value[i]);
-    const rounded = (recording.value[i] * factor).toFixed(digits).replace(/^-(0\.0*)$/, '$1');  // no sign for nothing
+    const rounded = fixed(recording.value[i] * factor, digits);
     const number = element('div', known ? rounded + unit : '–', 'number');
-    if (known) number.append(element('small', ` ± ${(recording.level[i] * factor).toFixed(digits)}`));
+    if (known) {
+      const is_beyond = !(recording.level[i] * factor <= recording.alert(q)), level = `${(recording.level[i] * factor).toFixed(digits)}${unit}`;
+      number.append(element('small', w.at_most(level), is_beyond ? 'level beyond' : 'level'));
+    }
     const age = recording.age_s[i] > 0 ? `, ${number_text(recording.age_s[i], 1)} s` : '';
     tile.append(element('div', name_text(q), 'name'), number, element('div', w.states[state] + age, `state ${state}`), element('div', why_text(f, q), 'why'));
     return tile;
@@ -108,7 +80,7 @@ function show_mount() {
   const w = words(), at = (p, digits) => p.map((v) => v.toFixed(digits)).join(', '), m = page.hello.mount, rows = [];
   const axis = (v) => `${v[0] < 0 || v[1] < 0 ? '-' : '+'}${v[0] ? 'X' : 'Y'}`;
   rows.push([w.forward, axis(recording.head.machine.forward)], [w.left_axis, axis(recording.head.machine.left)]);
-  rows.push([w.sensor_at, `${at(m.position_m, 3)} m`], [w.sensor_turned, `roll, pitch, yaw ${at(m.roll_pitch_yaw_deg, 2)}°`]);
+  rows.push([w.sensor_at, `${at(m.position_m, 3)} m`], [w.sensor_turned, `${w.names.roll}, ${w.names.pitch}, ${w.names.yaw} ${at(m.roll_pitch_yaw_deg, 2)}°`]);
   m.sampling_points_m.forEach((p, k) => rows.push([`${w.sampling} ${w.names[QUANTITIES[3 + k]]}`, `${at(p, 3)} m`]));
   recording.head.body_boxes.forEach((b, k) => rows.push([`${w.box} ${k + 1}`,
     `x ${b[0].toFixed(2)} … ${b[1].toFixed(2)}, y ${b[2].toFixed(2)} … ${b[3].toFixed(2)}, z ${b[4].toFixed(2)} … ${b[5].toFixed(2)} m`]));
@@ -116,11 +88,20 @@ function show_mount() {
   fill('mount', table([w.what, w.where], rows));
 }
 
+// The daemon speaks English. The page translates the texts that it knows and leaves the others as they are.
+function translated(kind, text) { return (words()[kind] || {})[text] || text; }
+function part_text_of(name) {
+  const [kind, ...rest] = name.split(' ');
+  return [translated('part_names', kind), ...rest].join(' ');
+}
+function fact_text([name, value]) { return `${words().names[name] || translated('fact_names', name)} ${words().states[value] || value}`; }
+
 function show_health(parts) {
   const w = words();
   page.parts = parts;
-  fill('health', table([w.part, w.grade, w.summary_of, w.facts], parts.map((part) => [part.part, element('td', w.grades[part.grade], `grade ${part.grade}`),
-    part.summary, element('td', Object.entries(part.facts).map(([name, value]) => `${name} ${value}`).join(' · '), 'facts')])));
+  fill('health', table([w.part, w.grade, w.summary_of, w.facts], parts.map((part) => [part_text_of(part.part),
+    element('td', w.grades[part.grade], `grade ${part.grade}`), part.summary.split('; ').map((text) => translated('summaries', text)).join('; '),
+    element('td', Object.entries(part.facts).map(fact_text).join(' · '), 'facts')])));
 }
 
 function show_settings() {
@@ -128,11 +109,12 @@ function show_settings() {
   fill('settings', rows.length ? table([w.key, w.set_to, w.default_is], rows) : element('p', w.all_default, 'faint'));
 }
 
-// What is drawn with every frame, and the rest a few times a second.
+// The tiles and the picture are drawn with every frame, the rest a few times a second.
 function show_frame() {
   const f = page.frame = recording.frames - 1, w = words();
   show_tiles(f);
   viewer.draw(f);
+  document.getElementById('drawn-note').textContent = drawn_text(f);
   const notes = [w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
   for (const bit of recording.reason_bits(recording.frame_reasons[f])) notes.push(reason_text(bit));
   document.getElementById('frame-note').textContent = notes.join(' · ');
@@ -152,6 +134,7 @@ function show_slowly() {
 function show_all() {
   const w = words();
   document.documentElement.lang = page.language;
+  document.title = w.live_title;
   document.querySelectorAll('[data-word]').forEach((node) => { node.textContent = w[node.dataset.word]; });
   document.getElementById('language').textContent = w.other_language;
   document.getElementById('theme').textContent = w.theme;

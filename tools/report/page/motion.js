@@ -41,6 +41,7 @@ function show_verdict() {
   }
   for (const state of [2, 1, 0, 4]) if (counts[state]) lines.push(element('p', w.verdict_share(w.states[STATES[state]], percent(counts[state] / motion.frames))));
   if (motion.truth) lines.push(element('p', w.misleading(motion.truth)));
+  lines.push(element('p', w.verdict_rule, 'faint'));
   fill('verdict', ...lines);
   document.getElementById('verdict').className = `panel ${grade}`;
 }
@@ -80,11 +81,14 @@ function show_frame(f) {
   document.getElementById('slider').value = f;
   document.getElementById('frame-name').textContent = `${w.frame} ${motion.frame[f]} · ${motion.source[f].split('/').pop()}`;
   const place = Array.from(motion.place.subarray(3 * f, 3 * f + 3)).map((x) => number_text(x, 3)).join(', ');
-  const rows = [[w.state, w.states[STATES[motion.state[f]]]], [w.travel, number_text(motion.along[f], 4)], [w.step, number_text(motion.step[f], 4)],
-    [w.place, `${place} m`], [w.time, `${number_text(motion.ms[f], 2)} ms`]];
-  motion.words.directions.forEach((name, d) => rows.push([`${w.level}: ${w.directions[name]}`, of_direction(d, level_of(f, d))]));
+  // Grey where the place along the road was not measured; without a place there is no bound.
+  const state = motion.state[f], number = (text) => element('td', text, state === MEASURED ? 'number' : 'number not-valid');
+  const has_place = Number.isFinite(motion.place[3 * f]), level = (d) => (has_place ? of_direction(d, level_of(f, d)) : '–');
+  const rows = [[w.state, element('td', w.states[STATES[state]], `state ${STATE_COLOURS[STATES[state]]}`)], [w.travel, number(number_text(motion.along[f], 4))],
+    [w.step, number(number_text(motion.step[f], 4))], [w.place, number(`${place} m`)], [w.time, `${number_text(motion.ms[f], 2)} ms`]];
+  motion.words.directions.forEach((name, d) => rows.push([`${w.level}: ${w.directions[name]}`, number(level(d))]));
   const half = Math.ceil(rows.length / 2);
-  fill('values', table(['', w.value, '', w.value], rows.slice(0, half).map((row, i) => [...row, ...(rows[half + i] || ['', ''])])));
+  fill('values', table([w.quantity, w.value, w.quantity, w.value], rows.slice(0, half).map((row, i) => [...row, ...(rows[half + i] || ['', ''])])));
   document.getElementById('frame-note').textContent = reasons_of(f).map(said_reason).join(' · ');
   path.draw(f);
   series.forEach((one) => one.draw(f));

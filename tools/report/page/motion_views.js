@@ -126,24 +126,29 @@ class Series {
   }
 
   band_and_line(pen, x_of, y_of, bottom) {
-    pen.fillStyle = colour('left');
+    // Grey where the place along the road was not measured.
+    const style_of = (f) => colour(motion.state[f] === MEASURED ? 'left' : 'other');
     pen.globalAlpha = 0.22;
     for (let f = 0; f < motion.frames; ++f) {
+      pen.fillStyle = style_of(f);
       const v = this.value(f), level = this.level(f);
       if (!Number.isFinite(v) || !Number.isFinite(level)) continue;
       const top = Math.max(-10, y_of(v + level)), below = Math.min(bottom + 10, y_of(v - level));
       pen.fillRect(x_of(f - 0.5), top, x_of(f + 0.5) - x_of(f - 0.5) + 0.3, Math.max(1, below - top));
     }
     pen.globalAlpha = 1;
-    let run = [];
+    let run = [], style = '';
     const finish = () => {
-      if (run.length === 1) dot(pen, run[0], 2, colour('left'));
-      else stroke(pen, run, colour('left'), 1.6);
+      if (run.length === 1) dot(pen, run[0], 2, style);
+      else stroke(pen, run, style, 1.6);
       run = [];
     };
     for (let f = 0; f < motion.frames; ++f) {
-      const v = this.value(f);
-      if (Number.isFinite(v)) run.push([x_of(f), y_of(v)]); else finish();
+      const v = this.value(f), last = run[run.length - 1];
+      if (!Number.isFinite(v)) { finish(); continue; }
+      if (run.length && style_of(f) !== style) { finish(); run = [last]; }
+      style = style_of(f);
+      run.push([x_of(f), y_of(v)]);
     }
     finish();
   }

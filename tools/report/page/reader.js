@@ -1,8 +1,9 @@
-// How a reader goes through the frames of a report. The page has the globals page, show_frame and show_all.
+// A reader's way through the frames of a report. The page has the globals page, show_frame and show_all.
 
 function show_heading(title, subtitle) {
   const w = words();
   document.documentElement.lang = page.language;
+  document.title = `${title} – ${w.report}`;
   document.querySelectorAll('[data-word]').forEach((node) => { node.textContent = w[node.dataset.word]; });
   document.getElementById('title').textContent = title;
   document.getElementById('subtitle').textContent = subtitle;
@@ -30,8 +31,12 @@ function listen_to_reader(frames) {
   window.addEventListener('resize', () => show_frame(page.frame));
 }
 
-// What it opens in.
+// report.html#12 opens at frame 12, counted from 0 as in the tables.
+function frame_of_address() { return Number(location.hash.slice(1)) || 0; }
+
 function begin_page(language) {
   page.language = language;
+  page.frame = frame_of_address();
+  window.addEventListener('hashchange', () => show_frame(frame_of_address()));
   document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 }

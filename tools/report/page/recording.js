@@ -1,4 +1,4 @@
-// The data as typed arrays, and how they are asked for.
+// The data of a recording as typed arrays.
 
 function bytesOf(text) {
   const raw = atob(text);
@@ -28,7 +28,7 @@ class Recording {
   is_angle(quantity) { return quantity < 3; }
   // To degrees, or metres as they are.
   unit(quantity) { return this.is_angle(quantity) ? 180 / Math.PI : 1; }
-  // What its level is made of, in rad or m.
+  // The parts of its level, in rad or m.
   parts(frame, quantity) {
     const n = this.words.parts.length, i = n * this.at(frame, quantity);
     return Array.from(this.part.subarray(i, i + n));
@@ -40,6 +40,16 @@ class Recording {
     let error = this.value[i] - this.truth[i];
     if (this.is_angle(quantity)) error = Math.atan2(Math.sin(error), Math.cos(error));
     return error * this.unit(quantity);
+  }
+  // In degrees or m; an invalid value has no bound to rely on.
+  bound_of(frame, quantity) {
+    const i = this.at(frame, quantity);
+    return this.state[i] === INVALID ? NaN : this.level[i] * this.unit(quantity);
+  }
+  // The value departs from raw by more than noise: three standard deviations of raw.
+  differs(frame, quantity) {
+    const i = this.at(frame, quantity);
+    return Number.isFinite(this.raw[i]) && Math.abs(this.value[i] - this.raw[i]) > 3 * this.sigma[i];
   }
   reason_bits(bits) {
     const out = [];
@@ -67,9 +77,12 @@ function quantile(numbers, share) {
   return sorted.length ? sorted[Math.round(share * (sorted.length - 1))] : NaN;
 }
 
-function number_text(value, digits) { return Number.isFinite(value) ? value.toFixed(digits) : '–'; }
+// Zero has no sign.
+function fixed(value, digits) { return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, '$1'); }
+
+function number_text(value, digits) { return Number.isFinite(value) ? fixed(value, digits) : '–'; }
 
 function amount_text(recording, quantity, value) {
   if (!Number.isFinite(value)) return '–';
-  return recording.is_angle(quantity) ? `${value.toFixed(3)}°` : `${value.toFixed(3)} m`;
+  return recording.is_angle(quantity) ? `${fixed(value, 3)}°` : `${fixed(value, 3)} m`;
 }

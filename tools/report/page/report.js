@@ -2,32 +2,54 @@
 
 const page = { language: 'en', frame: 0, timer: null };
 
+function shares_text() {
+  const { usable_share, in_part_share } = recording.head;
+  return { usable: whole_percent(usable_share), in_part: whole_percent(in_part_share) };
+}
+
 function show_verdict() {
-  const w = words(), lines = [element('p', w[`verdict_${summary.grade}`])];
-  const say = (text) => lines.push(element('p', text));
+  const w = words(), headline = w[summary.headline];
+  const lines = [element('p', typeof headline === 'function' ? headline(shares_text()) : headline)];
+  const say = (text, name) => lines.push(element('p', text, name));
   if (!recording.head.complete) say(w.interrupted(recording));
   if (summary.unreadable) say(w.verdict_unreadable(summary.unreadable));
+  const use = (x) => use_of(x.valid, recording.head);
+  const name_those = (text, is_meant) => {
+    const names = summary.quantities.filter(is_meant).map((x) => w.names[x.name]);
+    if (names.length && summary.readable.length) say(text(names));
+  };
+  name_those(w.verdict_never, (x) => !(x.valid > 0));
+  name_those(w.verdict_mostly_not, (x) => use(x) === 'not_usable' && x.valid > 0);
+  if (summary.headline === 'verdict_fair') {
+    name_those(w.verdict_in_part, (x) => use(x) === 'in_part');
+    name_those(w.verdict_can_use, (x) => use(x) === 'usable');
+  }
   if (!recording.has_truth) say(w.verdict_no_truth);
   else {
     say(summary.misleading ? w.verdict_misleading(summary.misleading) : w.verdict_no_misleading(summary.valid));
     if (summary.beyond) say(w.verdict_beyond(summary.beyond));
   }
+  const share = (n) => percent(n / Math.max(1, summary.readable.length));
   for (const x of summary.quantities) {
-    if (x.valid >= 0.9) continue;
-    say(w.verdict_value(w.names[x.name], x.valid ? percent(x.valid) : '', percent(x.usable), amount_text(recording, x.q, x.level),
-      amount_text(recording, x.q, recording.alert(x.q)), x.reasons.length ? reason_text(x.reasons[0][0]) : ''));
+    if (use(x) === 'usable') continue;
+    const shares = [3, 2, 1, 0].filter((state) => state === VALID || x.states[state]).map((state) => w.state_share(w.states[STATES[state]], share(x.states[state])));
+    say(w.verdict_value({ name: w.names[x.name], shares,
+      level: amount_text(recording, x.q, x.level), limit: amount_text(recording, x.q, recording.alert(x.q)),
+      why: x.reasons.length ? reason_text(x.reasons[0][0]) : '' }), 'detail');
   }
+  say(w.verdict_rule(shares_text()), 'faint');
   fill('verdict', ...lines);
   document.getElementById('verdict').className = `panel ${summary.grade}`;
 }
 
 function show_summary() {
   const w = words(), share = (n) => percent(n / Math.max(1, summary.readable.length));
-  const head = ['', w.states.valid, w.states.degraded, w.states.held, w.states.invalid, w.median, w.median_level];
+  const head = ['', w.use, w.states.valid, w.states.degraded, w.states.held, w.states.invalid, w.median, w.median_level];
   if (recording.has_truth) head.push(w.rmse, w.max_error, w.beyond, w.misleading);
   fill('summary', table(head, summary.quantities.map((x) => {
-    const cells = [name_text(x.q), share(x.states[3]), share(x.states[2]), share(x.states[1]), share(x.states[0]),
-      amount_text(recording, x.q, x.median), amount_text(recording, x.q, x.level)];
+    const use = use_of(x.valid, recording.head);
+    const cells = [name_text(x.q), element('td', w.uses[use], `use ${use}`), share(x.states[3]), share(x.states[2]), share(x.states[1]), share(x.states[0]),
+      element('td', amount_text(recording, x.q, x.median), use === 'not_usable' ? 'number not-valid' : 'number'), level_cell(x.q, x.level)];
     if (recording.has_truth) cells.push(amount_text(recording, x.q, x.rmse), amount_text(recording, x.q, x.largest), String(x.beyond), String(x.misleading));
     return cells;
   })));
@@ -49,8 +71,8 @@ function show_level_parts() {
 function show_times() {
   const w = words(), of = (numbers) => [0.5, 0.99, 1].map((share) => `${number_text(quantile(numbers, share), 2)} ms`);
   const rows = [[w.engine, ...of(recording.engine_ms)]], stages = recording.words.stages;
-  stages.forEach((name, k) => {
-    rows.push([`${w.stage} ${name}`, ...of(summary.readable.map((f) => recording.stage_ms[stages.length * f + k]))]);
+  stages.forEach((_, k) => {
+    rows.push([`${w.stage} ${stage_text(k)}`, ...of(summary.readable.map((f) => recording.stage_ms[stages.length * f + k]))]);
   });
   const stamps = stamp_health(recording);
   rows.push([w.rate, number_text(stamps.rate, 2), '', ''], [w.gaps, String(stamps.gaps), '', '']);
@@ -69,6 +91,7 @@ function show_frame(f) {
   document.getElementById('slider').value = f;
   document.getElementById('frame-name').textContent = `${w.frame} ${f} · ${recording.source[f].split('/').pop()}`;
   const cloud_of = viewer.draw(f);
+  document.getElementById('drawn-note').textContent = drawn_text(f);
   show_values(f);
   show_levels(f);
   const notes = [recording.error[f] ? `${w.unreadable}: ${recording.error[f]}` : w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];

@@ -1,4 +1,5 @@
-// What the recording comes to, as numbers; the page puts them into words.
+// Sums up the recording in numbers; the page puts them into words. The rule of tools/results/usability.hpp, whose
+// shares the head holds, grades values and recording.
 
 function summarise(recording) {
   const readable = [];
@@ -36,19 +37,28 @@ function summarise(recording) {
       often: most / Math.max(1, parts[0].length) };
     return { name, q, states, reasons: top, made_of, median: quantile(values, 0.5), level: quantile(levels, 0.5),
       errors, rmse: Math.sqrt(squares / errors), largest: errors ? largest : NaN, beyond, misleading,
-      valid: readable.length ? states[3] / readable.length : 0,
-      usable: readable.length ? (states[3] + states[2]) / readable.length : 0 };
+      valid: readable.length ? states[3] / readable.length : 0 };
   });
   const sum = (member) => quantities.reduce((total, x) => total + x[member], 0);
   const valid = quantities.reduce((total, x) => total + x.states[3], 0);
   return { readable, unreadable: recording.frames - readable.length, quantities, misleading: sum('misleading'),
-    valid, beyond: sum('beyond'), grade: grade_of(quantities, sum('misleading'), sum('beyond'), readable.length) };
+    valid, beyond: sum('beyond'), ...grade_of(quantities, recording.head, sum('misleading'), sum('beyond'), readable.length) };
 }
 
-function grade_of(quantities, misleading, beyond, readable) {
-  const worst_valid = Math.min(...quantities.map((x) => x.valid)), worst_usable = Math.min(...quantities.map((x) => x.usable));
-  if (!readable || misleading > 0 || worst_usable < 0.5) return 'bad';
-  return worst_valid >= 0.9 && beyond === 0 ? 'good' : 'fair';
+// Of one value: 'usable', 'in_part' or 'not_usable'.
+function use_of(valid_share, head) {
+  if (valid_share >= head.usable_share) return 'usable';
+  return valid_share >= head.in_part_share ? 'in_part' : 'not_usable';
+}
+
+// Of the recording: its colour, and which words head the verdict.
+function grade_of(quantities, head, misleading, beyond, readable) {
+  const uses = quantities.map((x) => use_of(x.valid, head));
+  if (!readable) return { grade: 'bad', headline: 'verdict_none' };
+  if (misleading > 0) return { grade: 'bad', headline: 'verdict_wrong' };
+  if (uses.every((use) => use === 'not_usable')) return { grade: 'bad', headline: 'verdict_bad' };
+  if (uses.some((use) => use !== 'usable')) return { grade: 'fair', headline: 'verdict_fair' };
+  return beyond ? { grade: 'fair', headline: 'verdict_beyond_fair' } : { grade: 'good', headline: 'verdict_good' };
 }
 
 // Steps between stamps: the usual rate, and how often one was more than half a step late.

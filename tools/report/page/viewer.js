@@ -1,6 +1,6 @@
-// One frame: from above and in section, points by what became of them. Metres along the road, to its left and up.
+// One frame from above and in section, its points coloured by their use. Metres along the road, to its left and up.
 
-const LAYERS = ['other', 'floor', 'left', 'right', 'dropped'];
+const LAYERS = ['other', 'floor', 'left', 'right', 'dropped'], YAW = 2;
 
 class View {
   // axes: which two of (along, left, up) lie to the right and up on the screen, and the sign of each.
@@ -107,6 +107,9 @@ class Viewer {
       if (!found) continue;
       const left_at = (a, h) => -(d + along * a + up * h) / left, style = colour(side ? 'right' : 'left');
       const at = (a, h) => view.place([a, left_at(a, h), h]);
+      // Pale where the engine refused it: both distances of the side are invalid.
+      const is_refused = [0, 1].every((k) => this.recording.state[this.recording.at(this.frame, 3 + 2 * side + k)] === INVALID);
+      pen.globalAlpha = is_refused ? 0.3 : 1;
       if (view === this.top) {
         stroke(pen, [at(-60, 0), at(60, 0)], style, 1.2, [3, 6]);
         stroke(pen, [at(from, 0), at(to, 0)], style, 2.6);
@@ -114,6 +117,7 @@ class Viewer {
         const low = this.floor_up();
         stroke(pen, [at(0, low), at(0, low + this.recording.head.wall_z_max)], style, 2.6);
       }
+      pen.globalAlpha = 1;
     }
   }
 
@@ -122,17 +126,28 @@ class Viewer {
     if (known) stroke(pen, [view.place([0, -30, this.floor_up()]), view.place([0, 30, this.floor_up()])], colour('floor'), 2.2);
   }
 
+  // Solid by raw; dashed by the value, where it is held or differs from raw.
   draw_machine(pen, view) {
-    const corners = [0, 1, 2, 3].map((k) => view.place(this.machine_point(k)));
+    const corners = [0, 1, 2, 3].map((k) => this.machine_point(k)), r = this.recording, i = r.at(this.frame, YAW);
+    const outline = (points, dash) => {
+      const placed = points.map((p) => view.place(p));
+      stroke(pen, placed.concat([placed[0]]), colour('machine'), 1.5, dash);
+      dot(pen, [0, 1].map((axis) => (placed[0][axis] + placed[1][axis]) / 2), 4, colour('machine'));
+    };
     pen.globalAlpha = 0.55;
-    pen.fillStyle = colour('machine');
+    pen.fillStyle = colour(r.state[i] === VALID ? 'machine' : 'other');
     pen.beginPath();
-    corners.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+    corners.map((p) => view.place(p)).forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
     pen.fill();
     pen.globalAlpha = 1;
-    stroke(pen, corners.concat([corners[0]]), colour('machine'), 1.5);
-    const nose = [0, 1].map((i) => (corners[0][i] + corners[1][i]) / 2);
-    dot(pen, nose, 4, colour('machine'));
+    outline(corners, Number.isFinite(r.raw[i]) ? [] : [6, 5]);
+    if (r.differs(this.frame, YAW)) outline(this.turned_right(corners, r.value[i] - r.raw[i]), [6, 5]);
+  }
+
+  // About the origin of base: a positive yaw turns the machine to the right.
+  turned_right(points, angle_rad) {
+    const [x, y] = this.base_point([0, 0, 0]), c = Math.cos(angle_rad), s = Math.sin(angle_rad);
+    return points.map((p) => [x + c * (p[0] - x) + s * (p[1] - y), y - s * (p[0] - x) + c * (p[1] - y), p[2]]);
   }
 
   // A point of base as it is drawn, by the machine's outline, which is drawn in the same frame.
@@ -145,7 +160,7 @@ class Viewer {
     return [0, 1, 2].map((i) => origin[i] + f * ahead[i] + l * aside[i] + z * up[i]);
   }
 
-  // What is left out as the machine's own body: twelve edges a box.
+  // The boxes of the machine's own body, in which points are left out: twelve edges each.
   draw_boxes(pen, view) {
     for (const box of this.recording.head.body_boxes) {
       const corner = (k) => view.place(this.base_point([box[k & 1], box[2 + (k >> 1 & 1)], box[4 + (k >> 2 & 1)]]));
@@ -158,27 +173,54 @@ class Viewer {
   draw_sensor(pen, view) { dot(pen, view.place(this.machine_point(4)), 4, colour('ink')); }
 
   draw_distances(pen, view) {
-    const r = this.recording;
     for (let k = 0; k < 4; ++k) {
-      const q = 3 + k, i = r.at(this.frame, q), style = colour(STATES[r.state[i]]), start = this.machine_point(5 + k);
-      const from = view.place(start);
-      if (view === this.top) dot(pen, from, 4.5, colour('ink'));
-      if (!Number.isFinite(r.value[i]) || r.state[i] === 0) continue;
-      // As the plane and the machine beside it: by raw where there is one.
-      const is_raw = Number.isFinite(r.raw[i]), shown_m = is_raw ? r.raw[i] : r.value[i], level_m = is_raw ? r.raw_level[i] : r.level[i];
-      const kind = is_raw ? words().drawn_raw : words().states[STATES[r.state[i]]];
-      const foot = this.foot_of(start, k < 2 ? 0 : 1, shown_m), to = view.place(foot);
-      if (view === this.section && k % 2) continue;
-      stroke(pen, [from, to], style, 2.2, r.state[i] >= 2 ? [] : [6, 5]);
-      // In section there is no room for a word that the caption says.
-      const name = view === this.section && is_raw ? QUANTITIES[q] : `${QUANTITIES[q]} ${kind}`;
-      const text = `${name} ${shown_m.toFixed(3)} ± ${level_m.toFixed(3)} m`, middle = [0, 1].map((a) => (from[a] + to[a]) / 2);
-      if (view === this.section) label(pen, text, middle[0], middle[1] - 6, style, 'center');
-      else label(pen, text, middle[0] + (k % 2 ? -7 : 7), middle[1] + 4, style, k % 2 ? 'right' : 'left');
+      const start = this.machine_point(5 + k);
+      if (view === this.top) dot(pen, view.place(start), 4.5, colour('ink'));
+      if (view === this.top || k % 2 === 0) this.draw_distance(pen, view, k, start);
     }
   }
 
-  // Where the distance meets the plane; where there is none, straight to the side by what is held.
+  draw_distance(pen, view, k, start) {
+    const r = this.recording, q = 3 + k, i = r.at(this.frame, q), state = r.state[i], side = k < 2 ? 0 : 1;
+    const style = colour(state === VALID ? 'valid' : 'not-valid'), from = view.place(start);
+    let to = view.place([start[0], start[1] + (side ? -1 : 1), start[2]]);
+    if (Number.isFinite(r.value[i]) && state !== INVALID) {
+      const has_raw = Number.isFinite(r.raw[i]), is_apart = r.differs(this.frame, q);
+      to = view.place(this.foot_of(start, side, has_raw ? r.raw[i] : r.value[i]));
+      stroke(pen, [from, to], style, 2.2, has_raw ? [] : [6, 5]);
+      if (is_apart) this.draw_value_mark(pen, view, start, side, r.value[i], style);
+    }
+    this.draw_distance_lines(pen, view, k, this.distance_lines(q, i), to);
+  }
+
+  // In section in the upper corners; from above beyond the wall, where a narrow road leaves room, too.
+  draw_distance_lines(pen, view, k, lines, foot) {
+    const { clientWidth: width, clientHeight: height } = view.canvas, block = 15 * (lines.length - 1);
+    if (view === this.section) return label_lines(pen, lines, k < 2 ? 8 : width - 8, 18, k < 2 ? 'left' : 'right');
+    const y = k < 2 ? foot[1] - 12 - block : foot[1] + 22;
+    label_lines(pen, lines, foot[0] + (k % 2 ? -4 : 4), Math.min(Math.max(16, y), height - 22 - block), k % 2 ? 'right' : 'left');
+  }
+
+  // Where the value ends when raw ends elsewhere: a dashed bar across the line.
+  draw_value_mark(pen, view, start, side, value_m, style) {
+    const end = [start[0], start[1] + (side ? -value_m : value_m), start[2]], [x, y] = view.place(end);
+    if (view === this.top) stroke(pen, [[x - 14, y], [x + 14, y]], style, 2, [4, 3]);
+    else stroke(pen, [[x, y - 14], [x, y + 14]], style, 2, [4, 3]);
+  }
+
+  // [name and number, state], the bound of the error, and the value where it differs.
+  distance_lines(q, i) {
+    const r = this.recording, w = words(), state = r.state[i], ink = colour(state === VALID ? 'ink' : 'not-valid');
+    const state_part = [w.states[STATES[state]], colour(STATES[state])];
+    if (state === INVALID || !Number.isFinite(r.value[i])) return [[[`${QUANTITIES[q]} `, ink], state_part]];
+    const has_raw = Number.isFinite(r.raw[i]), shown_m = has_raw ? r.raw[i] : r.value[i], level_m = has_raw ? r.raw_level[i] : r.level[i];
+    const lines = [[[`${QUANTITIES[q]} ${shown_m.toFixed(3)} m `, ink], state_part],
+      [[w.at_most(`${level_m.toFixed(3)} m`), ink, !(level_m <= r.alert(q))]]];
+    if (r.differs(this.frame, q)) lines.push([[w.value_is(`${r.value[i].toFixed(3)} m`), ink]]);
+    return lines;
+  }
+
+  // Where the distance meets the plane; where there is no plane, straight to the side by the held value.
   foot_of(p, side, held_m) {
     const [found, along, left, up, d] = this.wall(side);
     if (!found) return [p[0], p[1] + (side ? -held_m : held_m), p[2]];

@@ -1,0 +1,53 @@
+// Texts of the live page alone, in English and Chinese.
+
+Object.assign(WORDS.en, {
+  live_title: 'pose_wall live', pause_live: '❚❚ Pause', resume_live: '▶ Live', trends: 'The last minutes', parts_of_daemon: 'Sensor, runtime and outputs',
+  trends_help: 'Blue line: valid values. Grey line: degraded values; grey dashes: held values. Act on neither. Band: protection level, the bound of the error. Dotted: alert limit around the value. Colour bar below: state.',
+  live_top_caption: 'From above, with the road to the right. Solid: raw, as measured in this frame alone. Dashed: the value, where it is held or differs from raw by more than noise. Grey: not valid. Dashed boxes: the body of the machine, left out. Wheel or drag: zoom and move; double click: back.',
+  live_section_caption: 'Across the road at the machine (± 1.5 m), looking ahead. The same rule: solid is raw, dashed is the value, grey is not valid.',
+  mount: 'Description of machine and sensor', details: 'All numbers of this frame',
+  mount_help: 'Walk round the machine with this table. The sampling points must lie where you want the distances. The boxes must enclose all parts of the machine.',
+  no_link: (s) => `Connection lost ${s} s ago: nothing below is current. The page reconnects by itself.`,
+  no_link_yet: 'Not connected yet.', paused: 'Paused: the picture stands still, the machine goes on.',
+  live: (r) => `Live: frame ${r.frame}, ${r.rate} frames per second, result ${r.age} ms after its cloud`,
+  silent: (s) => `No frame from the sensor for ${s} s: values age and become invalid.`,
+  part: 'part', grade: 'state', summary_of: 'activity', facts: 'counts', what: 'item', where: 'position (base)',
+  forward: 'ahead', left_axis: 'left', sensor_at: 'sensor', sensor_turned: 'sensor turned by', sampling: 'sampling point', box: 'body box', none: 'none',
+  grades: { ok: 'good', warning: 'warning', error: 'fault', stale: 'old' },
+});
+Object.assign(WORDS.zh, {
+  live_title: 'pose_wall 实时', pause_live: '❚❚ 暂停', resume_live: '▶ 实时', trends: '最近几分钟', parts_of_daemon: '传感器、运行时与输出',
+  trends_help: '蓝线：有效值。灰线：降级值；灰色虚线：保持值；两者均不得用于控制。色带：保护级，即误差上界。点线：以该值为中心的告警限。下方色条：状态。',
+  live_top_caption: '俯视图，巷道方向向右。实线：原始值（仅本帧测得）。虚线：输出值，仅在保持或与原始值之差超过噪声时绘出。灰色：非有效。虚线框：被滤除的机身。滚轮缩放，拖动平移，双击复位。',
+  live_section_caption: '机身处横断面（± 1.5 m），面向前方。规则相同：实线为原始值，虚线为输出值，灰色为非有效。',
+  mount: '机器与传感器的描述', details: '本帧全部数值',
+  mount_help: '请对照本表绕机器一周检查。采样点应位于需要测距之处，机身框应包住机器的全部部件。',
+  no_link: (s) => `连接已中断 ${s} 秒：以下内容均非当前值。将自动重连。`,
+  no_link_yet: '尚未连接。', paused: '已暂停：画面静止，机器仍在运行。',
+  live: (r) => `实时：第 ${r.frame} 帧，每秒 ${r.rate} 帧，结果滞后点云 ${r.age} 毫秒`,
+  silent: (s) => `传感器已 ${s} 秒没有新帧：数值正在老化并将失效。`,
+  part: '部分', grade: '状态', summary_of: '情况', facts: '计数', what: '项目', where: '位置（base 坐标）',
+  forward: '前方', left_axis: '左方', sensor_at: '传感器', sensor_turned: '传感器转角', sampling: '采样点', box: '机身框', none: '无',
+  grades: { ok: '正常', warning: '警告', error: '故障', stale: '过期' },
+  // Of the daemon, which speaks English; what is not listed stays as it is.
+  part_names: { runtime: '运行时', source: '输入', sink: '输出' },
+  summaries: {
+    measures: '正在测量', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
+    'the worker hangs: results are old, and all values invalid': '计算线程停滞：结果陈旧，全部值无效', 'nothing is measured': '均未测得',
+    serves: '正在服务', connected: '已连接', 'seeks the broker': '正在寻找代理服务器', 'tries again': '正在重试', through: '已播放完毕', plays: '正在播放',
+    receives: '正在接收', 'waits for clouds': '等待点云', 'no cloud comes any more': '不再有点云到达', publishes: '正在发布', records: '正在记录',
+    'waits for the sensor: no packet yet': '等待传感器：尚无数据包', 'the sensor is silent': '传感器无数据', 'packets come, no turn yet': '有数据包，尚未满一圈',
+  },
+  fact_names: {
+    'frames pushed': '收到帧', 'frames measured': '已测帧', silences: '中断次数', 'age ms': '时龄 ms', 'latency p50 ms': '延迟中位数 ms', 'latency p99 ms': '延迟 99 % ms',
+    'latency worst ms': '最大延迟 ms', 'motion p99 ms': '运动计算 99 % ms', 'frames without motion': '无运动帧', activity: '当前动作', opened: '打开次数',
+    'black box written': '黑匣子已写', 'black box lost': '黑匣子丢失', 'black box failed': '黑匣子失败', 'masters seen': '发现的 master', domain: '域', type: '类型', 'writers matched': '匹配的发布者',
+    'largest cloud bytes': '最大点云字节数', 'receive buffer bytes': '接收缓冲字节数', 'clouds lost by DDS': 'DDS 丢失点云', 'dropped, no transform yet': '丢弃（尚无坐标变换）', 'last refusal': '最近一次拒绝',
+    viewers: '浏览者', 'viewers turned away': '拒绝的浏览者', 'events sent': '已发事件', 'viewers cut off': '断开的浏览者', frames: '帧', packets: '数据包',
+    'packets of no use': '无用数据包', 'packets of others': '其他来源数据包', 'packets lost by the kernel': '内核丢失数据包', unreadable: '无法读取', of: '总数',
+    clouds: '点云', 'messages refused': '拒绝的消息', 'clouds without stamp': '无时间戳的点云', 'clouds of another frame_id, dropped': '其他 frame_id 的点云（丢弃）',
+    'transform messages': '坐标变换消息', 'results published': '已发布结果', subscribers: '订阅者', 'results recorded': '已记录结果',
+    'results not recorded': '未记录结果', files: '文件', 'results taken': '已取结果', 'results lost to slowness': '因过慢丢失的结果', clients: '客户端', requests: '请求',
+    refused: '拒绝', 'connections of no Modbus': '非 Modbus 连接', connections: '连接次数', 'messages acknowledged': '已确认消息', 'messages not sent': '未发送消息',
+  },
+});
