@@ -155,8 +155,8 @@ TEST(FileContent, BareNumbersAreReadFromBinAndElsewhereWhereItIsSaid) {
     const bool is_bin = ending == std::string(".bin");
     EXPECT_EQ(told.frames, is_bin ? 1U : 0U) << ending << ": " << told.errors;
     const bool is_recording = contains(".pcap .pcapng .bag .mcap .db3", ending) && *ending != '\0';
-    const char* const hint = is_recording ? "offset" : "--layout";
-    EXPECT_TRUE(is_bin || contains(told.errors, hint)) << ending << ": " << told.errors;
+    EXPECT_EQ(told.errors.empty(), is_bin) << ending;
+    EXPECT_TRUE(is_bin || is_recording || contains(told.errors, "--layout")) << ending << ": " << told.errors;
     EXPECT_TRUE(is_recording || told_of(file, said).frames == 1) << ending;
   }
 }

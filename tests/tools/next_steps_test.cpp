@@ -51,10 +51,13 @@ std::string next_steps(const Ran& ran) {
 TEST(NextSteps, NameTheConfigOfTheSensorAndAFrameToLookAt) {
   const TempFolder folder;
   const std::string frames = road(folder, {"--scene", "no_floor"});
-  const Ran ran = command({"run", "-s", "forward_axis=+X", "-o", folder.file("o.csv"), frames});
+  Ran ran = command({"run", "-s", "forward_axis=+X", "-o", folder.file("o.csv"), frames});
+  EXPECT_TRUE(contains(next_steps(ran), "The sensor looks like a VLP-16: try --config vlp16.\n")) << ran.errors;
+  ran = command({"run", "-c", "vlp16", "-s", "forward_axis=+X", "-o", folder.file("o.csv"), frames});
   const std::string steps = next_steps(ran);
-  EXPECT_TRUE(contains(steps, "The sensor looks like a VLP-16: try --config vlp16.\n")) << ran.errors;
-  EXPECT_TRUE(contains(steps, "pose_wall doctor -s forward_axis=+X " + frames)) << ran.errors;
+  EXPECT_FALSE(contains(steps, "--config")) << ran.errors;
+  EXPECT_TRUE(contains(steps, "The floor was measured in 0 of 6 frames.")) << ran.errors;
+  EXPECT_TRUE(contains(steps, "pose_wall doctor -c vlp16 -s forward_axis=+X " + frames)) << ran.errors;
   EXPECT_LE(std::count(steps.begin(), steps.end(), '\n'), 4);
   const std::size_t at = steps.find("pose_wall explain ");
   ASSERT_NE(at, std::string::npos) << ran.errors;
@@ -116,7 +119,7 @@ TEST(RunVerb, SpeaksChinese) {
   const std::string file = folder.write("a.csv", "1 2 3\n"), broken = folder.write("b.csv", "1 2\n");
   const Ran ran = command({"run", "--language", "zh", "-o", folder.file("o.csv"), file, broken});
   for (const char* part :
-       {"2 帧，配置 默认值", "角度：CSV 中为弧度", "保护级中位数", "最常见的原因及其帧数", "第 1 行：有 2 个值"}) {
+       {"2 帧，配置 默认值", "角度：CSV 中为弧度", "保护级", "最常见的原因及其帧数", "第 1 行：有 2 个值"}) {
     EXPECT_TRUE(contains(ran.errors, part)) << part << "\n" << ran.errors;
   }
   EXPECT_TRUE(contains(table_of(folder.file("o.csv")).head().front(), "frame")) << "columns have no language";
@@ -144,7 +147,7 @@ TEST(ResultRows, AnInvalidValueHasNoNumberInCsvAndJson) {
   for (const char* name : {"d_lf", "d_lf_sigma", "d_lf_pl", "d_lf_cause", "d_lf_pl_random"}) EXPECT_EQ(cell(name), "");
   EXPECT_EQ(cell("d_lf_raw"), "2.4") << "what this frame measured stays";
   EXPECT_EQ(cell("d_lf_state"), "invalid");
-  EXPECT_TRUE(contains(result_json_line(outcome), "\"value_m\": null")) << result_json_line(outcome);
+  EXPECT_TRUE(contains(result_json_line(outcome), "\"value_m\":null")) << result_json_line(outcome);
 }
 
 TEST(ClosingTable, ALevelBeyondTenAlertLimitsIsNoTolerance) {

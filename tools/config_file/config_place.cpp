@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <system_error>
@@ -110,6 +111,16 @@ ConfigPlace find_config(const std::string& word) {
   if (is_file(with_ending(word))) return in_this_folder(with_ending(word), other);
   if (!other.empty()) return {other, "", ""};
   return {word, "", say("{}: no such file{}", word, what_is_there(word))};
+}
+
+std::string shipped_config_name(const std::string& word) {
+  const fs::path file = find_config(word).file;
+  const std::vector<fs::path> folders = config_folders();
+  std::error_code ignored;
+  const fs::path parent = fs::absolute(file, ignored).parent_path();
+  const bool is_shipped = std::any_of(folders.begin(), folders.end(),
+                                      [&](const fs::path& folder) { return fs::equivalent(folder, parent, ignored); });
+  return is_shipped ? file.stem().string() : "";
 }
 
 }  // namespace pose_wall::tools

@@ -24,6 +24,9 @@ ConfigPlace find_config(const std::string& word);
 // program is installed in, and config/ of the source tree that it was built in. Only those that are there.
 std::vector<std::filesystem::path> config_folders();
 
+// The name of the config that --config WORD finds in one of those folders; empty for a file of one's own.
+std::string shipped_config_name(const std::string& word);
+
 // "vlp16", ...; sorted, each once.
 std::vector<std::string> config_names();
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "frames/text_cursor.hpp"
@@ -137,8 +139,7 @@ Score score_of(const BareLayout& layout, const std::vector<const std::byte*>& bl
 }
 
 // Those whose points fill the file, of each number of bytes the most telling that its values allow.
-std::vector<Score> likely_layouts(const Bytes& bytes) {
-  const std::vector<const std::byte*> blocks = sample(bytes);
+std::vector<Score> likely_layouts(const Bytes& bytes, const std::vector<const std::byte*>& blocks) {
   std::vector<Score> likely;
   for (const std::string_view word : kCandidates) {
     const BareLayout layout = *parse_bare_layout(word);
@@ -167,9 +168,22 @@ void drop_multiples(std::vector<Score>* likely) {
   *likely = std::move(kept);
 }
 
-bool wins_clearly(const std::vector<Score>& likely) {
-  return !likely.empty() && likely.front().explained >= kExplainedMin &&
-         (likely.size() == 1 || likely[1].explained * kExplainedRatio <= likely.front().explained);
+// What the columns tell that both layouts have in common: those of every greatest common divisor of both steps. Nothing
+// where the values are of two types.
+double explained_by_both(const BareLayout& a, const BareLayout& b, const std::vector<const std::byte*>& blocks) {
+  const std::size_t columns = std::gcd(a.columns.size(), b.columns.size());
+  if (a.value_bytes != b.value_bytes || columns == 1) return 0.0;
+  return score_of({std::string(columns, '_'), a.value_bytes}, blocks).explained;
+}
+
+// A wrong layout tells no more than what it has in common with the right one.
+bool wins_clearly(const std::vector<Score>& likely, const std::vector<const std::byte*>& blocks) {
+  if (likely.empty() || likely.front().explained < kExplainedMin) return false;
+  const Score& first = likely.front();
+  return std::all_of(likely.begin() + 1, likely.end(), [&](const Score& other) {
+    const double common = explained_by_both(first.layout, other.layout, blocks);
+    return (other.explained - common) * kExplainedRatio <= first.explained - common;
+  });
 }
 
 // Too few values to tell: the two common layouts are asked about, by the size alone.
@@ -186,7 +200,8 @@ BareGuess guess_by_size(std::size_t bytes) {
 }  // namespace
 
 BareGuess guess_bare_layout(const Bytes& bytes) {
-  std::vector<Score> likely = likely_layouts(bytes);
+  const std::vector<const std::byte*> blocks = sample(bytes);
+  std::vector<Score> likely = likely_layouts(bytes, blocks);
   const bool has_points =
       std::any_of(likely.begin(), likely.end(), [](const Score& s) { return s.points >= kGuessPointsMin; });
   if (bytes.size() < kGuessPointsMin * 16 || (!likely.empty() && !has_points)) return guess_by_size(bytes.size());
@@ -194,7 +209,7 @@ BareGuess guess_bare_layout(const Bytes& bytes) {
   std::stable_sort(likely.begin(), likely.end(),
                    [](const Score& a, const Score& b) { return a.explained > b.explained; });
   BareGuess guess;
-  guess.is_clear = wins_clearly(likely);
+  guess.is_clear = wins_clearly(likely, blocks);
   for (const Score& score : likely) guess.possible.push_back(score.layout);
   return guess;
 }

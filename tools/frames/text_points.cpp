@@ -104,6 +104,13 @@ std::vector<AsciiColumn> unnamed_columns(std::size_t count, std::size_t line) {
   return columns;
 }
 
+// "1,5;2,0;3,1" would be read as six values.
+void refuse_decimal_commas(std::string_view line, std::size_t number) {
+  if (line.find(';') != std::string_view::npos && line.find(',') != std::string_view::npos) {
+    throw FrameError(say("line {}: commas and semicolons; numbers with a decimal point are allowed", number));
+  }
+}
+
 // What the lines before the first point say.
 TextHead read_head(std::string_view text, const BareLayout* given) {
   TextHead head;
@@ -124,6 +131,7 @@ TextHead read_head(std::string_view text, const BareLayout* given) {
       continue;
     }
     if (given != nullptr && head.columns.empty() && !are_numbers(words) && names_coordinates(words)) continue;
+    refuse_decimal_commas(*line, cursor.line());
     if (head.columns.empty()) {
       head.columns = given != nullptr ? columns_of(*given) : unnamed_columns(words.size(), cursor.line());
     }
@@ -139,21 +147,11 @@ std::string columns_text(const std::vector<AsciiColumn>& columns) {
   return text;
 }
 
-// "1,5;2,0;3,1" would be read as six values.
-void refuse_decimal_commas(std::string_view text, const TextHead& head) {
-  TextCursor cursor(text, head.data_offset, head.lines);
-  const std::string_view line = cursor.next_line().value_or("");
-  if (line.find(';') != std::string_view::npos && line.find(',') != std::string_view::npos) {
-    throw FrameError(say("line {}: commas and semicolons; numbers with a decimal point are allowed", cursor.line()));
-  }
-}
-
 }  // namespace
 
 Frame read_text_points(const Bytes& bytes, const BareLayout* columns) {
   const std::string_view text = as_text(bytes);
   const TextHead head = read_head(text, columns);
-  refuse_decimal_commas(text, head);
   TextCursor cursor(text, head.data_offset, head.lines);
   try {
     Frame frame = parse_ascii_points(cursor, head.columns, head.announced, AsciiStyle::kText);

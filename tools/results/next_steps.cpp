@@ -7,12 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
+#include "config_file/config_place.hpp"
 #include "info/input_facts.hpp"
 #include "language/language.hpp"
+#include "quantities.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -61,6 +62,7 @@ void NextSteps::look(const pose_wall_cloud& cloud, const pose_wall_result& resul
   sensor_seen_ = true;
   Frame seen;
   seen.cloud = cloud;
+  if (cloud.ring.type != POSE_WALL_FIELD_NONE) seen.fields.push_back({"ring", cloud.ring});
   fitting_config_ = config_of(sensor_facts(seen).guess);
 }
 
@@ -68,8 +70,10 @@ void NextSteps::add(const FrameOutcome& outcome) {
   if (!outcome.result) return;
   const pose_wall_result& result = *outcome.result;
   ++measured_;
-  if (result.floor.found == 0) ++no_floor_;
-  if (result.floor.found != 0 && result.left.found == 0 && result.right.found == 0) ++no_walls_;
+  // A floor may be found and refused: what counts is whether it measured anything.
+  const bool has_floor = result.quantity[POSE_WALL_ROLL].raw_state != POSE_WALL_INVALID;
+  if (!has_floor) ++no_floor_;
+  if (has_floor && result.left.found == 0 && result.right.found == 0) ++no_walls_;
   const std::uint32_t all = all_reasons(result);
   if ((all & (POSE_WALL_R_CROSS_ROAD | POSE_WALL_R_YAW_OUT_OF_RANGE)) != 0) ++wrong_axes_;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
@@ -78,6 +82,7 @@ void NextSteps::add(const FrameOutcome& outcome) {
       ++quantities_[q].valid;
       continue;
     }
+    if (value.cause < POSE_WALL_PARTS) ++quantities_[q].causes[value.cause];
     const bool has_level = value.state != POSE_WALL_INVALID && std::isfinite(value.protection_level);
     const double level = has_level ? value.protection_level : std::numeric_limits<double>::max();
     for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -102,10 +107,8 @@ std::string NextSteps::unit_line() const {
 }
 
 std::string NextSteps::config_line() const {
-  const std::string given = std::filesystem::path(config_word_).stem().string();
-  const auto is_given = [&given](const SensorConfig& row) { return given == row.config; };
-  const bool is_own = !given.empty() && given != "pose_wall" &&
-                      std::none_of(std::begin(kSensorConfigs), std::end(kSensorConfigs), is_given);
+  const std::string given = shipped_config_name(config_word_);
+  const bool is_own = !config_word_.empty() && given.empty();
   if (fitting_config_.empty() || is_own || given == fitting_config_) return "";
   const auto row = std::find_if(std::begin(kSensorConfigs), std::end(kSensorConfigs),
                                 [this](const SensorConfig& r) { return fitting_config_ == r.config; });
@@ -115,13 +118,21 @@ std::string NextSteps::config_line() const {
 std::string NextSteps::doctor_line() const {
   const std::string command = "pose_wall doctor " + shell_words_;
   if (share(no_floor_, measured_) >= kMostlyShare) {
-    return say("The floor was found in {} of {} frames. Mounting and axes are found by: {}", measured_ - no_floor_,
+    return say("The floor was measured in {} of {} frames. Mounting and axes are found by: {}", measured_ - no_floor_,
                measured_, command);
   }
   if (share(no_walls_, measured_) >= kMostlyShare || share(wrong_axes_, measured_) >= kWrongAxesShare) {
     return say("No walls run along forward_axis in most frames. Mounting and axes are found by: {}", command);
   }
   return "";
+}
+
+// That a level is above its limit says nothing; what it is made of does: "alert_limit (mostly rival)".
+std::string NextSteps::reason_text(const Quantity& quantity, std::uint32_t bit) {
+  const auto most = std::max_element(quantity.causes.begin(), quantity.causes.end());
+  if (1U << bit != POSE_WALL_R_ALERT_LIMIT || *most == 0) return pose_wall_reason_name(bit);
+  const std::string part = part_words(static_cast<std::uint32_t>(most - quantity.causes.begin()));
+  return say("{} (mostly {})", pose_wall_reason_name(bit), tr(part.c_str()));
 }
 
 std::string NextSteps::explain_line() const {
@@ -138,7 +149,7 @@ std::string NextSteps::explain_line() const {
   if (reason.frames == 0) return "";
   const auto quantity = static_cast<std::uint32_t>(worst - quantities_.begin());
   return say("{} was valid in {:.1f} % of the frames. Most frequent reason: {}. Its worst frame: {}",
-             pose_wall_quantity_name(quantity), 100.0 * share(worst->valid, measured_), pose_wall_reason_name(bit),
+             pose_wall_quantity_name(quantity), 100.0 * share(worst->valid, measured_), reason_text(*worst, bit),
              fmt::format("pose_wall explain --frame {} {}", reason.worst_frame, shell_words_));
 }
 
@@ -151,7 +162,7 @@ std::string NextSteps::text() const {
   add_line(unit_line());
   if (!lines.empty()) return lines;  // in another unit everything else looks wrong, too
   add_line(config_line());
-  add_line(doctor_line());
+  if (lines.empty()) add_line(doctor_line());  // the gates of another sensor explain a floor that is not measured
   add_line(explain_line());
   return lines;
 }

@@ -39,8 +39,10 @@ class NextSteps {
   struct Quantity {
     std::size_t valid = 0;
     std::array<Reason, POSE_WALL_REASON_COUNT> reasons{};
+    std::array<std::size_t, POSE_WALL_PARTS> causes{};  // how often each part of its level was the largest
   };
 
+  static std::string reason_text(const Quantity& quantity, std::uint32_t bit);
   bool is_well() const;
   std::string unit_line() const;
   std::string config_line() const;
