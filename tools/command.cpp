@@ -126,6 +126,7 @@ CommandGrammar command_grammar() {
 
 int run_command(int argc, const char* const* argv) {
   choose_language(language_of(argc, argv));
+  choose_did_you_mean([](const std::string& nearest) { return say("; did you mean '{}'?", nearest); });
   CLI::App app(kDescription, "pose_wall");
   int exit_code = kExitDone;
   add_verbs(app, exit_code);

@@ -35,9 +35,15 @@ if [ "$architecture" = amd64 ]; then
     *) complain "$deb: the command says it is '$found', not $version" ;;
   esac
   for file in man/man1/pose_wall.1 bash-completion/completions/pose_wall zsh/site-functions/_pose_wall \
-    fish/vendor_completions.d/pose_wall.fish; do
+    fish/vendor_completions.d/pose_wall.fish pose_wall/config/vlp16.yaml; do
     [ -s "$work/command/usr/share/$file" ] || complain "$deb has no share/$file"
   done
+  # Elsewhere than in the source tree, whose configs it would find as well.
+  found=$(cd / && "$work/command/usr/bin/pose_wall" check-config vlp16) || complain "$deb: --config vlp16 is not found"
+  case $found in
+    *"share/pose_wall/config/vlp16.yaml"*) ;;
+    *) complain "$deb: the config vlp16 is not the package's" ;;
+  esac
 
   named python3-pose-wall deb
   deb=$packages/python3-pose-wall_${version}_$architecture.deb

@@ -216,12 +216,13 @@ class Packages(BrokenProject):
         self.write("CMakeLists.txt", "project(pose_wall VERSION 0.2.0 LANGUAGES C CXX)\n")
 
     WORDS = ("man/man1/pose_wall.1", "bash-completion/completions/pose_wall", "zsh/site-functions/_pose_wall",
-             "fish/vendor_completions.d/pose_wall.fish")
+             "fish/vendor_completions.d/pose_wall.fish", "pose_wall/config/vlp16.yaml")
 
     def pack(self, version, depends, program, words=WORDS):
         control = f"Package: pose-wall\nVersion: {version}\nArchitecture: amd64\nMaintainer: x <x@y>\n{depends}"
         self.write("deb/DEBIAN/control", f"{control}Description: x\n")
-        self.write("deb/usr/bin/pose_wall", f"#!/bin/sh\n{program}\n")
+        config = "[ \"$1\" != check-config ] || { echo /usr/share/pose_wall/config/vlp16.yaml:1; exit 0; }"
+        self.write("deb/usr/bin/pose_wall", f"#!/bin/sh\n{config}\n{program}\n")
         (self.root / "deb/usr/bin/pose_wall").chmod(0o755)
         for word in words:
             self.write(f"deb/usr/share/{word}", "made\n")
@@ -276,6 +277,8 @@ class Packages(BrokenProject):
     def test_without_words_for_shells(self):
         self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo 0.2.0", words=self.WORDS[:2])
         self.fails("has no share/zsh/site-functions/_pose_wall", *self.check())
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo 0.2.0", words=self.WORDS[:4])
+        self.fails("has no share/pose_wall/config/vlp16.yaml", *self.check())
 
 
 class Consumer(BrokenProject):

@@ -26,7 +26,7 @@ max_len_of() {
     config) echo 512 ;;
     work) echo 64 ;;
     image | frame) echo 2048 ;;
-    kitti | csv | hesai_angles) echo 1024 ;;
+    kitti | text_points | csv | hesai_angles) echo 1024 ;;
     config_file) echo 4096 ;;
     *) echo 14336 ;;
   esac

@@ -247,6 +247,11 @@ void texts() {
   write("csv", "# a comment\n\na,\"b \"\"c\"\"\",\"d\ne\"\r\n1,2,3\n\"\n\",,x\n");
 }
 
+void plain_points() {
+  write("text_points", "# x y z intensity\n2\n1 2 3 0.5\n-1;2.5;nan;1e40\r\n");
+  write("text_points", "\xEF\xBB\xBF\"X\",\"Y\",\"Z\",time\n1,2,3,0.01\n\n// c\n4,5,6,0.02");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -267,5 +272,6 @@ int main(int argc, char** argv) {
   recordings();
   texts();
   packets();
+  plain_points();
   return 0;
 }

@@ -24,7 +24,7 @@ constexpr double kHalfWidth_m = 4.0;
 const std::array<double, kTruthQuantities> kStraight = {0, 0, 0, 4, 4, 4, 4};
 const View kWide = {kHeight_m, 100.0, {{{-100.0, 100.0}, {-100.0, 100.0}}}};
 
-class Road {
+class NoisyRoad {
  public:
   void add(double x_m, double y_m, double z_m) {
     for (const double coordinate : {x_m, y_m, z_m}) xyz_.push_back(static_cast<float>(coordinate));
@@ -45,8 +45,8 @@ class Road {
 };
 
 // Four floor points in a square: z errors are the range noise times the cosine of incidence, the same for all.
-Road square_floor(double half_m) {
-  Road road;
+NoisyRoad square_floor(double half_m) {
+  NoisyRoad road;
   for (const double x : {-half_m, half_m}) {
     for (const double y : {-half_m, half_m}) road.add(x, y, -kHeight_m);
   }
@@ -55,7 +55,7 @@ Road square_floor(double half_m) {
 
 TEST(CramerRao, FourFloorPointsByHand) {
   const double half_m = 1.2;
-  const Road road = square_floor(half_m);
+  const NoisyRoad road = square_floor(half_m);
   const FrameBound bound = CramerRao(api::Config(), kNoise_m).bound(road.cloud(), kStraight, kWide);
   const double across_m = kNoise_m * kHeight_m / std::sqrt(2.0 * half_m * half_m + kHeight_m * kHeight_m);
   // Slope of a line through four heights at +-half: sigma / (half * sqrt(4)).
@@ -66,7 +66,7 @@ TEST(CramerRao, FourFloorPointsByHand) {
 }
 
 TEST(CramerRao, TwoFloorPointsTellNothing) {
-  Road road;
+  NoisyRoad road;
   road.add(1.0, 0.0, -kHeight_m);
   road.add(-1.0, 0.0, -kHeight_m);
   const FrameBound bound = CramerRao(api::Config(), kNoise_m).bound(road.cloud(), kStraight, kWide);
@@ -74,8 +74,8 @@ TEST(CramerRao, TwoFloorPointsTellNothing) {
   EXPECT_TRUE(std::isnan(bound.sigma[POSE_WALL_PITCH]));
 }
 
-Road with_left_wall(double reach_m) {
-  Road road = square_floor(1.2);
+NoisyRoad with_left_wall(double reach_m) {
+  NoisyRoad road = square_floor(1.2);
   for (const double x : {-reach_m, reach_m}) {
     for (const double z : {-0.5, 0.5}) road.add(x, kHalfWidth_m, z);
   }
@@ -98,7 +98,7 @@ TEST(CramerRao, AnErrorOfTheFloorTurnsIntoYawWhereTheNoseIsUp) {
   // Nose up by 0.3 rad: a roll error turns part of itself about the vertical.
   const Eigen::Matrix3d level = Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitY()).toRotationMatrix();
   const auto yaw_sigma = [&](double floor_half_m) {
-    Road road;
+    NoisyRoad road;
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-floor_half_m, floor_half_m}) {
         const Eigen::Vector3d p = level.transpose() * Eigen::Vector3d(x, y, -kHeight_m);
@@ -124,7 +124,7 @@ TEST(CramerRao, MorePointsAndGrazingRaysTellMore) {
 }
 
 TEST(CramerRao, OnlyPointsInViewCount) {
-  const Road road = with_left_wall(3.0);
+  const NoisyRoad road = with_left_wall(3.0);
   const CramerRao bounds{api::Config(), kNoise_m};
   View view = kWide;
   view.wall_span_m[0] = {-100.0, 0.0};
@@ -142,7 +142,7 @@ TEST(CramerRao, OnlyPointsInViewCount) {
 }
 
 TEST(CramerRao, FloorAtTheFootOfAWallDoesNotCount) {
-  Road road = square_floor(1.2);
+  NoisyRoad road = square_floor(1.2);
   for (const double away_m : {0.1, 0.2, 0.3}) road.add(1.0, kHalfWidth_m - away_m, -kHeight_m);
   const CramerRao bounds{api::Config(), kNoise_m};
   EXPECT_EQ(bounds.bound(road.cloud(), kStraight, kWide).floor_points, 5U);
@@ -159,7 +159,7 @@ TEST(CramerRao, LeastSquaresReachesIt) {
     const double angle = 0.1 * i, away_m = 1.0 + 0.03 * i;
     places.emplace_back(away_m * std::cos(angle), away_m * std::sin(angle), -kHeight_m);
   }
-  Road road;
+  NoisyRoad road;
   for (const Eigen::Vector3d& p : places) road.add_with_noise(p, &random);
   const FrameBound bound = CramerRao(api::Config(), kNoise_m).bound(road.cloud(), kStraight, kWide);
 

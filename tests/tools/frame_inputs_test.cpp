@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: KITTI files are described in place; what a file begins with decides the reader, then its ending; folders and
-// stamps come out as documented.
+// Proves: what a file begins with decides the reader, then its ending; folders come in natural order, and stamps as
+// documented.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 
 #include "frames/frame_stamps.hpp"
 #include "frames/input_list.hpp"
-#include "frames/kitti_reader.hpp"
 #include "frames/load_frame.hpp"
+#include "frames/natural_order.hpp"
 #include "frames/pcd_writer.hpp"
 #include "test_files.hpp"
 
@@ -37,19 +37,12 @@ std::string load_refusal(const std::string& path) {
   }
 }
 
-TEST(KittiReader, FourFloatsPerPoint) {
-  const Frame frame = read_kitti(bytes_of(kPoint + kPoint));
-  EXPECT_EQ(frame.cloud.width, 2U);
-  EXPECT_EQ(number_at(frame, frame.cloud.z, 1), 3.0);
-  EXPECT_EQ(number_at(frame, frame.cloud.intensity, 1), 0.5);
-  EXPECT_EQ(read_kitti({}).cloud.width, 0U);
-  EXPECT_NE(refusal(read_kitti, kPoint + "x").find("17 bytes are not a multiple of 16"), std::string::npos);
-}
-
-TEST(LoadFrame, EndingDecidesAndFaultsAreSaid) {
+TEST(LoadFrame, WhereBytesDoNotTellTheEndingDecidesAndFaultsAreSaid) {
   const TempFolder folder;
   EXPECT_EQ(load_frame(folder.write("a.BIN", kPoint)).cloud.width, 1U);
-  EXPECT_NE(load_refusal(folder.write("a.txt", kPoint)).find(".pcd, .bin (KITTI), .ply"), std::string::npos);
+  EXPECT_NE(load_refusal(folder.write("a.dat", kPoint)).find("unknown ending '.dat'"), std::string::npos);
+  EXPECT_NE(load_refusal(folder.write("a.pcd", kPoint)).find("this is no PCD"), std::string::npos);
+  EXPECT_EQ(load_refusal(folder.write("b.pcd", "")), "the file is empty");
   EXPECT_EQ(load_refusal(folder.file("missing.pcd")), "not there: no such file or folder");
   EXPECT_EQ(load_refusal(folder.file("nofolder")), "not there: no such file or folder") << "not an unknown ending";
   std::filesystem::create_directories(folder.file("folder.ply"));
@@ -107,14 +100,33 @@ TEST(LoadFrame, ATimedPcdHasTheSamePointsTheirTimesAndRings) {
   }
 }
 
-TEST(InputList, FoldersGiveTheirFramesInNameOrderAndFilesStay) {
+TEST(InputList, FoldersGiveTheirFramesInNaturalOrderAndFilesStay) {
   const TempFolder folder;
   for (const char* name : {"9.pcd", "10.pcd", "notes.txt", "b.bin", "B.ply", "inner/1.pcd"}) folder.write(name, "");
   const FrameInputs inputs = collect_inputs({"missing.pcd", folder.path(), folder.file("notes.txt")});
   std::vector<std::string> names;
   for (const auto& file : inputs.files) names.push_back(file.filename().string());
-  EXPECT_EQ(names, (std::vector<std::string>{"missing.pcd", "10.pcd", "9.pcd", "B.ply", "b.bin", "notes.txt"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"missing.pcd", "9.pcd", "10.pcd", "B.ply", "b.bin", "notes.txt"}));
   EXPECT_TRUE(inputs.errors.empty());
+  ASSERT_EQ(inputs.notes.size(), 1U);
+  EXPECT_EQ(inputs.notes.front(), folder.path() + ": read by the numbers in the names: 9.pcd before 10.pcd");
+}
+
+TEST(InputList, WherePaddedNumbersMakeBothOrdersOneNothingIsSaid) {
+  const TempFolder folder;
+  for (const char* name : {"009.pcd", "010.pcd", "100.pcd"}) folder.write(name, "");
+  EXPECT_TRUE(collect_inputs({folder.path()}).notes.empty());
+}
+
+TEST(NaturalOrder, NumbersCountAsNumbersAndTheOrderIsTotal) {
+  const std::vector<std::string> sorted = {"",   "1",    "2.pcd", "2a",      "10", "99999999999999999999999",
+                                           "a",  "a1b2", "a1b10", "a01b10c", "a2", "b007",
+                                           "b7", "b7.5"};
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    for (std::size_t j = 0; j < sorted.size(); ++j) {
+      EXPECT_EQ(natural_less(sorted[i], sorted[j]), i < j) << sorted[i] << " and " << sorted[j];
+    }
+  }
 }
 
 TEST(InputList, ALinkThatLeadsNowhereIsAFrameThatCannotBeRead) {
@@ -147,7 +159,7 @@ TEST(InputList, AnEmptyFolderIsAnErrorThatNamesTheEndings) {
   const FrameInputs inputs = collect_inputs({folder.path()});
   ASSERT_EQ(inputs.errors.size(), 1U);
   EXPECT_NE(inputs.errors.front().find(folder.path()), std::string::npos);
-  EXPECT_NE(inputs.errors.front().find(".pcd, .bin (KITTI), .ply"), std::string::npos);
+  EXPECT_NE(inputs.errors.front().find(".pcd, .bin, .ply, .xyz"), std::string::npos);
 }
 
 TEST(FrameStamps, OnlyNamesOfSixteenToNineteenDigitsAreStamps) {

@@ -120,8 +120,8 @@ TEST(LoadConfig, FilesThatAreNoConfig) {
     EXPECT_TRUE(contains(message, part)) << yaml << " | " << message;
   }
   const TempFolder folder;
-  EXPECT_TRUE(contains(refusal_of(folder.file("missing.yaml"), {}), "No such file"));
-  EXPECT_TRUE(contains(refusal_of(folder.path(), {}), "Is a directory"));
+  EXPECT_TRUE(contains(refusal_of(folder.file("missing.yaml"), {}), "no such file"));
+  EXPECT_TRUE(contains(refusal_of(folder.path(), {}), "this is a folder"));
   EXPECT_TRUE(contains(refusal_of(folder.write("big.yaml", std::string(2000000, '#')), {}), "at most"));
 }
 

@@ -141,6 +141,7 @@ TEST(ResultJson, AFrameThatNobodyCanReadHasTheSameMembers) {
 TEST(ResultJson, WhatIsNoNumberIsNull) {
   FrameOutcome outcome;
   outcome.result = api::make_result();
+  outcome.result->quantity[POSE_WALL_YAW].state = POSE_WALL_DEGRADED;
   outcome.result->quantity[POSE_WALL_YAW].raw = std::numeric_limits<double>::quiet_NaN();
   outcome.result->quantity[POSE_WALL_YAW].protection_level = std::numeric_limits<double>::infinity();
   const json yaw = json::parse(result_json_line(outcome)).at("values").at("yaw");

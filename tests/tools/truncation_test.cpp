@@ -10,7 +10,7 @@
 
 #include <set>
 
-#include "frames/kitti_reader.hpp"
+#include "frames/bare_points.hpp"
 #include "frames/load_frame.hpp"
 #include "frames/pcd_reader.hpp"
 #include "frames/ply_reader.hpp"
@@ -79,6 +79,10 @@ std::string kitti() {
   return text;
 }
 
+Frame read_xyzi(Bytes bytes) {
+  return read_bare_points(std::move(bytes), *parse_bare_layout("xyzi"));
+}
+
 // Cut off within the last number, or just behind it.
 Format text_format(const char* name, Frame (*read)(Bytes), const std::string& whole) {
   const std::size_t bytes = whole.size();
@@ -92,7 +96,7 @@ std::vector<Format> formats() {
           text_format("ply_ascii", read_ply, ply("ascii") + kAscii),
           {"ply_binary_little_endian", read_ply, ply("binary_little_endian") + points(), {}},
           {"ply_binary_big_endian", read_ply, ply("binary_big_endian") + points(true), {}},
-          {"kitti", read_kitti, kitti(), {0, 16, 32}}};
+          {"bare_xyzi", read_xyzi, kitti(), {0, 16, 32}}};
 }
 
 class Truncation : public ::testing::TestWithParam<Format> {};

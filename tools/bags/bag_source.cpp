@@ -12,6 +12,7 @@
 
 #include "bags/cloud_message.hpp"
 #include "bags/packet_message.hpp"
+#include "language/language.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/did_you_mean.hpp"
 
@@ -37,9 +38,9 @@ Bag::Bag(const std::vector<std::filesystem::path>& files) {
 
 void Bag::add(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw FrameError(path.string() + ": no such file");
+  if (!std::filesystem::exists(path, ignored)) throw FrameError(path.string() + tr(": no such file"));
   const std::optional<BagKind> kind = recognise_bag(path);
-  if (!kind) throw FrameError(path.string() + ": this is no bag; ROS 1 bags, MCAP and SQLite bags are read");
+  if (!kind) throw FrameError(path.string() + tr(": this is no bag; ROS 1 bags, MCAP and SQLite bags are read"));
   kind_ = *kind;
   File file{path, nullptr};
   BagSurvey survey;
@@ -71,9 +72,9 @@ std::vector<SourceTopic> Bag::frame_topics() const {
   // Of a bag with faults the reading says what is wrong.
   if (topics.empty() && faults_ == 0) {
     throw FrameError(
-        fmt::format("no topic of sensor_msgs/PointCloud2, of Livox's CustomMsg, or of packets (VelodyneScan, "
-                    "NebulaPackets, PandarScan); topics: {}",
-                    topics_.empty() ? "none" : list_of(topics_, true)));
+        say("no topic of sensor_msgs/PointCloud2, of Livox's CustomMsg, or of packets (VelodyneScan, "
+            "NebulaPackets, PandarScan); topics: {}",
+            topics_.empty() ? tr("none") : list_of(topics_, true)));
   }
   return topics;
 }
@@ -105,13 +106,13 @@ std::string Bag::choose_topic(const std::string& wanted) const {
     std::vector<std::string> names;
     for (const SourceTopic& topic : topics) names.push_back(topic.name);
     if (std::find(names.begin(), names.end(), wanted) != names.end()) return wanted;
-    throw std::invalid_argument(fmt::format("--topic {}: no clouds of this name{}; topics with clouds: {}", wanted,
-                                            did_you_mean(wanted, names), list_of(topics, false)));
+    throw std::invalid_argument(say("--topic {}: no clouds of this name{}; topics with clouds: {}", wanted,
+                                    did_you_mean(wanted, names), list_of(topics, false)));
   }
   const std::vector<SourceTopic> preferred = preferred_topics();
   if (preferred.size() > 1 && preferred.front().messages > 0) {
     throw std::invalid_argument(
-        fmt::format("several topics with clouds: {}. Name one with --topic", list_of(preferred, false)));
+        say("several topics with clouds: {}. Name one with --topic", list_of(preferred, false)));
   }
   return preferred.front().name;
 }
@@ -123,7 +124,7 @@ bool Bag::has_packets(const std::string& name) const {
 
 SourceAbout Bag::about(const std::string& topic) const {
   std::string kind(bag_kind_name(kind_));
-  if (files_.size() > 1) kind += fmt::format(" of {} files", files_.size());
+  if (files_.size() > 1) kind += say(" of {} files", files_.size());
   return {std::move(kind), topics_, topic};
 }
 

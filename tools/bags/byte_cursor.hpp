@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "frames/frame.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 
@@ -45,7 +46,7 @@ struct Place {
 
   std::string text(std::uint64_t position) const {
     return inside.empty() ? fmt::format("offset {}", offset + position)
-                          : fmt::format("{}, byte {} of its content", inside, offset + position);
+                          : say("{}, byte {} of its content", inside, offset + position);
   }
 };
 
@@ -63,7 +64,7 @@ class ByteCursor {
   [[noreturn]] void refuse(const std::string& why) const { throw FrameError(fmt::format("{}: {}", where(), why)); }
 
   ByteView bytes(std::uint64_t size, std::string_view what) {
-    if (size > left()) refuse(fmt::format("{} takes {} bytes, but {} are left", what, size, left()));
+    if (size > left()) refuse(say("{} takes {} bytes, but {} are left", what, size, left()));
     const ByteView block{bytes_.data + position_, static_cast<std::size_t>(size)};
     position_ += block.size;
     return block;

@@ -10,6 +10,7 @@
 
 #include "bags/livox_custom.hpp"
 #include "bags/point_cloud2.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -40,7 +41,7 @@ bool is_cloud_type(std::string_view type) {
 
 DecodedCloud decode_cloud(std::string_view type, MessageEncoding encoding, ByteView message, const Place& place) {
   const CloudType* const found = find_cloud_type(type);
-  if (found == nullptr) throw FrameError(fmt::format("messages of type {} are no clouds", type));
+  if (found == nullptr) throw FrameError(say("messages of type {} are no clouds", type));
   return found->decode(encoding, message, place);
 }
 

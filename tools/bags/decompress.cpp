@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -18,8 +20,7 @@ constexpr std::uint64_t kFirstBytes = 1U << 20U;
 }  // namespace
 
 std::string missing_support(std::string_view what, std::string_view package, std::string_view option) {
-  return fmt::format("this build cannot read {}: install {}, configure with -D{}=ON and build again", what, package,
-                     option);
+  return say("this build cannot read {}: install {}, configure with -D{}=ON and build again", what, package, option);
 }
 
 ByteView GrowingBlock::room() {
@@ -31,19 +32,19 @@ ByteView GrowingBlock::room() {
 }
 
 Bytes GrowingBlock::take() {
-  if (!is_full()) throw FrameError(fmt::format("{} bytes came out of it, {} were announced", filled_, size_max_));
+  if (!is_full()) throw FrameError(say("{} bytes came out of it, {} were announced", filled_, size_max_));
   bytes_.resize(filled_);
   return std::move(bytes_);
 }
 
 Bytes decompress(std::string_view method, ByteView compressed, std::uint64_t size) {
   if (size > kBlockBytesMax) {
-    throw FrameError(fmt::format("announces {} bytes; at most {} are allowed", size, kBlockBytesMax));
+    throw FrameError(say("announces {} bytes; at most {} are allowed", size, kBlockBytesMax));
   }
   if (method == "lz4") return decompress_lz4(compressed, size);
   if (method == "zstd") return decompress_zstd(compressed, size);
   if (method == "bz2") return decompress_bzip2(compressed, size);
-  throw FrameError(fmt::format("compression '{}' is unknown; none, lz4, zstd and bz2 are read", method));
+  throw FrameError(say("compression '{}' is unknown; none, lz4, zstd and bz2 are read", method));
 }
 
 }  // namespace pose_wall::tools

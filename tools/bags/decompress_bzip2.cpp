@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -19,7 +21,7 @@ class BzipStream {
     // The library takes its input by a pointer to non-const, but only reads.
     stream_.next_in = reinterpret_cast<char*>(const_cast<std::byte*>(compressed.data));
     stream_.avail_in = static_cast<unsigned>(compressed.size);
-    if (BZ2_bzDecompressInit(&stream_, 0, 0) != BZ_OK) throw FrameError("bz2: no memory");
+    if (BZ2_bzDecompressInit(&stream_, 0, 0) != BZ_OK) throw FrameError(tr("bz2: no memory"));
   }
   BzipStream(const BzipStream&) = delete;
   BzipStream& operator=(const BzipStream&) = delete;
@@ -43,21 +45,21 @@ class BzipStream {
 }  // namespace
 
 Bytes decompress_bzip2(ByteView compressed, std::uint64_t size) {
-  if (compressed.size > std::numeric_limits<unsigned>::max()) throw FrameError("bz2: the block is too large");
+  if (compressed.size > std::numeric_limits<unsigned>::max()) throw FrameError(tr("bz2: the block is too large"));
   BzipStream stream(compressed);
   GrowingBlock block(size);
   int status = BZ_OK;
   while (status != BZ_STREAM_END) {
     const std::size_t in_before = stream.left();
     const std::size_t out = stream.step(block.room(), status);
-    if (status != BZ_OK && status != BZ_STREAM_END) throw FrameError(fmt::format("bz2: damaged (error {})", status));
+    if (status != BZ_OK && status != BZ_STREAM_END) throw FrameError(say("bz2: damaged (error {})", status));
     block.fill(out);
     if (status == BZ_OK && out == 0 && stream.left() == in_before) {
-      throw FrameError(block.is_full() ? fmt::format("bz2: more than the {} bytes announced come out of it", size)
+      throw FrameError(block.is_full() ? say("bz2: more than the {} bytes announced come out of it", size)
                                        : std::string("bz2: the compressed bytes end too early"));
     }
   }
-  if (stream.left() != 0) throw FrameError(fmt::format("bz2: {} bytes follow its end", stream.left()));
+  if (stream.left() != 0) throw FrameError(say("bz2: {} bytes follow its end", stream.left()));
   return block.take();
 }
 

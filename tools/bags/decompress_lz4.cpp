@@ -9,11 +9,13 @@
 
 #include <memory>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 
 Bytes decompress_lz4(ByteView compressed, std::uint64_t size) {
   LZ4F_dctx* opened = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&opened, LZ4F_VERSION)) != 0) throw FrameError("lz4: no memory");
+  if (LZ4F_isError(LZ4F_createDecompressionContext(&opened, LZ4F_VERSION)) != 0) throw FrameError(tr("lz4: no memory"));
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context(opened,
                                                                                      LZ4F_freeDecompressionContext);
   GrowingBlock block(size);
@@ -29,11 +31,11 @@ Bytes decompress_lz4(ByteView compressed, std::uint64_t size) {
     read += in;
     block.fill(out);
     if (expected != 0 && in == 0 && out == 0) {
-      throw FrameError(block.is_full() ? fmt::format("lz4: more than the {} bytes announced come out of it", size)
+      throw FrameError(block.is_full() ? say("lz4: more than the {} bytes announced come out of it", size)
                                        : std::string("lz4: the compressed bytes end too early"));
     }
   }
-  if (read != compressed.size) throw FrameError(fmt::format("lz4: {} bytes follow its end", compressed.size - read));
+  if (read != compressed.size) throw FrameError(say("lz4: {} bytes follow its end", compressed.size - read));
   return block.take();
 }
 

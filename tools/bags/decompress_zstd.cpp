@@ -9,11 +9,13 @@
 
 #include <memory>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 
 Bytes decompress_zstd(ByteView compressed, std::uint64_t size) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
-  if (!context) throw FrameError("zstd: no memory");
+  if (!context) throw FrameError(tr("zstd: no memory"));
   GrowingBlock block(size);
   ZSTD_inBuffer in{compressed.data, compressed.size, 0};
   std::size_t expected = 1;  // 0 when the frame is complete
@@ -25,11 +27,11 @@ Bytes decompress_zstd(ByteView compressed, std::uint64_t size) {
     if (ZSTD_isError(expected) != 0) throw FrameError(fmt::format("zstd: {}", ZSTD_getErrorName(expected)));
     block.fill(out.pos);
     if (expected != 0 && in.pos == in_before && out.pos == 0) {
-      throw FrameError(block.is_full() ? fmt::format("zstd: more than the {} bytes announced come out of it", size)
+      throw FrameError(block.is_full() ? say("zstd: more than the {} bytes announced come out of it", size)
                                        : std::string("zstd: the compressed bytes end too early"));
     }
   }
-  if (in.pos != in.size) throw FrameError(fmt::format("zstd: {} bytes follow its end", in.size - in.pos));
+  if (in.pos != in.size) throw FrameError(say("zstd: {} bytes follow its end", in.size - in.pos));
   return block.take();
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "bags/message_cursor.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -43,7 +44,7 @@ DecodedCloud decode_livox_custom(MessageEncoding encoding, ByteView message_byte
   // Behind the last point nothing fills up to a multiple of four.
   const std::uint64_t needed = points == 0 ? 0 : std::uint64_t{points - 1} * step + kCustomPointBytes;
   if (needed > message.left()) {
-    message.refuse(fmt::format("{} points need {} bytes, but {} are left", points, needed, message.left()));
+    message.refuse(say("{} points need {} bytes, but {} are left", points, needed, message.left()));
   }
   const ByteView data = message.bytes(static_cast<std::size_t>(needed), "points");
   Bytes bytes(std::size_t{points} * step);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bags/crc32.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -41,7 +42,7 @@ MessageEncoding encoding_of(std::string_view name) {
 
 void McapBag::start(ByteCursor& cursor) {
   if (text_of(cursor.bytes(std::min(cursor.left(), kMcapMagic.size()), "magic")) != kMcapMagic) {
-    throw FrameError("offset 0: the file does not begin as an MCAP of version 0 does");
+    throw FrameError(tr("offset 0: the file does not begin as an MCAP of version 0 does"));
   }
   footer_seen_ = false;
   data_end_seen_ = false;
@@ -59,7 +60,7 @@ BagRecord McapBag::cut_record(ByteCursor& cursor) const {
   if (record.op == McapOp::kFooter && record.missing == 0) {
     // Only here two ends meet: what follows the footer is no record.
     if (text_of(cursor.bytes(cursor.left(), "magic")) != kMcapMagic) {
-      cursor.refuse("the file is cut or goes on behind its footer: the 8 bytes of its magic are to end it");
+      cursor.refuse(tr("the file is cut or goes on behind its footer: the 8 bytes of its magic are to end it"));
     }
   }
   return record;
@@ -78,7 +79,7 @@ std::optional<BagMessage> McapBag::interpret(BagRecord& record, bool in_chunk) {
     case McapOp::kMessage:
       return message_of(record.data);
     case McapOp::kChunk:
-      if (in_chunk) record.data.refuse("a chunk within a chunk");
+      if (in_chunk) record.data.refuse(tr("a chunk within a chunk"));
       read_chunk(record);
       break;
     case McapOp::kDataEnd:
@@ -109,7 +110,7 @@ void McapBag::note_channel(ByteCursor& data) {
   if (name != schema_names_.end()) {
     topic.type = name->second;
   } else if (schema != 0) {
-    data.refuse(fmt::format("channel {} names schema {}, which no record before it describes", id, schema));
+    data.refuse(say("channel {} names schema {}, which no record before it describes", id, schema));
   }
   topic_of_channel_[id] = topics_.size();
   topics_.push_back(std::move(topic));
@@ -123,16 +124,16 @@ void McapBag::read_chunk(BagRecord& record) {
   const std::string compression = text(data, "compression of a chunk");
   const auto stored = data.number<std::uint64_t>("length of a chunk's records");
   if (stored != data.left() + record.missing) {
-    data.refuse(fmt::format("a chunk's records are said to take {} bytes, its record holds {}", stored,
-                            data.left() + record.missing));
+    data.refuse(
+        say("a chunk's records are said to take {} bytes, its record holds {}", stored, data.left() + record.missing));
   }
   enter_chunk(record, compression, size);
   if (crc == 0 || record.missing > 0) return;
   const std::uint32_t found = crc32(chunk_content());
   if (found != crc) {
     leave_chunk();
-    throw FrameError(fmt::format("offset {}: the chunk's checksum is {:08x}, its content has {:08x}: it was damaged",
-                                 record.offset, crc, found));
+    throw FrameError(say("offset {}: the chunk's checksum is {:08x}, its content has {:08x}: it was damaged",
+                         record.offset, crc, found));
   }
 }
 
@@ -140,7 +141,7 @@ BagMessage McapBag::message_of(ByteCursor& data) const {
   const auto channel = data.number<std::uint16_t>("channel of a message");
   const auto topic = topic_of_channel_.find(channel);
   if (topic == topic_of_channel_.end()) {
-    data.refuse(fmt::format("a message of channel {}, which no record before it describes", channel));
+    data.refuse(say("a message of channel {}, which no record before it describes", channel));
   }
   data.bytes(sizeof(std::uint32_t), "sequence of a message");
   const auto recorded_ns = data.number<std::uint64_t>("log time of a message");
@@ -152,7 +153,7 @@ BagMessage McapBag::message_of(ByteCursor& data) const {
 }
 
 void McapBag::finish(const ByteCursor& cursor) {
-  if (!footer_seen_) cursor.refuse("the file ends without a footer: it was cut, or its recorder did not close it");
+  if (!footer_seen_) cursor.refuse(tr("the file ends without a footer: it was cut, or its recorder did not close it"));
 }
 
 }  // namespace pose_wall::tools

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "bags/bag_reader.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 
@@ -20,7 +21,7 @@ class MessageCursor {
  public:
   MessageCursor(MessageEncoding encoding, ByteView message, const Place& place)
       : cursor_(message, place), is_cdr_(encoding == MessageEncoding::kCdr) {
-    if (encoding == MessageEncoding::kOther) cursor_.refuse("a message that is neither CDR nor of ROS 1");
+    if (encoding == MessageEncoding::kOther) cursor_.refuse(tr("a message that is neither CDR nor of ROS 1"));
     if (is_cdr_) read_encapsulation();
   }
 
@@ -57,7 +58,7 @@ class MessageCursor {
         is_cdr_ ? std::int64_t{number<std::int32_t>(what)} : std::int64_t{number<std::uint32_t>(what)};
     const auto nanoseconds = number<std::uint32_t>(what);
     if (nanoseconds >= 1'000'000'000) {
-      refuse(fmt::format("{} has {} nanoseconds; less than 1000000000 are allowed", what, nanoseconds));
+      refuse(say("{} has {} nanoseconds; less than 1000000000 are allowed", what, nanoseconds));
     }
     return seconds * 1'000'000'000 + nanoseconds;
   }
@@ -71,7 +72,7 @@ class MessageCursor {
   void read_encapsulation() {
     const ByteView head = cursor_.bytes(4, "head of a CDR message");
     const auto kind = std::to_integer<unsigned>(head.data[0]) << 8U | std::to_integer<unsigned>(head.data[1]);
-    if (kind > 1) cursor_.refuse(fmt::format("CDR of kind {:04x}; 0000 and 0001 are read", kind));
+    if (kind > 1) cursor_.refuse(say("CDR of kind {:04x}; 0000 and 0001 are read", kind));
     is_big_endian_ = kind == 0;
     cursor_.set_big_endian(is_big_endian_);
     start_ = cursor_.position();

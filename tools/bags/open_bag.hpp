@@ -19,7 +19,7 @@ enum class BagKind { kRos1, kMcap, kSqlite };
 // "ROS 1 bag"
 std::string_view bag_kind_name(BagKind kind);
 
-// By content; a file too short to tell, by its ending.
+// By content; by its ending where that does not tell.
 std::optional<BagKind> recognise_bag(const std::filesystem::path& file);
 
 // Throws FrameError or std::runtime_error.

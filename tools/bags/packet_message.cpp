@@ -9,6 +9,7 @@
 #include <array>
 
 #include "bags/message_cursor.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -42,7 +43,7 @@ ByteView read_payload(MessageCursor& message, const PacketType& type) {
   if (type.form == PayloadForm::kFixed) return payload;
   const auto size = message.number<std::uint32_t>("size of a packet");
   if (size > payload.size) {
-    message.refuse(fmt::format("a packet of {} bytes; at most {} are allowed", size, payload.size));
+    message.refuse(say("a packet of {} bytes; at most {} are allowed", size, payload.size));
   }
   payload.size = size;
   return payload;
@@ -57,7 +58,7 @@ bool is_packet_type(std::string_view type) {
 DecodedPackets decode_packets(std::string_view type, MessageEncoding encoding, ByteView message_bytes,
                               const Place& place) {
   const PacketType* const found = find_packet_type(type);
-  if (found == nullptr) throw FrameError(fmt::format("messages of type {} hold no packets", type));
+  if (found == nullptr) throw FrameError(say("messages of type {} hold no packets", type));
   MessageCursor message(encoding, message_bytes, place);
   const MessageHeader header = read_header(message);
   DecodedPackets decoded;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bags/message_cursor.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -36,7 +37,7 @@ void read_fields(MessageCursor& message, CloudHead& head) {
     const auto type = message.number<std::uint8_t>("type of a field");
     const auto elements = message.number<std::uint32_t>("count of a field");
     if (type < 1 || type > kTypeMax) {
-      message.refuse(fmt::format("field '{}' is of type {}; 1 to {} are allowed", name, type, kTypeMax));
+      message.refuse(say("field '{}' is of type {}; 1 to {} are allowed", name, type, kTypeMax));
     }
     head.layout.fields.push_back({name, {offset, type}});
     head.field_ends.push_back(offset + std::uint64_t{bytes_of_type(type)} * std::max<std::uint32_t>(elements, 1));
@@ -46,8 +47,8 @@ void read_fields(MessageCursor& message, CloudHead& head) {
 void check_fields(const MessageCursor& message, const CloudHead& head) {
   for (std::size_t i = 0; i < head.field_ends.size(); ++i) {
     if (head.field_ends[i] > head.point_step) {
-      message.refuse(fmt::format("field '{}' ends at byte {} of points of {} bytes", head.layout.fields[i].name,
-                                 head.field_ends[i], head.point_step));
+      message.refuse(say("field '{}' ends at byte {} of points of {} bytes", head.layout.fields[i].name,
+                         head.field_ends[i], head.point_step));
     }
   }
 }
@@ -57,8 +58,8 @@ std::uint64_t bytes_needed(const MessageCursor& message, const CloudHead& head) 
   const std::uint64_t row = std::uint64_t{head.width} * head.point_step;
   if (head.height == 0 || row == 0) return 0;
   if (head.height > 1 && head.row_step < row) {
-    message.refuse(fmt::format("rows of {} points of {} bytes do not fit the row step of {} bytes", head.width,
-                               head.point_step, head.row_step));
+    message.refuse(say("rows of {} points of {} bytes do not fit the row step of {} bytes", head.width, head.point_step,
+                       head.row_step));
   }
   return std::uint64_t{head.height - 1} * head.row_step + row;
 }
@@ -66,12 +67,12 @@ std::uint64_t bytes_needed(const MessageCursor& message, const CloudHead& head) 
 Frame frame_of(const MessageCursor& message, CloudHead& head, ByteView data) {
   const std::uint64_t points = std::uint64_t{head.width} * head.height;
   if (points > std::numeric_limits<std::uint32_t>::max()) {
-    message.refuse(fmt::format("{} points; at most {} are allowed", points, std::numeric_limits<std::uint32_t>::max()));
+    message.refuse(say("{} points; at most {} are allowed", points, std::numeric_limits<std::uint32_t>::max()));
   }
   const std::uint64_t needed = bytes_needed(message, head);
   if (needed > data.size || (points > 0 && head.point_step == 0)) {
-    message.refuse(fmt::format("{} x {} points of {} bytes, rows of {} bytes, need {} bytes, but data has {}",
-                               head.height, head.width, head.point_step, head.row_step, needed, data.size));
+    message.refuse(say("{} x {} points of {} bytes, rows of {} bytes, need {} bytes, but data has {}", head.height,
+                       head.width, head.point_step, head.row_step, needed, data.size));
   }
   head.layout.point_step = head.point_step;
   head.layout.count = static_cast<std::uint32_t>(points);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bags/decompress.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -36,7 +37,7 @@ void RecordReader::leave_chunk() {
 void RecordReader::require_whole(const BagRecord& record, std::string_view what) {
   if (record.missing == 0) return;
   throw FrameError(
-      fmt::format("offset {}: the file is cut: {} bytes of this {} are missing", record.offset, record.missing, what));
+      say("offset {}: the file is cut: {} bytes of this {} are missing", record.offset, record.missing, what));
 }
 
 void RecordReader::enter_chunk(const BagRecord& record, std::string_view compression, std::uint64_t size) {
@@ -46,25 +47,25 @@ void RecordReader::enter_chunk(const BagRecord& record, std::string_view compres
   const bool plain = compression.empty() || compression == "none";
   if (!plain) require_whole(record, "chunk");
   if (plain && stored.size + record.missing != size) {
-    record.data.refuse(fmt::format("the chunk announces {} bytes and stores {} without compression", size,
-                                   stored.size + record.missing));
+    record.data.refuse(
+        say("the chunk announces {} bytes and stores {} without compression", size, stored.size + record.missing));
   }
   if (plain) {
     chunk_content_ = stored;
     chunk_.emplace(stored, place);
     if (record.missing > 0) {
       torn_chunk_ =
-          fmt::format("offset {}: the file is cut: {} bytes of this chunk are missing", record.offset, record.missing);
+          say("offset {}: the file is cut: {} bytes of this chunk are missing", record.offset, record.missing);
     }
     return;
   }
   try {
     decompressed_ = decompress(compression, stored, size);
   } catch (const FrameError& fault) {
-    throw FrameError(fmt::format("offset {}: chunk: {}", record.offset, fault.what()));
+    throw FrameError(say("offset {}: chunk: {}", record.offset, fault.what()));
   }
   chunk_content_ = {decompressed_.data(), decompressed_.size()};
-  chunk_.emplace(chunk_content_, Place{0, fmt::format("chunk at offset {}", record.offset)});
+  chunk_.emplace(chunk_content_, Place{0, say("chunk at offset {}", record.offset)});
 }
 
 std::optional<BagMessage> RecordReader::next_record() {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -30,7 +32,7 @@ std::map<std::string_view, ByteCursor> fields_of(ByteCursor header) {
     const Place place = header.place_at(header.position() + length_bytes);
     const ByteView entry = header.counted_bytes("field of a record's header");
     const std::size_t equals = text_of(entry).find('=');
-    if (equals == std::string_view::npos) header.refuse("a field of a record's header has no '='");
+    if (equals == std::string_view::npos) header.refuse(tr("a field of a record's header has no '='"));
     const Place value{place.offset + equals + 1, place.inside};
     fields.insert_or_assign(text_of(entry).substr(0, equals),
                             ByteCursor({entry.data + equals + 1, entry.size - equals - 1}, value));
@@ -40,7 +42,7 @@ std::map<std::string_view, ByteCursor> fields_of(ByteCursor header) {
 
 ByteCursor& required(std::map<std::string_view, ByteCursor>& fields, std::string_view name, const ByteCursor& header) {
   const auto field = fields.find(name);
-  if (field == fields.end()) header.refuse(fmt::format("the record's header has no field '{}'", name));
+  if (field == fields.end()) header.refuse(say("the record's header has no field '{}'", name));
   return field->second;
 }
 
@@ -60,8 +62,8 @@ std::string text_field(std::map<std::string_view, ByteCursor>& fields, std::stri
 void Ros1Bag::start(ByteCursor& cursor) {
   const std::string_view found = text_of(cursor.bytes(std::min(cursor.left(), kRosbagMagic.size()), "magic"));
   if (found != kRosbagMagic) {
-    throw FrameError(fmt::format("offset 0: a ROS bag of version 2.0 begins with '#ROSBAG V2.0', this file with '{}'",
-                                 found.substr(0, found.find('\n'))));
+    throw FrameError(say("offset 0: a ROS bag of version 2.0 begins with '#ROSBAG V2.0', this file with '{}'",
+                         found.substr(0, found.find('\n'))));
   }
   header_seen_ = false;
   connections_indexed_ = 0;
@@ -73,7 +75,7 @@ BagRecord Ros1Bag::cut_record(ByteCursor& cursor) const {
   record.offset = cursor.place_at(cursor.position()).offset;
   const auto header_bytes = cursor.number<std::uint32_t>("length of a record's header");
   // Zeros behind a power cut: one fault, and not one for every eight bytes of them.
-  if (header_bytes == 0) cursor.refuse("a record without a header: what follows is no record");
+  if (header_bytes == 0) cursor.refuse(tr("a record without a header: what follows is no record"));
   const Place header_place = cursor.place_at(cursor.position());
   record.header = ByteCursor(cursor.bytes(header_bytes, "a record's header"), header_place);
   const auto data_bytes = cursor.number<std::uint32_t>("length of a record's data");
@@ -88,13 +90,13 @@ std::optional<BagMessage> Ros1Bag::interpret(BagRecord& record, bool in_chunk) {
   Fields fields = fields_of(record.header);
   const auto op = required_number<std::uint8_t>(fields, "op", record.header);
   if (op != kChunk) require_whole(record, "record");
-  if (!header_seen_ && op != kBagHeader) record.header.refuse("the first record is no bag header");
+  if (!header_seen_ && op != kBagHeader) record.header.refuse(tr("the first record is no bag header"));
   switch (op) {
     case kBagHeader:
       note_bag_header(fields);
       break;
     case kChunk: {
-      if (in_chunk) record.header.refuse("a chunk within a chunk");
+      if (in_chunk) record.header.refuse(tr("a chunk within a chunk"));
       const std::string compression = text_field(fields, "compression", record.header);
       enter_chunk(record, compression, required_number<std::uint32_t>(fields, "size", record.header));
       break;
@@ -138,7 +140,7 @@ std::optional<BagMessage> Ros1Bag::message_of(const BagRecord& record, Fields& f
   const auto connection = required_number<std::uint32_t>(fields, "conn", record.header);
   const auto topic = topic_of_connection_.find(connection);
   if (topic == topic_of_connection_.end()) {
-    record.header.refuse(fmt::format("a message of connection {}, which no record before it describes", connection));
+    record.header.refuse(say("a message of connection {}, which no record before it describes", connection));
   }
   ByteCursor& time = required(fields, "time", record.header);
   const auto seconds = time.number<std::uint32_t>("time");
@@ -150,13 +152,13 @@ std::optional<BagMessage> Ros1Bag::message_of(const BagRecord& record, Fields& f
 }
 
 void Ros1Bag::finish(const ByteCursor& cursor) {
-  if (!header_seen_) cursor.refuse("the bag ends before its header");
-  if (index_offset_ == 0) cursor.refuse("the bag has no index: its recorder did not close it");
+  if (!header_seen_) cursor.refuse(tr("the bag ends before its header"));
+  if (index_offset_ == 0) cursor.refuse(tr("the bag has no index: its recorder did not close it"));
   if (connections_indexed_ < connections_announced_ || chunks_indexed_ < chunks_announced_) {
     cursor.refuse(
-        fmt::format("the file is cut: its header announces {} connections and {} chunks in the index, {} "
-                    "and {} are there",
-                    connections_announced_, chunks_announced_, connections_indexed_, chunks_indexed_));
+        say("the file is cut: its header announces {} connections and {} chunks in the index, {} "
+            "and {} are there",
+            connections_announced_, chunks_announced_, connections_indexed_, chunks_indexed_));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "frames/frame.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -33,7 +34,7 @@ struct Metadata {
 class MetadataParser {
  public:
   explicit MetadataParser(const std::string& text) {
-    if (yaml_parser_initialize(&parser_) == 0) throw FrameError("metadata.yaml: no memory");
+    if (yaml_parser_initialize(&parser_) == 0) throw FrameError(tr("metadata.yaml: no memory"));
     yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()), text.size());
   }
   MetadataParser(const MetadataParser&) = delete;
@@ -46,7 +47,8 @@ class MetadataParser {
     for (yaml_event_type_t type = next(word); type != YAML_STREAM_END_EVENT; type = next(word)) {
       if (type != YAML_SCALAR_EVENT) continue;
       if (word == "relative_file_paths") {
-        if (next(word) != YAML_SEQUENCE_START_EVENT) throw FrameError("metadata.yaml: relative_file_paths is no list");
+        if (next(word) != YAML_SEQUENCE_START_EVENT)
+          throw FrameError(tr("metadata.yaml: relative_file_paths is no list"));
         while (next(word) == YAML_SCALAR_EVENT) metadata.files.push_back(word);
       } else if (word == "compression_mode") {
         next(metadata.compression_mode);
@@ -88,11 +90,11 @@ std::vector<std::filesystem::path> rosbag2_files(const std::filesystem::path& fo
   const Metadata metadata = MetadataParser(metadata_of(folder)).parse();
   if (is_compressed(metadata.compression_mode)) {
     throw FrameError(
-        fmt::format("metadata.yaml: compression_mode {}: rosbag2's own compression is not read; convert "
-                    "it with `ros2 bag convert`, or record with the compression of MCAP",
-                    metadata.compression_mode));
+        say("metadata.yaml: compression_mode {}: rosbag2's own compression is not read; convert "
+            "it with `ros2 bag convert`, or record with the compression of MCAP",
+            metadata.compression_mode));
   }
-  if (metadata.files.empty()) throw FrameError("metadata.yaml: relative_file_paths names no file");
+  if (metadata.files.empty()) throw FrameError(tr("metadata.yaml: relative_file_paths names no file"));
   std::vector<std::filesystem::path> files;
   for (const std::string& name : metadata.files) {
     // Early versions wrote the folder's own name in front.

@@ -4,6 +4,7 @@
 #include "bags/sqlite_bag.hpp"
 
 #include "bags/decompress.hpp"
+#include "language/language.hpp"
 
 #if POSE_WALL_HAS_SQLITE
 #include <fmt/format.h>
@@ -121,17 +122,17 @@ void SqliteBag::read_topics() {
 }
 
 void SqliteBag::refuse_cut() const {
-  throw FrameError(fmt::format("offset {}: the file is cut: its head announces {} bytes", bytes_, announced_));
+  throw FrameError(say("offset {}: the file is cut: its head announces {} bytes", bytes_, announced_));
 }
 
 BagMessage SqliteBag::message_of_row() {
   BagMessage message;
   const std::int64_t id = sqlite3_column_int64(rows_.get(), 0);
   const auto topic = topic_of_id_.find(sqlite3_column_int64(rows_.get(), 1));
-  if (topic == topic_of_id_.end()) throw FrameError(fmt::format("message id {}: it is of no topic of the bag", id));
+  if (topic == topic_of_id_.end()) throw FrameError(say("message id {}: it is of no topic of the bag", id));
   message.topic = topic->second;
   message.recorded_ns = sqlite3_column_int64(rows_.get(), 2);
-  message.place.inside = fmt::format("message id {}", id);
+  message.place.inside = say("message id {}", id);
   message.data.data = static_cast<const std::byte*>(sqlite3_column_blob(rows_.get(), 3));
   message.data.size = static_cast<std::size_t>(sqlite3_column_bytes(rows_.get(), 3));
   if (sqlite3_errcode(database_.get()) == SQLITE_NOMEM) refuse(database_.get());

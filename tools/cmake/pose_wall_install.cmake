@@ -48,6 +48,9 @@ if(TARGET pose_wall_cli)
   install(TARGETS pose_wall_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-wall RENAME copyright
     COMPONENT command)
+  # Found by name: --config vlp16.
+  file(GLOB pose_wall_configs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/config/*.yaml)
+  install(FILES ${pose_wall_configs} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/pose_wall/config COMPONENT command)
   set(pose_wall_words ${PROJECT_BINARY_DIR}/tools/words)
   install(FILES ${pose_wall_words}/pose_wall.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
   install(FILES ${pose_wall_words}/pose_wall.bash RENAME pose_wall

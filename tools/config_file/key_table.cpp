@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -53,21 +55,21 @@ std::vector<std::string> config_key_names() {
 std::string allowed_text(const pose_wall_key_info& key) {
   switch (key.type) {
     case POSE_WALL_KEY_NUMBER:
-      return fmt::format("a number from {:g} to {:g}{}", key.minimum, key.maximum, with_unit(key));
+      return say("a number from {:g} to {:g}{}", key.minimum, key.maximum, with_unit(key));
     case POSE_WALL_KEY_INTEGER:
-      return fmt::format("a whole number from {:.0f} to {:.0f}{}", key.minimum, key.maximum, with_unit(key));
+      return say("a whole number from {:.0f} to {:.0f}{}", key.minimum, key.maximum, with_unit(key));
     case POSE_WALL_KEY_BOX:
-      return fmt::format("x_min x_max y_min y_max z_min z_max, each from {:g} to {:g}{} and min < max, or []",
-                         key.minimum, key.maximum, with_unit(key));
+      return say("x_min x_max y_min y_max z_min z_max, each from {:g} to {:g}{} and min < max, or []", key.minimum,
+                 key.maximum, with_unit(key));
     case POSE_WALL_KEY_CHOICE: {
       std::string choices = key.choices;
       for (std::size_t at = choices.find('|'); at != std::string::npos; at = choices.find('|', at)) {
         choices.replace(at, 1, ", ");
       }
-      return choices.find(',') != std::string::npos ? "one of " + choices : "only " + choices;
+      return choices.find(',') != std::string::npos ? say("one of {}", choices) : say("only {}", choices);
     }
     default:
-      return fmt::format("text of at most {} bytes", POSE_WALL_TEXT_MAX - 1);
+      return say("text of at most {} bytes", POSE_WALL_TEXT_MAX - 1);
   }
 }
 
@@ -90,7 +92,7 @@ std::string config_text(const pose_wall_config& config, const char* key) {
 std::string config_crc_text(const pose_wall_config& config) {
   std::uint32_t crc = 0;
   pose_wall_config_crc(&config, &crc);
-  return fmt::format("settings' CRC: 16#{:08X}", crc);
+  return say("settings' CRC: 16#{:08X}", crc);
 }
 
 std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key) {

@@ -12,8 +12,10 @@
 #include <string>
 #include <system_error>
 
+#include "config_file/config_place.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/yaml_entries.hpp"
+#include "language/language.hpp"
 #include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools {
@@ -24,7 +26,12 @@ constexpr std::size_t kFileBytesMax = 1024 * 1024;
 
 class ConfigLoader {
  public:
-  void apply_file(const std::string& file) {
+  void apply_file(const std::string& word) {
+    const ConfigPlace place = find_config(word);
+    if (!place.error.empty()) return fault(place.error);
+    loaded_.file = place.file;
+    loaded_.notes = place.note;
+    const std::string& file = place.file;
     std::map<std::string, std::size_t> lines;
     for (const YamlEntry& entry : entries_of(file)) {
       const std::string where = fmt::format("{}:{}", file, entry.line);
@@ -32,7 +39,7 @@ class ConfigLoader {
       if (is_new) {
         apply(where, entry.key, entry.value, entry.is_sequence);
       } else {
-        fault("{}: {}: set a second time; the first is at line {}", where, entry.key, first->second);
+        fault(say("{}: {}: set a second time; the first is at line {}", where, entry.key, first->second));
       }
     }
   }
@@ -40,7 +47,7 @@ class ConfigLoader {
   void apply_setting(const std::string& setting) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
-      fault("--set {}: KEY=VALUE is expected", setting);
+      fault(say("--set {}: KEY=VALUE is expected", setting));
       return;
     }
     apply("--set", setting.substr(0, equals), setting.substr(equals + 1), false);
@@ -48,15 +55,15 @@ class ConfigLoader {
 
   void check_rules() {
     if (loaded_.live.extrinsic_from == "tf" && loaded_.live.source == "udp") {
-      fault("extrinsic_from ({}): tf comes by ROS, so source ({}) must be ros1 or ros2",
-            loaded_.origin("extrinsic_from"), loaded_.origin("source"));
+      fault(say("extrinsic_from ({}): tf comes by ROS, so source ({}) must be ros1 or ros2",
+                loaded_.origin("extrinsic_from"), loaded_.origin("source")));
     }
     pose_wall_rule_fault broken{};
     if (!faults_.empty() || loaded_.config.check(&broken) == POSE_WALL_OK) return;
     std::string keys = fmt::format("{} ({})", broken.key, loaded_.origin(broken.key));
     const std::string other = broken.other_key;
-    if (!other.empty()) keys += fmt::format(" and {} ({})", other, loaded_.origin(other));
-    fault("{}: {}", keys, broken.rule);
+    if (!other.empty()) keys += say(" and {} ({})", other, loaded_.origin(other));
+    fault(fmt::format("{}: {}", keys, broken.rule));
   }
 
   LoadedConfig take() {
@@ -68,13 +75,13 @@ class ConfigLoader {
   std::vector<YamlEntry> entries_of(const std::string& file) {
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
-      fault("{}: Is a directory; a file is allowed", file);
+      fault(say("{}: this is a folder; a file is allowed", file));
       return {};
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-      fault("{}: cannot be opened for reading: {}{}", file, std::strerror(errno),
-            file == "-" ? "; standard input is /dev/stdin" : "");
+      fault(say("{}: cannot be opened for reading: {}{}", file, std::strerror(errno),
+                file == "-" ? tr("; standard input is /dev/stdin") : ""));
       return {};
     }
     // A pipe has no size: one byte more than is allowed tells.
@@ -82,13 +89,13 @@ class ConfigLoader {
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (text.size() > kFileBytesMax) {
-      fault("{}: a config file has at most {} bytes; this has more", file, kFileBytesMax);
+      fault(say("{}: a config file has at most {} bytes; this has more", file, kFileBytesMax));
       return {};
     }
     try {
       return parse_yaml_entries(text);
     } catch (const YamlError& problem) {
-      fault("{}:{}: {}", file, problem.line(), problem.what());
+      fault(fmt::format("{}:{}: {}", file, problem.line(), problem.what()));
       return {};
     }
   }
@@ -102,19 +109,19 @@ class ConfigLoader {
     }
     const std::optional<pose_wall_key_info> known = find_config_key(key);
     if (!known) {
-      fault("{}: unknown key '{}'{}", where, key, did_you_mean(key, all_key_names()));
+      fault(say("{}: unknown key '{}'{}", where, key, did_you_mean(key, all_key_names())));
       return;
     }
     if (is_sequence && known->type != POSE_WALL_KEY_BOX) {
-      fault("{}: {}: a list is not allowed here; allowed: {}", where, key, allowed_text(*known));
+      fault(say("{}: {}: a list is not allowed here; allowed: {}", where, key, allowed_text(*known)));
       return;
     }
     const std::int32_t status = loaded_.config.set(key.c_str(), value.c_str());
     if (status == POSE_WALL_OK) {
       loaded_.origins[key] = where;
     } else {
-      fault("{}: {}: '{}' is refused ({}); allowed: {}", where, key, value, pose_wall_status_text(status),
-            allowed_text(*known));
+      fault(say("{}: {}: '{}' is refused ({}); allowed: {}", where, key, value, pose_wall_status_text(status),
+                allowed_text(*known)));
       // A choice needs more than its words: z_axis is fixed, and its help says what to turn instead.
       if (known->type == POSE_WALL_KEY_CHOICE) faults_ += fmt::format(" ({})", known->help);
     }
@@ -125,8 +132,8 @@ class ConfigLoader {
     if (is_taken) {
       loaded_.origins[key.name] = where;
     } else {
-      fault("{}: {}: '{}' is refused; allowed: {}{}", where, key.name, value, allowed_text(key),
-            did_you_mean(value, choices_of(key)));
+      fault(say("{}: {}: '{}' is refused; allowed: {}{}", where, key.name, value, allowed_text(key),
+                did_you_mean(value, choices_of(key))));
     }
   }
 
@@ -137,10 +144,9 @@ class ConfigLoader {
     return names;
   }
 
-  template <typename... Values>
-  void fault(fmt::format_string<Values...> form, Values&&... values) {
+  void fault(const std::string& text) {
     if (!faults_.empty()) faults_ += '\n';
-    faults_ += fmt::format(form, std::forward<Values>(values)...);
+    faults_ += text;
   }
 
   LoadedConfig loaded_;

@@ -19,6 +19,8 @@ namespace pose_wall::tools {
 
 struct LoadedConfig {
   api::Config config;
+  std::string file;   // that was read; empty: none
+  std::string notes;  // what a person should know of the choice of the file; empty: nothing
   LiveSettings live;  // of pose_walld; the engine does not read them
   pose_wall_motion_settings motion = default_motion_settings();
   std::map<std::string, std::string> origins;  // keys that were set: "pose_wall.yaml:12" or "--set"
@@ -33,8 +35,8 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Defaults, then the file ("": none), then each KEY=VALUE in turn; then the rules over several keys. All faults are
-// collected before anything is thrown. Throws ConfigError.
+// Defaults, then the file or the config of that name (find_config; "": none), then each KEY=VALUE in turn; then the
+// rules over several keys. All faults are collected before anything is thrown. Throws ConfigError.
 LoadedConfig load_config(const std::string& file, const std::vector<std::string>& settings);
 
 }  // namespace pose_wall::tools

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 std::vector<std::string> choices_of(const OutsideKey& key) {
   std::vector<std::string> words;
@@ -21,21 +23,21 @@ std::string allowed_text(const OutsideKey& key) {
   const std::string unit = key.unit == std::string("1") || *key.unit == '\0' ? "" : std::string(" ") + key.unit;
   switch (key.type) {
     case OutsideKey::Type::kText:
-      return "text";
+      return tr("text");
     case OutsideKey::Type::kChoice:
-      return fmt::format("one of {}", key.choices);
+      return say("one of {}", key.choices);
     case OutsideKey::Type::kNumber:
-      return fmt::format("a number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
+      return say("a number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
     case OutsideKey::Type::kInteger:
-      return fmt::format("a whole number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
+      return say("a whole number from {:.9g} to {:.9g}{}", key.minimum, key.maximum, unit);
     case OutsideKey::Type::kSwitch:
-      return "0 or 1";
+      return tr("0 or 1");
     case OutsideKey::Type::kHostPort:
-      return "HOST:PORT, as 127.0.0.1:8080, or nothing";
+      return tr("HOST:PORT, as 127.0.0.1:8080, or nothing");
     case OutsideKey::Type::kIpv4:
-      return "an IPv4 address, as 192.168.1.100";
+      return tr("an IPv4 address, as 192.168.1.100");
     case OutsideKey::Type::kIpv4OrNone:
-      return "an IPv4 address, as 192.168.1.201, or nothing";
+      return tr("an IPv4 address, as 192.168.1.201, or nothing");
   }
   return "";
 }

@@ -5,7 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+
 #include "angles.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -53,17 +58,38 @@ ResolvedFrames resolve_frames(const api::Config& config) {
 std::string resolved_frames_text(const ResolvedFrames& frames, const std::string& indent) {
   constexpr const char* kUnit = "({:+.0f}, {:+.0f}, {:+.0f})";
   constexpr const char* kPoint = "({:+.3f}, {:+.3f}, {:+.3f}) m";
-  constexpr const char* kAngles = "roll {:+.3f}, pitch {:+.3f}, yaw {:+.3f} deg";
+  const char* kAngles = tr("roll {:+.3f}, pitch {:+.3f}, yaw {:+.3f} deg");
   std::string text =
-      fmt::format("{}forward_axis {}: forward {}, left {}, up {} in base\n", indent, frames.forward_axis,
-                  triple(frames.forward_base, kUnit), triple(frames.left_base, kUnit), triple(frames.up_base, kUnit));
+      say("{}forward_axis {}: forward {}, left {}, up {} in base\n", indent, frames.forward_axis,
+          triple(frames.forward_base, kUnit), triple(frames.left_base, kUnit), triple(frames.up_base, kUnit));
   for (std::size_t i = 0; i < frames.sampling_points_base_m.size(); ++i) {
     const char* name = pose_wall_quantity_name(static_cast<std::uint32_t>(POSE_WALL_D_LF + i));
-    text += fmt::format("{}{} is measured from {} in base\n", indent, name,
-                        triple(frames.sampling_points_base_m[i], kPoint));
+    text += say("{}{} is measured from {} in base\n", indent, name, triple(frames.sampling_points_base_m[i], kPoint));
   }
-  text += fmt::format("{}sensor in base: at {}, {}\n", indent, triple(frames.extrinsic_position_m, kPoint),
-                      triple(frames.extrinsic_roll_pitch_yaw_deg, kAngles));
+  text += say("{}sensor in base: at {}, {}\n", indent, triple(frames.extrinsic_position_m, kPoint),
+              triple(frames.extrinsic_roll_pitch_yaw_deg, kAngles));
+  return text;
+}
+
+std::string signs_text(const ResolvedFrames& frames, const std::string& indent) {
+  struct Signs {
+    const char* axis;
+    std::uint32_t roll, pitch;  // pose_wall_sense of + ; the engine's own, pinned by a test
+  };
+  constexpr Signs kSigns[] = {{"+X", POSE_WALL_SENSE_RIGHT_DOWN, POSE_WALL_SENSE_NOSE_DOWN},
+                              {"-X", POSE_WALL_SENSE_LEFT_DOWN, POSE_WALL_SENSE_NOSE_UP},
+                              {"+Y", POSE_WALL_SENSE_NOSE_UP, POSE_WALL_SENSE_RIGHT_DOWN},
+                              {"-Y", POSE_WALL_SENSE_NOSE_DOWN, POSE_WALL_SENSE_LEFT_DOWN}};
+  const auto* signs = std::find_if(std::begin(kSigns), std::end(kSigns),
+                                   [&frames](const Signs& row) { return frames.forward_axis == row.axis; });
+  if (signs == std::end(kSigns)) return "";
+  std::string text = say("{}roll: + {}; pitch: + {}; yaw: + {}, in ROS yaw is + to the left\n", indent,
+                         tr(pose_wall_sense_name(signs->roll)), tr(pose_wall_sense_name(signs->pitch)),
+                         tr(pose_wall_sense_name(POSE_WALL_SENSE_TURNED_RIGHT)));
+  if (frames.forward_axis.back() == 'Y') {
+    text += say("{}roll and pitch turn about X and Y of base: with forward {} roll is the nose, pitch is the side\n",
+                indent, frames.forward_axis);
+  }
   return text;
 }
 

@@ -30,4 +30,8 @@ ResolvedFrames resolve_frames(const api::Config& config);
 // Several lines for a log or a page, each starting with `indent`.
 std::string resolved_frames_text(const ResolvedFrames& frames, const std::string& indent);
 
+// What positive angles mean under this forward_axis, and where that is another than ROS or a reader expects. Lines as
+// above.
+std::string signs_text(const ResolvedFrames& frames, const std::string& indent);
+
 }  // namespace pose_wall::tools

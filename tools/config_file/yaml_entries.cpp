@@ -8,6 +8,8 @@
 
 #include <cstring>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -30,7 +32,7 @@ class EventStream {
     yaml_event_delete(&event_);
     if (yaml_parser_parse(&parser_, &event_) == 0) {
       const char* problem = parser_.problem != nullptr ? parser_.problem : "cannot be read";
-      throw YamlError(parser_.problem_mark.line + 1, fmt::format("not YAML: {}", problem));
+      throw YamlError(parser_.problem_mark.line + 1, say("not YAML: {}", problem));
     }
     return event_.type;
   }
@@ -41,7 +43,7 @@ class EventStream {
     const auto& scalar = event_.data.scalar;
     std::string text(reinterpret_cast<const char*>(scalar.value), scalar.length);
     if (text.find('\0') != std::string::npos) {
-      throw YamlError(line(), "a zero byte is not allowed in a value");
+      throw YamlError(line(), tr("a zero byte is not allowed in a value"));
     }
     return text;
   }
@@ -55,7 +57,7 @@ std::string read_sequence(EventStream& events, const std::string& key) {
   std::string joined;
   for (yaml_event_type_t type = events.next(); type != YAML_SEQUENCE_END_EVENT; type = events.next()) {
     if (type != YAML_SCALAR_EVENT) {
-      throw YamlError(events.line(), key + ": a list of numbers is allowed here, nothing nested");
+      throw YamlError(events.line(), say("{}: a list of numbers is allowed here, nothing nested", key));
     }
     joined += (joined.empty() ? "" : " ") + events.scalar();
   }
@@ -75,9 +77,9 @@ YamlEntry read_entry(EventStream& events) {
       entry.value = read_sequence(events, entry.key);
       break;
     case YAML_ALIAS_EVENT:
-      throw YamlError(events.line(), entry.key + ": aliases (*name) are not supported");
+      throw YamlError(events.line(), say("{}: aliases (*name) are not supported", entry.key));
     default:
-      throw YamlError(events.line(), entry.key + ": one value is expected; keys are not nested");
+      throw YamlError(events.line(), say("{}: one value is expected; keys are not nested", entry.key));
   }
   return entry;
 }
@@ -91,17 +93,17 @@ std::vector<YamlEntry> parse_yaml_entries(const std::string& text) {
   if (events.next() == YAML_STREAM_END_EVENT) return entries;  // no document at all
   const yaml_event_type_t root = events.next();
   if (root != YAML_MAPPING_START_EVENT) {
-    throw YamlError(events.line(), "lines of the form 'key: value' are expected");
+    throw YamlError(events.line(), tr("lines of the form 'key: value' are expected"));
   }
   for (yaml_event_type_t type = events.next(); type != YAML_MAPPING_END_EVENT; type = events.next()) {
     if (type != YAML_SCALAR_EVENT) {
-      throw YamlError(events.line(), "a key is expected here");
+      throw YamlError(events.line(), tr("a key is expected here"));
     }
     entries.push_back(read_entry(events));
   }
   events.next();  // end of the document
   if (events.next() != YAML_STREAM_END_EVENT) {
-    throw YamlError(events.line(), "a second document; one is allowed");
+    throw YamlError(events.line(), tr("a second document; one is allowed"));
   }
   return entries;
 }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "frames/field_aliases.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -50,27 +51,37 @@ Plan make_plan(const std::vector<AsciiColumn>& columns) {
 template <typename Number>
 void append_number(Bytes& bytes, std::string_view word, std::size_t line) {
   const std::optional<Number> number = parse_number<Number>(word);
-  if (!number) throw FrameError(fmt::format("line {}: '{}' is not a number", line, word));
+  if (!number) throw FrameError(say("line {}: '{}' is not a number", line, word));
   std::array<std::byte, sizeof(Number)> raw;
   std::memcpy(raw.data(), &*number, sizeof(Number));
   bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
-void append_point(Bytes& bytes, const Plan& plan, std::string_view text, std::size_t line) {
+void append_point(Bytes& bytes, const Plan& plan, std::string_view text, std::size_t line, AsciiStyle style) {
+  const std::string_view separators = style == AsciiStyle::kText ? kTextSeparators : kBlankSigns;
   std::size_t words = 0;
   auto slot = plan.slots.begin();
-  for (std::string_view word = take_word(text); !word.empty(); word = take_word(text), ++words) {
+  for (std::string_view word = take_word(text, separators); !word.empty();
+       word = take_word(text, separators), ++words) {
     if (slot == plan.slots.end() || slot->word != words) continue;
     slot->is_double ? append_number<double>(bytes, word, line) : append_number<float>(bytes, word, line);
     ++slot;
   }
-  if (words != plan.words) throw FrameError(fmt::format("line {}: {} values, {} expected", line, words, plan.words));
+  if (words != plan.words) throw FrameError(say("line {}: {} values, {} expected", line, words, plan.words));
+}
+
+// Whether the line holds no point.
+bool is_passed_over(std::string_view line, AsciiStyle style) {
+  const std::size_t start = line.find_first_not_of(style == AsciiStyle::kText ? kTextSeparators : kBlankSigns);
+  if (start == std::string_view::npos) return true;
+  if (style != AsciiStyle::kText) return false;
+  return line[start] == '#' || line[start] == '%' || line.substr(start, 2) == "//";
 }
 
 }  // namespace
 
 Frame parse_ascii_points(TextCursor& cursor, const std::vector<AsciiColumn>& columns,
-                         std::optional<std::uint64_t> points) {
+                         std::optional<std::uint64_t> points, AsciiStyle style) {
   Plan plan = make_plan(columns);
   Bytes bytes;
   std::uint64_t count = 0;
@@ -78,10 +89,10 @@ Frame parse_ascii_points(TextCursor& cursor, const std::vector<AsciiColumn>& col
     const std::optional<std::string_view> line = cursor.next_line();
     if (!line && !points) break;
     if (!line) {
-      throw FrameError(fmt::format("the header declares {} points, but {} lines of points follow", *points, count));
+      throw FrameError(say("the header declares {} points, but {} lines of points follow", *points, count));
     }
-    if (line->find_first_not_of(" \t") == std::string_view::npos) continue;
-    append_point(bytes, plan, *line, cursor.line());
+    if (is_passed_over(*line, style)) continue;
+    append_point(bytes, plan, *line, cursor.line(), style);
     ++count;
   }
   plan.layout.count = static_cast<std::uint32_t>(count);

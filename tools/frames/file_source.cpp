@@ -10,10 +10,53 @@
 #include <set>
 #include <string>
 
+#include "frames/bare_layout_guess.hpp"
+#include "frames/file_content.hpp"
 #include "frames/frame_stamps.hpp"
-#include "frames/load_frame.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
+namespace {
+
+constexpr std::size_t kLookedAtMax = 8;  // files without a header
+
+}  // namespace
+
+FileSource::FileSource(std::vector<std::filesystem::path> files, std::optional<BareLayout> points)
+    : files_(std::move(files)), bare_{std::move(points), std::nullopt} {}
+
+void FileSource::append(const std::vector<std::filesystem::path>& files) {
+  files_.insert(files_.end(), files.begin(), files.end());
+}
+
+void FileSource::choose_layout() {
+  std::size_t looked_at = 0;
+  for (const std::filesystem::path& file : files_) {
+    if (looked_at == kLookedAtMax || !note_.empty()) return;
+    if (!bare_.given && !has_bare_ending(file)) continue;
+    const FileContent content = content_of(beginning_of(file));
+    if (bare_.given && content == FileContent::kText) uses_points_ = true;
+    if (content != FileContent::kUnknown) continue;
+    ++looked_at;
+    look_at_bare(file);
+  }
+}
+
+void FileSource::look_at_bare(const std::filesystem::path& file) {
+  if (bare_.given) {
+    uses_points_ = true;
+    note_ = say("{}: there is no header; read as {}, as --layout says", file.string(), bare_layout_words(*bare_.given));
+    return;
+  }
+  try {
+    const BareGuess guess = guess_bare_layout(read_frame_bytes(file));
+    if (!guess.is_clear) return;
+    bare_.of_others = guess.possible.front();
+    note_ = say("{}: there is no header; by its values read as {}. --layout says otherwise", file.string(),
+                bare_layout_words(*bare_.of_others));
+  } catch (const FrameError&) {  // its own frame says why
+  }
+}
 
 std::optional<SourcedFrame> FileSource::next() {
   if (next_ == files_.size()) return std::nullopt;
@@ -22,7 +65,7 @@ std::optional<SourcedFrame> FileSource::next() {
   sourced.name = file.string();
   sourced.stamp_ns = stamp_from_name(file);
   try {
-    sourced.frame = load_frame(file);
+    sourced.frame = load_frame(file, bare_);
     if (!sourced.stamp_ns) sourced.stamp_ns = sourced.frame->stamp_ns;
   } catch (const std::exception& error) {
     sourced.error = error.what();
@@ -33,7 +76,9 @@ std::optional<SourcedFrame> FileSource::next() {
 SourceAbout FileSource::about() const {
   std::set<std::string> endings;
   for (const std::filesystem::path& file : files_) endings.insert(file.extension().string());
-  return {fmt::format("frame files ({})", fmt::join(endings, " ")), {}, ""};
+  std::string kind = say("frame files ({})", fmt::format("{}", fmt::join(endings, " ")));
+  if (bare_.given || bare_.of_others) kind += ", " + bare_layout_words(bare_.given ? *bare_.given : *bare_.of_others);
+  return {std::move(kind), {}, ""};
 }
 
 }  // namespace pose_wall::tools

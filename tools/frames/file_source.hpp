@@ -6,22 +6,46 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "frames/bare_points.hpp"
 #include "frames/frame_source.hpp"
+#include "frames/load_frame.hpp"
 
 namespace pose_wall::tools {
 
 class FileSource : public FrameSource {
  public:
-  explicit FileSource(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
+  // `points`: how points without a header are read, where the user says.
+  explicit FileSource(std::vector<std::filesystem::path> files, std::optional<BareLayout> points = std::nullopt);
+
+  // More files behind those there are.
+  void append(const std::vector<std::filesystem::path>& files);
+
+  // Looks into files without a header until one shows its layout: the others that do not show theirs are read so, too.
+  // Once, before the first frame.
+  void choose_layout();
+
+  // How points without a header are read, for a person; empty where no file needs it.
+  const std::string& note() const { return note_; }
+
+  // Whether a file was seen that `points` goes for.
+  bool uses_points() const { return uses_points_; }
 
   std::optional<SourcedFrame> next() override;
   std::size_t frames() const override { return files_.size(); }
   SourceAbout about() const override;
 
  private:
+  void look_at_bare(const std::filesystem::path& file);
+
   std::vector<std::filesystem::path> files_;
+  BareChoice bare_;
+  std::string note_;
+  bool uses_points_ = false;
   std::size_t next_ = 0;
 };
 

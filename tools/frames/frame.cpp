@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "frames/field_aliases.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -21,7 +22,7 @@ const PointField* find_once(const std::vector<PointField>& fields, std::string_v
   const PointField* found = nullptr;
   for (const PointField& field : fields) {
     if (field.name != name) continue;
-    if (found != nullptr) throw FrameError(fmt::format("field '{}' appears twice", name));
+    if (found != nullptr) throw FrameError(say("field '{}' appears twice", name));
     found = &field;
   }
   return found;
@@ -32,9 +33,9 @@ const PointField* find_once(const std::vector<PointField>& fields, std::string_v
     return other.size() == 1 && std::tolower(static_cast<unsigned char>(other.front())) == name.front();
   };
   const bool has_capital = std::any_of(present.begin(), present.end(), is_capital);
-  throw FrameError(fmt::format("field '{}' is missing; fields present: {}{}", name,
-                               present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", ")),
-                               has_capital ? " (x, y and z are written small)" : ""));
+  throw FrameError(say("field '{}' is missing; fields present: {}{}", name,
+                       present.empty() ? tr("none") : fmt::format("{}", fmt::join(present, ", ")),
+                       has_capital ? tr(" (x, y and z are written small)") : ""));
 }
 
 pose_wall_field required_coordinate(const std::vector<PointField>& fields, std::string_view name) {
@@ -45,7 +46,7 @@ pose_wall_field required_coordinate(const std::vector<PointField>& fields, std::
     tell_missing(name, names);
   }
   if (field->where.type != POSE_WALL_FIELD_FLOAT32 && field->where.type != POSE_WALL_FIELD_FLOAT64) {
-    throw FrameError(fmt::format("field '{}' must be a float of 4 or 8 bytes", name));
+    throw FrameError(say("field '{}' must be a float of 4 or 8 bytes", name));
   }
   return field->where;
 }
@@ -97,12 +98,11 @@ Frame describe_frame(Bytes bytes, const PointLayout& layout) {
 std::uint32_t count_points(std::uint64_t declared, std::uint64_t available, std::uint32_t point_step) {
   const std::uint64_t held = available / point_step;
   if (declared > held) {
-    throw FrameError(fmt::format("the header declares {} points of {} bytes, but the {} bytes that follow hold {}",
-                                 declared, point_step, available, held));
+    throw FrameError(say("the header declares {} points of {} bytes, but the {} bytes that follow hold {}", declared,
+                         point_step, available, held));
   }
   if (declared > std::numeric_limits<std::uint32_t>::max()) {
-    throw FrameError(
-        fmt::format("{} points; at most {} are allowed", declared, std::numeric_limits<std::uint32_t>::max()));
+    throw FrameError(say("{} points; at most {} are allowed", declared, std::numeric_limits<std::uint32_t>::max()));
   }
   return static_cast<std::uint32_t>(declared);
 }

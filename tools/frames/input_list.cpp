@@ -7,10 +7,15 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 
+#include "frames/file_content.hpp"
 #include "frames/load_frame.hpp"
+#include "frames/natural_order.hpp"
+#include "frames/text_points.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -22,20 +27,37 @@ constexpr std::array<std::string_view, 5> kRecordingEndings = {".pcap", ".pcapng
 
 // Whatever is called like a frame and is no folder: load_frame says of a link that leads nowhere what is wrong with it.
 std::vector<fs::path> frames_in(const fs::path& folder, std::error_code& error) {
-  std::vector<fs::path> files;
+  std::vector<fs::path> files, texts;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     std::error_code ignored;
-    if (has_frame_ending(entry.path()) && !entry.is_directory(ignored)) files.push_back(entry.path());
+    if (entry.is_directory(ignored)) continue;
+    if (has_frame_ending(entry.path())) files.push_back(entry.path());
+    if (has_text_ending(entry.path())) texts.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); });
+  if (files.empty()) {
+    std::copy_if(texts.begin(), texts.end(), std::back_inserter(files),
+                 [](const fs::path& file) { return begins_like_points(beginning_of(file)); });
+  }
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return natural_less(a.native(), b.native()); });
   return files;
+}
+
+// The first two names whose order is another than that of their bytes; empty where there are none.
+std::string order_note(const fs::path& folder, const std::vector<fs::path>& files) {
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    if (files[i - 1].native() < files[i].native()) continue;
+    return say("{}: read by the numbers in the names: {} before {}", folder.string(), files[i - 1].filename().string(),
+               files[i].filename().string());
+  }
+  return "";
 }
 
 // What is likely meant by a folder without frames: the folder of frames in it, as `sim` makes it, or a recording.
 std::string what_is_meant(const fs::path& folder) {
   std::error_code ignored;
   const fs::path inner = folder / "frames";
-  if (!frames_in(inner, ignored).empty()) return fmt::format("; did you mean '{}'?", inner.string());
+  if (!frames_in(inner, ignored).empty()) return say("; did you mean '{}'?", inner.string());
   std::vector<std::string> recordings;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const fs::path ending = entry.path().extension();
@@ -43,8 +65,7 @@ std::string what_is_meant(const fs::path& folder) {
     recordings.push_back(entry.path().string());
   }
   if (recordings.empty()) return "";
-  return fmt::format("; bags and captures are named themselves: {}",
-                     *std::min_element(recordings.begin(), recordings.end()));
+  return say("; bags and captures are named themselves: {}", *std::min_element(recordings.begin(), recordings.end()));
 }
 
 void add_folder(const fs::path& folder, FrameInputs& inputs) {
@@ -55,9 +76,11 @@ void add_folder(const fs::path& folder, FrameInputs& inputs) {
     return;
   }
   if (files.empty()) {
-    inputs.errors.push_back(fmt::format("{}: no frame in this folder; files ending in {} are looked for{}",
-                                        folder.string(), frame_endings_text(), what_is_meant(folder)));
+    inputs.errors.push_back(say("{}: no frame in this folder; files ending in {} are looked for{}", folder.string(),
+                                frame_endings_text(), what_is_meant(folder)));
   }
+  const std::string note = order_note(folder, files);
+  if (!note.empty()) inputs.notes.push_back(note);
   inputs.files.insert(inputs.files.end(), files.begin(), files.end());
 }
 

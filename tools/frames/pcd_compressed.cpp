@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -29,22 +31,20 @@ struct Packed {
 
 Packed find_packed(const Bytes& bytes, const PcdHeader& header) {
   const std::uint64_t available = bytes.size() - header.data_offset;
-  if (available < 8)
-    throw FrameError(fmt::format("compressed points: {} bytes follow, 8 bytes of sizes expected", available));
+  if (available < 8) throw FrameError(say("compressed points: {} bytes follow, 8 bytes of sizes expected", available));
   const std::byte* start = bytes.data() + header.data_offset;
   const Packed packed{start + 8, little_endian_uint32(start), little_endian_uint32(start + 4)};
   if (packed.bytes > available - 8) {
-    throw FrameError(
-        fmt::format("compressed points: {} bytes announced, {} bytes follow", packed.bytes, available - 8));
+    throw FrameError(say("compressed points: {} bytes announced, {} bytes follow", packed.bytes, available - 8));
   }
   const std::uint64_t declared = points_or_held(header, packed.unpacked_bytes) * header.point_step;
   if (packed.unpacked_bytes != declared) {
-    throw FrameError(fmt::format("compressed points: {} points of {} bytes are {} bytes, but the packed size says {}",
-                                 declared / header.point_step, header.point_step, declared, packed.unpacked_bytes));
+    throw FrameError(say("compressed points: {} points of {} bytes are {} bytes, but the packed size says {}",
+                         declared / header.point_step, header.point_step, declared, packed.unpacked_bytes));
   }
   if (packed.unpacked_bytes > kLzfGrowthMax * packed.bytes) {
     throw FrameError(
-        fmt::format("compressed points: {} packed bytes cannot hold {} bytes", packed.bytes, packed.unpacked_bytes));
+        say("compressed points: {} packed bytes cannot hold {} bytes", packed.bytes, packed.unpacked_bytes));
   }
   return packed;
 }
@@ -73,7 +73,7 @@ Bytes decompress_pcd_points(const Bytes& bytes, const PcdHeader& header) {
   const unsigned int written = lzf_decompress(packed.data, packed.bytes, columns.data(), packed.unpacked_bytes);
   if (written != packed.unpacked_bytes) {
     throw FrameError(
-        fmt::format("compressed points: damaged, {} of {} bytes could be unpacked", written, packed.unpacked_bytes));
+        say("compressed points: damaged, {} of {} bytes could be unpacked", written, packed.unpacked_bytes));
   }
   return interleave(columns, header);
 }

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "frames/text_cursor.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -49,7 +50,7 @@ RawHeader read_entries(const Bytes& bytes) {
     if (name == "COLUMNS") name = "FIELDS";
     words.erase(words.begin());
     if (!raw.entries.emplace(name, words).second) {
-      throw FrameError(fmt::format("PCD header line {}: {} appears twice", cursor.line(), name));
+      throw FrameError(say("PCD header line {}: {} appears twice", cursor.line(), name));
     }
     if (name == "DATA") {
       raw.data_offset = cursor.offset();
@@ -57,9 +58,9 @@ RawHeader read_entries(const Bytes& bytes) {
       return raw;
     }
   }
-  if (bytes.empty()) throw FrameError("no PCD header: the file is empty");
+  if (bytes.empty()) throw FrameError(tr("no PCD header: the file is empty"));
   throw FrameError(
-      fmt::format("no PCD header: no DATA line within the first {} bytes", std::min(kHeaderBytesMax, bytes.size())));
+      say("no PCD header: no DATA line within the first {} bytes", std::min(kHeaderBytesMax, bytes.size())));
 }
 
 std::uint64_t whole_number(std::string_view entry, std::string_view word, std::uint64_t minimum,
@@ -67,21 +68,21 @@ std::uint64_t whole_number(std::string_view entry, std::string_view word, std::u
   const std::optional<std::uint64_t> number = parse_number<std::uint64_t>(word);
   if (!number || *number < minimum || *number > maximum) {
     throw FrameError(
-        fmt::format("PCD header: {} is '{}'; a whole number from {} to {} is allowed", entry, word, minimum, maximum));
+        say("PCD header: {} is '{}'; a whole number from {} to {} is allowed", entry, word, minimum, maximum));
   }
   return *number;
 }
 
 const Words& required_entry(const RawHeader& raw, std::string_view name) {
   const auto entry = raw.entries.find(name);
-  if (entry == raw.entries.end()) throw FrameError(fmt::format("PCD header: {} is missing", name));
+  if (entry == raw.entries.end()) throw FrameError(say("PCD header: {} is missing", name));
   return entry->second;
 }
 
 const Words& entry_per_field(const RawHeader& raw, std::string_view name, std::size_t fields) {
   const Words& words = required_entry(raw, name);
   if (words.size() != fields) {
-    throw FrameError(fmt::format("PCD header: {} has {} values for {} FIELDS", name, words.size(), fields));
+    throw FrameError(say("PCD header: {} has {} values for {} FIELDS", name, words.size(), fields));
   }
   return words;
 }
@@ -92,7 +93,7 @@ void check_version(const RawHeader& raw) {
   for (const std::string_view known : {"0.7", ".7", "0.6", ".6", "0.5", ".5"}) {
     if (entry->second.front() == known) return;
   }
-  throw FrameError(fmt::format("PCD version '{}'; 0.5, 0.6 and 0.7 are read", entry->second.front()));
+  throw FrameError(say("PCD version '{}'; 0.5, 0.6 and 0.7 are read", entry->second.front()));
 }
 
 void check_type(const PcdField& field, std::string_view type) {
@@ -101,9 +102,9 @@ void check_type(const PcdField& field, std::string_view type) {
       (type == "I" || type == "U") && (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8);
   if (is_float || is_integer) return;
   throw FrameError(
-      fmt::format("PCD header: field '{}' has TYPE '{}' SIZE {}; F of 4 or 8, I and U of 1, 2, 4 or 8 bytes "
-                  "are allowed",
-                  field.name, type, field.size));
+      say("PCD header: field '{}' has TYPE '{}' SIZE {}; F of 4 or 8, I and U of 1, 2, 4 or 8 bytes "
+          "are allowed",
+          field.name, type, field.size));
 }
 
 std::vector<PcdField> parse_fields(const RawHeader& raw) {
@@ -126,11 +127,11 @@ std::vector<PcdField> parse_fields(const RawHeader& raw) {
     field.offset = static_cast<std::uint32_t>(offset);
     offset += std::uint64_t{field.size} * field.count;
     if (offset > kPointStepMax) {
-      throw FrameError(fmt::format("PCD header: a point of more than {} bytes", kPointStepMax));
+      throw FrameError(say("PCD header: a point of more than {} bytes", kPointStepMax));
     }
     fields.push_back(field);
   }
-  if (fields.empty()) throw FrameError("PCD header: FIELDS names no field");
+  if (fields.empty()) throw FrameError(tr("PCD header: FIELDS names no field"));
   return fields;
 }
 
@@ -152,7 +153,7 @@ PcdEncoding parse_encoding(const RawHeader& raw) {
   if (word == "ascii") return PcdEncoding::kAscii;
   if (word == "binary") return PcdEncoding::kBinary;
   if (word == "binary_compressed") return PcdEncoding::kBinaryCompressed;
-  throw FrameError(fmt::format("PCD header: DATA is '{}'; ascii, binary and binary_compressed are allowed", word));
+  throw FrameError(say("PCD header: DATA is '{}'; ascii, binary and binary_compressed are allowed", word));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "frames/pcd_ascii.hpp"
 #include "frames/pcd_compressed.hpp"
 #include "frames/pcd_header.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -48,7 +49,7 @@ Frame read_points(Bytes bytes, const PcdHeader& header) {
     case PcdEncoding::kBinaryCompressed:
       return read_compressed(bytes, header);
   }
-  throw FrameError("PCD header: unknown encoding");
+  throw FrameError(tr("PCD header: unknown encoding"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "frames/text_cursor.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -38,18 +39,18 @@ std::uint32_t parse_type(std::string_view word) {
                                                    {"float64", POSE_WALL_FIELD_FLOAT64}}};
   const auto known =
       std::find_if(kTypes.begin(), kTypes.end(), [word](const Name& name) { return name.first == word; });
-  if (known == kTypes.end()) throw FrameError(fmt::format("'{}' is no PLY type", word));
+  if (known == kTypes.end()) throw FrameError(say("'{}' is no PLY type", word));
   return known->second;
 }
 
 PlyEncoding parse_format(std::string_view rest) {
   const std::string_view word = take_word(rest);
   const std::string_view version = take_word(rest);
-  if (version != "1.0") throw FrameError(fmt::format("PLY version '{}'; 1.0 is read", version));
+  if (version != "1.0") throw FrameError(say("PLY version '{}'; 1.0 is read", version));
   if (word == "ascii") return PlyEncoding::kAscii;
   if (word == "binary_little_endian") return PlyEncoding::kBinaryLittleEndian;
   if (word == "binary_big_endian") return PlyEncoding::kBinaryBigEndian;
-  throw FrameError(fmt::format("format '{}'; ascii, binary_little_endian and binary_big_endian are allowed", word));
+  throw FrameError(say("format '{}'; ascii, binary_little_endian and binary_big_endian are allowed", word));
 }
 
 PlyElement parse_element(std::string_view rest) {
@@ -57,8 +58,7 @@ PlyElement parse_element(std::string_view rest) {
   element.name = take_word(rest);
   const std::string_view count = take_word(rest);
   const std::optional<std::uint64_t> number = parse_number<std::uint64_t>(count);
-  if (!number)
-    throw FrameError(fmt::format("element {} has the count '{}', a whole number is expected", element.name, count));
+  if (!number) throw FrameError(say("element {} has the count '{}', a whole number is expected", element.name, count));
   element.count = *number;
   return element;
 }
@@ -68,7 +68,7 @@ PlyProperty parse_property(std::string_view rest) {
   std::string_view type = take_word(rest);
   if (type == "list") {
     property.length_type = parse_type(take_word(rest));
-    if (property.length_type >= POSE_WALL_FIELD_FLOAT32) throw FrameError("a list's length must be a whole number");
+    if (property.length_type >= POSE_WALL_FIELD_FLOAT32) throw FrameError(tr("a list's length must be a whole number"));
     type = take_word(rest);
   }
   property.type = parse_type(type);
@@ -86,10 +86,10 @@ bool parse_line(std::string_view line, PlyHeader& header, bool& has_format) {
   } else if (keyword == "element") {
     header.elements.push_back(parse_element(line));
   } else if (keyword == "property") {
-    if (header.elements.empty()) throw FrameError("property before the first element");
+    if (header.elements.empty()) throw FrameError(tr("property before the first element"));
     header.elements.back().properties.push_back(parse_property(line));
   } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
-    throw FrameError(fmt::format("unknown keyword '{}'", keyword));
+    throw FrameError(say("unknown keyword '{}'", keyword));
   }
   return false;
 }
@@ -97,24 +97,23 @@ bool parse_line(std::string_view line, PlyHeader& header, bool& has_format) {
 }  // namespace
 
 PlyHeader parse_ply_header(const Bytes& bytes) {
-  if (bytes.empty()) throw FrameError("no PLY header: the file is empty");
+  if (bytes.empty()) throw FrameError(tr("no PLY header: the file is empty"));
   TextCursor cursor(as_text(bytes).substr(0, kHeaderBytesMax));
-  if (cursor.next_line() != std::string_view("ply")) throw FrameError("no PLY header: the first line is not 'ply'");
+  if (cursor.next_line() != std::string_view("ply")) throw FrameError(tr("no PLY header: the first line is not 'ply'"));
   PlyHeader header;
   bool has_format = false;
   while (const std::optional<std::string_view> line = cursor.next_line()) {
     try {
       if (!parse_line(*line, header, has_format)) continue;
     } catch (const FrameError& error) {
-      throw FrameError(fmt::format("PLY header line {}: {}", cursor.line(), error.what()));
+      throw FrameError(say("PLY header line {}: {}", cursor.line(), error.what()));
     }
-    if (!has_format) throw FrameError("PLY header: format is missing");
+    if (!has_format) throw FrameError(tr("PLY header: format is missing"));
     header.data_offset = cursor.offset();
     header.lines = cursor.line();
     return header;
   }
-  throw FrameError(
-      fmt::format("PLY header: no end_header within the first {} bytes", std::min(kHeaderBytesMax, bytes.size())));
+  throw FrameError(say("PLY header: no end_header within the first {} bytes", std::min(kHeaderBytesMax, bytes.size())));
 }
 
 std::uint32_t field_bytes(std::uint32_t type) {

@@ -13,6 +13,7 @@
 #include "frames/ascii_points.hpp"
 #include "frames/ply_header.hpp"
 #include "frames/text_cursor.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -20,11 +21,11 @@ namespace {
 std::size_t vertex_index(const PlyHeader& header) {
   const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
                                    [](const PlyElement& element) { return element.name == "vertex"; });
-  if (vertex == header.elements.end()) throw FrameError("PLY: there is no element vertex");
+  if (vertex == header.elements.end()) throw FrameError(tr("PLY: there is no element vertex"));
   for (const PlyProperty& property : vertex->properties) {
     if (property.is_list()) {
-      throw FrameError(fmt::format("PLY: property '{}' of element vertex is a list; only single values are read there",
-                                   property.name));
+      throw FrameError(
+          say("PLY: property '{}' of element vertex is a list; only single values are read there", property.name));
     }
   }
   return static_cast<std::size_t>(vertex - header.elements.begin());
@@ -51,7 +52,7 @@ class BinaryWalk {
 
  private:
   void advance(std::uint64_t step) {
-    if (step > bytes_.size() - offset_) throw FrameError("PLY: the file ends before element vertex");
+    if (step > bytes_.size() - offset_) throw FrameError(tr("PLY: the file ends before element vertex"));
     offset_ += static_cast<std::size_t>(step);
   }
 
@@ -82,7 +83,7 @@ Frame read_binary(Bytes bytes, const PlyHeader& header, std::size_t vertex) {
     layout.fields.push_back({property.name, {layout.point_step, property.type}});
     layout.point_step += field_bytes(property.type);
   }
-  if (layout.point_step == 0) throw FrameError("PLY: element vertex has no properties");
+  if (layout.point_step == 0) throw FrameError(tr("PLY: element vertex has no properties"));
   layout.count = count_points(header.elements[vertex].count, bytes.size() - layout.data_offset, layout.point_step);
   return describe_frame(std::move(bytes), layout);
 }
@@ -91,7 +92,7 @@ Frame read_ascii(const Bytes& bytes, const PlyHeader& header, std::size_t vertex
   TextCursor cursor(as_text(bytes), header.data_offset, header.lines);
   for (std::size_t i = 0; i < vertex; ++i) {
     for (std::uint64_t k = 0; k < header.elements[i].count; ++k) {
-      if (!cursor.next_line()) throw FrameError("PLY: the file ends before element vertex");
+      if (!cursor.next_line()) throw FrameError(tr("PLY: the file ends before element vertex"));
     }
   }
   std::vector<AsciiColumn> columns;

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <optional>
@@ -45,11 +46,13 @@ class TextCursor {
   std::size_t line_;
 };
 
-// Takes the first word (separated by spaces or tabs) off `line`; empty when none is left.
-inline std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view kBlank = " \t";
-  const std::size_t start = std::min(line.find_first_not_of(kBlank), line.size());
-  const std::size_t end = std::min(line.find_first_of(kBlank, start), line.size());
+constexpr std::string_view kBlankSigns = " \t";
+constexpr std::string_view kTextSeparators = " \t,;";  // of plain text points
+
+// Takes the first word off `line`; empty when none is left.
+inline std::string_view take_word(std::string_view& line, std::string_view separators = kBlankSigns) {
+  const std::size_t start = std::min(line.find_first_not_of(separators), line.size());
+  const std::size_t end = std::min(line.find_first_of(separators, start), line.size());
   const std::string_view word = line.substr(start, end - start);
   line.remove_prefix(end);
   return word;

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -32,7 +34,7 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
   if (written) std::filesystem::rename(part, file, error);
   if (written && !error) return;
   std::filesystem::remove(part, ignored);
-  throw std::runtime_error(fmt::format("{}: cannot be written{}", file.string(), error ? ": " + error.message() : ""));
+  throw std::runtime_error(say("{}: cannot be written{}", file.string(), error ? ": " + error.message() : ""));
 }
 
 }  // namespace pose_wall::tools

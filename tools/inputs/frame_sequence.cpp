@@ -5,31 +5,58 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "bags/bag_source.hpp"
 #include "bags/rosbag2_folder.hpp"
-#include "frames/file_source.hpp"
 #include "frames/input_list.hpp"
+#include "frames/length_unit.hpp"
+#include "language/language.hpp"
 #include "packets/bag_packets.hpp"
 #include "packets/packet_source.hpp"
 
 namespace pose_wall::tools {
 
-FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const InputOptions& options) {
+FrameSequence::FrameSequence(const std::vector<std::string>& arguments, const InputOptions& options)
+    : metres_per_unit_(metres_of(options.unit)) {
+  if (!options.layout.empty()) {
+    points_ = parse_bare_layout(options.layout);
+    if (!points_) throw std::invalid_argument(fmt::format("--layout {}: {}", options.layout, bare_layout_rule()));
+  }
   for (const std::string& argument : arguments) add(argument, options);
-  if (options.of_others || !errors_.empty()) return;
+  choose_layouts();
+  if (!options.of_others && errors_.empty()) expect_use(options);
+}
+
+void FrameSequence::expect_use(const InputOptions& options) const {
   if (!options.topic.empty() && !bag_seen_) {
-    throw std::invalid_argument(fmt::format("--topic {}: no input is a bag", options.topic));
+    throw std::invalid_argument(say("--topic {}: no input is a bag", options.topic));
   }
   if (!options.packets.metadata.empty() && !packets_seen_) {
-    throw std::invalid_argument(
-        fmt::format("--metadata {}: no input is a capture of packets", options.packets.metadata));
+    throw std::invalid_argument(say("--metadata {}: no input is a capture of packets", options.packets.metadata));
   }
   if (!options.packets.sensor.empty() && !packets_seen_) {
-    throw std::invalid_argument(fmt::format("--sensor {}: no input is a capture of packets", options.packets.sensor));
+    throw std::invalid_argument(say("--sensor {}: no input is a capture of packets", options.packets.sensor));
+  }
+  const auto uses_points = [](const FileSource* source) { return source->uses_points(); };
+  if (points_ && std::none_of(file_sources_.begin(), file_sources_.end(), uses_points)) {
+    throw std::invalid_argument(say("--layout {}: every input has a header that says how it is read", options.layout));
+  }
+  if (metres_per_unit_ != 1.0 && packets_seen_) {
+    throw std::invalid_argument(
+        say("--unit {}: packets tell their unit themselves; of frame files and clouds in bags it can be said",
+            options.unit));
+  }
+}
+
+void FrameSequence::choose_layouts() {
+  for (FileSource* source : file_sources_) {
+    source->choose_layout();
+    if (!source->note().empty()) notes_.push_back(source->note());
   }
 }
 
@@ -40,6 +67,7 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
       sources_.push_back(open_packet_capture(argument, options.packets));
       files_.emplace_back(argument);
       packets_seen_ = true;
+      open_files_ = nullptr;
       return;
     }
     if (recognise_bag(argument)) return add_bag(argument, {argument}, options);
@@ -48,15 +76,28 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
     errors_.push_back(what.rfind(argument, 0) == 0 ? what : fmt::format("{}: {}", argument, what));
     return;
   }
+  add_files(argument);
+}
+
+// Files that are named one after the other are one recording, as a folder is.
+void FrameSequence::add_files(const std::string& argument) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(argument, ignored);
   FrameInputs inputs = collect_inputs({argument});
   files_.insert(files_.end(), inputs.files.begin(), inputs.files.end());
   errors_.insert(errors_.end(), inputs.errors.begin(), inputs.errors.end());
-  sources_.push_back(std::make_unique<FileSource>(std::move(inputs.files)));
+  notes_.insert(notes_.end(), inputs.notes.begin(), inputs.notes.end());
+  if (!is_folder && open_files_ != nullptr) return open_files_->append(inputs.files);
+  auto source = std::make_unique<FileSource>(std::move(inputs.files), points_);
+  file_sources_.push_back(source.get());
+  open_files_ = is_folder ? nullptr : source.get();
+  sources_.push_back(std::move(source));
 }
 
 void FrameSequence::add_bag(const std::string& argument, const std::vector<std::filesystem::path>& files,
                             const InputOptions& options) {
   files_.insert(files_.end(), files.begin(), files.end());
+  open_files_ = nullptr;
   auto bag = std::make_unique<Bag>(files);
   try {
     const bool fullest = options.fullest_topic && options.topic.empty();
@@ -79,6 +120,7 @@ std::optional<SourcedFrame> FrameSequence::next() {
     const Clock::time_point start = Clock::now();
     if (std::optional<SourcedFrame> sourced = sources_[current_]->next()) {
       if (sourced->frame) {
+        if (metres_per_unit_ != 1.0) scale_points(&*sourced->frame, metres_per_unit_);
         sourced->load_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
       }
       return sourced;

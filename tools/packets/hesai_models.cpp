@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "csv/csv_table.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -160,7 +161,7 @@ std::string unread_hesai(ByteView payload) {
   // Pandar64 and Pandar20 have a shorter head.
   const bool is_short = byte_at(payload, 2) == 64 || byte_at(payload, 2) == 20;
   const std::size_t lasers = is_short ? 2 : 6;
-  return fmt::format("a Hesai of {} lasers in {} blocks", byte_at(payload, lasers), byte_at(payload, lasers + 1));
+  return say("a Hesai of {} lasers in {} blocks", byte_at(payload, lasers), byte_at(payload, lasers + 1));
 }
 
 bool is_hesai_dual(const HesaiTraits& traits, ByteView payload) {
@@ -173,32 +174,31 @@ std::vector<HesaiLaser> parse_hesai_angles(const std::string& text, std::size_t 
   std::vector<bool> seen(lasers, false);
   try {
     const CsvTable table = CsvTable::parse(stream);
-    if (table.head().size() < 3) throw FrameError("the table of angles has no columns of laser, elevation and azimuth");
+    if (table.head().size() < 3)
+      throw FrameError(tr("the table of angles has no columns of laser, elevation and azimuth"));
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const double number = table.number(row, 0);
       if (!(number >= 1.0 && number <= static_cast<double>(lasers)) || number != std::floor(number)) {
-        throw FrameError(
-            fmt::format("the table of angles has a laser '{}'; 1 to {} are allowed", table.cell(row, 0), lasers));
+        throw FrameError(say("the table of angles has a laser '{}'; 1 to {} are allowed", table.cell(row, 0), lasers));
       }
       const auto laser = static_cast<std::size_t>(number) - 1;
-      if (seen[laser]) throw FrameError(fmt::format("the table of angles has laser {} twice", number));
+      if (seen[laser]) throw FrameError(say("the table of angles has laser {} twice", number));
       seen[laser] = true;
       angles[laser] = {table.number(row, 1), table.number(row, 2)};
       if (!(std::fabs(angles[laser].elevation_deg) <= kElevationMax_deg) ||
           !(std::fabs(angles[laser].azimuth_deg) <= kAzimuthMax_deg)) {
         throw FrameError(
-            fmt::format("the table of angles has elevation '{}' and azimuth '{}' for laser {}; -90 to 90 "
-                        "and -180 to 180 are allowed",
-                        table.cell(row, 1), table.cell(row, 2), number));
+            say("the table of angles has elevation '{}' and azimuth '{}' for laser {}; -90 to 90 "
+                "and -180 to 180 are allowed",
+                table.cell(row, 1), table.cell(row, 2), number));
       }
     }
   } catch (const CsvError& fault) {
-    throw FrameError(fmt::format("the table of angles: {}", fault.what()));
+    throw FrameError(say("the table of angles: {}", fault.what()));
   }
   const auto missing = std::find(seen.begin(), seen.end(), false);
   if (missing != seen.end()) {
-    throw FrameError(
-        fmt::format("the table of angles has no laser {}; {} are needed", missing - seen.begin() + 1, lasers));
+    throw FrameError(say("the table of angles has no laser {}; {} are needed", missing - seen.begin() + 1, lasers));
   }
   return angles;
 }

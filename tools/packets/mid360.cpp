@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -83,7 +84,7 @@ bool is_mid360_data(ByteView payload) {
 
 Mid360Assembler::Mid360Assembler(std::int64_t frame_ns) : frame_ns_(frame_ns) {
   if (frame_ns < 1'000'000 || frame_ns > 10'000'000'000) {
-    throw FrameError(fmt::format("frames of {} ns; 1 ms to 10 s are allowed", frame_ns));
+    throw FrameError(say("frames of {} ns; 1 ms to 10 s are allowed", frame_ns));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -61,7 +62,7 @@ OusterAssembler::Layout OusterAssembler::layout_of(OusterProfile profile) {
 OusterAssembler::OusterAssembler(OusterMetadata metadata)
     : metadata_(std::move(metadata)),
       layout_(layout_of(metadata_.profile)),
-      kind_(fmt::format("packets of an Ouster {}", metadata_.product)) {}
+      kind_(say("packets of an Ouster {}", metadata_.product)) {}
 
 std::size_t OusterAssembler::packet_bytes(std::uint32_t rings) const {
   const std::size_t column = layout_.column_head + rings * layout_.pixel + layout_.column_tail;

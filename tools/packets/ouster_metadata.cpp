@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frames/frame.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -29,14 +30,14 @@ const Json* find(const Json& page, const char* key) {
 
 const Json& need(const Json& page, const char* key) {
   const Json* found = find(page, key);
-  if (found == nullptr) throw FrameError(fmt::format("the metadata has no '{}'", key));
+  if (found == nullptr) throw FrameError(say("the metadata has no '{}'", key));
   return *found;
 }
 
 std::uint32_t count_of(const Json& format, const char* key, std::uint32_t max) {
   const Json& value = need(format, key);
   if (!value.is_number_integer() || value.get<std::int64_t>() < 1 || value.get<std::int64_t>() > max) {
-    throw FrameError(fmt::format("the metadata's '{}' is {}; 1 to {} is allowed", key, value.dump(), max));
+    throw FrameError(say("the metadata's '{}' is {}; 1 to {} is allowed", key, value.dump(), max));
   }
   return value.get<std::uint32_t>();
 }
@@ -44,7 +45,7 @@ std::uint32_t count_of(const Json& format, const char* key, std::uint32_t max) {
 std::vector<double> numbers_of(const Json& value, const char* key, std::size_t count) {
   const bool is_list = value.is_array() && value.size() == count &&
                        std::all_of(value.begin(), value.end(), [](const Json& item) { return item.is_number(); });
-  if (!is_list) throw FrameError(fmt::format("the metadata's '{}' is no list of {} numbers", key, count));
+  if (!is_list) throw FrameError(say("the metadata's '{}' is no list of {} numbers", key, count));
   return value.get<std::vector<double>>();
 }
 
@@ -56,9 +57,9 @@ OusterProfile profile_of(const Json& format) {
   if (name == "RNG19_RFL8_SIG16_NIR16_DUAL") return OusterProfile::kDual;
   if (name == "RNG15_RFL8_NIR8") return OusterProfile::kLowRate;
   throw FrameError(
-      fmt::format("udp_profile_lidar '{}' is not read; LEGACY, RNG19_RFL8_SIG16_NIR16, its _DUAL and "
-                  "RNG15_RFL8_NIR8 are",
-                  name));
+      say("udp_profile_lidar '{}' is not read; LEGACY, RNG19_RFL8_SIG16_NIR16, its _DUAL and "
+          "RNG15_RFL8_NIR8 are",
+          name));
 }
 
 void read_geometry(const Json& page, OusterMetadata& metadata) {
@@ -70,7 +71,7 @@ void read_geometry(const Json& page, OusterMetadata& metadata) {
     metadata.beam_origin_up_m = transform[11] * kMetresPerMm;
   } else {
     const Json& origin = need(page, "lidar_origin_to_beam_origin_mm");
-    if (!origin.is_number()) throw FrameError("the metadata's 'lidar_origin_to_beam_origin_mm' is no number");
+    if (!origin.is_number()) throw FrameError(tr("the metadata's 'lidar_origin_to_beam_origin_mm' is no number"));
     metadata.beam_origin_out_m = origin.get<double>() * kMetresPerMm;
   }
   const std::vector<double> transform =
@@ -83,10 +84,10 @@ void read_geometry(const Json& page, OusterMetadata& metadata) {
 
 OusterMetadata parse_ouster_metadata(const std::string& text) {
   const Json page = Json::parse(text, nullptr, false);
-  if (page.is_discarded() || !page.is_object()) throw FrameError("the metadata is no JSON object");
+  if (page.is_discarded() || !page.is_object()) throw FrameError(tr("the metadata is no JSON object"));
   const Json* grouped = find(page, "data_format");
   if (grouped == nullptr && page.contains("lidar_data_format")) grouped = &page["lidar_data_format"];
-  if (grouped == nullptr || !grouped->is_object()) throw FrameError("the metadata has no 'data_format'");
+  if (grouped == nullptr || !grouped->is_object()) throw FrameError(tr("the metadata has no 'data_format'"));
   OusterMetadata metadata;
   metadata.profile = profile_of(*grouped);
   metadata.rings = count_of(*grouped, "pixels_per_column", 128);

@@ -8,6 +8,8 @@
 #include <deque>
 #include <utility>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 
 // Scans of a recording one by one, the incomplete ones at its ends left out.
@@ -93,22 +95,22 @@ PacketFrames::~PacketFrames() = default;
 void PacketFrames::refuse_empty(const ScanWalk& survey, const SensorChoice& choice) const {
   std::string wanted;
   if (choice.kind != SensorKind::kAutomatic) {
-    wanted = fmt::format("of a {} ({})", known_sensor(choice.kind).title, known_sensor(choice.kind).name);
+    wanted = say("of a {} ({})", known_sensor(choice.kind).title, known_sensor(choice.kind).name);
   } else if (!choice.metadata.empty() && recording_.ouster_hint.empty()) {
-    wanted = "of an Ouster as its metadata says";
+    wanted = tr("of an Ouster as its metadata says");
   } else {
     for (const KnownSensor& sensor : known_sensors()) {
       if (sensor.kind == SensorKind::kAutomatic || sensor.needs_metadata) continue;
-      wanted += fmt::format("{}{}", wanted.empty() ? "of a " : ", ", sensor.title);
+      wanted += fmt::format("{}{}", wanted.empty() ? tr("of a ") : ", ", sensor.title);
     }
-    wanted += fmt::format(", nor of an Ouster: {}", recording_.ouster_hint);
+    wanted += say(", nor of an Ouster: {}", recording_.ouster_hint);
   }
   std::string there;
-  if (survey.other()) there = fmt::format("; there are packets of a {}", known_sensor(*survey.other()).title);
-  if (!survey.unread().empty()) there += fmt::format("; there is data of {}, which is not read", survey.unread());
+  if (survey.other()) there = say("; there are packets of a {}", known_sensor(*survey.other()).title);
+  if (!survey.unread().empty()) there += say("; there is data of {}, which is not read", survey.unread());
   const std::string hint = survey.assembler().hint();
   if (!hint.empty()) there += "; " + hint;
-  throw FrameError(fmt::format("no data packets {}{}", wanted, there));
+  throw FrameError(say("no data packets {}{}", wanted, there));
 }
 
 std::optional<SourcedFrame> PacketFrames::next() {

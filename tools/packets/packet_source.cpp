@@ -3,36 +3,20 @@
 
 #include "packets/packet_source.hpp"
 
-#include <array>
-#include <fstream>
 #include <string>
-#include <string_view>
 #include <utility>
 
+#include "frames/file_content.hpp"
 #include "packets/packet_frames.hpp"
 #include "packets/udp_capture.hpp"
 
 namespace pose_wall::tools {
-namespace {
-
-using namespace std::string_view_literals;
-
-constexpr std::array<std::string_view, 5> kMagics = {"\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\xC3\xD4"sv, "\x4D\x3C\xB2\xA1"sv,
-                                                     "\xA1\xB2\x3C\x4D"sv, "\x0A\x0D\x0D\x0A"sv};
-
-}  // namespace
-
 bool is_packet_capture(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return false;
-  std::ifstream stream(file, std::ios::binary);
-  std::array<char, 4> beginning{};
-  stream.read(beginning.data(), beginning.size());
-  const std::string_view found(beginning.data(), static_cast<std::size_t>(stream.gcount()));
-  for (const std::string_view magic : kMagics) {
-    if (found == magic) return true;
-  }
-  return file.extension() == ".pcap" || file.extension() == ".pcapng";
+  const FileContent content = content_of(beginning_of(file));
+  if (content == FileContent::kCapture) return true;
+  return ending_decides(content) && (file.extension() == ".pcap" || file.extension() == ".pcapng");
 }
 
 std::unique_ptr<FrameSource> open_packet_capture(const std::filesystem::path& file, const SensorOptions& options) {

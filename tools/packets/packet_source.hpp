@@ -13,7 +13,7 @@
 
 namespace pose_wall::tools {
 
-// By content, or by its ending where it is too short to tell.
+// By content; by its ending where that does not tell.
 bool is_packet_capture(const std::filesystem::path& file);
 
 // Where no metadata is named, that of an Ouster is the JSON file beside the capture that has its name. Goes through the

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <utility>
 
+#include "language/language.hpp"
 #include "packets/hesai.hpp"
 #include "packets/ouster.hpp"
 #include "packets/velodyne.hpp"
@@ -76,7 +77,7 @@ class AutomaticAssembler : public ScanAssembler {
   bool begin(ByteView payload) {
     const bool is_other = is_velodyne_data(payload) || is_mid360_data(payload);
     if (is_other && !choice_.metadata.empty()) {
-      throw FrameError("angles of a Hesai are given as metadata, but the packets are of a sensor that has none");
+      throw FrameError(tr("angles of a Hesai are given as metadata, but the packets are of a sensor that has none"));
     }
     if (is_velodyne_data(payload)) {
       inner_ = std::make_unique<VelodyneAssembler>();
@@ -107,27 +108,26 @@ void check_angles(const std::string& text) {
       why = fault.what();
     }
   }
-  throw FrameError(
-      fmt::format("it is neither a JSON object, as of an Ouster, nor a table of angles of a Hesai: {}", why));
+  throw FrameError(say("it is neither a JSON object, as of an Ouster, nor a table of angles of a Hesai: {}", why));
 }
 
 std::string read_metadata(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FrameError(fmt::format("metadata {}: cannot be opened for reading: {}", path, std::strerror(errno)));
+  if (!file) throw FrameError(say("metadata {}: cannot be opened for reading: {}", path, std::strerror(errno)));
   std::string text(kMetadataBytesMax + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMetadataBytesMax) {
-    throw FrameError(fmt::format("metadata {}: more than {} bytes; this is no metadata", path, kMetadataBytesMax));
+    throw FrameError(say("metadata {}: more than {} bytes; this is no metadata", path, kMetadataBytesMax));
   }
-  if (text.empty()) throw FrameError(fmt::format("metadata {}: the file is empty", path));
+  if (text.empty()) throw FrameError(say("metadata {}: the file is empty", path));
   return text;
 }
 
 void check_metadata(const SensorChoice& choice) {
   const KnownSensor& sensor = known_sensor(choice.kind);
   if (choice.metadata.empty() && sensor.needs_metadata) {
-    throw FrameError(fmt::format("packets of an {} are read with its metadata, which is missing", sensor.title));
+    throw FrameError(say("packets of an {} are read with its metadata, which is missing", sensor.title));
   }
   if (choice.metadata.empty()) return;
   if (choice.kind == SensorKind::kAutomatic) {
@@ -135,10 +135,10 @@ void check_metadata(const SensorChoice& choice) {
     return;
   }
   if (sensor.metadata == SensorMetadata::kNone) {
-    throw FrameError(fmt::format("metadata is given, but a {} ({}) has none", sensor.title, sensor.name));
+    throw FrameError(say("metadata is given, but a {} ({}) has none", sensor.title, sensor.name));
   }
   if (sensor.metadata == SensorMetadata::kHesaiAngles && is_ouster_metadata(choice.metadata)) {
-    throw FrameError(fmt::format("the metadata is JSON, as of an Ouster; a {} takes a table of angles", sensor.title));
+    throw FrameError(say("the metadata is JSON, as of an Ouster; a {} takes a table of angles", sensor.title));
   }
 }
 
@@ -187,8 +187,8 @@ SensorChoice choose_sensor(const SensorOptions& options) {
   if (!options.sensor.empty()) {
     const std::optional<SensorKind> kind = sensor_by_name(options.sensor);
     if (!kind) {
-      throw FrameError(fmt::format("sensor '{}' is not known{}; known are {}", options.sensor,
-                                   did_you_mean(options.sensor, sensor_names()), fmt::join(sensor_names(), ", ")));
+      throw FrameError(say("sensor '{}' is not known{}; known are {}", options.sensor,
+                           did_you_mean(options.sensor, sensor_names()), fmt::join(sensor_names(), ", ")));
     }
     choice.kind = *kind;
   }
@@ -197,7 +197,7 @@ SensorChoice choose_sensor(const SensorOptions& options) {
   try {
     make_assembler(choice);
   } catch (const FrameError& fault) {
-    throw FrameError(fmt::format("metadata {}: {}", options.metadata, fault.what()));
+    throw FrameError(say("metadata {}: {}", options.metadata, fault.what()));
   }
   return choice;
 }

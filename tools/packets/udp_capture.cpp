@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdio>
 
+#include "language/language.hpp"
 #include "packets/ip_packets.hpp"
 
 namespace pose_wall::tools {
@@ -36,9 +37,9 @@ LinkType link_type(int number) {
       break;
   }
   throw FrameError(
-      fmt::format("the capture's link layer is of type {}; Ethernet, Linux cooked, raw IP and loopback "
-                  "are read",
-                  number));
+      say("the capture's link layer is of type {}; Ethernet, Linux cooked, raw IP and loopback "
+          "are read",
+          number));
 }
 
 class PcapFile : public DatagramSource {
@@ -53,14 +54,13 @@ class PcapFile : public DatagramSource {
       const int status = pcap_next_ex(pcap_.get(), &header, &packet);
       if (status != 1) ended_ = true;
       if (status == PCAP_ERROR_BREAK) break;
-      if (status != 1)
-        throw FrameError(fmt::format("offset {}: the capture is cut: {}", offset, pcap_geterr(pcap_.get())));
+      if (status != 1) throw FrameError(say("offset {}: the capture is cut: {}", offset, pcap_geterr(pcap_.get())));
       // Opened with nanoseconds: tv_usec counts them.
       std::int64_t captured_ns = 0;
       if (__builtin_mul_overflow(std::int64_t{header->ts.tv_sec}, std::int64_t{1'000'000'000}, &captured_ns) ||
           __builtin_add_overflow(captured_ns, std::int64_t{header->ts.tv_usec}, &captured_ns)) {
         ended_ = true;
-        throw FrameError(fmt::format("offset {}: a time of {} s", offset, std::int64_t{header->ts.tv_sec}));
+        throw FrameError(say("offset {}: a time of {} s", offset, std::int64_t{header->ts.tv_sec}));
       }
       const ByteView bytes{reinterpret_cast<const std::byte*>(packet), header->caplen};
       if (std::optional<Datagram> datagram = packets_.add(bytes, captured_ns)) return datagram;

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <string>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -168,11 +170,11 @@ Clock clock_of(const std::vector<ByteView>& packets) {
 }
 
 std::string clock_says(const Clock& clock) {
-  return fmt::format("their clock ({} us a packet) says {}", clock.packet_us, clock.who());
+  return say("their clock ({} us a packet) says {}", clock.packet_us, clock.who());
 }
 
 std::string product_says(std::uint8_t product, const VelodyneTraits& traits) {
-  return fmt::format("their product byte (0x{:02x}) says {}", product, traits.title);
+  return say("their product byte (0x{:02x}) says {}", product, traits.title);
 }
 
 VelodyneModel with_stated(const VelodyneTraits& stated, std::uint8_t product, const Clock& clock) {
@@ -181,12 +183,12 @@ VelodyneModel with_stated(const VelodyneTraits& stated, std::uint8_t product, co
   // First Pucks say 0x21: then what was stated decides, if the clock says it too.
   const bool told_differs = told != nullptr && told != &stated && (clock.packet_us == 0 || clock.fits(*told));
   if (told_differs || clock_differs) {
-    throw FrameError(fmt::format("the sensor is said to be a {} ({}), but of its packets {}", stated.title, stated.word,
-                                 told_differs ? product_says(product, *told) : clock_says(clock)));
+    throw FrameError(say("the sensor is said to be a {} ({}), but of its packets {}", stated.title, stated.word,
+                         told_differs ? product_says(product, *told) : clock_says(clock)));
   }
   if (const char* const other = stranger(product)) {
-    throw FrameError(fmt::format("the sensor is said to be a {} ({}), but its packets are of a Velodyne {} (0x{:02x})",
-                                 stated.title, stated.word, other, product));
+    throw FrameError(say("the sensor is said to be a {} ({}), but its packets are of a Velodyne {} (0x{:02x})",
+                         stated.title, stated.word, other, product));
   }
   return stated.model;
 }
@@ -232,11 +234,11 @@ VelodyneModel identify_velodyne(const std::vector<ByteView>& packets, std::optio
   if (stated) return with_stated(velodyne_traits(*stated), product, clock);
   if (const VelodyneTraits* const told = model_of_product(product)) {
     if (clock.packet_us == 0 || clock.fits(*told)) return told->model;
-    throw FrameError(fmt::format("the packets contradict themselves: {}, {}; name the sensor that it is",
-                                 product_says(product, *told), clock_says(clock)));
+    throw FrameError(say("the packets contradict themselves: {}, {}; name the sensor that it is",
+                         product_says(product, *told), clock_says(clock)));
   }
   if (const char* const other = stranger(product)) {
-    throw FrameError(fmt::format("packets of a Velodyne {} (product byte 0x{:02x}) are not read", other, product));
+    throw FrameError(say("packets of a Velodyne {} (product byte 0x{:02x}) are not read", other, product));
   }
   std::vector<const VelodyneTraits*> fitting;
   for (const VelodyneTraits& traits : all_traits()) {
@@ -245,9 +247,9 @@ VelodyneModel identify_velodyne(const std::vector<ByteView>& packets, std::optio
   // A Puck Hi-Res came when packets had long named their sensor.
   if (!fitting.empty()) return fitting.front()->model;
   throw FrameError(
-      fmt::format("packets of a Velodyne, but neither their product byte (0x{:02x}) nor their clock tells which; name "
-                  "the sensor that it is",
-                  product));
+      say("packets of a Velodyne, but neither their product byte (0x{:02x}) nor their clock tells which; name "
+          "the sensor that it is",
+          product));
 }
 
 }  // namespace pose_wall::tools

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "config_file/load_config.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -33,7 +34,7 @@ double processor_millis() {
 FrameRunner::FrameRunner(const api::Config& config, double rate_hz, const pose_wall_motion_settings& motion)
     : stamps_(rate_hz) {
   const std::int32_t status = engine_.open(config, motion);
-  if (status != POSE_WALL_OK) throw ConfigError(std::string("the engine: ") + pose_wall_status_text(status));
+  if (status != POSE_WALL_OK) throw ConfigError(say("the engine: {}", pose_wall_status_text(status)));
   engine_.engine().set_clock(steady_ns);
 }
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <limits>
 
 #include "csv/csv_table.hpp"
 #include "quantities.hpp"
@@ -29,11 +31,13 @@ std::string millis(std::int64_t ns) {
 // The columns of the contract: what a controller and an evaluation need.
 void add_quantity(std::vector<Column>& columns, std::uint32_t q) {
   const std::string name = pose_wall_quantity_name(q);
-  columns.push_back({name, [q](const pose_wall_result& r) { return csv_number(r.quantity[q].value); }});
+  columns.push_back({name, [q](const pose_wall_result& r) { return csv_number(written_value(r.quantity[q]).value); }});
   columns.push_back({name + "_raw", [q](const pose_wall_result& r) { return csv_number(r.quantity[q].raw); }});
-  columns.push_back({name + "_sigma", [q](const pose_wall_result& r) { return csv_number(r.quantity[q].sigma); }});
   columns.push_back(
-      {name + "_pl", [q](const pose_wall_result& r) { return csv_number(r.quantity[q].protection_level); }});
+      {name + "_sigma", [q](const pose_wall_result& r) { return csv_number(written_value(r.quantity[q]).sigma); }});
+  columns.push_back({name + "_pl", [q](const pose_wall_result& r) {
+                       return csv_number(written_value(r.quantity[q]).protection_level);
+                     }});
   columns.push_back({name + "_state", [q](const pose_wall_result& r) {
                        return std::string(pose_wall_state_name(r.quantity[q].state));
                      }});
@@ -112,13 +116,15 @@ void add_level(std::vector<Column>& columns, std::uint32_t q) {
   columns.push_back({name + "_raw_state", [q](const pose_wall_result& r) {
                        return std::string(pose_wall_state_name(r.quantity[q].raw_state));
                      }});
-  columns.push_back({name + "_cause", [q](const pose_wall_result& r) { return cause_name(r.quantity[q]); }});
+  columns.push_back(
+      {name + "_cause", [q](const pose_wall_result& r) { return cause_name(written_value(r.quantity[q])); }});
 }
 
 void add_parts(std::vector<Column>& columns, std::uint32_t q) {
   for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) {
-    columns.push_back({fmt::format("{}_pl_{}", pose_wall_quantity_name(q), pose_wall_part_name(part)),
-                       [q, part](const pose_wall_result& r) { return csv_number(r.quantity[q].part[part]); }});
+    columns.push_back(
+        {fmt::format("{}_pl_{}", pose_wall_quantity_name(q), pose_wall_part_name(part)),
+         [q, part](const pose_wall_result& r) { return csv_number(written_value(r.quantity[q]).part[part]); }});
   }
 }
 
@@ -142,6 +148,16 @@ void add_cells(const FrameOutcome& outcome, const std::vector<Column>& columns, 
 }
 
 }  // namespace
+
+pose_wall_value written_value(const pose_wall_value& value) {
+  pose_wall_value written = value;
+  if (value.state != POSE_WALL_INVALID) return written;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  written.value = written.sigma = written.protection_level = kNone;
+  std::fill(std::begin(written.part), std::end(written.part), kNone);
+  written.cause = POSE_WALL_PARTS;
+  return written;
+}
 
 std::uint32_t worst_state(const pose_wall_result& result) {
   std::uint32_t worst = POSE_WALL_VALID;

@@ -33,6 +33,10 @@ enum class PartColumns { kNone, kAll };
 std::vector<std::string> result_head(PartColumns parts = PartColumns::kNone);
 std::vector<std::string> result_cells(const FrameOutcome& outcome, PartColumns parts = PartColumns::kNone);
 
+// The value as it is written: an invalid one has no value, sigma and level, for there is nothing to act on. Its raw
+// stays.
+pose_wall_value written_value(const pose_wall_value& value);
+
 // The lowest of the seven states.
 std::uint32_t worst_state(const pose_wall_result& result);
 

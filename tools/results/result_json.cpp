@@ -8,6 +8,7 @@
 
 #include "quantities.hpp"
 #include "results/json_words.hpp"
+#include "results/result_csv.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -17,7 +18,7 @@ Json text_or_null(const std::string& text) {
 }
 
 Json value_json(std::uint32_t quantity, const pose_wall_result& r) {
-  const pose_wall_value& v = r.quantity[quantity];
+  const pose_wall_value v = written_value(r.quantity[quantity]);
   const std::string unit = is_angle(quantity) ? "_rad" : "_m";
   return {{"value" + unit, v.value},
           {"raw" + unit, v.raw},

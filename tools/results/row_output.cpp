@@ -9,27 +9,28 @@
 #include <iostream>
 #include <system_error>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 
 RowOutput::RowOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs, std::string_view head,
                      const char* option)
-    : name_(path.empty() ? "standard output" : path), stream_(path.empty() ? &std::cout : &file_) {
+    : name_(path.empty() ? tr("standard output") : path), stream_(path.empty() ? &std::cout : &file_) {
   if (!path.empty()) {
     for (const std::filesystem::path& input : inputs) {
       std::error_code ignored;
       if (std::filesystem::equivalent(path, input, ignored)) {
-        throw OutputError(fmt::format("{} {}: this is an input; it would be overwritten", option, path));
+        throw OutputError(say("{} {}: this is an input; it would be overwritten", option, path));
       }
     }
     errno = 0;
     file_.open(path, std::ios::binary | std::ios::trunc);
     if (!file_) {
-      throw OutputError(
-          fmt::format("{} {}: cannot be written: {}", option, path, std::generic_category().message(errno)));
+      throw OutputError(say("{} {}: cannot be written: {}", option, path, std::generic_category().message(errno)));
     }
   }
   *stream_ << head << std::flush;
-  if (!*stream_) throw OutputError(fmt::format("{}: cannot be written", name_));
+  if (!*stream_) throw OutputError(say("{}: cannot be written", name_));
 }
 
 bool RowOutput::write(std::string_view row) {

@@ -13,13 +13,15 @@
 #include "angles.hpp"
 #include "language/language.hpp"
 #include "quantities.hpp"
-#include "terminal/counted.hpp"
+#include "terminal/frames_text.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 constexpr std::size_t kReasonsShown = 5;
+// A level beyond so many alert limits promises nothing: "± 20.862 m" would look like a tolerance.
+constexpr double kLimitsShown = 10.0;
 
 std::string amount(std::size_t quantity, double value) {
   if (!std::isfinite(value)) return "-";
@@ -29,7 +31,7 @@ std::string amount(std::size_t quantity, double value) {
 // "roll (+ right side down)": an angle without its sign is half a number.
 std::string name_of(std::size_t quantity, const std::string& positive_means) {
   const std::string name = pose_wall_quantity_name(static_cast<std::uint32_t>(quantity));
-  return positive_means.empty() ? name : fmt::format("{} (+ {})", name, positive_means);
+  return positive_means.empty() ? name : say("{} (+ {})", name, tr(positive_means.c_str()));
 }
 
 std::string percent(std::size_t part, std::size_t whole) {
@@ -86,15 +88,23 @@ ValidShares RunSummary::valid_shares() const {
   return shares;
 }
 
+std::string RunSummary::level_text(std::size_t quantity, const std::vector<double>& levels) const {
+  const double level = quantile(levels, 0.5), most = kLimitsShown * limit_of(quantity, limits_);
+  if (!(most > 0.0 && level > most)) return amount(quantity, level);
+  return is_angle(quantity) ? fmt::format("> {:g}°", most * kDegPerRad) : fmt::format("> {:g} m", most);
+}
+
 std::string RunSummary::text(double wall_s) const {
   std::string text = quantities_text() + levels_text() + '\n' + times_text(wall_s) + reasons_text();
   if (unreadable_ < frames_) text += say("verdict: {}\n", usability_text(valid_shares()));
-  if (unreadable_ > 0) text += fmt::format("unreadable: {} of {}\n", unreadable_, counted(frames_, "frame"));
+  if (unreadable_ > 0) text += say("unreadable: {} of {}\n", unreadable_, frames_text(frames_));
   return text;
 }
 
 std::string RunSummary::quantities_text() const {
-  TextTable table({"", "valid", "degraded", "held", "invalid", "median", "of raw", "protection level"});
+  TextTable table({"", tr(pose_wall_state_name(POSE_WALL_VALID)), tr(pose_wall_state_name(POSE_WALL_DEGRADED)),
+                   tr(pose_wall_state_name(POSE_WALL_HELD)), tr(pose_wall_state_name(POSE_WALL_INVALID)), tr("median"),
+                   tr("of raw"), tr("protection level")});
   const std::size_t measured = frames_ - unreadable_;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const Quantity& quantity = quantities_[q];
@@ -102,7 +112,7 @@ std::string RunSummary::quantities_text() const {
                    percent(quantity.states[POSE_WALL_DEGRADED], measured),
                    percent(quantity.states[POSE_WALL_HELD], measured),
                    percent(quantity.states[POSE_WALL_INVALID], measured), amount(q, quantile(quantity.values, 0.5)),
-                   amount(q, quantile(quantity.raws, 0.5)), amount(q, quantile(quantity.protection_levels, 0.5))});
+                   amount(q, quantile(quantity.raws, 0.5)), level_text(q, quantity.protection_levels)});
   }
   return table.text();
 }
@@ -117,27 +127,28 @@ std::string RunSummary::levels_text() const {
     if (std::any_of(quantities_.begin(), quantities_.end(), has_it)) shown.push_back(part);
   }
   if (shown.empty()) return "";
-  std::vector<std::string> head = {"median level", "of value", "of raw"};
-  for (const std::uint32_t part : shown) head.push_back(part_words(part));
-  head.emplace_back("mostly");
+  std::vector<std::string> head = {tr("median level"), tr("of value"), tr("of raw")};
+  for (const std::uint32_t part : shown) head.emplace_back(tr(part_words(part).c_str()));
+  head.emplace_back(tr("mostly"));
   TextTable table(head);
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const Quantity& quantity = quantities_[q];
-    std::vector<std::string> cells = {name_of(q, ""), amount(q, quantile(quantity.protection_levels, 0.5)),
-                                      amount(q, quantile(quantity.raw_levels, 0.5))};
-    for (const std::uint32_t part : shown) cells.push_back(amount(q, quantile(quantity.parts[part], 0.5)));
+    std::vector<std::string> cells = {name_of(q, ""), level_text(q, quantity.protection_levels),
+                                      level_text(q, quantity.raw_levels)};
+    for (const std::uint32_t part : shown) cells.push_back(level_text(q, quantity.parts[part]));
     const auto most = std::max_element(quantity.largest.begin(), quantity.largest.end());
     const auto cause = static_cast<std::uint32_t>(most - quantity.largest.begin());
-    cells.push_back(*most == 0 ? "-"
-                               : fmt::format("{} ({})", part_words(cause), percent(*most, quantity.parts[0].size())));
+    cells.push_back(
+        *most == 0 ? "-"
+                   : fmt::format("{} ({})", tr(part_words(cause).c_str()), percent(*most, quantity.parts[0].size())));
     table.add_row(cells);
   }
   return '\n' + table.text();
 }
 
 std::string RunSummary::times_text(double wall_s) const {
-  if (elapsed_ms_.empty()) return fmt::format("{}, none processed\n", counted(frames_, "frame"));
-  TextTable table({"engine, per frame", "median", "95 %", "max", "frames/s"});
+  if (elapsed_ms_.empty()) return say("{}, none processed\n", frames_text(frames_));
+  TextTable table({tr("engine, per frame"), tr("median"), "95 %", tr("max"), tr("frames/s")});
   const auto add = [&table](const char* what, const std::vector<double>& times_ms) {
     const double sum_s = std::accumulate(times_ms.begin(), times_ms.end(), 0.0) * 1e-3;
     std::vector<std::string> cells = {what};
@@ -145,11 +156,11 @@ std::string RunSummary::times_text(double wall_s) const {
     cells.push_back(sum_s > 0.0 ? fmt::format("{:.1f}", static_cast<double>(times_ms.size()) / sum_s) : "-");
     table.add_row(cells);
   };
-  add("elapsed", elapsed_ms_);
-  add("processor", processor_ms_);
+  add(tr("elapsed"), elapsed_ms_);
+  add(tr("processor"), processor_ms_);
   const double rate = wall_s > 0.0 ? static_cast<double>(frames_) / wall_s : 0.0;
-  return fmt::format("{}\n{} in {:.1f} s with reading and writing: {:.1f} frames/s\n", table.text(),
-                     counted(frames_, "frame"), wall_s, rate);
+  return say("{}\n{} in {:.1f} s with reading and writing: {:.1f} frames/s\n", table.text(), frames_text(frames_),
+             wall_s, rate);
 }
 
 std::string RunSummary::reasons_text() const {
@@ -161,10 +172,9 @@ std::string RunSummary::reasons_text() const {
   std::string text;
   for (const std::uint32_t bit : order) {
     if (reasons_[bit] == 0) break;
-    text += fmt::format("{:>6} frame{} {} ({})\n", reasons_[bit],
-                        reasons_[bit] == 1 ? ": " : "s:", pose_wall_reason_name(bit), pose_wall_reason_text(bit));
+    text += fmt::format("{:>6}  {} ({})\n", reasons_[bit], pose_wall_reason_name(bit), tr(pose_wall_reason_text(bit)));
   }
-  return text.empty() ? text : "most frequent reasons:\n" + text;
+  return text.empty() ? text : tr("most frequent reasons, with the frames that have them:\n") + text;
 }
 
 }  // namespace pose_wall::tools

@@ -14,11 +14,15 @@
 
 #include "results/result_csv.hpp"
 #include "results/usability.hpp"
+#include "truth/alert_limits.hpp"
 
 namespace pose_wall::tools {
 
 class RunSummary {
  public:
+  // `limits`: alert limits, by which a level is too large to be worth its digits. Without them all are shown.
+  explicit RunSummary(const AlertLimits& limits = {}) : limits_(limits) {}
+
   void add(const FrameOutcome& outcome);
 
   std::size_t frames() const { return frames_; }
@@ -42,11 +46,13 @@ class RunSummary {
   };
 
   static void add(const pose_wall_value& value, Quantity* to);
+  std::string level_text(std::size_t quantity, const std::vector<double>& levels) const;
   std::string quantities_text() const;
   std::string levels_text() const;
   std::string times_text(double wall_s) const;
   std::string reasons_text() const;
 
+  AlertLimits limits_;
   std::size_t frames_ = 0;
   std::size_t unreadable_ = 0;
   std::array<Quantity, POSE_WALL_QUANTITIES> quantities_;

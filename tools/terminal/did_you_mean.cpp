@@ -7,6 +7,15 @@
 #include <limits>
 
 namespace pose_wall::tools {
+namespace {
+
+DidYouMeanWords chosen_words = nullptr;
+
+}  // namespace
+
+void choose_did_you_mean(DidYouMeanWords words) {
+  chosen_words = words;
+}
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   using Row = std::vector<std::size_t>;
@@ -45,7 +54,8 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
   const std::string nearest = nearest_word(word, known);
-  return nearest.empty() ? nearest : "; did you mean '" + nearest + "'?";
+  if (nearest.empty()) return nearest;
+  return chosen_words != nullptr ? chosen_words(nearest) : "; did you mean '" + nearest + "'?";
 }
 
 }  // namespace pose_wall::tools

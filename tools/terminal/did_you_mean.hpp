@@ -23,4 +23,9 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 // "; did you mean 'voxel_leaf'?" or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
+// Words that question for the nearest word in another language; nullptr: English. The simulator, which asks it too,
+// is built without the catalogues. Choose it once, before threads start.
+using DidYouMeanWords = std::string (*)(const std::string& nearest);
+void choose_did_you_mean(DidYouMeanWords words);
+
 }  // namespace pose_wall::tools

@@ -5,60 +5,119 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <optional>
 
+#include "command_line/completion.hpp"
+#include "config_file/config_place.hpp"
+#include "frames/bare_points.hpp"
+#include "frames/length_unit.hpp"
 #include "frames/text_cursor.hpp"
+#include "language/language.hpp"
 #include "verbs/one_of.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
+constexpr double kRateDefault_hz = 10.0;
+
 // Accepts what is inside, so that "nan" is refused.
 std::string rate_fault(const std::string& word) {
   const std::optional<double> rate_hz = parse_number<double>(word);
   if (rate_hz && *rate_hz >= 0.001 && *rate_hz <= 1e3) return "";
-  return fmt::format("'{}' is refused; a number from 0.001 to 1000 is allowed", word);
+  return say("'{}' is refused; a number from 0.001 to 1000 is allowed", word);
+}
+
+std::string layout_fault(const std::string& word) {
+  return parse_bare_layout(word) ? "" : say("'{}' is refused; allowed: {}", word, bare_layout_rule());
+}
+
+bool needs_no_quotes(const std::string& word) {
+  constexpr const char* kSafe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+  return !word.empty() && word.find_first_not_of(kSafe) == std::string::npos;
+}
+
+void append(std::string* words, const std::string& word) {
+  if (!words->empty()) *words += ' ';
+  *words += needs_no_quotes(word) ? word : shell_quoted(word);
+}
+
+void append(std::string* words, const char* option, const std::string& value) {
+  if (value.empty()) return;
+  append(words, option);
+  append(words, value);
 }
 
 }  // namespace
 
 LoadedConfig FrameOptions::load() const {
-  return load_config(config_file, settings);
+  LoadedConfig loaded = load_config(config_file, settings);
+  if (!quiet && !loaded.notes.empty()) fmt::print(stderr, "{}\n", loaded.notes);
+  return loaded;
 }
 
 FrameSequence FrameOptions::open() const {
-  return FrameSequence(inputs, input);
+  FrameSequence sequence(inputs, input);
+  for (const std::string& note : sequence.notes()) {
+    if (!quiet) fmt::print(stderr, "{}\n", note);
+  }
+  return sequence;
 }
 
 std::vector<std::filesystem::path> FrameOptions::files_read(const FrameSequence& sequence) const {
   std::vector<std::filesystem::path> files = sequence.files();
-  if (!config_file.empty()) files.emplace_back(config_file);
+  if (!config_file.empty()) files.emplace_back(find_config(config_file).file);
   if (!input.packets.metadata.empty()) files.emplace_back(input.packets.metadata);
   return files;
 }
 
+std::string FrameOptions::shell_words() const {
+  std::string words;
+  append(&words, "-c", config_file);
+  for (const std::string& setting : settings) append(&words, "-s", setting);
+  append(&words, "--topic", input.topic);
+  append(&words, "--sensor", input.packets.sensor);
+  append(&words, "--metadata", input.packets.metadata);
+  append(&words, "--layout", input.layout);
+  append(&words, "--unit", input.unit);
+  if (rate_hz != kRateDefault_hz) append(&words, "--rate", fmt::format("{:g}", rate_hz));
+  for (const std::string& word : inputs) append(&words, word);
+  return words;
+}
+
 void add_input_options(CLI::App* verb, InputOptions* options) {
-  verb->add_option("-t,--topic", options->topic, "Topic of a bag, where it has several with clouds")
+  verb->add_option("-t,--topic", options->topic, tr("Topic of a bag, where it has several with clouds"))
       ->type_name("TOPIC");
-  verb->add_option("--sensor", options->packets.sensor, "Sensor of packets, where they do not tell it themselves")
+  verb->add_option("--sensor", options->packets.sensor, tr("Sensor of packets, where they do not name it themselves"))
       ->check(one_of(sensor_names()))
       ->type_name("NAME");
-  verb->add_option("--metadata", options->packets.metadata,
-                   "What packets were recorded with: JSON of an Ouster (default: the capture's name, .json), angles of "
-                   "a Hesai (CSV)")
+  verb->add_option(
+          "--metadata", options->packets.metadata,
+          tr("File that describes the sensor of packets: JSON of an Ouster (default: the capture's name, .json), "
+             "angles of a Hesai (CSV)"))
       ->check(CLI::ExistingFile);
+  verb->add_option(
+          "--layout", options->layout,
+          tr("Values of a point in files without a header, one letter each: xyz, xyzi, xyz_i, ... (i intensity, "
+             "t time, r ring, _ passed over); xyz64: float64. Default: by the values"))
+      ->check(CLI::Validator(layout_fault, "", ""))
+      ->type_name("LETTERS");
+  verb->add_option("--unit", options->unit, tr("Unit of the coordinates; default: m"))
+      ->check(one_of(length_unit_names()));
 }
 
 void add_frame_options(CLI::App* verb, FrameOptions* options) {
-  verb->add_option("INPUT", options->inputs, kInputHelp)->required();
+  verb->add_option("INPUT", options->inputs, tr(kInputHelp))->required();
   add_input_options(verb, &options->input);
-  verb->add_option("-c,--config", options->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
-  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the config; may be repeated")
+  verb->add_option("-c,--config", options->config_file,
+                   tr("Settings: a file, or the name of a config that comes with pose_wall, as vlp16; default: the "
+                      "defaults"));
+  verb->add_option("-s,--set", options->settings, tr("KEY=VALUE over the config; may be repeated"))
       ->allow_extra_args(false);
-  verb->add_option("-r,--rate", options->rate_hz, "Frames per second, for frames without stamps")
+  verb->add_option("-r,--rate", options->rate_hz, tr("Frames per second, for frames without stamps"))
       ->capture_default_str()
       ->check(rate_fault, "0.001 to 1000");
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
+  verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
 }
 
 }  // namespace pose_wall::tools

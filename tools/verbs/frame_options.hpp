@@ -12,6 +12,7 @@
 
 #include "config_file/load_config.hpp"
 #include "inputs/frame_sequence.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 
@@ -25,18 +26,23 @@ struct FrameOptions {
 
   // All that is read: what an output must not overwrite.
   std::vector<std::filesystem::path> files_read(const FrameSequence& sequence) const;
-  // Throws ConfigError.
+  // Throws ConfigError. Choices that were made go to stderr, unless quiet.
   LoadedConfig load() const;
 
-  // Opens the inputs; throws std::invalid_argument.
+  // Opens the inputs; throws std::invalid_argument. Choices that were made go to stderr, unless quiet.
   FrameSequence open() const;
+
+  // The options and inputs as a shell takes them, for a command that reads the same: "-c vlp16 -s forward_axis=+Y
+  // x.bag".
+  std::string shell_words() const;
 };
 
-constexpr const char* kInputHelp =
-    "Frame files (.pcd, .bin of KITTI, .ply), folders of them sorted by plain name order, bags (ROS 1, MCAP, SQLite, "
-    "folders of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox)";
+constexpr const char* kInputHelp = translatable(
+    "Frame files (.pcd, .bin, .ply, .xyz, .asc, .txt, .csv), folders of them in the order of the numbers in their "
+    "names, "
+    "bags (ROS 1, MCAP, SQLite, folders of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox)");
 
-// What tells how inputs are to be read.
+// How inputs are to be read.
 void add_input_options(CLI::App* verb, InputOptions* options);
 
 // INPUT, those, --config, --set, --rate and --quiet. The options must live as long as the verb.

@@ -10,7 +10,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "terminal/counted.hpp"
+#include "language/language.hpp"
+#include "terminal/frames_text.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -22,13 +23,14 @@ bool would_cost_the_last_results(const char* verb, const FrameSequence& inputs, 
                    [&](const std::filesystem::path& file) { return std::filesystem::exists(file, ignored); });
   if (!nothing_to_read || !std::filesystem::exists(output)) return false;
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall {}: {}\n", verb, error);
-  for (const auto& file : inputs.files()) fmt::print(stderr, "pose_wall {}: {}: not there\n", verb, file.string());
-  fmt::print(stderr, "pose_wall {}: there is no input; {} is left as it was\n", verb, output);
+  for (const auto& file : inputs.files())
+    fmt::print(stderr, "{}", say("pose_wall {}: {}: not there\n", verb, file.string()));
+  fmt::print(stderr, "{}", say("pose_wall {}: there is no input; {} is left as it was\n", verb, output));
   return true;
 }
 
 int tell_interrupted(std::size_t frames) {
-  fmt::print(stderr, "interrupted after {}, each with its whole row\n", counted(frames, "frame"));
+  fmt::print(stderr, "{}", say("interrupted after {}, each with its whole row\n", frames_text(frames)));
   return kExitInterrupted;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "language/language.hpp"
 #include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools {
@@ -15,7 +16,7 @@ namespace pose_wall::tools {
 CLI::Validator one_of(const std::vector<std::string>& words) {
   const auto fault = [words](const std::string& word) -> std::string {
     if (std::find(words.begin(), words.end(), word) != words.end()) return "";
-    return fmt::format("'{}' is not one of {}{}", word, fmt::join(words, ", "), did_you_mean(word, words));
+    return say("'{}' is not one of {}{}", word, fmt::format("{}", fmt::join(words, ", ")), did_you_mean(word, words));
   };
   return CLI::Validator(fault, fmt::format("{{{}}}", fmt::join(words, ",")), "");
 }
@@ -23,7 +24,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 CLI::Validator whole_number() {
   const auto fault = [](const std::string& word) -> std::string {
     const bool is_number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
-    return is_number ? "" : fmt::format("'{}' is refused; a whole number from 0 is allowed", word);
+    return is_number ? "" : say("'{}' is refused; a whole number from 0 is allowed", word);
   };
   return CLI::Validator(fault, "0 and more", "");
 }

@@ -17,12 +17,15 @@
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
 #include "inputs/frame_sequence.hpp"
+#include "language/language.hpp"
 #include "results/frame_runner.hpp"
+#include "results/next_steps.hpp"
 #include "results/result_output.hpp"
 #include "results/run_summary.hpp"
-#include "terminal/counted.hpp"
+#include "terminal/frames_text.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
+#include "truth/alert_limits.hpp"
 #include "verbs/annotated_folder.hpp"
 #include "verbs/frame_options.hpp"
 #include "verbs/frame_work.hpp"
@@ -48,10 +51,13 @@ std::optional<AnnotatedFolder> annotated_folder(const RunOptions& options) {
 }
 
 void print_start(const RunOptions& options, const LoadedConfig& loaded, const FrameRunner& runner, std::size_t frames) {
-  fmt::print(stderr, "pose_wall {}: {}, config {}, {:.1f} MB for the engine\n{}", pose_wall_version(),
-             counted(frames, "frame"), options.frames.config_file.empty() ? "defaults" : options.frames.config_file,
-             static_cast<double>(runner.block_bytes()) * 1e-6,
-             resolved_frames_text(resolve_frames(loaded.config), "  "));
+  const ResolvedFrames resolved = resolve_frames(loaded.config);
+  fmt::print(stderr, "{}{}{}{}",
+             say("pose_wall {}: {}, config {}, {:.1f} MB for the engine\n", pose_wall_version(), frames_text(frames),
+                 loaded.file.empty() ? tr("defaults") : loaded.file, static_cast<double>(runner.block_bytes()) * 1e-6),
+             resolved_frames_text(resolved, "  "), signs_text(resolved, "  "),
+             options.format == "csv" ? tr("  angles: radians in the CSV, degrees in the tables below\n")
+                                     : tr("  angles: radians in the JSON, degrees in the tables below\n"));
 }
 
 struct Outputs {
@@ -60,7 +66,7 @@ struct Outputs {
 
   // What could not be written; empty when all was.
   std::string write(const FrameOutcome& outcome) const {
-    if (!results.write(outcome)) return fmt::format("{} could not be written to the end", results.name());
+    if (!results.write(outcome)) return say("{} could not be written to the end", results.name());
     try {
       if (annotated) annotated->write(outcome);
       return "";
@@ -70,26 +76,43 @@ struct Outputs {
   }
 };
 
+// What a run came to.
+struct Closing {
+  RunSummary summary;
+  NextSteps next;
+
+  void add(const FrameOutcome& outcome) {
+    summary.add(outcome);
+    next.add(outcome);
+  }
+};
+
 // What could not be written, or nothing. Ctrl-C ends it after the frame at work.
 std::string process_frames(const RunOptions& options, FrameSequence& inputs, FrameRunner& runner,
-                           const Outputs& outputs, RunSummary& summary) {
+                           const Outputs& outputs, Closing& closing) {
   // A bar between rows of the table on the same terminal would spoil both.
   const bool show_bar = !options.frames.quiet && is_terminal(2) && !(outputs.results.is_stdout() && is_terminal(1));
   ProgressBar bar(inputs.frames(), show_bar);
-  const FrameRunner::Look look = [&outputs](const auto&, const auto& points, const auto& result) {
+  const FrameRunner::Look look = [&](const auto& cloud, const auto& points, const auto& result) {
     if (outputs.annotated) outputs.annotated->look(points, result);
+    if (!options.frames.quiet) closing.next.look(cloud, result);
   };
   while (!InterruptWatch::is_interrupted()) {
     std::optional<SourcedFrame> frame = inputs.next();
     if (!frame) break;
     const FrameOutcome outcome = runner.run(std::move(*frame), look);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
-    summary.add(outcome);
+    closing.add(outcome);
     std::string fault = outputs.write(outcome);
     if (!fault.empty()) return fault;
     bar.advance(std::filesystem::path(outcome.source).filename().string());
   }
   return "";
+}
+
+void print_end(const Closing& closing, double wall_s) {
+  const std::string next = closing.next.text();
+  fmt::print(stderr, "\n{}{}{}", closing.summary.text(wall_s), next.empty() ? "" : "\n", next);
 }
 
 int run(const RunOptions& options) {
@@ -105,12 +128,14 @@ int run(const RunOptions& options) {
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
 
   const auto started = std::chrono::steady_clock::now();
-  RunSummary summary;
+  Closing closing{RunSummary(alert_limits_of(loaded.config)),
+                  NextSteps(loaded.config, options.frames.config_file, options.frames.shell_words())};
   const InterruptWatch watch;
-  const std::string fault = process_frames(options, inputs, runner, {output, annotated}, summary);
+  const std::string fault = process_frames(options, inputs, runner, {output, annotated}, closing);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);
-  if (!options.frames.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
+  const RunSummary& summary = closing.summary;
+  if (!options.frames.quiet && summary.frames() > 0) print_end(closing, wall_s);
   if (InterruptWatch::is_interrupted()) return tell_interrupted(summary.frames());
   return fault.empty() && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }
@@ -120,29 +145,32 @@ int run(const RunOptions& options) {
 void add_run(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = app.add_subcommand(
-      "run", "Measure attitude and wall distances in frames of a LiDAR, with motion where the key `motion` is on");
+      "run", tr("Measure attitude and wall distances in frames of a LiDAR, with motion where the key `motion` is on"));
   add_frame_options(verb, &options->frames);
-  verb->add_option("-o,--output", options->output, "File for the results; default, and -: standard output");
-  verb->add_option("--format", options->format, "Results as CSV, or as JSON: one object per line and frame")
+  verb->add_option("-o,--output", options->output, tr("File for the results; default, and -: standard output"));
+  verb->add_option("--format", options->format, tr("Results as CSV, or as JSON: one object per line and frame"))
       ->capture_default_str()
       ->check(one_of({"csv", "json"}));
-  verb->add_flag("--parts", options->parts,
-                 "In the CSV also a column for each part of each protection level, behind the others; JSON has them "
-                 "always");
+  verb->add_flag(
+      "--parts", options->parts,
+      tr("In the CSV also a column for each part of each protection level, behind the others; JSON always has "
+         "them"));
   CLI::Option* annotate = verb->add_option(
       "--annotate", options->annotate,
-      "Folder for the points of each frame: base frame, label (0 other, 1 floor, 2 left, 3 right wall), distance to "
-      "its plane, colour; for CloudCompare, pcl_viewer, Open3D");
-  verb->add_option("--annotate-format", options->annotate_format, "Of these clouds, binary")
+      tr("Folder for the points of each frame: base frame, label (0 other, 1 floor, 2 left, 3 right wall), distance to "
+         "its plane, colour; for CloudCompare, pcl_viewer, Open3D"));
+  verb->add_option("--annotate-format", options->annotate_format, tr("Format of these clouds, binary"))
       ->capture_default_str()
       ->check(one_of({"pcd", "ply"}))
       ->needs(annotate);
   verb->footer(
-      "Examples:\n  pose_wall run --config config/pose_wall.yaml --set forward_axis=+Y --output out.csv frames/\n"
-      "  pose_wall run -c config/pose_wall.yaml --format json -o out.jsonl --annotate labelled frames/\n"
-      "A file name of 16 to 19 digits is the frame's stamp in nanoseconds; other frames are 1/rate apart.\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n130 "
-      "interrupted by Ctrl-C: what is written is whole rows and whole files.");
+      tr("Examples:\n"
+         "  pose_wall run --config vlp16 --set forward_axis=+Y --output out.csv frames/\n"
+         "  pose_wall run -c vlp16 --format json -o out.jsonl --annotate labelled frames/\n"
+         "  pose_wall run --layout xyz --unit mm -o out.csv exported/\n"
+         "A file name of 16 to 19 digits is the frame's stamp in nanoseconds; other frames are 1/rate apart.\n"
+         "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n130 "
+         "interrupted by Ctrl-C: whole rows and whole files are written."));
   verb->callback([options, &exit_code] {
     if (options->output == "-") options->output.clear();
     exit_code = run(*options);

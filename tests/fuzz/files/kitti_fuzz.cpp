@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Fuzz target: bytes as a KITTI file.
+// Fuzz target: bytes as a file without a header, its layout found by the values.
 
-#include "frames/kitti_reader.hpp"
+#include "frames/bare_layout_guess.hpp"
 #include "fuzz/files/reader_target.hpp"
 
-POSE_WALL_FUZZ_READER(pose_wall::tools::read_kitti)
+POSE_WALL_FUZZ_READER(pose_wall::tools::read_guessed_points)

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "frames/text_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frames/ascii_points.hpp"
+#include "frames/field_aliases.hpp"
+#include "frames/text_cursor.hpp"
+#include "language/language.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::size_t kUnnamedColumnsMax = 5;  // without names
+
+std::string_view without_comment_sign(std::string_view line) {
+  const std::size_t start = line.find_first_not_of("#/% \t");
+  return start == std::string_view::npos ? std::string_view{} : line.substr(start);
+}
+
+bool is_comment(std::string_view line) {
+  const std::size_t start = line.find_first_not_of(kTextSeparators);
+  return start == std::string_view::npos || line[start] == '#' || line[start] == '%' || line.substr(start, 2) == "//";
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::string_view word = take_word(line, kTextSeparators); !word.empty();
+       word = take_word(line, kTextSeparators)) {
+    words.push_back(word);
+  }
+  return words;
+}
+
+// "X", "\"x\"", "x_m", "x[m]", ParaView's "Points:0": x.
+std::string column_name(std::string_view word) {
+  std::string name;
+  for (const char c : word) {
+    if (c != '"' && c != '\'') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (name.rfind("points", 0) == 0 && name.size() > 2 && name[name.size() - 2] == ':') {
+    const char axis = name.back();
+    return axis == '0' ? "x" : axis == '1' ? "y" : axis == '2' ? "z" : name;
+  }
+  for (const char* unit : {"[m]", "(m)", "_m"}) {
+    const std::size_t at = name.size() - std::min(name.size(), std::string_view(unit).size());
+    if (at > 0 && name.compare(at, std::string::npos, unit) == 0) name.resize(at);
+  }
+  return name;
+}
+
+bool names_coordinates(const std::vector<std::string_view>& words) {
+  const auto has = [&words](const char* wanted) {
+    return std::any_of(words.begin(), words.end(), [wanted](auto word) { return column_name(word) == wanted; });
+  };
+  return has("x") && has("y") && has("z");
+}
+
+bool are_numbers(const std::vector<std::string_view>& words) {
+  return !words.empty() &&
+         std::all_of(words.begin(), words.end(), [](auto word) { return parse_number<double>(word).has_value(); });
+}
+
+struct TextHead {
+  std::vector<AsciiColumn> columns;
+  std::optional<std::uint64_t> announced;  // points
+  std::size_t data_offset = 0;
+  std::size_t lines = 0;  // before the data
+};
+
+std::vector<AsciiColumn> named_columns(const std::vector<std::string_view>& words) {
+  std::vector<AsciiColumn> columns;
+  for (const std::string_view word : words) columns.push_back({column_name(word), 1, true});
+  return columns;
+}
+
+std::vector<AsciiColumn> columns_of(const BareLayout& layout) {
+  std::vector<AsciiColumn> columns;
+  for (const char letter : layout.columns) columns.push_back({std::string(bare_column_name(letter)), 1, true});
+  return columns;
+}
+
+std::vector<AsciiColumn> unnamed_columns(std::size_t count, std::size_t line) {
+  if (count < 3 || count > kUnnamedColumnsMax) {
+    throw FrameError(
+        say("line {}: {} values; x y z [intensity] [time] are allowed, or a first line that names the columns, or "
+            "--layout",
+            line, count));
+  }
+  std::vector<AsciiColumn> columns;
+  for (const char* name : {"x", "y", "z", "intensity", "time"}) {
+    if (columns.size() < count) columns.push_back({name, 1, true});
+  }
+  return columns;
+}
+
+// "1,5;2,0;3,1" would be read as six values.
+void refuse_decimal_commas(std::string_view line, std::size_t number) {
+  if (line.find(';') != std::string_view::npos && line.find(',') != std::string_view::npos) {
+    throw FrameError(say("line {}: commas and semicolons; numbers with a decimal point are allowed", number));
+  }
+}
+
+// What the lines before the first point say.
+TextHead read_head(std::string_view text, const BareLayout* given) {
+  TextHead head;
+  TextCursor cursor(text, text.substr(0, kByteOrderMark.size()) == kByteOrderMark ? kByteOrderMark.size() : 0);
+  while (true) {
+    head.data_offset = cursor.offset();
+    head.lines = cursor.line();
+    const std::optional<std::string_view> line = cursor.next_line();
+    if (!line) throw FrameError(tr("there is no line of points"));
+    const std::vector<std::string_view> words = words_of(is_comment(*line) ? without_comment_sign(*line) : *line);
+    if (given == nullptr && names_coordinates(words)) {
+      head.columns = named_columns(words);
+      continue;
+    }
+    if (is_comment(*line)) continue;
+    if (words.size() == 1 && !head.announced && parse_number<std::uint64_t>(words.front())) {
+      head.announced = parse_number<std::uint64_t>(words.front());
+      continue;
+    }
+    if (given != nullptr && head.columns.empty() && !are_numbers(words) && names_coordinates(words)) continue;
+    refuse_decimal_commas(*line, cursor.line());
+    if (head.columns.empty()) {
+      head.columns = given != nullptr ? columns_of(*given) : unnamed_columns(words.size(), cursor.line());
+    }
+    return head;
+  }
+}
+
+std::string columns_text(const std::vector<AsciiColumn>& columns) {
+  std::string text;
+  for (const AsciiColumn& column : columns) {
+    text += (text.empty() ? "" : " ") + (column.name.empty() ? "_" : column.name);
+  }
+  return text;
+}
+
+}  // namespace
+
+Frame read_text_points(const Bytes& bytes, const BareLayout* columns) {
+  const std::string_view text = as_text(bytes);
+  const TextHead head = read_head(text, columns);
+  TextCursor cursor(text, head.data_offset, head.lines);
+  try {
+    Frame frame = parse_ascii_points(cursor, head.columns, head.announced, AsciiStyle::kText);
+    return frame;
+  } catch (const FrameError& fault) {
+    throw FrameError(say("{}; a line holds {}, separated by spaces, tabs, commas or semicolons", fault.what(),
+                         columns_text(head.columns)));
+  }
+}
+
+bool begins_like_points(std::string_view beginning) {
+  if (beginning.substr(0, kByteOrderMark.size()) == kByteOrderMark) beginning.remove_prefix(kByteOrderMark.size());
+  TextCursor cursor(beginning);
+  while (const std::optional<std::string_view> line = cursor.next_line()) {
+    const std::vector<std::string_view> words = words_of(is_comment(*line) ? without_comment_sign(*line) : *line);
+    if (names_coordinates(words)) return true;
+    if (is_comment(*line)) continue;
+    return are_numbers(words) && (words.size() >= 3 || words.size() == 1);
+  }
+  return false;
+}
+
+}  // namespace pose_wall::tools
