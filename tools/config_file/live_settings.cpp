@@ -12,6 +12,7 @@
 #include <cstring>
 #include <variant>
 
+#include "language/language.hpp"
 #include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
@@ -25,70 +26,79 @@ struct Row {
   Member member;
 };
 
-constexpr const char* kSources = "Live: where pose_walld takes clouds from";
-constexpr const char* kSinks = "Live: where pose_walld puts results";
+constexpr const char* kSources = translatable("Live: where pose_walld takes clouds from");
+constexpr const char* kSinks = translatable("Live: where pose_walld puts results");
 
 const std::vector<Row>& rows() {
   static const std::string sensors = fmt::format("{}", fmt::join(sensor_names(), ", "));
   static const std::vector<Row> table = {
       {{"source", kSources, Type::kChoice, "", 0, 0, "udp, ros1, ros2",
-        "where clouds come from: a sensor's packets by UDP, or pointcloud_topic of ROS 1 or ROS 2"},
+        translatable("where clouds come from: a sensor's packets by UDP, or pointcloud_topic of ROS 1 or ROS 2")},
        &LiveSettings::source},
       {{"extrinsic_from", kSources, Type::kChoice, "", 0, 0, "config, tf",
-        "config: extrinsic_x to extrinsic_yaw. tf: the transform from lidar_frame to base_frame, of ROS alone; nothing "
-        "is measured before it is there"},
+        translatable("config: extrinsic_x to extrinsic_yaw. tf: the transform from lidar_frame to base_frame, of ROS "
+                     "alone; nothing is measured before it is there")},
        &LiveSettings::extrinsic_from},
       {{"sensor", kSources, Type::kChoice, "", 0, 0, sensors.c_str(),
-        "which sensor sends the packets; auto: the packets tell. One that contradicts its packets is refused"},
+        translatable(
+            "which sensor sends the packets; auto: the packets tell. One that contradicts its packets is refused")},
        &LiveSettings::sensor},
       {{"sensor_metadata", kSources, Type::kText, "", 0, 0, "",
-        "what the sensor says of itself: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for "
-        "an Ouster; empty: not needed"},
+        translatable("what the sensor says of itself: a file (JSON of an Ouster, table of angles of a Hesai), or "
+                     "http://SENSOR for an Ouster; empty: not needed")},
        &LiveSettings::sensor_metadata},
       {{"udp_address", kSources, Type::kIpv4, "", 0, 0, "",
-        "this machine's address on the sensor's network; 0.0.0.0 listens on all. Anybody there can then send packets"},
+        translatable("this machine's address on the sensor's network; 0.0.0.0 listens on all. Anybody there can then "
+                     "send packets")},
        &LiveSettings::udp_address},
-      {{"udp_port", kSources, Type::kInteger, "1", 0, 65535, "", "port the sensor sends to; 0: its usual one"},
+      {{"udp_port", kSources, Type::kInteger, "1", 0, 65535, "",
+        translatable("port the sensor sends to; 0: its usual one")},
        &LiveSettings::udp_port},
       {{"udp_sender", kSources, Type::kIpv4OrNone, "", 0, 0, "",
-        "address of the sensor; packets of others are counted and dropped. Empty: whoever sends first"},
+        translatable("address of the sensor; packets of others are counted and dropped. Empty: whoever sends first")},
        &LiveSettings::udp_sender},
       {{"frame_points_max", kSources, Type::kInteger, "points", 1, 67108864, "",
-        "most points of one cloud; decides the memory, larger clouds are refused"},
+        translatable("most points of one cloud; decides the memory, larger clouds are refused")},
        &LiveSettings::frame_points_max},
-      {{"ros1", kSinks, Type::kSwitch, "1", 0, 0, "", "1: publish results as a node of ROS 1"}, &LiveSettings::ros1},
-      {{"ros2", kSinks, Type::kSwitch, "1", 0, 0, "", "1: publish results as a node of ROS 2"}, &LiveSettings::ros2},
+      {{"ros1", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: publish results as a node of ROS 1")},
+       &LiveSettings::ros1},
+      {{"ros2", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: publish results as a node of ROS 2")},
+       &LiveSettings::ros2},
       {{"ros_distro", kSinks, Type::kChoice, "", 0, 0, "humble, iron",
-        "which ROS 2 the others speak; iron stands for all later ones, too"},
+        translatable("which ROS 2 the others speak; iron stands for all later ones, too")},
        &LiveSettings::ros_distro},
       {{"http", kSinks, Type::kHostPort, "", 0, 0, "",
-        "address of the page, HOST:PORT; empty: no page. Everybody who reaches it may look, nobody can change "
-        "anything"},
+        translatable(
+            "address of the page, HOST:PORT; empty: no page. Everybody who reaches it may look, nobody can change "
+            "anything")},
        &LiveSettings::http},
       {{"modbus", kSinks, Type::kHostPort, "", 0, 0, "",
-        "address of the Modbus TCP server, HOST:PORT; empty: none. It answers reads of input registers and nothing "
-        "else"},
+        translatable(
+            "address of the Modbus TCP server, HOST:PORT; empty: none. It answers reads of input registers and nothing "
+            "else")},
        &LiveSettings::modbus},
       {{"mqtt", kSinks, Type::kHostPort, "", 0, 0, "",
-        "broker for telemetry, HOST:PORT; empty: none. Never control a machine by it"},
+        translatable("broker for telemetry, HOST:PORT; empty: none. Never control a machine by it")},
        &LiveSettings::mqtt},
-      {{"mqtt_topic", kSinks, Type::kText, "", 0, 0, "", "topic under which MQTT telemetry is published"},
+      {{"mqtt_topic", kSinks, Type::kText, "", 0, 0, "", translatable("topic under which MQTT telemetry is published")},
        &LiveSettings::mqtt_topic},
       {{"black_box", kSinks, Type::kText, "", 0, 0, "",
-        "folder of the black box, one ring file a start; empty: none. `pose_wall replay-box` computes it again"},
+        translatable(
+            "folder of the black box, one ring file a start; empty: none. `pose_wall replay-box` computes it again")},
        &LiveSettings::black_box},
       {{"black_box_mb", kSinks, Type::kNumber, "MB", 1, 1000000, "",
-        "room for all black boxes together, a quarter of it for each start; the oldest goes first. 2048 holds a minute "
-        "of clouds of 65,536 points"},
+        translatable("room for all black boxes together, a quarter of it for each start; the oldest goes first. 2048 "
+                     "holds a minute of clouds of 65,536 points")},
        &LiveSettings::black_box_mb},
-      {{"recording", kSinks, Type::kText, "", 0, 0, "", "folder of recordings as MCAP; empty: none"},
+      {{"recording", kSinks, Type::kText, "", 0, 0, "", translatable("folder of recordings as MCAP; empty: none")},
        &LiveSettings::recording},
       {{"recording_mb", kSinks, Type::kNumber, "MB", 1, 10000000, "",
-        "room for all recordings together; the oldest goes first"},
+        translatable("room for all recordings together; the oldest goes first")},
        &LiveSettings::recording_mb},
-      {{"recording_clouds", kSinks, Type::kSwitch, "1", 0, 0, "", "1: recordings hold the clouds, too"},
+      {{"recording_clouds", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: recordings hold the clouds, too")},
        &LiveSettings::recording_clouds},
-      {{"status_every_s", kSinks, Type::kNumber, "s", 1, 86400, "", "a line of status goes to the log this often"},
+      {{"status_every_s", kSinks, Type::kNumber, "s", 1, 86400, "",
+        translatable("a line of status goes to the log this often")},
        &LiveSettings::status_every_s},
   };
   return table;

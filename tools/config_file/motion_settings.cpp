@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -18,25 +19,28 @@ struct MotionKeyRow {
   double per_unit;  // of the member, in one unit of the key
 };
 
-constexpr const char* kMotion = "Motion along the road";
+constexpr const char* kMotion = translatable("Motion along the road");
 
 // The ranges of pose_wall_motion.h; those in degrees lie within them.
 const std::vector<MotionKeyRow>& motion_key_rows() {
   static const std::vector<MotionKeyRow> table = {
       {{"motion_speed_max", kMotion, OutsideKey::Type::kNumber, "m/s", 0.01, 30, "",
-        "no machine drives faster: how far each frame is searched for, and how fast the level along the road widens "
-        "while nothing tells the way"},
+        translatable("no machine drives faster: how far each frame is searched for, and how fast the level along the "
+                     "road widens "
+                     "while nothing tells the way")},
        &pose_wall_motion_settings::speed_max_m_s,
        1.0},
-      {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "", "no machine turns faster"},
+      {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "",
+        translatable("no machine turns faster")},
        &pose_wall_motion_settings::turn_max_rad_s,
        kRadPerDeg},
       {{"motion_range_max", kMotion, OutsideKey::Type::kNumber, "m", 3, 100, "",
-        "returns further away do not tell motion; range_max does not count here"},
+        translatable("returns further away do not tell motion; range_max does not count here")},
        &pose_wall_motion_settings::range_max_m,
        1.0},
       {{"motion_keyframe", kMotion, OutsideKey::Type::kNumber, "m", 0.05, 1, "",
-        "the map takes a scan in after so much travel; smaller follows rough rock better and fills the map sooner"},
+        translatable("the map takes a scan in after so much travel; smaller follows rough rock better and fills the "
+                     "map sooner")},
        &pose_wall_motion_settings::keyframe_m,
        1.0},
   };
