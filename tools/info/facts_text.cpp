@@ -58,7 +58,7 @@ void add_stamps(Facts& rows, const StampFacts& stamps, std::size_t frames) {
 void add_sensor(Facts& rows, const SensorFacts& sensor) {
   rows.add(tr("ranges"), ranges_text(sensor.ranges));
   if (is_unit_doubtful(sensor.ranges)) rows.add(tr("unit?"), unit_doubt(sensor.ranges));
-  rows.add(tr("rings"), fmt::format("{}, {}", rings_text(sensor), rings_source_text(sensor)));
+  rows.add(tr("rings"), say("{} ({})", rings_text(sensor), rings_source_text(sensor)));
   rows.add(tr("view"), say("elevation {:.1f}° to {:.1f}°, {:.0f}° of azimuth, about the sensor's axes",
                            sensor.elevation_min_deg, sensor.elevation_max_deg, sensor.azimuth_span_deg));
   rows.add(tr("looks like"), class_text(sensor));

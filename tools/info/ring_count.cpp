@@ -17,12 +17,12 @@ constexpr std::size_t kFrames = 8;
 constexpr std::size_t kSectors = 72;
 constexpr double kSector_deg = 360.0 / kSectors;
 constexpr double kHorizon_deg = 12.0;
-constexpr double kFar_m = 3.0, kAcrossMin_m = 0.8;  // nearer, an offset of the origin bends rays by too much
+constexpr double kFar_m = 3.0, kAcrossMin_m = 0.3;  // nearer returns come from the housing
 constexpr std::size_t kPointsMin = 24, kRingsMin = 4, kPointsPerRingMin = 3;
 // Gaps between rings are at least this many times as wide as those within one.
 constexpr double kJump = 2.5;
 constexpr double kSectorsShare = 0.3, kAgree = 0.15;
-constexpr double kFullViewShare = 0.75, kNear = 0.1, kRingsMax = 200.0;
+constexpr double kFullViewShare = 0.75, kNear = 0.06;
 
 struct Sector {
   std::vector<double> horizon_deg;  // elevations of the far points near the horizon
@@ -110,7 +110,7 @@ std::size_t RingCount::rings() const {
   for (const double known : {16.0, 32.0, 40.0, 64.0, 80.0, 128.0}) {
     if (std::fabs(rings - known) <= kNear * known) return static_cast<std::size_t>(known);
   }
-  return rings < kRingsMax ? static_cast<std::size_t>(std::lround(rings)) : 0;
+  return 0;
 }
 
 }  // namespace pose_wall::tools

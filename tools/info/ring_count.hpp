@@ -18,7 +18,8 @@ class RingCount {
   // Of the first few frames; later ones tell nothing new.
   void add(const std::vector<float>& xyz_lidar_m);
 
-  // A number that some sensor has is taken where it is near. 0: there are no rings, or the sectors disagree.
+  // The number of rings that some sensor has, where the count is near to it. 0: there are no rings, the sectors
+  // disagree, or no spinning sensor has about so many.
   std::size_t rings() const;
 
  private:
