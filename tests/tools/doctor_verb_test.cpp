@@ -177,6 +177,7 @@ TEST(DoctorVerb, EmptyAndBrokenFramesAreNamed) {
   const Ran ran = command({"doctor", "-q", folder.file("g")});
   EXPECT_EQ(ran.exit_status, 1);
   EXPECT_TRUE(contains(ran.errors, "a.pcd")) << ran.errors;
+  EXPECT_EQ(ran.printed, "") << "nothing could be read: no tables of it";
   EXPECT_EQ(command({"doctor", folder.file("f"), "--height", "99"}).exit_status, 2);
 }
 

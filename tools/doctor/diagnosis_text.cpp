@@ -36,6 +36,10 @@ std::string corners_text(const Box& box) {
 }
 
 void add_sensor(Rows& rows, const SensorFacts& s) {
+  if (s.ranges.max_m == 0.0) {
+    rows.push_back({tr("sensor"), tr("unknown"), tr("no frame has a return")});
+    return;
+  }
   rows.push_back({tr("sensor"), s.is_known() ? s.title : tr("unknown"), s.is_known() ? config_text(s) : class_text(s)});
   rows.push_back({tr("rings"), rings_text(s), rings_source_text(s)});
   rows.push_back({tr("view"), say("{:.0f} deg of azimuth", s.azimuth_span_deg),

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -148,6 +149,9 @@ int examine(const DoctorOptions& options) {
   const doctor::Recording recording = read_all(options, inputs);
   for (const std::string& error : recording.errors) fmt::print(stderr, "pose_wall doctor: {}\n", error);
   if (recording.interrupted) return tell_interrupt(recording.notes.size());
+  const bool is_any_readable = std::any_of(recording.notes.begin(), recording.notes.end(),
+                                           [](const doctor::FrameNote& note) { return note.error.empty(); });
+  if (!is_any_readable && !options.json) return kExitUnreadable;  // the errors say it all
 
   const doctor::Diagnosis diagnosis = doctor::diagnose(
       recording, told, options.height_m, [&](const LoadedConfig& settings) { return preview_of(options, settings); });
