@@ -125,6 +125,9 @@ void grade(const Diagnosis& d, Verdict& v) {
   const bool is_long = d.stamps.duration_s >= kDurationAsked_s - kDurationRounding_s;
   if (most < kValidSome) {
     v.reason = say("no value is valid in half of the frames ({})", shares_between(valid, 0.0, kNoLimit));
+  } else if (least >= kValidAll) {
+    v.reason = say("every value is valid in {:.0f} % of the frames or more ({})", 100.0 * kValidAll,
+                   shares_between(valid, 0.0, kNoLimit));
   } else if (least >= kValidSome) {
     v.reason = say("every value is valid in half of the frames or more ({})", shares_between(valid, 0.0, kNoLimit));
   } else {
