@@ -21,7 +21,7 @@ def keys_of_the_table(command):
         if key:
             name = key.group(1)
             keys[name] = []
-        elif name and line.startswith("    ") and not line.startswith("    default "):
+        elif name and re.match(r"    (?!default )\S", line):  # further lines of the allowed values stand further in
             keys[name].append(line.strip())
     return {name: " ".join(lines) for name, lines in keys.items()}
 

@@ -4,7 +4,8 @@
 """Every text that the tools mark for translation has its Chinese, and every Chinese text its use.
 
 usage: check_translations.py ROOT     exit status 1 and one line per text that
-  - is marked in tools/ (say("..."), tr("..."), translatable("...")) and is in no tools/language/zh/*.po
+  - is marked in tools/ (say("..."), tr("..."), translatable("...")), or is the help of a key of the engine
+    (src/config_keys.def), and is in no tools/language/zh/*.po
   - stands in a catalogue and is marked nowhere, or stands there twice
   - fills in other arguments than the English one, or holds no Chinese"""
 
@@ -15,6 +16,7 @@ import sys
 
 LITERAL = r'"((?:[^"\\\n]|\\.)*)"'
 MARKED = re.compile(rf'\b(?:say|tr|translatable)\(\s*((?:{LITERAL}\s*)+)')
+KEY_HELP = re.compile(rf'^POSE_WALL_[A-Z]+ *\(.*, {LITERAL}\)$', re.M)
 HAN = re.compile(r"[\u3400-\u9fff]")
 FIELD = re.compile(r"(?<!\{)\{(\w*)(?::[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
 ESCAPES = {"n": "\n", "t": "\t", '"': '"', "\\": "\\"}
@@ -34,6 +36,9 @@ def marked(root):
                 continue  # a comment that shows how
             text = "".join(unescaped(part) for part in re.findall(LITERAL, found.group(1)))
             texts.setdefault(text, f"{path.relative_to(root)}:{source.count(chr(10), 0, found.start()) + 1}")
+    keys = root / "src/config_keys.def"  # the engine knows no language; its table is printed by tools
+    for found in KEY_HELP.finditer(keys.read_text(encoding="utf-8") if keys.exists() else ""):
+        texts.setdefault(unescaped(found.group(1)), keys.relative_to(root))
     return texts
 
 

@@ -9,18 +9,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "angles.hpp"
 #include "doctor/diagnosis.hpp"
 #include "doctor/diagnosis_output.hpp"
-#include "doctor/sensor_seen.hpp"
+#include "doctor/preview.hpp"
 #include "doctor/trial.hpp"
+#include "language/language.hpp"
 #include "sim/parameters.hpp"
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
+#include "terminal/text_table.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -77,12 +82,36 @@ LoadedConfig told(const std::vector<std::string>& settings = {}) {
   return load_config("", settings);
 }
 
+// The frames as a file would give them.
+doctor::NextFrame frames_of(const Simulated& simulated) {
+  return [&simulated, next = std::size_t{0}]() mutable -> std::optional<SourcedFrame> {
+    if (next == simulated.frames.size()) return std::nullopt;
+    const sim::Frame& rendered = simulated.frames[next];
+    SourcedFrame sourced;
+    sourced.stamp_ns = simulated.recording.notes[next].stamp_ns;
+    sourced.frame.emplace();
+    sourced.frame->bytes.resize(rendered.xyz_intensity.size() * sizeof(float));
+    std::memcpy(sourced.frame->bytes.data(), rendered.xyz_intensity.data(), sourced.frame->bytes.size());
+    pose_wall_cloud_xyz32(&sourced.frame->cloud, sourced.frame->bytes.data(),
+                          static_cast<std::uint32_t>(rendered.count()), 16, 0);
+    ++next;
+    return sourced;
+  };
+}
+
+doctor::Diagnosis diagnosis_of(const Simulated& simulated, const LoadedConfig& settings = told(),
+                               std::optional<double> height_m = std::nullopt) {
+  return doctor::diagnose(simulated.recording, settings, height_m, [&simulated](const LoadedConfig& proposed) {
+    return doctor::preview(proposed, 10.0, frames_of(simulated));
+  });
+}
+
 class Mounts : public ::testing::TestWithParam<Mount> {};
 
 TEST_P(Mounts, AreFoundAndTheProposalMeasures) {
   const Mount& mount = GetParam();
   const Simulated simulated = simulate(setup_of(mount.sensor, mount.settings), 6);
-  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(), std::nullopt);
+  const doctor::Diagnosis d = diagnosis_of(simulated);
   ASSERT_TRUE(d.verdict.is_usable()) << d.verdict.line();
   EXPECT_EQ(d.sensor.model, mount.sensor);
   EXPECT_NEAR(d.mount->story.floor.height_m, mount.height_m, mount.height_tolerance_m);
@@ -172,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Doctor, BoxesHoldTheBodyAndLittleElse) {
   const Simulated simulated =
       simulate(setup_of("os0-128", {"body=yes", "boom=yes", "base_height_m=1.6", "body_top_m=-0.5"}), 6);
-  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(), std::nullopt);
+  const doctor::Diagnosis d = diagnosis_of(simulated);
   ASSERT_TRUE(d.mount.has_value());
   ASSERT_FALSE(d.mount->story.body.boxes_base.empty());
   EXPECT_TRUE(d.mount->is_sure) << "the body tells floor from roof";
@@ -195,12 +224,12 @@ TEST(Doctor, BoxesHoldTheBodyAndLittleElse) {
 
 TEST(Doctor, SaysWhatCannotBeKnown) {
   const Simulated simulated = simulate(setup_of("os1-64", {"forward_axis=-Y", "base_height_m=1.4"}), 4);
-  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(), std::nullopt);
+  const doctor::Diagnosis d = diagnosis_of(simulated);
   EXPECT_TRUE(d.verdict.is_usable()) << d.verdict.line();
   EXPECT_EQ(d.mount->story.road.line, 'Y');
   EXPECT_FALSE(d.ahead.is_known);
   EXPECT_TRUE(contains(d.verdict.line(), "is a guess")) << d.verdict.line();
-  const doctor::Diagnosis with_axis = doctor::diagnose(simulated.recording, told({"forward_axis=-Y"}), 1.4);
+  const doctor::Diagnosis with_axis = diagnosis_of(simulated, told({"forward_axis=-Y"}), 1.4);
   EXPECT_EQ(with_axis.ahead.axis, "-Y");
   EXPECT_TRUE(with_axis.ahead.is_known);
   EXPECT_TRUE(with_axis.mount->is_sure) << with_axis.mount->reason;
@@ -209,14 +238,14 @@ TEST(Doctor, SaysWhatCannotBeKnown) {
 
 TEST(Doctor, ProposesUpsideDownOnlyWhereSomethingTellsIt) {
   const Simulated simulated = simulate(setup_of("mid360", {"mount_roll_deg=180", "base_height_m=1.4"}), 4);
-  const doctor::Diagnosis alone = doctor::diagnose(simulated.recording, told(), std::nullopt);
+  const doctor::Diagnosis alone = diagnosis_of(simulated);
   if (alone.mount->story.is_flipped) {
     EXPECT_FALSE(alone.verdict.is_usable()) << "nothing but the view speaks for it";
   } else {
     EXPECT_FALSE(alone.mount->is_sure);
   }
-  for (const doctor::Diagnosis& d : {doctor::diagnose(simulated.recording, told(), 1.4),
-                                     doctor::diagnose(simulated.recording, told({"extrinsic_roll=3.1416"}), {})}) {
+  for (const doctor::Diagnosis& d :
+       {diagnosis_of(simulated, told(), 1.4), diagnosis_of(simulated, told({"extrinsic_roll=3.1416"}))}) {
     EXPECT_TRUE(d.verdict.is_usable()) << d.verdict.line();
     EXPECT_TRUE(d.mount->is_sure);
     EXPECT_NEAR(std::fabs(d.proposal.config().number("extrinsic_roll")), 3.1416, 0.01);
@@ -227,7 +256,7 @@ TEST(Doctor, ProposesUpsideDownOnlyWhereSomethingTellsIt) {
 TEST(Doctor, RangeNoiseIsThatOfTheSensor) {
   for (const char* sensor : {"os1-64", "mid360"}) {
     const sim::SceneSetup setup = setup_of(sensor, {"range_noise_m=0.02", "base_height_m=1.4"});
-    const doctor::Diagnosis d = doctor::diagnose(simulate(setup, 4).recording, told(), std::nullopt);
+    const doctor::Diagnosis d = diagnosis_of(simulate(setup, 4));
     const doctor::RangeNoise& noise = d.mount->story.noise;
     EXPECT_NEAR(std::isfinite(noise.repeated_m) ? noise.repeated_m : noise.plane_m, 0.02, 0.005) << sensor;
   }
@@ -236,7 +265,7 @@ TEST(Doctor, RangeNoiseIsThatOfTheSensor) {
 TEST(Doctor, NoGateIsEverLoosened) {
   const Simulated simulated = simulate(setup_of("vlp16", {"body=yes", "mount_pitch_deg=5", "base_height_m=1.5"}), 4);
   const std::vector<std::string> strict = {"ground_inlier_min=500", "ground_height_max=1.9"};
-  const doctor::Diagnosis d = doctor::diagnose(simulated.recording, told(strict), std::nullopt);
+  const doctor::Diagnosis d = diagnosis_of(simulated, told(strict));
   for (const doctor::Change& change : d.proposal.changes()) {
     EXPECT_NE(change.key, "ground_inlier_min") << "told by --set";
   }
@@ -257,9 +286,9 @@ TEST(Doctor, OfNothingItDoesNotSayThatAllIsWell) {
   doctor::FrameNote note;
   note.error = "no PCD header";
   recording.add(note, {});
-  const std::string text = doctor::diagnosis_text(doctor::diagnose(recording, told(), std::nullopt));
-  EXPECT_EQ(text.find("no setting needs to be changed"), std::string::npos) << text;
-  EXPECT_NE(text.find("no setting is proposed"), std::string::npos) << text;
+  const std::string text = doctor::diagnosis_text(diagnosis_of({recording, {}, {}}));
+  EXPECT_EQ(text.find("No setting needs to be changed"), std::string::npos) << text;
+  EXPECT_NE(text.find("No setting is proposed"), std::string::npos) << text;
   EXPECT_NE(text.find("not usable"), std::string::npos) << text;
 }
 
@@ -281,7 +310,7 @@ TEST(Doctor, StampsAreLookedAt) {
   EXPECT_EQ(health.still, 1U);
   EXPECT_EQ(health.back, 1U);
   EXPECT_EQ(health.gaps, 1U);
-  EXPECT_NEAR(health.gap_max_s, 0.6, 1e-9);
+  EXPECT_NEAR(health.longest_s, 0.6, 1e-9);
   EXPECT_EQ(health.repeated, 1U);
 }
 
@@ -297,13 +326,60 @@ std::size_t rings_seen(const std::string& field, std::uint32_t rings) {
   }
   const test::TempFolder folder;
   FrameSequence inputs({folder.write("a.pcd", file)});
-  return doctor::look_at_sensor(doctor::read_recording(inputs, 10.0, [](const std::string&) {})).rings;
+  return doctor::read_recording(inputs, 10.0, [](const std::string&) {}).sensor.facts().rings;
 }
 
 TEST(Doctor, RingsAreThoseThatTheFramesTell) {
   EXPECT_EQ(rings_seen("ring", 32), 32U);
   EXPECT_EQ(rings_seen("line", 4), 16U) << "the few lines of a pattern are no rings";
   EXPECT_EQ(rings_seen("other", 32), 16U) << "by where the points lie";
+}
+
+// A diagnosis whose preview has these shares of valid values, of a recording this long.
+doctor::Grade grade_of(doctor::Diagnosis d, double angles, double distances, double seconds) {
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q)
+    d.preview->valid[q] = q <= POSE_WALL_YAW ? angles : distances;
+  d.stamps.duration_s = seconds;
+  return doctor::judge(d).grade;
+}
+
+TEST(Doctor, TheVerdictFollowsFromValidSharesAndLength) {
+  using doctor::Grade;
+  const doctor::Diagnosis d = diagnosis_of(simulate(setup_of("os1-64", {"face_distance_m=9", "base_height_m=1.4"}), 4));
+  ASSERT_TRUE(d.preview.has_value());
+  EXPECT_EQ(grade_of(d, 1.0, 0.9, 30.0), Grade::kUsable);
+  EXPECT_EQ(grade_of(d, 1.0, 0.9, 12.0), Grade::kUsableInPart) << "30 s are asked";
+  EXPECT_EQ(grade_of(d, 1.0, 0.89, 30.0), Grade::kUsableInPart);
+  EXPECT_EQ(grade_of(d, 0.5, 0.0, 0.3), Grade::kUsableInPart);
+  EXPECT_EQ(grade_of(d, 0.49, 0.0, 30.0), Grade::kNotUsable);
+  EXPECT_EQ(grade_of(d, 0.0, 0.0, 0.3), Grade::kNotUsable) << "measured, never valid";
+  EXPECT_TRUE(contains(doctor::diagnosis_text(d), "usable if every value is valid in 90 % of at least 30 s"));
+}
+
+TEST(Doctor, NoLineOfItsTablesIsWiderThanATerminal) {
+  const Simulated simulated = simulate(setup_of("vlp16", {"body=yes", "mount_pitch_deg=5", "base_height_m=1.5"}), 4);
+  for (const Language language : {Language::kEnglish, Language::kChinese}) {
+    choose_language(language);
+    const doctor::Diagnosis d = diagnosis_of(simulated);
+    choose_language(Language::kEnglish);
+    ASSERT_FALSE(d.proposal.changes().empty());
+    std::istringstream lines(doctor::diagnosis_text(d));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(shown_width(line), 120U) << line;
+  }
+}
+
+TEST(Doctor, TheFileHoldsAllThatWasTold) {
+  const LoadedConfig settings = told({"motion=off", "motion_speed_max=1.5", "udp_port=2400", "hold_max=1.25"});
+  const doctor::Diagnosis d = diagnosis_of(simulate(setup_of("os1-64", {"face_distance_m=9"}), 4), settings);
+  const test::TempFolder folder;
+  const LoadedConfig read = load_config(folder.write("proposed.yaml", d.proposal.yaml({})), {});
+  EXPECT_EQ(read.config.number("hold_max"), 1.25);
+  EXPECT_EQ(read.motion.speed_max_m_s, 1.5);
+  EXPECT_EQ(read.live.udp_port, 2400.0);
+  std::uint32_t of_file = 0, of_proposal = 0;
+  pose_wall_config_crc(read.config.get(), &of_file);
+  pose_wall_config_crc(d.proposal.config().get(), &of_proposal);
+  EXPECT_EQ(of_file, of_proposal) << "what was previewed is what is written";
 }
 
 TEST(Doctor, KeepsAnEvenPartOfALongRecording) {

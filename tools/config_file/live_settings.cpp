@@ -12,6 +12,7 @@
 #include <cstring>
 #include <variant>
 
+#include "language/language.hpp"
 #include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
@@ -25,72 +26,83 @@ struct Row {
   Member member;
 };
 
-constexpr const char* kSources = "Live: where pose_walld takes clouds from";
-constexpr const char* kSinks = "Live: where pose_walld puts results";
+constexpr const char* kSources = translatable("Live: where pose_walld takes clouds from");
+constexpr const char* kSinks = translatable("Live: where pose_walld puts results");
 
 const std::vector<Row>& rows() {
   static const std::string sensors = fmt::format("{}", fmt::join(sensor_names(), ", "));
   static const std::vector<Row> table = {
       {{"source", kSources, Type::kChoice, "", 0, 0, "udp, ros1, ros2",
-        "source of clouds: a sensor's packets by UDP, or pointcloud_topic of ROS 1 or ROS 2"},
+        translatable("source of clouds: a sensor's packets by UDP, or pointcloud_topic of ROS 1 or ROS 2")},
        &LiveSettings::source},
       {{"extrinsic_from", kSources, Type::kChoice, "", 0, 0, "config, tf",
-        "config: extrinsic_x to extrinsic_yaw. tf (ROS only): the transform from lidar_frame to base_frame; no frame "
-        "is measured until it is known"},
+        translatable("config: extrinsic_x to extrinsic_yaw. tf (ROS only): the transform from lidar_frame to "
+                     "base_frame; no frame "
+                     "is measured until it is known")},
        &LiveSettings::extrinsic_from},
       {{"sensor", kSources, Type::kChoice, "", 0, 0, sensors.c_str(),
-        "sensor that sends the packets; auto: identified by its packets. A name that contradicts the packets is "
-        "refused"},
+        translatable(
+            "sensor that sends the packets; auto: identified by its packets. A name that contradicts the packets is "
+            "refused")},
        &LiveSettings::sensor},
       {{"sensor_metadata", kSources, Type::kText, "", 0, 0, "",
-        "metadata of the sensor: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for an "
-        "Ouster; empty: not needed"},
+        translatable(
+            "metadata of the sensor: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for an "
+            "Ouster; empty: not needed")},
        &LiveSettings::sensor_metadata},
       {{"udp_address", kSources, Type::kIpv4, "", 0, 0, "",
-        "this machine's address on the sensor's network. 0.0.0.0 listens on all networks, and anybody there can send "
-        "packets"},
+        translatable("this machine's address on the sensor's network. 0.0.0.0 listens on all networks, and anybody "
+                     "there can send "
+                     "packets")},
        &LiveSettings::udp_address},
       {{"udp_port", kSources, Type::kInteger, "1", 0, 65535, "",
-        "destination port of the sensor's packets; 0: its usual port"},
+        translatable("destination port of the sensor's packets; 0: its usual port")},
        &LiveSettings::udp_port},
       {{"udp_sender", kSources, Type::kIpv4OrNone, "", 0, 0, "",
-        "address of the sensor; packets from others are counted and dropped. Empty: the first sender"},
+        translatable("address of the sensor; packets from others are counted and dropped. Empty: the first sender")},
        &LiveSettings::udp_sender},
       {{"frame_points_max", kSources, Type::kInteger, "points", 1, 67108864, "",
-        "most points of one cloud; decides the memory. Larger clouds are refused"},
+        translatable("most points of one cloud; decides the memory. Larger clouds are refused")},
        &LiveSettings::frame_points_max},
-      {{"ros1", kSinks, Type::kSwitch, "1", 0, 0, "", "1: publish results as a node of ROS 1"}, &LiveSettings::ros1},
-      {{"ros2", kSinks, Type::kSwitch, "1", 0, 0, "", "1: publish results as a node of ROS 2"}, &LiveSettings::ros2},
+      {{"ros1", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: publish results as a node of ROS 1")},
+       &LiveSettings::ros1},
+      {{"ros2", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: publish results as a node of ROS 2")},
+       &LiveSettings::ros2},
       {{"ros_distro", kSinks, Type::kChoice, "", 0, 0, "humble, iron",
-        "ROS 2 version of the other nodes; iron stands for all later ones, too"},
+        translatable("ROS 2 version of the other nodes; iron stands for all later ones, too")},
        &LiveSettings::ros_distro},
       {{"http", kSinks, Type::kHostPort, "", 0, 0, "",
-        "address of the page, HOST:PORT; empty: no page. Everybody who reaches it can read; nobody can change "
-        "anything"},
+        translatable(
+            "address of the page, HOST:PORT; empty: no page. Everybody who reaches it can read; nobody can change "
+            "anything")},
        &LiveSettings::http},
       {{"modbus", kSinks, Type::kHostPort, "", 0, 0, "",
-        "address of the Modbus TCP server, HOST:PORT; empty: none. It serves reads of input registers only"},
+        translatable(
+            "address of the Modbus TCP server, HOST:PORT; empty: none. It serves reads of input registers only")},
        &LiveSettings::modbus},
       {{"mqtt", kSinks, Type::kHostPort, "", 0, 0, "",
-        "broker for telemetry, HOST:PORT; empty: none. Never control a machine by MQTT"},
+        translatable("broker for telemetry, HOST:PORT; empty: none. Never control a machine by MQTT")},
        &LiveSettings::mqtt},
-      {{"mqtt_topic", kSinks, Type::kText, "", 0, 0, "", "topic under which MQTT telemetry is published"},
+      {{"mqtt_topic", kSinks, Type::kText, "", 0, 0, "", translatable("topic under which MQTT telemetry is published")},
        &LiveSettings::mqtt_topic},
       {{"black_box", kSinks, Type::kText, "", 0, 0, "",
-        "folder of the black box, one ring file per start; empty: none. `pose_wall replay-box` computes it again"},
+        translatable(
+            "folder of the black box, one ring file per start; empty: none. `pose_wall replay-box` computes it again")},
        &LiveSettings::black_box},
       {{"black_box_mb", kSinks, Type::kNumber, "MB", 1, 1000000, "",
-        "space for all black boxes together, a quarter for each start; the oldest is deleted first. 2048 holds a "
-        "minute of clouds of 65,536 points"},
+        translatable(
+            "space for all black boxes together, a quarter for each start; the oldest is deleted first. 2048 holds a "
+            "minute of clouds of 65,536 points")},
        &LiveSettings::black_box_mb},
-      {{"recording", kSinks, Type::kText, "", 0, 0, "", "folder of recordings as MCAP; empty: none"},
+      {{"recording", kSinks, Type::kText, "", 0, 0, "", translatable("folder of recordings as MCAP; empty: none")},
        &LiveSettings::recording},
       {{"recording_mb", kSinks, Type::kNumber, "MB", 1, 10000000, "",
-        "space for all recordings together; the oldest is deleted first"},
+        translatable("space for all recordings together; the oldest is deleted first")},
        &LiveSettings::recording_mb},
-      {{"recording_clouds", kSinks, Type::kSwitch, "1", 0, 0, "", "1: recordings also hold the clouds"},
+      {{"recording_clouds", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: recordings also hold the clouds")},
        &LiveSettings::recording_clouds},
-      {{"status_every_s", kSinks, Type::kNumber, "s", 1, 86400, "", "period of the status line in the log"},
+      {{"status_every_s", kSinks, Type::kNumber, "s", 1, 86400, "",
+        translatable("period of the status line in the log")},
        &LiveSettings::status_every_s},
   };
   return table;

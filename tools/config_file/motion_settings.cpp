@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -18,25 +19,28 @@ struct MotionKeyRow {
   double per_unit;  // of the member, in one unit of the key
 };
 
-constexpr const char* kMotion = "Motion along the road";
+constexpr const char* kMotion = translatable("Motion along the road");
 
 // The ranges of pose_wall_motion.h; those in degrees lie within them.
 const std::vector<MotionKeyRow>& motion_key_rows() {
   static const std::vector<MotionKeyRow> table = {
       {{"motion_speed_max", kMotion, OutsideKey::Type::kNumber, "m/s", 0.01, 30, "",
-        "top speed of the machine; decides how far each frame is searched, and how fast the level along the road grows "
-        "while travel is unobservable"},
+        translatable("top speed of the machine; decides how far each frame is searched, and how fast the level along "
+                     "the road grows "
+                     "while travel is unobservable")},
        &pose_wall_motion_settings::speed_max_m_s,
        1.0},
-      {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "", "fastest turn of the machine"},
+      {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "",
+        translatable("fastest turn of the machine")},
        &pose_wall_motion_settings::turn_max_rad_s,
        kRadPerDeg},
       {{"motion_range_max", kMotion, OutsideKey::Type::kNumber, "m", 3, 100, "",
-        "farther returns are not used for motion; range_max does not apply here"},
+        translatable("farther returns are not used for motion; range_max does not apply here")},
        &pose_wall_motion_settings::range_max_m,
        1.0},
       {{"motion_keyframe", kMotion, OutsideKey::Type::kNumber, "m", 0.05, 1, "",
-        "travel between two scans of the map; smaller follows rough rock better and fills the map sooner"},
+        translatable(
+            "travel between two scans of the map; smaller follows rough rock better and fills the map sooner")},
        &pose_wall_motion_settings::keyframe_m,
        1.0},
   };

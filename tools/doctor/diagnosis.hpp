@@ -5,24 +5,19 @@
 
 #pragma once
 
-#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "doctor/mount_story.hpp"
+#include "doctor/preview.hpp"
 #include "doctor/proposal.hpp"
 #include "doctor/recording.hpp"
-#include "doctor/sensor_seen.hpp"
 #include "doctor/stamp_health.hpp"
+#include "info/sensor_look.hpp"
 
 namespace pose_wall::tools::doctor {
-
-// The frames by the proposed settings.
-struct Check {
-  std::array<double, POSE_WALL_QUANTITIES> measured{}, valid{}, level{};  // shares; median protection level
-  std::string reasons;
-};
 
 struct Ahead {
   std::string axis;  // +X, -X, +Y, -Y; empty where no road is seen
@@ -30,25 +25,38 @@ struct Ahead {
   std::string reason;
 };
 
+enum class Grade { kUsable, kUsableInPart, kNotUsable };
+// "usable", "in_part", "not": for programs.
+const char* grade_name(Grade grade);
+
 struct Verdict {
-  std::vector<std::string> against;  // not usable because of these
-  std::vector<std::string> buts;     // usable, but
+  Grade grade = Grade::kNotUsable;
+  std::string reason;                // the valid shares, or why there are none to trust
+  std::vector<std::string> buts;     // what makes it less sure
   std::vector<std::string> confirm;  // what somebody must look at
-  bool is_usable() const { return against.empty(); }
-  std::string line() const;
+  bool is_usable() const { return grade != Grade::kNotUsable; }
+  std::string headline() const;  // grade and reason
+  std::string line() const;      // and all the buts
 };
 
+// The rule by which the grade is given.
+std::string rule_text();
+
 struct Diagnosis {
-  SensorSeen sensor;
+  SensorFacts sensor;
   StampHealth stamps;
   std::optional<MountChoice> mount;  // none: no frame to look at
   Ahead ahead;
-  std::optional<Check> check;  // none: no floor or no road
+  std::optional<Preview> preview;  // none: no frame to look at
   Proposal proposal;
   Verdict verdict;
 };
 
-Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::optional<double> height_m);
+// The preview of the settings that are proposed.
+using Look = std::function<Preview(const LoadedConfig& proposed)>;
+
+Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::optional<double> height_m,
+                   const Look& look);
 
 // Fills in the verdict: the last step of the above.
 Verdict judge(const Diagnosis& diagnosis);

@@ -22,14 +22,16 @@ Json boxes(const std::vector<Box>& list) {
   return all;
 }
 
-Json sensor(const SensorSeen& s) {
+Json sensor(const SensorFacts& s) {
   return {{"class", s.model},
+          {"config", s.config.empty() ? Json(nullptr) : Json(s.config)},
           {"returns_per_frame", s.returns},
           {"rings", s.rings},
+          {"rings_certain", s.rings_are_told},
           {"elevation_min_deg", s.elevation_min_deg},
           {"elevation_max_deg", s.elevation_max_deg},
-          {"azimuth_share", s.azimuth_share},
-          {"range_median_m", s.range_median_m}};
+          {"azimuth_share", s.azimuth_span_deg / 360.0},
+          {"range_median_m", s.ranges.median_m}};
 }
 
 Json stamps(const StampHealth& h) {
@@ -43,7 +45,7 @@ Json stamps(const StampHealth& h) {
           {"rate_hz", h.rate_hz},
           {"jitter_s", h.jitter_s},
           {"gaps", h.gaps},
-          {"gap_max_s", h.gap_max_s},
+          {"gap_max_s", h.longest_s},
           {"still", h.still},
           {"back", h.back}};
 }
@@ -95,11 +97,14 @@ Json near(const MountStory& story) {
           {"moved_share", story.body.passing_share}};
 }
 
-Json check(const Check& c) {
-  Json json = Json::object();
+Json preview(const Preview& seen) {
+  Json json = {{"frames", seen.frames}};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    json[pose_wall_quantity_name(q)] = {
-        {"measured", c.measured[q]}, {"valid", c.valid[q]}, {"protection_level", c.level[q]}};
+    json[pose_wall_quantity_name(q)] = {{"measured", seen.valid[q] + seen.degraded[q]},
+                                        {"valid", seen.valid[q]},
+                                        {"degraded", seen.degraded[q]},
+                                        {"held", seen.held[q]},
+                                        {"protection_level", seen.level[q]}};
   }
   return json;
 }
@@ -115,8 +120,14 @@ Json changes(const Proposal& proposal) {
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
-  Json json = {{"usable", d.verdict.is_usable()}, {"verdict", d.verdict.line()},  {"against", d.verdict.against},
-               {"but", d.verdict.buts},           {"confirm", d.verdict.confirm}, {"sensor", sensor(d.sensor)},
+  const Verdict& v = d.verdict;
+  Json json = {{"usable", v.is_usable()},
+               {"grade", grade_name(v.grade)},
+               {"verdict", v.line()},
+               {"because", v.reason},
+               {"but", v.buts},
+               {"confirm", v.confirm},
+               {"sensor", sensor(d.sensor)},
                {"frames", stamps(d.stamps)}};
   if (d.mount) {
     json["floor"] = floor_json(*d.mount);
@@ -128,7 +139,7 @@ std::string diagnosis_json(const Diagnosis& d) {
                              {"plane_m", d.mount->story.noise.plane_m}};
     }
   }
-  if (d.check) json["check"] = check(*d.check);
+  if (d.preview) json["check"] = preview(*d.preview);
   json["changes"] = changes(d.proposal);
   return json_text(json, 2) + "\n";
 }

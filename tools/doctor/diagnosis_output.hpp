@@ -11,7 +11,7 @@
 
 namespace pose_wall::tools::doctor {
 
-// Tables of what was found, what is to be changed and confirmed; the verdict is the last line.
+// Tables of what was found, what is to be changed and confirmed; then the verdict and its rule.
 std::string diagnosis_text(const Diagnosis& diagnosis);
 
 // The same as one JSON object; null where there is no number.

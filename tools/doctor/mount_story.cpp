@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "angles.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {
@@ -43,35 +44,36 @@ bool has_height(const MountStory& story, double height_m) {
 
 MountChoice by_height(MountStory upright, MountStory flipped, double height_m) {
   const bool up = has_height(upright, height_m), down = has_height(flipped, height_m);
-  const std::string measured = fmt::format("--height {:.2f} m", height_m);
   if (up == down) {
-    MountChoice choice =
-        chosen(std::move(upright), std::move(flipped), false,
-               up ? measured + " fits the roof as well" : "no floor is as far below as " + measured + " says");
+    std::string reason = up ? say("--height {:.2f} m fits floor and roof alike", height_m)
+                            : say("no floor lies as far below as --height {:.2f} m", height_m);
+    MountChoice choice = chosen(std::move(upright), std::move(flipped), false, std::move(reason));
     choice.contradicts_height = !up;
     return choice;
   }
-  if (up) return chosen(std::move(upright), std::move(flipped), true, "by " + measured);
-  return chosen(std::move(flipped), std::move(upright), true, "by " + measured);
+  std::string reason = say("by --height {:.2f} m", height_m);
+  if (up) return chosen(std::move(upright), std::move(flipped), true, std::move(reason));
+  return chosen(std::move(flipped), std::move(upright), true, std::move(reason));
 }
 
 MountChoice by_what_is_seen(MountStory upright, MountStory flipped) {
   if (carries(upright, flipped)) {
-    return chosen(std::move(upright), std::move(flipped), true, "the machine's body is seen on the floor's side");
+    return chosen(std::move(upright), std::move(flipped), true, tr("the machine's body is on the floor's side"));
   }
   if (carries(flipped, upright)) {
-    return chosen(std::move(flipped), std::move(upright), true, "the machine's body is seen on the floor's side");
+    return chosen(std::move(flipped), std::move(upright), true, tr("the machine's body is on the floor's side"));
   }
   if (!flipped.floor.is_found()) {
-    return chosen(std::move(upright), std::move(flipped), true, "no other plane could be a floor");
+    return chosen(std::move(upright), std::move(flipped), true, tr("no other plane could be a floor"));
   }
   if (!upright.floor.is_found()) {
-    return chosen(std::move(flipped), std::move(upright), false, "only the sensor's upper side sees a plane");
+    return chosen(std::move(flipped), std::move(upright), false, tr("a plane lies on the sensor's upper side alone"));
   }
   if (usable(flipped) > usable(upright) + 0.3) {
-    return chosen(std::move(flipped), std::move(upright), false, "floor and walls are seen better so");
+    return chosen(std::move(flipped), std::move(upright), false, tr("floor and walls fit better upside down"));
   }
-  return chosen(std::move(upright), std::move(flipped), false, "nothing tells floor from roof; upright is usual");
+  return chosen(std::move(upright), std::move(flipped), false,
+                tr("floor and roof look alike here; upright is the usual way"));
 }
 
 void look_around(MountStory& story, const api::Config& config, const std::vector<KeptFrame>& frames) {
@@ -125,7 +127,7 @@ MountChoice choose_mount(const api::Config& told, bool is_told, std::optional<do
                          const std::vector<KeptFrame>& frames) {
   MountStory upright = tell_story(told, false, frames);
   if (is_told && upright.floor.is_found()) {
-    return {std::move(upright), std::nullopt, true, "as the config's extrinsic says", false};
+    return {std::move(upright), std::nullopt, true, tr("as the config's extrinsic says"), false};
   }
   MountStory flipped = tell_story(told, true, frames);
   if (height_m) return by_height(std::move(upright), std::move(flipped), *height_m);

@@ -55,7 +55,7 @@ def row(name, sensor, settings, found):
         f"{ahead} / {truth.get('forward_axis', '+X')}",
         f"{1e3 * (found['range_noise']['m'] or float('nan')):.0f}" if "range_noise" in found else "-",
         f"{len(body.get('boxes_m', []))} / {'yes' if 'body' in truth else 'no'}",
-        "yes" if floor.get("certain") else "no", "ready" if found["usable"] else "not usable")) + " |"
+        "yes" if floor.get("certain") else "no", found["grade"].replace("_", " "))) + " |"
 
 
 def main():

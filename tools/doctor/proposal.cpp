@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "config_file/key_table.hpp"
+#include "language/language.hpp"
 #include "sim/sensors.hpp"
 #include "terminal/text_table.hpp"
 
@@ -63,31 +64,40 @@ void Proposal::take_class(const std::string& model, const std::string& title) {
   if (known == nullptr) return;
   for (const sim::EngineSetting& setting : known->engine) {
     if (is_told(setting.key)) continue;
-    set(setting.key, setting.value, fmt::format("{}: as config/{}.yaml has it", title, model));
+    set(setting.key, setting.value, say("{} class: as in config/{}.yaml", title, model));
   }
+}
+
+LoadedConfig Proposal::settings() const {
+  LoadedConfig all = told_;
+  all.config = config_;
+  return all;
+}
+
+std::string Proposal::comment_of(const std::string& key) const {
+  const auto change =
+      std::find_if(changes_.rbegin(), changes_.rend(), [&key](const Change& c) { return c.key == key; });
+  if (change != changes_.rend()) {
+    return say("{} (was {})", change->reason, change->before.empty() ? std::string(tr("none")) : change->before);
+  }
+  if (const auto stated = stated_.find(key); stated != stated_.end()) return stated->second;
+  return is_told(key) ? say("as given: {}", told_.origin(key)) : "";
 }
 
 std::string Proposal::yaml(const std::vector<std::string>& head) const {
   std::string text;
   for (const std::string& line : head) text += comment(line);
-  text += comment("What is not named here keeps its default; `pose_wall check-config FILE` shows what it comes to.");
+  text += comment(tr("Keys that are not here keep their defaults. `pose_wall check-config FILE` prints them all."));
+  const auto add = [this, &text](const char* key, const std::string& value) {
+    const std::string why = comment_of(key);
+    if (!why.empty() && !value.empty()) text += fmt::format("\n{}{}: {}\n", comment(why), key, value);
+  };
   for (const pose_wall_key_info& key : config_keys()) {
-    const auto change =
-        std::find_if(changes_.rbegin(), changes_.rend(), [&key](const Change& c) { return c.key == key.name; });
     const std::string value = config_value_text(*config_.get(), key);
-    const bool is_box = key.type == POSE_WALL_KEY_BOX;
-    if (change != changes_.rend()) {
-      const std::string before = change->before.empty() ? "none" : change->before;
-      text += "\n" + comment(fmt::format("{} (was {})", change->reason, before));
-    } else if (const auto stated = stated_.find(key.name); stated != stated_.end()) {
-      text += "\n" + comment(stated->second);
-    } else if (is_told(key.name) && !value.empty()) {
-      text += "\n" + comment("as told: " + told_.origin(key.name));
-    } else {
-      continue;
-    }
-    text += fmt::format("{}: {}\n", key.name, yaml_value(value, is_box));
+    add(key.name, value.empty() ? value : yaml_value(value, key.type == POSE_WALL_KEY_BOX));
   }
+  for (const OutsideKey& key : motion_keys()) add(key.name, motion_value_text(told_.motion, key));
+  for (const OutsideKey& key : live_keys()) add(key.name, live_value_text(told_.live, key));
   return text;
 }
 

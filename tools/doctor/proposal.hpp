@@ -40,12 +40,17 @@ class Proposal {
   bool is_told(const std::string& key) const { return told_.origins.count(key) != 0; }
   const LoadedConfig& told() const { return told_; }
   const api::Config& config() const { return config_; }
+  // All of it: what was told for motion and pose_walld, too.
+  LoadedConfig settings() const;
   const std::vector<Change>& changes() const { return changes_; }
 
   // pose_wall.yaml: what was told and what was changed, in the order of the table; `head` lines become comments.
   std::string yaml(const std::vector<std::string>& head) const;
 
  private:
+  // Why a key is in the file; empty: it is not.
+  std::string comment_of(const std::string& key) const;
+
   LoadedConfig told_;
   api::Config config_;
   std::vector<Change> changes_;

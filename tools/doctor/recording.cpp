@@ -3,14 +3,11 @@
 
 #include "doctor/recording.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <optional>
 #include <utility>
 
 #include "frames/frame_stamps.hpp"
-#include "frames/point_position.hpp"
 #include "frames/told_rings.hpp"
 #include "terminal/interrupt.hpp"
 
@@ -36,7 +33,7 @@ void add_frame(Recording& recording, SourcedFrame& sourced, FrameStamps& stamps)
     const std::int32_t status = pose_wall_cloud_check(&sourced.frame->cloud);
     if (status == POSE_WALL_OK) {
       note = note_of(sourced.frame->cloud, kept);
-      recording.rings_told = std::max(recording.rings_told, told_rings(*sourced.frame).count);
+      note.rings = told_rings(*sourced.frame);
     } else {
       error = pose_wall_status_text(status);
     }
@@ -59,6 +56,7 @@ pose_wall_cloud KeptFrame::cloud() const {
 
 void Recording::add(FrameNote note, KeptFrame frame) {
   const bool usable = note.error.empty() && note.returns >= kReturnsMin;
+  if (note.error.empty()) sensor.add(frame.xyz_lidar_m, note.rings);
   notes.push_back(std::move(note));
   if (!usable || readable_++ % stride_ != 0) return;
   kept.push_back(std::move(frame));
@@ -76,19 +74,9 @@ FrameNote note_of(const pose_wall_cloud& cloud, KeptFrame& frame) {
   FrameNote note;
   note.points = cloud.width * cloud.height;
   note.digest = 14695981039346656037U;
-  frame.xyz_lidar_m.clear();
-  frame.xyz_lidar_m.reserve(std::size_t{3} * note.points);
-  for (std::uint32_t row = 0; row < cloud.height; ++row) {
-    for (std::uint32_t column = 0; column < cloud.width; ++column) {
-      const Eigen::Vector3f p = point_position(cloud, row, column).cast<float>();
-      if (!p.allFinite() || p.isZero(0.0F)) continue;
-      ++note.returns;
-      for (const float number : {p.x(), p.y(), p.z()}) {
-        frame.xyz_lidar_m.push_back(number);
-        mix(note.digest, number);
-      }
-    }
-  }
+  frame.xyz_lidar_m = returns_of(cloud);
+  note.returns = static_cast<std::uint32_t>(frame.count());
+  for (const float number : frame.xyz_lidar_m) mix(note.digest, number);
   return note;
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "info/sensor_look.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "pose_wall.h"
 
@@ -26,6 +27,7 @@ struct FrameNote {
   std::uint32_t points = 0;
   std::uint32_t returns = 0;  // finite and not zero
   std::uint64_t digest = 0;   // of the returns: equal for a repeated cloud
+  ToldRings rings;            // by the frame itself
 };
 
 // The returns of one frame, in the lidar frame.
@@ -43,7 +45,7 @@ struct KeptFrame {
 struct Recording {
   std::vector<FrameNote> notes;
   std::vector<KeptFrame> kept;
-  std::size_t rings_told = 0;       // by the frames themselves, the most of any; 0: they do not
+  SensorLook sensor;                // by all readable frames
   std::vector<std::string> errors;  // inputs that gave nothing, and frames that could not be read
   bool interrupted = false;
 

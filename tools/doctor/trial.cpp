@@ -4,13 +4,10 @@
 #include "doctor/trial.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string>
-#include <utility>
 
 #include "config_file/load_config.hpp"
 #include "doctor/statistics.hpp"
-#include "results/result_csv.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {
@@ -54,25 +51,6 @@ double Trial::wall_measured(bool left) const {
   return share_of(results_, [front](const auto& r) {
     return is_measured(r.quantity[front]) || is_measured(r.quantity[front + 1]);
   });
-}
-
-std::string Trial::reasons(std::size_t count) const {
-  std::array<std::pair<std::size_t, std::uint32_t>, POSE_WALL_REASON_COUNT> counts{};
-  for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
-    counts[bit].second = bit;
-    for (const pose_wall_result& r : results_) counts[bit].first += all_reasons(r) >> bit & 1U;
-  }
-  std::stable_sort(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  // What only says that a value has no past is true of every frame for itself.
-  constexpr std::uint32_t kOfNoPast = POSE_WALL_R_NEVER_MEASURED | POSE_WALL_R_LEAF_GROWN;
-  std::string names;
-  for (const auto& [frames, bit] : counts) {
-    if (frames == 0 || count == 0) break;
-    if ((1U << bit & kOfNoPast) != 0) continue;
-    names += (names.empty() ? "" : ", ") + std::string(pose_wall_reason_name(bit));
-    --count;
-  }
-  return names;
 }
 
 }  // namespace pose_wall::tools::doctor

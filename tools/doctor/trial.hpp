@@ -32,8 +32,6 @@ class Trial {
   double valid(std::uint32_t quantity) const;
   // In which the wall was measured at either of its two points.
   double wall_measured(bool left) const;
-  // The engine's reasons over all frames, most frequent first, at most `count` names joined by ", ".
-  std::string reasons(std::size_t count) const;
 
  private:
   std::vector<pose_wall_result> results_;

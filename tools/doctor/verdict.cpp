@@ -10,204 +10,248 @@
 #include "angles.hpp"
 #include "doctor/diagnosis.hpp"
 #include "doctor/statistics.hpp"
-#include "terminal/counted.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {
 
+using Reasons = std::vector<std::string>;
+
+// The rule, as rule_text() states it.
+constexpr double kValidAll = 0.9, kValidSome = 0.5;
+constexpr double kDurationAsked_s = 30.0;
+constexpr double kDurationRounding_s = 0.1;  // 300 stamps at 10 Hz need not add up to 30 s
 constexpr std::size_t kFramesMin = 3;
-constexpr double kDurationMin_s = 20.0;
 constexpr double kFaultShareMax = 0.2;
 // What a machine that stands with its motors running may move, beyond what one frame scatters.
 constexpr double kTiltMoved_deg = 1.0, kAzimuthMoved_deg = 1.5, kDistanceMoved_m = 0.1, kSigmas = 4.0;
 constexpr double kOffLineMax_deg = 35.0, kOffLineTold_deg = 5.0;
-constexpr double kMeasuredMin = 0.8, kSideMin = 0.5, kValidMin = 0.5;
 constexpr double kNoiseMax_m = 0.03;
 constexpr double kPassingMax = 0.03;
+constexpr std::size_t kReasonsShown = 4;
 
 bool has_moved(double spread, double sigma, double allowed) {
   return spread > std::max(allowed, kSigmas * sigma);
 }
 
-void judge_frames(const Diagnosis& d, Verdict& v) {
+void check_frames(const Diagnosis& d, Reasons& against) {
   const StampHealth& s = d.stamps;
   const std::size_t steps = std::max<std::size_t>(s.frames, 1);
   if (s.frames < kFramesMin) {
-    v.against.push_back(counted(s.frames, "frame") +
-                        ": what stays and what moves needs 3 at least, and 30 s are asked");
+    against.push_back(
+        say("the recording has too few frames ({}; at least {} are needed, 30 s are asked)", s.frames, kFramesMin));
   } else if (share(s.back + s.still, steps) > kFaultShareMax) {
-    v.against.push_back(fmt::format("the stamps stand still {} times and go back {} times", s.still, s.back));
+    against.push_back(say("{} stamps repeat and {} go back", s.still, s.back));
   } else if (share(s.repeated, steps) > kFaultShareMax) {
-    v.against.push_back(
-        fmt::format("{} repeat the points before them: the sensor is frozen", counted(s.repeated, "frame")));
+    against.push_back(say("{} frames repeat the points before them: the sensor is frozen", s.repeated));
   } else if (share(s.empty, steps) > kFaultShareMax) {
-    v.against.push_back(fmt::format("{} of {} hold no return", s.empty, counted(s.frames, "frame")));
+    against.push_back(say("{} of {} frames have no return", s.empty, s.frames));
   }
-  if (d.sensor.range_median_m > 200.0) {
-    v.against.push_back(fmt::format("half of the points lie beyond {:.0f} m: millimetres?", d.sensor.range_median_m));
-  }
+  std::string unit = unit_doubt(d.sensor.ranges);
+  if (!unit.empty()) against.push_back(std::move(unit));
 }
 
-void judge_mount(const Diagnosis& d, Verdict& v) {
+void check_mount(const Diagnosis& d, Reasons& against) {
   if (!d.mount) {
-    if (v.against.empty()) v.against.push_back("no frame holds enough returns");
+    if (against.empty()) against.push_back(tr("no frame has enough returns"));
     return;
   }
   const FloorSeen& floor = d.mount->story.floor;
   if (!floor.is_found()) {
-    v.against.push_back(fmt::format("the floor is seen in {:.0f} % of the frames", 100.0 * floor.measured));
+    against.push_back(say("the floor is seen in {:.0f} % of the frames", 100.0 * floor.measured));
     return;
   }
   if (d.mount->contradicts_height) {
-    v.against.push_back(fmt::format("{}, it is seen {:.2f} m below", d.mount->reason, floor.height_m));
+    against.push_back(say("{}; it is seen {:.2f} m below", d.mount->reason, floor.height_m));
     return;
   }
   // Upright is how sensors are mounted; the other way round somebody has to say it.
   if (d.mount->story.is_flipped && !d.mount->is_sure) {
-    v.against.push_back(
-        fmt::format("{}: a roof, or the floor under a sensor upside down? --height M or extrinsic_roll "
-                    "decides",
-                    d.mount->reason));
-  }
-  if (has_moved(floor.tilt_spread_rad * kDegPerRad, floor.tilt_sigma_rad * kDegPerRad, kTiltMoved_deg)) {
-    v.against.push_back(fmt::format("the sensor moved while it was recorded (its tilt by {:.1f} deg): let it stand",
-                                    floor.tilt_spread_rad * kDegPerRad));
+    against.push_back(say("{}: a roof, or the floor under a sensor upside down? --height M or extrinsic_roll decides",
+                          d.mount->reason));
   }
 }
 
-void judge_road(const Diagnosis& d, Verdict& v) {
-  if (!d.mount || !d.mount->story.floor.is_found()) return;
-  const RoadAxis& road = d.mount->story.road;
-  if (!road.is_found) {
-    v.against.push_back("no side walls are seen along any axis");
+// Once, by the clearest sign.
+void check_standing(const Diagnosis& d, Reasons& against) {
+  const MountStory& story = d.mount->story;
+  const FloorSeen& floor = story.floor;
+  const RoadAxis& road = story.road;
+  if (has_moved(floor.tilt_spread_rad * kDegPerRad, floor.tilt_sigma_rad * kDegPerRad, kTiltMoved_deg)) {
+    against.push_back(say("the sensor moved during the recording (its tilt by {:.1f} deg): let it stand",
+                          floor.tilt_spread_rad * kDegPerRad));
     return;
   }
-  if (road.is_ambiguous) {
-    v.against.push_back("the walls across make as good a road as those along: a room or a crossing");
-  } else if (std::fabs(road.off_line_rad) * kDegPerRad > kOffLineMax_deg) {
-    v.against.push_back(
-        fmt::format("the road lies {:.0f} deg off the nearest axis ({}): turn the machine along it, or "
-                    "tell extrinsic_yaw",
-                    road.off_line_rad * kDegPerRad, road.line));
-  }
+  if (!road.is_found || d.mount->contradicts_height) return;
   const bool turned =
       has_moved(road.azimuth_spread_rad * kDegPerRad, road.azimuth_sigma_rad * kDegPerRad, kAzimuthMoved_deg);
-  const bool told = !v.against.empty() && v.against.back().find("moved") != std::string::npos;
-  if (!told && (turned || has_moved(road.distance_spread_m, road.distance_sigma_m, kDistanceMoved_m))) {
-    v.against.push_back(
-        fmt::format("the sensor moved while it was recorded (the road by {:.1f} deg, walls by {:.2f} m)",
-                    road.azimuth_spread_rad * kDegPerRad, road.distance_spread_m));
+  if (turned || has_moved(road.distance_spread_m, road.distance_sigma_m, kDistanceMoved_m)) {
+    against.push_back(
+        say("the sensor moved during the recording (the road by {:.1f} deg, the walls by {:.2f} m): let it stand",
+            road.azimuth_spread_rad * kDegPerRad, road.distance_spread_m));
   }
 }
 
-double side(const std::array<double, POSE_WALL_QUANTITIES>& shares, bool left) {
-  const std::uint32_t front = left ? POSE_WALL_D_LF : POSE_WALL_D_RF;
-  return std::max(shares[front], shares[front + 1]);
+void check_road(const Diagnosis& d, Reasons& against) {
+  const RoadAxis& road = d.mount->story.road;
+  if (!road.is_found) {
+    against.push_back(tr("no side walls are seen along any axis"));
+  } else if (road.is_ambiguous) {
+    against.push_back(tr("the walls across make as good a road as those along: a room or a crossing"));
+  } else if (std::fabs(road.off_line_rad) * kDegPerRad > kOffLineMax_deg) {
+    against.push_back(
+        say("the road lies {:.0f} deg off the nearest axis ({}): turn the machine along it, or set "
+            "extrinsic_yaw",
+            road.off_line_rad * kDegPerRad, road.line));
+  }
 }
 
-void judge_check(const Diagnosis& d, Verdict& v) {
-  if (!d.check) return;
-  const Check& c = *d.check;
-  const double angles = std::min({c.measured[POSE_WALL_ROLL], c.measured[POSE_WALL_PITCH], c.measured[POSE_WALL_YAW]});
-  if (angles < kMeasuredMin) {
-    v.against.push_back(fmt::format("with these settings the angles are measured in {:.0f} % of the frames ({})",
-                                    100.0 * angles, c.reasons));
-    return;
-  }
-  const double left = side(c.measured, true), right = side(c.measured, false);
-  if (std::max(left, right) < kSideMin)
-    v.against.push_back("neither wall's distance is measured in half of the frames");
-  for (const bool is_left : {true, false}) {
-    if (side(c.measured, is_left) >= kMeasuredMin) continue;
-    v.buts.push_back(fmt::format("the {} wall is measured in {:.0f} % of the frames", is_left ? "left" : "right",
-                                 100.0 * side(c.measured, is_left)));
-  }
-  std::vector<std::string> weak;
+// "roll 97 %, pitch 97 %": those whose share is at least `least` and below `most`.
+std::string shares_between(const Preview::Numbers& shares, double least, double most) {
+  std::vector<std::string> parts;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    if (c.measured[q] >= kSideMin && c.valid[q] < kValidMin) weak.emplace_back(pose_wall_quantity_name(q));
+    if (shares[q] < least || shares[q] >= most) continue;
+    parts.push_back(fmt::format("{} {:.0f} %", pose_wall_quantity_name(q), std::floor(100.0 * shares[q])));
   }
-  if (!weak.empty()) v.buts.push_back(fmt::format("mostly degraded: {} ({})", fmt::join(weak, ", "), c.reasons));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void doubt_recording(const Diagnosis& d, Verdict& v) {
+void grade(const Diagnosis& d, Verdict& v) {
+  if (!d.preview) return;
+  const Preview::Numbers& valid = d.preview->valid;
+  constexpr double kNoLimit = 2.0;
+  const double least = *std::min_element(valid.begin(), valid.end());
+  const double most = *std::max_element(valid.begin(), valid.end());
+  const bool is_long = d.stamps.duration_s >= kDurationAsked_s - kDurationRounding_s;
+  if (most < kValidSome) {
+    v.reason = say("no value is valid in half of the frames ({})", shares_between(valid, 0.0, kNoLimit));
+  } else if (least >= kValidAll) {
+    v.reason = say("every value is valid in {:.0f} % of the frames or more ({})", 100.0 * kValidAll,
+                   shares_between(valid, 0.0, kNoLimit));
+  } else if (least >= kValidSome) {
+    v.reason = say("every value is valid in half of the frames or more ({})", shares_between(valid, 0.0, kNoLimit));
+  } else {
+    v.reason = say("valid in half of the frames or more: {}; in less: {}", shares_between(valid, kValidSome, kNoLimit),
+                   shares_between(valid, 0.0, kValidSome));
+  }
+  if (most < kValidSome) return;
+  v.grade = least >= kValidAll && is_long ? Grade::kUsable : Grade::kUsableInPart;
+}
+
+void doubt_recording(const Diagnosis& d, Reasons& buts) {
   const StampHealth& s = d.stamps;
-  if (s.duration_s < kDurationMin_s) v.buts.push_back(fmt::format("only {:.1f} s were recorded", s.duration_s));
-  if (s.unreadable > 0) v.buts.push_back(counted(s.unreadable, "frame") + " could not be read");
-  if (s.empty > 0) v.buts.push_back(counted(s.empty, "frame") + " without a return");
-  if (s.cut > 0) v.buts.push_back(counted(s.cut, "frame") + " cut short");
-  if (s.repeated > 0) v.buts.push_back(counted(s.repeated, "repeated frame"));
-  if (s.still + s.back > 0) v.buts.push_back(fmt::format("stamps: {} still, {} back", s.still, s.back));
-  if (s.gaps > 0) v.buts.push_back(fmt::format("{}, up to {:.2f} s", counted(s.gaps, "gap"), s.gap_max_s));
-  if (!s.has_stamps()) v.confirm.push_back("the frames carry no stamps: rate and gaps are those of --rate");
-  if (d.sensor.model == "unknown") {
-    v.buts.push_back("the sensor is of no known class: its gates are the defaults");
+  if (s.duration_s < kDurationAsked_s - kDurationRounding_s) {
+    buts.push_back(say("the recording has {:.1f} s; 30 s of a standing machine are asked", s.duration_s));
+  }
+  if (d.preview && !d.preview->reasons_text(1).empty()) {
+    buts.push_back(say("most frequent reasons: {}", d.preview->reasons_text(kReasonsShown)));
+  }
+  if (s.unreadable > 0) buts.push_back(say("unreadable frames: {}", s.unreadable));
+  if (s.empty > 0) buts.push_back(say("frames without a return: {}", s.empty));
+  if (s.cut > 0) buts.push_back(say("frames cut short: {}", s.cut));
+  if (s.repeated > 0) buts.push_back(say("frames that repeat the one before: {}", s.repeated));
+  if (s.still + s.back > 0) buts.push_back(say("repeated stamps: {}, backward steps: {}", s.still, s.back));
+  if (s.gaps > 0) buts.push_back(say("gaps between frames: {}, the longest {:.2f} s", s.gaps, s.longest_s));
+  if (d.sensor.config.empty() && d.sensor.returns > 0.0) {
+    buts.push_back(tr("no file of config/ is made for this sensor, so its gates are the defaults"));
   }
 }
 
-void doubt_mount(const Diagnosis& d, Verdict& v) {
-  if (!d.mount || !d.mount->story.floor.is_found()) return;
+void doubt_mount(const Diagnosis& d, Reasons& buts) {
   const MountStory& story = d.mount->story;
-  if (!d.mount->is_sure) {
-    const std::string other =
-        d.mount->other ? fmt::format("; the other plane is {:.2f} m away", d.mount->other->floor.height_m) : "";
-    if (!story.is_flipped) {
-      v.buts.push_back(fmt::format("upright or upside down is not certain ({}): --height M decides", d.mount->reason));
-    }
-    v.confirm.push_back(fmt::format("mounted {}, {:.2f} m above the floor?{}",
-                                    story.is_flipped ? "upside down" : "upright", story.floor.height_m, other));
+  if (!d.mount->is_sure && !story.is_flipped) {
+    buts.push_back(say("upright or upside down is not certain ({}): --height M decides", d.mount->reason));
   }
   if (story.floor.tilt_level_rad * kDegPerRad > 1.0) {
-    v.buts.push_back(
-        fmt::format("the mounting's tilt is known within {:.1f} deg only", story.floor.tilt_level_rad * kDegPerRad));
-  }
-  const bool place_told = d.proposal.is_told("extrinsic_x") || d.proposal.is_told("extrinsic_y");
-  if (!place_told) {
-    v.confirm.push_back(
-        "the sensor sits at base's origin: no frame tells otherwise, and the distances are measured from there "
-        "(extrinsic_x, extrinsic_y, extrinsic_z)");
+    buts.push_back(
+        say("the tilt of the mounting is known within {:.1f} deg only", story.floor.tilt_level_rad * kDegPerRad));
   }
   const double noise_m = story.noise.best_m();
-  if (noise_m > kNoiseMax_m) v.buts.push_back(fmt::format("ranges scatter by {:.0f} mm", 1e3 * noise_m));
+  if (noise_m > kNoiseMax_m) buts.push_back(say("ranges scatter by {:.0f} mm", 1e3 * noise_m));
   for (const Change& change : d.proposal.changes()) {
     const bool is_mount = change.key == "forward_axis" || change.key.rfind("extrinsic_", 0) == 0;
     if (!is_mount || !d.proposal.is_told(change.key)) continue;
-    v.buts.push_back(fmt::format("{} was told as {}, found as {}", change.key, change.before, change.value));
+    buts.push_back(say("{} was given as {} and found as {}", change.key, change.before, change.value));
   }
   if (!d.ahead.axis.empty() && !d.ahead.is_known) {
-    v.buts.push_back(fmt::format("{} is a guess: which end of the road is ahead cannot be seen", d.ahead.axis));
+    buts.push_back(say("{} is a guess: the frames do not show which end of the road is ahead", d.ahead.axis));
   }
-  if (d.ahead.is_known) v.confirm.push_back(fmt::format("{} is ahead: {}", d.ahead.axis, d.ahead.reason));
   if (story.road.is_found && std::fabs(story.road.off_line_rad) * kDegPerRad > kOffLineTold_deg) {
-    v.buts.push_back(
-        fmt::format("the road lies {:.1f} deg off {}: does the machine stand so, or the sensor on it "
-                    "(extrinsic_yaw)?",
-                    story.road.off_line_rad * kDegPerRad, story.road.line));
+    buts.push_back(
+        say("the road lies {:.1f} deg off {}: does the machine stand so, or the sensor on it "
+            "(extrinsic_yaw)?",
+            story.road.off_line_rad * kDegPerRad, story.road.line));
   }
-  if (!story.body.boxes_base.empty()) v.confirm.push_back("the body boxes hold the machine and nothing else");
+}
+
+void ask_to_confirm(const Diagnosis& d, Reasons& confirm) {
+  if (!d.stamps.has_stamps()) confirm.push_back(tr("the frames carry no stamps: rate and gaps are those of --rate"));
+  if (!d.mount || !d.mount->story.floor.is_found()) return;
+  const MountStory& story = d.mount->story;
+  if (!d.mount->is_sure) {
+    const char* const way = story.is_flipped ? tr("upside down") : tr("upright");
+    std::string question = say("is the sensor mounted {}, {:.2f} m above the floor?", way, story.floor.height_m);
+    if (d.mount->other) question += say(" The other plane is {:.2f} m away.", d.mount->other->floor.height_m);
+    confirm.push_back(std::move(question));
+  }
+  if (!d.proposal.is_told("extrinsic_x") && !d.proposal.is_told("extrinsic_y")) {
+    confirm.push_back(
+        tr("the sensor sits at the origin of base, from which distances are measured; frames cannot show it "
+           "(extrinsic_x, extrinsic_y, extrinsic_z)"));
+  }
+  if (d.ahead.is_known) confirm.push_back(say("{} is ahead: {}", d.ahead.axis, d.ahead.reason));
+  if (!story.body.boxes_base.empty()) confirm.push_back(tr("the body boxes hold the machine and nothing else"));
   if (!story.body.unexplained.empty()) {
-    v.confirm.push_back(counted(story.body.unexplained.size(), "thing") + " near the sensor that may be the machine's");
+    confirm.push_back(say("things near the sensor that may belong to the machine: {}", story.body.unexplained.size()));
   }
   if (story.body.passing_share > kPassingMax) {
-    v.confirm.push_back(fmt::format("{:.0f} % of the near returns moved: a boom or people are in no box",
-                                    100.0 * story.body.passing_share));
+    confirm.push_back(
+        say("{:.0f} % of the near returns moved: no box holds a boom or people", 100.0 * story.body.passing_share));
   }
 }
 
 }  // namespace
 
+const char* grade_name(Grade grade) {
+  return grade == Grade::kUsable ? "usable" : grade == Grade::kUsableInPart ? "in_part" : "not";
+}
+
+std::string rule_text() {
+  return say(
+      "Rule: usable if every value is valid in {:.0f} % of at least {:.0f} s; usable in part if some value is valid in "
+      "{:.0f} %; else not usable. A recording that does not fit (a machine that moved, no floor, no road) is not "
+      "usable "
+      "either.",
+      100.0 * kValidAll, kDurationAsked_s, 100.0 * kValidSome);
+}
+
+std::string Verdict::headline() const {
+  if (grade == Grade::kUsable) return say("usable: {}", reason);
+  return grade == Grade::kUsableInPart ? say("usable in part: {}", reason) : say("not usable because {}", reason);
+}
+
 std::string Verdict::line() const {
-  if (!is_usable()) return fmt::format("not usable because {}", fmt::join(against, "; "));
-  return buts.empty() ? "ready" : fmt::format("ready, but {}", fmt::join(buts, "; "));
+  return buts.empty() ? headline() : say("{}. But {}", headline(), fmt::join(buts, "; "));
 }
 
 Verdict judge(const Diagnosis& d) {
   Verdict v;
-  judge_frames(d, v);
-  judge_mount(d, v);
-  judge_road(d, v);
-  if (v.against.empty()) judge_check(d, v);
-  doubt_recording(d, v);
-  doubt_mount(d, v);
+  Reasons against;
+  check_frames(d, against);
+  check_mount(d, against);
+  const bool has_floor = d.mount && d.mount->story.floor.is_found();
+  if (has_floor) {
+    check_standing(d, against);
+    check_road(d, against);
+  }
+  if (against.empty()) {
+    grade(d, v);
+  } else {
+    v.reason = fmt::format("{}", fmt::join(against, "; "));
+  }
+  doubt_recording(d, v.buts);
+  if (has_floor) doubt_mount(d, v.buts);
+  ask_to_confirm(d, v.confirm);
   return v;
 }
 

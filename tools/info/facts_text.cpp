@@ -6,16 +6,34 @@
 
 #include <algorithm>
 #include <ctime>
+#include <utility>
 
 #include "frames/field_value.hpp"
 #include "info/input_facts.hpp"
-#include "terminal/counted.hpp"
+#include "info/wide_text.hpp"
+#include "language/language.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 constexpr double kSecondsOf2000 = 946'684'800.0;
+
+// A name and what was found, without head or rule.
+class Facts {
+ public:
+  void add(const char* name, std::string found) { rows_.push_back({name, std::move(found)}); }
+  std::string text() const {
+    std::size_t width = 0;
+    for (const auto& [name, found] : rows_) width = std::max(width, shown_width(name));
+    std::string all;
+    for (const auto& [name, found] : rows_) all += hanging(name, found, width + 2, kLineWidth);
+    return all;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> rows_;
+};
 
 std::string stamp_text(std::int64_t stamp_ns) {
   const double seconds = static_cast<double>(stamp_ns) * 1e-9;
@@ -26,52 +44,59 @@ std::string stamp_text(std::int64_t stamp_ns) {
   return text;
 }
 
-void add_stamps(TextTable& table, const StampFacts& stamps, std::size_t frames) {
+void add_stamps(Facts& rows, const StampFacts& stamps, std::size_t frames) {
   if (stamps.count == 0) {
-    table.add_row({"stamps", "none: frames follow each other at --rate"});
+    rows.add(tr("stamps"), tr("none: frames follow each other at --rate"));
     return;
   }
-  table.add_row(
-      {"stamps", fmt::format("{} to {}{}", stamp_text(stamps.first_ns), stamp_text(stamps.last_ns),
-                             stamps.count < frames ? fmt::format("; {} frames have none", frames - stamps.count)
-                                                   : std::string{})});
-  if (stamps.interval_s > 0.0) {
-    table.add_row({"rate", fmt::format("{:.2f} Hz (median of the steps), longest step {:.3f} s, {}, {} backwards",
-                                       1.0 / stamps.interval_s, stamps.longest_s, counted(stamps.gaps, "gap"),
-                                       counted(stamps.backwards, "step"))});
-  } else if (stamps.backwards > 0) {
-    table.add_row({"rate", fmt::format("unknown, {} backwards", counted(stamps.backwards, "step"))});
-  }
+  std::string span = say("{} to {}", stamp_text(stamps.first_ns), stamp_text(stamps.last_ns));
+  if (stamps.count < frames) span += say("; {} frames have none", frames - stamps.count);
+  rows.add(tr("stamps"), std::move(span));
+  rows.add(tr("rate"), steps_text(stamps.steps));
 }
 
-void add_sensor(TextTable& table, const SensorFacts& sensor) {
-  if (sensor.guess.empty()) return;
-  table.add_row({"rings", sensor.rings > 0 ? fmt::format("{} (by {})", sensor.rings, sensor.rings_by) : "none found"});
-  table.add_row({"view", fmt::format("elevation {:.1f}° to {:.1f}°, {:.0f}° of azimuth, about the sensor's axes",
-                                     sensor.elevation_min_deg, sensor.elevation_max_deg, sensor.azimuth_span_deg)});
-  table.add_row({"looks like", sensor.guess});
+void add_sensor(Facts& rows, const SensorFacts& sensor) {
+  rows.add(tr("ranges"), ranges_text(sensor.ranges));
+  if (is_unit_doubtful(sensor.ranges)) rows.add(tr("unit?"), unit_doubt(sensor.ranges));
+  rows.add(tr("rings"), say("{} ({})", rings_text(sensor), rings_source_text(sensor)));
+  rows.add(tr("view"), say("elevation {:.1f}° to {:.1f}°, {:.0f}° of azimuth, about the sensor's axes",
+                           sensor.elevation_min_deg, sensor.elevation_max_deg, sensor.azimuth_span_deg));
+  rows.add(tr("looks like"), class_text(sensor));
 }
 
 std::string points_text(std::vector<std::uint32_t> points) {
   std::sort(points.begin(), points.end());
-  return fmt::format("{} min, {} median, {} max a frame", points.front(), points[points.size() / 2], points.back());
+  return say("{} min, {} median, {} max a frame", points.front(), points[points.size() / 2], points.back());
+}
+
+std::string layout_text(const LayoutFacts& layout) {
+  const char* const order = layout.is_big_endian ? tr("big-endian") : tr("little-endian");
+  return say("{} x {} points, {} bytes a point, {}", layout.rows, layout.columns, layout.point_step, order);
+}
+
+std::string role_text(const FieldFacts& field) {
+  if (field.role.empty()) return tr("(passed over)");
+  if (!field.times) return field.role;
+  const TimeFacts& times = *field.times;
+  if (times.unit.empty()) return say("time: unit unknown, spreads over {:g}", times.spread);
+  if (times.is_absolute) return say("time: {}, {:.4f} s a frame, absolute", times.unit, times.spread_s);
+  return say("time: {}, {:.4f} s a frame", times.unit, times.spread_s);
 }
 
 std::string fields_text(const InputFacts& facts) {
-  TextTable table({"field", "type", "understood as", "byte"});
+  TextTable table({tr("field"), tr("type"), tr("understood as"), tr("byte")});
   for (const FieldFacts& field : facts.fields()) {
-    const std::string role = field.role.empty() ? "(passed over)" : field.role;
-    table.add_row({field.name, std::string(field_type_name(field.type)),
-                   field.note.empty() ? role : role + ": " + field.note, std::to_string(field.offset)});
+    table.add_row(
+        {field.name, std::string(field_type_name(field.type)), role_text(field), std::to_string(field.offset)});
   }
   return table.text(3);
 }
 
 std::string topics_text(const SourceAbout& about) {
-  TextTable table({"topic", "type", "", "messages"});
+  TextTable table({tr("topic"), tr("type"), "", tr("messages")});
   for (const SourceTopic& topic : about.topics) {
     table.add_row(
-        {topic.name, topic.type, topic.name == about.topic ? "looked at" : "", std::to_string(topic.messages)});
+        {topic.name, topic.type, topic.name == about.topic ? tr("looked at") : "", std::to_string(topic.messages)});
   }
   return table.text(3);
 }
@@ -79,30 +104,23 @@ std::string topics_text(const SourceAbout& about) {
 }  // namespace
 
 std::string facts_text(const SourceAbout& about, const InputFacts& facts) {
-  TextTable table({"", ""});
-  table.add_row({"kind", about.kind});
-  table.add_row({"frames", facts.unreadable() == 0
-                               ? std::to_string(facts.frames())
-                               : fmt::format("{}, {} of them unreadable", facts.frames(), facts.unreadable())});
+  Facts rows;
+  rows.add(tr("kind"), about.kind);
+  rows.add(tr("frames"), facts.unreadable() == 0
+                             ? std::to_string(facts.frames())
+                             : say("{}, {} of them unreadable", facts.frames(), facts.unreadable()));
   if (!facts.points().empty()) {
-    table.add_row({"points", points_text(facts.points())});
-    table.add_row({"layout", facts.layout()});
-    add_stamps(table, facts.stamps(), facts.points().size());
-    if (const std::optional<RangeFacts> ranges = facts.ranges()) {
-      table.add_row({"ranges", fmt::format("{:.2f} m min, {:.2f} m median, {:.2f} m max", ranges->min_m,
-                                           ranges->median_m, ranges->max_m)});
-    }
-    table.add_row({"no return", fmt::format("{:.1f} % at zero, {:.1f} % not finite", 100.0 * facts.zero_share(),
-                                            100.0 * facts.not_finite_share())});
-    add_sensor(table, facts.sensor());
+    rows.add(tr("points"), points_text(facts.points()));
+    rows.add(tr("layout"), layout_text(*facts.layout()));
+    add_stamps(rows, facts.stamps(), facts.points().size());
+    rows.add(tr("no return"), say("{:.1f} % at zero, {:.1f} % not finite", 100.0 * facts.zero_share(),
+                                  100.0 * facts.not_finite_share()));
+    if (facts.has_returns()) add_sensor(rows, facts.sensor());
   }
-  std::string text = table.text(2);
-  text.erase(0, text.find('\n', text.find('\n') + 1) + 1);  // neither head nor rule
+  std::string text = rows.text();
   if (!about.topics.empty()) text += '\n' + topics_text(about);
   if (!facts.fields().empty()) text += '\n' + fields_text(facts);
-  if (facts.other_layouts() > 0) {
-    text += fmt::format("{} with other fields than the first\n", counted(facts.other_layouts(), "frame"));
-  }
+  if (facts.other_layouts() > 0) text += say("frames with other fields than the first: {}\n", facts.other_layouts());
   return text;
 }
 

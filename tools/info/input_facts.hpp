@@ -5,46 +5,43 @@
 
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "frames/frame_source.hpp"
+#include "info/sensor_look.hpp"
+#include "info/stamp_steps.hpp"
 
 namespace pose_wall::tools {
+
+// Of a field of times: its unit by how far the times of one frame lie apart.
+struct TimeFacts {
+  std::string unit;  // "s", "ms", "us", "ns"; empty: none fits
+  double spread = 0.0;
+  double spread_s = 0.0;  // where the unit is known
+  bool is_absolute = false;
+};
 
 struct FieldFacts {
   std::string name;
   std::uint32_t offset = 0;
   std::uint32_t type = 0;
   std::string role;  // what it is understood as; empty: passed over
-  std::string note;  // of times: unit and spread
+  std::optional<TimeFacts> times;
+};
+
+struct LayoutFacts {
+  std::uint32_t rows = 0, columns = 0, point_step = 0;
+  bool is_big_endian = false;
 };
 
 struct StampFacts {
   std::size_t count = 0;  // frames that carry one
   std::int64_t first_ns = 0, last_ns = 0;
-  double interval_s = 0.0;  // median of the steps forwards; 0 where there is none
-  std::size_t gaps = 0;     // longer than 1.5 intervals
-  double longest_s = 0.0;
-  std::size_t backwards = 0;  // steps that do not go forwards
-};
-
-struct RangeFacts {
-  double min_m = 0.0, median_m = 0.0, max_m = 0.0;
-};
-
-// How the points of one frame lie around the sensor.
-struct SensorFacts {
-  std::size_t rings = 0;  // 0: none found
-  std::string rings_by;   // "field ring", "rows", "elevations"
-  double elevation_min_deg = 0.0, elevation_max_deg = 0.0;
-  double azimuth_span_deg = 0.0;
-  std::string guess;
+  StampSteps steps;
 };
 
 class InputFacts {
@@ -56,20 +53,17 @@ class InputFacts {
   std::size_t unreadable() const { return unreadable_; }
   const std::vector<std::uint32_t>& points() const { return points_; }  // of each frame
   const std::vector<FieldFacts>& fields() const { return fields_; }     // of the first frame
-  const std::string& layout() const { return layout_; }                 // "1 x 28217, 32 bytes a point"
+  const std::optional<LayoutFacts>& layout() const { return layout_; }  // of the first frame
   std::size_t other_layouts() const { return other_layouts_; }          // frames with other fields than the first
   StampFacts stamps() const;
-  std::optional<RangeFacts> ranges() const;
   double zero_share() const;
   double not_finite_share() const;
-  const SensorFacts& sensor() const { return sensor_; }  // by the first frame with points
+  SensorFacts sensor() const { return sensor_.facts(); }  // by all frames
+  bool has_returns() const { return !sensor_.is_empty(); }
 
  private:
-  void add_ranges(const pose_wall_cloud& cloud);
+  void count_points(const pose_wall_cloud& cloud);
   void describe(const Frame& frame);
-
-  static constexpr double kBinsPerMetre = 100.0;
-  static constexpr std::size_t kBins = 50'000;
 
   std::size_t frames_ = 0;
   std::size_t unreadable_ = 0;
@@ -77,17 +71,12 @@ class InputFacts {
   std::vector<std::uint32_t> points_;
   std::vector<FieldFacts> fields_;
   std::vector<FrameField> layout_fields_;
-  std::string layout_;
+  std::optional<LayoutFacts> layout_;
   std::size_t other_layouts_ = 0;
   std::vector<std::int64_t> stamps_;
-  std::vector<std::uint64_t> range_counts_ = std::vector<std::uint64_t>(kBins, 0);
-  std::uint64_t all_points_ = 0, zero_ = 0, not_finite_ = 0, returns_ = 0;
-  double range_min_m_ = 0.0, range_max_m_ = 0.0;
-  SensorFacts sensor_;
+  std::uint64_t all_points_ = 0, zero_ = 0, not_finite_ = 0;
+  SensorLook sensor_;
 };
-
-// Of one frame.
-SensorFacts sensor_facts(const Frame& frame);
 
 // For people, and for programs.
 std::string facts_text(const SourceAbout& about, const InputFacts& facts);

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall info: what inputs hold.
+// pose_wall info: what inputs hold, and what to do with them next.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "info/input_facts.hpp"
+#include "info/next_steps.hpp"
 #include "inputs/frame_sequence.hpp"
+#include "language/language.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/frame_options.hpp"
@@ -31,6 +37,8 @@ struct InfoOptions {
 struct Looked {
   std::string json;  // empty: nothing could be read
   bool complete = false;
+  SensorFacts sensor;
+  std::string topic;  // of a bag, the one that was looked at
 };
 
 // Each input is looked at by itself; topic, sensor and metadata have to be of one of them, not of each.
@@ -40,24 +48,64 @@ void expect_use(const InfoOptions& options) {
   if (has_words && options.inputs.size() > 1) FrameSequence(options.inputs, options.input);
 }
 
+// One clear error instead of a table that counts one unreadable frame.
+Looked not_there(const std::string& input) {
+  fmt::print(stderr, "pose_wall info: {}", say("{}: there is no such file or folder\n", input));
+  return {};
+}
+
+void gather(FrameSequence& frames, const std::string& input, const InfoOptions& options, InputFacts& facts) {
+  ProgressBar bar(frames.frames(), !options.quiet && is_terminal(2));
+  while (const std::optional<SourcedFrame> frame = frames.next()) {
+    if (InterruptWatch::is_interrupted()) break;
+    facts.add(*frame);
+    bar.advance(input);
+  }
+}
+
 Looked look_at(const std::string& input, const InfoOptions& options) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(input, ignored)) return not_there(input);
   InputOptions of_this = options.input;
   of_this.of_others = options.inputs.size() > 1;
   FrameSequence frames({input}, of_this);
   for (const std::string& error : frames.errors()) fmt::print(stderr, "pose_wall info: {}\n", error);
   if (!frames.errors().empty()) return {};
   InputFacts facts;
-  {
-    ProgressBar bar(frames.frames(), !options.quiet && is_terminal(2));
-    while (const std::optional<SourcedFrame> frame = frames.next()) {
-      if (InterruptWatch::is_interrupted()) break;
-      facts.add(*frame);
-      bar.advance(input);
-    }
-  }
+  gather(frames, input, options, facts);
   for (const std::string& error : facts.errors()) fmt::print(stderr, "pose_wall info: {}\n", error);
-  if (!options.json) fmt::print("{}\n{}\n", input, facts_text(frames.about(), facts));
-  return {facts_json(input, frames.about(), facts), facts.unreadable() == 0};
+  const SourceAbout about = frames.about();
+  // Of a bag the topics are worth a table even where no cloud could be read.
+  const bool is_worth_a_table = !facts.points().empty() || !about.topics.empty() || facts.errors().empty();
+  if (!options.json && is_worth_a_table) fmt::print("{}\n{}\n", input, facts_text(about, facts));
+  const bool has_choice = about.topics.size() > 1;
+  return {facts_json(input, about, facts), facts.unreadable() == 0, facts.sensor(), has_choice ? about.topic : ""};
+}
+
+// For one input, or for several of the same sensor.
+std::string next_text(const InfoOptions& options, const std::vector<Looked>& looked) {
+  const auto is_like_first = [&looked](const Looked& other) {
+    return other.complete && other.sensor.returns > 0.0 && other.sensor.config == looked.front().sensor.config &&
+           other.topic == looked.front().topic && !is_unit_doubtful(other.sensor.ranges);
+  };
+  if (looked.empty() || !std::all_of(looked.begin(), looked.end(), is_like_first)) return "";
+  InputOptions input = options.input;
+  if (input.topic.empty()) input.topic = looked.front().topic;
+  const std::vector<std::string> words = input_words(options.inputs, input);
+  const auto with_inputs = [&words](std::vector<std::string> verb) {
+    verb.insert(verb.end(), words.begin(), words.end());
+    return verb;
+  };
+  std::vector<std::string> run = {"run"};
+  const std::string& config = looked.front().sensor.config;
+  if (!config.empty()) run.insert(run.end(), {"--config", config});
+  run.insert(run.end(), {"-o", "results.csv"});
+  return next_steps_text(
+      {{tr("find the settings of this machine: record 30 s while it stands in a straight road"),
+        with_inputs({"doctor", "-o", "pose_wall.yaml"})},
+       {config.empty() ? tr("measure with the defaults; no file of config/ is made for this sensor")
+                       : tr("measure at once; add -s forward_axis=+Y (-X, -Y) if the road does not lie along +X"),
+        with_inputs(std::move(run))}});
 }
 
 int info(const InfoOptions& options) {
@@ -65,13 +113,15 @@ int info(const InfoOptions& options) {
   const InterruptWatch watch;
   int exit_code = kExitDone;
   std::string pages;
+  std::vector<Looked> all;
   for (const std::string& input : options.inputs) {
-    const Looked looked = look_at(input, options);
+    all.push_back(look_at(input, options));
+    const Looked& looked = all.back();
     if (!looked.complete) exit_code = kExitUnreadable;
     if (!looked.json.empty()) pages += (pages.empty() ? "" : ",\n") + looked.json;
     if (InterruptWatch::is_interrupted()) return kExitInterrupted;
   }
-  if (options.json) fmt::print("[{}]\n", pages);
+  fmt::print("{}", options.json ? fmt::format("[{}]\n", pages) : next_text(options, all));
   return exit_code;
 }
 
@@ -80,15 +130,15 @@ int info(const InfoOptions& options) {
 void add_info(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<InfoOptions>();
   options->input.fullest_topic = true;
-  CLI::App* verb = app.add_subcommand("info", "Say what frame files, bags and captures hold");
-  verb->add_option("INPUT", options->inputs, kInputHelp)->required();
+  CLI::App* verb = app.add_subcommand("info", tr("Show what frame files, bags and captures hold"));
+  verb->add_option("INPUT", options->inputs, tr(kInputHelp))->required();
   add_input_options(verb, &options->input);
-  verb->add_flag("--json", options->json, "A list with one object per input instead of tables");
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
+  verb->add_flag("--json", options->json, tr("A list with one object per input instead of tables"));
+  verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
   verb->footer(
-      "Example:\n  pose_wall info road.bag frames/\n"
-      "Of a bag with several topics of clouds the fullest is looked at; --topic names another.\n"
-      "Exit status: 0 done, 1 an input or a frame could not be read, 2 bad usage, 130 interrupted.");
+      tr("Example:\n  pose_wall info road.bag frames/\n"
+         "A bag may have several topics of clouds. Then the fullest is taken; --topic names another.\n"
+         "Exit status: 0 done, 1 an input or a frame could not be read, 2 bad usage, 130 interrupted."));
   verb->callback([options, &exit_code] { exit_code = info(*options); });
 }
 
