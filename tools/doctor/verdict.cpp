@@ -11,6 +11,7 @@
 #include "doctor/diagnosis.hpp"
 #include "doctor/statistics.hpp"
 #include "language/language.hpp"
+#include "results/usability.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using Reasons = std::vector<std::string>;
 
 // The rule, as rule_text() states it.
-constexpr double kValidAll = 0.9, kValidSome = 0.5;
+constexpr double kValidAll = kUsableShare, kValidSome = kInPartShare;
 constexpr double kDurationAsked_s = 30.0;
 constexpr double kDurationRounding_s = 0.1;  // 300 stamps at 10 Hz need not add up to 30 s
 constexpr std::size_t kFramesMin = 3;

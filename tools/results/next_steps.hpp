@@ -11,6 +11,7 @@
 #include <string>
 
 #include "frames/length_unit.hpp"
+#include "info/sensor_look.hpp"
 #include "pose_wall.hpp"
 #include "results/result_csv.hpp"
 
@@ -54,7 +55,7 @@ class NextSteps {
   std::size_t measured_ = 0, no_floor_ = 0, no_walls_ = 0, wrong_axes_ = 0, far_ = 0;
   std::array<Quantity, POSE_WALL_QUANTITIES> quantities_{};
   std::optional<UnitQuestion> question_;
-  std::string fitting_config_;  // of the first frame with points
+  SensorFacts fitting_;  // of the first frame with points
   bool sensor_seen_ = false;
 };
 
