@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "config_file/config_place.hpp"
-#include "info/input_facts.hpp"
+#include "info/sensor_look.hpp"
 #include "language/language.hpp"
 #include "quantities.hpp"
 
@@ -21,21 +21,6 @@ namespace {
 constexpr double kWellShare = 0.9;    // valid in so many frames: no advice
 constexpr double kMostlyShare = 0.9;  // of frames without a floor, or without walls
 constexpr double kWrongAxesShare = 0.5;
-
-struct SensorConfig {
-  const char* config;
-  const char* sensor;
-};
-// Those under config/ that are made for one class of sensors.
-constexpr SensorConfig kSensorConfigs[] = {{"vlp16", "VLP-16"}, {"os1-64", "OS1-64"}, {"mid360", "Mid-360"}};
-
-// `info` names the config that fits as "config/vlp16.yaml".
-std::string config_of(const std::string& guess) {
-  for (const SensorConfig& row : kSensorConfigs) {
-    if (guess.find(fmt::format("config/{}.yaml", row.config)) != std::string::npos) return row.config;
-  }
-  return "";
-}
 
 double share(std::size_t part, std::size_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
@@ -63,7 +48,12 @@ void NextSteps::look(const pose_wall_cloud& cloud, const pose_wall_result& resul
   Frame seen;
   seen.cloud = cloud;
   if (cloud.ring.type != POSE_WALL_FIELD_NONE) seen.fields.push_back({"ring", cloud.ring});
-  fitting_config_ = config_of(sensor_facts(seen).guess);
+  SensorLook sensor;
+  sensor.add(returns_of(cloud), told_rings(seen));
+  if (sensor.is_empty()) return;
+  const SensorFacts facts = sensor.facts();
+  fitting_config_ = facts.config == "pose_wall" ? "" : facts.config;  // the defaults are those of pose_wall.yaml
+  sensor_title_ = facts.title;
 }
 
 void NextSteps::add(const FrameOutcome& outcome) {
@@ -110,9 +100,7 @@ std::string NextSteps::config_line() const {
   const std::string given = shipped_config_name(config_word_);
   const bool is_own = !config_word_.empty() && given.empty();
   if (fitting_config_.empty() || is_own || given == fitting_config_) return "";
-  const auto row = std::find_if(std::begin(kSensorConfigs), std::end(kSensorConfigs),
-                                [this](const SensorConfig& r) { return fitting_config_ == r.config; });
-  return say("The sensor looks like a {}: try --config {}.", row->sensor, row->config);
+  return say("The sensor looks like a {}: try --config {}.", sensor_title_, fitting_config_);
 }
 
 std::string NextSteps::doctor_line() const {

@@ -54,7 +54,7 @@ class NextSteps {
   std::size_t measured_ = 0, no_floor_ = 0, no_walls_ = 0, wrong_axes_ = 0, far_ = 0;
   std::array<Quantity, POSE_WALL_QUANTITIES> quantities_{};
   std::optional<UnitQuestion> question_;
-  std::string fitting_config_;  // of the first frame with points
+  std::string fitting_config_, sensor_title_;  // by the first frame with points; empty: none is made for it
   bool sensor_seen_ = false;
 };
 
