@@ -11,11 +11,13 @@
 #include <array>
 #include <cstring>
 #include <iterator>
+#include <optional>
 #include <vector>
 
-#include "doctor/sensor_seen.hpp"
+#include "doctor/recording.hpp"
 #include "frames/point_position.hpp"
-#include "info/input_facts.hpp"
+#include "frames/told_rings.hpp"
+#include "info/sensor_look.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "support/real_frames.hpp"
 
@@ -89,9 +91,13 @@ TEST(OusterCapture, RangesAndAnglesAreThoseOfItsPackets) {
 TEST(OusterCapture, InfoAndDoctorSeeTheSameRings) {
   if (!std::filesystem::exists(kCapture)) GTEST_SKIP() << "POSE_WALL_DATA names no folder with it";
   tools::FrameSequence frames({kCapture.string()}), again({kCapture.string()});
-  EXPECT_EQ(tools::sensor_facts(*frames.next()->frame).rings, kRings);
+  const std::optional<tools::SourcedFrame> first = frames.next();
+  const tools::Frame& frame = *first->frame;
+  tools::SensorLook look;
+  look.add(tools::returns_of(frame.cloud), tools::told_rings(frame));
+  EXPECT_EQ(look.facts().rings, kRings);
   const tools::doctor::Recording recording = tools::doctor::read_recording(again, 10.0, [](const std::string&) {});
-  EXPECT_EQ(tools::doctor::look_at_sensor(recording).rings, kRings);
+  EXPECT_EQ(recording.sensor.facts().rings, kRings);
 }
 
 }  // namespace

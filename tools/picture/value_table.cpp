@@ -86,7 +86,7 @@ void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scen
 }  // namespace
 
 void draw_value_table(Svg& svg, const Box& box, const FrameScene& scene) {
-  draw_panel(svg, box, tr("Values to act on (smoothed or held); below: raw, by this frame alone"));
+  draw_panel(svg, box, tr("Values (smoothed or held): act on valid ones only. Below: raw, by this frame alone"));
   const Columns columns = columns_of(box);
   double y = box.corner.y + 54.0;
   draw_head(svg, columns, y, scene.truth != nullptr);

@@ -110,6 +110,7 @@ std::string next_text(const InfoOptions& options, const std::vector<Looked>& loo
 
 int info(const InfoOptions& options) {
   expect_use(options);
+  if (options.json) choose_language(Language::kEnglish);  // programs read it
   const InterruptWatch watch;
   int exit_code = kExitDone;
   std::string pages;
