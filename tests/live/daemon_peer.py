@@ -121,7 +121,7 @@ class Words(Folder):
     def test_what_is_wrong_is_named(self):
         self.refused(["--set", "modbsu=127.0.0.1:502"], 2, "unknown key 'modbsu'; did you mean 'modbus'?")
         self.refused(["--http", "8080"], 2, "http: '8080' is refused; allowed: HOST:PORT")
-        self.refused(["--config", self.folder / "none.yaml"], 2, "none.yaml: cannot be opened")
+        self.refused(["--config", self.folder / "none.yaml"], 2, "none.yaml: no such file")
         self.refused(["--replay", self.folder / "none.pcd"], 1, "none.pcd: is not there")
         empty = self.folder / "empty"
         empty.mkdir()
