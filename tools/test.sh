@@ -18,6 +18,10 @@ if ! packages=$(packages_of "$preset"); then
   exit 2
 fi
 [ $# -eq 0 ] || shift
+if [ $# -gt 0 ] && [ "${1#-}" = "$1" ]; then
+  echo "usage: $0 [PRESET [CTEST_OPTION...]]; '$1' is no option of ctest, one preset is tested at a time"
+  exit 2
+fi
 # shellcheck disable=SC2086  # a list of words
 need_packages $packages
 need_cmake

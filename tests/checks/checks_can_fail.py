@@ -544,6 +544,65 @@ class Pages(BrokenProject):
         self.fails("names house, which is no check", *self.check(self.EXAMPLE))
 
 
+class Prose(BrokenProject):
+    SENTENCE = "The wall {} stands on the left side of the road here.\n\n"  # 11 words
+
+    def check(self, page, name="README.md"):
+        self.write(name, page)
+        return CHECKS / "check_prose.py", self.root
+
+    def test_passes(self):
+        self.passes(*self.check(self.SENTENCE * 12 + "```\n" + "no sentence " * 60 + "\n```\n"))
+
+    def test_a_long_sentence(self):
+        self.fails("README.md:1: a sentence of 41", *self.check("word " * 40 + "ends.\n"))
+        self.fails("README.md:3: a sentence of 82", *self.check(self.SENTENCE + "墙" * 82 + "。\n"))
+        self.fails("include/pose_wall.h:1: a sentence of 50",
+                   *self.check("/* " + "word " * 50 + ". */\n", "include/pose_wall.h"))
+
+    def test_long_sentences(self):
+        self.fails("README.md: sentences of 22.0 in the mean", *self.check(("word " * 22 + ".\n\n") * 12))
+
+    def test_a_long_front_door(self):
+        self.fails("README.md: 122 lines", *self.check(self.SENTENCE * 61))
+        self.passes(*self.check(self.SENTENCE, "README.md"))
+        self.passes(*self.check(self.SENTENCE * 61, "src/README.md"))
+
+    def test_nothing_to_check(self):
+        (self.root / "include/pose_wall.h").unlink()
+        self.fails("nothing was checked", CHECKS / "check_prose.py", self.root)
+
+
+class Translations(BrokenProject):
+    """Texts that a tool marks, beside a catalogue of Chinese."""
+
+    def check(self, source, catalogue):
+        self.write("tools/run.cpp", LICENCE + source)
+        self.write("tools/language/zh/run.po", catalogue)
+        return CHECKS / "check_translations.py", self.root
+
+    WALL = 'msgid "the wall {name}"\nmsgstr "{name}侧墙"\n\n'
+
+    def test_passes(self):
+        self.passes(*self.check('say("the wall {name}");\n', self.WALL))
+
+    def test_missing(self):
+        self.fails("the floor", *self.check('say("the wall {name}"); tr("the floor");\n', self.WALL))
+
+    def test_not_marked(self):
+        self.fails("the floor", *self.check('say("the wall {name}");\n',
+                                            self.WALL + 'msgid "the floor"\nmsgstr "底板"\n'))
+
+    def test_twice(self):
+        self.fails("twice", *self.check('say("the wall {name}");\n', self.WALL + self.WALL))
+
+    def test_other_arguments(self):
+        self.fails("the wall", *self.check('say("the wall {name}");\n', self.WALL.replace("{name}侧", "侧")))
+
+    def test_no_chinese(self):
+        self.fails("the wall", *self.check('say("the wall {name}");\n', 'msgid "the wall {name}"\nmsgstr "{name}"\n'))
+
+
 class Digests(BrokenProject):
     NOTED = "road 3 100 00aa 00bb 21/21\n"
 

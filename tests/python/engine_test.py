@@ -29,6 +29,10 @@ def bits(number):
 
 class AsTheCommand(unittest.TestCase):
     def same_value(self, value, line, unit):
+        """An invalid value is not to be used, and the command writes null; what was measured stands in raw."""
+        if value.state == State.INVALID:
+            value = dataclasses.replace(value, value=math.nan, sigma=math.nan, protection_level=math.nan, cause=None,
+                                        parts=dict.fromkeys(value.parts, math.nan))
         for member, name in (("value", "value"), ("raw", "raw"), ("sigma", "sigma"),
                              ("protection_level", "protection_level"),
                              ("raw_protection_level", "raw_protection_level")):
