@@ -127,7 +127,7 @@ enum pose_wall_status {
 
   /* process images */
   POSE_WALL_E_IMAGE_VERSION = -60, /* an image of another version or size */
-  POSE_WALL_E_IMAGE_CRC = -61,     /* its CRC is not that of its bytes: damaged, torn, or never filled */
+  POSE_WALL_E_IMAGE_CRC = -61,     /* the CRC does not fit the bytes: damaged, torn or never filled */
   POSE_WALL_E_RESULT = -62,        /* not a result of an engine: blank, or its head was changed */
 
   /* self test */

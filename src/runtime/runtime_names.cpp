@@ -38,7 +38,7 @@ POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
     case POSE_WALL_E_BUSY:
       return "a runtime was started in this block and not stopped, or another call is inside this engine";
     case POSE_WALL_E_ABI:
-      return "the program was built against the header of an earlier ABI: build it anew against this one";
+      return "the program was built against the header of an earlier ABI: build it again against this one";
     case POSE_WALL_RUNTIME_E_OPTION:
       return "an option is out of its range, or reserved is not zero: pose_wall_runtime_options_check() tells which";
     case POSE_WALL_RUNTIME_E_HANDLE:

@@ -4,8 +4,9 @@
 """Every text that the tools mark for translation has its Chinese, and every Chinese text its use.
 
 usage: check_translations.py ROOT     exit status 1 and one line per text that
-  - is marked in tools/ (say("..."), tr("..."), translatable("...")), or is the help of a key of the engine
-    (src/config_keys.def), and is in no tools/language/zh/*.po
+  - is marked in tools/ (say("..."), tr("..."), translatable("...")), or stands in a table of the engine that tools
+    print (keys' help in src/config_keys.def; states, parts, senses, reasons in src/names.def), and is in no
+    tools/language/zh/*.po
   - stands in a catalogue and is marked nowhere, or stands there twice
   - fills in other arguments than the English one, or holds no Chinese"""
 
@@ -17,6 +18,8 @@ import sys
 LITERAL = r'"((?:[^"\\\n]|\\.)*)"'
 MARKED = re.compile(rf'\b(?:say|tr|translatable)\(\s*((?:{LITERAL}\s*)+)')
 KEY_HELP = re.compile(rf'^POSE_WALL_[A-Z]+ *\(.*, {LITERAL}\)$', re.M)
+NAME = re.compile(rf'^(?:STATE|PART|SENSE) *\(\w+, {LITERAL}\)$', re.M)
+REASON = re.compile(rf'^REASON *\(\w+, "\w+", {LITERAL}\)$', re.M)
 HAN = re.compile(r"[\u3400-\u9fff]")
 FIELD = re.compile(r"(?<!\{)\{(\w*)(?::[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
 ESCAPES = {"n": "\n", "t": "\t", '"': '"', "\\": "\\"}
@@ -36,9 +39,13 @@ def marked(root):
                 continue  # a comment that shows how
             text = "".join(unescaped(part) for part in re.findall(LITERAL, found.group(1)))
             texts.setdefault(text, f"{path.relative_to(root)}:{source.count(chr(10), 0, found.start()) + 1}")
-    keys = root / "src/config_keys.def"  # the engine knows no language; its table is printed by tools
-    for found in KEY_HELP.finditer(keys.read_text(encoding="utf-8") if keys.exists() else ""):
-        texts.setdefault(unescaped(found.group(1)), keys.relative_to(root))
+    # The engine knows no language; tools print its tables, names with spaces for their underscores.
+    for table, rows, spoken in (("config_keys.def", KEY_HELP, False), ("names.def", NAME, True),
+                                ("names.def", REASON, False)):
+        path = root / "src" / table
+        for found in rows.finditer(path.read_text(encoding="utf-8") if path.exists() else ""):
+            text = unescaped(found.group(1))
+            texts.setdefault(text.replace("_", " ") if spoken else text, path.relative_to(root))
     return texts
 
 
