@@ -55,6 +55,14 @@ TEST(RunVerb, OneRowPerFrameAndStampsByRate) {
   EXPECT_EQ(table.cell(1, *table.find_column("source")), folder.file("f/b.bin"));
 }
 
+TEST(RunVerb, WithoutAnyInputThereIsNoResult) {
+  const TempFolder folder;
+  const Ran ran = command({"run", "-o", folder.file("o.csv"), folder.file("framez")});
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.errors, "framez: no such file or folder")) << ran.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("o.csv")));
+}
+
 TEST(RunVerb, UnreadableFramesKeepTheirRowAndTheOthersAreProcessed) {
   const TempFolder folder;
   const std::string good = folder.write("good.bin", kitti_point(1));

@@ -268,6 +268,7 @@ TEST(FrameChoice, AFrameIsFoundByNameOrStamp) {
   EXPECT_EQ(road.page({"--stamp", "+0.4"}), page);
   EXPECT_EQ(road.page({"--stamp", "1000.43"}), page);
   EXPECT_EQ(road.page({"--stamp", "0001000400000001"}), page) << "nanoseconds, as in the CSV";
+  EXPECT_EQ(road.page({"--stamp", "1000400000001"}), page) << "however few digits";
   const Ran stamp = road.explain({"--stamp", "1000.43"});
   EXPECT_TRUE(contains(stamp.printed, "The nearest stamp is 1000.400 s, -0.030 s off: frame 4")) << stamp.printed;
   EXPECT_TRUE(contains(road.explain({"--frame", "000004.pcd"}).printed, "000004.pcd is frame 4."));

@@ -112,7 +112,7 @@ TEST(Sentences, PointsThatAreDroppedNameTheirLimit) {
   const Paragraph frame = noted.paragraph(kFrame);
   EXPECT_EQ(frame.verdict, Verdict::kRefused);
   EXPECT_TRUE(contains(frame.sentences.at(1), "5000 are farther than range_max (30.00 m)")) << frame.sentences.at(1);
-  EXPECT_TRUE(contains(frame.helps.at(0), "Millimetres")) << frame.helps.at(0);
+  EXPECT_TRUE(contains(frame.helps.at(0), "--unit mm")) << frame.helps.at(0);
 }
 
 TEST(Sentences, EveryGateHasOneWithItsKey) {
@@ -334,7 +334,7 @@ const Refused kRefused[] = {
     {"frozen_sensor", {"frozen"}, {}, 15, "raaa", "frame", "The same points came again 5 times"},
     {"something_before_the_window", {"below_range_min"}, {}, 0, "aara", "left wall", "are nearer than range_min"},
     {"mud_on_the_window", {"half_blocked"}, {}, 0, "aaar", "right wall", "a window with mud on it"},
-    {"file_in_millimetres", {"millimetres"}, {}, 0, "rrrr", "frame", "Millimetres look like this; range_max"},
+    {"file_in_millimetres", {"millimetres"}, {}, 0, "rrrr", "frame", "--unit mm reads millimetres; range_max"},
     {"walls_that_run_apart", {"splayed_wide"}, {}, 0, "aarr", "left wall", "they are not parallel (wall_parallel_cos)"},
 };
 

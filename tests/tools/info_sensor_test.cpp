@@ -87,6 +87,25 @@ TEST(SensorLook, RingsAreCountedInCloudsThatWereMoved) {
   }
 }
 
+// On a vehicle that hides its lowest ring.
+TEST(SensorLook, AnEndOfTheViewMayBeHidden) {
+  std::vector<float> xyz_m;
+  for (int ring = 1; ring < 16; ++ring) {
+    const double elevation = (-15.0 + 2.0 * ring) / kDegPerRad;
+    for (int column = 0; column < 360; ++column) {
+      const double azimuth = column / kDegPerRad;
+      for (const double part : {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                                std::sin(elevation)}) {
+        xyz_m.push_back(static_cast<float>(10.0 * part));
+      }
+    }
+  }
+  SensorLook look;
+  look.add(xyz_m, {16, "field ring"});
+  EXPECT_EQ(look.facts().model, "vlp16");
+  EXPECT_EQ(look.facts().config, "vlp16");
+}
+
 TEST(SensorLook, APatternHasNoRings) {
   const SensorFacts facts = facts_of("mid360", as_it_is);
   EXPECT_EQ(facts.rings, 0U);

@@ -69,6 +69,7 @@ std::string what_is_there(const std::string& word) {
   for (const std::string& name : names) {
     if (name == stem) meant = say("; did you mean '{}'?", name);
   }
+  if (meant.empty()) meant = tr(".");
   return say("{} Configs that are found by name: {}", meant, fmt::format("{}", fmt::join(names, ", ")));
 }
 

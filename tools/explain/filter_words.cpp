@@ -34,7 +34,7 @@ std::vector<Dropped> dropped_points(const pose_wall_config& config, const pose_w
       {r.dropped_near, say("{} are nearer than {}", r.dropped_near, limit_of(config, "range_min")),
        translatable("something close blocks the view: dust, spray, mud on the window, the machine itself")},
       {r.dropped_far, say("{} are farther than {}", r.dropped_far, limit_of(config, "range_max")),
-       translatable("is the file in metres? Millimetres look like this; range_max")},
+       translatable("is the file in metres? --unit mm reads millimetres; range_max")},
       {r.dropped_body, say("{} are inside the body boxes", r.dropped_body),
        translatable("check body_box_1 to body_box_4 and the extrinsic")}};
   out.erase(std::remove_if(out.begin(), out.end(), [](const Dropped& d) { return d.count == 0; }), out.end());

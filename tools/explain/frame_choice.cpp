@@ -35,7 +35,7 @@ struct Stamp {
 
 // By whole nanoseconds: a double of 1.7e9 s has steps of 240 ns.
 std::optional<Stamp> read_stamp(std::string word) {
-  constexpr std::size_t kSecondDigitsMax = 10, kFractionDigits = 9, kNsDigitsMin = 16, kNsDigitsMax = 19;
+  constexpr std::size_t kSecondDigitsMax = 10, kFractionDigits = 9, kNsDigitsMax = 19;
   const bool since_first = !word.empty() && word[0] == '+';
   if (since_first) word.erase(0, 1);
   const std::size_t point = std::min(word.find('.'), word.size());
@@ -44,7 +44,7 @@ std::optional<Stamp> read_stamp(std::string word) {
   if (!is_digits(whole) || !(fraction.empty() || is_digits(fraction))) return std::nullopt;
   const std::optional<std::int64_t> number = parse_number<std::int64_t>(whole);
   if (!number) return std::nullopt;
-  const bool is_ns = point == word.size() && whole.size() >= kNsDigitsMin && whole.size() <= kNsDigitsMax;
+  const bool is_ns = point == word.size() && whole.size() > kSecondDigitsMax && whole.size() <= kNsDigitsMax;
   if (is_ns) return Stamp{*number, since_first};
   if (*number >= static_cast<std::int64_t>(std::pow(10.0, kSecondDigitsMax))) return std::nullopt;
   fraction.resize(kFractionDigits, '0');
@@ -112,6 +112,8 @@ class StampSearch {
       lowest_ns_ = highest_ns_ = stamp_ns;
       wanted_ns_ = wish_.since_first ? stamp_ns + wish_.ns : wish_.ns;
     }
+    // Of a recording without stamps the CSV holds short ones: as it stands there, a number means nanoseconds.
+    if (is_digits(word_) && parse_number<std::int64_t>(word_) == stamp_ns) wanted_ns_ = stamp_ns;
     lowest_ns_ = std::min(lowest_ns_, stamp_ns);
     highest_ns_ = std::max(highest_ns_, stamp_ns);
     const double off_s = seconds_between(wanted_ns_, stamp_ns);
@@ -163,7 +165,7 @@ ChoiceKind kind_of(const FrameChoice& choice) {
 std::string stamp_fault(const std::string& word) {
   if (read_stamp(word)) return "";
   return say(
-      "'{}' is no stamp; allowed: seconds (1690000000.25), nanoseconds as in the CSV (16 to 19 digits), or +SECONDS "
+      "'{}' is no stamp; allowed: seconds (1690000000.25), nanoseconds as in the CSV, or +SECONDS "
       "since the first frame",
       word);
 }

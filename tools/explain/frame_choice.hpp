@@ -18,7 +18,8 @@ namespace pose_wall::tools::explain {
 // As given; both empty: the whole recording.
 struct FrameChoice {
   std::string frame;  // "12", "worst", "000123.pcd", "road.bag#12"
-  std::string stamp;  // "1690000000.25" in s, 16 to 19 digits in ns, "+3.5": s since the first frame
+  std::string
+      stamp;  // "1690000000.25" in s, a frame's own stamp or more than 10 digits in ns, "+3.5": s since the first frame
 };
 
 enum class ChoiceKind { kRecording, kWorst, kNumber, kName, kStamp };

@@ -28,9 +28,10 @@ constexpr GateWords kFrameWords[] = {
      translatable("The stamp is {value} after the frame before; {limit} is the most ({key}). Smoothing starts afresh."),
      translatable("frames were lost, or the clock was set")},
     {"inputs",
-     translatable(
-         "The machine's own inputs were not used: they contradict each other, or the measurement contradicts them."),
-     translatable("check the caller's speed, turn rate and standing still: signs, units and sigmas")},
+     translatable("The motion given with this frame (the caller's, or the odometry's) was not used: it contradicts "
+                  "itself or the measurement."),
+     translatable("check the caller's speed, turn rate and standing still (signs, units, sigmas); without a caller try "
+                  "motion=off")},
     {"work",
      translatable(
          "The frame was not finished: it had taken {value} steps when more were needed; {limit} is the most ({key})."),
@@ -97,7 +98,7 @@ constexpr GateWords kOutcomeWords[] = {
     {"protection_raw",
      translatable(
          "This frame's own measurement has a protection level of {value}; {limit} is the alert limit ({key})."),
-     translatable("show more of the surface; raise {key} where the task allows it")},
+     translatable("raise {key} where the task allows it")},
     {"rate", translatable("The smoothed yaw was to turn by {value}; {limit} a frame is the most ({key})."), ""},
     {"innovation",
      translatable("The value jumped by {value} from the last good one; motion and errors explain {limit} ({key}). Both "
@@ -112,7 +113,7 @@ constexpr GateWords kOutcomeWords[] = {
          "Earlier frames were refused, and none was good yet. Times that the value has to come again: {value}."),
      ""},
     {"protection_smoothed", translatable("Its protection level is {value}; {limit} is the alert limit ({key})."),
-     translatable("show more of the surface; raise {key} where the task allows it")},
+     translatable("raise {key} where the task allows it")},
     {"ever", translatable("It was never measured before, so there is nothing to hold."), ""},
     {"protection_held",
      translatable("The held value's protection level has grown to {value}; {limit} is the alert limit ({key})."), ""},

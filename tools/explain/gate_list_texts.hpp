@@ -79,7 +79,7 @@ inline constexpr const char* kGateMeasures[] = {
     translatable("time since the last frame"),
     translatable("the frame's inputs are sound, and nothing that was measured speaks against them"),
     translatable("repeats of the very same points under new stamps"),
-    translatable("protection level of this frame's own measurement"),
+    translatable("protection level of this frame by itself, without what earlier frames left in doubt"),
     translatable("turn of the smoothed yaw since the last frame"),
     translatable("jump from the last good value; as far as the machine can move and both may err"),
     translatable("for how many frames more a rival wall that was seen stays in the level"),

@@ -65,6 +65,32 @@ bool is_said_by_another(const Note& note, const std::vector<Note>& failed) {
          });
 }
 
+// What lowers a level, by its largest part.
+constexpr const char* kHelpOfPart[POSE_WALL_PARTS] = {
+    translatable("show more of the surface"),
+    translatable("set range_bias_max to the sensor's data sheet"),
+    translatable("a bent surface is no plane: look at a straighter piece"),
+    translatable("another plane may be the surface: see what was doubted above, clear or show it"),
+    translatable("show the surface at the sampling point"),
+    translatable("wait until the value has followed"),
+    translatable("frames are missing or late"),
+};
+
+bool is_about_level(const Note& note) {
+  return note.is(POSE_WALL_TRACE_PROTECTION_RAW) || note.is(POSE_WALL_TRACE_PROTECTION_SMOOTHED);
+}
+
+// The level of this frame's own measurement passed, and what earlier frames left in doubt was added to it.
+std::string kept_doubt(const pose_wall_value& v, const Notes& notes, std::uint32_t quantity) {
+  if (!std::isfinite(v.raw) || v.cause != POSE_WALL_PART_RIVAL) return "";
+  for (const Note& note : notes.of(POSE_WALL_TRACE_QUANTITY + quantity)) {
+    if (note.is(POSE_WALL_TRACE_PROTECTION_RAW) && note.passed() && v.raw_state != POSE_WALL_VALID) {
+      return tr("By itself this frame would be valid; the rival plane was seen in one of the last frames.");
+    }
+  }
+  return "";
+}
+
 // The raw value with its own level, where the figures differ. Where lag is the largest part, also its cause.
 std::string lag_sentence(const pose_wall_value& v, std::uint32_t quantity) {
   if (!shows_lag(v, quantity)) return "";
@@ -93,6 +119,7 @@ std::string outcome_sentence(const pose_wall_result& result, const Notes& notes,
   const std::string sum = level_sum(v, quantity);
   std::vector<std::string> told = {head(v, quantity), sum.empty() ? "" : say("Its level: {}.", sum)};
   told.push_back(measured ? lag_sentence(v, quantity) : why_unmeasured(notes, quantity));
+  told.push_back(kept_doubt(v, notes, quantity));
   if (measured && v.state != POSE_WALL_VALID) {
     const std::vector<std::string> planes = doubted(notes, quantity);
     if (!planes.empty()) told.push_back(say("Degraded: {}.", listed(planes)));
@@ -107,6 +134,8 @@ std::string outcome_sentence(const pose_wall_result& result, const Notes& notes,
 std::vector<std::string> outcome_helps(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity) {
   std::vector<std::string> helps;
   for (const Note& note : failed_notes(notes, quantity, std::isfinite(result.quantity[quantity].raw))) {
+    const std::uint32_t cause = result.quantity[quantity].cause;
+    if (is_about_level(note) && cause < POSE_WALL_PARTS) helps.emplace_back(tr(kHelpOfPart[cause]));
     helps.push_back(help_of(note));
   }
   return helps;

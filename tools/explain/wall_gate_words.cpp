@@ -86,10 +86,10 @@ constexpr GateWords kFitWords[] = {
     {"wall_bend",
      translatable("The wall bends: at the machine it is turned by {value} against the whole plane; {limit} is allowed "
                   "(a fifth of {key})."),
-     translatable("a curved road; nothing is wrong")},
+     translatable("a curved road, or a wall that bulges")},
     {"sample_bend",
      translatable("The wall bends by {value} at a sampling point; {limit} is allowed (a fifth of {key})."),
-     translatable("a curved road; nothing is wrong")},
+     translatable("a curved road, or a wall that bulges")},
     {"sample_offset",
      translatable("At the height of its sampling point the wall lies {value} off its plane; {limit} is allowed (a "
                   "fifth of {key})."),

@@ -44,14 +44,18 @@ constexpr SensorClass kClasses[] = {
 };
 constexpr double kPatternReturnsMin = 8'000.0, kPatternReturnsMax = 40'000.0;
 
+// Of its rings and its view a sensor may lose so much in the dark ahead, or to a vehicle below it.
+constexpr double kLostShare = 0.15;
+
 bool is_of(const SensorClass& kind, const SensorFacts& facts) {
-  const auto is_near = [&kind](double deg, double wanted_deg) {
-    return std::fabs(deg - wanted_deg) <= kind.tolerance_deg;
-  };
-  if (!is_near(facts.elevation_min_deg, kind.low_deg) || !is_near(facts.elevation_max_deg, kind.high_deg)) return false;
+  const double lacks_below_deg = facts.elevation_min_deg - kind.low_deg;
+  const double lacks_above_deg = kind.high_deg - facts.elevation_max_deg;
+  if (std::min(lacks_below_deg, lacks_above_deg) < -kind.tolerance_deg) return false;
+  const double lost_deg = kind.rings > 0 ? kLostShare * (kind.high_deg - kind.low_deg) : 0.0;
+  if (std::max(lacks_below_deg, lacks_above_deg) > std::max(kind.tolerance_deg, lost_deg)) return false;
   if (kind.rings > 0) {
-    // A few rings may be lost in the dark ahead.
-    return facts.rings <= kind.rings && static_cast<double>(facts.rings) >= 0.85 * static_cast<double>(kind.rings);
+    const auto rings = static_cast<double>(kind.rings);
+    return facts.rings <= kind.rings && static_cast<double>(facts.rings) >= (1.0 - kLostShare) * rings;
   }
   return facts.rings == 0 && facts.returns >= kPatternReturnsMin && facts.returns <= kPatternReturnsMax;
 }

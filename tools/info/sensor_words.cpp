@@ -58,7 +58,7 @@ bool is_unit_doubtful(const RangeFacts& ranges) {
 
 std::string unit_doubt(const RangeFacts& ranges) {
   if (!is_unit_doubtful(ranges)) return "";
-  return say("half of the points lie beyond {:.0f} m: millimetres?", ranges.median_m);
+  return say("half of the points lie beyond {:.0f} m: millimetres? --unit mm reads them so", ranges.median_m);
 }
 
 }  // namespace pose_wall::tools

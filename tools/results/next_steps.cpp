@@ -132,7 +132,7 @@ std::string NextSteps::explain_line() const {
   const Reason& reason = worst->reasons[bit];
   if (reason.frames == 0) return "";
   const auto quantity = static_cast<std::uint32_t>(worst - quantities_.begin());
-  return say("{} was valid in {:.1f} % of the frames. Most frequent reason: {}. Its worst frame: {}",
+  return say("{} was valid in {:.1f} % of the frames. A frequent reason: {}. The worst frame with it: {}",
              pose_wall_quantity_name(quantity), 100.0 * share(worst->valid, measured_), reason_text(*worst, bit),
              fmt::format("pose_wall explain --frame {} {}", reason.worst_frame, shell_words_));
 }

@@ -169,10 +169,9 @@ void add_choice(CLI::App* verb, ExplainOptions* options) {
                        tr("One frame: its number, counted from 0 as in the CSV of run; its name (000123.pcd, "
                           "road.bag#12); or worst. Default: a digest of the whole recording and its worst frame"));
   frame->type_name("FRAME");
-  verb->add_option(
-          "--stamp", options->choice.stamp,
-          tr("The frame of the nearest stamp: seconds, nanoseconds as in the CSV (16 to 19 digits), or +SECONDS "
-             "since the first frame"))
+  verb->add_option("--stamp", options->choice.stamp,
+                   tr("The frame of the nearest stamp: seconds, nanoseconds as in the CSV, or +SECONDS "
+                      "since the first frame"))
       ->type_name("SECONDS")
       ->check(explain::stamp_fault, "")
       ->excludes(frame);

@@ -16,16 +16,19 @@
 
 namespace pose_wall::tools {
 
-bool would_cost_the_last_results(const char* verb, const FrameSequence& inputs, const std::string& output) {
+bool has_no_input(const char* verb, const FrameSequence& inputs, const std::string& output) {
   std::error_code ignored;
   const bool nothing_to_read =
       std::none_of(inputs.files().begin(), inputs.files().end(),
                    [&](const std::filesystem::path& file) { return std::filesystem::exists(file, ignored); });
-  if (!nothing_to_read || !std::filesystem::exists(output)) return false;
+  if (!nothing_to_read) return false;
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall {}: {}\n", verb, error);
   for (const auto& file : inputs.files())
-    fmt::print(stderr, "{}", say("pose_wall {}: {}: not there\n", verb, file.string()));
-  fmt::print(stderr, "{}", say("pose_wall {}: there is no input; {} is left as it was\n", verb, output));
+    fmt::print(stderr, "{}", say("pose_wall {}: {}: no such file or folder\n", verb, file.string()));
+  fmt::print(stderr, "{}",
+             std::filesystem::exists(output)
+                 ? say("pose_wall {}: there is no input; {} is left as it was\n", verb, output)
+                 : say("pose_wall {}: there is no input\n", verb));
   return true;
 }
 

@@ -13,9 +13,9 @@
 
 namespace pose_wall::tools {
 
-// True, and said on stderr, where there is nothing to read at all and the output holds something: a mistyped input must
-// not cost the results of the last run.
-bool would_cost_the_last_results(const char* verb, const FrameSequence& inputs, const std::string& output);
+// True, and said on stderr, where there is nothing to read at all: a mistyped input must not cost the results of the
+// last run, nor leave a file that looks like some.
+bool has_no_input(const char* verb, const FrameSequence& inputs, const std::string& output);
 
 // The exit status after Ctrl-C, which is said on stderr.
 int tell_interrupted(std::size_t frames);

@@ -109,7 +109,7 @@ int motion(const MotionOptions& options) {
   const LoadedConfig loaded = options.frames.load();
   FrameSequence inputs = options.frames.open();
   MotionRunner runner(loaded.config, loaded.motion, options.frames.rate_hz);
-  if (would_cost_the_last_results("motion", inputs, options.output)) return kExitUnreadable;
+  if (has_no_input("motion", inputs, options.output)) return kExitUnreadable;
   MotionOutputs outputs(options, options.frames.files_read(inputs));
   if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall motion: {}\n", error);

@@ -120,7 +120,7 @@ int run(const RunOptions& options) {
   FrameSequence inputs = options.frames.open();
   FrameRunner runner(loaded.config, options.frames.rate_hz, loaded.motion);
   std::optional<AnnotatedFolder> annotated = annotated_folder(options);
-  if (would_cost_the_last_results("run", inputs, options.output)) return kExitUnreadable;
+  if (has_no_input("run", inputs, options.output)) return kExitUnreadable;
   ResultOutput output(options.output, options.frames.files_read(inputs),
                       options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv,
                       options.parts ? PartColumns::kAll : PartColumns::kNone);
