@@ -94,8 +94,8 @@ TEST(SensorLook, AnEndOfTheViewMayBeHidden) {
     const double elevation = (-15.0 + 2.0 * ring) / kDegPerRad;
     for (int column = 0; column < 360; ++column) {
       const double azimuth = column / kDegPerRad;
-      for (const double part : {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                                std::sin(elevation)}) {
+      for (const double part :
+           {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)}) {
         xyz_m.push_back(static_cast<float>(10.0 * part));
       }
     }
