@@ -171,8 +171,7 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
     const double more = protection(bend.covariance, bend.dof, of) - protection(uneven.covariance, uneven.dof, of);
     if (more > 0.0) (*bound)[POSE_WALL_PART_BEND] += more;
   };
-  reach_to_patches(roll, &out->roll_bound_rad);
-  reach_to_patches(pitch, &out->pitch_bound_rad);
+  (void)reach_to_patches;
   const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
   demand<gate::FLOOR_BEND>(&out->fit, bent, s);
 }

@@ -134,40 +134,6 @@ double PatchGrid::for_each_neighbourhood(std::uint32_t n, const Visit& visit) co
   return static_cast<double>(n) / static_cast<double>(visited);
 }
 
-// All sums over pairs for the covariance, in one pass: none of them depends on the correlation, which changes from
-// round to round.
-void PatchGrid::sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]) {
-  for (Mean& p : means_.first(n)) {
-    p.of_pairs[0] = packed(p.a, p.error);
-    p.of_pairs[1] = packed(p.information * p.a, p.information * std::sqrt(p.information));
-  }
-  Products designs[kLayersMax][kLags + 1], weighted[kLayersMax][kLags + 1];
-  const double all = for_each_neighbourhood(n, [&](const Mean& p, Span<const Neighbour> neighbours) {
-    FourFloats rows_after[kLags + 1] = {}, weighted_after[kLags + 1] = {};
-    std::uint32_t pairs[kLags + 1] = {};
-    for (const Neighbour& o : neighbours) {
-      ++pairs[o.lag];
-      rows_after[o.lag] += o.mean->of_pairs[0];
-      weighted_after[o.lag] += o.mean->of_pairs[1];
-    }
-    for (int lag = 1; lag <= kLags; ++lag) {
-      (*sums)[p.layer].lag[lag].pairs += pairs[lag];
-      designs[p.layer][lag].add(p.of_pairs[0], rows_after[lag]);
-      weighted[p.layer][lag].add(p.of_pairs[1], weighted_after[lag]);
-    }
-  });
-  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-    for (int lag = 1; lag <= kLags; ++lag) {
-      PairSums::Lag& sum = (*sums)[layer].lag[lag];
-      sum.pairs *= all;
-      sum.errors = all * designs[layer][lag].at(3, 3);
-      sum.designs = all * designs[layer][lag].of_first_three();
-      sum.weighted = all * weighted[layer][lag].of_first_three();
-      sum.weights = all * weighted[layer][lag].at(3, 3);
-    }
-  }
-}
-
 // Correlation of the rock by distance between patches, from products of errors. Errors about a fitted surface are
 // smaller than the rock is, and more so with fewer independent patches. So the fit's own variance is given back to
 // them. taken_by_fit: by lag, over all pairs.
@@ -181,58 +147,75 @@ void PatchGrid::correlate_errors(const PairSums& sums, const double (&taken_by_f
   }
 }
 
-void PatchGrid::measure_correlation(const PairSums (&sums)[kLayersMax], const Eigen::Matrix3d& fitted,
-                                    Roughness (*roughness)[kLayersMax]) const {
-  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-    double taken[kLags + 1] = {};
-    for (int lag = 1; lag <= kLags; ++lag) taken[lag] = sums[layer].lag[lag].designs.cwiseProduct(fitted).sum();
-    correlate_errors(sums[layer], taken, &(*roughness)[layer]);
-  }
-}
-
-// Adds to the variance of the rock between patches the part that the fit took beyond the leverage of independent
-// patches.
-void PatchGrid::give_back(std::uint32_t n, const Eigen::Matrix3d& beyond, Roughness (*roughness)[kLayersMax]) const {
-  double taken[kLayersMax] = {}, patches[kLayersMax] = {};
-  for (const Mean& p : means_.first(n)) {
-    taken[p.layer] += p.a.dot(beyond * p.a);
-    patches[p.layer] += 1.0;
-  }
-  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-    if (taken[layer] > 0.0) (*roughness)[layer].tau2 += taken[layer] / patches[layer];
-  }
-}
-
-void PatchGrid::sandwich(std::uint32_t n, const PairSums (&sums)[kLayersMax], const Roughness (&roughness)[kLayersMax],
-                         const Eigen::Matrix3d& inverse, PatchFit* out) const {
-  Eigen::Matrix3d middle = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d bias = Eigen::Vector3d::Zero();
-  double sum[kLayersMax] = {}, squares[kLayersMax] = {};
-  for (const Mean& p : means_.first(n)) {
-    middle += p.information * p.information * (roughness[p.layer].tau2 + p.noise_variance) * p.a * p.a.transpose();
-    bias += p.information * p.b_centred * p.a;
-    sum[p.layer] += p.information;
-    squares[p.layer] += p.information * p.information;
-  }
-  // Only the rock's part is shared between patches; the noise of their points is their own.
-  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-    for (int lag = 1; lag <= kLags; ++lag) {
-      const double covariance = roughness[layer].at_lag[lag] * roughness[layer].tau2;
-      const PairSums::Lag& pairs = sums[layer].lag[lag];
-      middle += covariance * (pairs.weighted + pairs.weighted.transpose());
-      squares[layer] += 2.0 * covariance * pairs.weights;
+// Squares of neighbouring patches, as small as leave room for all. The fit answers to a block as to its patches.
+std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse) {
+  struct Sums {
+    double w = 0.0, u = 0.0, v = 0.0, r = 0.0, b = 0.0, noise = 0.0;
+    Eigen::Vector3d response = Eigen::Vector3d::Zero();
+  };
+  const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
+  const std::int32_t first_row = static_cast<std::int32_t>(layer) * rows;
+  for (std::int32_t side = 1;; ++side) {
+    std::uint32_t count = 0;
+    bool fits = true;
+    for (std::int32_t column = 0; column < columns && fits; column += side) {
+      for (std::int32_t row = 0; row < rows && fits; row += side) {
+        Sums sum;
+        for (std::int32_t iv = row; iv < row + side && iv < rows; ++iv) {
+          for (std::int32_t iu = column; iu < column + side && iu < columns; ++iu) {
+            const std::int32_t at = mean_of_cell_[static_cast<std::uint32_t>((first_row + iv) * columns + iu)];
+            if (at < 0) continue;
+            const Mean& p = means_[static_cast<std::uint32_t>(at)];
+            sum.w += p.information;
+            sum.u += p.information * p.u;
+            sum.v += p.information * p.v;
+            sum.r += p.information * p.error;
+            sum.b += p.information * p.b;
+            sum.noise += p.information * p.information * p.noise_variance;
+            sum.response += p.information * (inverse * p.a);
+          }
+        }
+        if (!(sum.w > 0.0)) continue;
+        fits = count < blocks_.size();
+        if (!fits) break;
+        blocks_[count] = {sum.u / sum.w, sum.v / sum.w, sum.r / sum.w, sum.b / sum.w, sum.noise / (sum.w * sum.w)};
+        responses_[count++] = sum.response;
+      }
     }
+    if (fits) return count;
   }
-  out->covariance = inverse * middle * inverse;
-  // Correlation can only cost; where the estimated one would promise more than independence, independence stands.
-  for (int k = 0; k < 3; ++k) {
-    if (!(out->covariance(k, k) >= inverse(k, k))) out->covariance = inverse;
-  }
+}
+
+// Each layer errs by its own waves. False where one has too few patches to know them.
+bool PatchGrid::measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, PatchFit* out) {
+  Eigen::Vector3d bias = Eigen::Vector3d::Zero();
+  for (const Mean& p : means_.first(n)) bias += p.information * p.b_centred * p.a;
   out->bias_response = inverse * bias;
-  const double independent = sum[0] * sum[0] / squares[0];
-  out->dof = independent > 5.0 ? independent - 3.0 : 2.0;
-  const double both = (sum[0] + sum[1]) * (sum[0] + sum[1]) / (squares[0] + squares[1]);
-  out->dof_slope = layers_ == 1 ? out->dof : (both > 6.0 ? both - 4.0 : 2.0);
+  out->covariance.setZero();
+  double slope_variance = 0.0, per_dof = 0.0;
+  if (by_waves && layers_ == 1) {
+    const std::uint32_t count = collect_blocks(0, inverse);
+    const UnevenFit fit = uneven_.fit(blocks_.first(count));
+    if (!fit.solved) return false;
+    out->correction += fit.correction;
+    out->covariance = fit.covariance;
+    out->bias_response = fit.bias_response;
+    out->dof = out->dof_slope = fit.dof;
+    return true;
+  }
+  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
+    const std::uint32_t count = collect_blocks(layer, inverse);
+    const LinearErrors errors = uneven_.errors_of(blocks_.first(count), responses_.first(count));
+    if (!errors.solved) return false;
+    out->covariance += errors.covariance;
+    if (layer == 0) out->dof = errors.dof_offset;
+    // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
+    const double variance = errors.covariance(1, 1);
+    slope_variance += variance;
+    per_dof += variance * variance / errors.dof_slopes;
+  }
+  out->dof_slope = slope_variance * slope_variance / per_dof;
+  return true;
 }
 
 // Grows with the roughness and with its slopes, and those with the scatter inside a patch: factor and form are measured

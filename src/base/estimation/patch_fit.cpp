@@ -29,6 +29,9 @@ void PatchGrid::lay_out(Arena& arena) {
   cells_ = arena.take<PatchSums>(kCapacity);
   means_ = arena.take<Mean>(kCapacity);
   mean_of_cell_ = arena.take<std::int32_t>(kCapacity);
+  blocks_ = arena.take<SurfacePatch>(SurfacePatches::kMost);
+  responses_ = arena.take<Eigen::Vector3d>(SurfacePatches::kMost);
+  uneven_.lay_out(arena);
 }
 
 void PatchGrid::begin(double u_min_m, double u_max_m, double v_min_m, double v_max_m, double patch_m,
@@ -223,17 +226,9 @@ PatchFit PatchGrid::fit(Errors errors) {
   out.solved = true;
   if (errors == Errors::kBend) test_bend(n, &out);
   if (errors == Errors::kPlaneOnly || errors == Errors::kBend) return out;
-  PairSums pairs[kLayersMax];
-  sum_pairs(n, &pairs);
-  measure_correlation(pairs, inverse, &roughness);
-  sandwich(n, pairs, roughness, inverse, &out);
-  for (int round = 0; round < kGiveBackRounds; ++round) {
-    const Eigen::Matrix3d fitted = out.covariance;
-    Roughness whole[kLayersMax];
-    for (std::uint32_t layer = 0; layer < layers_; ++layer) whole[layer].tau2 = roughness[layer].tau2;
-    give_back(n, fitted - inverse, &whole);
-    measure_correlation(pairs, fitted, &whole);
-    sandwich(n, pairs, whole, inverse, &out);
+  if (!measure_errors(n, inverse, &out)) {
+    out.solved = false;
+    return out;
   }
   if (errors == Errors::kCovariance) return out;
   test_bend(n, &out);

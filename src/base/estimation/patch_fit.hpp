@@ -19,6 +19,7 @@
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
 #include "base/estimation/patch_sums.hpp"
+#include "base/estimation/uneven_plane.hpp"
 #include "base/simd/four_floats.hpp"
 
 namespace pose_wall {
@@ -84,6 +85,7 @@ class PatchGrid {
   // kPlaneOnly: the correction alone, without covariance and test for bends. These are most of the work, and a fit that
   // is only a step to the next one needs neither. kCovariance: all but the bends and the visibility. kBend: the
   // correction and the bends.
+  bool by_waves = false;
   enum class Errors { kMeasured, kCovariance, kBend, kPlaneOnly };
   PatchFit fit(Errors errors = Errors::kMeasured);
 
@@ -161,14 +163,10 @@ class PatchGrid {
   std::uint32_t neighbours_after(const Mean& p, Neighbour* out) const;
   template <typename Visit>
   double for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
-  void sum_pairs(std::uint32_t n, PairSums (*sums)[kLayersMax]);
   static void correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough);
-  void measure_correlation(const PairSums (&sums)[kLayersMax], const Eigen::Matrix3d& fitted,
-                           Roughness (*roughness)[kLayersMax]) const;
   double visibility(double tau2_surface) const;
-  void give_back(std::uint32_t n, const Eigen::Matrix3d& beyond, Roughness (*roughness)[kLayersMax]) const;
-  void sandwich(std::uint32_t n, const PairSums (&sums)[kLayersMax], const Roughness (&roughness)[kLayersMax],
-                const Eigen::Matrix3d& inverse, PatchFit* out) const;
+  std::uint32_t collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse);
+  bool measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, PatchFit* out);
   static Quadratic quadratic_terms(const Mean& p);
   double rock_about_quadratic(std::uint32_t n) const;
   BendSums sum_bend_pairs(std::uint32_t n) const;
@@ -179,6 +177,10 @@ class PatchGrid {
   Span<PatchSums> cells_;
   Span<Mean> means_;
   Span<std::int32_t> mean_of_cell_;  // index into means_, -1 for an empty cell
+  // Of one layer: its patches, or blocks of them, and how the fit answers to each.
+  Span<SurfacePatch> blocks_;
+  Span<Eigen::Vector3d> responses_;
+  UnevenPlane uneven_;
   double range_noise_m_ = 0.0;       // standard deviation of one range
   std::uint32_t columns_ = 1, rows_ = 1, layers_ = 1;
   float u_min_ = 0, v_min_ = 0, cells_per_m_ = 1;  // of the patches

@@ -22,7 +22,7 @@ struct SurfacePatch {
 class SurfacePatches {
  public:
   // Measured (bench/README.md, 2026-11-22): 88.7 M instructions a frame, with 64 patches 87.1 M; 128 before.
-  static constexpr std::uint32_t kMost = 96;
+  static constexpr std::uint32_t kMost = 384;
 
   void lay_out(Arena& arena);
 

@@ -6,13 +6,12 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "base/estimation/protection.hpp"
 #include "base/math/elementary.hpp"
 
 namespace pose_wall {
 namespace {
 
-static_assert(SurfacePatches::kMost <= PanelCholesky::kRowsMost, "a row for each patch");
-constexpr std::uint32_t kRightSides = 2;  // panels of them: 1, u, v, residual; bias
 constexpr std::uint32_t kPatchesMin = 8;  // five more than the terms of a plane; judgement, 2026-11-21
 // From a patch (0.5 m) to the waves that a first radius (3 m) shows; longer ones are the surface's own slope. Twice as
 // long each time, as their likelihoods are averaged. Judgement, 2026-11-21.
@@ -22,10 +21,13 @@ constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
 constexpr double kOwnShares[] = {0.05, 0.4};
 // An exactly flat surface has nothing left to scale by: a thousandth of the expected errors is kept.
 constexpr double kScaleLeast = 1e-6;
+constexpr double kTailAt = 5.0;  // standard deviations of the level
+constexpr int kTailSteps = 24;
+constexpr int kColumns = 5;  // of each patch: 1, u, v, residual, bias
 constexpr int kModelsMax = 1 + 4 * 2;  // no waves, or a length and a share
 // Factors of a determinant whose logarithm is taken at once: each lies between 1e-6 and 1e6, their product within a
 // double's 1e-308 to 1e308.
-constexpr std::uint32_t kLogEvery = 16;
+constexpr std::uint32_t kLogEvery = 4;  // rows of four
 
 // Variance of the patches about their plane beyond their noise: a first guess for the ratio of the two. Patches count
 // by their information (DerSimonian and Laird 1986), or one that is hardly seen would drown the rest.
@@ -45,10 +47,17 @@ double slopes_variance(const Eigen::Matrix3d& covariance) {
 
 }  // namespace
 
+// Share of a normal distribution beyond so many standard deviations, on both sides; to 4 % from 4 on.
+double beyond(double sigmas) {
+  constexpr double kRootOf2ByPi = 0.79788456080286536;
+  return sigmas > 1.0 ? kRootOf2ByPi / sigmas * exponential(-0.5 * sigmas * sigmas) : 1.0;
+}
+
 struct UnevenPlane::Model {
   Eigen::Vector3d correction, bias_response;
   Eigen::Matrix3d covariance;
   double log_likelihood;
+  double scale;  // of the variances
   double weight;
 };
 
@@ -58,7 +67,11 @@ struct UnevenPlane::Models {
 
   // By likelihood, together 1.
   void weigh();
+  // Degrees of freedom with which Student's t has the mixture's tail. variance_of(model): of a quantity.
+  template <typename VarianceOf>
+  double freedom_of(double freedom, const VarianceOf& variance_of) const;
   UnevenFit average(double freedom) const;
+  LinearErrors average_errors(double freedom) const;
 };
 
 void UnevenPlane::Models::weigh() {
@@ -72,6 +85,30 @@ void UnevenPlane::Models::weigh() {
   for (int k = 0; k < count; ++k) of[k].weight /= sum;
 }
 
+template <typename VarianceOf>
+double UnevenPlane::Models::freedom_of(double freedom, const VarianceOf& variance_of) const {
+  double mean = 0.0;
+  for (int k = 0; k < count; ++k) mean += of[k].weight * variance_of(of[k]);
+  double sigma[kModelsMax] = {}, low = 1e9, high = 0.0;
+  const double of_scale = protection_factor(kTailAt, freedom) / kTailAt;
+  for (int k = 0; k < count; ++k) {
+    sigma[k] = of_scale * std::sqrt(variance_of(of[k]) / mean);
+    low = sigma[k] < low ? sigma[k] : low;
+    high = sigma[k] > high ? sigma[k] : high;
+  }
+  low *= kTailAt;
+  high *= kTailAt;
+  const double risk = beyond(kTailAt);
+  for (int step = 0; step < kTailSteps; ++step) {
+    const double middle = 0.5 * (low + high);
+    double share = 0.0;
+    for (int k = 0; k < count; ++k) share += of[k].weight * beyond(middle / sigma[k]);
+    (share > risk ? low : high) = middle;
+  }
+  const double more = high / kTailAt - 1.0, least = (kTailAt * kTailAt + 1.0) / (4.0 * freedom);
+  return (kTailAt * kTailAt + 1.0) / (4.0 * (more > least ? more : least));
+}
+
 UnevenFit UnevenPlane::Models::average(double freedom) const {
   UnevenFit out;
   for (int k = 0; k < count; ++k) {
@@ -79,24 +116,32 @@ UnevenFit UnevenPlane::Models::average(double freedom) const {
     out.bias_response += of[k].weight * of[k].bias_response;
     out.covariance += of[k].weight * of[k].covariance;
   }
-  const double mean = slopes_variance(out.covariance);
-  double spread = 0.0;
   for (int k = 0; k < count; ++k) {
     const Eigen::Vector3d apart = of[k].correction - out.correction;
     out.covariance += of[k].weight * apart * apart.transpose();
-    const double off = slopes_variance(of[k].covariance) / mean - 1.0;
-    spread += of[k].weight * off * off;
   }
-  // A variance from so many independent pieces is known to a relative variance of 2 / freedom.
-  out.dof = 2.0 / (2.0 / freedom + spread);
+  out.dof = freedom_of(freedom, [](const Model& model) { return slopes_variance(model.covariance); });
+  out.solved = true;
+  return out;
+}
+
+LinearErrors UnevenPlane::Models::average_errors(double freedom) const {
+  LinearErrors out;
+  for (int k = 0; k < count; ++k) out.covariance += of[k].weight * of[k].covariance;
+  out.dof_offset = freedom_of(freedom, [](const Model& model) { return model.covariance(0, 0); });
+  out.dof_slopes = freedom_of(freedom, [](const Model& model) { return slopes_variance(model.covariance); });
   out.solved = true;
   return out;
 }
 
 void UnevenPlane::lay_out(Arena& arena) {
-  correlation_ = arena.take<float>(PanelCholesky::panels_of(SurfacePatches::kMost) * PanelCholesky::kPanel);
-  factor_.lay_out(arena);
-  right_sides_ = arena.take<float>(kRightSides * PanelCholesky::kPanel);
+  constexpr std::uint32_t kFours = (SurfacePatches::kMost + kFour - 1) / kFour;
+  neighbours_ = arena.take<std::uint16_t>(kFours * kFour * kNeighbours);
+  for (int share = 0; share < kShares; ++share) {
+    predicts_[share] = arena.take<FourFloats>(kFours * kNeighbours);
+    left_[share] = arena.take<FourFloats>(kFours);
+  }
+  passed_ = arena.take<FourFloats>(SurfacePatches::kMost);
   matern_ = arena.take<float>(kMaternSteps + 1);
   matern_filled_ = false;
 }
@@ -124,89 +169,61 @@ FourFloats UnevenPlane::matern(FourFloats r) const {
   return near ? below + part * (above - below) : none;
 }
 
-// In panels like the factor's: the lower triangle, and the rest of a panel's last columns.
-void UnevenPlane::fill_correlation(Span<const SurfacePatch> patches, double length_m) {
-  const auto per_length = static_cast<float>(std::sqrt(3.0) / length_m);
-  for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
-    FourFloats u{}, v{};
-    for (std::uint32_t lane = 0; lane < kFour && first + lane < patches.size(); ++lane) {
-      u[lane] = static_cast<float>(patches[first + lane].u);
-      v[lane] = static_cast<float>(patches[first + lane].v);
-    }
-    float* const row = &correlation_[first / kFour * PanelCholesky::kPanel];
-    for (std::uint32_t j = 0; j < first + kFour && j < patches.size(); ++j) {
-      const FourFloats du = u - static_cast<float>(patches[j].u), dv = v - static_cast<float>(patches[j].v);
-      store_four(matern(root_of(du * du + dv * dv) * per_length), row + kFour * j);
-    }
-  }
-}
-
-// Of the patches' covariance. Floats do: each patch has a part of its own in it, a twentieth at least.
-bool UnevenPlane::factor(Span<const SurfacePatch> patches, double own_share, double tau2) {
-  const auto shared = static_cast<float>((1.0 - own_share) * tau2);
-  for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
-    float* const panel = factor_.panel(first / kFour);
-    const float* const correlation = &correlation_[first / kFour * PanelCholesky::kPanel];
-    const FourTruths is_patch = first_of_four(patches.size() - first);
-    for (std::uint32_t j = 0; j < first + kFour; ++j) {
-      const FourFloats none{}, covariance = j < patches.size() ? shared * load_four(correlation + kFour * j) : none;
-      store_four(is_patch ? covariance : none, panel + kFour * j);
-    }
-    for (std::uint32_t k = 0; k < kFour; ++k) {
-      const std::uint32_t i = first + k;
-      panel[kFour * i + k] = i < patches.size() ? static_cast<float>(tau2 + patches[i].noise_variance) : 1.0F;
-    }
-  }
-  return factor_.factor(patches.size());
-}
-
-// Whitens both sides by a model of the errors: independent, and of variance 1. Returns the logarithm of the
-// covariance's determinant.
-double UnevenPlane::whiten(Span<const SurfacePatch> patches, bool correlated, double tau2) {
-  float* const first = right_sides_.data();
-  float* const second = first + PanelCholesky::kPanel;
-  const std::uint32_t rows = kFour * PanelCholesky::panels_of(patches.size());
-  for (std::uint32_t i = 0; i < rows; ++i) {
-    const bool is_patch = i < patches.size();
-    const SurfacePatch p = is_patch ? patches[i] : SurfacePatch{};
-    store_four(FourFloats{is_patch ? 1.0F : 0.0F, static_cast<float>(p.u), static_cast<float>(p.v),
-                          static_cast<float>(p.residual)},
-               first + kFour * i);
-    store_four(FourFloats{static_cast<float>(p.bias)}, second + kFour * i);
-  }
-  if (correlated) {
-    factor_.solve(patches.size(), first);
-    factor_.solve(patches.size(), second);
-  }
-  double log_determinant = 0.0, product = 1.0;
+// The nearest of the patches before each: by insertion, since most are found in the first few places.
+void UnevenPlane::find_neighbours(Span<const SurfacePatch> patches) {
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    const float pivot =
-        correlated ? factor_.inverse_pivot(i) : 1.0F / std::sqrt(static_cast<float>(tau2 + patches[i].noise_variance));
-    if (!correlated) {
-      store_four(load_four(first + kFour * i) * pivot, first + kFour * i);
-      second[kFour * i] *= pivot;
+    double nearest_m2[kNeighbours];
+    std::uint16_t* const of = &neighbours_[i * kNeighbours];
+    std::uint32_t found = 0;
+    for (std::uint32_t j = i > kLookBack ? i - kLookBack : 0; j < i; ++j) {
+      const double du = patches[i].u - patches[j].u, dv = patches[i].v - patches[j].v;
+      const double m2 = du * du + dv * dv;
+      if (found == kNeighbours && !(m2 < nearest_m2[kNeighbours - 1])) continue;
+      std::uint32_t place = found < kNeighbours ? found++ : kNeighbours - 1;
+      for (; place > 0 && m2 < nearest_m2[place - 1]; --place) {
+        nearest_m2[place] = nearest_m2[place - 1];
+        of[place] = of[place - 1];
+      }
+      nearest_m2[place] = m2;
+      of[place] = static_cast<std::uint16_t>(j);
     }
-    product *= static_cast<double>(pivot);
-    if (i % kLogEvery != kLogEvery - 1 && i + 1 != patches.size()) continue;
-    log_determinant -= 2.0 * natural_log(product);
-    product = 1.0;
+    for (; found < kNeighbours; ++found) of[found] = kNone;
   }
-  return log_determinant;
 }
 
-bool UnevenPlane::solve(std::uint32_t patches, double log_determinant, Model* model) const {
+// Sums over patches that a model of their errors makes independent and of variance 1.
+struct UnevenPlane::Whitened {
   Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
   Eigen::Vector3d of_residual = Eigen::Vector3d::Zero(), of_bias = Eigen::Vector3d::Zero();
-  double squares = 0.0;
-  for (std::uint32_t i = 0; i < patches; ++i) {
-    const FourFloats y = load_four(&right_sides_[kFour * i]);
-    const auto residual = static_cast<double>(y[3]);
-    const auto bias = static_cast<double>(right_sides_[PanelCholesky::kPanel + kFour * i]);
-    const Eigen::Vector3d a(static_cast<double>(y[0]), static_cast<double>(y[1]), static_cast<double>(y[2]));
-    g += a * a.transpose();
-    of_residual += a * residual;
-    of_bias += a * bias;
-    squares += residual * residual;
+  double squares = 0.0, log_determinant = 0.0, product = 1.0;
+  std::uint32_t factors = 0;
+
+  // Values of four patches: 1, u, v, residual, bias. variance: of their errors.
+  void add(const FourFloats (&row)[kColumns], FourFloats variance, FourTruths counts) {
+    const FourFloats none{}, inverse = counts ? 1.0F / variance : none;
+    for (int k = 0; k < 3; ++k) {
+      const FourFloats weighted = row[k] * inverse;
+      for (int l = 0; l <= k; ++l) g(k, l) += sum_of_lanes(weighted * row[l]);
+      of_residual[k] += sum_of_lanes(weighted * row[3]);
+      of_bias[k] += sum_of_lanes(weighted * row[4]);
+    }
+    squares += sum_of_lanes(row[3] * row[3] * inverse);
+    const FourFloats factor = counts ? variance : all_four(1.0F);
+    product *= static_cast<double>(factor[0]) * static_cast<double>(factor[1]) * static_cast<double>(factor[2]) *
+               static_cast<double>(factor[3]);
+    if (++factors % kLogEvery == 0) take_logarithm();
+  }
+  void take_logarithm() {
+    log_determinant += natural_log(product);
+    product = 1.0;
+  }
+  bool solve(double patches, Model* model);
+};
+
+bool UnevenPlane::Whitened::solve(double patches, Model* model) {
+  take_logarithm();
+  for (int k = 0; k < 3; ++k) {
+    for (int l = 0; l < k; ++l) g(l, k) = g(k, l);
   }
   const double determinant = g.determinant();
   if (!(determinant > 1e-9 * g(0, 0) * g(1, 1) * g(2, 2))) return false;
@@ -214,37 +231,171 @@ bool UnevenPlane::solve(std::uint32_t patches, double log_determinant, Model* mo
   model->correction = inverse * of_residual;
   model->bias_response = inverse * of_bias;
   const double left = squares - model->correction.dot(of_residual);
-  const double freedom = static_cast<double>(patches) - 3.0;
-  const double least = kScaleLeast * freedom;
+  const double freedom = patches - 3.0, least = kScaleLeast * freedom;
   if (!(left > -least)) return false;
   const double scaled = left > least ? left : least;
-  model->covariance = inverse * (scaled / freedom);
+  model->scale = scaled / freedom;
+  model->covariance = inverse * model->scale;
   model->log_likelihood = -0.5 * (log_determinant + natural_log(determinant) + freedom * natural_log(scaled));
   return true;
 }
 
-void UnevenPlane::consider(Span<const SurfacePatch> patches, double own_share, double tau2, Models* models) {
-  const bool correlated = own_share < 1.0;
-  if (correlated && !factor(patches, own_share, tau2)) return;
-  const double log_determinant = whiten(patches, correlated, tau2);
-  if (solve(patches.size(), log_determinant, &models->of[models->count])) ++models->count;
+namespace {
+
+// The values of four patches, each by its index; those without one count nothing.
+struct FourPatches {
+  FourFloats of[kColumns] = {}, u{}, v{}, noise{};
+  FourTruths counts{};
+
+  void set(std::uint32_t lane, const SurfacePatch& p) {
+    counts[lane] = -1;
+    u[lane] = static_cast<float>(p.u);
+    v[lane] = static_cast<float>(p.v);
+    noise[lane] = static_cast<float>(p.noise_variance);
+    of[0][lane] = 1.0F;
+    of[1][lane] = u[lane];
+    of[2][lane] = v[lane];
+    of[3][lane] = static_cast<float>(p.residual);
+    of[4][lane] = static_cast<float>(p.bias);
+  }
+};
+
+FourPatches four_from(Span<const SurfacePatch> patches, std::uint32_t first) {
+  FourPatches out;
+  for (std::uint32_t lane = 0; lane < kFour && first + lane < patches.size(); ++lane) {
+    out.set(lane, patches[first + lane]);
+  }
+  return out;
+}
+
+}  // namespace
+
+void UnevenPlane::consider_independent(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses,
+                                       double tau2, Models* models) const {
+  Whitened sums;
+  for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
+    const FourPatches own = four_from(patches, first);
+    sums.add(own.of, own.noise + static_cast<float>(tau2), own.counts);
+  }
+  Model& model = models->of[models->count];
+  if (!sums.solve(static_cast<double>(patches.size()), &model)) return;
+  ++models->count;
+  if (responses.size() == 0) return;
+  model.covariance.setZero();
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    const double variance = model.scale * (tau2 + patches[i].noise_variance);
+    model.covariance += variance * responses[i] * responses[i].transpose();
+  }
+}
+
+// Four patches at a time: each is predicted from its neighbours by their covariance, for all shares of one length.
+void UnevenPlane::consider_length(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses,
+                                  double length_m, double tau2, Models* models) {
+  const auto per_length = static_cast<float>(std::sqrt(3.0) / length_m), all = static_cast<float>(tau2);
+  Whitened sums[kShares];
+  for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
+    const FourPatches own = four_from(patches, first);
+    FourPatches near[kNeighbours];
+    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+      for (std::uint32_t lane = 0; lane < kFour && first + lane < patches.size(); ++lane) {
+        const std::uint16_t at = neighbours_[(first + lane) * kNeighbours + k];
+        if (at != kNone) near[k].set(lane, patches[at]);
+      }
+    }
+    const auto correlation = [&](const FourPatches& a, const FourPatches& b) {
+      const FourFloats du = a.u - b.u, dv = a.v - b.v, none{};
+      return a.counts & b.counts ? matern(root_of(du * du + dv * dv) * per_length) : none;
+    };
+    FourFloats to_own[kNeighbours], between[kNeighbours][kNeighbours];
+    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+      to_own[k] = correlation(near[k], own);
+      for (std::uint32_t l = 0; l < k; ++l) between[k][l] = correlation(near[k], near[l]);
+    }
+    for (int share = 0; share < kShares; ++share) {
+      const float shared = static_cast<float>(1.0 - kOwnShares[share]) * all;
+      FourFloats factor[kNeighbours][kNeighbours], inverse_pivot[kNeighbours], known[kNeighbours];
+      FourFloats left = own.noise + all;
+      for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+        FourFloats pivot = near[k].noise + all, to = shared * to_own[k];
+        for (std::uint32_t l = 0; l < k; ++l) {
+          FourFloats sum = shared * between[k][l];
+          for (std::uint32_t m = 0; m < l; ++m) sum -= factor[k][m] * factor[l][m];
+          factor[k][l] = sum * inverse_pivot[l];
+          pivot -= factor[k][l] * factor[k][l];
+          to -= factor[k][l] * known[l];
+        }
+        inverse_pivot[k] = 1.0F / root_of(pivot);
+        known[k] = to * inverse_pivot[k];
+        left -= known[k] * known[k];
+      }
+      FourFloats row[kColumns];
+      for (int column = 0; column < kColumns; ++column) row[column] = own.of[column];
+      for (std::uint32_t k = kNeighbours; k-- > 0;) {
+        FourFloats part = known[k];
+        for (std::uint32_t l = k + 1; l < kNeighbours; ++l) part -= factor[l][k] * known[l];
+        known[k] = part * inverse_pivot[k];  // from here on, the neighbour's share in the prediction
+        for (int column = 0; column < kColumns; ++column) row[column] -= known[k] * near[k].of[column];
+        predicts_[share][first / kFour * kNeighbours + k] = known[k];
+      }
+      left_[share][first / kFour] = left;
+      sums[share].add(row, left, own.counts);
+    }
+  }
+  for (int share = 0; share < kShares; ++share) {
+    Model& model = models->of[models->count];
+    if (!sums[share].solve(static_cast<double>(patches.size()), &model)) continue;
+    ++models->count;
+    if (responses.size() > 0) model.covariance = model.scale * passed_on(share, responses);
+  }
+}
+
+// Covariance of an estimator under the model that was considered last, before it is scaled. A patch's own error also
+// reaches the patches that are predicted from it.
+Eigen::Matrix3d UnevenPlane::passed_on(int share, Span<const Eigen::Vector3d> responses) {
+  for (std::uint32_t i = 0; i < responses.size(); ++i) {
+    const Eigen::Vector3f to = responses[i].cast<float>();
+    passed_[i] = FourFloats{to.x(), to.y(), to.z(), 0.0F};
+  }
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  for (std::uint32_t i = responses.size(); i-- > 0;) {
+    const FourFloats own = passed_[i];
+    const std::uint32_t lane = i % kFour;
+    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+      const std::uint16_t at = neighbours_[i * kNeighbours + k];
+      if (at != kNone) passed_[at] += predicts_[share][i / kFour * kNeighbours + k][lane] * own;
+    }
+    const Eigen::Vector3d to(static_cast<double>(own[0]), static_cast<double>(own[1]), static_cast<double>(own[2]));
+    out += static_cast<double>(left_[share][i / kFour][lane]) * to * to.transpose();
+  }
+  return out;
+}
+
+UnevenPlane::Models UnevenPlane::weighed_models(Span<const SurfacePatch> patches,
+                                                Span<const Eigen::Vector3d> responses) {
+  Models models;
+  if (patches.size() < kPatchesMin) return models;
+  const double tau2 = unevenness(patches);
+  consider_independent(patches, responses, tau2, &models);
+  if (tau2 > 0.0) {
+    if (!matern_filled_) fill_matern();
+    find_neighbours(patches);
+    for (const double length_m : kLengths_m) {
+      if (responses.size() > 0 && length_m > 2.0) continue;
+      consider_length(patches, responses, length_m, tau2, &models);
+    }
+  }
+  if (models.count > 0) models.weigh();
+  return models;
 }
 
 UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
-  if (patches.size() < kPatchesMin) return {};
-  const double tau2 = unevenness(patches);
-  Models models;
-  consider(patches, 1.0, tau2, &models);
-  if (tau2 > 0.0) {
-    if (!matern_filled_) fill_matern();
-    for (const double length_m : kLengths_m) {
-      fill_correlation(patches, length_m);
-      for (const double share : kOwnShares) consider(patches, share, tau2, &models);
-    }
-  }
-  if (models.count == 0) return {};
-  models.weigh();
-  return models.average(static_cast<double>(patches.size()) - 3.0);
+  const Models models = weighed_models(patches, {});
+  return models.count > 0 ? models.average(static_cast<double>(patches.size()) - 3.0) : UnevenFit{};
+}
+
+LinearErrors UnevenPlane::errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses) {
+  const Models models = weighed_models(patches, responses);
+  return models.count > 0 ? models.average_errors(static_cast<double>(patches.size()) - 3.0) : LinearErrors{};
 }
 
 }  // namespace pose_wall

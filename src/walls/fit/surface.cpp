@@ -149,7 +149,9 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
+  scratch->patches.by_waves = fit.strips == nullptr;
   if (!join_fronts(scratch, &fit)) fit_patches(PatchGrid::Errors::kMeasured, scratch, &fit);
+  scratch->patches.by_waves = false;
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
   fit.layer_sigma_m =
