@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -16,6 +15,7 @@
 #include "config_file/key_table.hpp"
 #include "config_file/yaml_entries.hpp"
 #include "language/language.hpp"
+#include "language/system_errors.hpp"
 #include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools {
@@ -63,7 +63,7 @@ class ConfigLoader {
     std::string keys = fmt::format("{} ({})", broken.key, loaded_.origin(broken.key));
     const std::string other = broken.other_key;
     if (!other.empty()) keys += say(" and {} ({})", other, loaded_.origin(other));
-    fault(fmt::format("{}: {}", keys, broken.rule));
+    fault(fmt::format("{}: {}", keys, tr(broken.rule)));
   }
 
   LoadedConfig take() {
@@ -80,7 +80,7 @@ class ConfigLoader {
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-      fault(say("{}: cannot be opened for reading: {}{}", file, std::strerror(errno),
+      fault(say("{}: cannot be opened for reading: {}{}", file, system_error_text(errno),
                 file == "-" ? tr("; standard input is /dev/stdin") : ""));
       return {};
     }
@@ -120,10 +120,10 @@ class ConfigLoader {
     if (status == POSE_WALL_OK) {
       loaded_.origins[key] = where;
     } else {
-      fault(say("{}: {}: '{}' is refused ({}); allowed: {}", where, key, value, pose_wall_status_text(status),
+      fault(say("{}: {}: '{}' is refused ({}); allowed: {}", where, key, value, tr(pose_wall_status_text(status)),
                 allowed_text(*known)));
       // A choice needs more than its words: z_axis is fixed, and its help says what to turn instead.
-      if (known->type == POSE_WALL_KEY_CHOICE) faults_ += fmt::format(" ({})", known->help);
+      if (known->type == POSE_WALL_KEY_CHOICE) faults_ += fmt::format(" ({})", tr(known->help));
     }
   }
 

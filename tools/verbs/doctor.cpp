@@ -24,6 +24,7 @@
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
@@ -180,7 +181,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
       ->needs(output);
   verb->add_option("--height", options->height_m,
                    tr("Height of the sensor above the floor in m, measured by hand: tells floor from roof"))
-      ->check(CLI::Range(0.02, 20.0));
+      ->check(number_within(0.02, 20.0));
   verb->add_flag("--json", options->json, tr("One JSON object instead of tables"));
   verb->footer(
       tr("Examples:\n"

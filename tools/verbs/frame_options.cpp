@@ -95,7 +95,7 @@ void add_input_options(CLI::App* verb, InputOptions* options) {
           "--metadata", options->packets.metadata,
           tr("File that describes the sensor of packets: JSON of an Ouster (default: the capture's name, .json), "
              "angles of a Hesai (CSV)"))
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   verb->add_option(
           "--layout", options->layout,
           tr("Values of a point in files without a header, one letter each: xyz, xyzi, xyz_i, ... (i intensity, "
