@@ -310,7 +310,7 @@ TEST(FrameChoice, FaultsNameWhatIsAllowed) {
       {{"--frame", "000003.pcd", road.folder.file("no_floor/frames")}, "2 frames have this name"},
       {{"--stamp", "1700000000.5"}, "run from 1000.000 s to 1000.500 s"},
       {{"--stamp", "noon"}, "'noon' is no stamp; allowed: seconds"},
-      {{"--stamp", "1", "--frame", "1"}, "--frame excludes --stamp"},
+      {{"--stamp", "1", "--frame", "1"}, "--frame and --stamp exclude each other"},
   };
   for (const auto& [words, part] : cases) {
     const Ran ran = road.explain(words);
