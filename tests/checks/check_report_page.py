@@ -180,7 +180,8 @@ def check_verdicts(browser, checks):
     checks.hold("nothing valid is not usable", grade == "bad" and text.startswith("Not usable") and
                 "Never act on roll, pitch, yaw, left front, left back, right front, right back" in text)
     grade, text = verdict("f === 0 && q === 2 ? 3 : 2")
-    checks.hold("one valid value is not usable", grade == "bad" and "Do not rely on yaw: valid in less than 50 % of the frames" in text)
+    checks.hold("one valid value is not usable", grade == "bad" and
+                "Do not rely on yaw: valid in less than 50 % of the frames" in text)
     grade, text = verdict("q < 2 ? 3 : q === 2 && f % 4 ? 3 : 2")
     checks.hold("angles alone are usable in part", grade == "fair" and
                 text.startswith("Usable in part: roll, pitch, yaw alone. Not usable: left front") and

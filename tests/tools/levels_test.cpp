@@ -118,19 +118,22 @@ std::string said_of(const pose_wall_value& value, std::uint32_t quantity) {
 TEST(OutcomeSentence, TellsWhatTheLevelIsMadeOf) {
   const double raw = 12.3 * kRadPerDeg;
   EXPECT_EQ(said_of(crafted_value(POSE_WALL_DEGRADED, raw, raw, kYawParts), POSE_WALL_YAW),
-            "yaw: degraded, 12.30°, error at most 3.64°. Its level: 3.64° = 2.10° rival + 0.90° range bias + 0.64° random; lag 0.");
+            "yaw: degraded, 12.30°, error at most 3.64°. Its level: 3.64° = 2.10° rival + 0.90° range bias + 0.64° "
+            "random; lag 0.");
 }
 
 TEST(OutcomeSentence, TellsTheRawsOwnLevelWhereItDiffers) {
   EXPECT_EQ(said_of(crafted_value(POSE_WALL_VALID, 2.0, 2.02, {0.05, 0.06, 0.0, 0.0, 0.0, 0.02, 0.0}), POSE_WALL_D_LF),
-            "d_lf: valid, 2.00 m, error at most 0.13 m. Its level: 0.13 m = 0.06 m range bias + 0.05 m random + 0.02 m lag. This "
+            "d_lf: valid, 2.00 m, error at most 0.13 m. Its level: 0.13 m = 0.06 m range bias + 0.05 m random + 0.02 m "
+            "lag. This "
             "frame alone measured 2.02 m ± 0.11 m.");
 }
 
 TEST(OutcomeSentence, NamesTheLagWhereItIsTheLargestPart) {
   const Parts parts = degrees_of({0.1, 0.1, 0.1, 0.1, 0.1, 0.12, 0.0});
   EXPECT_EQ(said_of(crafted_value(POSE_WALL_VALID, 0.0, 0.12 * kRadPerDeg, parts), POSE_WALL_YAW),
-            "yaw: valid, 0.00°, error at most 0.62°. Its level: 0.62° = 0.12° lag + 0.10° random + 0.10° range bias + 0.10° bend + "
+            "yaw: valid, 0.00°, error at most 0.62°. Its level: 0.62° = 0.12° lag + 0.10° random + 0.10° range bias + "
+            "0.10° bend + "
             "0.10° rival + 0.10° extrapolation. This frame alone measured 0.12° ± 0.50°: the value follows earlier "
             "frames (temporal_smoothing_tau, yaw_rate_limit_deg).");
 }
