@@ -6,11 +6,13 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <system_error>
 
+#include "angles.hpp"
 #include "config_file/config_place.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/yaml_entries.hpp"
@@ -109,7 +111,7 @@ class ConfigLoader {
     }
     const std::optional<pose_wall_key_info> known = find_config_key(key);
     if (!known) {
-      fault(say("{}: unknown key '{}'{}", where, key, did_you_mean(key, all_key_names())));
+      fault(say("{}: unknown key '{}'{}", where, key, suggestion(key, value)));
       return;
     }
     if (is_sequence && known->type != POSE_WALL_KEY_BOX) {
@@ -135,6 +137,20 @@ class ConfigLoader {
       fault(say("{}: {}: '{}' is refused; allowed: {}{}", where, key.name, value, allowed_text(key),
                 did_you_mean(value, choices_of(key))));
     }
+  }
+
+  // The unit is part of the question where the name leaves it out or has another one.
+  static std::string suggestion(const std::string& key, const std::string& value) {
+    if (find_config_key(key + "_deg")) return did_you_mean(key + "_deg_", {key + "_deg"});
+    const std::string question = did_you_mean(key, all_key_names());
+    const std::string ending = "_deg";
+    if (key.size() <= ending.size() || key.compare(key.size() - ending.size(), ending.size(), ending) != 0) {
+      return question;
+    }
+    const std::optional<pose_wall_key_info> bare = find_config_key(key.substr(0, key.size() - ending.size()));
+    if (!bare || std::string(bare->unit) != "rad") return question;
+    const double angle_deg = std::strtod(value.c_str(), nullptr);
+    return question + say(" (in radians: write {:.4f} for {:g} deg)", angle_deg / kDegPerRad, angle_deg);
   }
 
   static std::vector<std::string> all_key_names() {
