@@ -5,8 +5,8 @@
 
 usage: check_translations.py ROOT     exit status 1 and one line per text that
   - is marked in tools/ (say("..."), tr("..."), translatable("...")), or stands in a table of the engine that tools
-    print (keys' help in src/config_keys.def; states, parts, senses, reasons in src/names.def), and is in no
-    tools/language/zh/*.po
+    print (keys' help in src/config_keys.def; states, parts, senses, reasons and statuses of values in src/names.def;
+    rules over two keys in src/config.cpp), and is in no tools/language/zh/*.po
   - stands in a catalogue and is marked nowhere, or stands there twice
   - fills in other arguments than the English one, or holds no Chinese"""
 
@@ -20,6 +20,9 @@ MARKED = re.compile(rf'\b(?:say|tr|translatable)\(\s*((?:{LITERAL}\s*)+)')
 KEY_HELP = re.compile(rf'^POSE_WALL_[A-Z]+ *\(.*, {LITERAL}\)$', re.M)
 NAME = re.compile(rf'^(?:STATE|PART|SENSE) *\(\w+, {LITERAL}\)$', re.M)
 REASON = re.compile(rf'^REASON *\(\w+, "\w+", {LITERAL}\)$', re.M)
+# Of the statuses tools print only why a key refuses its value; the others are for programmers.
+STATUS = re.compile(rf'^STATUS *\(POSE_WALL_E_(?:VALUE|TEXT)_\w+, {LITERAL}\)$', re.M)
+RULE = re.compile(rf'\{{"\w+", "\w+", {LITERAL}\}}')
 HAN = re.compile(r"[\u3400-\u9fff]")
 FIELD = re.compile(r"(?<!\{)\{(\w*)(?::[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
 ESCAPES = {"n": "\n", "t": "\t", '"': '"', "\\": "\\"}
@@ -41,7 +44,8 @@ def marked(root):
             texts.setdefault(text, f"{path.relative_to(root)}:{source.count(chr(10), 0, found.start()) + 1}")
     # The engine knows no language; tools print its tables, names with spaces for their underscores.
     for table, rows, spoken in (("config_keys.def", KEY_HELP, False), ("names.def", NAME, True),
-                                ("names.def", REASON, False)):
+                                ("names.def", REASON, False), ("names.def", STATUS, False),
+                                ("config.cpp", RULE, False)):
         path = root / "src" / table
         for found in rows.finditer(path.read_text(encoding="utf-8") if path.exists() else ""):
             text = unescaped(found.group(1))

@@ -599,6 +599,16 @@ class Translations(BrokenProject):
     def test_other_arguments(self):
         self.fails("the wall", *self.check('say("the wall {name}");\n', self.WALL.replace("{name}侧", "侧")))
 
+    def test_texts_of_the_engine(self):
+        self.write("src/names.def",
+                   'STATUS(POSE_WALL_E_VALUE_TYPE, "no value")\nSTATUS(POSE_WALL_E_NULL, "no pointer")\n')
+        self.write("src/config.cpp", 'Rule rule = {true, {"a_min", "a_max", "a_min too great"}};\n')
+        broken = self.check('say("the wall {name}");\n', self.WALL)
+        self.fails("no value", *broken)
+        self.fails("a_min too great", *broken)
+        self.passes(*self.check('say("the wall {name}");\n', self.WALL + 'msgid "no value"\nmsgstr "没有值"\n\n'
+                                'msgid "a_min too great"\nmsgstr "a_min 过大"\n'))
+
     def test_no_chinese(self):
         self.fails("the wall", *self.check('say("the wall {name}");\n', 'msgid "the wall {name}"\nmsgstr "{name}"\n'))
 

@@ -141,6 +141,16 @@ class Words(Folder):
             done = subprocess.run([str(POSE_WALLD), *words], capture_output=True, text=True, check=True)
             self.assertIn("pose_walld", done.stdout)
 
+    def test_chinese(self):
+        done = subprocess.run([str(POSE_WALLD), "--help", "--language", "zh"], capture_output=True, text=True,
+                              check=True)
+        for part in ("用法:", "选项:", "上电后持续测量", "显示本帮助后退出", "退出码："):
+            self.assertIn(part, done.stdout)
+        for word in ("Usage", "Options", "Needs", "Print", "Exit"):
+            self.assertNotIn(word, done.stdout)
+        self.refused(["--language", "zh", "--sped", "2"], 2, "未知选项 --sped；是否指“--speed”？", "参见 pose_walld --help。")
+        self.refused(["--language", "zh", "--speed", "2"], 2, "使用 --speed 时需同时给出 --replay")
+
 
 class Service(Folder):
     def test_tells_the_service_manager(self):

@@ -50,6 +50,25 @@ TEST(CheckConfig, TellsTheSignsForEachAxisAhead) {
   }
 }
 
+TEST(CheckConfig, DegreesInAKeyOfRadiansAreDoubted) {
+  for (const char* value : {"5", "1.5"}) {
+    const std::string text = command({"check-config", "-s", std::string("extrinsic_roll=") + value}).printed;
+    EXPECT_TRUE(contains(text, "warning: extrinsic_roll is in radians")) << text;
+  }
+  EXPECT_TRUE(contains(command({"check-config", "-s", "extrinsic_roll=5"}).printed, "For 5 deg write 0.0873"));
+  for (const char* value : {"0.1", "3.14159265", "1.5708"}) {
+    const std::string text = command({"check-config", "-s", std::string("extrinsic_roll=") + value}).printed;
+    EXPECT_FALSE(contains(text, "warning")) << text;
+  }
+}
+
+TEST(CheckConfig, AnUnknownKeyIsAnsweredWithItsUnit) {
+  const std::string roll = command({"check-config", "-s", "extrinsic_roll_deg=5"}).errors;
+  EXPECT_TRUE(contains(roll, "did you mean 'extrinsic_roll'? (in radians: write 0.0873 for 5 deg)")) << roll;
+  const std::string yaw = command({"check-config", "-s", "yaw_max=30"}).errors;
+  EXPECT_TRUE(contains(yaw, "did you mean 'yaw_max_deg'?")) << yaw;
+}
+
 TEST(CheckConfig, NoLineIsWiderThanATerminal) {
   for (const char* language : {"en", "zh"}) {
     for (const char* option : {"--set=motion=on", "--keys"}) {

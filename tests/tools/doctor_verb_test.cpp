@@ -91,6 +91,14 @@ TEST(DoctorVerb, TellsTheSameInTablesAndJson) {
   }
 }
 
+TEST(DoctorVerb, AGuessedAxisIsCalledAGuessInTheFileAndInTheNextSteps) {
+  const Road road({});
+  const std::string file = road.folder.file("out.yaml");
+  const Ran ran = road.doctor({"-o", file});
+  EXPECT_TRUE(contains(text_of(file), "GUESS")) << text_of(file);
+  EXPECT_TRUE(contains(ran.printed, "# +X is a GUESS")) << ran.printed;
+}
+
 TEST(DoctorVerb, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
   struct {
     std::vector<std::string> words;
@@ -112,6 +120,9 @@ TEST(DoctorVerb, WhatCannotBeUsedIsRefusedAndNothingIsWritten) {
     EXPECT_FALSE(std::filesystem::exists(road.folder.file("out.yaml"))) << reason;
     EXPECT_FALSE(std::filesystem::exists(part_of(road.folder.file("out.yaml")))) << reason;
     EXPECT_TRUE(contains(ran.errors, "--write-anyway")) << ran.errors;
+    const std::size_t again = ran.printed.find("# record 30 s again"), anyway = ran.printed.find("never to control");
+    EXPECT_LT(again, anyway) << ran.printed;
+    EXPECT_FALSE(contains(ran.printed, "pose_wall run -c")) << "there is no file to run with";
   }
 }
 

@@ -51,6 +51,9 @@ TEST_F(ExplainInChinese, EveryGateHasItsSentenceHelpAndRowInTheList) {
     EXPECT_TRUE(contains(said + help, key)) << note.info.name << ": " << said;
   }
   EXPECT_EQ(english_in(gate_list_text()), "");
+  for (const char* unit : {" share ", " points ", " frames ", " steps "}) {
+    EXPECT_FALSE(contains(gate_list_text(), unit)) << unit;
+  }
 }
 
 TEST_F(ExplainInChinese, EveryNameAndReasonOfTheEngineIsTranslated) {

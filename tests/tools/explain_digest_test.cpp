@@ -242,7 +242,7 @@ TEST(ExplainDigest, InChineseNoEnglishIsLeft) {
   const Ran ran = road.explain({"--language", "zh"});
   ASSERT_EQ(ran.exit_status, 0) << ran.errors;
   for (const char* part :
-       {"6 帧\n", "保护级中位数", "3–4（2 帧）：地面被拒绝（floor_not_found", "值得查看的帧", "6 帧中最差的是第 "}) {
+       {"6 帧\n", "保护级中位数", "3–4（2 帧）：底板被拒绝（floor_not_found", "值得查看的帧", "6 帧中最差的是第 "}) {
     EXPECT_TRUE(contains(ran.printed, part)) << part << "\n" << ran.printed;
   }
   EXPECT_EQ(test::english_in(ran.printed), "");
@@ -310,7 +310,7 @@ TEST(FrameChoice, FaultsNameWhatIsAllowed) {
       {{"--frame", "000003.pcd", road.folder.file("no_floor/frames")}, "2 frames have this name"},
       {{"--stamp", "1700000000.5"}, "run from 1000.000 s to 1000.500 s"},
       {{"--stamp", "noon"}, "'noon' is no stamp; allowed: seconds"},
-      {{"--stamp", "1", "--frame", "1"}, "--frame excludes --stamp"},
+      {{"--stamp", "1", "--frame", "1"}, "--frame and --stamp exclude each other"},
   };
   for (const auto& [words, part] : cases) {
     const Ran ran = road.explain(words);

@@ -138,6 +138,23 @@ TEST(GatesTable, RatiosAndColoursOnlyWhereTheyAreAskedFor) {
   EXPECT_TRUE(contains(gates_text(Notes(noted.trace), true), "\033[31m"));
 }
 
+TEST(GatesTable, WhatFailedStandsFirstAndTheEndNamesTheList) {
+  Noted noted;
+  noted.note(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_POINTS, 9000.0, 500.0, true);
+  noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 3.0, 2.0, true);
+  noted.note(POSE_WALL_TRACE_RIGHT, POSE_WALL_TRACE_WALL_LENGTH, 1.0, 2.0, false);
+  noted.note(POSE_WALL_TRACE_RIGHT, POSE_WALL_TRACE_WALL_LEAN, 0.5, 0.2, false);
+  const std::string text = gates_text(Notes(noted.trace), false);
+  const std::size_t short_wall = text.find("1.00 m"), lean = text.find("wall_lean "), points = text.find("9000"),
+                    long_wall = text.find("3.00 m");
+  EXPECT_LT(short_wall, lean) << text;
+  EXPECT_LT(lean, points) << text;
+  EXPECT_LT(points, long_wall) << text;
+  EXPECT_TRUE(contains(text, "\nMeaning of each gate: pose_wall explain --gates\n")) << text;
+  const std::string coloured = gates_text(Notes(noted.trace), true);
+  EXPECT_LT(coloured.rfind("\033[31m"), coloured.find("9000")) << "colours follow their rows\n" << coloured;
+}
+
 TEST(GatesTable, WhatIsAskedTwiceSaysOfWhat) {
   Noted noted;
   noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 3.0, 2.0, true);

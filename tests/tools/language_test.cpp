@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "language/language_name.hpp"
 #include "language/po_catalogue.hpp"
 #include "terminal/text_table.hpp"
 
@@ -44,6 +45,24 @@ TEST_F(LanguageTest, TheOptionGoesBeforeTheEnvironment) {
   setenv("POSE_WALL_LANGUAGE", "zh", 1);
   EXPECT_EQ(of({"run"}), Language::kChinese);
   EXPECT_EQ(of({"run", "--language", "en"}), Language::kEnglish);
+}
+
+TEST_F(LanguageTest, ChineseHasSeveralNames) {
+  for (const char* word : {"zh", "zh_CN", "zh-CN.UTF-8", "cn", "CN", "ZH"}) {
+    EXPECT_EQ(of({"run", "--language", word}), Language::kChinese) << word;
+    setenv("POSE_WALL_LANGUAGE", word, 1);
+    EXPECT_EQ(of({"run"}), Language::kChinese) << word;
+    EXPECT_EQ(unknown_language_in_environment(), "") << word;
+  }
+}
+
+TEST_F(LanguageTest, AnUnknownLanguageIsNamed) {
+  EXPECT_EQ(unknown_language_in_environment(), "");
+  setenv("LANG", "de_DE.UTF-8", 1);
+  EXPECT_EQ(unknown_language_in_environment(), "") << "locales of other languages speak English";
+  setenv("POSE_WALL_LANGUAGE", "chn", 1);
+  EXPECT_EQ(of({"run"}), Language::kEnglish);
+  EXPECT_EQ(unknown_language_in_environment(), "chn");
 }
 
 TEST_F(LanguageTest, TextsWithoutTranslationStayEnglish) {

@@ -111,6 +111,18 @@ TEST(FramePicture, TellsRawFromWhatIsSmoothedOrHeld) {
   }
 }
 
+TEST(FramePicture, AValueThatIsNotValidIsGrey) {
+  const auto row_of = [](std::uint32_t state) {
+    Scene scene;
+    scene.result.quantity[POSE_WALL_D_LF] = test::crafted_value(state, 1.2345, kNone, {0.05});
+    const std::string svg = scene.svg();
+    const std::size_t at = svg.find(">1.234 m<");
+    return svg.substr(svg.rfind("<text", at), at - svg.rfind("<text", at));
+  };
+  EXPECT_NE(row_of(POSE_WALL_VALID).find("#22282e"), std::string::npos);
+  EXPECT_NE(row_of(POSE_WALL_DEGRADED).find("#737b83"), std::string::npos);
+}
+
 TEST(FramePicture, SaysWhatAPositiveAngleMeans) {
   Scene scene;
   EXPECT_EQ(scene.svg().find("side down"), std::string::npos) << "an unknown sign is not made up";

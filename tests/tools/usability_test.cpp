@@ -63,6 +63,7 @@ TEST(Usability, OfARunIsByTheFramesThatWereRead) {
   outcome.result->quantity[POSE_WALL_ROLL].state = POSE_WALL_VALID;
   summary.add(outcome);
   EXPECT_EQ(summary.valid_shares(), (ValidShares{0.5, 0, 1, 0, 0, 0, 0}));
+  EXPECT_TRUE(test::contains(summary.text(1.0), "median value  median raw  median level")) << summary.text(1.0);
   EXPECT_TRUE(test::contains(summary.text(1.0), "verdict: usable in part: yaw valid in at least 90 %"))
       << summary.text(1.0);
 }

@@ -6,16 +6,18 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <system_error>
 
+#include "angles.hpp"
 #include "config_file/config_place.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/yaml_entries.hpp"
 #include "language/language.hpp"
+#include "language/system_errors.hpp"
 #include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools {
@@ -63,7 +65,7 @@ class ConfigLoader {
     std::string keys = fmt::format("{} ({})", broken.key, loaded_.origin(broken.key));
     const std::string other = broken.other_key;
     if (!other.empty()) keys += say(" and {} ({})", other, loaded_.origin(other));
-    fault(fmt::format("{}: {}", keys, broken.rule));
+    fault(fmt::format("{}: {}", keys, tr(broken.rule)));
   }
 
   LoadedConfig take() {
@@ -80,7 +82,7 @@ class ConfigLoader {
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-      fault(say("{}: cannot be opened for reading: {}{}", file, std::strerror(errno),
+      fault(say("{}: cannot be opened for reading: {}{}", file, system_error_text(errno),
                 file == "-" ? tr("; standard input is /dev/stdin") : ""));
       return {};
     }
@@ -109,7 +111,7 @@ class ConfigLoader {
     }
     const std::optional<pose_wall_key_info> known = find_config_key(key);
     if (!known) {
-      fault(say("{}: unknown key '{}'{}", where, key, did_you_mean(key, all_key_names())));
+      fault(say("{}: unknown key '{}'{}", where, key, suggestion(key, value)));
       return;
     }
     if (is_sequence && known->type != POSE_WALL_KEY_BOX) {
@@ -120,10 +122,10 @@ class ConfigLoader {
     if (status == POSE_WALL_OK) {
       loaded_.origins[key] = where;
     } else {
-      fault(say("{}: {}: '{}' is refused ({}); allowed: {}", where, key, value, pose_wall_status_text(status),
+      fault(say("{}: {}: '{}' is refused ({}); allowed: {}", where, key, value, tr(pose_wall_status_text(status)),
                 allowed_text(*known)));
       // A choice needs more than its words: z_axis is fixed, and its help says what to turn instead.
-      if (known->type == POSE_WALL_KEY_CHOICE) faults_ += fmt::format(" ({})", known->help);
+      if (known->type == POSE_WALL_KEY_CHOICE) faults_ += fmt::format(" ({})", tr(known->help));
     }
   }
 
@@ -135,6 +137,20 @@ class ConfigLoader {
       fault(say("{}: {}: '{}' is refused; allowed: {}{}", where, key.name, value, allowed_text(key),
                 did_you_mean(value, choices_of(key))));
     }
+  }
+
+  // The unit is part of the question where the name leaves it out or has another one.
+  static std::string suggestion(const std::string& key, const std::string& value) {
+    if (find_config_key(key + "_deg")) return did_you_mean(key + "_deg_", {key + "_deg"});
+    const std::string question = did_you_mean(key, all_key_names());
+    const std::string ending = "_deg";
+    if (key.size() <= ending.size() || key.compare(key.size() - ending.size(), ending.size(), ending) != 0) {
+      return question;
+    }
+    const std::optional<pose_wall_key_info> bare = find_config_key(key.substr(0, key.size() - ending.size()));
+    if (!bare || std::string(bare->unit) != "rad") return question;
+    const double angle_deg = std::strtod(value.c_str(), nullptr);
+    return question + say(" (in radians: write {:.4f} for {:g} deg)", angle_deg / kDegPerRad, angle_deg);
   }
 
   static std::vector<std::string> all_key_names() {

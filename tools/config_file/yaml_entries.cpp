@@ -13,6 +13,36 @@
 namespace pose_wall::tools {
 namespace {
 
+// libyaml's words for what people get wrong.
+[[maybe_unused]] constexpr const char* kProblems[] = {
+    translatable("could not find expected ':'"),
+    translatable("found a tab character that violates indentation"),
+    translatable("found a tab character where an indentation space is expected"),
+    translatable("mapping values are not allowed in this context"),
+    translatable("block sequence entries are not allowed in this context"),
+    translatable("did not find expected key"),
+    translatable("did not find expected ',' or ']'"),
+    translatable("did not find expected '-' indicator"),
+    translatable("did not find expected node content"),
+    translatable("did not find expected <document start>"),
+    translatable("did not find expected alphabetic or numeric character"),
+    translatable("found character that cannot start any token"),
+    translatable("found unexpected end of stream"),
+    translatable("found unknown escape character"),
+    translatable("found undefined alias"),
+    translatable("invalid leading UTF-8 octet"),
+    translatable("invalid trailing UTF-8 octet"),
+    translatable("incomplete UTF-8 octet sequence"),
+    translatable("control characters are not allowed"),
+    translatable("cannot be read"),
+};
+
+// One that the table lacks stays English, in brackets.
+std::string problem_words(const std::string& problem) {
+  const std::string words = tr(problem.c_str());
+  return words == problem && language() != Language::kEnglish ? say("the form is wrong ({})", problem) : words;
+}
+
 // Owns libyaml's parser and the event it gave last.
 class EventStream {
  public:
@@ -32,7 +62,7 @@ class EventStream {
     yaml_event_delete(&event_);
     if (yaml_parser_parse(&parser_, &event_) == 0) {
       const char* problem = parser_.problem != nullptr ? parser_.problem : "cannot be read";
-      throw YamlError(parser_.problem_mark.line + 1, say("not YAML: {}", problem));
+      throw YamlError(parser_.problem_mark.line + 1, say("not YAML: {}", problem_words(problem)));
     }
     return event_.type;
   }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "frames/text_cursor.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -23,7 +24,7 @@ std::vector<std::string> split_record(std::string line, std::istream& stream, st
   for (std::size_t i = 0;; ++i) {
     if (i == line.size()) {
       if (!quoted) return cells;
-      if (!std::getline(stream, line)) throw CsvError(fmt::format("line {}: a quote is not closed", first_line));
+      if (!std::getline(stream, line)) throw CsvError(say("line {}: a quote is not closed", first_line));
       ++line_number;
       cells.back() += '\n';
       i = std::numeric_limits<std::size_t>::max();
@@ -42,7 +43,7 @@ std::vector<std::string> split_record(std::string line, std::istream& stream, st
 void check_head(const std::vector<std::string>& head) {
   std::set<std::string> seen;
   for (const std::string& name : head) {
-    if (!seen.insert(name).second) throw CsvError(fmt::format("column '{}' appears twice", name));
+    if (!seen.insert(name).second) throw CsvError(say("column '{}' appears twice", name));
   }
 }
 
@@ -73,8 +74,8 @@ CsvTable CsvTable::parse(std::istream& stream) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty() || (table.head_.empty() && line.front() == '#')) continue;
     if (table.head_.empty() && line.front() == '{') {
-      throw CsvError(fmt::format(
-          "line {}: this is JSON; a table of CSV is allowed, as run writes it without --format json", line_number));
+      throw CsvError(
+          say("line {}: this is JSON; a table of CSV is allowed, as run writes it without --format json", line_number));
     }
     const std::size_t first_line = line_number;
     std::vector<std::string> cells = split_record(line, stream, line_number);
@@ -84,13 +85,12 @@ CsvTable CsvTable::parse(std::istream& stream) {
       continue;
     }
     if (cells.size() != table.head_.size()) {
-      throw CsvError(
-          fmt::format("line {}: {} cells, the head has {} columns", first_line, cells.size(), table.head_.size()));
+      throw CsvError(say("line {}: {} cells, the head has {} columns", first_line, cells.size(), table.head_.size()));
     }
     table.cells_.push_back(std::move(cells));
     table.lines_.push_back(first_line);
   }
-  if (table.head_.empty()) throw CsvError("no line with column names");
+  if (table.head_.empty()) throw CsvError(tr("no line with column names"));
   return table;
 }
 
@@ -104,8 +104,7 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
   const std::string& text = cells_[row][column];
   if (text.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::optional<double> number = parse_number<double>(text);
-  if (!number)
-    throw CsvError(fmt::format("line {}, column {}: '{}' is not a number", lines_[row], head_[column], text));
+  if (!number) throw CsvError(say("line {}, column {}: '{}' is not a number", lines_[row], head_[column], text));
   return *number;
 }
 

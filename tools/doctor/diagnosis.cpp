@@ -88,6 +88,14 @@ void propose_boxes(const BodySeen& body, Proposal& proposal) {
 
 }  // namespace
 
+std::string guess_text(const std::string& axis) {
+  const std::string other = (axis[0] == '-' ? "+" : "-") + axis.substr(1);
+  return say(
+      "{} is a GUESS: confirm it at the machine. If the other end is ahead, write {}; otherwise left and right, front "
+      "and back and all signs of angles are swapped",
+      axis, other);
+}
+
 Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::optional<double> height_m,
                    const Look& look) {
   Diagnosis d{recording.sensor.facts(), look_at_stamps(recording), {}, {}, {}, Proposal(told), {}};
@@ -100,8 +108,9 @@ Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::op
     if (story.floor.is_found()) propose_boxes(story.body, d.proposal);
     d.ahead = look_ahead(story, d.proposal);
     if (!d.ahead.axis.empty()) {
-      d.proposal.set("forward_axis", d.ahead.axis, d.ahead.reason);
-      d.proposal.state("forward_axis", d.ahead.reason);
+      const std::string reason = d.ahead.is_known ? d.ahead.reason : d.ahead.reason + ". " + guess_text(d.ahead.axis);
+      d.proposal.set("forward_axis", d.ahead.axis, reason);
+      d.proposal.state("forward_axis", reason);
     }
     d.preview = look(d.proposal.settings());
   }

@@ -55,6 +55,9 @@ struct Diagnosis {
 // The preview of the settings that are proposed.
 using Look = std::function<Preview(const LoadedConfig& proposed)>;
 
+// That forward_axis was guessed, and what to write if the other end of the road is ahead.
+std::string guess_text(const std::string& axis);
+
 Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::optional<double> height_m,
                    const Look& look);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "explain/amounts.hpp"
@@ -57,13 +58,22 @@ const char* colour_of(const Note& note) {
   }
 }
 
-std::string coloured_rows(const std::string& table, const std::vector<Note>& notes) {
+// Their rows in the table: what failed stands first, else in the order of the pipeline.
+std::vector<std::size_t> failing_first(const std::vector<Note>& notes) {
+  std::vector<std::size_t> order(notes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(), [&notes](std::size_t index) { return !notes[index].passed(); });
+  return order;
+}
+
+std::string coloured_rows(const std::string& table, const std::vector<Note>& notes,
+                          const std::vector<std::size_t>& order) {
   constexpr std::size_t kHeadLines = 2;
   std::istringstream lines(table);
   std::string line, out;
   for (std::size_t row = 0; std::getline(lines, line); ++row) {
     const std::size_t i = row - kHeadLines;
-    const std::string colour = row >= kHeadLines && i < notes.size() ? colour_of(notes[i]) : "";
+    const std::string colour = row >= kHeadLines && i < notes.size() ? colour_of(notes[order[i]]) : "";
     out += colour.empty() ? line + "\n" : colour + line + "\033[0m\n";
   }
   return out;
@@ -132,7 +142,8 @@ std::string name_of(const std::vector<Note>& all, std::size_t index) {
 std::string gates_text(const Notes& notes, bool coloured) {
   const std::vector<Note> all = notes.all();
   TextTable table({tr("of"), tr("gate"), tr("key"), tr("value"), "", tr("limit"), tr("ratio"), ""});
-  for (std::size_t index = 0; index < all.size(); ++index) {
+  const std::vector<std::size_t> order = failing_first(all);
+  for (const std::size_t index : order) {
     const Note& note = all[index];
     const char* sense = note.info.sense == POSE_WALL_TRACE_IS_SO      ? tr("is")
                         : note.info.sense == POSE_WALL_TRACE_AT_LEAST ? ">="
@@ -141,7 +152,9 @@ std::string gates_text(const Notes& notes, bool coloured) {
     table.add_row({subject_words(note.gate.subject), name_of(all, index), key_of(note), value_text(note), sense,
                    limit_text(note), ratio_text(note), passed_text(note)});
   }
-  return coloured ? coloured_rows(table.text(3), all) : table.text(3);
+  const std::string text = table.text(3);
+  return (coloured ? coloured_rows(text, all, order) : text) + tr("Meaning of each gate: pose_wall explain --gates") +
+         "\n";
 }
 
 }  // namespace pose_wall::tools::explain

@@ -97,7 +97,7 @@ constexpr GateWords kFloorWords[] = {
 constexpr GateWords kOutcomeWords[] = {
     {"protection_raw",
      translatable(
-         "This frame's own measurement has a protection level of {value}; {limit} is the alert limit ({key})."),
+         "This frame's own measurement has a protection level of {value}, above the alert limit of {limit} ({key})."),
      translatable("raise {key} where the task allows it")},
     {"rate", translatable("The smoothed yaw was to turn by {value}; {limit} a frame is the most ({key})."), ""},
     {"innovation",
@@ -112,11 +112,12 @@ constexpr GateWords kOutcomeWords[] = {
      translatable(
          "Earlier frames were refused, and none was good yet. Times that the value has to come again: {value}."),
      ""},
-    {"protection_smoothed", translatable("Its protection level is {value}; {limit} is the alert limit ({key})."),
+    {"protection_smoothed", translatable("Its protection level of {value} exceeds the alert limit of {limit} ({key})."),
      translatable("raise {key} where the task allows it")},
     {"ever", translatable("It was never measured before, so there is nothing to hold."), ""},
     {"protection_held",
-     translatable("The held value's protection level has grown to {value}; {limit} is the alert limit ({key})."), ""},
+     translatable("The held value's protection level has grown to {value}, above the alert limit of {limit} ({key})."),
+     ""},
     {"held_age", translatable("The held value is {value} old; {limit} is the most ({key})."), ""},
     {"held_before",
      translatable("The held value had expired before, by its age or by a stamp that jumped or stood still."), ""},

@@ -98,7 +98,7 @@ std::string gate_list_text() {
   TextTable table(
       {tr("gate"), tr("limit"), tr("unit"), tr("key"), tr("effect"), tr("what is measured (where the limit is from)")});
   for (const pose_wall_trace_info& gate : gate_list()) {
-    table.add_row({gate.name, limit_words(gate), gate.unit, gate.key, tr(kEffects[gate.effect]),
+    table.add_row({gate.name, limit_words(gate), tr(gate.unit), gate.key, tr(kEffects[gate.effect]),
                    say("{} ({})", tr(gate.asks), origin_words(gate.origin))});
   }
   std::string text = table.text(6);

@@ -91,6 +91,10 @@ inline constexpr const char* kGateMeasures[] = {
     translatable("what is held had not expired before, by time or by a stamp that jumped or stood still"),
     translatable("steps that the frame had taken when more were needed")};
 
+// Their units that are words.
+inline constexpr const char* kGateUnits[] = {translatable("share"), translatable("points"), translatable("frames"),
+                                             translatable("steps")};
+
 // Parts of a limit's origin, before its colon.
 inline constexpr const char* kOriginParts[] = {translatable("key"),
                                                translatable("definition"),

@@ -31,7 +31,8 @@ std::vector<std::uint32_t> planes_behind(std::uint32_t quantity) {
 std::string head(const pose_wall_value& v, std::uint32_t quantity) {
   std::vector<std::string> parts = {state_words(v.state)};
   if (std::isfinite(v.value)) {
-    parts.push_back(quantity_amount(quantity, v.value) + " ± " + quantity_amount(quantity, v.protection_level));
+    parts.push_back(
+        say("{}, error at most {}", quantity_amount(quantity, v.value), quantity_amount(quantity, v.protection_level)));
   }
   if (v.age_s > 0.0) parts.push_back(say("{:.2f} s old", v.age_s));
   return say("{}: {}.", pose_wall_quantity_name(quantity), in_a_row(parts));

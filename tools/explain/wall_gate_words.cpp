@@ -103,8 +103,8 @@ constexpr GateWords kFitWords[] = {
                   "allowed. The wall may end or step there."),
      translatable("s_front and s_back set the sampling points")},
     {"sample_before",
-     translatable(
-         "The sampling point lies behind the wall's plane, in the rock. The distance has no sign and tells how far."),
+     translatable("The sampling point lies behind the wall's plane, in the rock. The distance is how far it lies past "
+                  "the wall, not a clearance."),
      translatable("s_front, s_back, lateral_offset_left and lateral_offset_right set the sampling points")},
     {"sample_step", translatable("At its sampling point the wall may step out or back by {value}."),
      translatable("s_front and s_back set the sampling points")},

@@ -9,7 +9,6 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <ios>
 #include <string_view>
@@ -23,6 +22,7 @@
 #include "frames/text_cursor.hpp"
 #include "frames/text_points.hpp"
 #include "language/language.hpp"
+#include "language/system_errors.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -111,12 +111,12 @@ Bytes read_frame_bytes(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw FrameError(tr("not a regular file"));
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw FrameError(error.message());
+  if (error) throw FrameError(system_error_text(error.value()));
   if (size > kFileBytesMax) {
     throw FrameError(say("{} bytes; a frame file of at most {} bytes is read", size, kFileBytesMax));
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FrameError(say("cannot be opened for reading: {}", std::strerror(errno)));
+  if (!file) throw FrameError(say("cannot be opened for reading: {}", system_error_text(errno)));
   Bytes bytes(static_cast<std::size_t>(size));
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uintmax_t>(file.gcount()) != size) {

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "language/language.hpp"
+#include "language/system_errors.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -34,7 +35,8 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
   if (written) std::filesystem::rename(part, file, error);
   if (written && !error) return;
   std::filesystem::remove(part, ignored);
-  throw std::runtime_error(say("{}: cannot be written{}", file.string(), error ? ": " + error.message() : ""));
+  throw std::runtime_error(
+      say("{}: cannot be written{}", file.string(), error ? ": " + system_error_text(error.value()) : ""));
 }
 
 }  // namespace pose_wall::tools

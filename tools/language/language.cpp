@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "language/language_name.hpp"
 #include "language/po_catalogue.hpp"
 
 namespace pose_wall::tools {
@@ -17,8 +18,11 @@ Language& chosen_language() {
   return chosen;
 }
 
-Language named(std::string_view name) {
-  return name.substr(0, 2) == "zh" ? Language::kChinese : Language::kEnglish;
+constexpr const char* kVariable = "POSE_WALL_LANGUAGE";
+
+// Locales of other languages speak English.
+Language named(std::string_view word) {
+  return language_named(word).value_or(Language::kEnglish);
 }
 
 using Catalogue = std::unordered_map<std::string_view, const char*>;
@@ -56,14 +60,34 @@ Language language_of(int argc, const char* const* argv) {
   for (int i = argc - 1; i > 0; --i) {
     const std::string_view word = argv[i];
     if (word.substr(0, kOption.size()) != kOption) continue;
-    if (word.size() > kOption.size() && word[kOption.size()] == '=') return named(word.substr(kOption.size() + 1));
-    if (word.size() == kOption.size() && i + 1 < argc) return named(argv[i + 1]);
+    std::optional<Language> chosen;
+    if (word.size() > kOption.size() && word[kOption.size()] == '=') {
+      chosen = language_named(word.substr(kOption.size() + 1));
+    } else if (word.size() == kOption.size() && i + 1 < argc) {
+      chosen = language_named(argv[i + 1]);
+    }
+    // A word that names none is refused later, in the language of the environment.
+    if (chosen) return *chosen;
   }
-  for (const char* variable : {"POSE_WALL_LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"}) {
+  for (const char* variable : {kVariable, "LC_ALL", "LC_MESSAGES", "LANG"}) {
     const char* value = std::getenv(variable);
     if (value != nullptr && *value != '\0') return named(value);
   }
   return Language::kEnglish;
+}
+
+std::optional<Language> language_named(std::string_view word) {
+  std::string name(word.substr(0, word.find_first_of("_-.@")));
+  for (char& letter : name) letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  if (name == "zh" || name == "cn") return Language::kChinese;
+  if (name == "en" || name == "c" || name == "posix") return Language::kEnglish;
+  return std::nullopt;
+}
+
+std::string unknown_language_in_environment() {
+  const char* value = std::getenv(kVariable);
+  const bool is_unknown = value != nullptr && *value != '\0' && !language_named(value);
+  return is_unknown ? value : "";
 }
 
 const char* tr(const char* english) {

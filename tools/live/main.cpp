@@ -15,7 +15,12 @@
 #include <exception>
 #include <thread>
 
+#include "command_line/help_format.hpp"
+#include "command_line/language_option.hpp"
+#include "command_line/parse_fault.hpp"
+#include "language/language.hpp"
 #include "live/daemon.hpp"
+#include "verbs/one_of.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -85,30 +90,40 @@ int run(Words words) {
   return kExitDone;
 }
 
-void add_options(CLI::App* app, Words* words) {
-  app->add_option("-c,--config", words->config_file, "Settings, as config/pose_wall.yaml; default: the defaults");
-  app->add_option("-s,--set", words->settings, "KEY=VALUE over the file; may be repeated")->allow_extra_args(false);
-  app->add_option("--http", words->http, "Serve the page at HOST:PORT; short for --set http=");
-  app->add_option("--modbus", words->modbus, "Serve the process image at HOST:PORT; short for --set modbus=");
-  ReplayPlan* replay = &words->replay;
-  auto* inputs = app->add_option("--replay", replay->inputs,
-                                 "Play these recordings instead of the source: files, folders, bags, captures");
-  const auto of_replay = [inputs](CLI::Option* option) { option->needs(inputs); };
-  of_replay(app->add_option("--speed", replay->speed, "Times real time; 0: as fast as frames are measured, none lost")
-                ->check(CLI::Range(0.0, 1000.0)));
-  of_replay(app->add_flag("--step", replay->step, "One frame for each line of standard input"));
-  of_replay(app->add_flag("--repeat", replay->repeat, "From the start again at the end"));
-  of_replay(app->add_option("--topic", replay->topic, "Of bags: the topic with the clouds"));
-  of_replay(app->add_option("--metadata", replay->metadata, "Of captures: what the sensor says of itself"));
-  app->set_version_flag("--version", std::string("pose_walld ") + pose_wall_version());
-  app->footer(
-      "Examples:\n"
+std::string footer() {
+  return fmt::format(
+      "{}\n"
       "  pose_walld --config pose_wall.yaml --http 127.0.0.1:8080\n"
       "  pose_walld --replay road.bag --http 127.0.0.1:8080 --modbus 127.0.0.1:1502\n"
       "  pose_walld --config pose_wall.yaml --set source=ros1 --set ros1=1\n"
-      "It listens on loopback unless another address is given. `pose_wall check-config FILE` shows every key.\n"
-      "Exit status: 0 stopped as asked or the recording is through, 1 a part failed or is not in this build, "
-      "a recording holds no cloud, 2 wrong words or settings.");
+      "{}\n{}",
+      tr("Examples:"),
+      tr("It listens on loopback unless another address is given. `pose_wall check-config FILE` shows every key."),
+      tr("Exit status: 0 stopped as asked or the recording is through, 1 a part failed or is not in this build, "
+         "a recording holds no cloud, 2 wrong words or settings."));
+}
+
+void add_options(CLI::App* app, Words* words) {
+  use_help_format(*app);
+  app->add_option("-c,--config", words->config_file, tr("Settings, as config/pose_wall.yaml; default: the defaults"));
+  app->add_option("-s,--set", words->settings, tr("KEY=VALUE over the file; may be repeated"))->allow_extra_args(false);
+  app->add_option("--http", words->http, tr("Serve the page at HOST:PORT; short for --set http="));
+  app->add_option("--modbus", words->modbus, tr("Serve the process image at HOST:PORT; short for --set modbus="));
+  ReplayPlan* replay = &words->replay;
+  auto* inputs = app->add_option("--replay", replay->inputs,
+                                 tr("Play these recordings instead of the source: files, folders, bags, captures"));
+  const auto of_replay = [inputs](CLI::Option* option) { option->needs(inputs); };
+  of_replay(
+      app->add_option("--speed", replay->speed, tr("Times real time; 0: as fast as frames are measured, none lost"))
+          ->check(number_within(0.0, 1000.0)));
+  of_replay(app->add_flag("--step", replay->step, tr("One frame for each line of standard input")));
+  of_replay(app->add_flag("--repeat", replay->repeat, tr("From the start again at the end")));
+  of_replay(app->add_option("--topic", replay->topic, tr("Of bags: the topic with the clouds")));
+  of_replay(app->add_option("--metadata", replay->metadata, tr("Of captures: what the sensor says of itself")));
+  app->set_version_flag("--version", std::string("pose_walld ") + pose_wall_version(),
+                        tr("Display program version information and exit"));
+  add_language_option(*app);
+  app->footer(footer());
 }
 
 int complain(const std::exception& fault, int status) {
@@ -117,8 +132,9 @@ int complain(const std::exception& fault, int status) {
 }
 
 int main_of(int argc, char** argv) {
+  choose_language_by(argc, argv, "pose_walld");
   CLI::App app(
-      "Measures how a machine stands in its roadway, from power-on on: sensor or ROS in; ROS, Modbus, page out.",
+      tr("Measures how a machine stands in its roadway, from power-on on: sensor or ROS in; ROS, Modbus, page out."),
       "pose_walld");
   Words words;
   add_options(&app, &words);
@@ -126,7 +142,9 @@ int main_of(int argc, char** argv) {
     app.parse(argc, argv);
     return run(words);
   } catch (const CLI::ParseError& fault) {
-    return app.exit(fault) == 0 ? kExitDone : kExitUsage;
+    if (fault.get_exit_code() == 0) return app.exit(fault);
+    fmt::print(stderr, "pose_walld: {}\n{}\n", parse_fault_text(app, fault), tr("See pose_walld --help."));
+    return kExitUsage;
   } catch (const ConfigError& fault) {
     return complain(fault, kExitUsage);
   } catch (const std::exception& fault) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "language/language.hpp"
+#include "language/system_errors.hpp"
 #include "packets/hesai.hpp"
 #include "packets/ouster.hpp"
 #include "packets/velodyne.hpp"
@@ -113,7 +114,7 @@ void check_angles(const std::string& text) {
 
 std::string read_metadata(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FrameError(say("metadata {}: cannot be opened for reading: {}", path, std::strerror(errno)));
+  if (!file) throw FrameError(say("metadata {}: cannot be opened for reading: {}", path, system_error_text(errno)));
   std::string text(kMetadataBytesMax + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));

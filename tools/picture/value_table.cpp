@@ -72,8 +72,11 @@ void draw_row(Svg& svg, const Columns& columns, double y, const FrameScene& scen
   const pose_wall_value& value = scene.result->quantity[quantity];
   const std::string_view colour = state_colour(value.state);
   svg.text({columns.name, y}, pose_wall_quantity_name(quantity), {kInk, 14.0, Anchor::kStart, true});
-  svg.text({columns.value, y}, figure(quantity, value.value, true), {kInk, 14.0, Anchor::kEnd, true});
-  svg.text({columns.protection, y}, figure(quantity, value.protection_level, false), {kInk, 13.0, Anchor::kEnd});
+  // Grey as in the report: nobody may act on a value that is not valid.
+  const bool is_valid = value.state == POSE_WALL_VALID;
+  const std::string_view ink = is_valid ? kInk : kFaintInk;
+  svg.text({columns.value, y}, figure(quantity, value.value, true), {ink, 14.0, Anchor::kEnd, is_valid});
+  svg.text({columns.protection, y}, figure(quantity, value.protection_level, false), {ink, 13.0, Anchor::kEnd});
   if (scene.truth != nullptr) {
     svg.text({columns.truth, y}, figure(quantity, scene.truth[quantity], true), {kFaintInk, 13.0, Anchor::kEnd});
   }

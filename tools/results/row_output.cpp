@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "language/language.hpp"
+#include "language/system_errors.hpp"
 
 namespace pose_wall::tools {
 
@@ -26,7 +27,7 @@ RowOutput::RowOutput(const std::string& path, const std::vector<std::filesystem:
     errno = 0;
     file_.open(path, std::ios::binary | std::ios::trunc);
     if (!file_) {
-      throw OutputError(say("{} {}: cannot be written: {}", option, path, std::generic_category().message(errno)));
+      throw OutputError(say("{} {}: cannot be written: {}", option, path, system_error_text(errno)));
     }
   }
   *stream_ << head << std::flush;

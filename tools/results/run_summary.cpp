@@ -103,8 +103,8 @@ std::string RunSummary::text(double wall_s) const {
 
 std::string RunSummary::quantities_text() const {
   TextTable table({"", tr(pose_wall_state_name(POSE_WALL_VALID)), tr(pose_wall_state_name(POSE_WALL_DEGRADED)),
-                   tr(pose_wall_state_name(POSE_WALL_HELD)), tr(pose_wall_state_name(POSE_WALL_INVALID)), tr("median"),
-                   tr("of raw"), tr("protection level")});
+                   tr(pose_wall_state_name(POSE_WALL_HELD)), tr(pose_wall_state_name(POSE_WALL_INVALID)),
+                   tr("median value"), tr("median raw"), tr("median level")});
   const std::size_t measured = frames_ - unreadable_;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const Quantity& quantity = quantities_[q];

@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "language/language.hpp"
 #include "quantities.hpp"
 #include "truth/row_pairs.hpp"
 
@@ -21,13 +22,15 @@ struct ResultColumns {
 std::size_t required_column(const CsvTable& table, const char* which, const std::string& name) {
   const std::optional<std::size_t> column = table.find_column(name);
   if (!column) {
-    throw CsvError(fmt::format("the {} have no column '{}'; columns: {}", which, name, fmt::join(table.head(), ", ")));
+    throw CsvError(say("the {} have no column '{}'; columns: {}", tr(which), name, fmt::join(table.head(), ", ")));
   }
   return *column;
 }
 
 ResultColumns result_columns(const CsvTable& results, const std::string& name) {
-  const auto column = [&](const char* ending) { return required_column(results, "results", name + ending); };
+  const auto column = [&](const char* ending) {
+    return required_column(results, translatable("results"), name + ending);
+  };
   return {column(""), column("_raw"), column("_sigma"), column("_pl"), column("_state")};
 }
 
@@ -37,7 +40,7 @@ std::uint32_t state_number(const std::string& name) {
     if (name == pose_wall_state_name(state)) return state;
   }
   if (name.empty()) return POSE_WALL_INVALID;
-  throw CsvError(fmt::format("'{}' is no state; valid, degraded, held and invalid are", name));
+  throw CsvError(say("'{}' is no state; valid, degraded, held and invalid are", name));
 }
 
 Measured measured_at(const CsvTable& results, std::size_t row, const ResultColumns& columns) {
@@ -48,8 +51,8 @@ Measured measured_at(const CsvTable& results, std::size_t row, const ResultColum
 void match_rows(const CsvTable& results, const CsvTable& truth, Comparison& comparison) {
   RowPairs pairs = pair_rows(row_keys(results), row_keys(truth));
   if (pairs.rows.empty()) {
-    throw CsvError(fmt::format("no row in common: {} result rows and {} truth rows share no {}", results.rows(),
-                               truth.rows(), pairs.by));
+    throw CsvError(
+        say("no row in common: {} result rows and {} truth rows share no {}", results.rows(), truth.rows(), pairs.by));
   }
   comparison.matched_by = pairs.by;
   comparison.matched = pairs.rows.size();
@@ -76,9 +79,8 @@ Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, co
     comparison.quantities.push_back({q, name, is_angle(q), statistics});
   }
   if (comparison.quantities.empty()) {
-    throw CsvError(
-        fmt::format("the truth has none of the columns roll, pitch, yaw, d_lf, d_lb, d_rf, d_rb; columns: {}",
-                    fmt::join(truth.head(), ", ")));
+    throw CsvError(say("the truth has none of the columns roll, pitch, yaw, d_lf, d_lb, d_rf, d_rb; columns: {}",
+                       fmt::join(truth.head(), ", ")));
   }
   return comparison;
 }

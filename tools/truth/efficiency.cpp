@@ -10,6 +10,7 @@
 #include <string>
 
 #include "frames/load_frame.hpp"
+#include "language/language.hpp"
 #include "quantities.hpp"
 
 namespace pose_wall::tools {
@@ -20,8 +21,7 @@ constexpr double kNoiseMismatch = 0.1;
 std::size_t result_column(const CsvTable& results, const std::string& name) {
   const std::optional<std::size_t> column = results.find_column(name);
   if (!column) {
-    throw CsvError(
-        fmt::format("the results have no column '{}', which the Cramer-Rao bound needs: run writes it", name));
+    throw CsvError(say("the results have no column '{}', which the Cramer-Rao bound needs: run writes it", name));
   }
   return *column;
 }
@@ -31,7 +31,7 @@ Frame frame_of(const std::filesystem::path& folder, const std::string& source) {
   try {
     return load_frame(file);
   } catch (const FrameError& error) {
-    throw FrameError(fmt::format("{}: {} (the points of result row '{}')", file.string(), error.what(), source));
+    throw FrameError(say("{}: {} (the points of result row '{}')", file.string(), error.what(), source));
   }
 }
 

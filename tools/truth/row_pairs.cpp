@@ -9,6 +9,8 @@
 #include <map>
 #include <set>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -34,7 +36,7 @@ Rows rows_by(const RowKeys::Column& column, const char* which, const std::string
   Rows rows;
   for (std::size_t row = 0; row < column->size(); ++row) {
     if (!rows.emplace((*column)[row], row).second) {
-      throw CsvError(fmt::format("the {} have {} {} twice", which, key, (*column)[row]));
+      throw CsvError(say("the {} have {} {} twice", tr(which), key, (*column)[row]));
     }
   }
   return rows;
@@ -60,7 +62,7 @@ RowKeys::Column cells_of(const CsvTable& table, const char* name) {
 }
 
 RowPairs pairs_by(const char* by, const RowKeys::Column& results, const RowKeys::Column& truth) {
-  return pairs_of(by, rows_by(results, "results", by), rows_by(truth, "truth rows", by));
+  return pairs_of(by, rows_by(results, translatable("results"), by), rows_by(truth, translatable("truth rows"), by));
 }
 
 }  // namespace
@@ -90,7 +92,7 @@ RowPairs pair_rows(const RowKeys& results, const RowKeys& truth) {
   const bool have_frames = results.frame && truth.frame;
   const bool have_stamps = results.stamp_ns && truth.stamp_ns;
   if (!have_frames && !have_stamps) {
-    throw CsvError("rows cannot be matched: results and truth need a column 'frame' or 'stamp_ns' in common");
+    throw CsvError(tr("rows cannot be matched: results and truth need a column 'frame' or 'stamp_ns' in common"));
   }
   if (!have_frames) return pairs_by("stamp_ns", results.stamp_ns, truth.stamp_ns);
   const std::optional<Rows> result_stamps = told_apart(results.stamp_ns), truth_stamps = told_apart(truth.stamp_ns);

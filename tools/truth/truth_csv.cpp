@@ -13,6 +13,7 @@
 
 #include "csv/csv_table.hpp"
 #include "frames/whole_file.hpp"
+#include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -23,7 +24,7 @@ constexpr std::array<const char*, kPoseNumbers> kPoseNames = {"x", "y", "z", "qx
 
 std::size_t column_of(const CsvTable& table, const char* name) {
   const auto column = table.find_column(name);
-  if (!column) throw CsvError(fmt::format("no column '{}'", name));
+  if (!column) throw CsvError(say("no column '{}'", name));
   return *column;
 }
 
@@ -33,7 +34,7 @@ Integer integer_of(const std::string& cell, const char* name) {
   Integer value{};
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size()) {
-    throw CsvError(fmt::format("column '{}': '{}' is no whole number", name, cell));
+    throw CsvError(say("column '{}': '{}' is no whole number", name, cell));
   }
   return value;
 }
@@ -46,7 +47,7 @@ std::vector<TruthRow> rows_of(const CsvTable& table) {
   std::set<std::uint64_t> seen;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].frame = integer_of<std::uint64_t>(table.cell(i, frame), "frame");
-    if (!seen.insert(rows[i].frame).second) throw CsvError(fmt::format("frame {} appears twice", rows[i].frame));
+    if (!seen.insert(rows[i].frame).second) throw CsvError(say("frame {} appears twice", rows[i].frame));
     rows[i].stamp_ns = integer_of<std::int64_t>(table.cell(i, stamp), "stamp_ns");
     for (std::size_t q = 0; q < kTruthQuantities; ++q) rows[i].value[q] = table.number(i, column_of(table, kNames[q]));
     if (!has_pose) continue;
@@ -77,7 +78,7 @@ void write_truth_csv(const std::filesystem::path& file, const std::vector<TruthR
 
 std::vector<TruthRow> read_truth_csv(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in) throw std::runtime_error(fmt::format("{}: cannot open", file.string()));
+  if (!in) throw std::runtime_error(say("{}: cannot open", file.string()));
   try {
     return rows_of(CsvTable::parse(in));
   } catch (const CsvError& error) {

@@ -222,12 +222,13 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
       ->capture_default_str()
       ->check(one_of({"nominal", "adversarial", "unobservable", "all"}));
   verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',')->transform(trimmed);
-  verb.add_option("--draws", plan.draws, "Draws per scene and sensor; overrides --size")->check(CLI::Range(1, 1000000));
+  verb.add_option("--draws", plan.draws, "Draws per scene and sensor; overrides --size")
+      ->check(whole_number_within(1, 1000000));
   verb.add_option("--first-draw", plan.first_draw, "Number of the first draw; with --draws 1 this repeats one run")
       ->capture_default_str()
       ->check(whole_number());
   verb.add_option("-n,--frames", plan.frames, "Frames per draw; overrides size and scene")
-      ->check(CLI::Range(1, 1000000));
+      ->check(whole_number_within(1, 1000000));
   verb.add_option("--seed", plan.seed, "The same seed gives the same draws")
       ->capture_default_str()
       ->check(whole_number());
@@ -249,7 +250,9 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", options->output,
                    "Folder for records and card; an interrupted campaign continues there");
   add_plan_options(*verb, options->plan);
-  verb->add_option("-j,--jobs", options->jobs, "Runs at a time")->capture_default_str()->check(CLI::Range(1, 1024));
+  verb->add_option("-j,--jobs", options->jobs, "Runs at a time")
+      ->capture_default_str()
+      ->check(whole_number_within(1, 1024));
   verb->add_option("-c,--config", options->engine.config_file, "Settings; those of scene and sensor override them");
   verb->add_option("-s,--set", options->engine.settings, "KEY=VALUE, overrides all settings; may be repeated")
       ->allow_extra_args(false);

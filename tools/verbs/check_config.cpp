@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "angles.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
@@ -101,6 +103,18 @@ std::array<std::uint32_t, 3> senses_of(const api::Config& config) {
 // Adding zero turns -0 into 0, which a reader would take for a sign.
 std::string triple(const Vector3& v, int digits) {
   return fmt::format("({:+.{}f}, {:+.{}f}, {:+.{}f})", v[0] + 0.0, digits, v[1] + 0.0, digits, v[2] + 0.0, digits);
+}
+
+// Degrees in a key of radians are in range, too. Quarter turns are how sensors are mounted.
+void print_unit_doubts(const api::Config& config) {
+  constexpr double kTiltMost_rad = 0.8, kQuarterTurn_rad = 0.5 * M_PI, kNearQuarter_rad = 0.05;
+  for (const char* key : {"extrinsic_roll", "extrinsic_pitch", "extrinsic_yaw"}) {
+    const double value = config.number(key);
+    const bool is_quarter = std::fabs(std::remainder(value, kQuarterTurn_rad)) < kNearQuarter_rad;
+    if (std::fabs(value) <= kTiltMost_rad || is_quarter) continue;
+    fmt::print("{}", say("warning: {} is in radians: {:g} rad are {:.1f} deg. For {:g} deg write {:.4f}\n", key, value,
+                         value * kDegPerRad, value, value / kDegPerRad));
+  }
 }
 
 void print_axes(const ResolvedFrames& frames) {
@@ -200,6 +214,7 @@ int check_config(const CheckConfigOptions& options) {
   }
   const LoadedConfig loaded = load_config(options.file, options.settings);
   const ResolvedFrames frames = resolve_frames(loaded.config);
+  print_unit_doubts(loaded.config);
   print_axes(frames);
   print_results(loaded, frames);
   print_memory(loaded);

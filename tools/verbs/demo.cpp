@@ -101,7 +101,7 @@ void add_demo(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("-n,--frames", options->frames, "Number of frames")
       ->capture_default_str()
-      ->check(CLI::Range(1u, 100000u));
+      ->check(whole_number_within(1, 100000));
   verb->add_option("--seed", options->demo.seed, "Seed of rock and noise")
       ->capture_default_str()
       ->check(whole_number());

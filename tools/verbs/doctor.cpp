@@ -24,6 +24,7 @@
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
 #include "verbs/frame_options.hpp"
+#include "verbs/one_of.hpp"
 #include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
@@ -100,16 +101,23 @@ std::vector<std::string> again(const DoctorOptions& options, const std::string& 
   return with_inputs(std::move(words), options);
 }
 
-std::string next_text(const DoctorOptions& options, bool is_usable, bool is_written) {
+std::string next_text(const DoctorOptions& options, const doctor::Diagnosis& diagnosis, bool is_written) {
+  const bool is_usable = diagnosis.verdict.is_usable();
   const std::string file = options.output.empty() ? "pose_wall.yaml" : options.output;
   std::vector<NextStep> steps;
-  if (!is_written) {
-    steps.push_back({is_usable
-                         ? tr("write these settings to a file")
-                         : tr("write these settings although they are in doubt; the doubts stand at the file's head"),
-                     again(options, file, is_usable)});
+  if (!is_usable) {
+    steps.push_back({tr("record 30 s again while the machine stands in a straight road, and repeat this"),
+                     again(options, file, true)});
   }
-  steps.push_back({tr("axes, signs of the angles and every value of these settings"), {"check-config", file}});
+  if (!is_usable && !is_written) {
+    steps.push_back({tr("only to look for the fault, never to control a machine: write these settings all the same"),
+                     again(options, file, false)});
+    return "\n" + next_steps_text(steps);  // there is no file to go on with
+  }
+  if (!is_written) steps.push_back({tr("write these settings to a file"), again(options, file, true)});
+  std::string check = tr("axes, signs of the angles and every value of these settings");
+  if (!diagnosis.ahead.axis.empty() && !diagnosis.ahead.is_known) check = doctor::guess_text(diagnosis.ahead.axis);
+  steps.push_back({check, {"check-config", file}});
   steps.push_back({tr("measure the frames with them"), with_inputs({"run", "-c", file, "-o", "results.csv"}, options)});
   steps.push_back(
       {tr("the same as a page to look at"), with_inputs({"report", "-c", file, "-o", "report.html"}, options)});
@@ -160,7 +168,7 @@ int examine(const DoctorOptions& options) {
   if (diagnosis.stamps.frames == 0) return kExitUnreadable;
   std::fflush(stdout);  // before stderr goes on
   const bool is_written = write_proposal(options, diagnosis, output.get());
-  if (!options.json) fmt::print("{}", next_text(options, diagnosis.verdict.is_usable(), is_written));
+  if (!options.json) fmt::print("{}", next_text(options, diagnosis, is_written));
   if (!diagnosis.verdict.is_usable()) return kExitNotUsable;
   return recording.errors.empty() ? kExitDone : kExitUnreadable;
 }
@@ -180,7 +188,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
       ->needs(output);
   verb->add_option("--height", options->height_m,
                    tr("Height of the sensor above the floor in m, measured by hand: tells floor from roof"))
-      ->check(CLI::Range(0.02, 20.0));
+      ->check(number_within(0.02, 20.0));
   verb->add_flag("--json", options->json, tr("One JSON object instead of tables"));
   verb->footer(
       tr("Examples:\n"

@@ -95,7 +95,7 @@ void add_input_options(CLI::App* verb, InputOptions* options) {
           "--metadata", options->packets.metadata,
           tr("File that describes the sensor of packets: JSON of an Ouster (default: the capture's name, .json), "
              "angles of a Hesai (CSV)"))
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   verb->add_option(
           "--layout", options->layout,
           tr("Values of a point in files without a header, one letter each: xyz, xyzi, xyz_i, ... (i intensity, "
@@ -116,7 +116,7 @@ void add_frame_options(CLI::App* verb, FrameOptions* options) {
       ->allow_extra_args(false);
   verb->add_option("-r,--rate", options->rate_hz, tr("Frames per second, for frames without stamps"))
       ->capture_default_str()
-      ->check(rate_fault, "0.001 to 1000");
+      ->check(rate_fault, tr("0.001 to 1000"));
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
 }
 

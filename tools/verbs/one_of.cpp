@@ -7,7 +7,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
+#include "frames/text_cursor.hpp"
 #include "language/language.hpp"
 #include "terminal/did_you_mean.hpp"
 
@@ -26,7 +30,34 @@ CLI::Validator whole_number() {
     const bool is_number = !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
     return is_number ? "" : say("'{}' is refused; a whole number from 0 is allowed", word);
   };
-  return CLI::Validator(fault, "0 and more", "");
+  return CLI::Validator(fault, tr("0 and more"), "");
+}
+
+CLI::Validator whole_number_within(std::uint64_t minimum, std::uint64_t maximum) {
+  const auto fault = [minimum, maximum](const std::string& word) -> std::string {
+    const std::optional<std::uint64_t> number = parse_number<std::uint64_t>(word);
+    if (number && *number >= minimum && *number <= maximum) return "";
+    return say("'{}' is refused; a whole number from {} to {} is allowed", word, minimum, maximum);
+  };
+  return CLI::Validator(fault, say("{} to {}", minimum, maximum), "");
+}
+
+CLI::Validator number_within(double minimum, double maximum) {
+  const auto fault = [minimum, maximum](const std::string& word) -> std::string {
+    const std::optional<double> number = parse_number<double>(word);
+    if (number && *number >= minimum && *number <= maximum) return "";
+    return say("'{}' is refused; a number from {:g} to {:g} is allowed", word, minimum, maximum);
+  };
+  return CLI::Validator(fault, say("{:g} to {:g}", minimum, maximum), "");
+}
+
+CLI::Validator existing_file() {
+  const auto fault = [](const std::string& path) -> std::string {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) return say("'{}' is a folder; a file is allowed", path);
+    return std::filesystem::exists(path, ignored) ? "" : say("there is no file '{}'", path);
+  };
+  return CLI::Validator(fault, "", "");
 }
 
 }  // namespace pose_wall::tools

@@ -10,6 +10,8 @@
 #include <system_error>
 
 #include "frames/whole_file.hpp"
+#include "language/language.hpp"
+#include "language/system_errors.hpp"
 
 namespace pose_wall::tools {
 
@@ -37,8 +39,7 @@ OutputFile::OutputFile(const std::string& path, const std::vector<std::filesyste
   errno = 0;
   stream_.open(part_of(path_), std::ios::binary | std::ios::trunc);
   if (!stream_) {
-    throw std::invalid_argument(
-        fmt::format("{} {}: cannot be written: {}", option, path, std::generic_category().message(errno)));
+    throw std::invalid_argument(say("{} {}: cannot be written: {}", option, path, system_error_text(errno)));
   }
 }
 

@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "language/language.hpp"
+#include "language/system_errors.hpp"
+
 namespace pose_wall::tools {
 namespace {
 
@@ -34,7 +37,8 @@ void make_output_folder(const std::string& path, std::string_view option) {
                     there.string()));
   }
   std::filesystem::create_directories(path, error);
-  if (error) throw std::runtime_error(fmt::format("{} {}: cannot be made a folder: {}", option, path, error.message()));
+  if (error)
+    throw std::runtime_error(say("{} {}: cannot be made a folder: {}", option, path, system_error_text(error.value())));
 }
 
 }  // namespace pose_wall::tools

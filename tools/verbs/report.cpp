@@ -200,11 +200,11 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("--truth", options->truth,
                    tr("truth.csv of pose_wall sim. Each frame gets the row of its stamp. If the stamps do not tell the "
                       "rows apart, it gets the row of its number among the inputs, from 0"))
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   verb->add_option("--title", options->title, tr("Heading; default: the name of the first input"));
   verb->add_option("--points", options->points_max, tr("Points in the page, over all frames: 9 bytes each"))
       ->capture_default_str()
-      ->check(CLI::Range(std::size_t{1000}, std::size_t{20'000'000}));
+      ->check(whole_number_within(1000, 20'000'000));
   verb->footer(tr(
       "Examples:\n"
       "  pose_wall sim --scene nominal --frames 100 --output road\n"

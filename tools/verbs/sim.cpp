@@ -177,7 +177,7 @@ void add_sim(CLI::App& app, int& exit_code) {
   verb->add_option("--sensor", options->sensor, "Sensor model; see --list")->capture_default_str();
   verb->add_option("-n,--frames", options->frames, "Number of frames")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
+      ->check(whole_number_within(1, 1000000));
   verb->add_option("-r,--rate", options->rate_hz, "Frames per second; the same as --set rate_hz");
   verb->add_option("--seed", options->seed, "Seed of rock, noise and --random; the same seed gives the same bits")
       ->capture_default_str()

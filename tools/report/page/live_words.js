@@ -39,7 +39,7 @@ Object.assign(WORDS.zh, {
     'waits for the sensor: no packet yet': '等待传感器：尚无数据包', 'the sensor is silent': '传感器无数据', 'packets come, no turn yet': '有数据包，尚未满一圈',
   },
   fact_names: {
-    'frames pushed': '收到帧', 'frames measured': '已测帧', silences: '中断次数', 'age ms': '时龄 ms', 'latency p50 ms': '延迟中位数 ms', 'latency p99 ms': '延迟 99 % ms',
+    'frames pushed': '收到帧', 'frames measured': '已测帧', silences: '中断次数', 'age ms': '距上次测得时间 ms', 'latency p50 ms': '延迟中位数 ms', 'latency p99 ms': '延迟 99 % ms',
     'latency worst ms': '最大延迟 ms', 'motion p99 ms': '运动计算 99 % ms', 'frames without motion': '无运动帧', activity: '当前动作', opened: '打开次数',
     'black box written': '黑匣子已写', 'black box lost': '黑匣子丢失', 'black box failed': '黑匣子失败', 'masters seen': '发现的 master', domain: '域', type: '类型', 'writers matched': '匹配的发布者',
     'largest cloud bytes': '最大点云字节数', 'receive buffer bytes': '接收缓冲字节数', 'clouds lost by DDS': 'DDS 丢失点云', 'dropped, no transform yet': '丢弃（尚无坐标变换）', 'last refusal': '最近一次拒绝',

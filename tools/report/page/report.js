@@ -9,14 +9,16 @@ function shares_text() {
 
 function show_verdict() {
   const w = words(), headline = w[summary.headline];
-  const lines = [element('p', typeof headline === 'function' ? headline(shares_text()) : headline)];
+  const use = (x) => use_of(x.valid, recording.head);
+  const named = (is_meant) => summary.quantities.filter(is_meant).map((x) => w.names[x.name]);
+  const facts = { ...shares_text(), some: named((x) => use(x) !== 'not_usable'), none: named((x) => use(x) === 'not_usable') };
+  const lines = [element('p', typeof headline === 'function' ? headline(facts) : headline)];
   const say = (text, name) => lines.push(element('p', text, name));
   if (!recording.head.complete) say(w.interrupted(recording));
   if (summary.unreadable) say(w.verdict_unreadable(summary.unreadable));
-  const use = (x) => use_of(x.valid, recording.head);
   const name_those = (text, is_meant) => {
-    const names = summary.quantities.filter(is_meant).map((x) => w.names[x.name]);
-    if (names.length && summary.readable.length) say(text(names));
+    const names = named(is_meant);
+    if (names.length && summary.readable.length) say(text(names, facts));
   };
   name_those(w.verdict_never, (x) => !(x.valid > 0));
   name_those(w.verdict_mostly_not, (x) => use(x) === 'not_usable' && x.valid > 0);
