@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x923F0044F5AD2A9DULL;
+constexpr std::uint64_t kSelfTestDigest = 0x96508799363A8BBAULL;
 
 }  // namespace pose_wall

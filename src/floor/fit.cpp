@@ -9,7 +9,6 @@
 #include "base/estimation/irls.hpp"
 #include "base/estimation/near_plane.hpp"
 #include "base/estimation/plane_halves.hpp"
-#include "base/estimation/protection.hpp"
 #include "base/estimation/tangent_frame.hpp"
 #include "base/estimation/tukey.hpp"
 #include "gates/gate.hpp"
@@ -163,15 +162,6 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   out->roll_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(roll);
   out->pitch_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
   out->dof = uneven.dof;
-  // The mean plane of a floor that bends one way is well known, but it is not the plane under the machine.
-  const auto protection = [&](const Eigen::Matrix3d& covariance, double dof, const Eigen::Vector3d& of) {
-    return protection_factor(s.protection_factor, dof) * std::sqrt(of.dot(covariance * of));
-  };
-  const auto reach_to_patches = [&](const Eigen::Vector3d& of, ProtectionParts* bound) {
-    const double more = protection(bend.covariance, bend.dof, of) - protection(uneven.covariance, uneven.dof, of);
-    if (more > 0.0) (*bound)[POSE_WALL_PART_BEND] += more;
-  };
-  (void)reach_to_patches;
   const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
   demand<gate::FLOOR_BEND>(&out->fit, bent, s);
 }
@@ -211,11 +201,11 @@ FloorResult fit_floor(const FloorScene& scene, const FloorLook& look, const Plan
     return out;
   }
   if (irls.solved) fill_patches(scene, irls, look.radius_m, scratch);
-  const PatchFit bend = irls.solved ? scratch->patches.fit() : PatchFit{};
+  const PatchFit bend = irls.solved ? scratch->patches.fit(PatchGrid::Errors::kBend) : PatchFit{};
   const Span<const SurfacePatch> patches = bend.solved ? scratch->surface.collect() : Span<const SurfacePatch>();
   scratch->work.add(scratch->points.count, steps::kPointPatched);
   scratch->work.add(bend.work);
-  scratch->work.add(static_cast<std::uint64_t>(patches.size()) * patches.size(), steps::kPatchesWaved);
+  scratch->work.add(patches.size(), steps::kPatchWaved);
   const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
   if (!demand<gate::FLOOR_FIT>(&out.fit, uneven.solved)) return out;
   PlaneOver over = irls.over;

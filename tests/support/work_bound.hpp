@@ -29,7 +29,8 @@ inline std::uint64_t most_of_reading(const Settings& s, std::uint64_t points) {
 
 inline std::uint64_t most_of_patches() {
   constexpr std::uint64_t kAll = PatchGrid::kCapacity;
-  return kAll * (steps::kCell + steps::kPatch + steps::kPatchMeasured) + 384 * steps::kPatchPaired;
+  return kAll * (steps::kCell + steps::kPatch + steps::kPatchMeasured) + 384 * steps::kPatchPaired +
+         SurfacePatches::kMost * steps::kPatchWaved;
 }
 
 // The most steps of the floor from one place that asks whether the work is spent to the next one.
@@ -40,7 +41,7 @@ inline std::uint64_t most_of_a_floor_piece(const Settings& s) {
   const std::uint64_t weighed = steps::kFloorRefined + voxels * steps::kPointWeighed + steps::kFloorWeighed;
   const std::uint64_t selected = 2ULL * kFloorFitPoints * steps::kPointSelected + 5ULL * kFloorFitPoints;
   const std::uint64_t patched = kFloorFitPoints * steps::kPointPatched + most_of_patches() +
-                                waved * waved * steps::kPatchesWaved + voxels * steps::kPointWithin;
+                                waved * steps::kPatchWaved + voxels * steps::kPointWithin;
   const std::uint64_t beside = voxels * steps::kPointWithin + drawn;
   return std::max({around + voxels * steps::kVoxelOpened, drawn + weighed, selected, patched, beside + weighed});
 }

@@ -150,7 +150,7 @@ void PatchGrid::correlate_errors(const PairSums& sums, const double (&taken_by_f
 // Squares of neighbouring patches, as small as leave room for all. The fit answers to a block as to its patches.
 std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse) {
   struct Sums {
-    double w = 0.0, u = 0.0, v = 0.0, r = 0.0, b = 0.0, noise = 0.0;
+    double w = 0.0, u = 0.0, v = 0.0, r = 0.0, noise = 0.0;
     Eigen::Vector3d response = Eigen::Vector3d::Zero();
   };
   const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
@@ -170,7 +170,6 @@ std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix
             sum.u += p.information * p.u;
             sum.v += p.information * p.v;
             sum.r += p.information * p.error;
-            sum.b += p.information * p.b;
             sum.noise += p.information * p.information * p.noise_variance;
             sum.response += p.information * (inverse * p.a);
           }
@@ -178,7 +177,7 @@ std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix
         if (!(sum.w > 0.0)) continue;
         fits = count < blocks_.size();
         if (!fits) break;
-        blocks_[count] = {sum.u / sum.w, sum.v / sum.w, sum.r / sum.w, sum.b / sum.w, sum.noise / (sum.w * sum.w)};
+        blocks_[count] = {sum.u / sum.w, sum.v / sum.w, sum.r / sum.w, 0.0, sum.noise / (sum.w * sum.w)};
         responses_[count++] = sum.response;
       }
     }
@@ -193,16 +192,6 @@ bool PatchGrid::measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, 
   out->bias_response = inverse * bias;
   out->covariance.setZero();
   double slope_variance = 0.0, per_dof = 0.0;
-  if (by_waves && layers_ == 1) {
-    const std::uint32_t count = collect_blocks(0, inverse);
-    const UnevenFit fit = uneven_.fit(blocks_.first(count));
-    if (!fit.solved) return false;
-    out->correction += fit.correction;
-    out->covariance = fit.covariance;
-    out->bias_response = fit.bias_response;
-    out->dof = out->dof_slope = fit.dof;
-    return true;
-  }
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     const std::uint32_t count = collect_blocks(layer, inverse);
     const LinearErrors errors = uneven_.errors_of(blocks_.first(count), responses_.first(count));

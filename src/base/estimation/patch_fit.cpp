@@ -202,6 +202,7 @@ std::uint64_t PatchGrid::work_of(std::uint32_t patches, Errors errors) const {
   if (errors == Errors::kPlaneOnly) return work.done();
   const std::uint32_t paired = patches < kPairedMost ? patches : kPairedMost;
   work.add(patches, steps::kPatchMeasured);
+  work.add(patches < SurfacePatches::kMost ? patches : SurfacePatches::kMost, steps::kPatchWaved);
   work.add(paired, steps::kPatchPaired);
   return work.done();
 }

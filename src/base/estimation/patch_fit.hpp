@@ -8,8 +8,8 @@
 // a metre. A patch mean varies for two reasons: the noise of its points, which averages out, and the rock, which does
 // not:  var(mean_j) = tau^2 + s_j^2 / W_j.  This is the random-effects model; tau^2 comes from the method of moments
 // (DerSimonian and Laird 1986). On a flat wall tau^2 is 0 and the fit weighs by points, near the Cramer-Rao bound. On
-// rough rock every patch weighs alike. The correlation left between patches is measured by lag and enters a sandwich
-// covariance (Conley 1999).
+// rough rock every patch weighs alike. How the fit errs follows from the waves that the patches show
+// (uneven_plane.hpp).
 
 #pragma once
 
@@ -33,8 +33,8 @@ struct PatchFit {
   // From a shallow angle the bumps of rough rock are seen and its hollows are not: the surface seen lies about this
   // much before the rock's mean.
   double visibility_m = 0.0;
-  double dof = 0.0;        // independent patches of the surface less the three parameters: of the offset
-  double dof_slope = 0.0;  // of both layers: of the slopes
+  double dof = 0.0;        // the variance of the offset is known as well as from so many pieces
+  double dof_slope = 0.0;  // and that of the slope along u, by both layers
   std::uint32_t patches = 0;
   std::uint64_t work = 0;
   bool bends = false;  // a quadratic surface fits significantly better
@@ -85,7 +85,6 @@ class PatchGrid {
   // kPlaneOnly: the correction alone, without covariance and test for bends. These are most of the work, and a fit that
   // is only a step to the next one needs neither. kCovariance: all but the bends and the visibility. kBend: the
   // correction and the bends.
-  bool by_waves = false;
   enum class Errors { kMeasured, kCovariance, kBend, kPlaneOnly };
   PatchFit fit(Errors errors = Errors::kMeasured);
 
@@ -103,10 +102,9 @@ class PatchGrid {
     // (Frisch and Waugh 1933).
     Eigen::Vector3d a;
     double r_centred, b_centred;
-    // Inputs of the sums over pairs, as floats, four sums at a time. Their rounding is far below the accuracy of a
-    // correlation. Until test_bend: row of the design and error; the row times the information, and that to the power
-    // of 3/2. From there on the quadratic's response to an error here, divided by its information: error and responses
-    // of 1, u, v; of uu, uv, vv, and 1, which counts pairs; these times the information.
+    // Of test_bend: inputs of the sums over pairs, as floats, four sums at a time. Their rounding is far below the
+    // accuracy of a correlation. The quadratic's response to an error here, divided by its information: error and
+    // responses of 1, u, v; of uu, uv, vv, and 1, which counts pairs; these times the information.
     FourFloats of_pairs[3];
     std::int32_t iu, iv;
     std::uint32_t layer;
@@ -142,9 +140,7 @@ class PatchGrid {
     struct Lag {
       double pairs = 0.0;
       double errors = 0.0;                                 // products of errors
-      double weights = 0.0;                                // products of informations, each to the power of 3/2
-      Eigen::Matrix3d designs = Eigen::Matrix3d::Zero();   // products of rows of the design
-      Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();  // the same, each times its information
+      Eigen::Matrix3d weighted = Eigen::Matrix3d::Zero();  // products of answers
     };
     Lag lag[kLags + 1];
   };
@@ -181,7 +177,7 @@ class PatchGrid {
   Span<SurfacePatch> blocks_;
   Span<Eigen::Vector3d> responses_;
   UnevenPlane uneven_;
-  double range_noise_m_ = 0.0;       // standard deviation of one range
+  double range_noise_m_ = 0.0;  // standard deviation of one range
   std::uint32_t columns_ = 1, rows_ = 1, layers_ = 1;
   float u_min_ = 0, v_min_ = 0, cells_per_m_ = 1;  // of the patches
 };

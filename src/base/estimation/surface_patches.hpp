@@ -21,7 +21,8 @@ struct SurfacePatch {
 
 class SurfacePatches {
  public:
-  // Measured (bench/README.md, 2026-11-22): 88.7 M instructions a frame, with 64 patches 87.1 M; 128 before.
+  // A floor of 5 m around the machine, or a wall of 38 m, in half metres; 96 before the work grew with the number and
+  // not with its cube (2026-11-26).
   static constexpr std::uint32_t kMost = 384;
 
   void lay_out(Arena& arena);

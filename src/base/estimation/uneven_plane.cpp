@@ -16,14 +16,17 @@ constexpr std::uint32_t kPatchesMin = 8;  // five more than the terms of a plane
 // From a patch (0.5 m) to the waves that a first radius (3 m) shows; longer ones are the surface's own slope. Twice as
 // long each time, as their likelihoods are averaged. Judgement, 2026-11-21.
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
+// Of errors_of(), the shorter ones: a wall that waves over 3.2 m bends, and a test for bends sees it. Judgement,
+// 2026-11-26.
+constexpr std::uint32_t kLengthsOfErrors = 3;
 // Share of the unevenness that neighbouring patches do not share: little, or nearly half. The smaller one keeps the
 // covariance positive definite in floats. Judgement, 2026-11-21.
 constexpr double kOwnShares[] = {0.05, 0.4};
 // An exactly flat surface has nothing left to scale by: a thousandth of the expected errors is kept.
 constexpr double kScaleLeast = 1e-6;
-constexpr double kTailAt = 5.0;  // standard deviations of the level
-constexpr int kTailSteps = 24;
-constexpr int kColumns = 5;  // of each patch: 1, u, v, residual, bias
+constexpr double kTailAt = 5.0;        // standard deviations of the level
+constexpr int kTailSteps = 24;         // halvings: a bound to a millionth
+constexpr float kNowhere_m = 1e6F;     // beyond every correlation
 constexpr int kModelsMax = 1 + 4 * 2;  // no waves, or a length and a share
 // Factors of a determinant whose logarithm is taken at once: each lies between 1e-6 and 1e6, their product within a
 // double's 1e-308 to 1e308.
@@ -45,13 +48,13 @@ double slopes_variance(const Eigen::Matrix3d& covariance) {
   return covariance(1, 1) + covariance(2, 2);
 }
 
-}  // namespace
-
 // Share of a normal distribution beyond so many standard deviations, on both sides; to 4 % from 4 on.
 double beyond(double sigmas) {
-  constexpr double kRootOf2ByPi = 0.79788456080286536;
+  constexpr double kRootOf2ByPi = 0.79788456080286536;  // of the normal density
   return sigmas > 1.0 ? kRootOf2ByPi / sigmas * exponential(-0.5 * sigmas * sigmas) : 1.0;
 }
+
+}  // namespace
 
 struct UnevenPlane::Model {
   Eigen::Vector3d correction, bias_response;
@@ -135,12 +138,10 @@ LinearErrors UnevenPlane::Models::average_errors(double freedom) const {
 }
 
 void UnevenPlane::lay_out(Arena& arena) {
-  constexpr std::uint32_t kFours = (SurfacePatches::kMost + kFour - 1) / kFour;
-  neighbours_ = arena.take<std::uint16_t>(kFours * kFour * kNeighbours);
-  for (int share = 0; share < kShares; ++share) {
-    predicts_[share] = arena.take<FourFloats>(kFours * kNeighbours);
-    left_[share] = arena.take<FourFloats>(kFours);
-  }
+  values_ = arena.take<Values>(SurfacePatches::kMost);
+  neighbours_ = arena.take<std::uint16_t>(SurfacePatches::kMost * kNeighbours);
+  predicts_ = arena.take<FourFloats>(kWaves * kFours * kNeighbours);
+  left_ = arena.take<FourFloats>(kWaves * kFours);
   passed_ = arena.take<FourFloats>(SurfacePatches::kMost);
   matern_ = arena.take<float>(kMaternSteps + 1);
   matern_filled_ = false;
@@ -170,14 +171,14 @@ FourFloats UnevenPlane::matern(FourFloats r) const {
 }
 
 // The nearest of the patches before each: by insertion, since most are found in the first few places.
-void UnevenPlane::find_neighbours(Span<const SurfacePatch> patches) {
-  for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    double nearest_m2[kNeighbours];
+void UnevenPlane::find_neighbours(std::uint32_t patches) {
+  for (std::uint32_t i = 0; i < patches; ++i) {
+    float nearest_m2[kNeighbours];
+    const float u_m = values_[i].of[1], v_m = values_[i].of[2];
     std::uint16_t* const of = &neighbours_[i * kNeighbours];
     std::uint32_t found = 0;
     for (std::uint32_t j = i > kLookBack ? i - kLookBack : 0; j < i; ++j) {
-      const double du = patches[i].u - patches[j].u, dv = patches[i].v - patches[j].v;
-      const double m2 = du * du + dv * dv;
+      const float du = u_m - values_[j].of[1], dv = v_m - values_[j].of[2], m2 = du * du + dv * dv;
       if (found == kNeighbours && !(m2 < nearest_m2[kNeighbours - 1])) continue;
       std::uint32_t place = found < kNeighbours ? found++ : kNeighbours - 1;
       for (; place > 0 && m2 < nearest_m2[place - 1]; --place) {
@@ -240,41 +241,54 @@ bool UnevenPlane::Whitened::solve(double patches, Model* model) {
   return true;
 }
 
-namespace {
-
-// The values of four patches, each by its index; those without one count nothing.
-struct FourPatches {
-  FourFloats of[kColumns] = {}, u{}, v{}, noise{};
+// The values of four patches, in floats; of those without one, zeros that count nothing.
+struct UnevenPlane::FourPatches {
+  FourFloats of[kColumns] = {}, noise{};
   FourTruths counts{};
 
-  void set(std::uint32_t lane, const SurfacePatch& p) {
+  void set(std::uint32_t lane, const Values& p) {
     counts[lane] = -1;
-    u[lane] = static_cast<float>(p.u);
-    v[lane] = static_cast<float>(p.v);
-    noise[lane] = static_cast<float>(p.noise_variance);
-    of[0][lane] = 1.0F;
-    of[1][lane] = u[lane];
-    of[2][lane] = v[lane];
-    of[3][lane] = static_cast<float>(p.residual);
-    of[4][lane] = static_cast<float>(p.bias);
+    for (int column = 0; column < kColumns; ++column) of[column][lane] = p.of[column];
+    noise[lane] = p.noise;
+  }
+  FourFloats distance_m(const FourPatches& other) const {
+    const FourFloats du = of[1] - other.of[1], dv = of[2] - other.of[2];
+    // Beyond every correlation where there is none.
+    return counts & other.counts ? root_of(du * du + dv * dv) : all_four(kNowhere_m);
   }
 };
 
-FourPatches four_from(Span<const SurfacePatch> patches, std::uint32_t first) {
-  FourPatches out;
-  for (std::uint32_t lane = 0; lane < kFour && first + lane < patches.size(); ++lane) {
-    out.set(lane, patches[first + lane]);
+// Four patches, the neighbours of each, and how far they lie from it and from each other.
+struct UnevenPlane::Neighbourhood {
+  FourPatches own, near[kNeighbours];
+  FourFloats to_own_m[kNeighbours], between_m[kNeighbours][kNeighbours];
+};
+
+UnevenPlane::Neighbourhood UnevenPlane::neighbourhood(std::uint32_t first, std::uint32_t patches) const {
+  Neighbourhood out;
+  for (std::uint32_t lane = 0; lane < kFour && first + lane < patches; ++lane) {
+    out.own.set(lane, values_[first + lane]);
+    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+      const std::uint16_t at = neighbours_[(first + lane) * kNeighbours + k];
+      if (at != kNone) out.near[k].set(lane, values_[at]);
+    }
+  }
+  for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+    out.to_own_m[k] = out.near[k].distance_m(out.own);
+    for (std::uint32_t l = 0; l < k; ++l) out.between_m[k][l] = out.near[k].distance_m(out.near[l]);
   }
   return out;
 }
 
-}  // namespace
-
+// The model of patches without waves.
 void UnevenPlane::consider_independent(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses,
                                        double tau2, Models* models) const {
   Whitened sums;
   for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
-    const FourPatches own = four_from(patches, first);
+    FourPatches own;
+    for (std::uint32_t lane = 0; lane < kFour && first + lane < patches.size(); ++lane) {
+      own.set(lane, values_[first + lane]);
+    }
     sums.add(own.of, own.noise + static_cast<float>(tau2), own.counts);
   }
   Model& model = models->of[models->count];
@@ -288,70 +302,70 @@ void UnevenPlane::consider_independent(Span<const SurfacePatch> patches, Span<co
   }
 }
 
-// Four patches at a time: each is predicted from its neighbours by their covariance, for all shares of one length.
-void UnevenPlane::consider_length(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses,
-                                  double length_m, double tau2, Models* models) {
-  const auto per_length = static_cast<float>(std::sqrt(3.0) / length_m), all = static_cast<float>(tau2);
-  Whitened sums[kShares];
+// Predicts each of four patches from its neighbours by their covariance, and adds what is left of it.
+void UnevenPlane::predict(const Neighbourhood& at, const FourFloats (&to_own)[kNeighbours],
+                          const FourFloats (&between)[kNeighbours][kNeighbours], float own_share, float tau2,
+                          FourFloats* predicts, FourFloats* left, Whitened* sums) {
+  const float shared = (1.0F - own_share) * tau2;
+  FourFloats factor[kNeighbours][kNeighbours], inverse_pivot[kNeighbours], known[kNeighbours];
+  FourFloats unknown = at.own.noise + tau2;
+  for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+    FourFloats pivot = at.near[k].noise + tau2, to = shared * to_own[k];
+    for (std::uint32_t l = 0; l < k; ++l) {
+      FourFloats sum = shared * between[k][l];
+      for (std::uint32_t m = 0; m < l; ++m) sum -= factor[k][m] * factor[l][m];
+      factor[k][l] = sum * inverse_pivot[l];
+      pivot -= factor[k][l] * factor[k][l];
+      to -= factor[k][l] * known[l];
+    }
+    inverse_pivot[k] = 1.0F / root_of(pivot);
+    known[k] = to * inverse_pivot[k];
+    unknown -= known[k] * known[k];
+  }
+  FourFloats row[kColumns];
+  for (int column = 0; column < kColumns; ++column) row[column] = at.own.of[column];
+  for (std::uint32_t k = kNeighbours; k-- > 0;) {
+    FourFloats part = known[k];
+    for (std::uint32_t l = k + 1; l < kNeighbours; ++l) part -= factor[l][k] * known[l];
+    known[k] = part * inverse_pivot[k];  // from here on, the neighbour's share in the prediction
+    for (int column = 0; column < kColumns; ++column) row[column] -= known[k] * at.near[k].of[column];
+    predicts[k] = known[k];
+  }
+  *left = unknown;
+  sums->add(row, unknown, at.own.counts);
+}
+
+void UnevenPlane::consider_waves(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
+                                 Models* models) {
+  const std::uint32_t lengths = responses.size() > 0 ? kLengthsOfErrors : kLengths;
+  Whitened sums[kWaves];
   for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
-    const FourPatches own = four_from(patches, first);
-    FourPatches near[kNeighbours];
-    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
-      for (std::uint32_t lane = 0; lane < kFour && first + lane < patches.size(); ++lane) {
-        const std::uint16_t at = neighbours_[(first + lane) * kNeighbours + k];
-        if (at != kNone) near[k].set(lane, patches[at]);
-      }
-    }
-    const auto correlation = [&](const FourPatches& a, const FourPatches& b) {
-      const FourFloats du = a.u - b.u, dv = a.v - b.v, none{};
-      return a.counts & b.counts ? matern(root_of(du * du + dv * dv) * per_length) : none;
-    };
-    FourFloats to_own[kNeighbours], between[kNeighbours][kNeighbours];
-    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
-      to_own[k] = correlation(near[k], own);
-      for (std::uint32_t l = 0; l < k; ++l) between[k][l] = correlation(near[k], near[l]);
-    }
-    for (int share = 0; share < kShares; ++share) {
-      const float shared = static_cast<float>(1.0 - kOwnShares[share]) * all;
-      FourFloats factor[kNeighbours][kNeighbours], inverse_pivot[kNeighbours], known[kNeighbours];
-      FourFloats left = own.noise + all;
+    const Neighbourhood at = neighbourhood(first, patches.size());
+    for (std::uint32_t length = 0; length < lengths; ++length) {
+      const auto per_length = static_cast<float>(std::sqrt(3.0) / kLengths_m[length]);
+      FourFloats to_own[kNeighbours], between[kNeighbours][kNeighbours];
       for (std::uint32_t k = 0; k < kNeighbours; ++k) {
-        FourFloats pivot = near[k].noise + all, to = shared * to_own[k];
-        for (std::uint32_t l = 0; l < k; ++l) {
-          FourFloats sum = shared * between[k][l];
-          for (std::uint32_t m = 0; m < l; ++m) sum -= factor[k][m] * factor[l][m];
-          factor[k][l] = sum * inverse_pivot[l];
-          pivot -= factor[k][l] * factor[k][l];
-          to -= factor[k][l] * known[l];
-        }
-        inverse_pivot[k] = 1.0F / root_of(pivot);
-        known[k] = to * inverse_pivot[k];
-        left -= known[k] * known[k];
+        to_own[k] = matern(at.to_own_m[k] * per_length);
+        for (std::uint32_t l = 0; l < k; ++l) between[k][l] = matern(at.between_m[k][l] * per_length);
       }
-      FourFloats row[kColumns];
-      for (int column = 0; column < kColumns; ++column) row[column] = own.of[column];
-      for (std::uint32_t k = kNeighbours; k-- > 0;) {
-        FourFloats part = known[k];
-        for (std::uint32_t l = k + 1; l < kNeighbours; ++l) part -= factor[l][k] * known[l];
-        known[k] = part * inverse_pivot[k];  // from here on, the neighbour's share in the prediction
-        for (int column = 0; column < kColumns; ++column) row[column] -= known[k] * near[k].of[column];
-        predicts_[share][first / kFour * kNeighbours + k] = known[k];
+      for (std::uint32_t share = 0; share < kShares; ++share) {
+        const std::uint32_t wave = length * kShares + share, four = wave * kFours + first / kFour;
+        predict(at, to_own, between, static_cast<float>(kOwnShares[share]), static_cast<float>(tau2),
+                &predicts_[four * kNeighbours], &left_[four], &sums[wave]);
       }
-      left_[share][first / kFour] = left;
-      sums[share].add(row, left, own.counts);
     }
   }
-  for (int share = 0; share < kShares; ++share) {
+  for (std::uint32_t wave = 0; wave < lengths * kShares; ++wave) {
     Model& model = models->of[models->count];
-    if (!sums[share].solve(static_cast<double>(patches.size()), &model)) continue;
+    if (!sums[wave].solve(static_cast<double>(patches.size()), &model)) continue;
     ++models->count;
-    if (responses.size() > 0) model.covariance = model.scale * passed_on(share, responses);
+    if (responses.size() > 0) model.covariance = model.scale * passed_on(wave, responses);
   }
 }
 
-// Covariance of an estimator under the model that was considered last, before it is scaled. A patch's own error also
+// Covariance of an estimator under a model of waves, before it is scaled. A patch's own error also
 // reaches the patches that are predicted from it.
-Eigen::Matrix3d UnevenPlane::passed_on(int share, Span<const Eigen::Vector3d> responses) {
+Eigen::Matrix3d UnevenPlane::passed_on(std::uint32_t wave, Span<const Eigen::Vector3d> responses) {
   for (std::uint32_t i = 0; i < responses.size(); ++i) {
     const Eigen::Vector3f to = responses[i].cast<float>();
     passed_[i] = FourFloats{to.x(), to.y(), to.z(), 0.0F};
@@ -362,10 +376,10 @@ Eigen::Matrix3d UnevenPlane::passed_on(int share, Span<const Eigen::Vector3d> re
     const std::uint32_t lane = i % kFour;
     for (std::uint32_t k = 0; k < kNeighbours; ++k) {
       const std::uint16_t at = neighbours_[i * kNeighbours + k];
-      if (at != kNone) passed_[at] += predicts_[share][i / kFour * kNeighbours + k][lane] * own;
+      if (at != kNone) passed_[at] += predicts_[(wave * kFours + i / kFour) * kNeighbours + k][lane] * own;
     }
     const Eigen::Vector3d to(static_cast<double>(own[0]), static_cast<double>(own[1]), static_cast<double>(own[2]));
-    out += static_cast<double>(left_[share][i / kFour][lane]) * to * to.transpose();
+    out += static_cast<double>(left_[wave * kFours + i / kFour][lane]) * to * to.transpose();
   }
   return out;
 }
@@ -375,14 +389,17 @@ UnevenPlane::Models UnevenPlane::weighed_models(Span<const SurfacePatch> patches
   Models models;
   if (patches.size() < kPatchesMin) return models;
   const double tau2 = unevenness(patches);
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    const SurfacePatch& p = patches[i];
+    values_[i] = {{1.0F, static_cast<float>(p.u), static_cast<float>(p.v), static_cast<float>(p.residual),
+                   static_cast<float>(p.bias)},
+                  static_cast<float>(p.noise_variance)};
+  }
   consider_independent(patches, responses, tau2, &models);
   if (tau2 > 0.0) {
     if (!matern_filled_) fill_matern();
-    find_neighbours(patches);
-    for (const double length_m : kLengths_m) {
-      if (responses.size() > 0 && length_m > 2.0) continue;
-      consider_length(patches, responses, length_m, tau2, &models);
-    }
+    find_neighbours(patches.size());
+    consider_waves(patches, responses, tau2, &models);
   }
   if (models.count > 0) models.weigh();
   return models;

@@ -8,7 +8,8 @@
 // surface is a plane, a Gaussian process with Matern's correlation of smoothness 3/2, a part of each patch's own, and
 // the noise of its points. Length and share of the wave are not chosen but averaged over, weighted by likelihood
 // (Handcock and Stein 1993). Each patch is predicted from its nearest neighbours instead of from all (Vecchia 1988;
-// Datta et al. 2016), so that the work grows with the number of patches and not with its cube. Waves longer than the greatest length are the surface's own slope.
+// Datta et al. 2016), so that the work grows with the number of patches and not with its cube. Waves longer than the
+// greatest length are the surface's own slope.
 
 #pragma once
 
@@ -45,17 +46,27 @@ class UnevenPlane {
   LinearErrors errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
 
  private:
-  // Each patch is predicted from its nearest ones before it. Judgement, 2026-11-26: a screen of eight on a grid of
-  // patches leaves nothing that a ninth would add.
-  static constexpr std::uint32_t kNeighbours = 8;
+  // Each patch is predicted from its nearest ones before it. On simulated rock six and eight give the same levels, four
+  // are 10 % wider (2026-11-26).
+  static constexpr std::uint32_t kNeighbours = 6;
   // Patches before it among which the nearest are looked for: two rows of a floor of 12 m.
   static constexpr std::uint32_t kLookBack = 64;
-  static constexpr int kShares = 2;  // models of one length that are computed together
-  static constexpr std::uint16_t kNone = 0xFFFF;
+  static constexpr std::uint32_t kLengths = 4, kShares = 2;    // the models' lengths and shares of the waves
+  static constexpr std::uint32_t kWaves = kLengths * kShares;  // models with waves: each length with each share
+  static constexpr std::uint32_t kFours = SurfacePatches::kMost / kFour;  // all patches, four at a time
+  static_assert(SurfacePatches::kMost % kFour == 0, "the last four are whole");
+  static constexpr int kColumns = 5;              // of each patch: 1, u, v, residual, bias
+  static constexpr std::uint16_t kNone = 0xFFFF;  // no patch has this number
 
   struct Model;
   struct Models;
   struct Whitened;
+  struct FourPatches;
+  struct Neighbourhood;
+  // A patch, in floats.
+  struct Values {
+    float of[kColumns], noise;
+  };
 
   // Matern's correlation by distance, from a table, since every two patches and length need it. It ends at 16 lengths,
   // where 2e-6 are left. Between its steps of a 64th, linear interpolation errs by 3e-5 at most:
@@ -64,17 +75,23 @@ class UnevenPlane {
   void fill_matern();
   FourFloats matern(FourFloats r) const;
 
-  void find_neighbours(Span<const SurfacePatch> patches);
+  void find_neighbours(std::uint32_t patches);
+  Neighbourhood neighbourhood(std::uint32_t first, std::uint32_t patches) const;
   Models weighed_models(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
   void consider_independent(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
                             Models* models) const;
-  [[gnu::noinline]] void consider_length(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses,
-                                         double length_m, double tau2, Models* models);
-  Eigen::Matrix3d passed_on(int share, Span<const Eigen::Vector3d> responses);
+  void consider_waves(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
+                      Models* models);
+  static void predict(const Neighbourhood& at, const FourFloats (&to_own)[kNeighbours],
+                      const FourFloats (&between)[kNeighbours][kNeighbours], float own_share, float tau2,
+                      FourFloats* predicts, FourFloats* left, Whitened* sums);
+  Eigen::Matrix3d passed_on(std::uint32_t wave, Span<const Eigen::Vector3d> responses);
 
+  Span<Values> values_;
   Span<std::uint16_t> neighbours_;  // kNeighbours of each patch, the nearest first, kNone behind the last
-  // Of each model of a length, for four patches: their share in the prediction, and the variance that it leaves.
-  Span<FourFloats> predicts_[kShares], left_[kShares];
+  // Of each model of waves, for four patches: their neighbours' shares in the prediction, and the variance that it
+  // leaves.
+  Span<FourFloats> predicts_, left_;
   Span<FourFloats> passed_;  // scratch of passed_on()
   Span<float> matern_;
   bool matern_filled_ = false;

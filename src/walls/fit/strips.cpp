@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/estimation/protection.hpp"
 #include "base/estimation/robust_scale.hpp"
 
 namespace pose_wall {
@@ -29,7 +30,8 @@ struct JointRounds {
 constexpr double kAnyOffset_m = 1e9;  // beyond every offset
 constexpr JointRounds kOfARing{3, kAnyOffset_m, 5e-4};
 constexpr JointRounds kLast{8, 2e-4, 2e-4};
-constexpr double kAgreeInSigmas = 3.5;  // judgement, 2026-11-21: fronts that disagree more are out (Hausman 1978)
+// As many as a level spans: fronts that disagree more are out (Hausman 1978). Judgement, 2026-11-26.
+constexpr double kAgreeInSigmas = 5.0;
 constexpr std::uint32_t kFrontPointsMin = 60;  // judgement, 2026-11-21: fewer points are no fronts
 constexpr double kFrontStepMin_m = 0.06;       // fronts of a smaller step, chosen by residual, look too straight
 constexpr int kFrontRounds = 4;                // 0.6^4 = 0.13: the window narrows from two steps to a quarter of one
@@ -49,7 +51,8 @@ bool agree(const WallSurface& a, const WallSurface& b) {
   for (int k = 1; k < 3; ++k) {
     const double of_a = a.patch.covariance(k, k), of_b = b.patch.covariance(k, k);
     const double variance = of_a > of_b ? of_a : of_b, apart = difference[k];
-    if (!(apart * apart <= kAgreeInSigmas * kAgreeInSigmas * variance)) return false;
+    const double factor = protection_factor(kAgreeInSigmas, a.patch.dof_slope);
+    if (!(apart * apart <= factor * factor * variance)) return false;
   }
   return true;
 }

@@ -76,8 +76,10 @@ class Rows {
 
 constexpr double kScaleMaxInThresholds = 1.5;  // judgement, 2026-11-21: the scale follows rough rock up to here
 constexpr double kStripsLeftOver = 0.05;       // of the strips' step: measured on simulated steel sets
-constexpr double kLayersLeftOver = 0.5;  // of share times step: judgement, 2026-11-21 (README, What else stands out)
-constexpr int kCutsMax = 6;              // of kCut_m: 1.5 m of a band of 2.25 m; kSpanMin_m is left
+// Of share times step, which leads back to the mean of both layers. The gate that chose them may have moved outwards by
+// as much. Judgement, 2026-11-26 (README, What else stands out).
+constexpr double kLayersLeftOver = 1.0;
+constexpr int kCutsMax = 6;  // of kCut_m: 1.5 m of a band of 2.25 m; kSpanMin_m is left
 // A wall is fitted twice at most: as seen, and again once its bends are cut off. Between them quick fits, on fewer
 // points and without a covariance, test whether it still bends. The second fit may cost half the first (2026-11-25).
 constexpr std::uint32_t kCutPointsMax = WallPoints::kMost * 3 / 8, kAgainPointsMax = WallPoints::kMost / 2;
@@ -149,9 +151,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
   if (!fit.irls.solved) return fit;
-  scratch->patches.by_waves = fit.strips == nullptr;
   if (!join_fronts(scratch, &fit)) fit_patches(PatchGrid::Errors::kMeasured, scratch, &fit);
-  scratch->patches.by_waves = false;
   const double left_over_m = fit.strips != nullptr ? kStripsLeftOver * fit.strips->layers().step_m : 0.0;
   const double layers_m = fit.layers.found ? kLayersLeftOver * fit.layers.share * fit.layers.step_m : 0.0;
   fit.layer_sigma_m =

@@ -71,7 +71,8 @@ TEST(PatchFit, OnAFlatWallTheCovarianceIsTheSpread) {
   }
 }
 
-// z^2 has mean dof / (dof - 2) = 1.2 for a dozen independent patches and a standard error of some 0.1 here.
+// One look cannot exclude waves longer than these, so that the claimed errors are larger than those of this rock. z^2
+// has a standard error of some 0.1 here.
 TEST(PatchFit, OnRoughRockTheErrorsAreWhatTheCovarianceSays) {
   for (const double length_m : {0.2, 0.5}) {
     test::Placed<PatchGrid> grid;
@@ -84,7 +85,7 @@ TEST(PatchFit, OnRoughRockTheErrorsAreWhatTheCovarianceSays) {
       spread.add(f);
     }
     for (int k = 0; k < 3; ++k) {
-      EXPECT_GT(spread.z2[k], 0.5) << "parameter " << k << ", correlation length " << length_m;
+      EXPECT_GT(spread.z2[k], 0.3) << "parameter " << k << ", correlation length " << length_m;
       EXPECT_LT(spread.z2[k], 1.5) << "parameter " << k << ", correlation length " << length_m;
     }
     // Counting points as if they were independent would claim a hundredth of this.

@@ -104,7 +104,8 @@ TEST(UnevenPlane, OnAFlatSurfaceItIsLeastSquares) {
   EXPECT_LT(std::sqrt(f.covariance(1, 1)), 2.5 * kNoise_m / std::sqrt(suu));
 }
 
-// Rows are worked on four at a time, and the last ones need not be four.
+// Patches are worked on four at a time, and the last ones need not be four. Their order decides which neighbours
+// predict a patch, which is worth a small part of the error.
 TEST(UnevenPlane, AnyCountInAnyOrder) {
   for (std::size_t count = 9; count <= 29; ++count) {
     test::Noise noise(6);
@@ -122,8 +123,8 @@ TEST(UnevenPlane, AnyCountInAnyOrder) {
     ASSERT_TRUE(forward.solved && backward.solved) << count;
     for (int k = 0; k < 3; ++k) {
       const double sigma = std::sqrt(forward.covariance(k, k));
-      EXPECT_NEAR(forward.correction[k], backward.correction[k], 1e-3 * sigma) << count;
-      EXPECT_NEAR(std::sqrt(backward.covariance(k, k)), sigma, 1e-3 * sigma) << count;
+      EXPECT_NEAR(forward.correction[k], backward.correction[k], 0.1 * sigma) << count;
+      EXPECT_NEAR(std::sqrt(backward.covariance(k, k)), sigma, 0.1 * sigma) << count;
     }
   }
 }

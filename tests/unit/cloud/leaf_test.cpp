@@ -16,7 +16,7 @@ namespace pose_wall {
 namespace {
 
 constexpr double kLeast_m = 0.05;
-constexpr std::uint32_t kRoom = 60000;
+constexpr std::uint32_t kVoxelsMost = 60000;
 
 // Voxels of a cloud, by the leaf: points that fill lines, 1, surfaces, 2, or space, 3. Above a leaf whose cells' faces
 // lie within a wall's noise, half as many.
@@ -38,12 +38,12 @@ struct Outcome {
 
 Outcome outcome_of(const Cloud& cloud, const LeafMemory& last) {
   Outcome out;
-  LeafSearch search(kLeast_m, kRoom, last);
+  LeafSearch search(kLeast_m, kVoxelsMost, last);
   std::uint32_t voxels = 0;
   do {
     const double all = cloud.at(search.leaf_m());
-    out.fits = all <= kRoom;
-    voxels = static_cast<std::uint32_t>(out.fits ? all : kRoom);
+    out.fits = all <= kVoxelsMost;
+    voxels = static_cast<std::uint32_t>(out.fits ? all : kVoxelsMost);
     ++out.passes;
   } while (search.goes_on(out.fits, voxels) && out.passes < 100);
   EXPECT_LE(out.passes, static_cast<int>(LeafSearch::kPassesMost));
@@ -54,7 +54,7 @@ Outcome outcome_of(const Cloud& cloud, const LeafMemory& last) {
 
 double smallest_that_fits_m(const Cloud& cloud) {
   double leaf_m = kLeast_m;
-  while (leaf_m < 0.26 && cloud.at(leaf_m) > kRoom) leaf_m = std::min(leaf_m * 1.26, 0.26);
+  while (leaf_m < 0.26 && cloud.at(leaf_m) > kVoxelsMost) leaf_m = std::min(leaf_m * 1.26, 0.26);
   return leaf_m;
 }
 
@@ -66,7 +66,7 @@ TEST(VoxelLeaf, WithoutAPastItFitsAtOnceAndIsSoonTheSmallest) {
     for (double voxels = 1000; voxels < 3e6; voxels *= 1.3) {
       const Cloud cloud{voxels, dimension};
       Outcome out = outcome_of(cloud, {});
-      EXPECT_EQ(out.fits, cloud.at(0.26) <= kRoom) << voxels;
+      EXPECT_EQ(out.fits, cloud.at(0.26) <= kVoxelsMost) << voxels;
       EXPECT_LE(out.leaf_m, kSkipped * smallest_that_fits_m(cloud));
       for (int frame = 0; frame < 4; ++frame) out = outcome_of(cloud, out.memory);
       EXPECT_EQ(out.leaf_m, smallest_that_fits_m(cloud)) << voxels;
@@ -106,7 +106,7 @@ TEST(VoxelLeaf, FollowsCloudsThatThickenAndThinOut) {
       const Cloud cloud{voxels, dimension};
       const Outcome out = outcome_of(cloud, memory);
       const double smallest_m = smallest_that_fits_m(cloud);
-      EXPECT_EQ(out.fits, cloud.at(0.26) <= kRoom) << frame;
+      EXPECT_EQ(out.fits, cloud.at(0.26) <= kVoxelsMost) << frame;
       EXPECT_LE(out.leaf_m, std::pow(1.27, 3.0 / dimension) * kSkipped * smallest_m) << dimension << " " << frame;
       EXPECT_GE(out.leaf_m, 0.999 * smallest_m) << frame;
       memory = out.memory;
@@ -125,7 +125,7 @@ TEST(VoxelLeaf, AnyMemoryEndsSoon) {
       for (const double count : {0.0, 1.0, 2e4, 5e4, 1e5, 1e9}) {
         const Outcome out = outcome_of({count, 2.0}, {begin_with, voxels});
         EXPECT_LE(out.passes, 4) << begin_with << " " << voxels << " " << count;
-        EXPECT_EQ(out.fits, Cloud({count, 2.0}).at(0.26) <= kRoom);
+        EXPECT_EQ(out.fits, Cloud({count, 2.0}).at(0.26) <= kVoxelsMost);
         EXPECT_LE(out.memory.begin_with, 8U);
       }
     }
@@ -151,7 +151,7 @@ TEST(VoxelLeaf, NoCloudIsReadMoreThanFourTimes) {
   for (const double least_m : {0.01, 0.05, 0.2, 0.26}) {
     for (std::uint32_t begin_with = 0; begin_with < 17; ++begin_with) {
       for (std::uint32_t those_that_fit = 0; those_that_fit < 1U << 16; those_that_fit += 37) {
-        LeafSearch search(least_m, kRoom, {begin_with, LeafMemory::kAnyFewer});
+        LeafSearch search(least_m, kVoxelsMost, {begin_with, LeafMemory::kAnyFewer});
         std::uint32_t passes = 0, growths = 0;
         bool fits = false;
         do {
@@ -159,7 +159,7 @@ TEST(VoxelLeaf, NoCloudIsReadMoreThanFourTimes) {
           for (double leaf_m = least_m; leaf_m < 0.999 * search.leaf_m(); leaf_m *= 1.26) ++growths;
           fits = (those_that_fit >> growths & 1U) != 0;
           ++passes;
-        } while (search.goes_on(fits, fits ? 7 : kRoom) && passes < 100);
+        } while (search.goes_on(fits, fits ? 7 : kVoxelsMost) && passes < 100);
         ASSERT_LE(passes, LeafSearch::kPassesMost) << least_m << " " << begin_with << " " << those_that_fit;
         ASSERT_TRUE(fits || search.leaf_m() == 0.26) << least_m << " " << begin_with << " " << those_that_fit;
         ASSERT_LT(search.memory(fits, 7).begin_with, 16U);
