@@ -30,7 +30,7 @@ inline std::uint64_t most_of_reading(const Settings& s, std::uint64_t points) {
 inline std::uint64_t most_of_patches() {
   constexpr std::uint64_t kAll = PatchGrid::kCapacity;
   return kAll * (steps::kCell + steps::kPatch + steps::kPatchMeasured) + 384 * steps::kPatchPaired +
-         SurfacePatches::kMost * steps::kPatchWaved;
+         PatchGrid::kLayersMax * SurfacePatches::kMost * steps::kPatchWaved;
 }
 
 // The most steps of the floor from one place that asks whether the work is spent to the next one.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The errors of a patch fit: correlation of the rock, covariance, and the test for a bend.
+// The errors of a patch fit: its covariance by the waves, and the test for a bend.
 
 #include <Eigen/Core>
 #include <cmath>
 
 #include "base/containers/even_share.hpp"
+#include "base/containers/work.hpp"
 #include "base/estimation/patch_fit.hpp"
 #include "base/estimation/small_cholesky.hpp"
 
@@ -195,6 +196,7 @@ bool PatchGrid::measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, 
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     const std::uint32_t count = collect_blocks(layer, inverse);
     const LinearErrors errors = uneven_.errors_of(blocks_.first(count), responses_.first(count));
+    out->work += count * steps::kPatchWaved;
     if (!errors.solved) return false;
     out->covariance += errors.covariance;
     if (layer == 0) out->dof = errors.dof_offset;
@@ -243,7 +245,7 @@ double PatchGrid::rock_about_quadratic(std::uint32_t n) const {
   return rock2 > 0.0 ? rock2 : 0.0;
 }
 
-// The same pass as sum_pairs for the quadratic through the surface: errors about it and answers of its coefficients.
+// Over the pairs of the surface: errors about the quadratic and answers of its coefficients.
 PatchGrid::BendSums PatchGrid::sum_bend_pairs(std::uint32_t n) const {
   BendSums sums;
   Products weighted[kLags + 1];
@@ -299,7 +301,7 @@ Eigen::Matrix3d PatchGrid::bend_sandwich(const BendSums& sums, const Roughness& 
   return rough.tau2 * sums.rock + sums.noise + shared;
 }
 
-// Of the coefficients of uu, uv and vv, by a sandwich as for the plane, but of the errors about the quadratic. About
+// Of the coefficients of uu, uv and vv, by a sandwich (Conley 1999) of the errors about the quadratic. About
 // the plane a bend makes neighbouring patches err alike. That looks like rough rock with few independent patches and
 // would hide the bend. Needs Mean::error about the quadratic, and its responses in Mean::of_pairs.
 Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const {

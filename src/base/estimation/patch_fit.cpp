@@ -200,10 +200,8 @@ std::uint64_t PatchGrid::work_of(std::uint32_t patches, Errors errors) const {
   work.add(this->patches() * layers_, steps::kCell);
   work.add(patches, steps::kPatch);
   if (errors == Errors::kPlaneOnly) return work.done();
-  const std::uint32_t paired = patches < kPairedMost ? patches : kPairedMost;
   work.add(patches, steps::kPatchMeasured);
-  work.add(patches < SurfacePatches::kMost ? patches : SurfacePatches::kMost, steps::kPatchWaved);
-  work.add(paired, steps::kPatchPaired);
+  if (errors != Errors::kCovariance) work.add(patches < kPairedMost ? patches : kPairedMost, steps::kPatchPaired);
   return work.done();
 }
 
@@ -217,13 +215,11 @@ PatchFit PatchGrid::fit(Errors errors) {
   if (of_surface < kPatchesMin) return out;
   Eigen::Matrix3d inverse;
   if (!solve(n, &out.correction, &inverse)) return out;
-  Roughness roughness[kLayersMax];
-  for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-    roughness[layer].tau2 = between_patch_variance(n, layer, inverse);
-  }
-  for (Mean& p : means_.first(n)) p.information = 1.0 / (roughness[p.layer].tau2 + p.noise_variance);
+  double tau2[kLayersMax] = {};
+  for (std::uint32_t layer = 0; layer < layers_; ++layer) tau2[layer] = between_patch_variance(n, layer, inverse);
+  for (Mean& p : means_.first(n)) p.information = 1.0 / (tau2[p.layer] + p.noise_variance);
   if (!solve(n, &out.correction, &inverse)) return out;
-  out.tau_m = std::sqrt(roughness[0].tau2);
+  out.tau_m = std::sqrt(tau2[0]);
   out.solved = true;
   if (errors == Errors::kBend) test_bend(n, &out);
   if (errors == Errors::kPlaneOnly || errors == Errors::kBend) return out;
@@ -233,7 +229,7 @@ PatchFit PatchGrid::fit(Errors errors) {
   }
   if (errors == Errors::kCovariance) return out;
   test_bend(n, &out);
-  out.visibility_m = visibility(roughness[0].tau2);
+  out.visibility_m = visibility(tau2[0]);
   return out;
 }
 

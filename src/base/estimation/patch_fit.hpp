@@ -62,8 +62,8 @@ class PatchGrid {
   static constexpr std::uint32_t kCapacity = 1536;
   static constexpr std::uint32_t kLayersMax = 2;   // the surface, and the fronts of strips
   static constexpr std::uint32_t kPatchesMin = 8;  // of the surface: more than the six terms of a quadratic
-  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: users of the covariance allow for longer
-  // correlation, and a longer reach costs pairs.
+  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: the test for bends
+  // allows for longer correlation, and a longer reach costs pairs.
   static constexpr int kLags = 5;
 
   void lay_out(Arena& arena);

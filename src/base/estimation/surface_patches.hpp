@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Points of a surface averaged over square patches, few enough to weigh each against each.
+// Points of a surface averaged over square patches, few enough to know how they wave.
 
 #pragma once
 

@@ -8,6 +8,7 @@
 
 #include "base/estimation/protection.hpp"
 #include "base/math/elementary.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall {
 namespace {
@@ -28,8 +29,8 @@ constexpr double kTailAt = 5.0;        // standard deviations of the level
 constexpr int kTailSteps = 24;         // halvings: a bound to a millionth
 constexpr float kNowhere_m = 1e6F;     // beyond every correlation
 constexpr int kModelsMax = 1 + 4 * 2;  // no waves, or a length and a share
-// Factors of a determinant whose logarithm is taken at once: each lies between 1e-6 and 1e6, their product within a
-// double's 1e-308 to 1e308.
+// Factors of a determinant whose logarithm is taken at once: variances in m², not below 1e-12, so that their product
+// lies within a double's 1e-308 to 1e308.
 constexpr std::uint32_t kLogEvery = 4;  // rows of four
 
 // Variance of the patches about their plane beyond their noise: a first guess for the ratio of the two. Patches count
@@ -238,7 +239,7 @@ bool UnevenPlane::Whitened::solve(double patches, Model* model) {
   model->scale = scaled / freedom;
   model->covariance = inverse * model->scale;
   model->log_likelihood = -0.5 * (log_determinant + natural_log(determinant) + freedom * natural_log(scaled));
-  return true;
+  return is_finite(model->log_likelihood);
 }
 
 // The values of four patches, in floats; of those without one, zeros that count nothing.

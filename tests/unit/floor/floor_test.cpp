@@ -162,7 +162,7 @@ struct Valley {
 
   // As large as what is wrong if the floor is the farthest of its slopes, and not much larger.
   void expect_bound_reaches(const FloorResult& f) const {
-    constexpr double kMuch = 2.0;  // what the rivals tell, bend and halves of the floor tell again
+    constexpr double kMuch = 2.0;  // what the rivals tell, bend and halves of finer patches tell again
     const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
     const double found_rad = across ? angles.pitch_rad : -angles.roll_rad;  // positive where left or ahead is high
     const double bound_rad = across ? f.pitch_bound_rad.sum() : f.roll_bound_rad.sum();
