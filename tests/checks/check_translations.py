@@ -8,7 +8,7 @@ usage: check_translations.py ROOT     exit status 1 and one line per text that
     print (keys' help in src/config_keys.def; states, parts, senses, reasons and statuses of values in src/names.def;
     rules over two keys in src/config.cpp), and is in no tools/language/zh/*.po
   - stands in a catalogue and is marked nowhere, or stands there twice
-  - fills in other arguments than the English one, or holds no Chinese"""
+  - fills in other arguments than the English one or gives one another type ({:d} for {:.2f}), or holds no Chinese"""
 
 import collections
 import pathlib
@@ -24,7 +24,7 @@ REASON = re.compile(rf'^REASON *\(\w+, "\w+", {LITERAL}\)$', re.M)
 STATUS = re.compile(rf'^STATUS *\(POSE_WALL_E_(?:VALUE|TEXT)_\w+, {LITERAL}\)$', re.M)
 RULE = re.compile(rf'\{{"\w+", "\w+", {LITERAL}\}}')
 HAN = re.compile(r"[\u3400-\u9fff]")
-FIELD = re.compile(r"(?<!\{)\{(\w*)(?::[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
+FIELD = re.compile(r"(?<!\{)\{(\w*)(:[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
 ESCAPES = {"n": "\n", "t": "\t", '"': '"', "\\": "\\"}
 
 
@@ -74,9 +74,9 @@ def entries(path):
 
 
 def filled_in(text):
-    """Which arguments a text takes: {} counts on, {0} and {name} name theirs."""
-    names = FIELD.findall(text)
-    return sorted(name or str(number) for number, name in enumerate(names))
+    """Which arguments a text takes, each with the letter of its type: {} counts on, {0} and {name} name theirs."""
+    return sorted((name or str(number)) + (re.search(r"[a-zA-Z]?$", form).group() and f":{form[-1]}")
+                  for number, (name, form) in enumerate(FIELD.findall(text)))
 
 
 def faults(root):

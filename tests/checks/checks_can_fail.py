@@ -609,6 +609,11 @@ class Translations(BrokenProject):
         self.passes(*self.check('say("the wall {name}");\n', self.WALL + 'msgid "no value"\nmsgstr "没有值"\n\n'
                                 'msgid "a_min too great"\nmsgstr "a_min 过大"\n'))
 
+    def test_another_type(self):
+        wall = 'msgid "{:.2f} m to the wall"\nmsgstr "距墙 {:d} m"\n'
+        self.fails("fills in", *self.check('say("{:.2f} m to the wall");\n', wall))
+        self.passes(*self.check('say("{:.2f} m to the wall");\n', wall.replace(":d", ":.1f")))
+
     def test_no_chinese(self):
         self.fails("the wall", *self.check('say("the wall {name}");\n', 'msgid "the wall {name}"\nmsgstr "{name}"\n'))
 

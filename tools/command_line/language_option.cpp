@@ -16,11 +16,9 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::string_view kOption = "--language";
-
 bool has_option(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
-    if (std::string_view(argv[i]).substr(0, kOption.size()) == kOption) return true;
+    if (std::string_view(argv[i]).substr(0, kLanguageOption.size()) == kLanguageOption) return true;
   }
   return false;
 }
@@ -42,7 +40,7 @@ void choose_language_by(int argc, const char* const* argv, const char* program) 
 
 void add_language_option(CLI::App& app) {
   app.add_option_function<std::string>(
-         std::string(kOption), [](const std::string&) {},
+         std::string(kLanguageOption), [](const std::string&) {},
          tr("Language of what a person reads: en or zh; default: POSE_WALL_LANGUAGE, else the locale's"))
       ->check(CLI::Validator(language_fault, "{en,zh}", ""));
 }

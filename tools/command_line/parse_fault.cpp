@@ -44,22 +44,28 @@ std::string left_over_text(const CLI::App& app) {
   return fmt::format("{}", fmt::join(faults, "; "));
 }
 
-std::string missing_text(const CLI::App& app) {
+// Of the command and of its verb.
+std::vector<const CLI::Option*> parsed_options(const CLI::App& app) {
+  std::vector<const CLI::Option*> options;
   for (const CLI::App* part : parsed_parts(app)) {
-    for (const CLI::Option* option : part->get_options()) {
-      if (option->get_required() && option->count() == 0) return say("{} is missing", option->get_name());
-    }
+    const std::vector<const CLI::Option*> own = part->get_options();
+    options.insert(options.end(), own.begin(), own.end());
+  }
+  return options;
+}
+
+std::string missing_text(const CLI::App& app) {
+  for (const CLI::Option* option : parsed_options(app)) {
+    if (option->get_required() && option->count() == 0) return say("{} is missing", option->get_name());
   }
   return app.get_subcommands().empty() ? tr("a verb is missing") : "";
 }
 
 std::string needs_text(const CLI::App& app) {
-  for (const CLI::App* part : parsed_parts(app)) {
-    for (const CLI::Option* option : part->get_options()) {
-      for (const CLI::Option* needed : option->get_needs()) {
-        if (option->count() > 0 && needed->count() == 0) {
-          return say("{} also needs {}", option->get_name(), needed->get_name());
-        }
+  for (const CLI::Option* option : parsed_options(app)) {
+    for (const CLI::Option* needed : option->get_needs()) {
+      if (option->count() > 0 && needed->count() == 0) {
+        return say("{} also needs {}", option->get_name(), needed->get_name());
       }
     }
   }
@@ -67,12 +73,10 @@ std::string needs_text(const CLI::App& app) {
 }
 
 std::string excludes_text(const CLI::App& app) {
-  for (const CLI::App* part : parsed_parts(app)) {
-    for (const CLI::Option* option : part->get_options()) {
-      for (const CLI::Option* other : option->get_excludes()) {
-        if (option->count() > 0 && other->count() > 0) {
-          return say("{} and {} exclude each other", option->get_name(), other->get_name());
-        }
+  for (const CLI::Option* option : parsed_options(app)) {
+    for (const CLI::Option* other : option->get_excludes()) {
+      if (option->count() > 0 && other->count() > 0) {
+        return say("{} and {} exclude each other", option->get_name(), other->get_name());
       }
     }
   }
@@ -94,13 +98,11 @@ std::size_t place_of(const std::string& name, const std::string& message) {
 const CLI::Option* option_at_fault(const CLI::App& app, const std::string& message) {
   const CLI::Option* first = nullptr;
   std::size_t first_place = std::string::npos;
-  for (const CLI::App* part : parsed_parts(app)) {
-    for (const CLI::Option* option : part->get_options()) {
-      const std::size_t place = place_of(option->get_name(), message);
-      if (place < first_place) {
-        first = option;
-        first_place = place;
-      }
+  for (const CLI::Option* option : parsed_options(app)) {
+    const std::size_t place = place_of(option->get_name(), message);
+    if (place < first_place) {
+      first = option;
+      first_place = place;
     }
   }
   return first;

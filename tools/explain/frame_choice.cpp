@@ -35,7 +35,9 @@ struct Stamp {
 
 // By whole nanoseconds: a double of 1.7e9 s has steps of 240 ns.
 std::optional<Stamp> read_stamp(std::string word) {
-  constexpr std::size_t kSecondDigitsMax = 10, kFractionDigits = 9, kNsDigitsMax = 19;
+  constexpr std::size_t kSecondDigitsMax = 10;  // seconds since 1970 have ten digits until the year 2286
+  constexpr std::size_t kFractionDigits = 9;    // of nanoseconds in a second
+  constexpr std::size_t kNsDigitsMax = 19;      // of the greatest 64-bit number
   const bool since_first = !word.empty() && word[0] == '+';
   if (since_first) word.erase(0, 1);
   const std::size_t point = std::min(word.find('.'), word.size());

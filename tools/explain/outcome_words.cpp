@@ -83,13 +83,12 @@ bool is_about_level(const Note& note) {
 
 // The level of this frame's own measurement passed, and what earlier frames left in doubt was added to it.
 std::string kept_doubt(const pose_wall_value& v, const Notes& notes, std::uint32_t quantity) {
-  if (!std::isfinite(v.raw) || v.cause != POSE_WALL_PART_RIVAL) return "";
-  for (const Note& note : notes.of(POSE_WALL_TRACE_QUANTITY + quantity)) {
-    if (note.is(POSE_WALL_TRACE_PROTECTION_RAW) && note.passed() && v.raw_state != POSE_WALL_VALID) {
-      return tr("By itself this frame would be valid; the rival plane was seen in one of the last frames.");
-    }
-  }
-  return "";
+  if (!std::isfinite(v.raw) || v.cause != POSE_WALL_PART_RIVAL || v.raw_state == POSE_WALL_VALID) return "";
+  const std::vector<Note> all = notes.of(POSE_WALL_TRACE_QUANTITY + quantity);
+  const bool passed = std::any_of(all.begin(), all.end(), [](const Note& note) {
+    return note.is(POSE_WALL_TRACE_PROTECTION_RAW) && note.passed();
+  });
+  return passed ? tr("By itself this frame would be valid; the rival plane was seen in one of the last frames.") : "";
 }
 
 // The raw value with its own level, where the figures differ. Where lag is the largest part, also its cause.

@@ -56,14 +56,13 @@ const char* language_name() {
 }
 
 Language language_of(int argc, const char* const* argv) {
-  constexpr std::string_view kOption = "--language";
   for (int i = argc - 1; i > 0; --i) {
     const std::string_view word = argv[i];
-    if (word.substr(0, kOption.size()) != kOption) continue;
+    if (word.substr(0, kLanguageOption.size()) != kLanguageOption) continue;
     std::optional<Language> chosen;
-    if (word.size() > kOption.size() && word[kOption.size()] == '=') {
-      chosen = language_named(word.substr(kOption.size() + 1));
-    } else if (word.size() == kOption.size() && i + 1 < argc) {
+    if (word.size() > kLanguageOption.size() && word[kLanguageOption.size()] == '=') {
+      chosen = language_named(word.substr(kLanguageOption.size() + 1));
+    } else if (word.size() == kLanguageOption.size() && i + 1 < argc) {
       chosen = language_named(argv[i + 1]);
     }
     // A word that names none is refused later, in the language of the environment.

@@ -28,8 +28,8 @@ void choose_language(Language chosen);
 // "en" or "zh".
 const char* language_name();
 
-// By the last `--language en|zh` of the words; else by POSE_WALL_LANGUAGE, LC_ALL, LC_MESSAGES or LANG, the first that
-// is set and not empty: Chinese where it begins with "zh".
+// By the last `--language` of the words that names a language; else by POSE_WALL_LANGUAGE, LC_ALL, LC_MESSAGES or LANG,
+// the first that is set and not empty. Other languages speak English.
 Language language_of(int argc, const char* const* argv);
 
 // The text in the chosen language; the English one where the catalogue lacks it. The pointer stays valid.

@@ -13,6 +13,8 @@
 
 namespace pose_wall::tools {
 
+inline constexpr std::string_view kLanguageOption = "--language";
+
 // Of "zh", "zh_CN", "zh-CN.UTF-8", "cn", "en", "en_US.UTF-8", in small or capital letters; nothing for other words.
 std::optional<Language> language_named(std::string_view word);
 

@@ -107,7 +107,9 @@ std::string triple(const Vector3& v, int digits) {
 
 // Degrees in a key of radians are in range, too. Quarter turns are how sensors are mounted.
 void print_unit_doubts(const api::Config& config) {
-  constexpr double kTiltMost_rad = 0.8, kQuarterTurn_rad = 0.5 * M_PI, kNearQuarter_rad = 0.05;
+  constexpr double kTiltMost_rad = 0.8;  // 46 deg: no sensor is mounted askew by more. Judgement, 2026-11-26
+  constexpr double kQuarterTurn_rad = 90.0 * kRadPerDeg;
+  constexpr double kNearQuarter_rad = 0.05;  // 3 deg, as a mounting is off a quarter turn. Judgement, 2026-11-26
   for (const char* key : {"extrinsic_roll", "extrinsic_pitch", "extrinsic_yaw"}) {
     const double value = config.number(key);
     const bool is_quarter = std::fabs(std::remainder(value, kQuarterTurn_rad)) < kNearQuarter_rad;
