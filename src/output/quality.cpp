@@ -72,7 +72,7 @@ void measure_distances(const JudgedWall& wall, const Settings& s, Measurement* f
       ProtectionParts bound = wall.distance_bound_m[end];
       bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m;
       m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m), bound,
-                      wall.dof, s);
+                      wall.distance_dof[end], s);
       m.sigma = with_floor(m.sigma, wall.layer_sigma_m);
       if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
     }
@@ -113,7 +113,7 @@ Measurement yaw_by_one(const JudgedWall& wall, const FloorResult& floor, const L
   ProtectionParts bound = yaw_bound_of(wall, floor, levelling);
   bound[POSE_WALL_PART_RIVAL] += wall.yaw_to_rival_rad;
   bound[POSE_WALL_PART_RANGE_BIAS] += s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
-  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound, wall.dof_slope,
+  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound, wall.yaw_dof,
                          tilt_to_yaw(wall, levelling), floor, s);
 }
 
@@ -143,7 +143,7 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
   if (splayed) bound[POSE_WALL_PART_BEND] += larger(w[0], w[1]) * difference;
   const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
-  const double dof = 1.0 / (w[0] * w[0] / walls[0].dof_slope + w[1] * w[1] / walls[1].dof_slope);
+  const double dof = 1.0 / (w[0] * w[0] / walls[0].yaw_dof + w[1] * w[1] / walls[1].yaw_dof);
   const double tilt_share = larger(tilt_to_yaw(walls[0], levelling), tilt_to_yaw(walls[1], levelling));
   return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "base/estimation/patch_fit.hpp"
 #include "base/math/larger.hpp"
 #include "types.hpp"
 
@@ -28,12 +29,21 @@ struct FittedWall {
   ProtectionParts distance_bound_m[2];
   double layer_sigma_m = 0.0;  // how far ribs and cables may have moved the surface; part of the standard deviations
   bool extrapolated[2] = {false, false};
-  double dof = 1.0;        // independent pieces behind the distances' variance
-  double dof_slope = 1.0;  // and behind the direction's
+  double distance_dof[2] = {1.0, 1.0};  // independent pieces behind the distances' variances
+  double yaw_dof = 1.0;                 // and behind the direction's
+  // What the standard deviations follow from: see know_errors().
+  PatchErrors errors;
+  double yaw_per_slope = 1.0;           // of the standard deviations
+  Eigen::Vector3d origin_level_m = Eigen::Vector3d::Zero(), u_level = Eigen::Vector3d::UnitX();  // of the fit
+  Eigen::Vector3d at_sample[2];         // of the plane's errors: 1, u, v
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double area_m2 = 0.0;
   bool grooved = false;  // its surface lies in two depths along its length, like pipes one above the other
+
+  // Sets the standard deviations and their degrees of freedom, and the pivot, by the waves that this wall shows and by
+  // those of other rock.
+  void know_errors(const WaveEvidence& elsewhere);
 };
 
 // One argument against a wall. It widens the protection levels, or refuses the wall.

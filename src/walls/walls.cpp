@@ -39,6 +39,13 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   return wall;
 }
 
+// What one wall shows of the rock holds for the other as well.
+void share_waves(JudgedWall (*walls)[2]) {
+  if ((*walls)[0].fit.refused || (*walls)[1].fit.refused) return;
+  const WaveEvidence of[2] = {(*walls)[0].errors.layer[0].evidence, (*walls)[1].errors.layer[0].evidence};
+  for (int side = 0; side < 2; ++side) (*walls)[side].know_errors(of[1 - side]);
+}
+
 // A plane that was not weighed may be the better wall, and one wall may doubt what the other shows of the road. So if
 // the work ran out before the end, neither wall is finished.
 void refuse_unfinished(const Work& work, JudgedWall (*walls)[2]) {
@@ -78,6 +85,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.add(choice.verdict[side]);
   }
+  share_waves(&out.side);
   refuse_unfinished(work, &out.side);
   doubt_those_alone(s, choice, beside, &out.side);
   doubt_short_ones_apart(s, choice, &out.side);

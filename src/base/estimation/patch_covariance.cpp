@@ -87,9 +87,16 @@ struct Products {
 
 }  // namespace
 
-double PatchFit::variance_at(double u_m, double v_m) const {
-  const Eigen::Vector3d a(1.0, u_m, v_m);
-  return a.dot(covariance * a);
+Spread PatchErrors::spread_of(const Eigen::Vector3d& at) const {
+  Spread sum = layer[0].spread_of(at);
+  for (std::uint32_t k = 1; k < layers; ++k) sum = sum_of(sum, layer[k].spread_of(at));
+  return sum;
+}
+
+Eigen::Matrix3d PatchErrors::covariance() const {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::uint32_t k = 0; k < layers; ++k) sum += layer[k].mean_covariance();
+  return sum;
 }
 
 double PatchFit::bend_at(double u, double v) const {
@@ -191,21 +198,13 @@ bool PatchGrid::measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, 
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();
   for (const Mean& p : means_.first(n)) bias += p.information * p.b_centred * p.a;
   out->bias_response = inverse * bias;
-  out->covariance.setZero();
-  double slope_variance = 0.0, per_dof = 0.0;
+  out->errors.layers = layers_;
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
     const std::uint32_t count = collect_blocks(layer, inverse);
-    const LinearErrors errors = uneven_.errors_of(blocks_.first(count), responses_.first(count));
+    out->errors.layer[layer] = uneven_.errors_of(blocks_.first(count), responses_.first(count));
     out->work += count * steps::kPatchWaved;
-    if (!errors.solved) return false;
-    out->covariance += errors.covariance;
-    if (layer == 0) out->dof = errors.dof_offset;
-    // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
-    const double variance = errors.covariance(1, 1);
-    slope_variance += variance;
-    per_dof += variance * variance / errors.dof_slopes;
+    if (!out->errors.layer[layer].solved()) return false;
   }
-  out->dof_slope = slope_variance * slope_variance / per_dof;
   return true;
 }
 

@@ -24,17 +24,27 @@
 
 namespace pose_wall {
 
+// How a plane errs. Its patches may come in two layers, each with its own waves.
+struct PatchErrors {
+  static constexpr std::uint32_t kLayersMax = 2;
+
+  LinearErrors layer[kLayersMax];
+  std::uint32_t layers = 0;
+
+  // Of at.dot(errors of offset, slope along u, slope along v).
+  Spread spread_of(const Eigen::Vector3d& at) const;
+  Eigen::Matrix3d covariance() const;
+};
+
 struct PatchFit {
   bool solved = false;
   Eigen::Vector3d correction = Eigen::Vector3d::Zero();      // offset m, slope along u, slope along v
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  // of the correction
+  PatchErrors errors;                                        // of the correction
   Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();   // change of the correction per metre of range bias
   double tau_m = 0.0;                                        // roughness of the surface between patches
   // From a shallow angle the bumps of rough rock are seen and its hollows are not: the surface seen lies about this
   // much before the rock's mean.
   double visibility_m = 0.0;
-  double dof = 0.0;        // the variance of the offset is known as well as from so many pieces
-  double dof_slope = 0.0;  // and that of the slope along u, by both layers
   std::uint32_t patches = 0;
   std::uint64_t work = 0;
   bool bends = false;  // a quadratic surface fits significantly better
@@ -44,8 +54,6 @@ struct PatchFit {
   // Quadratic minus plane, as coefficients of 1, u, v, uu, uv, vv. Zero unless bends.
   Eigen::Matrix<double, 6, 1> bend = Eigen::Matrix<double, 6, 1>::Zero();
 
-  // Variance of the corrected plane's height at (u, v).
-  double variance_at(double u_m, double v_m) const;
   // How far the surface leaves the plane there, by the quadratic.
   double bend_at(double u_m, double v_m) const;
   double bend_slope_u_at(double u_m, double v_m) const;
@@ -60,7 +68,7 @@ class PatchGrid {
   static constexpr double kPatch_m = 0.5;
   // Of all layers: 64 m by 3 m in half metres, twice; an extent beyond gets larger patches. 4096 at first, 2026-11-21.
   static constexpr std::uint32_t kCapacity = 1536;
-  static constexpr std::uint32_t kLayersMax = 2;   // the surface, and the fronts of strips
+  static constexpr std::uint32_t kLayersMax = PatchErrors::kLayersMax;  // the surface, and the fronts of strips
   static constexpr std::uint32_t kPatchesMin = 8;  // of the surface: more than the six terms of a quadratic
   // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: the test for bends
   // allows for longer correlation, and a longer reach costs pairs.

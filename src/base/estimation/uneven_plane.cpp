@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "base/estimation/protection.hpp"
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 
@@ -25,10 +24,7 @@ constexpr std::uint32_t kLengthsOfErrors = 3;
 constexpr double kOwnShares[] = {0.05, 0.4};
 // An exactly flat surface has nothing left to scale by: a thousandth of the expected errors is kept.
 constexpr double kScaleLeast = 1e-6;
-constexpr double kTailAt = 5.0;        // standard deviations of the level
-constexpr int kTailSteps = 24;         // halvings: a bound to a millionth
-constexpr float kNowhere_m = 1e6F;     // beyond every correlation
-constexpr int kModelsMax = 1 + 4 * 2;  // no waves, or a length and a share
+constexpr float kNowhere_m = 1e6F;  // beyond every correlation
 // Factors of a determinant whose logarithm is taken at once: variances in m², not below 1e-12, so that their product
 // lies within a double's 1e-308 to 1e308.
 constexpr std::uint32_t kLogEvery = 4;  // rows of four
@@ -45,16 +41,6 @@ double unevenness(Span<const SurfacePatch> patches) {
   return excess > 0.0 ? excess / information : 0.0;
 }
 
-double slopes_variance(const Eigen::Matrix3d& covariance) {
-  return covariance(1, 1) + covariance(2, 2);
-}
-
-// Share of a normal distribution beyond so many standard deviations, on both sides; to 4 % from 4 on.
-double beyond(double sigmas) {
-  constexpr double kRootOf2ByPi = 0.79788456080286536;  // of the normal density
-  return sigmas > 1.0 ? kRootOf2ByPi / sigmas * exponential(-0.5 * sigmas * sigmas) : 1.0;
-}
-
 }  // namespace
 
 struct UnevenPlane::Model {
@@ -62,79 +48,38 @@ struct UnevenPlane::Model {
   Eigen::Matrix3d covariance;
   double log_likelihood;
   double scale;  // of the variances
-  double weight;
 };
 
+// By the number of the model: without waves, then wave by wave.
 struct UnevenPlane::Models {
-  Model of[kModelsMax];
-  int count = 0;
+  WaveEvidence evidence;
+  Model of[kWaveModels];
 
-  // By likelihood, together 1.
-  void weigh();
-  // Degrees of freedom with which Student's t has the mixture's tail. variance_of(model): of a quantity.
-  template <typename VarianceOf>
-  double freedom_of(double freedom, const VarianceOf& variance_of) const;
+  void count(std::uint32_t number) {
+    evidence.exists = evidence.solved[number] = true;
+    evidence.log_likelihood[number] = static_cast<float>(of[number].log_likelihood);
+  }
   UnevenFit average(double freedom) const;
-  LinearErrors average_errors(double freedom) const;
 };
-
-void UnevenPlane::Models::weigh() {
-  double best = of[0].log_likelihood, sum = 0.0;
-  for (int k = 1; k < count; ++k) best = of[k].log_likelihood > best ? of[k].log_likelihood : best;
-  for (int k = 0; k < count; ++k) {
-    const double below = of[k].log_likelihood - best;
-    of[k].weight = below > -50.0 ? exponential(below) : 0.0;
-    sum += of[k].weight;
-  }
-  for (int k = 0; k < count; ++k) of[k].weight /= sum;
-}
-
-template <typename VarianceOf>
-double UnevenPlane::Models::freedom_of(double freedom, const VarianceOf& variance_of) const {
-  double mean = 0.0;
-  for (int k = 0; k < count; ++k) mean += of[k].weight * variance_of(of[k]);
-  double sigma[kModelsMax] = {}, low = 1e9, high = 0.0;
-  const double of_scale = protection_factor(kTailAt, freedom) / kTailAt;
-  for (int k = 0; k < count; ++k) {
-    sigma[k] = of_scale * std::sqrt(variance_of(of[k]) / mean);
-    low = sigma[k] < low ? sigma[k] : low;
-    high = sigma[k] > high ? sigma[k] : high;
-  }
-  low *= kTailAt;
-  high *= kTailAt;
-  const double risk = beyond(kTailAt);
-  for (int step = 0; step < kTailSteps; ++step) {
-    const double middle = 0.5 * (low + high);
-    double share = 0.0;
-    for (int k = 0; k < count; ++k) share += of[k].weight * beyond(middle / sigma[k]);
-    (share > risk ? low : high) = middle;
-  }
-  const double more = high / kTailAt - 1.0, least = (kTailAt * kTailAt + 1.0) / (4.0 * freedom);
-  return (kTailAt * kTailAt + 1.0) / (4.0 * (more > least ? more : least));
-}
 
 UnevenFit UnevenPlane::Models::average(double freedom) const {
   UnevenFit out;
-  for (int k = 0; k < count; ++k) {
-    out.correction += of[k].weight * of[k].correction;
-    out.bias_response += of[k].weight * of[k].bias_response;
-    out.covariance += of[k].weight * of[k].covariance;
+  double weights[kWaveModels], slopes[kWaveModels] = {};
+  out.solved = weigh_models(evidence, WaveEvidence{}, &weights);
+  if (!out.solved) return out;
+  for (std::uint32_t k = 0; k < kWaveModels; ++k) {
+    if (!evidence.solved[k]) continue;
+    out.correction += weights[k] * of[k].correction;
+    out.bias_response += weights[k] * of[k].bias_response;
+    out.covariance += weights[k] * of[k].covariance;
+    slopes[k] = of[k].covariance(1, 1) + of[k].covariance(2, 2);
   }
-  for (int k = 0; k < count; ++k) {
+  for (std::uint32_t k = 0; k < kWaveModels; ++k) {
+    if (!evidence.solved[k]) continue;
     const Eigen::Vector3d apart = of[k].correction - out.correction;
-    out.covariance += of[k].weight * apart * apart.transpose();
+    out.covariance += weights[k] * apart * apart.transpose();
   }
-  out.dof = freedom_of(freedom, [](const Model& model) { return slopes_variance(model.covariance); });
-  out.solved = true;
-  return out;
-}
-
-LinearErrors UnevenPlane::Models::average_errors(double freedom) const {
-  LinearErrors out;
-  for (int k = 0; k < count; ++k) out.covariance += of[k].weight * of[k].covariance;
-  out.dof_offset = freedom_of(freedom, [](const Model& model) { return model.covariance(0, 0); });
-  out.dof_slopes = freedom_of(freedom, [](const Model& model) { return slopes_variance(model.covariance); });
-  out.solved = true;
+  out.dof = spread_of_mixture(weights, slopes, freedom).dof;
   return out;
 }
 
@@ -292,9 +237,9 @@ void UnevenPlane::consider_independent(Span<const SurfacePatch> patches, Span<co
     }
     sums.add(own.of, own.noise + static_cast<float>(tau2), own.counts);
   }
-  Model& model = models->of[models->count];
+  Model& model = models->of[0];
   if (!sums.solve(static_cast<double>(patches.size()), &model)) return;
-  ++models->count;
+  models->count(0);
   if (responses.size() == 0) return;
   model.covariance.setZero();
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -357,9 +302,9 @@ void UnevenPlane::consider_waves(Span<const SurfacePatch> patches, Span<const Ei
     }
   }
   for (std::uint32_t wave = 0; wave < lengths * kShares; ++wave) {
-    Model& model = models->of[models->count];
+    Model& model = models->of[1 + wave];
     if (!sums[wave].solve(static_cast<double>(patches.size()), &model)) continue;
-    ++models->count;
+    models->count(1 + wave);
     if (responses.size() > 0) model.covariance = model.scale * passed_on(wave, responses);
   }
 }
@@ -385,8 +330,7 @@ Eigen::Matrix3d UnevenPlane::passed_on(std::uint32_t wave, Span<const Eigen::Vec
   return out;
 }
 
-UnevenPlane::Models UnevenPlane::weighed_models(Span<const SurfacePatch> patches,
-                                                Span<const Eigen::Vector3d> responses) {
+UnevenPlane::Models UnevenPlane::models_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses) {
   Models models;
   if (patches.size() < kPatchesMin) return models;
   const double tau2 = unevenness(patches);
@@ -402,18 +346,22 @@ UnevenPlane::Models UnevenPlane::weighed_models(Span<const SurfacePatch> patches
     find_neighbours(patches.size());
     consider_waves(patches, responses, tau2, &models);
   }
-  if (models.count > 0) models.weigh();
   return models;
 }
 
 UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
-  const Models models = weighed_models(patches, {});
-  return models.count > 0 ? models.average(static_cast<double>(patches.size()) - 3.0) : UnevenFit{};
+  return models_of(patches, {}).average(static_cast<double>(patches.size()) - 3.0);
 }
 
 LinearErrors UnevenPlane::errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses) {
-  const Models models = weighed_models(patches, responses);
-  return models.count > 0 ? models.average_errors(static_cast<double>(patches.size()) - 3.0) : LinearErrors{};
+  const Models models = models_of(patches, responses);
+  LinearErrors out;
+  out.freedom = static_cast<double>(patches.size()) - 3.0;
+  for (std::uint32_t k = 0; k < kWaveModels; ++k) {
+    if (models.evidence.solved[k]) out.set(k, models.of[k].log_likelihood, models.of[k].covariance);
+  }
+  out.weigh(WaveEvidence{});
+  return out;
 }
 
 }  // namespace pose_wall

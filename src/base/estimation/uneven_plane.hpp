@@ -6,8 +6,7 @@
 // A plane takes much of a long wave into itself, so the residuals look smoother and less correlated than the surface
 // is. Their likelihood, given that a plane was taken out, allows for that (REML: Patterson and Thompson 1971). The
 // surface is a plane, a Gaussian process with Matern's correlation of smoothness 3/2, a part of each patch's own, and
-// the noise of its points. Length and share of the wave are not chosen but averaged over, weighted by likelihood
-// (Handcock and Stein 1993). Each patch is predicted from its nearest neighbours instead of from all (Vecchia 1988;
+// the noise of its points. The models differ in the waves' length and share (wave_models.hpp). Each patch is predicted from its nearest neighbours instead of from all (Vecchia 1988;
 // Datta et al. 2016), so that the work grows with the number of patches and not with its cube. Waves longer than the
 // greatest length are the surface's own slope.
 
@@ -18,6 +17,7 @@
 
 #include "base/containers/arena.hpp"
 #include "base/estimation/surface_patches.hpp"
+#include "base/estimation/wave_models.hpp"
 #include "base/simd/four_floats.hpp"
 
 namespace pose_wall {
@@ -30,19 +30,13 @@ struct UnevenFit {
   double dof = 0.0;  // the variance is known as well as from so many independent pieces
 };
 
-// How an estimator errs that is linear in the patches' residuals, on the surface that the patches show.
-struct LinearErrors {
-  bool solved = false;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of offset and slopes
-  double dof_offset = 0.0, dof_slopes = 0.0;             // the variance is known as well as from so many pieces
-};
-
 class UnevenPlane {
  public:
   void lay_out(Arena& arena);
   // The plane that the waves allow best.
   UnevenFit fit(Span<const SurfacePatch> patches);
-  // responses: of an estimator's offset and slopes to each patch's residual.
+  // How an estimator errs that is linear in the patches' residuals, on the surface that they show. responses: of its
+  // offset and slopes to each residual.
   LinearErrors errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
 
  private:
@@ -53,6 +47,7 @@ class UnevenPlane {
   static constexpr std::uint32_t kLookBack = 64;
   static constexpr std::uint32_t kLengths = 4, kShares = 2;    // the models' lengths and shares of the waves
   static constexpr std::uint32_t kWaves = kLengths * kShares;  // models with waves: each length with each share
+  static_assert(kWaveModels == 1 + kWaves, "these, and none");
   static constexpr std::uint32_t kFours = SurfacePatches::kMost / kFour;  // all patches, four at a time
   static_assert(SurfacePatches::kMost % kFour == 0, "the last four are whole");
   static constexpr int kColumns = 5;              // of each patch: 1, u, v, residual, bias
@@ -77,7 +72,7 @@ class UnevenPlane {
 
   void find_neighbours(std::uint32_t patches);
   Neighbourhood neighbourhood(std::uint32_t first, std::uint32_t patches) const;
-  Models weighed_models(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
+  Models models_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
   void consider_independent(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
                             Models* models) const;
   void consider_waves(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,

@@ -49,10 +49,11 @@ void fill_strips(const WallPoints& points, StripProfile* strips) {
 bool agree(const WallSurface& a, const WallSurface& b) {
   const Eigen::Vector3d difference = a.over().as_correction() - b.over().as_correction();
   for (int k = 1; k < 3; ++k) {
-    const double of_a = a.patch.covariance(k, k), of_b = b.patch.covariance(k, k);
-    const double variance = of_a > of_b ? of_a : of_b, apart = difference[k];
-    const double factor = protection_factor(kAgreeInSigmas, a.patch.dof_slope);
-    if (!(apart * apart <= factor * factor * variance)) return false;
+    const Spread of_a = a.patch.errors.spread_of(Eigen::Vector3d::Unit(k));
+    const Spread of_b = b.patch.errors.spread_of(Eigen::Vector3d::Unit(k));
+    const Spread& wider = of_a.variance > of_b.variance ? of_a : of_b;
+    const double factor = protection_factor(kAgreeInSigmas, wider.dof), apart = difference[k];
+    if (!(apart * apart <= factor * factor * wider.variance)) return false;
   }
   return true;
 }

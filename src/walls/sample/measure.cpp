@@ -45,9 +45,8 @@ void set_yaw(const WallScene& scene, const WallSurface& surface, FittedWall* out
   const double sign = turned.dot(f.u) > 0.0 ? 1.0 : -1.0;
   out->yaw_rad = yaw_of(out->along_level, scene.forward_level);
   const double upright = std::sqrt(turned.squaredNorm());  // a leaning plane turns more about the vertical
-  out->yaw_sigma_rad = std::sqrt(patch.covariance(1, 1)) / upright;
   const bool rock = patch.tau_m >= kRockFrom_m;
-  out->yaw_sigma_rad *= surface.strips != nullptr ? kStripsStretch : (rock ? kRockStretch : 1.0);
+  out->yaw_per_slope = (surface.strips != nullptr ? kStripsStretch : (rock ? kRockStretch : 1.0)) / upright;
   out->yaw_bias_rad_per_m = -sign * patch.bias_response[1] / upright;
   const double bend_rad = std::fabs(patch.bend_slope_u_at(0.0, 0.0));
   out->yaw_bound_rad[POSE_WALL_PART_BEND] = bend_rad;
@@ -105,7 +104,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double u = f.u.dot(sample - f.origin), v = f.v.dot(sample - f.origin);
     const double bias = patch.bias_response[0] + patch.bias_response[1] * u + patch.bias_response[2] * v;
     out->distance_m[end] = distance_at(out->fit.plane, sample);
-    out->distance_sigma_m[end] = std::sqrt(patch.variance_at(u, v));
+    out->at_sample[end] = {1.0, u, v};
     const double bend = std::fabs(patch.bend_at(u, v));
     demand<gate::SAMPLE_BEND>(&out->fit, bend, s);
     POSE_WALL_NOTE(const trace::About about(quantity_subject(side, end)));
@@ -131,6 +130,20 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
 
 }  // namespace
 
+void FittedWall::know_errors(const WaveEvidence& elsewhere) {
+  errors.layer[0].weigh(elsewhere);
+  const Spread slope = errors.spread_of(Eigen::Vector3d::UnitY());
+  yaw_sigma_rad = yaw_per_slope * std::sqrt(slope.variance);
+  yaw_dof = slope.dof;
+  for (int end = 0; end < 2; ++end) {
+    const Spread at = errors.spread_of(at_sample[end]);
+    distance_sigma_m[end] = std::sqrt(at.variance);
+    distance_dof[end] = at.dof;
+  }
+  // The place where offset and slope are uncorrelated.
+  pivot_level_m = origin_level_m - u_level * (errors.covariance()(0, 1) / slope.variance);
+}
+
 FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid) {
   FittedWall out;
   const PatchFit& patch = surface.patch;
@@ -140,14 +153,14 @@ FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.fit.plane = surface.plane();
   out.along_level = along_of(out.fit.plane, scene.forward_level);
   out.lean_rad = lean_of(out.fit.plane);
-  out.dof = patch.dof;
-  out.dof_slope = patch.dof_slope;
   out.layer_sigma_m = surface.layer_sigma_m;
   count_inliers(surface, scene.settings.wall_ransac_thresh, &out.fit);
   set_yaw(scene, surface, &out);
-  // The place where offset and slope are uncorrelated.
-  out.pivot_level_m = surface.frame().origin - surface.frame().u * (patch.covariance(0, 1) / patch.covariance(1, 1));
+  out.origin_level_m = surface.frame().origin;
+  out.u_level = surface.frame().u;
   set_distances(scene, surface, side, grid, &out);
+  out.errors = patch.errors;
+  out.know_errors(WaveEvidence{});
   return out;
 }
 
