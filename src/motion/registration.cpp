@@ -364,6 +364,25 @@ std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts
   return known;
 }
 
+namespace {
+
+// Cosine to the machine's up: a road as steep as 45 degrees is none. A sensor that sees little floor and roof knows
+// least which way is up.
+constexpr double kUpright = 0.7;
+
+// By inverse iteration: the smallest eigenvalue is far below the others on a road, and any axis does in a hall.
+bool least_known(const Eigen::Matrix3d& N, Eigen::Vector3d* axis) {
+  const SmallCholesky<3> factor(N);
+  if (!factor.solved()) return false;
+  for (int k = 0; k < 8; ++k) {
+    *axis = factor.solve(*axis);
+    *axis /= std::sqrt(axis->squaredNorm());
+  }
+  return true;
+}
+
+}  // namespace
+
 void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* a) {
   const LocalPose local(a->pose, scan.map->corner());
   Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
@@ -377,14 +396,14 @@ void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* 
   }
   const double all = N.trace();
   if (!(all > 10.0)) return;
-  // Inverse iteration: the smallest eigenvalue is far below the others on a road, and any axis does in a hall.
   N.diagonal().array() += 1e-6 * all;
-  const SmallCholesky<3> factor(N);
-  if (!factor.solved()) return;
+  const Eigen::Vector3d up = a->pose.R.col(2);
   Eigen::Vector3d axis = a->axes.along;
-  for (int k = 0; k < 8; ++k) {
-    axis = factor.solve(axis);
-    axis /= std::sqrt(axis.squaredNorm());
+  if (!least_known(N, &axis)) return;
+  if (std::fabs(axis.dot(up)) > kUpright) {
+    N += all * up * up.transpose();
+    axis = forward_map;
+    if (!least_known(N, &axis)) return;
   }
   if (axis.dot(forward_map) < 0.0) axis = -axis;
   const double least = axis.dot(N * axis);

@@ -31,8 +31,8 @@ struct Seen {
 };
 
 std::vector<Seen> seen_in(const std::string& scene, std::uint32_t frames, std::initializer_list<const char*> parameters,
-                          const char* motion) {
-  sim::Setup setup = sim::make_setup(scene, "os1-64", false, 5);
+                          const char* motion, const char* sensor = "os1-64") {
+  sim::Setup setup = sim::make_setup(scene, sensor, false, 5);
   for (const char* parameter : parameters) sim::set_parameter(setup, parameter);
   const Simulator simulator(setup, 5);
   const LoadedConfig loaded = campaign::config_for(simulator.setup(), {"", {std::string("motion=") + motion}});
@@ -103,6 +103,13 @@ TEST(EngineWithMotion, ABentCloudIsMeasuredAsAStraightOne) {
   }
   EXPECT_LT(error, 0.0026);
   EXPECT_GT(error_alone, 0.005) << "half of the turn in a scan";
+}
+
+// Sixteen rings see little floor and roof, and know least which way is up. The road's axis does not stand upright.
+TEST(EngineWithMotion, AnOdometryOfFewRingsIsUsed) {
+  for (const Seen& seen : seen_in("nominal", 20, {}, "on", "vlp16")) {
+    EXPECT_EQ(seen.result.frame_reasons & POSE_WALL_R_PRIOR, 0U);
+  }
 }
 
 }  // namespace
