@@ -76,15 +76,13 @@ double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen:
   return offset_m >= 0.0 ? offset_m : kGate_m;
 }
 
-// True if the wall may leave its plane at this height: where it was cut off, where it bends more than it scatters, and
-// where the plane is prolonged above the band.
-bool may_leave_plane(const WallScene& scene, const WallSurface& surface, double z_level_m) {
-  constexpr double kMayBendInSigmas = 2.0;  // judgement, 2026-11-23: suspected; kCurvatureInSigmas, which cuts, is sure
+// True if the wall may leave its plane at this height in ways that its roughness does not cover: where it was cut off,
+// where the plane is prolonged above the band, and where the surface is seen further off than patches of rock scatter.
+bool leaves_plane(const WallScene& scene, const WallSurface& surface, double z_level_m, double offset_m) {
+  constexpr double kPerRoughness = 3.0;  // standard deviations of one patch; the offset is a mean of many
   const Heights& heights = surface.heights;
-  const PatchFit& patch = surface.patch;
   return heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m ||
-         z_level_m > scene.z_max_level_m || !(patch.curvature_v_sigma > 0.0) ||  // not known
-         !(std::fabs(patch.curvature_v) <= kMayBendInSigmas * patch.curvature_v_sigma);
+         z_level_m > scene.z_max_level_m || offset_m > kPerRoughness * surface.patch.tau_m;
 }
 
 #ifdef POSE_WALL_TRACE
@@ -108,8 +106,11 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double bend = std::fabs(patch.bend_at(u, v));
     demand<gate::SAMPLE_BEND>(&out->fit, bend, s);
     POSE_WALL_NOTE(const trace::About about(quantity_subject(side, end)));
-    const bool leaves_plane = sample.z() >= scene.z_min_level_m && may_leave_plane(scene, surface, sample.z());
-    const double offset_m = leaves_plane ? offset_at_height(scene, out->fit.plane, out->along_level, sample.z()) : 0.0;
+    double offset_m = 0.0;
+    if (sample.z() >= scene.z_min_level_m) {
+      offset_m = offset_at_height(scene, out->fit.plane, out->along_level, sample.z());
+      if (!leaves_plane(scene, surface, sample.z(), offset_m)) offset_m = 0.0;
+    }
     const double along_m = out->along_level.dot(sample);
     const AtSample seen = look_at_sample(scene, surface, grid, *out, sample);
     const double gap_m = grid.gap_to_solid_m(along_m);

@@ -48,8 +48,8 @@ struct Spread {
   void add(const PatchFit& f) {
     for (int k = 0; k < 3; ++k) {
       squares[k] += f.correction[k] * f.correction[k] / kRuns;
-      claimed[k] += f.covariance(k, k) / kRuns;
-      z2[k] += f.correction[k] * f.correction[k] / f.covariance(k, k) / kRuns;
+      claimed[k] += f.errors.covariance()(k, k) / kRuns;
+      z2[k] += f.correction[k] * f.correction[k] / f.errors.covariance()(k, k) / kRuns;
     }
   }
 };
@@ -114,7 +114,7 @@ TEST(PatchFit, FarFromTheOriginTheErrorsAreTheSame) {
       ASSERT_TRUE(fits[far].solved);
     }
     for (const double u : {0.0, 4.0, 8.0}) {
-      const double near = fits[0].variance_at(u, 1.0), far = fits[1].variance_at(24.0 + u, 1.0);
+      const double near = fits[0].errors.spread_of({1.0, u, 1.0}).variance, far = fits[1].errors.spread_of({1.0, 24.0 + u, 1.0}).variance;
       EXPECT_NEAR(far / near, 1.0, 1e-3) << layers << " layers, u " << u;
     }
     EXPECT_NEAR(fits[1].curvature_v_sigma / fits[0].curvature_v_sigma, 1.0, 2e-2) << layers << " layers";
@@ -129,11 +129,12 @@ TEST(PatchFit, GivesBackAnOffsetAndSlopes) {
       fit(grid.get(), 0.005, 0.05, &noise, [](double u, double v) { return 0.01 + 0.003 * u - 0.004 * v; });
   ASSERT_TRUE(f.solved);
   const double expected[3] = {0.01, 0.003, -0.004};
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(f.correction[k], expected[k], 5.0 * std::sqrt(f.covariance(k, k)));
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(f.correction[k], expected[k], 5.0 * std::sqrt(f.errors.covariance()(k, k)));
   // The variance at a place is that of a + b u + c v.
   const Eigen::Vector3d a(1.0, 2.0, 0.5);
-  EXPECT_DOUBLE_EQ(f.variance_at(2.0, 0.5), a.dot(f.covariance * a));
-  EXPECT_GT(f.variance_at(20.0, 0.5), f.variance_at(2.0, 0.5));
+  const double variance = a.dot(f.errors.covariance() * a);
+  EXPECT_NEAR(f.errors.spread_of(a).variance, variance, 1e-9 * variance);
+  EXPECT_GT(f.errors.spread_of({1.0, 20.0, 0.5}).variance, variance);
 }
 
 TEST(PatchFit, ABiasMovesTheFitAsTheResponseSays) {
@@ -165,8 +166,8 @@ TEST(PatchFit, TheLevelOfABentWallReachesItsSurface) {
     ASSERT_TRUE(f.solved);
     for (const double u : {-3.0, 0.0, 2.0, 3.0}) {
       const double plane = f.correction[0] + f.correction[1] * u + f.correction[2];
-      const double level =
-          protection_factor(5.0, f.dof) * std::sqrt(f.variance_at(u, 1.0)) + std::fabs(f.bend_at(u, 1.0));
+      const pose_wall::Spread at = f.errors.spread_of({1.0, u, 1.0});
+      const double level = protection_factor(5.0, at.dof) * std::sqrt(at.variance) + std::fabs(f.bend_at(u, 1.0));
       EXPECT_LE(std::fabs(plane - bend * u * u), level) << bend << " at " << u;
     }
   }
@@ -301,11 +302,11 @@ TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
     }
     fits[k] = grid->fit();
     ASSERT_TRUE(fits[k].solved);
-    EXPECT_NEAR(fits[k].correction[0], 0.01, 5.0 * std::sqrt(fits[k].covariance(0, 0)));
-    EXPECT_NEAR(fits[k].correction[1], 0.002, 5.0 * std::sqrt(fits[k].covariance(1, 1)));
+    EXPECT_NEAR(fits[k].correction[0], 0.01, 5.0 * std::sqrt(fits[k].errors.covariance()(0, 0)));
+    EXPECT_NEAR(fits[k].correction[1], 0.002, 5.0 * std::sqrt(fits[k].errors.covariance()(1, 1)));
   }
-  EXPECT_LT(fits[1].covariance(1, 1), 0.2 * fits[0].covariance(1, 1)) << "five times as long a base";
-  EXPECT_GT(fits[1].covariance(0, 0), 0.3 * fits[0].covariance(0, 0)) << "the offset rests on the surface alone";
+  EXPECT_LT(fits[1].errors.covariance()(1, 1), 0.2 * fits[0].errors.covariance()(1, 1)) << "five times as long a base";
+  EXPECT_GT(fits[1].errors.covariance()(0, 0), 0.3 * fits[0].errors.covariance()(0, 0)) << "the offset rests on the surface alone";
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(fits[1].correction[k], fits[2].correction[k], 1e-6) << "whatever the step: parameter " << k;
   }
@@ -347,14 +348,15 @@ TEST(PatchFit, SumsOfPatchesAreThoseOfTheirPoints) {
   EXPECT_EQ(a.patches, b.patches);
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(a.correction[k], b.correction[k], 1e-6);
-    EXPECT_NEAR(a.covariance(k, k), b.covariance(k, k), 1e-3 * a.covariance(k, k));
+    EXPECT_NEAR(a.errors.covariance()(k, k), b.errors.covariance()(k, k), 1e-3 * a.errors.covariance()(k, k));
   }
   EXPECT_NEAR(a.visibility_m, b.visibility_m, 1e-5);
   const PatchFit without_bends = one->fit(PatchGrid::Errors::kCovariance);
   EXPECT_EQ(without_bends.correction, a.correction);
-  EXPECT_EQ(without_bends.covariance, a.covariance);
+  EXPECT_EQ(without_bends.errors.covariance(), a.errors.covariance());
   EXPECT_EQ(without_bends.bias_response, a.bias_response);
-  EXPECT_EQ(without_bends.dof_slope, a.dof_slope);
+  EXPECT_EQ(without_bends.errors.spread_of(Eigen::Vector3d::UnitY()).dof,
+            a.errors.spread_of(Eigen::Vector3d::UnitY()).dof);
 }
 
 TEST(PatchFit, EveryPlaceHasAPatch) {

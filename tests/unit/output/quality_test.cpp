@@ -31,8 +31,8 @@ JudgedWall good_wall(double yaw = 0.02, double sigma = 0.001) {
   w.fit.found = true;
   w.yaw_rad = yaw;
   w.yaw_sigma_rad = sigma;
-  w.dof = 40.0;
-  w.dof_slope = 40.0;
+  w.distance_dof[0] = w.distance_dof[1] = 40.0;
+  w.yaw_dof = 40.0;
   w.distance_m[0] = 2.4;
   w.distance_m[1] = 2.6;
   w.distance_sigma_m[0] = 0.004;
@@ -141,7 +141,7 @@ TEST(Quality, WallsFurtherApartAreNeverKnownBetter) {
       for (double apart = 0.0; apart < 0.03; apart += 0.0001) {
         Scene scene;
         scene.walls[1] = good_wall(scene.walls[0].yaw_rad + apart, second_sigma);
-        for (JudgedWall& wall : scene.walls) wall.dof_slope = dof;
+        for (JudgedWall& wall : scene.walls) wall.yaw_dof = dof;
         const Measurement yaw = scene.measured().quantity[POSE_WALL_YAW];
         EXPECT_GE(yaw.protection.sum(), last.protection.sum()) << apart << " " << second_sigma << " " << dof;
         EXPECT_GE(yaw.sigma, last.sigma) << apart << " " << second_sigma << " " << dof;
@@ -208,8 +208,8 @@ TEST(Quality, BoundsAddToTheLevel) {
 
 TEST(Quality, FewPatchesWidenTheLevel) {
   Scene many, few;
-  few.walls[0].dof = 3.0;
-  few.walls[0].dof_slope = 3.0;
+  few.walls[0].distance_dof[0] = few.walls[0].distance_dof[1] = 3.0;
+  few.walls[0].yaw_dof = 3.0;
   EXPECT_GT(few.measured().quantity[POSE_WALL_D_LF].protection.sum(),
             1.5 * many.measured().quantity[POSE_WALL_D_LF].protection.sum());
 }
