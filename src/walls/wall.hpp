@@ -33,9 +33,9 @@ struct FittedWall {
   double yaw_dof = 1.0;                 // and behind the direction's
   // What the standard deviations follow from: see know_errors().
   PatchErrors errors;
-  double yaw_per_slope = 1.0;           // of the standard deviations
+  double yaw_per_slope = 1.0;  // of the standard deviations
   Eigen::Vector3d origin_level_m = Eigen::Vector3d::Zero(), u_level = Eigen::Vector3d::UnitX();  // of the fit
-  Eigen::Vector3d at_sample[2];         // of the plane's errors: 1, u, v
+  Eigen::Vector3d at_sample[2];  // of the plane's errors: 1, u, v
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double area_m2 = 0.0;

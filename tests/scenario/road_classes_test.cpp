@@ -114,7 +114,7 @@ const Class kClasses[] = {
     {"below_range_min", "os1-64", 5, 0.6, 0.5},
     {"crosscut", "os1-64", 20, 0.9, 0.5},
     {"crossing", "os1-64", 10, 0.7, 0.4},
-    {"face", "os1-64", 20, 0.95, 0.6},
+    {"face", "os1-64", 20, 0.95, 0.7},
     {"oblique_face", "os1-64", 20, 0.95, 0.6},
     {"one_wall", "os1-64", 10, 0.95, 0.8},
     {"cavern", "os1-64", 20, 0.5, 0.5},

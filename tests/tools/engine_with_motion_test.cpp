@@ -66,8 +66,10 @@ void expect_none_beyond(const std::vector<Seen>& all) {
 }
 
 TEST(EngineWithMotion, AWallThatIsSilentStaysHeldOnAMachineThatDrives) {
-  const auto with = seen_in("shotcrete", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "on");
-  const auto alone = seen_in("shotcrete", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "off");
+  const auto with =
+      seen_in("shotcrete", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "on");
+  const auto alone =
+      seen_in("shotcrete", 45, {"speed_mps=0.3", "lost_side=left", "lost_from_s=1", "lost_to_s=60"}, "off");
   expect_none_beyond(with);
   const pose_wall_value &held = with.back().result.quantity[POSE_WALL_D_LF],
                         &gone = alone.back().result.quantity[POSE_WALL_D_LF];

@@ -26,7 +26,7 @@ namespace pose_wall {
 
 // How a plane errs. Its patches may come in two layers, each with its own waves.
 struct PatchErrors {
-  static constexpr std::uint32_t kLayersMax = 2;
+  static constexpr std::uint32_t kLayersMax = 2;  // the surface, and the fronts of strips
 
   LinearErrors layer[kLayersMax];
   std::uint32_t layers = 0;
@@ -38,10 +38,10 @@ struct PatchErrors {
 
 struct PatchFit {
   bool solved = false;
-  Eigen::Vector3d correction = Eigen::Vector3d::Zero();      // offset m, slope along u, slope along v
-  PatchErrors errors;                                        // of the correction
-  Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();   // change of the correction per metre of range bias
-  double tau_m = 0.0;                                        // roughness of the surface between patches
+  Eigen::Vector3d correction = Eigen::Vector3d::Zero();     // offset m, slope along u, slope along v
+  PatchErrors errors;                                       // of the correction
+  Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();  // change of the correction per metre of range bias
+  double tau_m = 0.0;                                       // roughness of the surface between patches
   // From a shallow angle the bumps of rough rock are seen and its hollows are not: the surface seen lies about this
   // much before the rock's mean.
   double visibility_m = 0.0;

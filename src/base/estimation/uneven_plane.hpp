@@ -6,9 +6,9 @@
 // A plane takes much of a long wave into itself, so the residuals look smoother and less correlated than the surface
 // is. Their likelihood, given that a plane was taken out, allows for that (REML: Patterson and Thompson 1971). The
 // surface is a plane, a Gaussian process with Matern's correlation of smoothness 3/2, a part of each patch's own, and
-// the noise of its points. The models differ in the waves' length and share (wave_models.hpp). Each patch is predicted from its nearest neighbours instead of from all (Vecchia 1988;
-// Datta et al. 2016), so that the work grows with the number of patches and not with its cube. Waves longer than the
-// greatest length are the surface's own slope.
+// the noise of its points. The models differ in the waves' length and share (wave_models.hpp). Each patch is predicted
+// from its nearest neighbours instead of from all (Vecchia 1988; Datta et al. 2016), so that the work grows with the
+// number of patches and not with its cube. Waves longer than the greatest length are the surface's own slope.
 
 #pragma once
 

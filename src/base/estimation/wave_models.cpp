@@ -68,8 +68,7 @@ bool weigh_models(const WaveEvidence& own, const WaveEvidence& elsewhere, double
   return true;
 }
 
-Spread spread_of_mixture(const double (&weights)[kWaveModels], const double (&variances)[kWaveModels],
-                         double freedom) {
+Spread spread_of_mixture(const double (&weights)[kWaveModels], const double (&variances)[kWaveModels], double freedom) {
   Spread out;
   for (std::uint32_t k = 0; k < kWaveModels; ++k) out.variance += weights[k] * variances[k];
   double sigma[kWaveModels] = {}, low = 1e9, high = 0.0;

@@ -114,7 +114,8 @@ TEST(PatchFit, FarFromTheOriginTheErrorsAreTheSame) {
       ASSERT_TRUE(fits[far].solved);
     }
     for (const double u : {0.0, 4.0, 8.0}) {
-      const double near = fits[0].errors.spread_of({1.0, u, 1.0}).variance, far = fits[1].errors.spread_of({1.0, 24.0 + u, 1.0}).variance;
+      const double near = fits[0].errors.spread_of({1.0, u, 1.0}).variance,
+                   far = fits[1].errors.spread_of({1.0, 24.0 + u, 1.0}).variance;
       EXPECT_NEAR(far / near, 1.0, 1e-3) << layers << " layers, u " << u;
     }
     EXPECT_NEAR(fits[1].curvature_v_sigma / fits[0].curvature_v_sigma, 1.0, 2e-2) << layers << " layers";
@@ -306,7 +307,8 @@ TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
     EXPECT_NEAR(fits[k].correction[1], 0.002, 5.0 * std::sqrt(fits[k].errors.covariance()(1, 1)));
   }
   EXPECT_LT(fits[1].errors.covariance()(1, 1), 0.2 * fits[0].errors.covariance()(1, 1)) << "five times as long a base";
-  EXPECT_GT(fits[1].errors.covariance()(0, 0), 0.3 * fits[0].errors.covariance()(0, 0)) << "the offset rests on the surface alone";
+  EXPECT_GT(fits[1].errors.covariance()(0, 0), 0.3 * fits[0].errors.covariance()(0, 0))
+      << "the offset rests on the surface alone";
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(fits[1].correction[k], fits[2].correction[k], 1e-6) << "whatever the step: parameter " << k;
   }

@@ -67,8 +67,8 @@ TEST(WaveModels, TheLevelHasTheTailOfTheMixture) {
     const double weights[kWaveModels] = {1.0 - wide, wide};
     const double level = level_of(spread_of_mixture(weights, variances, 1e6));
     // Share of the two normal distributions beyond the level, by the normal distribution itself.
-    const double beyond = (1.0 - wide) * std::erfc(level / 2.0 / std::sqrt(2.0)) +
-                          wide * std::erfc(level / 10.0 / std::sqrt(2.0));
+    const double beyond =
+        (1.0 - wide) * std::erfc(level / 2.0 / std::sqrt(2.0)) + wide * std::erfc(level / 10.0 / std::sqrt(2.0));
     EXPECT_LT(beyond, 1.1 * std::erfc(5.0 / std::sqrt(2.0))) << wide;
     EXPECT_LE(level, 50.0 * 1.01) << wide;
     if (wide > 1e-6) {
