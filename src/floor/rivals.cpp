@@ -44,16 +44,19 @@ constexpr double kMargin_rad = 0.026;
 // Number of points in each eighth of a turn around the machine.
 struct Eighths {
   std::uint32_t count[8] = {}, total = 0;
+  std::uint32_t near = 0;  // within the radius in which the machine stands
 
   // At least a hundredth of all points.
   bool holds_any(std::uint32_t eighth) const { return total > 0 && count[eighth] * 100 >= total; }
+  bool reach_machine() const { return total > 0 && near * 100 >= total; }
 };
 
 // Counts points within reach of the plane and below the sensor. Prolonged, a steep plane meets the roof.
-Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m, double sensor_z_base_m) {
+Eighths eighths_of(const PointSet& points, const Plane& plane, const Settings& s, double sensor_z_base_m) {
   constexpr std::uint8_t kEighth[] = {0, 1, 7, 6, 3, 2, 4, 5};  // by signs of x and y and which of them is larger
   const FourDistances heights(plane);
-  const FourFloats reach = all_four(static_cast<float>(reach_m)), none{};
+  const FourFloats reach = all_four(static_cast<float>(s.ground_ransac_thresh)), none{};
+  const FourFloats near2 = all_four(static_cast<float>(s.ground_roi_radius * s.ground_roi_radius));
   const auto highest = static_cast<float>(sensor_z_base_m);
   Eighths out;
   for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
@@ -63,6 +66,7 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, double reach_m, d
       out.count[kEighth[static_cast<std::uint32_t>(which[lane])]] += counts[lane] != 0 ? 1 : 0;
     }
     out.total += sum_of_lanes(-counts);
+    out.near += sum_of_lanes(-(counts & (x * x + y * y <= near2)));
   });
   return out;
 }
@@ -173,13 +177,27 @@ void widen_by_claims(std::uint32_t claims, const Settings& s, FloorResult* floor
   floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.pitch_rad;
 }
 
+namespace {
+
+// Ground that is seen on one side only, and not where the machine stands, may be a ramp before or behind it. Nothing of
+// the machine's own ground is left over to show that.
+void reach_to_unseen_ground(FloorResult* floor) {
+  floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
+}
+
+}  // namespace
+
 void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratch* scratch, FloorResult* floor) {
   const Settings& s = scene.settings;
   const Eigen::Vector3d& sensor_base_m = scene.sensor_base_m;
   const PointSet &open = scratch->open_base, &left_over = scratch->within_base;
   const Plane plane = floor->fit.plane;
   scratch->work.add(open.count, steps::kPointWithin);
-  if (surround_machine(eighths_of(open, plane, s.ground_ransac_thresh, sensor_base_m.z()))) return;
+  const Eighths seen = eighths_of(open, plane, s, sensor_base_m.z());
+  if (surround_machine(seen)) return;
+  if (!seen.reach_machine()) reach_to_unseen_ground(floor);
   const double off_m = kOffInThresholds * s.ground_ransac_thresh;
   copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
   if (left_over.count < kPointsMin) return;

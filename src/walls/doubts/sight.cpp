@@ -27,6 +27,7 @@ constexpr double kUnexplainedMax = 0.05;               // judgement, 2026-11-21:
 constexpr std::uint32_t kRows = DirectionGrid::kRows;  // of the directions' grid
 constexpr double kExpectedMin = 3.0;                   // by Poisson: of three expected, none comes in 5 % by chance
 constexpr double kSilentShare = 0.25;                  // judgement, 2026-11-21: of the expected returns, without chance
+constexpr double kChanceInSigmas = 5.0;  // as a level spans, or whole walls are called open in every few frames
 constexpr double kThroughShare = 0.5;                  // most of a cell's returns are from behind
 constexpr double kGapShare = 0.2;     // judgement, 2026-11-21: a column silent or seen through over more of it is a gap
 constexpr double kBrightRank = 0.75;  // the upper quartile: half of a wall may be wet, or hidden
@@ -56,6 +57,7 @@ double chance_below(double limit, double mean) {
 struct SightTally {
   double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
   double columns = 0.0, silent_tops = 0.0, tops_through = 0.0;
+  double silent_variance = 0.0, tops_variance = 0.0;  // of what chance makes silent
 
   // sign -1: subtracts it.
   void add(const SightTally& other, double sign = 1.0);
@@ -116,6 +118,8 @@ void SightTally::add(const SightTally& other, double sign) {
   columns += sign * other.columns;
   silent_tops += sign * other.silent_tops;
   tops_through += sign * other.tops_through;
+  silent_variance += sign * other.silent_variance;
+  tops_variance += sign * other.tops_variance;
 }
 
 bool SightColumn::is_gap() const {
@@ -187,11 +191,13 @@ SightColumn SightColumns::at(std::uint32_t column, double brightness, bool with_
       top_level_m = c.z_level_m;
       out.tally.silent_tops = (silent ? 1.0 : 0.0) - by_chance;
       out.tally.tops_through = through ? 1.0 : 0.0;
+      out.tally.tops_variance = by_chance * (1.0 - by_chance);
     }
     if (!in_band(c)) continue;
     out.tally.cells += 1.0;
     out.tally.silent += silent ? 1.0 : 0.0;
     out.tally.silent_by_chance += by_chance;
+    out.tally.silent_variance += by_chance * (1.0 - by_chance);
     out.tally.through += through ? 1.0 : 0.0;
     out.along_m += c.along_m;
   }
@@ -323,6 +329,11 @@ void for_each_run(const ColumnRow& row, Visit visit) {
   visit(run);
 }
 
+// As many more cells as chance may make silent. Half of the walls have more than its mean.
+double scatter_of_chance(double variance) {
+  return variance > 0.0 ? kChanceInSigmas * std::sqrt(variance) : 0.0;
+}
+
 WallSight judge(const ColumnRow& row, const SightColumns& columns) {
   double solid_m = 0.0;
   int roads = 0;
@@ -340,15 +351,17 @@ WallSight judge(const ColumnRow& row, const SightColumns& columns) {
   if (longest_gap.cells <= kOneGapShare * all.cells) all.add(longest_gap, -1.0);
   WallSight out;
   if (!(all.cells > 0.0)) return out;
-  const double silent = all.silent / all.cells, by_chance = all.silent_by_chance / all.cells;
+  const double silent = all.silent / all.cells;
+  const double by_chance = (all.silent_by_chance + scatter_of_chance(all.silent_variance)) / all.cells;
   SightColumns::Blindness blind;  // silence elsewhere excuses only silence
   if (silent > by_chance || all.silent_tops > 0.0) blind = columns.elsewhere();
   const double elsewhere = kBlindFactor * blind.cells;
   const double unexplained = silent - (by_chance > elsewhere ? by_chance : elsewhere);
   out.silent = unexplained > 0.0 ? unexplained : 0.0;
   out.open = out.silent + all.through / all.cells;
-  const bool tops_tell = blind.tops <= kBlindTopsMax && all.silent_tops > 0.0;
-  out.topless = ((tops_tell ? all.silent_tops : 0.0) + all.tops_through) / all.columns;
+  const double silent_tops = all.silent_tops - scatter_of_chance(all.tops_variance);
+  const bool tops_tell = blind.tops <= kBlindTopsMax && silent_tops > 0.0;
+  out.topless = ((tops_tell ? silent_tops : 0.0) + all.tops_through) / all.columns;
   out.dim = silent - by_chance > kUnexplainedMax && !(out.silent > 0.0);
   return out;
 }

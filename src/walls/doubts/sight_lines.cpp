@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint32_t kRows = DirectionGrid::kRows;        // of the directions' grid
 constexpr std::uint32_t kColumns = DirectionGrid::kColumns;  // of the directions' grid
 constexpr double kExpectedRank = 0.75;  // the upper quartile: half of the directions may be dark, blocked or hidden
+constexpr double kAnswersShare = 0.5;  // of the quartile: judgement, 2026-11-26, less is dark or half hidden
 constexpr std::uint32_t kSeenMin = kColumns / 8;  // judgement, 2026-11-21: a row with fewer expects nothing
 constexpr double kEmptyShare = 0.05;              // judgement, 2026-11-21: a column with fewer returns is empty
 constexpr std::uint32_t kBlockedColumns = 5;      // judgement, 2026-11-21: 14 degrees, as a post or a cabin blocks
@@ -50,7 +51,16 @@ void ExpectedReturns::look_at(const DirectionGrid& returns_lidar) {
     if (seen < kSeenMin) continue;
     double* const rank = counts + static_cast<std::uint32_t>(kExpectedRank * seen);
     std::nth_element(counts, rank, counts + seen);
-    per_width_[row] = *rank;
+    // The mean of those that answer at all. Where returns come by chance the quartile itself is more than is expected.
+    const double answers_from = kAnswersShare * *rank;
+    double answers = 0.0, widths = 0.0;
+    for (std::uint32_t column = 0; column < kColumns; ++column) {
+      const double count = returns_lidar.count(row, column);
+      if (!(count >= answers_from * width_[column])) continue;
+      answers += count;
+      widths += width_[column];
+    }
+    per_width_[row] = answers / widths;
   }
 }
 
