@@ -206,6 +206,8 @@ void Tally::add(const Finding& finding) {
   raw_beyond += finding.raw_beyond() ? 1 : 0;
   misleading += finding.misleading() ? 1 : 0;
   if (finding.raw_state != POSE_WALL_INVALID) {
+    closest = std::max(closest, finding.raw_error_abs() / finding.raw_level);
+    z2_sum += std::pow(finding.raw_error_abs() / finding.sigma, 2.0);
     errors.push_back(finding.raw_error_abs());
     levels.push_back(finding.raw_level);
     levels_in_sigma.push_back(finding.raw_level / finding.sigma);
@@ -220,19 +222,20 @@ void add(Tallies* tallies, const Verdict& verdict) {
 }
 
 std::string table(const Tallies& tallies) {
-  std::string text =
-      format("%-6s %6s %7s %7s %6s %8s %8s %8s %8s %6s %6s %6s %6s %6s\n", "", "frames", "valid%", "degr%", "held%",
-             "err50", "err95", "level50", "lvl/sig", "bey.v", "bey.d", "bey.h", "bey.r", "misl");
+  std::string text = format("%-6s %6s %7s %7s %6s %8s %8s %8s %8s %7s %6s %6s %6s %6s %6s %6s\n", "", "frames",
+                            "valid%", "degr%", "held%", "err50", "err95", "level50", "lvl/sig", "closest", "z2",
+                            "bey.v", "bey.d", "bey.h", "bey.r", "misl");
   for (std::size_t k = 0; k < tallies.size(); ++k) {
     const Tally& tally = tallies[k];
     const int q = static_cast<int>(k);
     const double percent = 100.0 / std::max(1, tally.frames);
-    text += format("%-6s %6d %7.1f %7.1f %6.1f %8.3f %8.3f %8.3f %8.1f %6d %6d %6d %6d %6d\n",
+    text += format("%-6s %6d %7.1f %7.1f %6.1f %8.3f %8.3f %8.3f %8.1f %7.2f %6.2f %6d %6d %6d %6d %6d\n",
                    pose_wall_quantity_name(static_cast<std::uint32_t>(k)), tally.frames, percent * tally.valid,
                    percent * tally.degraded, percent * tally.held, shown(q, quantile(tally.errors, 0.5)),
                    shown(q, quantile(tally.errors, 0.95)), shown(q, quantile(tally.levels, 0.5)),
-                   quantile(tally.levels_in_sigma, 0.5), tally.beyond_valid, tally.beyond_degraded, tally.beyond_held,
-                   tally.raw_beyond, tally.misleading);
+                   quantile(tally.levels_in_sigma, 0.5), tally.closest,
+                   tally.z2_sum / std::max<double>(1.0, static_cast<double>(tally.errors.size())), tally.beyond_valid,
+                   tally.beyond_degraded, tally.beyond_held, tally.raw_beyond, tally.misleading);
   }
   return text;
 }

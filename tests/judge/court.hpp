@@ -59,6 +59,8 @@ struct Tally {
 
   int frames = 0, valid = 0, degraded = 0, held = 0;
   int beyond_valid = 0, beyond_degraded = 0, beyond_held = 0, raw_beyond = 0, misleading = 0;
+  double closest = 0.0;                                 // largest share of its level that an error took
+  double z2_sum = 0.0;                                  // of their squared errors over squared sigma
   std::vector<double> errors, levels, levels_in_sigma;  // of measured values: raw ones
   std::vector<int> reasons = std::vector<int>(32, 0);   // of values that are not valid
 };

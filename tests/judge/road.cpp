@@ -29,6 +29,8 @@ constexpr std::array<FeatureRow, kFeatures> kFeatureTable = {{{"rough_rock", 0.2
                                                               {"people", 0.15},
                                                               {"crosscut", 0.15},
                                                               {"heaps", 0.20},
+                                                              {"bench", 0.08},
+                                                              {"ramp", 0.10},
                                                               {"bend", 0.12},
                                                               {"puddles", 0.15},
                                                               {"dust", 0.12},
@@ -42,7 +44,8 @@ class Builder {
       const bool has = draw_.chance(kFeatureTable[k].probability);
       if (has && !quiet) road_.features |= 1U << k;
     }
-    if (road_.has(kArch)) road_.features &= ~(1U << kBend);  // its arch would have to bend, too
+    // The arch would have to bend, too.
+    if (road_.has(kArch)) road_.features &= ~(1U << kBend | 1U << kRamp);
     road_.width_m = draw_.uniform(3.5, 6.5);
     road_.height_m = draw_.uniform(2.5, 4.5);
     road_.free_left_m = road_.free_right_m = 0.5 * road_.width_m;
@@ -53,7 +56,8 @@ class Builder {
     face_x_m_ = draw_.uniform(5.0, 40.0);
     if (road_.has(kBend)) face_x_m_ = kAhead_m;
     if (road_.has(kCrosscut)) gap();
-    road_.panels.push_back(panel(road_.floor, Vector3d::UnitX(), -1e3, 1e3, floor_rock()));
+    if (road_.has(kRamp)) ramp_x_m_ = draw_.uniform(3.0, 9.0);
+    floor();
     roof();
     wall(road_.left, 1.0);
     wall(road_.right, -1.0);
@@ -62,6 +66,7 @@ class Builder {
     if (road_.has(kPipes)) pipes();
     if (road_.has(kBelt)) belt();
     if (road_.has(kBox)) box_beside();
+    if (road_.has(kBench)) bench();
     if (road_.has(kVehicle)) vehicle();
     if (road_.has(kPeople)) people();
     if (road_.has(kHeaps)) heaps();
@@ -79,7 +84,7 @@ class Builder {
 
   // Walls lean, and run apart a little in some roads; the floor has a cross-fall and a slope of its own.
   void planes() {
-    road_.floor = plane({tilt_rad(quiet_ ? 0.0 : 1.5), tilt_rad(5.0), 1.0}, Vector3d::Zero());
+    road_.floor = plane({tilt_rad(draw_.chance(0.5) || quiet_ ? 0.0 : 1.5), tilt_rad(5.0), 1.0}, Vector3d::Zero());
     const double apart_deg = draw_.chance(0.3) && !quiet_ ? 0.4 : 0.0, lean_deg = draw_.chance(0.5) ? 1.5 : 6.0;
     const double half_m = 0.5 * road_.width_m;
     const double middle_m = 0.4 * road_.height_m;  // where a leaning wall is half a width away
@@ -106,11 +111,32 @@ class Builder {
     return Panel(origin_in_plane_m, plane.normal, along, u_min_m, u_max_m, rock);
   }
 
+  // The floor comes first of all panels: range_m() looks for puddles there.
+  void floor() {
+    road_.panels.push_back(panel(road_.floor, Vector3d::UnitX(), -1e3, ramp_x_m_, floor_rock()));
+    if (!road_.has(kRamp)) return;
+    ramp_slope_ = draw_.sign() * std::tan(kRadPerDeg * draw_.uniform(1.0, 5.0));
+    add_after_ramp(road_.floor, floor_rock());
+  }
+
+  // The same plane with the ramp's slope from where that begins.
+  void add_after_ramp(const Plane& before, const Rock& surface) {
+    const Vector3d& n = before.normal;
+    const Vector3d start_m(ramp_x_m_, 0.0, -(before.offset_m + n.x() * ramp_x_m_) / n.z());
+    const Vector3d turned = n / std::abs(n.z()) - Vector3d(ramp_slope_ * (n.z() > 0.0 ? 1.0 : -1.0), 0.0, 0.0);
+    road_.panels.emplace_back(start_m, turned, Vector3d::UnitX(), 0.0, 1e3, surface);
+  }
+
   void roof() {
     const Vector3d down = -road_.floor.normal + Vector3d(tilt_rad(1.0), tilt_rad(1.0), 0.0);
-    const Vector3d top_m(0.0, 0.0, road_.height_m);
-    road_.panels.push_back(panel(plane(down, top_m), Vector3d::UnitX(), -1e3, 1e3, rock()));
-    if (!road_.has(kArch)) return;
+    const Plane flat = plane(down, {0.0, 0.0, road_.height_m});
+    const Rock surface = rock();
+    road_.panels.push_back(panel(flat, Vector3d::UnitX(), -1e3, ramp_x_m_, surface));
+    if (road_.has(kRamp)) add_after_ramp(flat, surface);
+    if (road_.has(kArch)) arch();
+  }
+
+  void arch() {
     // Two chords on either side of the crown, tangents of an ellipse that springs from the walls.
     const double half_m = 0.5 * road_.width_m, rise_m = draw_.uniform(0.25, 0.4) * road_.height_m;
     for (const double side : {1.0, -1.0}) {
@@ -208,7 +234,7 @@ class Builder {
   }
   double floor_z_m(double x_m, double y_m) const {
     const Vector3d& n = road_.floor.normal;
-    return -(n.x() * x_m + n.y() * y_m) / n.z();
+    return -(n.x() * x_m + n.y() * y_m) / n.z() + ramp_slope_ * std::max(0.0, x_m - ramp_x_m_);
   }
   double straight_end_m() { return std::min(face_x_m_, road_.has(kBend) ? bend_x_m() : 30.0); }
 
@@ -278,6 +304,17 @@ class Builder {
     road_.solids.push_back(box({x_m, y_m, floor_z_m(x_m, y_m) + half_m.z()}, half_m, tilt_rad(4.0)));
   }
 
+  void bench() {
+    const double side = draw_.sign(), wide_m = draw_.uniform(0.3, 0.25 * road_.width_m);
+    if ((side > 0.0 ? road_.free_left_m : road_.free_right_m) < 0.5 * road_.width_m) return;  // taken
+    const double high_m = draw_.uniform(0.15, 0.6), y_m = wall_y_m(side, 0.0, 0.0);
+    Solid step = box({-10.0, y_m, floor_z_m(-10.0, y_m) - 0.5 + high_m}, {30.0, wide_m, 0.5}, 0.0);
+    step.axes = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), road_.floor.normal).toRotationMatrix();
+    step.crumbs = Rock(&draw_, 0.006, 0.5, 0.5);
+    road_.solids.push_back(step);
+    take(side, wide_m);
+  }
+
   void vehicle() {
     const bool ahead = draw_.chance(0.4) && straight_end_m() > 10.0;
     const double half_length_m = draw_.uniform(1.2, 2.5), half_width_m = draw_.uniform(0.6, 0.9);
@@ -332,7 +369,7 @@ class Builder {
   bool quiet_;
   Road road_;
   double roughness_m_ = 0.0, face_x_m_ = 0.0, gap_side_ = 0.0, bend_x_m_ = 0.0, bend_radius_m_ = 0.0;
-  double belt_side_ = 0.0;
+  double belt_side_ = 0.0, ramp_x_m_ = 1e3, ramp_slope_ = 0.0;
   std::array<double, 2> gap_m_ = {kBehind_m, -1.0};
 };
 

@@ -24,6 +24,8 @@ enum Feature : std::uint32_t {
   kPeople,
   kCrosscut,  // a gallery to one side
   kHeaps,     // of muck
+  kBench,     // the floor is higher along one wall
+  kRamp,      // floor and roof take another slope ahead of the machine
   kBend,      // the road turns ahead
   kPuddles,
   kDust,
