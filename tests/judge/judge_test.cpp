@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdio>
+#include <string>
 
 #include "judge/court.hpp"
 
@@ -105,6 +106,32 @@ TEST(Judge, DirectionsAtRandomSeeWholeFlatWallsAsWhole) {
   }
   expect_valid(tallies, kCleanRoadsFloor);
   if (HasFailure()) std::printf("%s\n%s", table(tallies).c_str(), reasons_table(tallies).c_str());
+}
+
+// Cases that are left: an upright sensor that sees no floor but that of a ramp ahead, and none of the ground on which
+// the machine stands. Roll or pitch by the ramp is valid then, and wrong. The most values of a road that were; lower
+// these numbers as the cases are mended, and never raise them.
+struct Left {
+  std::uint64_t seed;
+  int wrong_most;
+};
+constexpr Left kRampsAhead[] = {{7000122, 2}, {7000963, 3}, {7001187, 7}, {7001456, 4}, {7001696, 1}};
+
+TEST(Judge, RampsAheadOfUnseenGroundMisleadNoMoreThanTheyDid) {
+  for (const Left& left : kRampsAhead) {
+    Case tried;
+    tried.seed = left.seed;
+    int wrong = 0;
+    std::string texts;
+    const Verdict verdict = hear(tried);
+    for (const Finding& finding : verdict.findings) {
+      const bool is_wrong = finding.misleading() || finding.beyond() || finding.raw_beyond();
+      if (finding.state != POSE_WALL_VALID || !is_wrong) continue;
+      ++wrong;
+      texts += "\n" + verdict.text(finding);
+    }
+    EXPECT_LE(wrong, left.wrong_most) << texts;
+  }
 }
 
 }  // namespace
