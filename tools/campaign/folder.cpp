@@ -75,6 +75,10 @@ std::size_t sensor_rank(const std::string& name) {
       std::find_if(all.begin(), all.end(), [&](const auto& model) { return model.sensor.name == name; }) - all.begin());
 }
 
+bool has_records(const std::filesystem::path& folder) {
+  return std::filesystem::exists(records_in(folder));
+}
+
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(records_in(folder))) {
