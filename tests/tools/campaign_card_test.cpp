@@ -230,8 +230,7 @@ TEST(CampaignCard, AValueBelowItsFloorStandsInBold) {
   for (std::uint32_t draw = 0; draw < 24; ++draw) records.push_back(good_run("clean", draw, 2));
   const std::string passed = card_page(card_of(records));
   EXPECT_NE(passed.find("| clean | os1-64 | nominal | 24 | 48 | 100 % ≥ "), std::string::npos);
-  EXPECT_EQ(passed.find("**100 %"), passed.find("**100 %** | **-**"))
-      << "but for the curve's row of the levels as they are";
+  EXPECT_EQ(passed.find("% < "), std::string::npos);
   for (RunRecord& record : records) record.frames[0].quantity[POSE_WALL_YAW].measured.state = POSE_WALL_DEGRADED;
   const std::string failed = card_page(card_of(records));
   EXPECT_NE(failed.find("| **50.0 % < "), std::string::npos);

@@ -27,7 +27,7 @@ using test::kAngleLimit_rad;
 using test::kDistanceLimit_m;
 using test::value_with_error;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr AlertLimits kLimits = {kAngleLimit_rad, kDistanceLimit_m};
 
 TEST(ValidFloors, TheTableHasEachJudgedClassOnce) {
@@ -109,7 +109,7 @@ TEST(LevelCurve, OnlyWhatItsLevelAloneKeepsBackBecomesValid) {
   EXPECT_FALSE(valid_at(0.5, kept_back(wide, POSE_WALL_R_ALERT_LIMIT | POSE_WALL_R_WALL_AMBIGUOUS)));
   EXPECT_FALSE(valid_at(0.5, kept_back(0.01, POSE_WALL_R_WALL_AMBIGUOUS)));
   EXPECT_FALSE(valid_at(0.5, kept_back(0.01, POSE_WALL_R_ALERT_LIMIT, POSE_WALL_HELD)));
-  EXPECT_FALSE(valid_at(0.5, kept_back(kNaN, POSE_WALL_R_ALERT_LIMIT, POSE_WALL_INVALID)));
+  EXPECT_FALSE(valid_at(0.5, kept_back(kNothing, POSE_WALL_R_ALERT_LIMIT, POSE_WALL_INVALID)));
 }
 
 TEST(LevelCurve, AValidValueIsSoWhileItsScaledLevelIsWithinTheLimit) {
@@ -153,7 +153,7 @@ TEST(LevelCurve, AtOneItIsTheCard) {
   RunRecord run = good_run("clean", 0, 3);
   run.frames[0].quantity[POSE_WALL_D_RB] = value_with_error(0.11, 0.01, 0.05);
   run.frames[1].quantity[POSE_WALL_D_LF] = value_with_error(0.0, 0.01, 0.05, POSE_WALL_HELD);
-  run.frames[2].quantity[POSE_WALL_D_LF].truth = kNaN;
+  run.frames[2].quantity[POSE_WALL_D_LF].truth = kNothing;
   run.frames[2].quantity[POSE_WALL_YAW] = value_with_error(0.016, 0.01, 0.015, POSE_WALL_DEGRADED);
   const Card card = card_of({run, good_run("props", 0, 5)});
   const ScaledCounts& nominal = card.nominal_curve[index_of(1.0)];

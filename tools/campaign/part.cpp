@@ -55,10 +55,11 @@ std::vector<Run> runs_of_part(const std::vector<Run>& runs, const Part& part) {
   const auto cost = [&runs](std::size_t i) { return runs[i].frames * points_of(runs[i].sensor); };
   std::stable_sort(by_cost.begin(), by_cost.end(), [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
   std::vector<std::size_t> mine;
-  for (std::size_t rank = 0; rank < by_cost.size(); ++rank) {
-    const std::size_t round = rank / part.of, place = rank % part.of;
-    const std::size_t taker = round % 2 == 0 ? place : part.of - 1 - place;
-    if (taker + 1 == part.number) mine.push_back(by_cost[rank]);
+  std::vector<double> dealt(part.of, 0.0);
+  for (const std::size_t i : by_cost) {
+    const auto taker = std::min_element(dealt.begin(), dealt.end());
+    *taker += cost(i);
+    if (taker - dealt.begin() + 1 == static_cast<std::ptrdiff_t>(part.number)) mine.push_back(i);
   }
   std::sort(mine.begin(), mine.end());
   std::vector<Run> chosen;

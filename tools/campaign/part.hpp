@@ -25,8 +25,8 @@ std::string part_text(const Part& part);
 // Throws std::invalid_argument that says what is allowed.
 Part parse_part(const std::string& text);
 
-// The part's runs, in the order of the plan. All parts together have each run once. Runs are dealt by their cost
-// (frames times the sensor's points), to and fro over the parts, so parts cost about the same. Throws
+// The part's runs, in the order of the plan. All parts together have each run once. The dearest runs (frames times the
+// sensor's points) are dealt first, each to the part that has the least yet, so parts cost about the same. Throws
 // std::invalid_argument if there are more parts than runs.
 std::vector<Run> runs_of_part(const std::vector<Run>& runs, const Part& part);
 

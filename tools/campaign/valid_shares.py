@@ -49,12 +49,12 @@ def main(folders):
     classes = classes_of(folders)
     kinds = {(one["scene"], one["sensor"]): one["kind"]
              for folder in folders for one in json.loads((folder / "card.json").read_text())["classes"]}
-    commands = [json.loads((folder / "campaign.json").read_text())["command"] for folder in folders]
+    campaigns = [json.loads((folder / "campaign.json").read_text()) for folder in folders]
     print("// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n")
     print("// Valid share and its spread between runs, in percent: roll, pitch, yaw, distances. The floors of the gate\n"
           "// follow from them (valid_floors.hpp). Made by valid_shares.py; measured by:")
-    for command in commands:
-        print(f"//   {command}")
+    for one in campaigns:
+        print(f'//   {one["command"]}, version {one["identity"]["version"]}, program {one["identity"]["program"]}')
     print()
     for (scene, sensor), one in classes.items():
         if kinds[scene, sensor] == "unobservable":
