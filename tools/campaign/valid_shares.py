@@ -54,7 +54,8 @@ def main(folders):
     print("// Valid share and its spread between runs, in percent: roll, pitch, yaw, distances. The floors of the gate\n"
           "// follow from them (valid_floors.hpp). Made by valid_shares.py; measured by:")
     for one in campaigns:
-        print(f'//   {one["command"]}, version {one["identity"]["version"]}, program {one["identity"]["program"]}')
+        identity = one["identity"]
+        print(f'//   {one["command"]}, version {identity["version"]}, program {identity["program"]}')
     print()
     for (scene, sensor), one in classes.items():
         if kinds[scene, sensor] == "unobservable":

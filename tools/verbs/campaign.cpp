@@ -339,9 +339,10 @@ void add_campaign(CLI::App& app, int& exit_code) {
       "  pose_wall campaign --size large --part 3/16 --output /tmp/parts/3\n"
       "  pose_wall campaign --merge /tmp/parts/* --gate --output /tmp/card\n"
       "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
-      "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
+      "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, records of "
       "another\n"
-      "campaign in the folder, 3 the gate failed, 130 interrupted by Ctrl-C (the same command continues).");
+      "campaign in the folder, or parts that are no whole campaign, 3 the gate failed, 130 interrupted by Ctrl-C (the "
+      "same command continues).");
   verb->callback([options, verb, &exit_code] {
     demand_only_what_goes_along(*verb, *options);
     demand_words_go_together(*verb, *options);
