@@ -25,7 +25,6 @@ namespace pose_wall::tools {
 namespace {
 
 using campaign::make_plan;
-using campaign::Part;
 using campaign::runs_of_part;
 using test::contains;
 using test::Ran;

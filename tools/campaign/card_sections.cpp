@@ -27,6 +27,10 @@ double share(std::size_t part, std::size_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
+std::string bold(const std::string& text) {
+  return fmt::format("**{}**", text);
+}
+
 Cells first_cells(const KindCard& row) {
   return {sim::scene_kind_name(row.kind), row.sensor, std::to_string(row.runs)};
 }
@@ -63,7 +67,7 @@ Cells curve_cells(const Card& card, std::size_t i) {
 }  // namespace
 
 std::string valid_text(const ErrorStatistics& statistics, const ValidCount& count) {
-  const std::string valid = percent(state_shares(statistics).valid);
+  std::string valid = percent(state_shares(statistics).valid);
   if (count.values() == 0) return valid;
   return fmt::format("{} {} {:.1f}", valid, count.holds() ? "≥" : "<", 100.0 * count.floor());
 }
@@ -73,7 +77,7 @@ Cells valid_cells(const SevenStatistics& quantities, const ValidCounts& counts, 
   Cells cells;
   for (std::size_t group = 0; group < kGroups; ++group) {
     const std::string cell = valid_text(groups[group].statistics, counts[group]);
-    cells.push_back(marks && !counts[group].holds() ? "**" + cell + "**" : cell);
+    cells.push_back(marks && !counts[group].holds() ? bold(cell) : cell);
   }
   return cells;
 }
@@ -104,7 +108,7 @@ std::string curve_section(const Card& card) {
   for (std::size_t i = 0; i < kLevelScales.size(); ++i) {
     Cells cells = curve_cells(card, i);
     if (kLevelScales[i] == 1.0) {
-      for (std::string& cell : cells) cell = "**" + cell + "**";
+      for (std::string& cell : cells) cell = bold(cell);
     }
     table.add_row(cells);
   }

@@ -92,6 +92,7 @@ void copy_records(const fs::path& from, const fs::path& to) {
 
 Manifest merge_parts(const std::vector<std::string>& folders, const fs::path& output, bool fresh) {
   std::vector<PartFolder> parts;
+  parts.reserve(folders.size());
   for (const std::string& folder : folders) parts.push_back(read_part(folder));
   for (const PartFolder& one : parts) {
     std::error_code ignored;

@@ -63,6 +63,7 @@ std::vector<Run> runs_of_part(const std::vector<Run>& runs, const Part& part) {
   }
   std::sort(mine.begin(), mine.end());
   std::vector<Run> chosen;
+  chosen.reserve(mine.size());
   for (const std::size_t i : mine) chosen.push_back(runs[i]);
   return chosen;
 }

@@ -305,6 +305,21 @@ void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
   verb.add_flag("--json", options.json, "With --sweep: the table as JSON");
 }
 
+void add_footer(CLI::App& verb) {
+  verb.footer(
+      "Examples:\n"
+      "  pose_wall campaign --size small --gate --output /tmp/card\n"
+      "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
+      "  pose_wall campaign --motion --size small --gate --output /tmp/motion\n"
+      "  pose_wall campaign --size large --part 3/16 --output /tmp/parts/3\n"
+      "  pose_wall campaign --merge /tmp/parts/* --gate --output /tmp/card\n"
+      "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
+      "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, records of "
+      "another\n"
+      "campaign in the folder, or parts that are no whole campaign, 3 the gate failed, 130 interrupted by Ctrl-C (the "
+      "same command continues).");
+}
+
 }  // namespace
 
 void add_campaign(CLI::App& app, int& exit_code) {
@@ -331,18 +346,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
   add_sweep_options(*verb, *options);
   verb->add_flag("-q,--quiet", options->quiet,
                  "Nothing on stderr but errors, nothing on stdout but the table of --sweep");
-  verb->footer(
-      "Examples:\n"
-      "  pose_wall campaign --size small --gate --output /tmp/card\n"
-      "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
-      "  pose_wall campaign --motion --size small --gate --output /tmp/motion\n"
-      "  pose_wall campaign --size large --part 3/16 --output /tmp/parts/3\n"
-      "  pose_wall campaign --merge /tmp/parts/* --gate --output /tmp/card\n"
-      "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
-      "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, records of "
-      "another\n"
-      "campaign in the folder, or parts that are no whole campaign, 3 the gate failed, 130 interrupted by Ctrl-C (the "
-      "same command continues).");
+  add_footer(*verb);
   verb->callback([options, verb, &exit_code] {
     demand_only_what_goes_along(*verb, *options);
     demand_words_go_together(*verb, *options);
