@@ -51,8 +51,8 @@ def main(folders):
              for folder in folders for one in json.loads((folder / "card.json").read_text())["classes"]}
     campaigns = [json.loads((folder / "campaign.json").read_text()) for folder in folders]
     print("// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n")
-    print("// Valid share and its spread between runs, in percent: roll, pitch, yaw, distances. The floors of the gate\n"
-          "// follow from them (valid_floors.hpp). Made by valid_shares.py; measured by:")
+    print("// Valid share and its spread between runs, in percent: roll, pitch, yaw, distances. The floors of the\n"
+          "// gate follow from them (valid_floors.hpp). Made by valid_shares.py; measured by:")
     for one in campaigns:
         identity = one["identity"]
         print(f'//   {one["command"]}, version {identity["version"]}, program {identity["program"]}')

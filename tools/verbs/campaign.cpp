@@ -294,7 +294,7 @@ void add_part_options(CLI::App& verb, CampaignOptions& options) {
       ->type_name("NUMBER/PARTS");
   verb.add_option("--merge", options.merge,
                   "Bring the folders of all parts together in --output and make the card, the same as of one run")
-      ->type_name("DIR...");
+      ->type_name("DIR");
 }
 
 void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
