@@ -198,7 +198,8 @@ TEST(CampaignCard, LevelsAreComparedWithTheErrorsOfTheSameValues) {
   }
   run.frames[98].quantity[POSE_WALL_ROLL] = value_with_error(0.5, 0.01, 0.9, POSE_WALL_DEGRADED);
   run.frames[99].quantity[POSE_WALL_ROLL] = value_with_error(0.5, 0.01, 0.9, POSE_WALL_HELD);
-  const ErrorStatistics& roll = card_of({run}).classes.front().quantities[POSE_WALL_ROLL];
+  const Card card = card_of({run});
+  const ErrorStatistics& roll = card.classes.front().quantities[POSE_WALL_ROLL];
   EXPECT_DOUBLE_EQ(roll.valid_levels().median, 0.015);
   EXPECT_NEAR(roll.valid_levels().absolute_error_95, 0.0092, 1e-12) << "of 98 errors, the one of rank 92";
   EXPECT_NEAR(roll.valid_levels().over_error(), 0.015 / 0.0092, 1e-9);
