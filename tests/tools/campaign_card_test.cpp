@@ -60,8 +60,8 @@ TEST(CampaignCard, CountsFramesStatesAndErrors) {
   EXPECT_NEAR(d_lf.raw().rmse, std::sqrt((3 * 0.01 * 0.01 + 0.03 * 0.03) / 4.0), 1e-12);
   EXPECT_NEAR(d_lf.raw().absolute_max, 0.03, 1e-12);
   EXPECT_NEAR(d_lf.mean_z2(), (3.0 + 9.0) / 4.0, 1e-9);
-  EXPECT_NEAR(state_shares(d_lf).available(), 4.0 / 5.0, 1e-12);
-  EXPECT_NEAR(state_shares(one.quantities).available(), 40.0 / 41.0, 1e-12);
+  EXPECT_NEAR(state_shares(d_lf).valid, 3.0 / 5.0, 1e-12);
+  EXPECT_NEAR(state_shares(one.quantities).valid, 39.0 / 41.0, 1e-12);
 }
 
 TEST(CampaignCard, CountsAFrameOnceHoweverManyOfItsValuesAreBeyond) {
@@ -189,7 +189,52 @@ TEST(CampaignCard, SharesAreNotRoundedToAllOrNone) {
 TEST(CampaignCard, OneIsNoPlural) {
   const std::string page = card_page(card_of({good_run("clean", 0, 1)}));
   EXPECT_NE(page.find("1 frame in 1 of 1 run, 1 class (scene and sensor)"), std::string::npos) << page.substr(0, 200);
-  EXPECT_NE(page.find("| 100 % | 99.0 % | 100 % | 0 % |"), std::string::npos);
+}
+
+TEST(CampaignCard, LevelsAreComparedWithTheErrorsOfTheSameValues) {
+  RunRecord run = good_run("clean", 0, 100);
+  for (std::size_t i = 0; i < 100; ++i) {
+    run.frames[i].quantity[POSE_WALL_ROLL] = value_with_error(0.0001 * static_cast<double>(i), 0.01, 0.015);
+  }
+  run.frames[98].quantity[POSE_WALL_ROLL] = value_with_error(0.5, 0.01, 0.9, POSE_WALL_DEGRADED);
+  run.frames[99].quantity[POSE_WALL_ROLL] = value_with_error(0.5, 0.01, 0.9, POSE_WALL_HELD);
+  const Card card = card_of({run});
+  const ErrorStatistics& roll = card.classes.front().quantities[POSE_WALL_ROLL];
+  EXPECT_DOUBLE_EQ(roll.valid_levels().median, 0.015);
+  EXPECT_NEAR(roll.valid_levels().absolute_error_95, 0.0092, 1e-12) << "of 98 errors, the one of rank 92";
+  EXPECT_NEAR(roll.valid_levels().over_error(), 0.015 / 0.0092, 1e-9);
+  const ErrorStatistics none(true, kAngleLimit_rad);
+  EXPECT_TRUE(std::isnan(none.valid_levels().median));
+}
+
+TEST(CampaignCard, ShowsValidSharesByKindAndSensorBesideTheirFloors) {
+  RunRecord other = good_run("clean", 0, 4);
+  other.run.sensor = "vlp16";
+  for (std::size_t i = 0; i < 2; ++i) other.frames[i].quantity[POSE_WALL_ROLL].measured.state = POSE_WALL_DEGRADED;
+  const Card card = card_of({good_run("clean", 0, 4), other, good_run("props", 0, 4), good_run("axes_swapped", 0, 4)});
+  ASSERT_EQ(card.kinds.size(), 4U) << "two sensors and all for nominal, one sensor for adversarial";
+  EXPECT_EQ(card.kinds[1].sensor, "vlp16");
+  EXPECT_DOUBLE_EQ(card.kinds[1].valid[0].share(), 0.5);
+  EXPECT_EQ(card.kinds[2].sensor, "all");
+  EXPECT_DOUBLE_EQ(card.kinds[2].valid[0].share(), 0.75);
+  EXPECT_EQ(card.kinds[2].valid[3].values(), 2U * 4U * 4U) << "four distances";
+  EXPECT_EQ(card.kinds[3].kind, sim::SceneKind::kAdversarial);
+  const auto page = nlohmann::json::parse(card_json(card));
+  EXPECT_EQ(page["kinds"][1]["valid"]["roll"]["share"], 0.5);
+  EXPECT_EQ(page["kinds"][1]["valid"]["roll"]["floor"], card.kinds[1].valid[0].floor());
+  EXPECT_TRUE(page["classes"][3]["valid"]["roll"]["floor"].is_null()) << "unobservable";
+  EXPECT_EQ(page["classes"][0]["valid"]["distances"]["level"]["median"], 0.015);
+}
+
+TEST(CampaignCard, AValueBelowItsFloorStandsInBold) {
+  std::vector<RunRecord> records;
+  for (std::uint32_t draw = 0; draw < 24; ++draw) records.push_back(good_run("clean", draw, 2));
+  const std::string passed = card_page(card_of(records));
+  EXPECT_NE(passed.find("| clean | os1-64 | nominal | 24 | 48 | 100 % ≥ "), std::string::npos);
+  EXPECT_EQ(passed.find("% < "), std::string::npos);
+  for (RunRecord& record : records) record.frames[0].quantity[POSE_WALL_YAW].measured.state = POSE_WALL_DEGRADED;
+  const std::string failed = card_page(card_of(records));
+  EXPECT_NE(failed.find("| **50.0 % < "), std::string::npos);
 }
 
 TEST(CampaignCard, PagesSayTheSameAsTheCounts) {

@@ -70,14 +70,46 @@ TEST(CampaignGate, SigmaMustBeTrueOverNominalClasses) {
 }
 
 TEST(CampaignGate, EachClassKeepsItsFloor) {
-  ASSERT_GT(sim::find_scene("clean")->available_floor, 0.5);
-  RunRecord run = good_run("clean", 0, 50);
-  for (std::size_t i = 0; i < 25; ++i) {
-    for (auto& q : run.frames[i].quantity) q.measured.state = POSE_WALL_HELD;
+  std::vector<RunRecord> records;
+  for (std::uint32_t draw = 0; draw < 60; ++draw) records.push_back(good_run("clean", draw, 2));
+  EXPECT_EQ(faults_of(records), "");
+  for (std::size_t i = 0; i < 12; ++i) {
+    for (auto& frame : records[i].frames) frame.quantity[POSE_WALL_PITCH].measured.state = POSE_WALL_DEGRADED;
   }
-  EXPECT_TRUE(contains(faults_of({run}), "clean os1-64: 50 % available; its floor is 99 %"));
-  run.run.sensor = "vlp16";
-  EXPECT_TRUE(contains(faults_of({run}), "clean vlp16: 50 % available; its floor is 96 %")) << "sixteen lines see less";
+  const std::string faults = faults_of(records);
+  EXPECT_TRUE(contains(faults, "clean os1-64: pitch valid in 80 % of 120 values; the floor is 9")) << faults;
+  EXPECT_TRUE(contains(faults, "nominal classes, sensor os1-64: pitch valid in 80 %")) << faults;
+  EXPECT_FALSE(contains(faults, "roll")) << faults;
+}
+
+TEST(CampaignGate, FewRunsMayScatterMore) {
+  RunRecord run = good_run("clean", 0, 50);
+  for (auto& frame : run.frames) frame.quantity[POSE_WALL_PITCH].measured.state = POSE_WALL_DEGRADED;
+  EXPECT_EQ(faults_of({run}), "") << "one run may be lost";
+}
+
+TEST(CampaignGate, ManyClassesTogetherTellWhatNoneTellsAlone) {
+  std::vector<RunRecord> records;
+  for (const ClassShares& one : valid_shares()) {
+    if (one.sensor != "os1-64") continue;
+    records.push_back(good_run(std::string(one.scene), 0, 1));
+    records.back().frames[0].quantity[POSE_WALL_ROLL].measured.state = POSE_WALL_DEGRADED;
+  }
+  ASSERT_GT(records.size(), 70U);
+  const std::string faults = faults_of(records);
+  EXPECT_TRUE(contains(faults, "adversarial classes, sensor os1-64: roll valid in 0 %")) << faults;
+  EXPECT_FALSE(contains(faults, "clean os1-64:")) << faults;
+}
+
+TEST(CampaignGate, SequencesCutShortHaveNoFloor) {
+  RunRecord run = good_run("frozen", 0, 3);
+  for (std::uint32_t draw = 1; draw < 40; ++draw) EXPECT_TRUE(is_cut({"frozen", "os1-64", draw, draw, 3}));
+  EXPECT_FALSE(is_cut({"frozen", "os1-64", 0, 7, 200}));
+  EXPECT_FALSE(is_cut({"clean", "os1-64", 0, 7, 1})) << "nothing happens in it";
+  for (auto& frame : run.frames) frame.quantity[POSE_WALL_YAW].measured.state = POSE_WALL_DEGRADED;
+  const Card card = card_of(std::vector<RunRecord>(40, run));
+  EXPECT_EQ(valid_counts(card.classes.front())[2].values(), 0U);
+  EXPECT_EQ(joined(gate_faults(card)), "");
 }
 
 TEST(CampaignGate, WhatNobodyCanTellIsNotAsked) {

@@ -36,8 +36,8 @@ Ran campaign_in(const std::string& folder, const std::vector<std::string>& more 
 }
 
 void expect_same(const TempFolder& a, const TempFolder& b) {
-  for (const char* name : {"campaign.json", "frames.csv", "card.md", "card.json", "stanford_angles.svg",
-                           "stanford_distances.svg", "records/clean/vlp16/000001.csv"}) {
+  for (const char* name : {"campaign.json", "frames.csv", "card.md", "card.json", "level_curve.csv",
+                           "stanford_angles.svg", "stanford_distances.svg", "records/clean/vlp16/000001.csv"}) {
     const std::string text = text_of(a.file(name));
     EXPECT_FALSE(text.empty()) << name;
     EXPECT_EQ(text, text_of(b.file(name))) << name;

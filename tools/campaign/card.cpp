@@ -11,7 +11,6 @@
 
 #include "angles.hpp"
 #include "quantities.hpp"
-#include "sim/sensors.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -35,6 +34,7 @@ void count_reasons(ClassCard& card, const QuantityRecord& record) {
 
 void add_run(ClassCard& card, const RunRecord& record, const AlertLimits& limits) {
   ++card.draws;
+  card.is_cut = card.is_cut || is_cut(record.run);
   for (const FrameRecord& frame : record.frames) {
     card.frames.add(frame, limits);
     for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -71,6 +71,9 @@ Card empty_card(const Manifest& manifest) {
           none("both"),
           none("unobservable"),
           {},
+          {},
+          {},
+          {},
           picture::StanfordCounts(picture::angle_scale(limits.angle_rad * kDegPerRad)),
           picture::StanfordCounts(picture::distance_scale(limits.distance_m))};
 }
@@ -94,6 +97,38 @@ ClassCard& class_of(Card& card, const RunRecord& record) {
 Totals& totals_for(Card& card, sim::SceneKind kind) {
   if (kind == sim::SceneKind::kNominal) return card.nominal;
   return kind == sim::SceneKind::kAdversarial ? card.adversarial : card.unobservable;
+}
+
+// The row for this sensor, behind those of its kind that are there.
+KindCard& kind_row(std::vector<KindCard>& rows, sim::SceneKind kind, const std::string& sensor,
+                   const AlertLimits& limits) {
+  for (KindCard& row : rows) {
+    if (row.kind == kind && row.sensor == sensor) return row;
+  }
+  return rows.emplace_back(KindCard{kind, sensor, 0, empty_statistics(limits), {}});
+}
+
+void add_class(KindCard& row, const ClassCard& one) {
+  row.runs += one.draws;
+  merge(row.quantities, one.quantities);
+  const ValidCounts counts = valid_counts(one);
+  for (std::size_t group = 0; group < kGroups; ++group) row.valid[group].merge(counts[group]);
+}
+
+std::vector<KindCard> kind_cards(const std::vector<ClassCard>& classes, const AlertLimits& limits) {
+  std::vector<KindCard> rows;
+  for (const sim::SceneKind kind : {sim::SceneKind::kNominal, sim::SceneKind::kAdversarial}) {
+    std::vector<KindCard> of_kind;
+    KindCard all{kind, "all", 0, empty_statistics(limits), {}};
+    for (const ClassCard& one : classes) {
+      if (one.scene->kind != kind) continue;
+      add_class(kind_row(of_kind, kind, one.sensor, limits), one);
+      add_class(all, one);
+    }
+    if (of_kind.size() > 1) of_kind.push_back(all);
+    rows.insert(rows.end(), of_kind.begin(), of_kind.end());
+  }
+  return rows;
 }
 
 }  // namespace
@@ -159,19 +194,28 @@ Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, 
     if (one.scene->kind == sim::SceneKind::kUnobservable) continue;
     judged.push_back(&record);
     add_to_diagrams(card, record);
+    const bool is_nominal = one.scene->kind == sim::SceneKind::kNominal;
+    add_run(is_nominal ? card.nominal_curve : card.adversarial_curve, record, manifest.limits);
   }
   for (const ClassCard& one : card.classes) {
     add_class(totals_for(card, one.scene->kind), one);
     if (one.scene->kind != sim::SceneKind::kUnobservable) add_class(card.judged, one);
   }
+  card.kinds = kind_cards(card.classes, manifest.limits);
   card.events = worst_events(judged, manifest.limits, events_max);
   return card;
 }
 
-double available_floor(const ClassCard& one) {
-  const sim::SensorModel* const sensor = sim::find_sensor(one.sensor);
-  const double less = sensor != nullptr ? sensor->available_less : 0.0;
-  return std::max(one.scene->available_floor - less, 0.0);
+ValidCounts valid_counts(const ClassCard& one) {
+  ValidCounts counts;
+  const ClassShares* const expected = one.is_cut ? nullptr : find_valid_shares(one.scene->name, one.sensor);
+  if (expected == nullptr) return counts;
+  const std::vector<QuantityGroup> groups = grouped(one.quantities);
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    const ErrorStatistics& s = groups[group].statistics;
+    counts[group].add(expected->groups[group], s.frames(), s.valid(), one.draws);
+  }
+  return counts;
 }
 
 }  // namespace pose_wall::tools::campaign

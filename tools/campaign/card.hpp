@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "campaign/event_times.hpp"
+#include "campaign/level_curve.hpp"
 #include "campaign/manifest.hpp"
 #include "campaign/record.hpp"
+#include "campaign/valid_floors.hpp"
 #include "campaign/worst_events.hpp"
 #include "picture/stanford_diagram.hpp"
 #include "sim/scenes.hpp"
@@ -47,8 +49,6 @@ struct StateShares {
   double degraded = 0.0;
   double held = 0.0;
   double invalid = 0.0;
-
-  double available() const { return valid + degraded; }
 };
 StateShares state_shares(const SevenStatistics& quantities);
 StateShares state_shares(const ErrorStatistics& statistics);
@@ -58,14 +58,24 @@ struct ClassCard {
   const sim::SceneChoice* scene = nullptr;
   std::string sensor;
   std::size_t draws = 0;
+  bool is_cut = false;  // a run is shorter than its scene asks for: no floor
   FrameCounts frames;
   SevenStatistics quantities;
   EventTimes times;
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // values with a truth that were not valid, by reason
 };
 
-// Least share of the values that is to be available: what the scene promises, for this sensor.
-double available_floor(const ClassCard& one);
+// Of the groups of grouped(); nothing is counted for a class without a floor.
+ValidCounts valid_counts(const ClassCard& one);
+
+// The classes of one kind, as one sensor or all of them see them.
+struct KindCard {
+  sim::SceneKind kind;
+  std::string sensor;  // "all"
+  std::size_t runs = 0;
+  SevenStatistics quantities;
+  ValidCounts valid;  // over the classes with a floor
+};
 
 struct Totals {
   const char* name;
@@ -85,6 +95,9 @@ struct Card {
   Totals adversarial;
   Totals judged;  // both of them
   Totals unobservable;
+  std::vector<KindCard> kinds;  // of the judged: nominal by sensor and all, then adversarial
+  LevelCurve nominal_curve;
+  LevelCurve adversarial_curve;
   std::vector<WorstEvent> events;  // of the judged, as the diagrams
   picture::StanfordCounts angles;
   picture::StanfordCounts distances;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/card_sections.hpp"
 #include "campaign/card_words.hpp"
 #include "frames/whole_file.hpp"
 #include "terminal/counted.hpp"
@@ -62,12 +63,13 @@ std::string card_summary(const Card& card) {
   for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged}) {
     if (totals->classes > 0) table.add_row(row_of(*totals, "", true));
   }
-  return table.text(2);
+  return table.text(2) + "\n" + valid_summary(card) + "\n" + curve_summary(card);
 }
 
 void write_card(const std::filesystem::path& folder, const Card& card) {
   write_whole_file(folder / "card.md", card_page(card));
   write_whole_file(folder / "card.json", card_json(card));
+  write_whole_file(folder / "level_curve.csv", curve_csv(card));
   write_whole_file(folder / "stanford_angles.svg",
                    picture::stanford_diagram(card.angles, title(card, "Roll, pitch, yaw")));
   write_whole_file(folder / "stanford_distances.svg",

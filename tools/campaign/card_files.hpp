@@ -17,7 +17,8 @@ std::string card_json(const Card& card);
 // Totals and what is remarkable.
 std::string card_summary(const Card& card);
 
-// card.md, card.json, stanford_angles.svg, stanford_distances.svg. Throws std::runtime_error that names the file.
+// card.md, card.json, level_curve.csv, stanford_angles.svg, stanford_distances.svg. Throws std::runtime_error that
+// names the file.
 void write_card(const std::filesystem::path& folder, const Card& card);
 
 }  // namespace pose_wall::tools::campaign

@@ -16,11 +16,45 @@ namespace pose_wall::tools::campaign {
 namespace {
 
 Json shares(const StateShares& s) {
-  return {{"available", s.available()},
-          {"valid", s.valid},
-          {"degraded", s.degraded},
-          {"held", s.held},
-          {"invalid", s.invalid}};
+  return {{"valid", s.valid}, {"degraded", s.degraded}, {"held", s.held}, {"invalid", s.invalid}};
+}
+
+Json level_page(const LevelFigures& levels) {
+  return {{"median", levels.median},
+          {"absolute_error_95", levels.absolute_error_95},
+          {"median_over_error_95", levels.over_error()}};
+}
+
+// By group: valid share, its floor (null without one), and the levels.
+Json valid_page(const SevenStatistics& quantities, const ValidCounts& counts) {
+  Json page;
+  const std::vector<QuantityGroup> groups = grouped(quantities);
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    const ErrorStatistics& s = groups[group].statistics;
+    page[groups[group].name] = {{"values_with_truth", s.frames()},
+                                {"share", state_shares(s).valid},
+                                {"floor", counts[group].floor()},
+                                {"level", level_page(s.valid_levels())}};
+  }
+  return page;
+}
+
+Json kind_page(const KindCard& row) {
+  return {{"kind", sim::scene_kind_name(row.kind)},
+          {"sensor", row.sensor},
+          {"runs", row.runs},
+          {"valid", valid_page(row.quantities, row.valid)}};
+}
+
+Json scaled_page(const ScaledCounts& c) {
+  const auto share = [](std::size_t part, std::size_t whole) {
+    return static_cast<double>(part) / static_cast<double>(whole);
+  };
+  return {{"frames", c.frames},
+          {"valid_angles", share(c.valid_angles, c.angles)},
+          {"valid_distances", share(c.valid_distances, c.distances)},
+          {"misleading", c.misleading},
+          {"beyond", c.beyond}};
 }
 
 Json seven(const SevenStatistics& quantities) {
@@ -30,6 +64,7 @@ Json seven(const SevenStatistics& quantities) {
     all[pose_wall_quantity_name(q)] = {{"unit", is_angle(q) ? "rad" : "m"},
                                        {"values_with_truth", s.frames()},
                                        {"shares", shares(state_shares(s))},
+                                       {"valid_level", level_page(s.valid_levels())},
                                        {"raw", error_figures_json(s.raw())},
                                        {"value", error_figures_json(s.value())},
                                        {"raw_beyond_protection", s.raw_beyond_protection()},
@@ -71,7 +106,7 @@ Json class_page(const ClassCard& card) {
           {"sensor", card.sensor},
           {"kind", sim::scene_kind_name(card.scene->kind)},
           {"draws", card.draws},
-          {"available_floor", available_floor(card)},
+          {"valid", valid_page(card.quantities, valid_counts(card))},
           {"shares", shares(state_shares(card.quantities))},
           {"counts", counts(card.frames)},
           {"frames_to_alert_max", card.times.alert_max},
@@ -114,6 +149,13 @@ std::string card_json(const Card& card) {
                     {"adversarial", totals(card.adversarial)},
                     {"both", totals(card.judged)},
                     {"unobservable", totals(card.unobservable)}};
+  page["kinds"] = Json::array();
+  for (const KindCard& row : card.kinds) page["kinds"].push_back(kind_page(row));
+  for (std::size_t i = 0; i < kLevelScales.size(); ++i) {
+    page["level_curve"].push_back({{"scale", kLevelScales[i]},
+                                   {"nominal", scaled_page(card.nominal_curve[i])},
+                                   {"adversarial", scaled_page(card.adversarial_curve[i])}});
+  }
   for (const ClassCard& one : card.classes) page["classes"].push_back(class_page(one));
   page["worst_events"] = Json::array();
   for (const WorstEvent& event : card.events) page["worst_events"].push_back(event_page(event, card.manifest));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "campaign/card_files.hpp"
+#include "campaign/card_sections.hpp"
 #include "campaign/card_words.hpp"
 #include "campaign/gate.hpp"
 #include "campaign/markdown_table.hpp"
@@ -62,21 +63,26 @@ std::string sigma_of(const Card& card) {
 
 std::string classes_of(const Card& card) {
   MarkdownTable table(
-      {"scene", "sensor", "kind", "draws", "frames", "available", "floor", "valid", "degraded", "held", "invalid",
+      {"scene", "sensor", "kind", "draws", "frames", "roll", "pitch", "yaw", "distances", "degraded", "held", "invalid",
        "misleading", "value > pl", "raw > pl", "to alert", "noticed", "recovered", "why not valid"},
       3);
   for (const ClassCard& c : card.classes) {
     const StateShares s = state_shares(c.quantities);
-    table.add_row({c.scene->name, c.sensor, sim::scene_kind_name(c.scene->kind), std::to_string(c.draws),
-                   std::to_string(c.frames.frames), percent(s.available()), percent(available_floor(c)),
-                   percent(s.valid), percent(s.degraded), percent(s.held), percent(s.invalid),
-                   std::to_string(c.frames.misleading), std::to_string(c.frames.value_beyond_protection),
-                   std::to_string(c.frames.raw_beyond_protection), std::to_string(c.times.alert_max),
-                   times_text(c.times.noticed, c.times.never_noticed),
-                   times_text(c.times.recovered, c.times.never_recovered), reasons_text(c)});
+    std::vector<std::string> cells = {c.scene->name, c.sensor, sim::scene_kind_name(c.scene->kind),
+                                      std::to_string(c.draws), std::to_string(c.frames.frames)};
+    for (const std::string& cell : valid_cells(c.quantities, valid_counts(c), true)) cells.push_back(cell);
+    cells.insert(cells.end(),
+                 {percent(s.degraded), percent(s.held), percent(s.invalid), std::to_string(c.frames.misleading),
+                  std::to_string(c.frames.value_beyond_protection), std::to_string(c.frames.raw_beyond_protection),
+                  std::to_string(c.times.alert_max), times_text(c.times.noticed, c.times.never_noticed),
+                  times_text(c.times.recovered, c.times.never_recovered), reasons_text(c)});
+    table.add_row(cells);
   }
   return "## Classes\n\n"
-         "Shares refer to values that have a truth. Available: valid or degraded. To alert: the longest time in frames "
+         "Shares refer to values that have a truth. Roll to distances: valid share against its floor, below it in "
+         "bold. "
+         "Unobservable classes have no floor, nor have runs that are shorter than their scene asks for. To alert: the "
+         "longest time in frames "
          "from an error beyond the alert limit until the state leaves valid (0: it never was). Scenes with an event "
          "have two more times, median / longest in frames. Noticed: from its begin until a value leaves valid. "
          "Recovered: from its end until all values are valid again that were so before it. Why not valid: the most "
@@ -85,16 +91,17 @@ std::string classes_of(const Card& card) {
 }
 
 std::string quantities_of(const Card& card) {
-  MarkdownTable table({"scene", "sensor", "quantity", "values", "available", "valid", "raw RMSE", "95 %", "max",
+  MarkdownTable table({"scene", "sensor", "quantity", "values", "valid", "valid level", "raw RMSE", "95 %", "max",
                        "value RMSE", "95 %", "max", "misleading", "value > pl", "raw > pl", "mean z²"},
                       3);
   for (const ClassCard& c : card.classes) {
-    for (const QuantityGroup& g : grouped(c.quantities)) {
+    const std::vector<QuantityGroup> groups = grouped(c.quantities);
+    const std::vector<std::string> valid = valid_cells(c.quantities, valid_counts(c), true);
+    for (std::size_t group = 0; group < kGroups; ++group) {
+      const QuantityGroup& g = groups[group];
       const ErrorStatistics& s = g.statistics;
-      const StateShares shares = state_shares(s);
-      std::vector<std::string> cells = {
-          c.scene->name,        c.sensor, g.name, std::to_string(s.frames()), percent(shares.available()),
-          percent(shares.valid)};
+      std::vector<std::string> cells = {c.scene->name, c.sensor,     g.name, std::to_string(s.frames()),
+                                        valid[group],  level_text(g)};
       for (const ErrorFigures& f : {s.raw(), s.value()}) {
         for (const double number : {f.rmse, f.absolute_95, f.absolute_max}) cells.push_back(amount(g.is_angle, number));
       }
@@ -105,6 +112,7 @@ std::string quantities_of(const Card& card) {
     }
   }
   return "## Quantities\n\n"
+         "Valid level: the median protection level of valid values; in brackets over their 95 % error. "
          "Raw: the frame's own measurement. Value: smoothed or held, for the controller. Counts are values.\n\n" +
          table.text() + "\n";
 }
@@ -133,7 +141,8 @@ std::string events_of(const Card& card) {
 }  // namespace
 
 std::string card_page(const Card& card) {
-  return head_of(card) + gate_text(gate_faults(card)) + totals_of(card) + sigma_of(card) +
+  return head_of(card) + gate_text(gate_faults(card)) + valid_section(card) + totals_of(card) + curve_section(card) +
+         sigma_of(card) +
          "## Stanford diagrams\n\n![angles](stanford_angles.svg)\n\n![distances](stanford_distances.svg)\n\n" +
          classes_of(card) + quantities_of(card) + events_of(card);
 }

@@ -41,7 +41,7 @@ void prepare_folder(const std::filesystem::path& folder, const Manifest& manifes
     if (!holds_campaign(folder)) read_manifest(folder);  // throws and says why: somebody else's records stay
     std::filesystem::remove_all(records_in(folder));
     for (const char* of_old_card :
-         {"card.md", "card.json", "frames.csv", "stanford_angles.svg", "stanford_distances.svg"}) {
+         {"card.md", "card.json", "frames.csv", "level_curve.csv", "stanford_angles.svg", "stanford_distances.svg"}) {
       std::filesystem::remove(folder / of_old_card);
     }
   }
@@ -73,6 +73,10 @@ std::size_t sensor_rank(const std::string& name) {
   const auto& all = sim::sensor_models();
   return static_cast<std::size_t>(
       std::find_if(all.begin(), all.end(), [&](const auto& model) { return model.sensor.name == name; }) - all.begin());
+}
+
+bool has_records(const std::filesystem::path& folder) {
+  return std::filesystem::exists(records_in(folder));
 }
 
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder) {

@@ -29,6 +29,8 @@ void prepare_folder(const std::filesystem::path& folder, const Manifest& manifes
 // Runs without a record.
 std::vector<Run> pending_runs(const std::filesystem::path& folder, const std::vector<Run>& runs);
 
+bool has_records(const std::filesystem::path& folder);
+
 // The files of all finished runs, in no order. Throws std::runtime_error where there is none.
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder);
 

@@ -46,12 +46,23 @@ void demand_sigma(Faults& faults, const Card& card) {
   }
 }
 
-void demand_availability(Faults& faults, const Card& card) {
+void demand_floors(Faults& faults, const std::string& name, const SevenStatistics& quantities,
+                   const ValidCounts& counts) {
+  const std::vector<QuantityGroup> groups = grouped(quantities);
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    const ValidCount& count = counts[group];
+    faults.demand(count.holds(), "{}: {} valid in {:.4g} % of {} values; the floor is {:.4g} %", name,
+                  groups[group].name, 100.0 * count.share(), count.values(), 100.0 * count.floor());
+  }
+}
+
+void demand_valid_shares(Faults& faults, const Card& card) {
+  for (const KindCard& row : card.kinds) {
+    demand_floors(faults, fmt::format("{} classes, sensor {}", sim::scene_kind_name(row.kind), row.sensor),
+                  row.quantities, row.valid);
+  }
   for (const ClassCard& one : card.classes) {
-    const double available = state_shares(one.quantities).available();
-    const double floor = available_floor(one);
-    faults.demand(floor <= 0.0 || available >= floor, "{} {}: {:.4g} % available; its floor is {:.4g} %",
-                  one.scene->name, one.sensor, 100.0 * available, 100.0 * floor);
+    demand_floors(faults, fmt::format("{} {}", one.scene->name, one.sensor), one.quantities, valid_counts(one));
   }
 }
 
@@ -63,7 +74,7 @@ std::vector<std::string> gate_faults(const Card& card) {
                 card.manifest.runs);
   demand_bounds(faults, card);
   demand_sigma(faults, card);
-  demand_availability(faults, card);
+  demand_valid_shares(faults, card);
   return faults.take();
 }
 

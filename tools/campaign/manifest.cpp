@@ -80,18 +80,35 @@ PlanRequest plan_from(const Json& page) {
   return plan;
 }
 
-std::string plan_difference(const Manifest& records, const Manifest& now) {
-  const auto before = request_words(records.plan);
-  const auto after = request_words(now.plan);
+std::string plan_difference(const Manifest& first, const Manifest& second, const Holders& holders) {
+  const auto before = request_words(first.plan);
+  const auto after = request_words(second.plan);
   std::string lines;
   for (std::size_t i = 0; i < after.size(); ++i) {
     if (before[i].second == after[i].second) continue;
-    lines += fmt::format("  {}: the records have {}, this campaign has {}\n", after[i].first, before[i].second,
+    lines += fmt::format("  {}: {} {}, {} {}\n", after[i].first, holders.first, before[i].second, holders.second,
                          after[i].second);
   }
   if (!lines.empty()) return lines;
-  return fmt::format("  plan: the records are of {} with {}, this program makes {} with {} of the same words\n",
-                     counted(records.runs, "run"), counted(records.frames, "frame"), now.runs, now.frames);
+  return fmt::format("  plan: {} {} with {}, {} {} with {}, of the same words\n", holders.first,
+                     counted(first.runs, "run"), counted(first.frames, "frame"), holders.second,
+                     counted(second.runs, "run"), counted(second.frames, "frame"));
+}
+
+std::string part_words(const Manifest& manifest) {
+  return manifest.part ? "part " + part_text(*manifest.part) : "all runs";
+}
+
+// Null stands for all runs.
+Json part_page(const Manifest& manifest) {
+  if (!manifest.part) return {};
+  return {{"number", manifest.part->number}, {"of", manifest.part->of}, {"runs", manifest.part_runs}};
+}
+
+void take_part(const Json& page, Manifest* manifest) {
+  if (page.is_null()) return;
+  manifest->part = Part{page.at("number"), page.at("of")};
+  manifest->part_runs = page.at("runs");
 }
 
 std::filesystem::path file_in(const std::filesystem::path& folder) {
@@ -121,21 +138,31 @@ Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs,
   return manifest;
 }
 
-std::string difference(const Manifest& records, const Manifest& now) {
+std::string identity_difference(const Manifest& first, const Manifest& second, const Holders& holders) {
   std::string lines;
-  for (const auto& [name, value] : now.identity) {
-    for (const auto& [old_name, old_value] : records.identity) {
+  for (const auto& [name, value] : second.identity) {
+    for (const auto& [old_name, old_value] : first.identity) {
       if (name != old_name || value == old_value) continue;
       if (name == "plan") {
-        lines += plan_difference(records, now);
+        lines += plan_difference(first, second, holders);
       } else if (name == "program") {
         lines += "  program: another build of pose_wall made the records\n";
       } else {
-        lines += fmt::format("  {}: the records have '{}', this campaign has '{}'\n", name, old_value, value);
+        lines += fmt::format("  {}: {} '{}', {} '{}'\n", name, holders.first, old_value, holders.second, value);
       }
     }
   }
-  if (lines.empty() && records.fingerprint() != now.fingerprint()) lines = "  the records are of another kind\n";
+  if (lines.empty() && first.fingerprint() != second.fingerprint()) lines = "  the records are of another kind\n";
+  return lines;
+}
+
+std::string difference(const Manifest& records, const Manifest& now) {
+  const Holders holders;
+  std::string lines = identity_difference(records, now, holders);
+  const std::string before = part_words(records), after = part_words(now);
+  if (before != after) {
+    lines += fmt::format("  part: {} {}, {} {}\n", holders.first, before, holders.second, after);
+  }
   return lines;
 }
 
@@ -147,6 +174,7 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
   page["runs"] = manifest.runs;
   page["frames"] = manifest.frames;
   page["request"] = plan_page(manifest.plan);
+  page["part"] = part_page(manifest);
   page["engine"] = {{"config", manifest.engine.config_file}, {"set", manifest.engine.settings}};
   page["command"] = manifest.command();
   write_whole_file(file_in(folder), page.dump(2) + "\n");
@@ -173,6 +201,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     manifest.runs = page.at("runs");
     manifest.frames = page.at("frames");
     manifest.plan = plan_from(page.at("request"));
+    take_part(page.value("part", Json()), &manifest);
     manifest.engine.config_file = page.at("engine").at("config");
     page.at("engine").at("set").get_to(manifest.engine.settings);
     return manifest;

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "campaign/command_words.hpp"
+#include "campaign/part.hpp"
 #include "campaign/plan.hpp"
 #include "truth/alert_limits.hpp"
 
@@ -22,7 +24,9 @@ struct Manifest {
   AlertLimits limits;
   std::size_t runs = 0;
   std::size_t frames = 0;
-  PlanRequest plan;  // as it was asked for
+  PlanRequest plan;           // as it was asked for
+  std::optional<Part> part;   // the folder's, of the campaign's runs; none: all of them
+  std::size_t part_runs = 0;  // of the part
   EngineChoice engine;
 
   std::string command() const { return campaign_command(plan, engine); }
@@ -32,8 +36,16 @@ struct Manifest {
 
 Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs, const EngineChoice& choice);
 
-// A line in words per thing that differs; empty when both are of one campaign.
+// A line in words per thing that differs; empty when both are of one campaign, and of the same part of it.
 std::string difference(const Manifest& records, const Manifest& now);
+
+// Who has what in these lines: "the records have small, this campaign has large".
+struct Holders {
+  std::string first = "the records have";
+  std::string second = "this campaign has";
+};
+// The same without the part.
+std::string identity_difference(const Manifest& first, const Manifest& second, const Holders& holders);
 
 // Whether a campaign was run there, by this version or by an older one that wrote less.
 bool holds_campaign(const std::filesystem::path& folder);

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -24,19 +23,19 @@ constexpr std::uint32_t kWhole = std::numeric_limits<std::uint32_t>::max();
 struct Size {
   const char* name;
   std::vector<std::string> sensors;
-  std::uint32_t draws;                // of scenes that stay as they are
-  std::uint32_t frames;               // of each of them
+  std::uint32_t nominal_draws;        // of nominal scenes that stay as they are
+  std::uint32_t draws;                // of the other ones that do
+  std::uint32_t frames;               // of each of both
   std::uint32_t sequence_draws;       // of scenes in which something happens
   std::uint32_t sequence_frames_max;  // cuts long ones
-  bool tells_promises;                // more draws where hardly a frame may be missed
 };
 
 const std::vector<Size>& sizes() {
   static const std::vector<std::string> all = {"os1-64", "os0-128", "vlp16", "mid360"};
   static const std::vector<Size> table = {
-      {"small", {"os1-64"}, 1, 3, 1, 60, false},
-      {"medium", all, 6, 4, 2, 120, false},
-      {"large", all, 24, 5, 6, kWhole, true},
+      {"small", {"os1-64"}, 1, 1, 3, 1, 60},
+      {"medium", all, 6, 6, 4, 2, 120},
+      {"large", all, 60, 24, 5, 6, kWhole},
   };
   return table;
 }
@@ -78,16 +77,12 @@ bool is_sequence(const std::string& scene, const std::string& sensor) {
   return frames_to_watch(sim::make_setup(scene, sensor, false, 0)) > 0;
 }
 
-// A promise to be available in all but a few frames in a thousand is not measured on a hundred, where one unlucky run
-// breaks it.
+// Nominal scenes promise most. One unlucky run would break the promise of a few.
 std::uint32_t draws_of(const PlanRequest& request, const Size& size, const std::string& scene,
                        const std::string& sensor) {
-  constexpr double kMissesToTell = 3.0;
   if (request.draws) return *request.draws;
   if (is_sequence(scene, sensor)) return size.sequence_draws;
-  const double missed = 1.0 - sim::find_scene(scene)->available_floor;
-  const double needed = missed > 0.0 ? kMissesToTell / missed / size.frames : 0.0;
-  return size.tells_promises ? std::max(size.draws, static_cast<std::uint32_t>(std::ceil(needed - 1e-9))) : size.draws;
+  return sim::find_scene(scene)->kind == sim::SceneKind::kNominal ? size.nominal_draws : size.draws;
 }
 
 }  // namespace

@@ -35,8 +35,6 @@ const char* scene_kind_name(SceneKind kind);
 struct SceneChoice {
   const char* name;
   SceneKind kind;
-  double
-      available_floor;  // least share of the values that have a truth to be valid or degraded; 0 where physics forbids
   const char* help;
   const char* expected;  // what a good instrument does in it
   std::vector<SceneValue> values;

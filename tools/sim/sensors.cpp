@@ -84,20 +84,18 @@ std::vector<Beam> pattern_beams(const Sensor& sensor, std::uint32_t frame_index)
 const std::vector<SensorModel>& sensor_models() {
   static const std::vector<SensorModel> models = {
       {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise", 0.0,
-       few_points("15.0", "0.015"), 0.03},  // it sees the floor as a few arcs, and behind a body hardly any of it
+       few_points("15.0", "0.015")},
       {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0),
        "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
        0.0,
-       {{"ground_inlier_min", "400"}, {"range_noise", "0.015"}},
-       0.0},
+       {{"ground_inlier_min", "400"}, {"range_noise", "0.015"}}},
       {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0),
        "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise",
        0.0,
-       {},
-       0.0},
+       {}},
       {non_repetitive(),
        "non-repetitive, -7 to 52 deg, 20000 points per frame, 2 cm noise; upside down, to see the floor", 180.0,
-       few_points("20.0", "0.02"), 0.0},
+       few_points("20.0", "0.02")},
   };
   return models;
 }

@@ -24,8 +24,6 @@ struct SensorModel {
   std::string help;
   double mount_roll_deg;              // as it is to be mounted; a scene may say otherwise
   std::vector<EngineSetting> engine;  // in which an engine for this sensor differs from the defaults
-  // What a scene promises to be available is promised less this share for the sensor.
-  double available_less;
 };
 
 const std::vector<SensorModel>& sensor_models();

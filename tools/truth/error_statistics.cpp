@@ -78,7 +78,13 @@ void ErrorStatistics::add(const Measured& measured, double truth) {
       ++z2_count_;
     }
   }
-  if (std::isfinite(judged.value_error)) value_errors_.push_back(judged.value_error);
+  if (std::isfinite(judged.value_error)) {
+    value_errors_.push_back(judged.value_error);
+    if (measured.state == POSE_WALL_VALID) {
+      valid_errors_.push_back(judged.value_error);
+      valid_levels_.push_back(measured.protection_level);
+    }
+  }
   if (judged.raw_beyond_protection) ++raw_beyond_protection_;
   if (judged.value_beyond_protection) ++value_beyond_protection_;
   if (judged.misleading) ++valid_beyond_alert_;
@@ -95,6 +101,12 @@ void ErrorStatistics::merge(const ErrorStatistics& other) {
   z2_count_ += other.z2_count_;
   raw_errors_.insert(raw_errors_.end(), other.raw_errors_.begin(), other.raw_errors_.end());
   value_errors_.insert(value_errors_.end(), other.value_errors_.begin(), other.value_errors_.end());
+  valid_errors_.insert(valid_errors_.end(), other.valid_errors_.begin(), other.valid_errors_.end());
+  valid_levels_.insert(valid_levels_.end(), other.valid_levels_.begin(), other.valid_levels_.end());
+}
+
+LevelFigures ErrorStatistics::valid_levels() const {
+  return {quantile(valid_levels_, 0.5), error_figures(valid_errors_).absolute_95};
 }
 
 double ErrorStatistics::mean_z2() const {

@@ -48,6 +48,15 @@ struct Judged {
 // The alert limit is in the quantity's own unit.
 Judged judge(const Measured& measured, double truth, bool is_angle, double alert_limit);
 
+// Of valid values that have a truth; NaN without any.
+struct LevelFigures {
+  double median;             // of the protection levels
+  double absolute_error_95;  // 95 % of these values' errors are within it
+
+  // By how much the levels are wider than the errors need.
+  double over_error() const { return median / absolute_error_95; }
+};
+
 class ErrorStatistics {
  public:
   // Errors of angles are wrapped. The alert limit is in the quantity's own unit.
@@ -67,6 +76,8 @@ class ErrorStatistics {
   ErrorFigures raw() const { return error_figures(raw_errors_); }
   // Of frames in which the value was not invalid, held ones included.
   ErrorFigures value() const { return error_figures(value_errors_); }
+
+  LevelFigures valid_levels() const;
 
   // Errors beyond the protection level: the bound that was promised did not hold.
   std::size_t raw_beyond_protection() const { return raw_beyond_protection_; }
@@ -92,6 +103,8 @@ class ErrorStatistics {
   std::size_t z2_count_ = 0;
   std::vector<double> raw_errors_;
   std::vector<double> value_errors_;
+  std::vector<double> valid_errors_;
+  std::vector<double> valid_levels_;
 };
 
 }  // namespace pose_wall::tools

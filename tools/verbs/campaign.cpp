@@ -21,10 +21,12 @@
 #include "campaign/folder.hpp"
 #include "campaign/gate.hpp"
 #include "campaign/manifest.hpp"
+#include "campaign/merge.hpp"
 #include "campaign/motion_card_files.hpp"
 #include "campaign/motion_gate.hpp"
 #include "campaign/motion_plan.hpp"
 #include "campaign/motion_runs.hpp"
+#include "campaign/part.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
 #include "campaign/sweep.hpp"
@@ -46,6 +48,8 @@ struct CampaignOptions {
   std::string output;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   std::size_t events = 30;
+  std::string part;                // NUMBER/PARTS, or none
+  std::vector<std::string> merge;  // folders of parts
   bool list = false;
   bool fresh = false;
   bool card_only = false;
@@ -70,10 +74,24 @@ std::vector<campaign::Run> plan_of(const campaign::PlanRequest& request) {
   return request.motion ? campaign::make_motion_plan(request) : campaign::make_plan(request);
 }
 
+// Those of the plan, or of the part.
+std::vector<campaign::Run> runs_of(const CampaignOptions& options) {
+  const std::vector<campaign::Run> runs = plan_of(options.plan);
+  return options.part.empty() ? runs : campaign::runs_of_part(runs, campaign::parse_part(options.part));
+}
+
+campaign::Manifest manifest_of(const CampaignOptions& options, const std::vector<campaign::Run>& runs) {
+  campaign::Manifest manifest = campaign::make_manifest(options.plan, plan_of(options.plan), options.engine);
+  if (options.part.empty()) return manifest;
+  manifest.part = campaign::parse_part(options.part);
+  manifest.part_runs = runs.size();
+  return manifest;
+}
+
 campaign::Manifest run_campaign(const CampaignOptions& options) {
   check_settings(options.engine);
-  const std::vector<campaign::Run> runs = plan_of(options.plan);
-  campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  const std::vector<campaign::Run> runs = runs_of(options);
+  campaign::Manifest manifest = manifest_of(options, runs);
   make_output_folder(options.output);
   campaign::prepare_folder(options.output, manifest, options.fresh);
   const std::vector<campaign::Run> pending = campaign::pending_runs(options.output, runs);
@@ -105,6 +123,15 @@ int make_motion_card(const CampaignOptions& options, const campaign::Manifest& m
   return options.gate ? pass_gate(campaign::motion_gate_faults(card)) : kExitDone;
 }
 
+// A card of a part would look like one of the whole.
+int end_part(const CampaignOptions& options, const campaign::Manifest& manifest) {
+  if (!options.quiet) {
+    fmt::print("part {}: {} done in {}; pose_wall campaign --merge makes the card of all parts\n",
+               campaign::part_text(*manifest.part), counted(manifest.part_runs, "run"), options.output);
+  }
+  return kExitDone;
+}
+
 int make_card(const CampaignOptions& options, const campaign::Manifest& manifest) {
   if (manifest.plan.motion) return make_motion_card(options, manifest);
   const std::vector<campaign::RunRecord> records = campaign::read_records(options.output, manifest);
@@ -116,7 +143,7 @@ int make_card(const CampaignOptions& options, const campaign::Manifest& manifest
 }
 
 int tell_interrupted(const CampaignOptions& options) {
-  const std::vector<campaign::Run> runs = plan_of(options.plan);
+  const std::vector<campaign::Run> runs = runs_of(options);
   fmt::print(stderr, "interrupted: {} of {} done; the same command{} continues\n",
              runs.size() - campaign::pending_runs(options.output, runs).size(),
              counted(runs.size(), "run is", "runs are"), options.fresh ? " without --fresh" : "");
@@ -149,10 +176,28 @@ void sort_names(std::vector<std::string>* names) {
   names->erase(std::unique(names->begin(), names->end()), names->end());
 }
 
+// The records of a whole campaign that is there already.
+campaign::Manifest finished_campaign(const CampaignOptions& options) {
+  if (!options.merge.empty()) {
+    make_output_folder(options.output);
+    return campaign::merge_parts(options.merge, options.output, options.fresh);
+  }
+  campaign::Manifest manifest = campaign::read_manifest(options.output);
+  if (manifest.part) {
+    throw std::invalid_argument(fmt::format(
+        "--card-only: {} holds part {} of a campaign; allowed is a whole one. --merge makes the card of all "
+        "parts",
+        options.output, campaign::part_text(*manifest.part)));
+  }
+  return manifest;
+}
+
 int run_verb(const CampaignOptions& options) {
   try {
     return done_or_complaint("campaign", [&] {
-      return make_card(options, options.card_only ? campaign::read_manifest(options.output) : run_campaign(options));
+      if (options.card_only || !options.merge.empty()) return make_card(options, finished_campaign(options));
+      const campaign::Manifest manifest = run_campaign(options);
+      return manifest.part ? end_part(options, manifest) : make_card(options, manifest);
     });
   } catch (const campaign::Interrupted&) {
     return tell_interrupted(options);
@@ -178,6 +223,10 @@ void demand_only_what_goes_along(const CLI::App& verb, const CampaignOptions& op
     // The records say how they were made; nothing else can be asked of them.
     demand_only(verb, {"--card-only", "--output", "--events", "--gate", "--quiet"}, "takes the records as they are");
   }
+  if (!options.merge.empty()) {
+    demand_only(verb, {"--merge", "--output", "--events", "--gate", "--fresh", "--quiet"},
+                "takes the records of the parts as they are");
+  }
   if (!options.sweep.empty()) {
     demand_only(verb,
                 {"--sweep", "--size", "--scenes", "--kind", "--sensors", "--draws", "--first-draw", "--frames",
@@ -193,6 +242,11 @@ void demand_words_go_together(const CLI::App& verb, const CampaignOptions& optio
   }
   if (options.list && !options.plan.motion) {
     throw std::invalid_argument("--list needs --motion; `pose_wall sim --list` has the scenes");
+  }
+  for (const char* of_card : {"--gate", "--events"}) {
+    if (!options.part.empty() && verb.get_option(of_card)->count() > 0) {
+      throw std::invalid_argument(fmt::format("--part makes no card: {} goes with --merge", of_card));
+    }
   }
   if (options.json && options.sweep.empty()) {
     throw std::invalid_argument("--json needs --sweep; a campaign writes card.json in its folder");
@@ -234,12 +288,36 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
       ->check(whole_number());
 }
 
+void add_part_options(CLI::App& verb, CampaignOptions& options) {
+  verb.add_option("--part", options.part,
+                  "NUMBER/PARTS: run only this part of the runs, 3/16 the third of sixteen; makes no card")
+      ->type_name("NUMBER/PARTS");
+  verb.add_option("--merge", options.merge,
+                  "Bring the folders of all parts together in --output and make the card, the same as of one run")
+      ->type_name("DIR");
+}
+
 void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
   verb.add_option("--sweep", options.sweep,
                   "GATE=A,B,...: print the results of the runs with the table's limit of a gate, and with each of "
                   "these limits; pose_wall explain --gates lists the gates")
       ->check(campaign::sweep_fault, "");
   verb.add_flag("--json", options.json, "With --sweep: the table as JSON");
+}
+
+void add_footer(CLI::App& verb) {
+  verb.footer(
+      "Examples:\n"
+      "  pose_wall campaign --size small --gate --output /tmp/card\n"
+      "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
+      "  pose_wall campaign --motion --size small --gate --output /tmp/motion\n"
+      "  pose_wall campaign --size large --part 3/16 --output /tmp/parts/3\n"
+      "  pose_wall campaign --merge /tmp/parts/* --gate --output /tmp/card\n"
+      "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
+      "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, records of "
+      "another\n"
+      "campaign in the folder, or parts that are no whole campaign, 3 the gate failed, 130 interrupted by Ctrl-C (the "
+      "same command continues).");
 }
 
 }  // namespace
@@ -264,18 +342,11 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_flag("--fresh", options->fresh, "Remove the folder's records first");
   verb->add_flag("--card-only", options->card_only, "Make the card again from the folder's records, and run nothing");
   verb->add_flag("--gate", options->gate, "Exit with 3 unless the card meets all requirements");
+  add_part_options(*verb, *options);
   add_sweep_options(*verb, *options);
   verb->add_flag("-q,--quiet", options->quiet,
                  "Nothing on stderr but errors, nothing on stdout but the table of --sweep");
-  verb->footer(
-      "Examples:\n"
-      "  pose_wall campaign --size small --gate --output /tmp/card\n"
-      "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
-      "  pose_wall campaign --motion --size small --gate --output /tmp/motion\n"
-      "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
-      "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, or records of "
-      "another\n"
-      "campaign in the folder, 3 the gate failed, 130 interrupted by Ctrl-C (the same command continues).");
+  add_footer(*verb);
   verb->callback([options, verb, &exit_code] {
     demand_only_what_goes_along(*verb, *options);
     demand_words_go_together(*verb, *options);

@@ -47,14 +47,10 @@ struct SimOptions {
   std::string output;
 };
 
-std::string floor_text(const sim::SceneChoice& scene) {
-  return scene.available_floor > 0.0 ? fmt::format("{:g} %", 100.0 * scene.available_floor) : "-";
-}
-
 void print_list() {
-  TextTable scenes({"scene", "kind", "contents", "floor", "right behaviour"});
+  TextTable scenes({"scene", "kind", "contents", "right behaviour"});
   for (const sim::SceneChoice& s : sim::scenes()) {
-    scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, floor_text(s), s.expected});
+    scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, s.expected});
   }
   TextTable sensors({"sensor", "description"});
   for (const sim::SensorModel& m : sim::sensor_models()) sensors.add_row({m.sensor.name, m.help});
@@ -65,7 +61,7 @@ void print_list() {
     keys.add_row({p.name, sim::parameter_text(p, p.field(defaults)), p.unit, allowed, p.help});
   }
   fmt::print(
-      "{}Floor: the least share of the values with a truth that must be valid or degraded; - if none is required.\n\n"
+      "{}\n"
       "{}\n"
       "{}\n"
       "Sensor keys default to the chosen sensor's own; shown are those of os1-64.\n",

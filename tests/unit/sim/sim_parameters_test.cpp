@@ -83,17 +83,8 @@ TEST(SimScenes, RandomSizesStayInRangeDifferBySeedAndRepeat) {
   EXPECT_NE(a.rock.roughness_m, make_setup("rough", "vlp16", true, 2).rock.roughness_m);
 }
 
-TEST(SimScenes, KindAndLeastAvailabilityGoTogether) {
-  for (const SceneChoice& scene : scenes()) {
-    EXPECT_STRNE(scene.expected, "") << scene.name;
-    EXPECT_GE(scene.available_floor, 0.0) << scene.name;
-    EXPECT_LE(scene.available_floor, 1.0) << scene.name;
-    if (scene.kind == SceneKind::kNominal) {
-      EXPECT_GE(scene.available_floor, 0.8) << scene.name;
-    } else if (scene.kind == SceneKind::kUnobservable) {
-      EXPECT_EQ(scene.available_floor, 0.0) << scene.name;
-    }
-  }
+TEST(SimScenes, EachSaysWhatIsRightInIt) {
+  for (const SceneChoice& scene : scenes()) EXPECT_STRNE(scene.expected, "") << scene.name;
 }
 
 TEST(SimScenes, TheMachineStandsInNothing) {
