@@ -71,16 +71,19 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, const Settings& s
   return out;
 }
 
-// True if the points lie on all sides of the machine, with gaps of less than half a turn: then it stands on them.
-bool surround_machine(const Eighths& floor) {
-  constexpr std::uint32_t kEmptyMost = 2;  // judgement, 2026-11-23: the machine's body hides a quarter of a turn
-  std::uint32_t empty = 0;
+// Eighths of a turn side by side without points.
+std::uint32_t widest_gap(const Eighths& floor) {
+  std::uint32_t empty = 0, widest = 0;
   for (std::uint32_t k = 0; k < 16; ++k) {
     empty = floor.holds_any(k % 8) ? 0 : empty + 1;
-    if (empty > kEmptyMost) return false;
+    widest = empty > widest ? empty : widest;
   }
-  return true;
+  return widest;
 }
+// Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
+constexpr std::uint32_t kGapOfBody = 2;
+// Half a turn: the machine stands at the edge of what is seen. Beyond, all of it lies ahead, behind or to one side.
+constexpr std::uint32_t kGapOfHalf = 4;
 
 // Copies open points off the floor and below the sensor. Over the floor they may be as high as the sensor. In base they
 // may be higher, but not as high as a roof: flat ground lies high over a steep plane that is prolonged.
@@ -196,8 +199,9 @@ void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratc
   const Plane plane = floor->fit.plane;
   scratch->work.add(open.count, steps::kPointWithin);
   const Eighths seen = eighths_of(open, plane, s, sensor_base_m.z());
-  if (surround_machine(seen)) return;
-  if (!seen.reach_machine()) reach_to_unseen_ground(floor);
+  const std::uint32_t gap = widest_gap(seen);
+  if (gap <= kGapOfBody) return;
+  if (gap > kGapOfHalf && !seen.reach_machine()) reach_to_unseen_ground(floor);
   const double off_m = kOffInThresholds * s.ground_ransac_thresh;
   copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
   if (left_over.count < kPointsMin) return;
