@@ -41,14 +41,17 @@ constexpr std::uint32_t kPointsMin = 20;  // judgement, 2026-11-23: fewer left-o
 constexpr double kStretch = 1.25;
 constexpr double kMargin_rad = 0.026;
 
+// Of ground_roi_radius: 4.5 m, half the length of a machine and the slope that its tracks span. Judgement, 2026-11-26.
+constexpr double kNearInRadii = 1.5;
+
 // Number of points in each eighth of a turn around the machine.
 struct Eighths {
   std::uint32_t count[8] = {}, total = 0;
-  std::uint32_t near = 0;  // within the radius in which the machine stands
+  std::uint32_t near = 0;  // within kNearInRadii
 
-  // At least a hundredth of all points.
-  bool holds_any(std::uint32_t eighth) const { return total > 0 && count[eighth] * 100 >= total; }
-  bool reach_machine() const { return total > 0 && near * 100 >= total; }
+  // parts: at least one of so many of all points.
+  bool hold(std::uint32_t eighth, std::uint32_t parts) const { return total > 0 && count[eighth] * parts >= total; }
+  bool reach_machine(std::uint32_t parts) const { return total > 0 && near * parts >= total; }
 };
 
 // Counts points within reach of the plane and below the sensor. Prolonged, a steep plane meets the roof.
@@ -56,7 +59,8 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, const Settings& s
   constexpr std::uint8_t kEighth[] = {0, 1, 7, 6, 3, 2, 4, 5};  // by signs of x and y and which of them is larger
   const FourDistances heights(plane);
   const FourFloats reach = all_four(static_cast<float>(s.ground_ransac_thresh)), none{};
-  const FourFloats near2 = all_four(static_cast<float>(s.ground_roi_radius * s.ground_roi_radius));
+  const double near_m = kNearInRadii * s.ground_roi_radius;
+  const FourFloats near2 = all_four(static_cast<float>(near_m * near_m));
   const auto highest = static_cast<float>(sensor_z_base_m);
   Eighths out;
   for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
@@ -71,17 +75,20 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, const Settings& s
   return out;
 }
 
-// Eighths of a turn side by side without points.
-std::uint32_t widest_gap(const Eighths& floor) {
+// Eighths of a turn side by side that do not hold one of so many parts of the points.
+std::uint32_t widest_gap(const Eighths& floor, std::uint32_t parts) {
   std::uint32_t empty = 0, widest = 0;
   for (std::uint32_t k = 0; k < 16; ++k) {
-    empty = floor.holds_any(k % 8) ? 0 : empty + 1;
+    empty = floor.hold(k % 8, parts) ? 0 : empty + 1;
     widest = empty > widest ? empty : widest;
   }
   return widest;
 }
 // Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
 constexpr std::uint32_t kGapOfBody = 2;
+constexpr std::uint32_t kAnyPart = 100;  // judgement, 2026-11-23: one point in a hundred is there
+// A real part of the floor: a plane that is prolonged meets a few points of walls. Judgement, 2026-11-26.
+constexpr std::uint32_t kRealPart = 20;
 // Half a turn: the machine stands at the edge of what is seen. Beyond, all of it lies ahead, behind or to one side.
 constexpr std::uint32_t kGapOfHalf = 4;
 
@@ -199,9 +206,8 @@ void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratc
   const Plane plane = floor->fit.plane;
   scratch->work.add(open.count, steps::kPointWithin);
   const Eighths seen = eighths_of(open, plane, s, sensor_base_m.z());
-  const std::uint32_t gap = widest_gap(seen);
-  if (gap <= kGapOfBody) return;
-  if (gap > kGapOfHalf && !seen.reach_machine()) reach_to_unseen_ground(floor);
+  if (widest_gap(seen, kRealPart) > kGapOfHalf && !seen.reach_machine(kRealPart)) reach_to_unseen_ground(floor);
+  if (widest_gap(seen, kAnyPart) <= kGapOfBody) return;
   const double off_m = kOffInThresholds * s.ground_ransac_thresh;
   copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
   if (left_over.count < kPointsMin) return;

@@ -63,13 +63,9 @@ TEST(Judge, AgreesWithTheEngineAboutAxesSignsAndLengths) {
   EXPECT_GE(measured, all * 8 / 10);
 }
 
-// Shares of the same roads when these floors were set, in percent, in the order of the quantities:
-//   65.4  65.1  77.3  80.5  83.9  81.2  83.3   the engine then
-//   68.2  67.7  78.1  84.6  85.9  83.1  84.4   with levels by the waves that a wall's patches show
-// A floor is two roads (2.1 points) below the smaller one.
-constexpr Shares kRandomRoadsFloor = {0.633, 0.630, 0.752, 0.784, 0.818, 0.791, 0.812};
-// Three are known: a sensor that sees no floor but that of a steep ramp ahead, on which the machine does not stand.
-constexpr int kOthersBeyondMax = 3;
+// Shares of the same roads when these floors were set, in percent, in the order of the quantities: 67.2,
+// 66.7, 79.7, 86.2, 87.5, 87.0, 89.1. A floor is two roads (2.1 points) below.
+constexpr Shares kRandomRoadsFloor = {0.651, 0.646, 0.776, 0.841, 0.854, 0.849, 0.870};
 
 TEST(Judge, NoValidValueOfRandomRoadsIsBeyondItsLevelAndEnoughAreValid) {
   constexpr std::uint64_t kFirst = 20261126, kRoads = 96;
@@ -82,15 +78,14 @@ TEST(Judge, NoValidValueOfRandomRoadsIsBeyondItsLevelAndEnoughAreValid) {
     add(&tallies, verdict);
     others_beyond += expect_within_levels(verdict);
   }
-  EXPECT_LE(others_beyond, kOthersBeyondMax);
+  EXPECT_EQ(others_beyond, 0);
   expect_valid(tallies, kRandomRoadsFloor);
   if (HasFailure()) std::printf("%s\n%s", table(tallies).c_str(), reasons_table(tallies).c_str());
 }
 
-// Whole flat walls, and a sensor that sees them well: nothing is there to be seen through. When these floors were set,
-// yaw was valid in 83 %, distances in 73 to 86 %, with both engines above: silence that chance alone makes is taken for
-// gaps. One road is 4.2 points. Raise the floors when that is mended.
-constexpr Shares kCleanRoadsFloor = {0.95, 0.95, 0.79, 0.68, 0.68, 0.68, 0.68};
+// Whole flat walls, and a sensor that sees them well: nothing is there to be seen through. When silence that chance
+// alone makes was taken for gaps, yaw was valid in 83 % and distances in 68 to 71 %. One road is 4.2 points.
+constexpr Shares kCleanRoadsFloor = {0.95, 0.95, 0.94, 0.94, 0.94, 0.94, 0.94};
 
 TEST(Judge, DirectionsAtRandomSeeWholeFlatWallsAsWhole) {
   constexpr std::uint64_t kRoads = 24;
@@ -108,29 +103,15 @@ TEST(Judge, DirectionsAtRandomSeeWholeFlatWallsAsWhole) {
   if (HasFailure()) std::printf("%s\n%s", table(tallies).c_str(), reasons_table(tallies).c_str());
 }
 
-// Cases that are left: an upright sensor that sees no floor but that of a ramp ahead, and none of the ground on which
-// the machine stands. Roll or pitch by the ramp is valid then, and wrong. The most values of a road that were; lower
-// these numbers as the cases are mended, and never raise them.
-struct Left {
-  std::uint64_t seed;
-  int wrong_most;
-};
-constexpr Left kRampsAhead[] = {{7000122, 2}, {7000963, 3}, {7001187, 7}, {7001456, 4}, {7001696, 1}};
-
-TEST(Judge, RampsAheadOfUnseenGroundMisleadNoMoreThanTheyDid) {
-  for (const Left& left : kRampsAhead) {
+// An upright sensor sees no floor but that of a ramp ahead, and none of the ground on which the machine stands. Roll
+// and pitch by the ramp were valid on these roads, and wrong by up to 4.7 degrees.
+TEST(Judge, ARampAheadOfUnseenGroundIsNotTheFloor) {
+  for (const std::uint64_t seed : {7000122U, 7000963U, 7001187U, 7001456U, 7001696U, 20261142U}) {
     Case tried;
-    tried.seed = left.seed;
-    int wrong = 0;
-    std::string texts;
+    tried.seed = seed;
     const Verdict verdict = hear(tried);
-    for (const Finding& finding : verdict.findings) {
-      const bool is_wrong = finding.misleading() || finding.beyond() || finding.raw_beyond();
-      if (finding.state != POSE_WALL_VALID || !is_wrong) continue;
-      ++wrong;
-      texts += "\n" + verdict.text(finding);
-    }
-    EXPECT_LE(wrong, left.wrong_most) << texts;
+    EXPECT_EQ(expect_within_levels(verdict), 0) << seed;
+    EXPECT_FALSE(verdict.findings.empty()) << seed;
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kRows = DirectionGrid::kRows;        // of the directions' grid
 constexpr std::uint32_t kColumns = DirectionGrid::kColumns;  // of the directions' grid
 constexpr double kExpectedRank = 0.75;  // the upper quartile: half of the directions may be dark, blocked or hidden
-constexpr double kAnswersShare = 0.5;  // of the quartile: judgement, 2026-11-26, less is dark or half hidden
+constexpr double kAnswersShare = 0.5;   // of the quartile: judgement, 2026-11-26, less is dark or half hidden
 constexpr std::uint32_t kSeenMin = kColumns / 8;  // judgement, 2026-11-21: a row with fewer expects nothing
 constexpr double kEmptyShare = 0.05;              // judgement, 2026-11-21: a column with fewer returns is empty
 constexpr std::uint32_t kBlockedColumns = 5;      // judgement, 2026-11-21: 14 degrees, as a post or a cabin blocks

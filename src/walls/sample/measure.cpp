@@ -77,12 +77,19 @@ double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen:
 }
 
 // True if the wall may leave its plane at this height in ways that its roughness does not cover: where it was cut off,
-// where the plane is prolonged above the band, and where the surface is seen further off than patches of rock scatter.
+// and where the plane is prolonged above the band. Else a bend must show twice: it is as likely as not, and the surface
+// is seen further off than rock scatters. Things before a wall are seen off it, too, and some rock looks bent.
 bool leaves_plane(const WallScene& scene, const WallSurface& surface, double z_level_m, double offset_m) {
+  constexpr double kMayBendInSigmas =
+      1.0;                               // a third of straight walls look so; kCurvatureInSigmas, which cuts, is sure
   constexpr double kPerRoughness = 3.0;  // standard deviations of one patch; the offset is a mean of many
   const Heights& heights = surface.heights;
-  return heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m ||
-         z_level_m > scene.z_max_level_m || offset_m > kPerRoughness * surface.patch.tau_m;
+  const PatchFit& patch = surface.patch;
+  if (heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m || z_level_m > scene.z_max_level_m) {
+    return true;
+  }
+  return offset_m > kPerRoughness * patch.tau_m &&
+         !(std::fabs(patch.curvature_v) <= kMayBendInSigmas * patch.curvature_v_sigma);
 }
 
 #ifdef POSE_WALL_TRACE
