@@ -39,11 +39,14 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   return wall;
 }
 
-// What one wall shows of the rock holds for the other as well.
+// What one wall shows of the rock holds for the other as well. A wall that may bend looks as if it had long waves, and
+// other rock knows nothing of that.
 void share_waves(JudgedWall (*walls)[2]) {
   if ((*walls)[0].fit.refused || (*walls)[1].fit.refused) return;
   const WaveEvidence of[2] = {(*walls)[0].errors.layer[0].evidence, (*walls)[1].errors.layer[0].evidence};
-  for (int side = 0; side < 2; ++side) (*walls)[side].know_errors(of[1 - side]);
+  for (int side = 0; side < 2; ++side) {
+    if ((*walls)[side].straight) (*walls)[side].know_errors(of[1 - side]);
+  }
 }
 
 // A plane that was not weighed may be the better wall, and one wall may doubt what the other shows of the road. So if

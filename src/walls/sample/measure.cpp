@@ -76,20 +76,23 @@ double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen:
   return offset_m >= 0.0 ? offset_m : kGate_m;
 }
 
+// True if the curvature of the whole wall is so many standard deviations, or not known.
+bool may_bend(const PatchFit& patch, double in_sigmas) {
+  return !(std::fabs(patch.curvature_v) <= in_sigmas * patch.curvature_v_sigma);
+}
+
 // True if the wall may leave its plane at this height in ways that its roughness does not cover: where it was cut off,
-// and where the plane is prolonged above the band. Else a bend must show twice: it is as likely as not, and the surface
-// is seen further off than rock scatters. Things before a wall are seen off it, too, and some rock looks bent.
+// and where the plane is prolonged above the band. Else a bend must show twice: in the curvature of the whole, and
+// where the surface is seen further off than rock scatters. Things before a wall are seen off it, too, and some rock
+// looks bent.
 bool leaves_plane(const WallScene& scene, const WallSurface& surface, double z_level_m, double offset_m) {
-  constexpr double kMayBendInSigmas =
-      1.0;                               // a third of straight walls look so; kCurvatureInSigmas, which cuts, is sure
-  constexpr double kPerRoughness = 3.0;  // standard deviations of one patch; the offset is a mean of many
+  constexpr double kMayBendInSigmas = 2.0;  // judgement, 2026-11-23: suspected; kCurvatureInSigmas, which cuts, is sure
+  constexpr double kPerRoughness = 3.0;     // standard deviations of one patch; the offset is a mean of many
   const Heights& heights = surface.heights;
-  const PatchFit& patch = surface.patch;
   if (heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m || z_level_m > scene.z_max_level_m) {
     return true;
   }
-  return offset_m > kPerRoughness * patch.tau_m &&
-         !(std::fabs(patch.curvature_v) <= kMayBendInSigmas * patch.curvature_v_sigma);
+  return offset_m > kPerRoughness * surface.patch.tau_m && may_bend(surface.patch, kMayBendInSigmas);
 }
 
 #ifdef POSE_WALL_TRACE
@@ -167,6 +170,8 @@ FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.origin_level_m = surface.frame().origin;
   out.u_level = surface.frame().u;
   set_distances(scene, surface, side, grid, &out);
+  constexpr double kStraightInSigmas = 1.0;  // two thirds of straight walls; judgement, 2026-11-26 (arch, seed 185)
+  out.straight = !may_bend(patch, kStraightInSigmas);
   out.errors = patch.errors;
   out.know_errors(WaveEvidence{});
   return out;
