@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x4156AFF1D7FCF3E3ULL;
+constexpr std::uint64_t kSelfTestDigest = 0x3DBCF76749AB7E76ULL;
 
 }  // namespace pose_wall

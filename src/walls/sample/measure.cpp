@@ -81,18 +81,19 @@ bool may_bend(const PatchFit& patch, double in_sigmas) {
   return !(std::fabs(patch.curvature_v) <= in_sigmas * patch.curvature_v_sigma);
 }
 
-// True if the wall may leave its plane at this height in ways that its roughness does not cover: where it was cut off,
+// How far the wall leaves its plane at this height, in ways that its roughness does not cover: where it was cut off,
 // and where the plane is prolonged above the band. Else a bend must show twice: in the curvature of the whole, and
 // where the surface is seen further off than rock scatters. Things before a wall are seen off it, too, and some rock
 // looks bent.
-bool leaves_plane(const WallScene& scene, const WallSurface& surface, double z_level_m, double offset_m) {
+double leaves_plane_by(const WallScene& scene, const WallSurface& surface, const FittedWall& wall, double z_level_m) {
   constexpr double kMayBendInSigmas = 2.0;  // judgement, 2026-11-23: suspected; kCurvatureInSigmas, which cuts, is sure
   constexpr double kPerRoughness = 3.0;     // standard deviations of one patch; the offset is a mean of many
   const Heights& heights = surface.heights;
-  if (heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m || z_level_m > scene.z_max_level_m) {
-    return true;
-  }
-  return offset_m > kPerRoughness * surface.patch.tau_m && may_bend(surface.patch, kMayBendInSigmas);
+  const bool is_prolonged =
+      heights.max_m < scene.z_max_level_m || heights.min_m > scene.z_min_level_m || z_level_m > scene.z_max_level_m;
+  if (z_level_m < scene.z_min_level_m || !(is_prolonged || may_bend(surface.patch, kMayBendInSigmas))) return 0.0;
+  const double offset_m = offset_at_height(scene, wall.fit.plane, wall.along_level, z_level_m);
+  return is_prolonged || offset_m > kPerRoughness * surface.patch.tau_m ? offset_m : 0.0;
 }
 
 #ifdef POSE_WALL_TRACE
@@ -116,11 +117,7 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     const double bend = std::fabs(patch.bend_at(u, v));
     demand<gate::SAMPLE_BEND>(&out->fit, bend, s);
     POSE_WALL_NOTE(const trace::About about(quantity_subject(side, end)));
-    double offset_m = 0.0;
-    if (sample.z() >= scene.z_min_level_m) {
-      offset_m = offset_at_height(scene, out->fit.plane, out->along_level, sample.z());
-      if (!leaves_plane(scene, surface, sample.z(), offset_m)) offset_m = 0.0;
-    }
+    const double offset_m = leaves_plane_by(scene, surface, *out, sample.z());
     const double along_m = out->along_level.dot(sample);
     const AtSample seen = look_at_sample(scene, surface, grid, *out, sample);
     const double gap_m = grid.gap_to_solid_m(along_m);
