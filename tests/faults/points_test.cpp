@@ -114,7 +114,7 @@ const PointCase kPointCases[] = {
     {"squares_that_overflow", "H", true, [](auto* p) { all(p, 2e19F); }},
 
     {"zeros_everywhere", "H", true, [](auto* p) { all(p, 0.0F); }},
-    {"zeros_of_74_percent", "VVx....", true, [](auto* p) { zero(p, 74); }},
+    {"zeros_of_74_percent", "VVVVVVV", true, [](auto* p) { zero(p, 74); }},
     {"zeros_of_99_percent", "x", true, [](auto* p) { zero(p, 99); }},
     {"all_points_equal", "H", false, [](auto* p) { all(p, 2.0F); }},
     {"two_points", "H", false, [](auto* p) { make(p, [](float i) {

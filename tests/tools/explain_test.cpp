@@ -311,7 +311,7 @@ const Refused kRefused[] = {
      0,
      "aara",
      "left wall",
-     "63.8 % of the wall returns nothing"},
+     "63.2 % of the wall returns nothing"},
     {"props_and_nothing_behind", {"props_before_void"}, {}, 0, "aara", "left wall", "The wall has gaps"},
     {"conveyor_before_a_dark_wall",
      {"conveyor_before_dark_wall"},
