@@ -16,10 +16,25 @@ constexpr double kPatchesMin = 10.0;
 // A slope within two of its own standard deviations may be chance, and is no kerb. Judgement, 2026-11-21.
 constexpr double kOwnErrors = 2.0;
 
+// Beyond a line through the origin, or before it.
 struct Half {
-  bool along_u, beyond;
-  bool holds(const SurfacePatch& p) const { return ((along_u ? p.u : p.v) >= 0.0) == beyond; }
+  double u, v;  // across the line
+  bool holds(const SurfacePatch& p) const { return u * p.u + v * p.v >= 0.0; }
 };
+
+// Unit vector along the patches' greatest extent: the road's. A kerb runs along it, whichever way the machine stands.
+Eigen::Vector2d greatest_extent(Span<const SurfacePatch> patches) {
+  NormalEquations sums;
+  for (const SurfacePatch& p : patches) sums.add(p.u, p.v, 0.0, 1.0);
+  const Eigen::Matrix3d m = sums.information() / sums.weight();
+  const double uv = m(1, 2) - m(0, 1) * m(0, 2);
+  const double difference = 0.5 * ((m(1, 1) - m(0, 1) * m(0, 1)) - (m(2, 2) - m(0, 2) * m(0, 2)));
+  // Of a symmetric matrix of two by two: the angle of its main axis is half of that of (difference, uv).
+  const double size = std::sqrt(difference * difference + uv * uv);
+  if (!(size > 0.0)) return {1.0, 0.0};
+  const double cosine = std::sqrt(0.5 * (1.0 + difference / size)), sine = std::sqrt(0.5 * (1.0 - difference / size));
+  return {cosine, uv < 0.0 ? -sine : sine};
+}
 
 double reach_of(const Half& half, Span<const SurfacePatch> patches, const Eigen::Vector3d& correction,
                 const Eigen::Vector3d& response) {
@@ -46,7 +61,9 @@ double reach_of(const Half& half, Span<const SurfacePatch> patches, const Eigen:
 double reach_of_halves(Span<const SurfacePatch> patches, const Eigen::Vector3d& correction,
                        const Eigen::Vector3d& response) {
   double reach = 0.0;
-  for (const Half& half : {Half{true, false}, Half{true, true}, Half{false, false}, Half{false, true}}) {
+  if (patches.size() == 0) return reach;
+  const Eigen::Vector2d a = greatest_extent(patches);
+  for (const Half& half : {Half{-a.x(), -a.y()}, Half{a.x(), a.y()}, Half{a.y(), -a.x()}, Half{-a.y(), a.x()}}) {
     const double of_half = reach_of(half, patches, correction, response);
     reach = of_half > reach ? of_half : reach;
   }

@@ -54,6 +54,25 @@ TEST(PlaneHalves, ReachMakesUpForAKerb) {
   }
 }
 
+// The halves lie along the ground's own length, so a machine that stands turned on its road does not mix them.
+TEST(PlaneHalves, AKerbIsAKerbWhicheverWayTheMachineStands) {
+  test::Noise noise(3);
+  for (const double turned_deg : {-80.0, -45.0, -20.0, 0.0, 20.0, 45.0, 80.0}) {
+    const double angle_rad = turned_deg / 57.29578, c = std::cos(angle_rad), s = std::sin(angle_rad);
+    std::vector<SurfacePatch> patches;
+    for (double along = -7.75; along < 8.0; along += 0.5) {
+      for (double across = -1.75; across < 2.0; across += 0.5) {
+        const double height_m = (across > 0.9 ? 0.06 : 0.0) + noise.normal(0.003);
+        patches.push_back({c * along - s * across, s * along + c * across, height_m, 0.0, 1e-6});
+      }
+    }
+    const Eigen::Vector3d plane = plane_through(patches), across(0.0, -s, c);
+    const double tilt = std::fabs(plane.dot(across));
+    EXPECT_GT(tilt, 0.008) << turned_deg;
+    EXPECT_GT(reach(patches, across), 0.7 * tilt) << turned_deg;
+  }
+}
+
 TEST(PlaneHalves, RoughGroundHardlyReaches) {
   test::Noise noise(2);
   double sum = 0.0;
