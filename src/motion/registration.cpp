@@ -401,9 +401,8 @@ void find_axes(const Scan& scan, const Eigen::Vector3d& forward_map, Alignment* 
   Eigen::Vector3d axis = a->axes.along;
   if (!least_known(N, &axis)) return;
   if (std::fabs(axis.dot(up)) > kUpright) {
-    N += all * up * up.transpose();
     axis = forward_map;
-    if (!least_known(N, &axis)) return;
+    if (!least_known(N + all * up * up.transpose(), &axis)) return;
   }
   if (axis.dot(forward_map) < 0.0) axis = -axis;
   const double least = axis.dot(N * axis);

@@ -88,11 +88,11 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.add(choice.verdict[side]);
   }
-  share_waves(&out.side);
   refuse_unfinished(work, &out.side);
   doubt_those_alone(s, choice, beside, &out.side);
   doubt_short_ones_apart(s, choice, &out.side);
   refuse_blocked_sides(scene.counts, s, &out.side);
+  share_waves(&out.side);
   share_direction(scene, &out.side);
   return out;
 }

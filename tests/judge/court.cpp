@@ -171,8 +171,9 @@ std::string Verdict::text(const Finding& finding) const {
       shown(q, finding.raw_error), shown(q, finding.raw_level), shown(q, finding.sigma),
       q < POSE_WALL_D_LF ? "deg" : "mm");
   if (finding.reasons != 0) text += reason_names(finding.reasons) + "; ";
-  text += format("replay: pose_wall_judge --seed %llu --roads 1 --frames %d%s",
-                 static_cast<unsigned long long>(tried.seed), tried.frames, tried.quiet ? " --quiet" : "");
+  text += format("replay: pose_wall_judge --seed %llu --roads 1 --frames %d%s%s",
+                 static_cast<unsigned long long>(tried.seed), tried.frames, tried.quiet ? " --quiet" : "",
+                 tried.no_bias ? " --no-bias" : "");
   if (tried.sensor >= 0) text += std::string(" --sensor ") + kSensorTable[static_cast<std::size_t>(sensor)].name;
   return text;
 }

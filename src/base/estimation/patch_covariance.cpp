@@ -156,7 +156,8 @@ void PatchGrid::correlate_errors(const PairSums& sums, const double (&taken_by_f
 }
 
 // Squares of neighbouring patches, as small as leave room for all. The fit answers to a block as to its patches.
-std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse) {
+std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse,
+                                        std::int32_t* patches_wide) {
   struct Sums {
     double w = 0.0, u = 0.0, v = 0.0, r = 0.0, noise = 0.0;
     Eigen::Vector3d response = Eigen::Vector3d::Zero();
@@ -189,6 +190,7 @@ std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix
         responses_[count++] = sum.response;
       }
     }
+    *patches_wide = side;
     if (fits) return count;
   }
 }
@@ -200,8 +202,10 @@ bool PatchGrid::measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, 
   out->bias_response = inverse * bias;
   out->errors.layers = layers_;
   for (std::uint32_t layer = 0; layer < layers_; ++layer) {
-    const std::uint32_t count = collect_blocks(layer, inverse);
+    std::int32_t patches_wide = 1;
+    const std::uint32_t count = collect_blocks(layer, inverse, &patches_wide);
     out->errors.layer[layer] = uneven_.errors_of(blocks_.first(count), responses_.first(count));
+    out->errors.layer[layer].evidence.patch_m = static_cast<float>(patches_wide) / cells_per_m_;
     out->work += count * steps::kPatchWaved;
     if (!out->errors.layer[layer].solved()) return false;
   }

@@ -169,7 +169,7 @@ class PatchGrid {
   double for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
   static void correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough);
   double visibility(double tau2_surface) const;
-  std::uint32_t collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse);
+  std::uint32_t collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse, std::int32_t* patches_wide);
   bool measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, PatchFit* out);
   static Quadratic quadratic_terms(const Mean& p);
   double rock_about_quadratic(std::uint32_t n) const;

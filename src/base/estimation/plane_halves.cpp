@@ -63,7 +63,9 @@ double reach_of_halves(Span<const SurfacePatch> patches, const Eigen::Vector3d& 
   double reach = 0.0;
   if (patches.size() == 0) return reach;
   const Eigen::Vector2d a = greatest_extent(patches);
-  for (const Half& half : {Half{-a.x(), -a.y()}, Half{a.x(), a.y()}, Half{a.y(), -a.x()}, Half{-a.y(), a.x()}}) {
+  // Also on either side of both axes: a floor as wide as long has no length of its own.
+  for (const Half& half : {Half{-a.x(), -a.y()}, Half{a.x(), a.y()}, Half{a.y(), -a.x()}, Half{-a.y(), a.x()},
+                           Half{-1.0, 0.0}, Half{1.0, 0.0}, Half{0.0, -1.0}, Half{0.0, 1.0}}) {
     const double of_half = reach_of(half, patches, correction, response);
     reach = of_half > reach ? of_half : reach;
   }

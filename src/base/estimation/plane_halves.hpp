@@ -14,9 +14,9 @@
 namespace pose_wall {
 
 // Deviation of a half's slope from that of the whole beyond its own error, as the response of an angle; the largest
-// over the halves on either side of two lines through the origin, along the surface's greatest extent and across it. 0
-// if a half holds too few patches. correction: of the whole (offset, slope along u, slope along v); residuals are about
-// it. response: of the angle to such a correction.
+// over the halves on either side of both axes, and of the surface's greatest extent and across it. 0 if a half holds
+// too few patches. correction: of the whole (offset, slope along u, slope along v); residuals are about it. response:
+// of the angle to such a correction.
 double reach_of_halves(Span<const SurfacePatch> patches, const Eigen::Vector3d& correction,
                        const Eigen::Vector3d& response);
 

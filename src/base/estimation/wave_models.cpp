@@ -49,10 +49,11 @@ constexpr int kRow[6] = {0, 1, 1, 2, 2, 2}, kColumn[6] = {0, 0, 1, 0, 1, 2};
 bool weigh_models(const WaveEvidence& own, const WaveEvidence& elsewhere, double (*weights)[kWaveModels]) {
   if (!own.exists) return false;
   double sum = relative(own, own.solved, weights);
+  const bool is_alike = elsewhere.exists && elsewhere.patch_m == own.patch_m;
   bool shared[kWaveModels];
   double models = 0.0;
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
-    shared[k] = elsewhere.exists && own.solved[k] && elsewhere.solved[k];
+    shared[k] = is_alike && own.solved[k] && elsewhere.solved[k];
     models += shared[k] ? 1.0 : 0.0;
   }
   if (models > 1.0) {

@@ -22,9 +22,11 @@ struct WaveEvidence {
   bool exists = false;
   bool solved[kWaveModels] = {};
   float log_likelihood[kWaveModels] = {};
+  float patch_m = 0.0F;  // side of its patches: of other ones a model means another thing
 };
 
-// Weights of the models by a surface's own evidence and by that of another surface, which exists or not. Together 1.
+// Weights of the models by a surface's own evidence and by that of another surface, which exists or not, and counts
+// if its patches are as large. Together 1.
 // False if no model is solved.
 bool weigh_models(const WaveEvidence& own, const WaveEvidence& elsewhere, double (*weights)[kWaveModels]);
 

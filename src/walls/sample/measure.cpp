@@ -78,7 +78,7 @@ double offset_at_height(const WallScene& scene, const Plane& plane, const Eigen:
 
 // True if the curvature of the whole wall is so many standard deviations, or not known.
 bool may_bend(const PatchFit& patch, double in_sigmas) {
-  return !(std::fabs(patch.curvature_v) <= in_sigmas * patch.curvature_v_sigma);
+  return !(patch.curvature_v_sigma > 0.0 && std::fabs(patch.curvature_v) <= in_sigmas * patch.curvature_v_sigma);
 }
 
 // How far the wall leaves its plane at this height, in ways that its roughness does not cover: where it was cut off,

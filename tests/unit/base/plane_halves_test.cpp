@@ -10,6 +10,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/estimation/normal_equations.hpp"
@@ -54,13 +55,16 @@ TEST(PlaneHalves, ReachMakesUpForAKerb) {
   }
 }
 
-// The halves lie along the ground's own length, so a machine that stands turned on its road does not mix them.
+// Halves lie along the ground's own length, so a machine that stands turned on its road does not mix them. Where ground
+// is as wide as long, those on either side of the machine's axes are left.
 TEST(PlaneHalves, AKerbIsAKerbWhicheverWayTheMachineStands) {
   test::Noise noise(3);
-  for (const double turned_deg : {-80.0, -45.0, -20.0, 0.0, 20.0, 45.0, 80.0}) {
+  for (const auto& [length_m, turned_deg] :
+       {std::pair(15.5, -80.0), std::pair(15.5, -45.0), std::pair(15.5, -20.0), std::pair(15.5, 0.0),
+        std::pair(15.5, 20.0), std::pair(15.5, 45.0), std::pair(15.5, 80.0), std::pair(3.5, 0.0)}) {
     const double angle_rad = turned_deg / 57.29578, c = std::cos(angle_rad), s = std::sin(angle_rad);
     std::vector<SurfacePatch> patches;
-    for (double along = -7.75; along < 8.0; along += 0.5) {
+    for (double along = -0.5 * length_m; along < 0.5 * length_m + 0.25; along += 0.5) {
       for (double across = -1.75; across < 2.0; across += 0.5) {
         const double height_m = (across > 0.9 ? 0.06 : 0.0) + noise.normal(0.003);
         patches.push_back({c * along - s * across, s * along + c * across, height_m, 0.0, 1e-6});

@@ -54,6 +54,10 @@ TEST(WaveModels, AnotherSurfaceHelpsWhereTheOwnCannotTell) {
   EXPECT_GT(weights[1], 0.01) << "it may be other rock";
   ASSERT_TRUE(weigh_models(evidence_of({-30.0F, 0.0F, -30.0F}), evidence_of({0.0F, -30.0F, -30.0F}), &weights));
   EXPECT_GT(weights[1], 0.999) << "the own evidence outvotes";
+  WaveEvidence coarse = evidence_of({0.0F, -30.0F, -30.0F});
+  coarse.patch_m = 1.0F;
+  ASSERT_TRUE(weigh_models(unsure, coarse, &weights));
+  EXPECT_NEAR(weights[0], 1.0 / 3.0, 1e-6) << "patches of another size";
 }
 
 TEST(WaveModels, TheLevelHasTheTailOfTheMixture) {
