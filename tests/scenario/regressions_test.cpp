@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: drawn roads of campaigns on which a value was once wrong beyond its level stay mended. The seed of a run is in
-// the campaign's records; pose_wall sim --random --seed makes the same road.
+// Proves: drawn roads of campaigns on which a value was once wrong beyond its level stay mended. The seed of a run is
+// in the campaign's records; pose_wall sim --random --seed makes the same road.
 
 #include <gtest/gtest.h>
 
@@ -41,8 +41,8 @@ class Regression : public ::testing::TestWithParam<Mended> {};
 TEST_P(Regression, NoValueIsBeyondItsLevel) {
   const Mended& at = GetParam();
   std::uint32_t measured = 0;
-  for (const JudgedFrame& f : run_frames(sim::make_setup(at.scene, at.sensor, true, at.seed), at.seed, at.frames,
-                                         config_with())) {
+  for (const JudgedFrame& f :
+       run_frames(sim::make_setup(at.scene, at.sensor, true, at.seed), at.seed, at.frames, config_with())) {
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       if (f.is(q, POSE_WALL_INVALID)) continue;
       ++measured;
