@@ -155,34 +155,38 @@ void PatchGrid::correlate_errors(const PairSums& sums, const double (&taken_by_f
   }
 }
 
+// The patches of a square, and how the fit answers to them. No weight: there are none.
+PatchGrid::Block PatchGrid::sum_block(std::int32_t first, std::int32_t row, std::int32_t column, std::int32_t side,
+                                      const Eigen::Matrix3d& inverse) const {
+  const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
+  Block sum;
+  for (std::int32_t iv = row; iv < row + side && iv < rows; ++iv) {
+    for (std::int32_t iu = column; iu < column + side && iu < columns; ++iu) {
+      const std::int32_t at = mean_of_cell_[static_cast<std::uint32_t>(first + iv * columns + iu)];
+      if (at < 0) continue;
+      const Mean& p = means_[static_cast<std::uint32_t>(at)];
+      sum.w += p.information;
+      sum.u += p.information * p.u;
+      sum.v += p.information * p.v;
+      sum.r += p.information * p.error;
+      sum.noise += p.information * p.information * p.noise_variance;
+      sum.response += p.information * (inverse * p.a);
+    }
+  }
+  return sum;
+}
+
 // Squares of neighbouring patches, as small as leave room for all. The fit answers to a block as to its patches.
 std::uint32_t PatchGrid::collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse,
                                         std::int32_t* patches_wide) {
-  struct Sums {
-    double w = 0.0, u = 0.0, v = 0.0, r = 0.0, noise = 0.0;
-    Eigen::Vector3d response = Eigen::Vector3d::Zero();
-  };
   const auto columns = static_cast<std::int32_t>(columns_), rows = static_cast<std::int32_t>(rows_);
-  const std::int32_t first_row = static_cast<std::int32_t>(layer) * rows;
+  const std::int32_t first = static_cast<std::int32_t>(layer) * rows * columns;
   for (std::int32_t side = 1;; ++side) {
     std::uint32_t count = 0;
     bool fits = true;
     for (std::int32_t column = 0; column < columns && fits; column += side) {
       for (std::int32_t row = 0; row < rows && fits; row += side) {
-        Sums sum;
-        for (std::int32_t iv = row; iv < row + side && iv < rows; ++iv) {
-          for (std::int32_t iu = column; iu < column + side && iu < columns; ++iu) {
-            const std::int32_t at = mean_of_cell_[static_cast<std::uint32_t>((first_row + iv) * columns + iu)];
-            if (at < 0) continue;
-            const Mean& p = means_[static_cast<std::uint32_t>(at)];
-            sum.w += p.information;
-            sum.u += p.information * p.u;
-            sum.v += p.information * p.v;
-            sum.r += p.information * p.error;
-            sum.noise += p.information * p.information * p.noise_variance;
-            sum.response += p.information * (inverse * p.a);
-          }
-        }
+        const Block sum = sum_block(first, row, column, side, inverse);
         if (!(sum.w > 0.0)) continue;
         fits = count < blocks_.size();
         if (!fits) break;

@@ -169,6 +169,12 @@ class PatchGrid {
   double for_each_neighbourhood(std::uint32_t n, const Visit& visit) const;
   static void correlate_errors(const PairSums& sums, const double (&taken_by_fit)[kLags + 1], Roughness* rough);
   double visibility(double tau2_surface) const;
+  struct Block {
+    double w = 0.0, u = 0.0, v = 0.0, r = 0.0, noise = 0.0;
+    Eigen::Vector3d response = Eigen::Vector3d::Zero();
+  };
+  Block sum_block(std::int32_t first, std::int32_t row, std::int32_t column, std::int32_t side,
+                  const Eigen::Matrix3d& inverse) const;
   std::uint32_t collect_blocks(std::uint32_t layer, const Eigen::Matrix3d& inverse, std::int32_t* patches_wide);
   bool measure_errors(std::uint32_t n, const Eigen::Matrix3d& inverse, PatchFit* out);
   static Quadratic quadratic_terms(const Mean& p);
