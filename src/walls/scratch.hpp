@@ -18,6 +18,7 @@ struct WallsScratch {
   WallFitScratch fit;
   SightScratch sight;
   EdgeScratch edges;
+  PatchErrors errors[2];  // of the fitted walls, left and right
 
   void lay_out(Arena& arena, std::uint32_t points_max) {
     propose.lay_out(arena, points_max);

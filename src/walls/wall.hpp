@@ -32,7 +32,6 @@ struct FittedWall {
   double distance_dof[2] = {1.0, 1.0};  // independent pieces behind the distances' variances
   double yaw_dof = 1.0;                 // and behind the direction's
   // What the standard deviations follow from: see know_errors().
-  PatchErrors errors;
   double yaw_per_slope = 1.0;  // of the standard deviations
   Eigen::Vector3d origin_level_m = Eigen::Vector3d::Zero(), u_level = Eigen::Vector3d::UnitX();  // of the fit
   Eigen::Vector3d at_sample[2];  // of the plane's errors: 1, u, v
@@ -44,7 +43,7 @@ struct FittedWall {
 
   // Sets the standard deviations and their degrees of freedom, and the pivot, by the waves that this wall shows and by
   // those of other rock.
-  void know_errors(const WaveEvidence& elsewhere);
+  void know_errors(const WaveEvidence& elsewhere, PatchErrors* errors);
 };
 
 // One argument against a wall. It widens the protection levels, or refuses the wall.

@@ -32,7 +32,7 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   work.add(steps::kWallLookedAt);
   work.add(scene.band_level.count, steps::kPointLookedAt);
   if (work.is_spent()) return {};
-  FittedWall wall = measure_wall(scene, surface, side, scratch->grid);
+  FittedWall wall = measure_wall(scene, surface, side, scratch->grid, &scratch->errors[side]);
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
   wall.along_max_m = chosen.evidence.along_max_m;
@@ -41,11 +41,11 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
 
 // What one wall shows of the rock holds for the other as well. A wall that may bend looks as if it had long waves, and
 // other rock knows nothing of that.
-void share_waves(JudgedWall (*walls)[2]) {
+void share_waves(PatchErrors (*errors)[2], JudgedWall (*walls)[2]) {
   if ((*walls)[0].fit.refused || (*walls)[1].fit.refused) return;
-  const WaveEvidence of[2] = {(*walls)[0].errors.layer[0].evidence, (*walls)[1].errors.layer[0].evidence};
+  const WaveEvidence of[2] = {(*errors)[0].layer[0].evidence, (*errors)[1].layer[0].evidence};
   for (int side = 0; side < 2; ++side) {
-    if ((*walls)[side].straight) (*walls)[side].know_errors(of[1 - side]);
+    if ((*walls)[side].straight) (*walls)[side].know_errors(of[1 - side], &(*errors)[side]);
   }
 }
 
@@ -92,7 +92,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   doubt_those_alone(s, choice, beside, &out.side);
   doubt_short_ones_apart(s, choice, &out.side);
   refuse_blocked_sides(scene.counts, s, &out.side);
-  share_waves(&out.side);
+  share_waves(&scratch->errors, &out.side);
   share_direction(scene, &out.side);
   return out;
 }

@@ -11,6 +11,8 @@
 namespace pose_wall {
 
 // side: 0 left, 1 right. grid: marked with the RANSAC threshold.
-FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid);
+// errors: gets the surface's.
+FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
+                        PatchErrors* errors);
 
 }  // namespace pose_wall
