@@ -243,8 +243,9 @@ POSE_WALL_WRAP_OVERLOAD(IrlsOver, irls_points, irls_tukey,
 }
 
 POSE_WALL_WRAP(FittedWall, measure_wall,
-               (const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid)) {
-  FittedWall r = measure_wall_for_real(scene, surface, side, grid);
+               (const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
+                PatchErrors* errors)) {
+  FittedWall r = measure_wall_for_real(scene, surface, side, grid, errors);
   if (fails(Fault::kMeasureRefused)) refuse(&r.fit, POSE_WALL_R_WALL_SHORT);
   return r;
 }
