@@ -23,7 +23,7 @@ struct Case {
 
 // One value of one frame.
 struct Finding {
-  // The value is off by more than its level, or (valid ones) than its alert limit.
+  // Off by more than its level; raw likewise; valid, and off by more than its alert limit.
   bool beyond() const { return measured_or_held() && !(error_abs() <= level); }
   bool raw_beyond() const { return raw_state != POSE_WALL_INVALID && !(raw_error_abs() <= raw_level); }
   bool misleading() const { return state == POSE_WALL_VALID && !(error_abs() <= alert_limit); }

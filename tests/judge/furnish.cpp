@@ -10,7 +10,7 @@
 namespace pose_wall::judge {
 namespace {
 
-constexpr double kMachineHalfLength_m = 2.25;
+constexpr double kMachineHalfLength_m = 2.25;  // of a machine 4.5 m long
 
 class Furnisher {
  public:

@@ -68,7 +68,7 @@ TEST(Judge, AgreesWithTheEngineAboutAxesSignsAndLengths) {
 constexpr Shares kRandomRoadsFloor = {0.651, 0.646, 0.776, 0.841, 0.854, 0.849, 0.870};
 
 TEST(Judge, NoValidValueOfRandomRoadsIsBeyondItsLevelAndEnoughAreValid) {
-  constexpr std::uint64_t kFirst = 20261126, kRoads = 96;
+  constexpr std::uint64_t kFirst = 20261126, kRoads = 96;  // a date; as many as take a quarter of a minute
   Tallies tallies;
   int others_beyond = 0;
   for (std::uint64_t seed = kFirst; seed < kFirst + kRoads; ++seed) {

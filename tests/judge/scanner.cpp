@@ -15,8 +15,8 @@ constexpr double kRangeMin_m = 0.1, kRangeMax_m = 90.0;
 
 }  // namespace
 
-// Data sheets: Velodyne VLP-16 (within 3 cm, taken for two sigma; 2 mm) and HDL-32E (2 cm at one sigma); Ouster OS1-64
-// and OS0-128 (1 to 1.5 cm, 1 mm); Livox Mid-360 (2 cm at 10 m, 1 mm; 200,000 points a second).
+// Range noise and steps by the data sheets. Velodyne: VLP-16 within 3 cm, taken for two sigma, 2 mm; HDL-32E 2 cm.
+// Ouster: OS1-64 and OS0-128 1 to 1.5 cm, 1 mm. Livox: Mid-360 2 cm at 10 m, 1 mm, 200,000 points a second.
 const std::array<Sensor, kSensors> kSensorTable = {{
     {"vlp16", "vlp16.yaml", Pattern::kRings, 16, 28800, -15.0, 15.0, 0.015, 0.002, 0.003, Hung::kUpright},
     {"hdl32", "os1-64.yaml", Pattern::kRings, 32, 57600, -30.67, 10.67, 0.015, 0.002, 0.003, Hung::kUpright},

@@ -43,7 +43,7 @@ PatchFit fit(PatchGrid* grid, double noise_m, double scale_m, test::Noise* noise
   return grid->fit();
 }
 
-struct Spread {
+struct Scatter {
   double squares[3] = {}, claimed[3] = {}, z2[3] = {};
   void add(const PatchFit& f) {
     for (int k = 0; k < 3; ++k) {
@@ -58,7 +58,7 @@ struct Spread {
 TEST(PatchFit, OnAFlatWallTheCovarianceIsTheSpread) {
   test::Placed<PatchGrid> grid;
   test::Noise noise(1);
-  Spread spread;
+  Scatter spread;
   for (int run = 0; run < kRuns; ++run) {
     const PatchFit f = fit(grid.get(), 0.02, 0.02, &noise, [](double, double) { return 0.0; });
     ASSERT_TRUE(f.solved);
@@ -77,7 +77,7 @@ TEST(PatchFit, OnRoughRockTheErrorsAreWhatTheCovarianceSays) {
   for (const double length_m : {0.2, 0.5}) {
     test::Placed<PatchGrid> grid;
     test::Noise noise(2);
-    Spread spread;
+    Scatter spread;
     for (int run = 0; run < kRuns; ++run) {
       const Rock rock(0.05, length_m, &noise);
       const PatchFit f = fit(grid.get(), 0.01, 0.05, &noise, [&](double u, double v) { return rock.at(u, v); });
@@ -167,7 +167,7 @@ TEST(PatchFit, TheLevelOfABentWallReachesItsSurface) {
     ASSERT_TRUE(f.solved);
     for (const double u : {-3.0, 0.0, 2.0, 3.0}) {
       const double plane = f.correction[0] + f.correction[1] * u + f.correction[2];
-      const pose_wall::Spread at = f.errors.spread_of({1.0, u, 1.0});
+      const Spread at = f.errors.spread_of({1.0, u, 1.0});
       const double level = protection_factor(5.0, at.dof) * std::sqrt(at.variance) + std::fabs(f.bend_at(u, 1.0));
       EXPECT_LE(std::fabs(plane - bend * u * u), level) << bend << " at " << u;
     }
