@@ -206,7 +206,7 @@ FloorResult fit_floor(const FloorScene& scene, const FloorLook& look, const Plan
   scratch->work.add(scratch->points.count, steps::kPointPatched);
   scratch->work.add(bend.work);
   scratch->work.add(patches.size(), steps::kPatchWaved);
-  const UnevenFit uneven = bend.solved ? scratch->uneven.fit(patches) : UnevenFit{};
+  const UnevenFit uneven = bend.solved ? scratch->patches.waves().fit(patches) : UnevenFit{};
   if (!demand<gate::FLOOR_FIT>(&out.fit, uneven.solved)) return out;
   PlaneOver over = irls.over;
   over.add(uneven.correction);

@@ -44,6 +44,14 @@ constexpr double kMargin_rad = 0.026;
 // Of ground_roi_radius: 4.5 m, half the length of a machine and the slope that its tracks span. Judgement, 2026-11-26.
 constexpr double kNearInRadii = 1.5;
 
+// Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
+constexpr std::uint32_t kGapOfBody = 2;
+constexpr std::uint32_t kAnyPart = 100;  // judgement, 2026-11-23: one point in a hundred is there
+// A real part of the floor: a plane that is prolonged meets a few points of walls. Judgement, 2026-11-26.
+constexpr std::uint32_t kRealPart = 20;
+// Half a turn: the machine stands at the edge of what is seen. Beyond, all of it lies ahead, behind or to one side.
+constexpr std::uint32_t kGapOfHalf = 4;
+
 // Number of points in each eighth of a turn around the machine.
 struct Eighths {
   std::uint32_t count[8] = {}, total = 0;
@@ -84,13 +92,14 @@ std::uint32_t widest_gap(const Eighths& floor, std::uint32_t parts) {
   }
   return widest;
 }
-// Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
-constexpr std::uint32_t kGapOfBody = 2;
-constexpr std::uint32_t kAnyPart = 100;  // judgement, 2026-11-23: one point in a hundred is there
-// A real part of the floor: a plane that is prolonged meets a few points of walls. Judgement, 2026-11-26.
-constexpr std::uint32_t kRealPart = 20;
-// Half a turn: the machine stands at the edge of what is seen. Beyond, all of it lies ahead, behind or to one side.
-constexpr std::uint32_t kGapOfHalf = 4;
+
+// Ground that is seen on one side only, and not where the machine stands, may be a ramp before or behind it. Nothing of
+// the machine's own ground is left over to show that.
+void reach_to_unseen_ground(FloorResult* floor) {
+  floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
+}
 
 // Copies open points off the floor and below the sensor. Over the floor they may be as high as the sensor. In base they
 // may be higher, but not as high as a roof: flat ground lies high over a steep plane that is prolonged.
@@ -186,18 +195,6 @@ void widen_by_claims(std::uint32_t claims, const Settings& s, FloorResult* floor
   floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.roll_rad;
   floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.pitch_rad;
 }
-
-namespace {
-
-// Ground that is seen on one side only, and not where the machine stands, may be a ramp before or behind it. Nothing of
-// the machine's own ground is left over to show that.
-void reach_to_unseen_ground(FloorResult* floor) {
-  floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
-}
-
-}  // namespace
 
 void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratch* scratch, FloorResult* floor) {
   const Settings& s = scene.settings;

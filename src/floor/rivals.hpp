@@ -28,7 +28,7 @@ void widen_by_claims(std::uint32_t claims, const Settings& settings, FloorResult
 
 // A floor seen to one side of the machine only may not carry it: at the foot of a ramp a sensor that hardly looks down
 // sees the ramp ahead. Searches the open points that the floor leaves over for planes. Where the machine may stand on
-// one, the levels reach to it.
+// one, the levels reach to it. Where its own ground is not seen at all, they reach to a ramp.
 void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratch* scratch, FloorResult* floor);
 
 // A floor that has rivals and is steep may be a heap's flank: the levels reach to upright.

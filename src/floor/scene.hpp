@@ -42,7 +42,6 @@ struct FloorScratch {
   FloorGrid grid;
   PatchGrid patches;
   SurfacePatches surface;
-  UnevenPlane uneven;
   Work work;
 
   void lay_out(Arena& arena, std::uint32_t points_max) {
@@ -54,7 +53,6 @@ struct FloorScratch {
     grid.lay_out(arena);
     patches.lay_out(arena);
     surface.lay_out(arena);
-    uneven.lay_out(arena);
   }
 };
 

@@ -27,11 +27,12 @@ struct FittedWall {
   double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};
   ProtectionParts distance_bound_m[2];
-  double layer_sigma_m = 0.0;  // how far ribs and cables may have moved the surface; part of the standard deviations
+  double layer_sigma_m = 0.0;  // how far ribs and cables may have moved the surface; part ratio of their standard
+                               // deviations, with what strips and rock add
   bool extrapolated[2] = {false, false};
   double distance_dof[2] = {1.0, 1.0};  // independent pieces behind the distances' variances
   double yaw_dof = 1.0;                 // and behind the direction's
-  // What the standard deviations follow from: see know_errors().
+  // What set_sigmas() needs of the fit:
   double yaw_per_slope = 1.0;  // of the standard deviations
   Eigen::Vector3d origin_level_m = Eigen::Vector3d::Zero(), u_level = Eigen::Vector3d::UnitX();  // of the fit
   Eigen::Vector3d at_sample[2];  // of the plane's errors: 1, u, v
@@ -41,9 +42,8 @@ struct FittedWall {
   bool straight = false;  // over its height, as far as it shows: its long waves are no bend
   bool grooved = false;   // its surface lies in two depths along its length, like pipes one above the other
 
-  // Sets the standard deviations and their degrees of freedom, and the pivot, by the waves that this wall shows and by
-  // those of other rock.
-  void know_errors(const WaveEvidence& elsewhere, PatchErrors* errors);
+  // Sets the standard deviations, their degrees of freedom and the pivot. errors: of this wall's surface.
+  void set_sigmas(const PatchErrors& errors);
 };
 
 // One argument against a wall. It widens the protection levels, or refuses the wall.

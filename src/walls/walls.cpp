@@ -39,13 +39,17 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   return wall;
 }
 
-// What one wall shows of the rock holds for the other as well. A wall that may bend looks as if it had long waves, and
-// other rock knows nothing of that.
-void share_waves(PatchErrors (*errors)[2], JudgedWall (*walls)[2]) {
-  if ((*walls)[0].fit.refused || (*walls)[1].fit.refused) return;
-  const WaveEvidence of[2] = {(*errors)[0].layer[0].evidence, (*errors)[1].layer[0].evidence};
+// Sets what both walls err by. What one shows of the rock holds for the other as well. A wall that may bend looks as if
+// it had long waves, and other rock knows nothing of that.
+void set_sigmas_of(PatchErrors (*errors)[2], JudgedWall (*walls)[2]) {
+  WaveEvidence of[2];  // exists if both are walls
+  const bool both = !(*walls)[0].fit.refused && !(*walls)[1].fit.refused;
+  for (int side = 0; both && side < 2; ++side) of[side] = (*errors)[side].layer[0].evidence;
   for (int side = 0; side < 2; ++side) {
-    if ((*walls)[side].straight) (*walls)[side].know_errors(of[1 - side], &(*errors)[side]);
+    JudgedWall& wall = (*walls)[side];
+    if (!wall.fit.found) continue;
+    if (wall.straight) (*errors)[side].layer[0].weigh(of[1 - side]);
+    wall.set_sigmas((*errors)[side]);
   }
 }
 
@@ -92,7 +96,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   doubt_those_alone(s, choice, beside, &out.side);
   doubt_short_ones_apart(s, choice, &out.side);
   refuse_blocked_sides(scene.counts, s, &out.side);
-  share_waves(&scratch->errors, &out.side);
+  set_sigmas_of(&scratch->errors, &out.side);
   share_direction(scene, &out.side);
   return out;
 }

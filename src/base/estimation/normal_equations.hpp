@@ -43,8 +43,17 @@ class NormalEquations {
   bool solve(double spread_min_m, Eigen::Vector3d* solution) const;
   // Standard deviation of the points across their main direction, metres.
   double smaller_spread_m() const;
+  // Unit vector along their main direction. Needs a point.
+  Eigen::Vector2d main_direction() const;
 
  private:
+  // The 2 x 2 scatter of the points: its mean and half the difference of its variances, and its covariance.
+  struct Scatter {
+    double mean, half, uv;
+    double radius() const;  // its eigenvalues are mean + radius and mean - radius
+  };
+  Scatter scatter() const;
+
   double w_ = 0, wu_ = 0, wv_ = 0, wuu_ = 0, wuv_ = 0, wvv_ = 0, wr_ = 0, wur_ = 0, wvr_ = 0;
 };
 

@@ -77,7 +77,6 @@ struct Products {
     row[2] += own[2] * others;
     row[3] += own[3] * others;
   }
-  double at(std::uint32_t k, std::uint32_t l) const { return static_cast<double>(row[k][l]); }
   Eigen::Matrix3d of_first_three() const {
     Eigen::Matrix3d out;
     for (int k = 0; k < 3; ++k) out.row(k) = first_three(row[k]);
@@ -308,9 +307,9 @@ Eigen::Matrix3d PatchGrid::bend_sandwich(const BendSums& sums, const Roughness& 
   return rough.tau2 * sums.rock + sums.noise + shared;
 }
 
-// Of the coefficients of uu, uv and vv, by a sandwich (Conley 1999) of the errors about the quadratic. About
-// the plane a bend makes neighbouring patches err alike. That looks like rough rock with few independent patches and
-// would hide the bend. Needs Mean::error about the quadratic, and its responses in Mean::of_pairs.
+// Of the coefficients of uu, uv and vv, by a sandwich (Conley 1999) of the errors about the quadratic. About the
+// plane a bend makes neighbouring patches err alike. That looks like rough rock with few independent patches and would
+// hide the bend. Needs Mean::error about the quadratic, and its responses in Mean::of_pairs.
 Eigen::Matrix3d PatchGrid::covariance_of_bend(std::uint32_t n, const Matrix6& inverse) const {
   const double own_tau2 = rock_about_quadratic(n);
   const BendSums sums = sum_bend_pairs(n);

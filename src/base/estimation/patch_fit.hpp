@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The last step of every plane fit, and the source of its covariance.
+// The last step of every plane fit, and the source of a wall's covariance.
 //
 // Rock is rough over decimetres: the residuals of neighbouring points are one piece of rock, not independent draws, and
 // a covariance that counts points is an order of magnitude too small. So points are first averaged over patches of half
@@ -70,8 +70,8 @@ class PatchGrid {
   static constexpr std::uint32_t kCapacity = 1536;
   static constexpr std::uint32_t kLayersMax = PatchErrors::kLayersMax;  // the surface, and the fronts of strips
   static constexpr std::uint32_t kPatchesMin = 8;  // of the surface: more than the six terms of a quadratic
-  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: the test for bends
-  // allows for longer correlation, and a longer reach costs pairs.
+  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: the test for bends allows for longer
+  // correlation, and a longer reach costs pairs.
   static constexpr int kLags = 5;
 
   void lay_out(Arena& arena);
@@ -95,6 +95,8 @@ class PatchGrid {
   // correction and the bends.
   enum class Errors { kMeasured, kCovariance, kBend, kPlaneOnly };
   PatchFit fit(Errors errors = Errors::kMeasured);
+  // Its models of waves, for another surface between two fits.
+  UnevenPlane& waves() { return uneven_; }
 
  private:
   static constexpr std::uint32_t kQuadraticTerms = 6;  // 1, u, v, uu, uv, vv

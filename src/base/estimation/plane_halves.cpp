@@ -22,20 +22,6 @@ struct Half {
   bool holds(const SurfacePatch& p) const { return u * p.u + v * p.v >= 0.0; }
 };
 
-// Unit vector along the patches' greatest extent: the road's. A kerb runs along it, whichever way the machine stands.
-Eigen::Vector2d greatest_extent(Span<const SurfacePatch> patches) {
-  NormalEquations sums;
-  for (const SurfacePatch& p : patches) sums.add(p.u, p.v, 0.0, 1.0);
-  const Eigen::Matrix3d m = sums.information() / sums.weight();
-  const double uv = m(1, 2) - m(0, 1) * m(0, 2);
-  const double difference = 0.5 * ((m(1, 1) - m(0, 1) * m(0, 1)) - (m(2, 2) - m(0, 2) * m(0, 2)));
-  // Of a symmetric matrix of two by two: the angle of its main axis is half of that of (difference, uv).
-  const double size = std::sqrt(difference * difference + uv * uv);
-  if (!(size > 0.0)) return {1.0, 0.0};
-  const double cosine = std::sqrt(0.5 * (1.0 + difference / size)), sine = std::sqrt(0.5 * (1.0 - difference / size));
-  return {cosine, uv < 0.0 ? -sine : sine};
-}
-
 double reach_of(const Half& half, Span<const SurfacePatch> patches, const Eigen::Vector3d& correction,
                 const Eigen::Vector3d& response) {
   NormalEquations sums;
@@ -62,8 +48,11 @@ double reach_of_halves(Span<const SurfacePatch> patches, const Eigen::Vector3d& 
                        const Eigen::Vector3d& response) {
   double reach = 0.0;
   if (patches.size() == 0) return reach;
-  const Eigen::Vector2d a = greatest_extent(patches);
-  // Also on either side of both axes: a floor as wide as long has no length of its own.
+  // Along the road, too, as a kerb runs, whichever way the machine stands. A floor as wide as long has no length of its
+  // own, and the axes are left.
+  NormalEquations places;
+  for (const SurfacePatch& p : patches) places.add(p.u, p.v, 0.0, 1.0);
+  const Eigen::Vector2d a = places.main_direction();
   for (const Half& half : {Half{-a.x(), -a.y()}, Half{a.x(), a.y()}, Half{a.y(), -a.x()}, Half{-a.y(), a.x()},
                            Half{-1.0, 0.0}, Half{1.0, 0.0}, Half{0.0, -1.0}, Half{0.0, 1.0}}) {
     const double of_half = reach_of(half, patches, correction, response);

@@ -4,9 +4,11 @@
 #include "base/estimation/wave_models.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "base/estimation/protection.hpp"
 #include "base/math/elementary.hpp"
+#include "base/math/larger.hpp"
 
 namespace pose_wall {
 namespace {
@@ -26,12 +28,9 @@ double beyond(double sigmas) {
 
 // Likelihoods relative to the best one. Returns their sum, over counted models.
 double relative(const WaveEvidence& of, const bool (&counted)[kWaveModels], double (*likelihoods)[kWaveModels]) {
-  double best = 0.0, sum = 0.0;
-  bool first = true;
+  double best = -std::numeric_limits<double>::infinity(), sum = 0.0;
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
-    if (!counted[k] || (!first && static_cast<double>(of.log_likelihood[k]) <= best)) continue;
-    best = static_cast<double>(of.log_likelihood[k]);
-    first = false;
+    if (counted[k]) best = larger(best, static_cast<double>(of.log_likelihood[k]));
   }
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
     const double below = static_cast<double>(of.log_likelihood[k]) - best;

@@ -138,18 +138,17 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
 
 }  // namespace
 
-void FittedWall::know_errors(const WaveEvidence& elsewhere, PatchErrors* errors) {
-  errors->layer[0].weigh(elsewhere);
-  const Spread slope = errors->spread_of(Eigen::Vector3d::UnitY());
+void FittedWall::set_sigmas(const PatchErrors& errors) {
+  const Spread slope = errors.spread_of(Eigen::Vector3d::UnitY());
   yaw_sigma_rad = yaw_per_slope * std::sqrt(slope.variance);
   yaw_dof = slope.dof;
   for (int end = 0; end < 2; ++end) {
-    const Spread at = errors->spread_of(at_sample[end]);
+    const Spread at = errors.spread_of(at_sample[end]);
     distance_sigma_m[end] = std::sqrt(at.variance);
     distance_dof[end] = at.dof;
   }
   // The place where offset and slope are uncorrelated.
-  pivot_level_m = origin_level_m - u_level * (errors->covariance()(0, 1) / slope.variance);
+  pivot_level_m = origin_level_m - u_level * (errors.covariance()(0, 1) / slope.variance);
 }
 
 FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
@@ -171,7 +170,6 @@ FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int 
   constexpr double kStraightInSigmas = 1.0;  // two thirds of straight walls; judgement, 2026-11-26 (arch, seed 185)
   out.straight = !may_bend(patch, kStraightInSigmas);
   *errors = patch.errors;
-  out.know_errors(WaveEvidence{}, errors);
   return out;
 }
 

@@ -91,5 +91,21 @@ TEST(NormalEquations, SpreadIsTheStandardDeviationAcross) {
   EXPECT_NEAR(equations.smaller_spread_m(), 0.2, 1e-9);
 }
 
+TEST(NormalEquations, TheMainDirectionLiesAlongThePoints) {
+  for (const double angle : {-1.5, -0.7, 0.0, 0.3, 0.7854, 1.2, 1.5}) {
+    NormalEquations equations;
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (double a = -4.0; a <= 4.0; a += 0.5) {
+      for (const double b : {-0.2, 0.2}) equations.add(3.0 + c * a - s * b, s * a + c * b - 2.0, 0.0, 1.0);
+    }
+    const Eigen::Vector2d along = equations.main_direction();
+    EXPECT_NEAR(std::fabs(along.x() * c + along.y() * s), 1.0, 1e-9) << angle;
+    EXPECT_NEAR(along.squaredNorm(), 1.0, 1e-12) << angle;
+  }
+  NormalEquations point;
+  point.add(1.0, 1.0, 0.0, 1.0);
+  EXPECT_EQ(point.main_direction(), Eigen::Vector2d(1.0, 0.0)) << "no direction of its own";
+}
+
 }  // namespace
 }  // namespace pose_wall
