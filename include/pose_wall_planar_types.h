@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/* What the parts of pose_wall_planar share: poses in the plane and planar scans. pose_wall_planar.h is the manual. */
+
+#ifndef POSE_WALL_PLANAR_TYPES_H
+#define POSE_WALL_PLANAR_TYPES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "pose_wall.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Raised when a struct or function of the planar headers changes incompatibly. */
+#define POSE_WALL_PLANAR_ABI_VERSION 1
+/* POSE_WALL_PLANAR_ABI_VERSION of the library that is linked. */
+uint32_t pose_wall_planar_abi_version(void);
+
+/* Status codes of this library, beside those of pose_wall.h. */
+enum pose_wall_planar_status {
+  POSE_WALL_E_SCAN = -100,     /* a scan whose beams, angles or ranges are outside their limits */
+  POSE_WALL_E_POSE = -101,     /* a pose or a covariance that is not finite, or no covariance */
+  POSE_WALL_E_MAP_FILE = -102, /* saved bytes of another version, cut off or damaged */
+  POSE_WALL_E_GRID = -103      /* a grid whose size, cells or resolution are outside their limits */
+};
+/* One English sentence, also for the codes of pose_wall.h; static storage. */
+const char* pose_wall_planar_status_text(int32_t status);
+
+/* A pose in the plane: a point p of base lies at R(yaw) p + (x, y) in the frame that the pose belongs to. */
+typedef struct pose_wall_planar_pose {
+  double x_m;
+  double y_m;
+  double yaw_rad; /* counted from x to y, to the left; results are in (-pi, pi] */
+} pose_wall_planar_pose;
+
+/* A fault of settings: the member's name and its range; static storage. */
+typedef struct pose_wall_planar_fault {
+  const char* member;
+  const char* rule; /* "range_max_m must be from 1 to 200" */
+} pose_wall_planar_fault;
+
+/* Beams of a scan at most: a turn in steps of 0.001 rad. */
+#define POSE_WALL_PLANAR_BEAMS_MAX 6284
+
+/* A planar scan, as sensor_msgs/LaserScan has it. A beam is
+ *     a finite range from range_min_m to range_max_m: the first thing in this direction;
+ *     plus infinity: nothing up to range_max_m, all of it was seen;
+ *     anything else (NaN, 0, too near, too far): unknown. Unknown is not free. */
+typedef struct pose_wall_planar_scan {
+  uint32_t struct_size; /* sizeof(pose_wall_planar_scan) */
+  uint32_t beams;       /* 1 to POSE_WALL_PLANAR_BEAMS_MAX */
+  int64_t stamp_ns;
+  pose_wall_planar_pose sensor; /* the scan's origin and zero direction in base */
+  double angle_min_rad;         /* of beam 0, about the sensor; -2 pi to 2 pi */
+  double angle_step_rad;        /* from beam to beam, not 0; beams x |step| is at most a turn and a step */
+  double range_min_m;           /* 0 or more, below range_max_m */
+  double range_max_m;           /* at most 1000 */
+  double sigma_m;               /* standard deviation of a range: 0.001 to 1 */
+  const float* range_m;         /* beams ranges in m, the caller's */
+} pose_wall_planar_scan;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_PLANAR_TYPES_H */
