@@ -14,6 +14,7 @@ using pose_wall::planar::test::DrawnScan;
 using pose_wall::planar::test::expect_true_distances;
 using pose_wall::planar::test::Line;
 using pose_wall::planar::test::map_settings;
+using pose_wall::planar::test::noise;
 using pose_wall::planar::test::one_beam;
 using pose_wall::planar::test::OpenedMap;
 using pose_wall::planar::test::rough_road;
@@ -125,10 +126,29 @@ TEST(MapScan, BeamsThatShareCellsAreTracedOnceAndMissNothing) {
   EXPECT_EQ(missed, 0U);
 }
 
-// A sensor drives along a smooth wall and a rough one; beams graze them all the time. Walls stay walls.
+struct Wear {
+  std::uint32_t pieces = 0, worn = 0;
+};
+
+// Pieces of rock, seen from the front, that have no thing within a cell and a half.
+Wear wear_of(const OpenedMap& map, const std::vector<Line>& road, double x_min, double x_max) {
+  Wear wear;
+  for (const Line& line : road) {
+    for (double t = 0.125; t < 1.0; t += 0.25) {
+      const double x = line.x0 + t * (line.x1 - line.x0), y = line.y0 + t * (line.y1 - line.y0);
+      if (x < x_min || x > x_max) continue;
+      ++wear.pieces;
+      wear.worn += map.cell(x, y).distance_m > 0.075 ? 1U : 0U;
+    }
+  }
+  return wear;
+}
+
+// A sensor drives along a smooth wall and rough ones, and beams graze them all the time. Then it stands for 300 scans
+// and sees all that lies behind it from far off and flat. Walls stay walls.
 TEST(MapScan, GrazingBeamsDoNotWearWallsAway) {
   for (const double rough_m : {0.0, 0.1, 0.4}) {
-    for (const std::uint32_t beams : {360U, 720U, 1440U}) {
+    for (const std::uint32_t beams : {360U, 1440U}) {
       Random random(21);
       const auto road = rough_road(24.0, 5.0, rough_m, 9);
       auto settings = map_settings();
@@ -136,22 +156,17 @@ TEST(MapScan, GrazingBeamsDoNotWearWallsAway) {
       const OpenedMap map(settings);
       const auto insert_at = [&](double x) {
         const pose_wall_planar_pose pose{x, 0.4 * std::sin(0.5 * x), 0.1 * std::sin(x)};
-        map.insert(drawn_scan(road, pose, beams, 0.02, &random)->scan, pose);
+        const pose_wall_planar_pose measured{x + 0.01 * noise(&random), pose.y_m + 0.01 * noise(&random),
+                                             pose.yaw_rad + 0.002 * noise(&random)};
+        map.insert(drawn_scan(road, pose, beams, 0.02, &random)->scan, measured);
       };
       for (double x = 1.0; x < 23.0; x += 0.2) insert_at(x);
-      // Every piece of rock that was seen from the front has a thing within a cell.
-      std::uint32_t worn = 0, pieces = 0;
-      for (const Line& line : road) {
-        for (double t = 0.125; t < 1.0; t += 0.25) {
-          const double x = line.x0 + t * (line.x1 - line.x0), y = line.y0 + t * (line.y1 - line.y0);
-          if (x < 3.0 || x > 21.0) continue;
-          ++pieces;
-          worn += map.cell(x, y).distance_m > 0.075 ? 1U : 0U;
-        }
-      }
-      EXPECT_LE(worn, pieces / 100) << rough_m << " m rough, " << beams << " beams: " << worn << " of " << pieces;
-      // And the middle is free.
+      const Wear driven = wear_of(map, road, 3.0, 21.0);
       for (double x = 3.0; x < 21.0; x += 0.31) EXPECT_EQ(map.state(x, 0.3), kFree) << x;
+      for (int k = 0; k < 300; ++k) insert_at(22.5);
+      const Wear stood = wear_of(map, road, 3.0, 21.0);
+      EXPECT_LE(driven.worn, driven.pieces / 100) << rough_m << " m rough, " << beams << " beams";
+      EXPECT_LE(stood.worn, stood.pieces / 25) << rough_m << " m rough, " << beams << " beams";
       expect_true_distances(map.inner(), 29);
     }
   }

@@ -26,6 +26,11 @@ struct BeamWalk {
     --cells;
   }
   std::int32_t cell_across() const { return static_cast<std::int32_t>(across >> 32); }
+  // 1 where the beam crosses the cell's outer quarters, 0 in the half between them.
+  std::uint32_t beside_middle() const {
+    constexpr std::uint32_t kQuarter = 0x40000000U;  // of the 2^32 of a cell
+    return (static_cast<std::uint32_t>(across) - kQuarter) >> 31;
+  }
   std::int32_t x() const { return along_y ? cell_across() : at; }
   std::int32_t y() const { return along_y ? at : cell_across(); }
 };

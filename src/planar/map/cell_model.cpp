@@ -37,17 +37,18 @@ CellModel::CellModel(const pose_wall_planar_map_settings& settings) {
   least = static_cast<std::uint8_t>(kEvenOdds + steps_of(settings.least_probability));
   most = static_cast<std::uint8_t>(kEvenOdds + steps_of(settings.most_probability));
   const int up = steps_of(settings.hit_probability), down = steps_of(settings.miss_probability);
+  thing_from = static_cast<std::uint8_t>(kEvenOdds + steps_of(settings.occupied_probability));
+  free_up_to = static_cast<std::uint8_t>(kEvenOdds + steps_of(settings.free_probability));
   for (int value = 0; value < 128; ++value) {
     hit[value] = moved(value, up, least, most);
-    miss[value] = moved(value, down, least, most);
+    miss[0][value] = moved(value, down, least, most);
+    miss[1][value] = value < thing_from ? miss[0][value] : static_cast<std::uint8_t>(value);
     const int touched = value | kTouched;
-    hit[touched] = miss[touched] = static_cast<std::uint8_t>(touched);
+    hit[touched] = miss[0][touched] = miss[1][touched] = static_cast<std::uint8_t>(touched);
     const double probability = probability_of(static_cast<std::uint8_t>(value));
     per_cent[value] = static_cast<std::int8_t>(std::floor(100.0 * probability + 0.5));
   }
   per_cent[kNeverSeen] = POSE_WALL_PLANAR_UNKNOWN;
-  thing_from = static_cast<std::uint8_t>(kEvenOdds + steps_of(settings.occupied_probability));
-  free_up_to = static_cast<std::uint8_t>(kEvenOdds + steps_of(settings.free_probability));
 }
 
 }  // namespace pose_wall::planar

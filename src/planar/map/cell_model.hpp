@@ -25,7 +25,10 @@ struct CellModel {
   CellModel() = default;
   explicit CellModel(const pose_wall_planar_map_settings& settings);
 
-  std::uint8_t hit[256], miss[256];     // the byte after it
+  std::uint8_t hit[256];  // the byte after it
+  // Of a beam that goes through the cell's middle half, and of one that passes beside it: that one leaves things alone,
+  // for most cells of a wall are part rock, part air.
+  std::uint8_t miss[2][256];
   std::int8_t per_cent[128];            // probability of a thing; never seen: -1
   std::uint8_t thing_from, free_up_to;  // values
   std::uint8_t least, most;             // no beam moves a value beyond these

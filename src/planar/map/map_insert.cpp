@@ -123,7 +123,7 @@ bool GridMap::free_way(const BeamWalk& walk, MapWork* work) {
     const Cursor here = cursor_;
     for (; at.more() && here.holds(at.x(), at.y()); at.next()) {
       std::uint8_t& cell = here.at(at.x(), at.y());
-      cell = model_.miss[cell];
+      cell = model_.miss[at.beside_middle()][cell];
     }
   }
   return stored;
