@@ -82,11 +82,20 @@ TEST(MapScan, WithinAScanAThingWinsOverAFreeBeamAndEachCellCountsOnce) {
 
 TEST(MapScan, ProbabilitiesStayWithinTheirLimits) {
   const OpenedMap map;
-  for (int k = 0; k < 300; ++k) map.insert(one_beam(2.02F)->scan, {0.01, 0.01, 0.0});
+  for (int k = 0; k < 300; ++k) map.insert(one_beam(2.02F)->scan, {0.01, 0.025, 0.0});
   EXPECT_NEAR(map.cell(2.03, 0.01).probability, 0.97, 0.005);
   EXPECT_NEAR(map.cell(1.0, 0.01).probability, 0.12, 0.005);
-  for (int k = 0; k < 8; ++k) map.insert(one_beam(4.0F)->scan, {0.01, 0.01, 0.0});
+  for (int k = 0; k < 8; ++k) map.insert(one_beam(4.0F)->scan, {0.01, 0.025, 0.0});
   EXPECT_NE(map.state(2.03, 0.01), kThing);  // what went away is gone within a second of scans
+}
+
+TEST(MapScan, ABeamBesideTheMiddleOfACellLeavesAThingAndFreesTheRest) {
+  const OpenedMap map;
+  for (int k = 0; k < 5; ++k) map.insert(one_beam(2.02F)->scan, {0.01, 0.025, 0.0});
+  for (int k = 0; k < 100; ++k) map.insert(one_beam(4.0F)->scan, {0.01, 0.045, 0.0});
+  EXPECT_EQ(map.state(2.03, 0.03), kThing);
+  EXPECT_EQ(map.state(1.93, 0.03), kFree);
+  EXPECT_EQ(map.state(2.13, 0.03), kFree);
 }
 
 TEST(MapScan, PosesTurnAndShiftTheScanAndTheSensorStandsInBase) {

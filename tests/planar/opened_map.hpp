@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/math/crc32.hpp"
 #include "base/math/elementary.hpp"
 #include "base/math/random.hpp"
 #include "planar/held.hpp"

@@ -80,14 +80,13 @@ double GridMap::free_cells(std::uint32_t beam) const {
 }
 
 // Near the sensor many beams share a cell. Beam k, where 2^n is the highest power of two that divides it, lies between
-// two that 2^(n+1) divides. Up to where these are half a cell apart, they have covered its way.
+// two that 2^(n+1) divides. Up to where these are half a cell apart, or the nearer of them ends, they cover its way.
 double GridMap::first_cell(std::uint32_t beam) const {
-  constexpr double kApart = 0.5;  // cells between the two beams: no cell's middle line lies between them for long
+  constexpr double kApart = 0.5;  // cells between the two beams: each cell between them is crossed by one of them
   const std::uint32_t half = beam & (~beam + 1);
   if (beam == 0 || beam + half >= scan_.beams.size()) return 0.0;
-  const double covered = kApart / (2.0 * half * step_rad_);
   const double both = static_cast<double>(std::min(free_[beam - half], free_[beam + half]));
-  return both >= covered ? covered : 0.0;
+  return std::min(kApart / (2.0 * half * step_rad_), std::max(both, 0.0));
 }
 
 void GridMap::move_to(std::int32_t x, std::int32_t y, MapWork* work) {
