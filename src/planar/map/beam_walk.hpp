@@ -20,11 +20,6 @@ struct BeamWalk {
   std::int64_t cells = 0;   // that are left
 
   bool more() const { return cells > 0; }
-  void next() {
-    at += step;
-    across += slope;
-    --cells;
-  }
   std::int32_t cell_across() const { return static_cast<std::int32_t>(across >> 32); }
   // 1 where the beam crosses the cell's outer quarters, 0 in the half between them.
   std::uint32_t beside_middle() const {

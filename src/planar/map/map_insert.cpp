@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "planar/map/grid_map.hpp"
 
@@ -13,6 +14,29 @@ namespace {
 
 double squared(double a) {
   return a * a;
+}
+
+// As far as the walk stays in the tile whose cells these are. The axes by template: this loop is most of a scan's time.
+template <bool kAlongY>
+void free_in_tile(const CellModel& model, std::int32_t corner_x, std::int32_t corner_y, std::uint8_t* cells,
+                  BeamWalk* walk) {
+  BeamWalk at = *walk;
+  const std::int32_t corner = kAlongY ? corner_y : corner_x, corner_across = kAlongY ? corner_x : corner_y;
+  const std::int32_t inside = at.at - corner, to_edge = at.step > 0 ? kTileSide - inside : inside + 1;
+  const std::int64_t most = std::min<std::int64_t>(at.cells, to_edge);
+  constexpr std::ptrdiff_t kStride = kAlongY ? kTileSide : 1, kStrideAcross = kAlongY ? 1 : kTileSide;
+  std::uint8_t* main = cells + inside * kStride;
+  const std::ptrdiff_t stride = at.step * kStride;
+  std::int64_t done = 0;
+  for (; done < most; ++done, main += stride, at.across += at.slope) {
+    const auto across = static_cast<std::uint32_t>(at.cell_across() - corner_across);
+    if (across >= static_cast<std::uint32_t>(kTileSide)) break;
+    std::uint8_t& cell = main[across * kStrideAcross];
+    cell = model.miss[at.beside_middle()][cell];
+  }
+  walk->across = at.across;
+  walk->at += static_cast<std::int32_t>(done) * at.step;
+  walk->cells -= done;
 }
 
 }  // namespace
@@ -119,11 +143,8 @@ bool GridMap::free_way(const BeamWalk& walk, MapWork* work) {
   while (at.more()) {
     move_to(at.x(), at.y(), work);
     stored = stored && cursor_.stored;
-    const Cursor here = cursor_;
-    for (; at.more() && here.holds(at.x(), at.y()); at.next()) {
-      std::uint8_t& cell = here.at(at.x(), at.y());
-      cell = model_.miss[at.beside_middle()][cell];
-    }
+    if (at.along_y) free_in_tile<true>(model_, cursor_.x, cursor_.y, cursor_.cells, &at);
+    if (!at.along_y) free_in_tile<false>(model_, cursor_.x, cursor_.y, cursor_.cells, &at);
   }
   return stored;
 }
