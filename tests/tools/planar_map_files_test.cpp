@@ -189,7 +189,7 @@ TEST_F(PlanarMapFiles, AnImageThatIsNoneIsRefused) {
 TEST_F(PlanarMapFiles, DamagedFilesAreReadOrRefused) {
   std::mt19937 random(1);
   std::uint32_t refused = 0, read = 0;
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < 400; ++round) {
     std::string image = kSaverImage, yaml = kSaverYaml;
     for (std::string* const bytes : {&image, &yaml}) {
       for (std::uint32_t k = random() % 4; k > 0; --k) (*bytes)[random() % bytes->size()] = static_cast<char>(random());
@@ -206,8 +206,8 @@ TEST_F(PlanarMapFiles, DamagedFilesAreReadOrRefused) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 200U);
-  EXPECT_GT(read, 200U);
+  EXPECT_GT(refused, 40U);
+  EXPECT_GT(read, 40U);
 }
 
 }  // namespace
