@@ -59,6 +59,7 @@ void GridMap::lay_out(Arena& arena, const pose_wall_planar_map_settings& setting
   order_ = arena.take<std::uint32_t>(settings.tiles);
   nowhere_ = arena.take<std::uint8_t>(kTileCells);
   record_ = arena.take_one<pose_wall_planar_tile>();
+  arriving_ = arena.take_one<pose_wall_planar_tile>();
 }
 
 void GridMap::open(const pose_wall_planar_map_settings& settings) {
@@ -187,11 +188,13 @@ void GridMap::add_cells(std::uint32_t tile, const pose_wall_planar_tile& record)
   head.scans += record.scans;
 }
 
+// Copied first: the callback that makes room may well move its own tiles, of which this can be one.
 bool GridMap::put(const pose_wall_planar_tile& tile) {
   ++call_;
   MapWork work;
-  const std::uint32_t place = tile_for_writing(tile.column, tile.row, &work);
-  if (place != kNoTile) add_cells(place, tile);
+  *arriving_ = tile;
+  const std::uint32_t place = tile_for_writing(arriving_->column, arriving_->row, &work);
+  if (place != kNoTile) add_cells(place, *arriving_);
   settle(&work);
   return place != kNoTile;
 }

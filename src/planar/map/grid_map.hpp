@@ -113,7 +113,7 @@ class GridMap {
   std::uint32_t touched_count_ = 0;
   Span<std::uint8_t> nowhere_;  // a tile's cells for those that have none
   Span<std::uint32_t> order_;
-  pose_wall_planar_tile* record_ = nullptr;
+  pose_wall_planar_tile *record_ = nullptr, *arriving_ = nullptr;
 };
 
 }  // namespace pose_wall::planar

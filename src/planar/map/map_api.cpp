@@ -31,7 +31,7 @@ bool is_within(double value, double least, double most) {
 }
 
 bool is_place(double x_m, double y_m) {
-  constexpr double kReach_m = POSE_WALL_PLANAR_MAP_REACH_M;
+  constexpr double kReach_m = POSE_WALL_PLANAR_MAP_REACH_M;  // as the header says
   return is_within(x_m, -kReach_m, kReach_m) && is_within(y_m, -kReach_m, kReach_m);
 }
 
@@ -245,7 +245,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_grid(const pose_wall_planar_map* m
   if (inside.status() != POSE_WALL_OK) return inside.status();
   if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
   if (!is_place(x_m, y_m)) return POSE_WALL_E_POSE;
-  constexpr std::uint32_t kMost = POSE_WALL_PLANAR_GRID_SIDE_MAX;
+  constexpr std::uint32_t kMost = POSE_WALL_PLANAR_GRID_SIDE_MAX;  // as the header says
   if (width < 1 || width > kMost || height < 1 || height > kMost) return POSE_WALL_E_GRID;
   if (capacity < static_cast<std::uint64_t>(width) * height) return POSE_WALL_E_BUFFER_SMALL;
   const MapPlace place = inside.body().place_of(x_m, y_m);

@@ -24,6 +24,7 @@ void free_in_tile(const CellModel& model, std::int32_t corner_x, std::int32_t co
   const std::int32_t corner = kAlongY ? corner_y : corner_x, corner_across = kAlongY ? corner_x : corner_y;
   const std::int32_t inside = at.at - corner, to_edge = at.step > 0 ? kTileSide - inside : inside + 1;
   const std::int64_t most = std::min<std::int64_t>(at.cells, to_edge);
+  // From cell to cell along either axis:
   constexpr std::ptrdiff_t kStride = kAlongY ? kTileSide : 1, kStrideAcross = kAlongY ? 1 : kTileSide;
   std::uint8_t* main = cells + inside * kStride;
   const std::ptrdiff_t stride = at.step * kStride;
@@ -166,7 +167,7 @@ MapWork GridMap::insert(const pose_wall_planar_scan& scan, const Pose2& base) {
   free_ways(&work);
   for (std::uint32_t k = 0; k < touched_count_; ++k) {
     TileHead& head = tiles_.head(touched_[k]);
-    head.stamp_ns = scan.stamp_ns;
+    head.stamp_ns = scan_.stamp_ns;
     ++head.scans;
   }
   settle(&work);

@@ -13,10 +13,10 @@
 
 namespace pose_wall::planar {
 
-constexpr std::int32_t kTileSide = POSE_WALL_PLANAR_TILE_SIDE;  // a row of cells is the bits of one word
-constexpr std::int32_t kTileBits = 6;                           // its logarithm
-constexpr std::uint32_t kTileCells = POSE_WALL_PLANAR_TILE_CELLS;
-constexpr std::uint32_t kNoTile = 0xFFFFFFFFU;  // no index: a table holds 65,536 at most
+constexpr std::int32_t kTileSide = POSE_WALL_PLANAR_TILE_SIDE;     // a row of cells is the bits of one word
+constexpr std::int32_t kTileBits = 6;                              // the side's binary logarithm
+constexpr std::uint32_t kTileCells = POSE_WALL_PLANAR_TILE_CELLS;  // as the header says
+constexpr std::uint32_t kNoTile = 0xFFFFFFFFU;                     // no index: a table holds 65,536 at most
 
 // Both round down, also below zero.
 inline std::int32_t tile_of(std::int32_t cell) {
