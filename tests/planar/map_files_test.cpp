@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "opened_map.hpp"
+#include "planar/fast_crc32.hpp"
 
 namespace {
 
@@ -55,6 +58,17 @@ TEST(MapFiles, TheBytesAreWrittenDownOnce) {
   EXPECT_EQ(std::memcmp(bytes.data(), head, sizeof(head)), 0);
   EXPECT_EQ(bytes[40 + 24 + 10], 78);  // the thing: 64 + 14 steps of 1/16
   EXPECT_EQ(bytes[40 + 24 + 3], 58);   // free by one beam: 64 - 6
+}
+
+TEST(MapFiles, TheSumIsThatOfTheStandard) {
+  pose_wall::planar::FastCrc32 fast;
+  pose_wall::Crc32 plain;
+  for (const char sign : std::string("123456789")) fast.add_byte(static_cast<std::uint8_t>(sign));
+  EXPECT_EQ(fast.value(), 0xCBF43926U);  // the check value of CRC-32
+  for (const char sign : std::string("123456789")) plain.add_byte(static_cast<std::uint8_t>(sign));
+  plain.add_word(0x01020304U);
+  fast.add_number(0x01020304U, 4);
+  EXPECT_EQ(fast.value(), plain.value());
 }
 
 TEST(MapFiles, AnyBitThatFlipsAndAnyCutIsRefusedWithoutAChange) {

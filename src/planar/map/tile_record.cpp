@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "base/math/crc32.hpp"
+#include "planar/fast_crc32.hpp"
 #include "planar/map/grid_map.hpp"
 
 namespace pose_wall::planar {
@@ -58,15 +58,6 @@ std::uint64_t bits_of(double value) {
   return bits;
 }
 
-void add_number(Crc32* crc, std::uint64_t number) {
-  crc->add_word(static_cast<std::uint32_t>(number));
-  crc->add_word(static_cast<std::uint32_t>(number >> 32));
-}
-
-void add_bytes(Crc32* crc, const unsigned char* bytes, std::uint64_t count) {
-  for (std::uint64_t k = 0; k < count; ++k) crc->add_byte(bytes[k]);
-}
-
 bool fits(std::int32_t column, std::int32_t row, const std::uint8_t* cells, double cell_m) {
   const auto most = static_cast<std::int32_t>(POSE_WALL_PLANAR_MAP_REACH_M * 1.01 / cell_m / kTileSide);  // and beams
   bool inside = column >= -most && column < most && row >= -most && row < most;
@@ -100,21 +91,21 @@ bool are_tiles(const unsigned char* bytes, std::uint32_t tiles, double cell_m) {
 
 bool is_whole(const unsigned char* bytes, std::uint64_t size) {
   Reader tail(bytes + size - kTailBytes);
-  Crc32 crc;
-  add_bytes(&crc, bytes, size - kTailBytes);
+  FastCrc32 crc;
+  crc.add_bytes(bytes, size - kTailBytes);
   return tail.get<std::uint32_t>() == crc.value() && tail.get<std::uint32_t>() == 0;
 }
 
 }  // namespace
 
 std::uint32_t crc_of(const pose_wall_planar_tile& tile) {
-  Crc32 crc;
-  crc.add_word(static_cast<std::uint32_t>(tile.column));
-  crc.add_word(static_cast<std::uint32_t>(tile.row));
-  add_number(&crc, bits_of(tile.cell_m));
-  add_number(&crc, static_cast<std::uint64_t>(tile.stamp_ns));
-  add_number(&crc, tile.scans);
-  add_bytes(&crc, tile.cells, kTileCells);
+  FastCrc32 crc;
+  crc.add_number(static_cast<std::uint32_t>(tile.column), 4);
+  crc.add_number(static_cast<std::uint32_t>(tile.row), 4);
+  crc.add_number(bits_of(tile.cell_m), 8);
+  crc.add_number(static_cast<std::uint64_t>(tile.stamp_ns), 8);
+  crc.add_number(tile.scans, 8);
+  crc.add_bytes(tile.cells, kTileCells);
   return crc.value();
 }
 
@@ -147,8 +138,8 @@ void write_map(GridMap* map, unsigned char* bytes) {
     writer.add(head.scans);
     writer.add_cells(map->tiles().cells(tile));
   }
-  Crc32 crc;
-  add_bytes(&crc, bytes, size - kTailBytes);
+  FastCrc32 crc;
+  crc.add_bytes(bytes, size - kTailBytes);
   writer.add(crc.value());
   writer.add(std::uint32_t{0});
 }
