@@ -118,7 +118,7 @@ struct Line {
 
 // The nearest crossing of a ray with the lines; infinity: none.
 inline double range_to(const std::vector<Line>& lines, double x, double y, double angle) {
-  const double dx = std::cos(angle), dy = std::sin(angle);
+  const double dx = cosine(angle), dy = sine(angle);  // our own: the same ranges on every machine
   double nearest = std::numeric_limits<double>::infinity();
   for (const Line& line : lines) {
     const double ex = line.x1 - line.x0, ey = line.y1 - line.y0, det = ex * dy - ey * dx;
