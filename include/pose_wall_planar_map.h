@@ -78,7 +78,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_map_settings_check(const pose_wall_pl
 
 /* ---------------------------------------------------------------------------------------------- life */
 
-/* Bytes of the block: 12.6 kB a tile with distances, 4.2 kB without, and 0.2 MB. settings NULL: the defaults.
+/* Bytes of the block: 12.9 kB a tile with distances, 4.7 kB without, and 0.2 MB. settings NULL: the defaults.
  * Fails iff: bytes NULL, settings refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_memory_needed(const pose_wall_planar_map_settings* settings,
                                                              uint64_t* bytes);
@@ -132,7 +132,7 @@ typedef struct pose_wall_planar_map_report {
 
 /* Adds a scan that was taken with base at this pose in map. Fails iff: struct_size, POSE_WALL_E_SCAN, and
  * POSE_WALL_E_POSE for a pose that is not finite or outside the reach (yaw: within 10,000 rad). The map and the report
- * are then unchanged. Cost: for 720 beams in a road 5 m wide 0.3 ms (README.md of src/planar/map); at most
+ * are then unchanged. Cost: for 720 beams in a road 5 m wide 0.4 ms (README.md of src/planar/map); at most
  * beams x beam_max_m / cell_m cells, the renewal of settings.renewals tiles, and a save for each tile held. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_insert(pose_wall_planar_map* map, const pose_wall_planar_scan* scan,
                                                       const pose_wall_planar_pose* base,
