@@ -192,7 +192,7 @@ TEST_F(PlanarMapFiles, DamagedFilesAreReadOrRefused) {
   for (int round = 0; round < 400; ++round) {
     std::string image = kSaverImage, yaml = kSaverYaml;
     for (std::string* const bytes : {&image, &yaml}) {
-      for (std::uint32_t k = random() % 3; k > 0; --k) (*bytes)[random() % bytes->size()] = static_cast<char>(random());
+      for (auto k = random() % 3; k > 0; --k) (*bytes)[random() % bytes->size()] = static_cast<char>(random());
       if (random() % 8 == 0) bytes->resize(random() % bytes->size());
     }
     file("map.pgm", image);
@@ -207,7 +207,7 @@ TEST_F(PlanarMapFiles, DamagedFilesAreReadOrRefused) {
     }
   }
   EXPECT_GT(refused, 40U);
-  EXPECT_GT(read, 40U) << refused;
+  EXPECT_GT(read, 40U);
 }
 
 }  // namespace
