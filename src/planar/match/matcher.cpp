@@ -337,4 +337,14 @@ Slide Matcher::slide(Span<const ScanPoint> points, const SurfaceMap& map, const 
   return out;
 }
 
+Eigen::Matrix3d Matcher::information(const Refined& match, const Slide& slide) const {
+  Eigen::Matrix3d information = match.information / kAlike;
+  if (slide.reach_m == 0.0) return information;
+  const Eigen::Vector3d d(slide.direction.x(), slide.direction.y(), 0.0);
+  const Eigen::Vector3d held = information * d;
+  const double along = d.dot(held), most = 1.0 / (slide.reach_m * slide.reach_m);
+  if (along > most) information -= held * held.transpose() * ((along - most) / (along * along));
+  return information;
+}
+
 }  // namespace pose_wall::planar

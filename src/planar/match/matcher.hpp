@@ -19,6 +19,10 @@ namespace pose_wall::planar {
 
 constexpr std::uint32_t kSearchNodesMost = 512;
 
+// Points of one surface err alike: of so many one counts. Errors of matched pairs of scans on recorded logs of
+// buildings, over what their points promise (bench/planar.md).
+constexpr double kAlike = 10.0;
+
 struct SearchWindow {
   Pose2 middle;
   double reach_m = 0.0, reach_rad = 0.0;  // to each side
@@ -63,6 +67,9 @@ class Matcher {
   // sigma_m: range noise of the scan.
   Refined refine(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& start, const Prior& prior,
                  double sigma_m) const;
+  // What the match tells about x, y and yaw in the map: without what the slide leaves open, and since points of one
+  // surface err alike, much less than so many independent points would tell.
+  Eigen::Matrix3d information(const Refined& match, const Slide& slide) const;
   // Evidence is what patches of a square metre agree on: normals of noise make any wall look as if it held its scan.
   Slide slide(Span<const ScanPoint> points, const SurfaceMap& map, const Refined& match, double sigma_m) const;
 

@@ -9,22 +9,18 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kOld_m = 15.0;     // travel after which a place counts as seen before
-constexpr double kGroup_m = 2.5;    // travel to each side that is matched as one scan
-constexpr double kStretch_m = 6.0;  // of the old trail to each side
-constexpr double kEvery_m = 0.5;    // travel between two looks
-constexpr double kNoise_m = 0.03;   // range noise and drift within a group
-constexpr double kAlike = 10.0;     // points of one surface err alike
+constexpr double kOld_m = 15.0;             // travel after which a place counts as seen before
+constexpr double kGroup_m = 2.5;            // travel to each side that is matched as one scan
+constexpr double kBeyond_m = 3.5;           // of the old trail beyond a group, to each side
+constexpr double kLong_m = 7.0;             // of a group that decides, to each side
+constexpr std::uint32_t kStretchMost = 48;  // keyframes to each side
+constexpr double kEvery_m = 0.5;            // travel between two looks
+constexpr double kNoise_m = 0.03;           // range noise and drift within a group
 // Drift of the trail per metre: what matching left on recorded logs of buildings stays below a third of this.
 constexpr double kDrift = 0.02, kDriftYaw_rad = 0.002;
 constexpr std::uint32_t kBearings = 360;
-
-Eigen::Matrix3d in_frame_of(const Pose2& pose, const Eigen::Matrix3d& information) {
-  const Turn2 turn(pose.yaw_rad);
-  Eigen::Matrix3d R;
-  R << turn.c, turn.s, 0.0, -turn.s, turn.c, 0.0, 0.0, 0.0, 1.0;
-  return R * information * R.transpose();
-}
+constexpr double kConfirm_m = 3.0;   // travel between two long looks
+constexpr double kConfirmed = 0.85;  // share of a long stretch's points that is explained
 
 }  // namespace
 
@@ -119,14 +115,15 @@ double Loops::seen_through(const Trail& trail, std::uint32_t old, std::uint32_t 
   return judged > 0 ? static_cast<double>(through) / judged : 1.0;
 }
 
-bool Loops::match(const Trail& trail, const Matcher& matcher, std::uint32_t old, std::uint32_t now, double reach_m,
-                  Candidate* candidate) {
+bool Loops::match(const Trail& trail, const Matcher& matcher, const Look& look, Candidate* candidate) {
+  const std::uint32_t old = look.old, now = look.now;
+  const double reach_m = look.reach_m;
   const std::uint32_t last = trail.size() - 1;
-  const Trail::Range stretch = trail.around(old, kStretch_m, 24, {0, now});
+  const Trail::Range stretch = trail.around(old, look.group_m + kBeyond_m, kStretchMost, {0, now});
   trail.draw(&old_, old, {stretch.first, std::min(stretch.last, now - 1)});
-  const Span<const ScanPoint> points = group(trail, now, trail.around(now, kGroup_m, 12, {0, last}));
+  const Span<const ScanPoint> points = group(trail, now, trail.around(now, look.group_m, kStretchMost, {0, last}));
   const double reach_rad = std::min(0.8, 0.1 + kDriftYaw_rad * drift_m(trail, old, now));
-  const Found found = matcher.search(points, old_, {trail.pose(now), reach_m, reach_rad});
+  const Found found = matcher.search(points, old_, {look.guess, reach_m, reach_rad});
   const Refined refined = matcher.refine(points, old_, found.pose, Prior(), kNoise_m);
   if (!refined.is_valid) return false;
   const Slide slide = matcher.slide(points, old_, refined, kNoise_m);
@@ -134,20 +131,13 @@ bool Loops::match(const Trail& trail, const Matcher& matcher, std::uint32_t old,
   candidate->rms_m = refined.rms_m;
   candidate->second = found.score > 0.0 ? found.second_score / found.score : 1.0;
   candidate->slide_m = slide.reach_m;
-  Eigen::Matrix3d information = refined.information / kAlike;
-  if (slide.reach_m > 0.0) {
-    // Information that is no more than the slide allows: along its direction only.
-    Eigen::Vector3d d(slide.direction.x(), slide.direction.y(), 0.0);
-    const Eigen::Vector3d held = information * d;
-    const double along = d.dot(held), most = 1.0 / (slide.reach_m * slide.reach_m);
-    if (along > most) information -= held * held.transpose() * ((along - most) / (along * along));
-  }
+  const Eigen::Matrix3d information = matcher.information(refined, slide);
   const Pose2 step = between(trail.pose(old), refined.pose);
   candidate->edge = {old, now, step, in_frame_of(trail.pose(old), information), true};
   candidate->seen_through = seen_through(trail, old, now, step);
   constexpr double kExplained = 0.75, kThrough = 0.1, kSecond = 0.9, kHolds_m = 0.25;
   candidate->is_distinct = slide.reach_m <= kHolds_m && candidate->second < kSecond;
-  const bool is_inside = (refined.pose.place() - trail.pose(now).place()).norm() < 1.5 * reach_m + 0.2;
+  const bool is_inside = (refined.pose.place() - look.guess.place()).norm() < 1.5 * reach_m + 0.2;
   return is_inside && candidate->explained >= kExplained && candidate->seen_through <= kThrough;
 }
 
@@ -162,7 +152,32 @@ bool Loops::agrees(const Trail& trail, const Candidate& a, const Candidate& b) c
   return (by_a.place() - by_b.place()).norm() < place_m && std::abs(wrapped(by_a.yaw_rad - by_b.yaw_rad)) < yaw_rad;
 }
 
-std::uint32_t Loops::believe(Trail* trail, const Candidate& newest) {
+// A longer stretch decides where short ones slide: all that the last metres saw, about where the newest candidate lies.
+bool Loops::is_confirmed(const Trail& trail, const Matcher& matcher, const Candidate& newest) {
+  const std::uint32_t last = trail.size() - 1;
+  if (trail[last].travel_m - confirmed_at_m_ < kConfirm_m) return false;
+  confirmed_at_m_ = trail[last].travel_m;
+  std::uint32_t now = last;
+  while (now > 0 && trail.travel_between_m(now, last) < kLong_m) --now;
+  const Pose2 newest_place = compose(trail.pose(newest.edge.from), newest.edge.step);
+  const Pose2 guess = compose(newest_place, between(trail.pose(newest.edge.to), trail.pose(now)));
+  std::uint32_t old = newest.edge.from;
+  double nearest_m = 1e30;
+  const Trail::Range about = trail.around(newest.edge.from, 3.0 * kLong_m, 4 * kStretchMost, {0, now});
+  for (std::uint32_t k = about.first; k <= about.last; ++k) {
+    const double apart_m = (trail.pose(k).place() - guess.place()).norm();
+    if (apart_m >= nearest_m || trail.travel_between_m(k, now) < kOld_m) continue;
+    nearest_m = apart_m;
+    old = k;
+  }
+  Candidate whole;
+  const double reach_m = 1.0 + newest.slide_m;
+  const bool fits = match(trail, matcher, {old, now, guess, reach_m, kLong_m}, &whole);
+  last_whole = whole;
+  return fits && whole.is_distinct && whole.explained > kConfirmed;
+}
+
+std::uint32_t Loops::believe(Trail* trail, const Matcher& matcher, const Candidate& newest) {
   constexpr double kSpan_m = 3.0, kPool_m = 12.0;
   // Two roads do not go through one another: where drift is less than half a road's width, the place is the same.
   constexpr double kSameSpace_m = 1.5;
@@ -180,7 +195,7 @@ std::uint32_t Loops::believe(Trail* trail, const Candidate& newest) {
     span_m = std::max(span_m, trail->travel_between_m(pool_[k].edge.to, newest.edge.to));
   }
   if (agree < kAgree || differ > agree / 3 || span_m < kSpan_m) return 0;
-  if (distinct < kDistinct && !(newest.reach_m < kSameSpace_m)) return 0;
+  if (distinct < kDistinct && !(newest.reach_m < kSameSpace_m) && !is_confirmed(*trail, matcher, newest)) return 0;
   std::uint32_t tied = 0;
   ++groups_;
   for (std::uint32_t k = 0; k < pool_count_;) {
@@ -224,6 +239,7 @@ bool Loops::doubt(Trail* trail, const Candidate& newest) {
 
 bool Loops::look(Trail* trail, const Matcher& matcher) {
   looked = false;
+  last_whole = Candidate();
   const std::uint32_t last = trail->size() - 1;
   if ((*trail)[last].travel_m - looked_at_m_ < kEvery_m) return false;
   looked_at_m_ = (*trail)[last].travel_m;
@@ -235,7 +251,7 @@ bool Loops::look(Trail* trail, const Matcher& matcher) {
   if (!nearest_old(*trail, now, &old, &reach_m)) return false;
   Candidate candidate;
   candidate.reach_m = reach_m;
-  const bool fits = match(*trail, matcher, old, now, reach_m, &candidate);
+  const bool fits = match(*trail, matcher, {old, now, trail->pose(now), reach_m, kGroup_m}, &candidate);
   looked = true;
   last_candidate = candidate;
   if (doubt(trail, candidate)) return true;
@@ -245,7 +261,7 @@ bool Loops::look(Trail* trail, const Matcher& matcher) {
     --pool_count_;
   }
   pool_[pool_count_++] = candidate;
-  return believe(trail, candidate) > 0;
+  return believe(trail, matcher, candidate) > 0;
 }
 
 }  // namespace pose_wall::planar

@@ -34,9 +34,16 @@ class Loops {
 
   double drift_m(const Trail& trail, std::uint32_t old, std::uint32_t now) const;
   bool looked = false;
+  Candidate last_whole;
   Candidate last_candidate;  // for pictures and tests
 
  private:
+  // A stretch of the last metres about `now`, guessed to lie about `old`.
+  struct Look {
+    std::uint32_t old, now;
+    Pose2 guess;
+    double reach_m, group_m;
+  };
   struct Believed {
     std::uint32_t from, to;
     std::uint32_t edge;   // of the trail
@@ -44,12 +51,12 @@ class Loops {
   };
 
   bool nearest_old(const Trail& trail, std::uint32_t now, std::uint32_t* old, double* reach_m);
-  bool match(const Trail& trail, const Matcher& matcher, std::uint32_t old, std::uint32_t now, double reach_m,
-             Candidate* candidate);
+  bool match(const Trail& trail, const Matcher& matcher, const Look& look, Candidate* candidate);
+  bool is_confirmed(const Trail& trail, const Matcher& matcher, const Candidate& newest);
   Span<const ScanPoint> group(const Trail& trail, std::uint32_t now, Trail::Range range) const;
   double seen_through(const Trail& trail, std::uint32_t old, std::uint32_t now, const Pose2& now_in_old) const;
   bool agrees(const Trail& trail, const Candidate& a, const Candidate& b) const;
-  std::uint32_t believe(Trail* trail, const Candidate& newest);
+  std::uint32_t believe(Trail* trail, const Matcher& matcher, const Candidate& newest);
   bool doubt(Trail* trail, const Candidate& newest);
 
   static constexpr std::uint32_t kPoolMost = 48;
@@ -63,7 +70,7 @@ class Loops {
   std::uint32_t taken_back_ = 0;
   std::uint32_t groups_ = 0;                     // beliefs so far
   std::uint32_t fits_ = 0, contradictions_ = 0;  // since the last belief
-  double believed_at_m_ = 0.0;
+  double believed_at_m_ = 0.0, confirmed_at_m_ = 0.0;
 };
 
 }  // namespace pose_wall::planar

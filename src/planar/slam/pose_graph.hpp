@@ -17,32 +17,33 @@ namespace pose_wall::planar {
 
 struct Edge {
   std::uint32_t from = 0, to = 0;
-  Pose2 step;                   // of `to` in the frame of `from`
-  Eigen::Matrix3d information;  // of x, y, yaw of step
+  Pose2 step;                                             // of `to` in the frame of `from`
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of x, y, yaw of step
   bool is_closure = false;
 };
 
 // The error of an edge: x, y, yaw of the poses' step less those that were measured, in the frame of `from`.
 Eigen::Vector3d error_of(const Edge& edge, const Pose2& from, const Pose2& to);
 
-// Cost and size of the last solution.
-struct GraphSolution {
-  std::uint32_t rounds = 0, gradients = 0;  // of Gauss and Newton; of conjugate gradients in all
-  double moved_m = 0.0;                     // the most that a pose moved
-  double worst_closure = 0.0;               // squared error over variance
+struct GraphRound {
+  std::uint32_t gradients = 0;  // rounds of conjugate gradients
+  double moved_m = 0.0;         // the most that a pose moved
 };
 
 class PoseGraph {
  public:
   void lay_out(Arena& arena, std::uint32_t poses_most);
-  // Moves poses so that they agree with the edges. The first pose stays. Edges between neighbours go from k to k + 1.
-  GraphSolution solve(Span<Pose2> poses, Span<const Edge> edges) const;
+  // One round of Gauss and Newton: moves poses towards what the edges say. The first pose stays. Edges between
+  // neighbours go from k to k + 1. At most kGradientsMost times through all poses and edges.
+  GraphRound improve(Span<Pose2> poses, Span<const Edge> edges) const;
+
+  static constexpr std::uint32_t kGradientsMost = 40;
 
  private:
   using Block = Eigen::Matrix3d;
   using Vector = Eigen::Vector3d;
 
-  void linearise(Span<Pose2> poses, Span<const Edge> edges, double* worst_closure) const;
+  void linearise(Span<Pose2> poses, Span<const Edge> edges) const;
   void factor(std::uint32_t count) const;
   void precondition(std::uint32_t count) const;
   void multiply(Span<const Edge> edges, std::uint32_t count) const;

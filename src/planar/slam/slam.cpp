@@ -14,7 +14,6 @@ constexpr double kSpacing_m = 0.05;   // of matched points along a surface
 constexpr double kLookBack_m = 12.0;  // of travel that a scan is matched with
 constexpr std::uint32_t kLookBackMost = 60;
 constexpr double kTrusted = 0.75;  // share of points that a right pose explains at least, but for crowds
-constexpr double kAlike = 10.0;    // points of one surface err alike
 
 }  // namespace
 
@@ -34,7 +33,8 @@ void Slam::open(const SlamSettings& settings) {
   trail_.open();
   loops_.open();
   pose_ = odometry_ = last_step_ = since_agreed_ = agreed_odometry_ = Pose2();
-  is_astray_ = false;
+  is_astray_ = is_full_ = false;
+  rounds_left_ = solution_ = 0;
   has_odometry_ = false;
 }
 
@@ -152,14 +152,16 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
   if (is_due(placed)) {
-    begin_keyframe(points, scan, placed.information + prior.information);
+    const Slide slide = matcher_.slide(points, near_, placed, scan.sigma_m);
+    begin_keyframe(points, scan, matcher_.information(placed, slide) + prior.information);
     step.is_keyframe = true;
     const std::uint32_t believed = loops_.believed();
-    if (loops_.look(&trail_, matcher_)) solve();
+    if (loops_.look(&trail_, matcher_)) rounds_left_ = kRoundsMost;
     step.closures = loops_.believed() > believed ? loops_.believed() - believed : 0;
-    const std::uint32_t last = trail_.size() - 1;
-    trail_.draw(&near_, last, trail_.around(last, kLookBack_m, kLookBackMost, {0, last}));
   }
+  const bool improves = rounds_left_ > 0;
+  if (improves) improve();
+  if (improves || step.is_keyframe) draw_near();
   step.pose = pose_;
   step.keyframe = trail_.size() - 1;
   step.in_keyframe = between(trail_.pose(step.keyframe), pose_);
@@ -168,20 +170,33 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
 
 void Slam::begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information) {
   const std::uint32_t k = trail_.size();
-  if (!trail_.add(points, pose_, scan.stamp_ns) || k == 0) return;
+  if (!trail_.add(points, pose_, scan.stamp_ns)) is_full_ = true;
+  if (is_full_ || k == 0) return;
   const Pose2& from = trail_.pose(k - 1);
-  const Turn2 turn(from.yaw_rad);
-  Eigen::Matrix3d R;
-  R << turn.c, turn.s, 0.0, -turn.s, turn.c, 0.0, 0.0, 0.0, 1.0;
-  trail_.tie({k - 1, k, between(from, pose_), R * information * R.transpose() / kAlike, false});
+  trail_.tie({k - 1, k, between(from, pose_), in_frame_of(from, information), false});
 }
 
-GraphSolution Slam::solve() {
-  if (trail_.size() == 0) return GraphSolution();
-  const Pose2 in_keyframe = between(trail_.pose(trail_.size() - 1), pose_);
-  const GraphSolution solution = graph_.solve(trail_.poses(), trail_.edges());
-  pose_ = compose(trail_.pose(trail_.size() - 1), in_keyframe);
-  return solution;
+// One round of the graph. The last keyframe takes the machine along.
+void Slam::improve() {
+  constexpr double kStill_m = 1e-4;
+  const std::uint32_t last = trail_.size() - 1;
+  const Pose2 in_keyframe = between(trail_.pose(last), pose_);
+  const GraphRound round = graph_.improve(trail_.poses(), trail_.edges());
+  pose_ = compose(trail_.pose(last), in_keyframe);
+  --rounds_left_;
+  ++solution_;
+  if (round.moved_m < kStill_m) rounds_left_ = 0;
+}
+
+void Slam::settle() {
+  if (trail_.size() == 0 || rounds_left_ == 0) return;
+  while (rounds_left_ > 0) improve();
+  draw_near();
+}
+
+void Slam::draw_near() {
+  const std::uint32_t last = trail_.size() - 1;
+  trail_.draw(&near_, last, trail_.around(last, kLookBack_m, kLookBackMost, {0, last}));
 }
 
 }  // namespace pose_wall::planar

@@ -31,7 +31,11 @@ class Slam {
   void lay_out(Arena& arena, const SlamSettings& settings);
   void open(const SlamSettings& settings);
   SlamStep process(const BeamScan& scan, const Pose2* odometry);
-  GraphSolution solve();
+  // Goes on with the graph until it rests, at most kRoundsMost rounds. process() does one round a scan.
+  void settle();
+  bool is_settled() const { return rounds_left_ == 0; }
+  std::uint32_t solution() const { return solution_; }  // another number whenever earlier poses have changed
+  bool is_full() const { return is_full_; }
 
   const Trail& trail() const { return trail_; }
   const Loops& loops() const { return loops_; }
@@ -51,6 +55,11 @@ class Slam {
   bool is_due(const Refined& placed) const;
   void begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information);
 
+  static constexpr std::uint32_t kRoundsMost = 12;
+
+  void improve();
+  void draw_near();
+
   SlamSettings settings_;
   Matcher matcher_;
   PoseGraph graph_;
@@ -62,7 +71,8 @@ class Slam {
   Pose2 pose_, odometry_, last_step_;
   Pose2 since_agreed_;     // how the machine moved since odometry last agreed with a scan
   Pose2 agreed_odometry_;  // what it said then
-  bool has_odometry_ = false, is_astray_ = false;
+  std::uint32_t rounds_left_ = 0, solution_ = 0;
+  bool has_odometry_ = false, is_astray_ = false, is_full_ = false;
 };
 
 }  // namespace pose_wall::planar

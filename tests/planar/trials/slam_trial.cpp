@@ -57,11 +57,11 @@ int main(int argc, char** argv) {
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     sum += ms; worst = std::max(worst, ms); ++n; closures += step.closures; keyframes += step.is_keyframe;
     explained += step.explained;
-    if (argc > 2 && step.is_keyframe && slam.loops().looked) { const Candidate& c = slam.loops().last_candidate; std::fprintf(stderr, "L %d kf %u old %u now %u reach %.1f ex %.2f thr %.2f slide %.1f sec %.2f rms %.3f off %.2f tied %u\n", n, step.keyframe, c.edge.from, c.edge.to, c.reach_m, c.explained, c.seen_through, c.slide_m, c.second, c.rms_m, (compose(slam.trail().pose(c.edge.from), c.edge.step).place() - slam.trail().pose(c.edge.to).place()).norm(), step.closures); }
+    if (argc > 2 && step.is_keyframe && slam.loops().looked) { const Candidate& c = slam.loops().last_candidate; std::fprintf(stderr, "L %d kf %u old %u now %u reach %.1f ex %.2f thr %.2f slide %.1f sec %.2f rms %.3f off %.2f tied %u conf %.2f %.2f %.1f %.2f\n", n, step.keyframe, c.edge.from, c.edge.to, c.reach_m, c.explained, c.seen_through, c.slide_m, c.second, c.rms_m, (compose(slam.trail().pose(c.edge.from), c.edge.step).place() - slam.trail().pose(c.edge.to).place()).norm(), step.closures, slam.loops().last_whole.explained, slam.loops().last_whole.seen_through, slam.loops().last_whole.slide_m, slam.loops().last_whole.second); }
     if (argc > 2 && (step.explained < 0.85 || argv[2][0]==0x77)) std::fprintf(stderr, "E %d %.3f rms %.3f pose %.2f %.2f %.3f\n", n, step.explained, step.rms_m, step.pose.x_m, step.pose.y_m, step.pose.yaw_rad);
     rows.push_back({t, step.keyframe, step.in_keyframe});
   }
-  slam.solve();
+  slam.settle();
   if (argc > 2) for (const Edge& e : slam.trail().edges()) if (e.is_closure) { const Eigen::Vector3d err = error_of(e, slam.trail().pose(e.from), slam.trail().pose(e.to)); int a=0,b=0; for (std::size_t q=0;q<rows.size();++q) { if (rows[q].keyframe==e.from && !a) a=(int)q; if (rows[q].keyframe==e.to && !b) b=(int)q; } std::fprintf(stderr, "C %u %u scan %d %d step %.2f %.2f %.3f err %.2f %.2f %.3f chi %.1f\n", e.from, e.to, a, b, e.step.x_m, e.step.y_m, e.step.yaw_rad, err.x(), err.y(), err.z(), err.dot(e.information*err)); }
   for (const Row& row : rows) {
     const Pose2 p = compose(slam.trail().pose(row.keyframe), row.in);
