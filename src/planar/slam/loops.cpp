@@ -39,6 +39,21 @@ void Loops::open() {
   looked_at_m_ = 0.0;
 }
 
+void Loops::adopt(const Trail& trail) {
+  open();
+  for (std::uint32_t k = 0; k < trail.edges().size(); ++k) {
+    const Edge& edge = trail.edges()[k];
+    const bool is_held = edge.is_closure && edge.information(0, 0) > 0.0;
+    if (is_held && believed_count_ < believed_.size()) believed_[believed_count_++] = {edge.from, edge.to, k, 0};
+  }
+}
+
+void Loops::assume(const Trail& trail) {
+  const std::uint32_t k = trail.edges().size() - 1;
+  const Edge& edge = trail.edges()[k];
+  if (believed_count_ < believed_.size()) believed_[believed_count_++] = {edge.from, edge.to, k, 0};
+}
+
 // Travel over which the two places' relation could drift: along the trail, or by one closure.
 double Loops::drift_m(const Trail& trail, std::uint32_t old, std::uint32_t now) const {
   double least_m = trail.travel_between_m(old, now);
@@ -227,7 +242,7 @@ bool Loops::doubt(Trail* trail, const Candidate& newest) {
     ++fits_;
   }
   if (contradictions_ < kEnough || contradictions_ < 2 * fits_) return false;
-  while (believed_count_ > 0 && believed_[believed_count_ - 1].group == groups_) {
+  while (believed_count_ > 0 && groups_ > 0 && believed_[believed_count_ - 1].group == groups_) {
     trail->untie(believed_[--believed_count_].edge);
     ++taken_back_;
   }

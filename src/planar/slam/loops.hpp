@@ -29,6 +29,10 @@ class Loops {
   // Looks for an old place about the keyframe added last. Ties the closures that are believed to the trail, or takes
   // back those that turned out wrong. True if the trail has to be solved.
   bool look(Trail* trail, const Matcher& matcher);
+  // Takes the trail's closures for believed, for good: of a trail that was saved.
+  void adopt(const Trail& trail);
+  // Two keyframes whose relation is known as a closure's is: the trail's last edge.
+  void assume(const Trail& trail);
   std::uint32_t believed() const { return believed_count_; }
   std::uint32_t taken_back() const { return taken_back_; }
 

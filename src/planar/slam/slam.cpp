@@ -34,7 +34,8 @@ void Slam::open(const SlamSettings& settings) {
   loops_.open();
   pose_ = odometry_ = last_step_ = since_agreed_ = agreed_odometry_ = Pose2();
   is_astray_ = is_full_ = false;
-  rounds_left_ = solution_ = 0;
+  rounds_left_ = solution_ = resumes_at_ = 0;
+  resumes_ = false;
   has_odometry_ = false;
 }
 
@@ -127,6 +128,7 @@ void Slam::follow(const Pose2& pose, const Pose2* odometry, const Prediction& fi
 // A scan that fits badly may stand wrong, and would spoil the map: the next may fit better.
 bool Slam::is_due(const Refined& placed) const {
   if (trail_.size() == 0) return true;
+  if (resumes_) return placed.explained >= kTrusted;
   constexpr double kPatience = 3.0;  // keyframes' distances that a bad fit may wait
   const double patience = placed.explained >= kTrusted ? 1.0 : kPatience;
   const Pose2 since = between(trail_.pose(trail_.size() - 1), pose_);
@@ -149,6 +151,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   if (odometry != nullptr) odometry_ = *odometry;
   if (trail_.size() == 0 && odometry != nullptr) agreed_odometry_ = *odometry;
   has_odometry_ = odometry != nullptr;
+  step.is_valid = placed.is_valid;
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
   if (is_due(placed)) {
@@ -169,11 +172,41 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
 }
 
 void Slam::begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information) {
+  constexpr double kLeap_m = 20.0;  // more than kOld_m of loops.cpp: the saved trail is an old place
   const std::uint32_t k = trail_.size();
-  if (!trail_.add(points, pose_, scan.stamp_ns)) is_full_ = true;
+  is_full_ = !trail_.add(points, pose_, scan.stamp_ns, resumes_ ? kLeap_m : 0.0);
   if (is_full_ || k == 0) return;
+  if (resumes_) {
+    tie_to_saved(information);
+    return;
+  }
   const Pose2& from = trail_.pose(k - 1);
   trail_.tie({k - 1, k, between(from, pose_), in_frame_of(from, information), false});
+}
+
+// The first keyframe after a restart: loosely to the last one of the saved trail, for nobody saw that way, and as
+// measured to the one that it was matched with.
+void Slam::tie_to_saved(const Eigen::Matrix3d& information) {
+  constexpr double kLoose = 1.0;  // of information: a metre, a radian
+  const std::uint32_t k = trail_.size() - 1;
+  trail_.tie({k - 1, k, between(trail_.pose(k - 1), pose_), kLoose * Eigen::Matrix3d::Identity(), false});
+  const Pose2& from = trail_.pose(resumes_at_);
+  const Edge edge{resumes_at_, k, between(from, pose_), in_frame_of(from, information), true};
+  if (resumes_at_ + 1 < k && trail_.tie(edge)) loops_.assume(trail_);
+  resumes_ = false;
+}
+
+void Slam::resume(const Pose2& base) {
+  loops_.adopt(trail_);
+  pose_ = base;
+  last_step_ = since_agreed_ = Pose2();
+  has_odometry_ = is_astray_ = is_full_ = false;
+  rounds_left_ = 0;
+  ++solution_;
+  resumes_ = trail_.size() > 0;
+  if (!resumes_) return;
+  resumes_at_ = trail_.nearest(base.place());
+  trail_.draw(&near_, resumes_at_, trail_.around(resumes_at_, kLookBack_m, kLookBackMost, {0, trail_.size() - 1}));
 }
 
 // One round of the graph. The last keyframe takes the machine along.

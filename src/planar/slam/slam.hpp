@@ -22,6 +22,7 @@ struct SlamStep {
   std::uint32_t keyframe = 0;  // that the scan belongs to
   Pose2 in_keyframe;
   bool is_keyframe = false;
+  bool is_valid = false;  // it has points on surfaces
   double explained = 0.0, rms_m = 0.0;
   std::uint32_t closures = 0;  // believed with this scan
 };
@@ -36,6 +37,10 @@ class Slam {
   bool is_settled() const { return rounds_left_ == 0; }
   std::uint32_t solution() const { return solution_; }  // another number whenever earlier poses have changed
   bool is_full() const { return is_full_; }
+  Span<Beam> beams() const { return beams_; }  // room for a scan
+  // The trail was replaced by one that was saved: goes on from this pose in its map.
+  void resume(const Pose2& base);
+  Trail& trail() { return trail_; }
 
   const Trail& trail() const { return trail_; }
   const Loops& loops() const { return loops_; }
@@ -54,6 +59,7 @@ class Slam {
   void follow(const Pose2& pose, const Pose2* odometry, const Prediction& first);
   bool is_due(const Refined& placed) const;
   void begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information);
+  void tie_to_saved(const Eigen::Matrix3d& information);
 
   static constexpr std::uint32_t kRoundsMost = 12;
 
@@ -72,6 +78,8 @@ class Slam {
   Pose2 since_agreed_;     // how the machine moved since odometry last agreed with a scan
   Pose2 agreed_odometry_;  // what it said then
   std::uint32_t rounds_left_ = 0, solution_ = 0;
+  std::uint32_t resumes_at_ = 0;  // the keyframe that the machine stands near after that
+  bool resumes_ = false;
   bool has_odometry_ = false, is_astray_ = false, is_full_ = false;
 };
 

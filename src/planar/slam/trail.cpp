@@ -25,13 +25,13 @@ void Trail::open() {
   count_ = point_count_ = edge_count_ = 0;
 }
 
-bool Trail::add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns) {
+bool Trail::add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns, double leap_m) {
   if (count_ == keyframes_.size() || points_.size() - point_count_ < points.size()) return false;
   Keyframe& keyframe = keyframes_[count_];
   keyframe = {stamp_ns, point_count_, points.size(), 0.0, 0.0};
   if (count_ > 0) {
     const Pose2 step = between(poses_[count_ - 1], pose);
-    keyframe.travel_m = keyframes_[count_ - 1].travel_m + std::sqrt(step.x_m * step.x_m + step.y_m * step.y_m);
+    keyframe.travel_m = keyframes_[count_ - 1].travel_m + leap_m + std::sqrt(step.x_m * step.x_m + step.y_m * step.y_m);
     keyframe.turned_rad = keyframes_[count_ - 1].turned_rad + std::abs(step.yaw_rad);
   }
   std::copy(points.begin(), points.end(), points_.begin() + point_count_);
@@ -57,6 +57,14 @@ void Trail::draw(SurfaceMap* map, std::uint32_t k, Range range) const {
   map->begin(poses_[k].place());
   for (std::uint32_t i = range.first; i <= range.last; ++i) map->add(points(i), poses_[i]);
   map->finish();
+}
+
+std::uint32_t Trail::nearest(const Eigen::Vector2d& place_m) const {
+  std::uint32_t nearest = 0;
+  for (std::uint32_t k = 1; k < count_; ++k) {
+    if ((poses_[k].place() - place_m).squaredNorm() < (poses_[nearest].place() - place_m).squaredNorm()) nearest = k;
+  }
+  return nearest;
 }
 
 }  // namespace pose_wall::planar

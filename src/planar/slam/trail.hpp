@@ -23,12 +23,14 @@ class Trail {
  public:
   void lay_out(Arena& arena, std::uint32_t keyframes_most);
   void open();
-  // False where it is full.
-  bool add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns);
+  // False where it is full. leap_m: travel that nobody saw, on top of the way from the last keyframe.
+  bool add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns, double leap_m = 0.0);
   bool tie(const Edge& edge);
   void untie(std::uint32_t edge) { edges_[edge].information.setZero(); }
 
   std::uint32_t size() const { return count_; }
+  std::uint32_t point_count() const { return point_count_; }
+  std::uint32_t capacity() const { return keyframes_.size(); }
   const Keyframe& operator[](std::uint32_t k) const { return keyframes_[k]; }
   const Pose2& pose(std::uint32_t k) const { return poses_[k]; }
   Span<Pose2> poses() const { return poses_.first(count_); }
@@ -48,7 +50,11 @@ class Trail {
   // Their surfaces, in a window about k.
   void draw(SurfaceMap* map, std::uint32_t k, Range range) const;
 
+  // The number of the keyframe nearest to a place. There is one.
+  std::uint32_t nearest(const Eigen::Vector2d& place_m) const;
+
  private:
+  friend class TrailImage;
   Span<Keyframe> keyframes_;
   Span<Pose2> poses_;
   Span<ScanPoint> points_;
