@@ -34,7 +34,7 @@ void Slam::open(const SlamSettings& settings) {
   loops_.open();
   pose_ = odometry_ = last_step_ = since_agreed_ = agreed_odometry_ = Pose2();
   is_astray_ = is_full_ = false;
-  rounds_left_ = solution_ = resumes_at_ = 0;
+  rounds_left_ = solution_ = resumes_at_ = doubtful_ = 0;
   resumes_ = false;
   has_odometry_ = false;
 }
@@ -146,6 +146,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
     const std::uint32_t count = predict(odometry, predictions);
     placed = place(points, scan, predictions, count);
     follow(placed.pose, odometry, predictions[0]);
+    if (!placed.is_valid || placed.explained < kTrusted) ++doubtful_;
     prior = predictions[0].prior;
   }
   if (odometry != nullptr) odometry_ = *odometry;
@@ -174,14 +175,22 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
 void Slam::begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information) {
   constexpr double kLeap_m = 20.0;  // more than kOld_m of loops.cpp: the saved trail is an old place
   const std::uint32_t k = trail_.size();
-  is_full_ = !trail_.add(points, pose_, scan.stamp_ns, resumes_ ? kLeap_m : 0.0);
+  constexpr double kDoubt_rad = 0.3, kDoubtMost_rad = 0.6;  // a scan that says nothing; several
+  const double doubt_rad = std::min(kDoubtMost_rad, kDoubt_rad * doubtful_);
+  doubtful_ = 0;
+  is_full_ = !trail_.add(points, pose_, scan.stamp_ns, {resumes_ ? kLeap_m : 0.0, doubt_rad});
   if (is_full_ || k == 0) return;
   if (resumes_) {
     tie_to_saved(information);
     return;
   }
   const Pose2& from = trail_.pose(k - 1);
-  trail_.tie({k - 1, k, between(from, pose_), in_frame_of(from, information), false});
+  Eigen::Matrix3d known = information;
+  if (doubt_rad > 0.0) {
+    const double doubt = 1.0 / (doubt_rad * doubt_rad);  // of information, also in metres: some steps' length
+    known = (information.inverse() + Eigen::Matrix3d::Identity() / doubt).inverse();
+  }
+  trail_.tie({k - 1, k, between(from, pose_), in_frame_of(from, known), false});
 }
 
 // The first keyframe after a restart: loosely to the last one of the saved trail, for nobody saw that way, and as

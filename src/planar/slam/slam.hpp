@@ -75,8 +75,9 @@ class Slam {
   Span<Beam> beams_;
   Span<ScanPoint> scan_points_;
   Pose2 pose_, odometry_, last_step_;
-  Pose2 since_agreed_;     // how the machine moved since odometry last agreed with a scan
-  Pose2 agreed_odometry_;  // what it said then
+  Pose2 since_agreed_;          // how the machine moved since odometry last agreed with a scan
+  Pose2 agreed_odometry_;       // what it said then
+  std::uint32_t doubtful_ = 0;  // scans since the last keyframe that fitted badly
   std::uint32_t rounds_left_ = 0, solution_ = 0;
   std::uint32_t resumes_at_ = 0;  // the keyframe that the machine stands near after that
   bool resumes_ = false;

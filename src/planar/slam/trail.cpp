@@ -25,14 +25,15 @@ void Trail::open() {
   count_ = point_count_ = edge_count_ = 0;
 }
 
-bool Trail::add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns, double leap_m) {
+bool Trail::add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns, const Beyond& beyond) {
   if (count_ == keyframes_.size() || points_.size() - point_count_ < points.size()) return false;
   Keyframe& keyframe = keyframes_[count_];
   keyframe = {stamp_ns, point_count_, points.size(), 0.0, 0.0};
   if (count_ > 0) {
     const Pose2 step = between(poses_[count_ - 1], pose);
-    keyframe.travel_m = keyframes_[count_ - 1].travel_m + leap_m + std::sqrt(step.x_m * step.x_m + step.y_m * step.y_m);
-    keyframe.turned_rad = keyframes_[count_ - 1].turned_rad + std::abs(step.yaw_rad);
+    keyframe.travel_m =
+        keyframes_[count_ - 1].travel_m + beyond.leap_m + std::sqrt(step.x_m * step.x_m + step.y_m * step.y_m);
+    keyframe.doubt_rad = keyframes_[count_ - 1].doubt_rad + beyond.doubt_rad;
   }
   std::copy(points.begin(), points.end(), points_.begin() + point_count_);
   poses_[count_++] = pose;

@@ -15,16 +15,22 @@ namespace pose_wall::planar {
 
 struct Keyframe {
   std::int64_t stamp_ns;
-  std::uint32_t first, count;   // points
-  double travel_m, turned_rad;  // since the first one, whichever way
+  std::uint32_t first, count;  // points
+  double travel_m;             // since the first one, whichever way
+  double doubt_rad;            // by how much yaw can have gone astray since then, where scans fitted badly
 };
 
 class Trail {
  public:
   void lay_out(Arena& arena, std::uint32_t keyframes_most);
   void open();
-  // False where it is full. leap_m: travel that nobody saw, on top of the way from the last keyframe.
-  bool add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns, double leap_m = 0.0);
+  // What happened since the last keyframe beyond the way between the two poses.
+  struct Beyond {
+    double leap_m = 0.0;     // travel that nobody saw
+    double doubt_rad = 0.0;  // of yaw
+  };
+  // False where it is full.
+  bool add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns, const Beyond& beyond);
   bool tie(const Edge& edge);
   void untie(std::uint32_t edge) { edges_[edge].information.setZero(); }
 
@@ -40,6 +46,11 @@ class Trail {
   }
   double travel_between_m(std::uint32_t a, std::uint32_t b) const {
     return a < b ? keyframes_[b].travel_m - keyframes_[a].travel_m : keyframes_[a].travel_m - keyframes_[b].travel_m;
+  }
+
+  double doubt_between_rad(std::uint32_t a, std::uint32_t b) const {
+    return a < b ? keyframes_[b].doubt_rad - keyframes_[a].doubt_rad
+                 : keyframes_[a].doubt_rad - keyframes_[b].doubt_rad;
   }
 
   struct Range {

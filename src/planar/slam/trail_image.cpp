@@ -106,8 +106,8 @@ bool is_trail(const Head& head, Reader reader) {
     reader.get(8);
     points += reader.get_u32();
     const Pose2 pose = reader.get_pose();
-    const double next_m = reader.get_double(), turned_rad = reader.get_double();
-    if (!is_pose(pose) || !(next_m >= travel_m && next_m < kFarthest_m) || !(turned_rad >= 0.0 && turned_rad < 1e9)) {
+    const double next_m = reader.get_double(), doubt_rad = reader.get_double();
+    if (!is_pose(pose) || !(next_m >= travel_m && next_m < kFarthest_m) || !(doubt_rad >= 0.0 && doubt_rad < 1e9)) {
       return false;
     }
     travel_m = next_m;
@@ -146,7 +146,7 @@ void TrailImage::write(const Trail& trail, unsigned char* to) {
     writer.put_u32(keyframe.count);
     writer.put_pose(trail.poses_[k]);
     writer.put_double(keyframe.travel_m);
-    writer.put_double(keyframe.turned_rad);
+    writer.put_double(keyframe.doubt_rad);
   }
   for (std::uint32_t k = 0; k < trail.point_count_; ++k) {
     writer.put_float(trail.points_[k].x_m);
@@ -191,7 +191,7 @@ std::int32_t TrailImage::read(const unsigned char* from, std::uint64_t bytes, Tr
     first += keyframe.count;
     trail->poses_[k] = reader.get_pose();
     keyframe.travel_m = reader.get_double();
-    keyframe.turned_rad = reader.get_double();
+    keyframe.doubt_rad = reader.get_double();
   }
   for (std::uint32_t k = 0; k < head.points; ++k) {
     trail->points_[k].x_m = reader.get_float();
