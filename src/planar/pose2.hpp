@@ -56,6 +56,14 @@ inline Pose2 between(const Pose2& a, const Pose2& b) {
   return {place.x(), place.y(), wrapped(b.yaw_rad - a.yaw_rad)};
 }
 
+// Information about x, y and yaw in the axes of map, in those of a pose.
+inline Eigen::Matrix3d in_frame_of(const Pose2& pose, const Eigen::Matrix3d& information) {
+  const Turn2 turn(pose.yaw_rad);
+  Eigen::Matrix3d R;
+  R << turn.c, turn.s, 0.0, -turn.s, turn.c, 0.0, 0.0, 0.0, 1.0;
+  return R * information * R.transpose();
+}
+
 inline Pose2 inverse(const Pose2& a) {
   return between(a, Pose2());
 }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The points of a scan that are matched: spread evenly along what the scan saw, each the mean of its neighbours.
+
+#pragma once
+
+#include <cstdint>
+
+#include "base/containers/span.hpp"
+#include "planar/beams.hpp"
+
+namespace pose_wall::planar {
+
+constexpr std::uint32_t kMatchPointsMost = 720;
+
+struct ScanPoint {
+  float x_m, y_m;  // in base
+};
+
+// At most kMatchPointsMost points that are about spacing_m apart. Where more are needed, the spacing grows.
+Span<const ScanPoint> even_points(const BeamScan& scan, double spacing_m, Span<ScanPoint> room);
+
+}  // namespace pose_wall::planar

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The story of a scan: prediction, match with the last metres, keyframe, closures, graph.
+
+#pragma once
+
+#include <cstdint>
+
+#include "planar/slam/loops.hpp"
+
+namespace pose_wall::planar {
+
+struct SlamSettings {
+  std::uint32_t keyframes_most = 4096;
+  double keyframe_m = 0.3, keyframe_rad = 0.25;
+  double odometry_m = 0.1, odometry_rad = 0.3;  // standard deviation of a step by its length and turn
+};
+
+struct SlamStep {
+  Pose2 pose;
+  std::uint32_t keyframe = 0;  // that the scan belongs to
+  Pose2 in_keyframe;
+  bool is_keyframe = false;
+  bool is_valid = false;  // it has points on surfaces
+  double explained = 0.0, rms_m = 0.0;
+  std::uint32_t closures = 0;  // believed with this scan
+};
+
+class Slam {
+ public:
+  void lay_out(Arena& arena, const SlamSettings& settings);
+  void open(const SlamSettings& settings);
+  SlamStep process(const BeamScan& scan, const Pose2* odometry);
+  // Goes on with the graph until it rests, at most kRoundsMost rounds. process() does one round a scan.
+  void settle();
+  bool is_settled() const { return rounds_left_ == 0; }
+  std::uint32_t solution() const { return solution_; }  // another number whenever earlier poses have changed
+  bool is_full() const { return is_full_; }
+  Span<Beam> beams() const { return beams_; }  // room for a scan
+  // The trail was replaced by one that was saved: goes on from this pose in its map.
+  void resume(const Pose2& base);
+  Trail& trail() { return trail_; }
+
+  const Trail& trail() const { return trail_; }
+  const Loops& loops() const { return loops_; }
+
+ private:
+  static constexpr std::uint32_t kPredictionsMost = 3;
+  struct Prediction {
+    Prior prior;
+    double unlikely = 0.0;
+  };
+
+  Prior prior_of(const Pose2& from, const Pose2& step, double sigma_m, double sigma_rad) const;
+  std::uint32_t predict(const Pose2* odometry, Prediction* predictions) const;
+  Refined place(Span<const ScanPoint> points, const BeamScan& scan, const Prediction* predictions,
+                std::uint32_t count) const;
+  void follow(const Pose2& pose, const Pose2* odometry, const Prediction& first);
+  bool is_due(const Refined& placed) const;
+  void begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information);
+  void tie_to_saved(const Eigen::Matrix3d& information);
+
+  static constexpr std::uint32_t kRoundsMost = 12;
+
+  void improve();
+  void draw_near();
+
+  SlamSettings settings_;
+  Matcher matcher_;
+  PoseGraph graph_;
+  Trail trail_;
+  Loops loops_;
+  SurfaceMap near_;
+  Span<Beam> beams_;
+  Span<ScanPoint> scan_points_;
+  Pose2 pose_, odometry_, last_step_;
+  Pose2 since_agreed_;          // how the machine moved since odometry last agreed with a scan
+  Pose2 agreed_odometry_;       // what it said then
+  std::uint32_t doubtful_ = 0;  // scans since the last keyframe that fitted badly
+  std::uint32_t rounds_left_ = 0, solution_ = 0;
+  std::uint32_t resumes_at_ = 0;  // the keyframe that the machine stands near after that
+  bool resumes_ = false;
+  bool has_odometry_ = false, is_astray_ = false, is_full_ = false;
+};
+
+}  // namespace pose_wall::planar
