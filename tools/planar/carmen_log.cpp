@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "angles.hpp"
 #include "frames/frame.hpp"
@@ -17,11 +19,14 @@
 namespace pose_wall::tools {
 namespace {
 
-// The first of the SICK scanner's codes for "no range" in its mode of 1 cm: 8183 to 8191.
+// The SICK scanner's codes for "no range" in its mode of 1 cm: 8183 to 8191.
 constexpr double kSickCodes_m = 81.83;
+constexpr double kSickCodesEnd_m = 82.0;
 // As many beams with exactly the log's largest range are no coincidence.
 constexpr std::size_t kSameRangeBeams = 10;
 constexpr double kHalfTurn_rad = 180.0 * kRadPerDeg;
+// A microsecond: stamps are written with six digits.
+constexpr std::int64_t kLeastStep_ns = 1000;
 constexpr std::size_t kBeamsMax = POSE_WALL_PLANAR_BEAMS_MAX;
 
 // What is wrong with a line of a kind that is read.
@@ -131,6 +136,7 @@ CarmenScan robot_laser(Words words) {
   if (!(scan.angle_step_rad > 0.0 && turn_rad <= 2.0 * kHalfTurn_rad && scan.range_max_m > 0.0)) {
     throw LineFault{CarmenSkip::kBadLine, tr("its angles or its largest range are impossible")};
   }
+  if (scan.range_max_m < kSickCodesEnd_m) scan.range_max_m = std::min(scan.range_max_m, kSickCodes_m);
   return scan;
 }
 
@@ -180,10 +186,11 @@ class LogParser {
 
   void keep(CarmenScan scan, std::size_t number) {
     scan.line = number;
+    scan.rising_ns = scan.stamp_ns;
     if (!log_.scans.empty()) {
       const CarmenScan& last = log_.scans.back();
-      if (scan.range_m.size() != last.range_m.size()) return skip(CarmenSkip::kOtherLength, number);
-      if (scan.stamp_ns <= last.stamp_ns) return skip(CarmenSkip::kStampNotLater, number);
+      log_.stamps_back += scan.stamp_ns <= last.stamp_ns ? 1U : 0U;
+      scan.rising_ns = std::max(scan.stamp_ns, last.rising_ns + kLeastStep_ns);
     }
     log_.scans.push_back(std::move(scan));
   }
@@ -214,8 +221,7 @@ class LogParser {
 }  // namespace
 
 const char* carmen_skip_name(CarmenSkip reason) {
-  constexpr const char* kNames[] = {"empty",        "comment",  "param",      "other_message",
-                                    "other_length", "bad_line", "not_finite", "stamp_not_later"};
+  constexpr const char* kNames[] = {"empty", "comment", "param", "other_message", "bad_line", "not_finite"};
   static_assert(std::size(kNames) == static_cast<std::size_t>(CarmenSkip::kCount));
   return kNames[static_cast<std::size_t>(reason)];
 }
@@ -272,7 +278,7 @@ pose_wall_planar_scan planar_scan_of(const CarmenScan& scan, const pose_wall_pla
   pose_wall_planar_scan result{};
   result.struct_size = sizeof result;
   result.beams = static_cast<std::uint32_t>(range_m->size());
-  result.stamp_ns = scan.stamp_ns;
+  result.stamp_ns = scan.rising_ns;
   result.sensor = sensor;
   result.angle_min_rad = scan.angle_min_rad;
   result.angle_step_rad = scan.angle_step_rad;

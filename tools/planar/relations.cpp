@@ -58,11 +58,13 @@ Eigen::Quaterniond turn_of(double roll_rad, double pitch_rad, double yaw_rad) {
 }
 
 const TimedPose* nearest(const std::vector<TimedPose>& poses, double t_s, double match_s) {
-  const auto later =
-      std::lower_bound(poses.begin(), poses.end(), t_s, [](const TimedPose& pose, double t) { return pose.t_s < t; });
+  const auto is_earlier = [](const TimedPose& pose, double t) { return pose.t_s < t; };
+  const auto later = std::lower_bound(poses.begin(), poses.end(), t_s, is_earlier);
   const TimedPose* best = later == poses.end() ? nullptr : &*later;
   if (later != poses.begin()) {
-    const TimedPose* before = &*(later - 1);
+    const double before_s = (later - 1)->t_s;
+    const auto first_before = std::lower_bound(poses.begin(), later, before_s, is_earlier);
+    const TimedPose* before = &*first_before;
     if (best == nullptr || t_s - before->t_s < best->t_s - t_s) best = before;
   }
   return best != nullptr && std::abs(best->t_s - t_s) <= match_s ? best : nullptr;
@@ -107,9 +109,6 @@ std::vector<TimedPose> parse_tum(std::string_view text) {
     if (!(std::abs(turn.norm() - 1.0) <= kUnitLength)) {
       throw RelationsError(say("line {}: qx, qy, qz, qw have not the length 1", line));
     }
-    if (!poses.empty() && !(row[0] > poses.back().t_s)) {
-      throw RelationsError(say("line {}: its time is not after the time of the row before", line));
-    }
     poses.push_back({row[0], Eigen::Translation3d(row[1], row[2], row[3]) * turn.normalized()});
   });
   return poses;
@@ -132,8 +131,9 @@ std::vector<Relation> read_relations(const std::filesystem::path& file) {
   return in_file(file, [](const std::string& text) { return parse_relations(text); });
 }
 
-RelationReport judge_relations(const std::vector<TimedPose>& poses, const std::vector<Relation>& relations,
-                               double near_s, double match_s) {
+RelationReport judge_relations(std::vector<TimedPose> poses, const std::vector<Relation>& relations, double near_s,
+                               double match_s) {
+  std::stable_sort(poses.begin(), poses.end(), [](const TimedPose& a, const TimedPose& b) { return a.t_s < b.t_s; });
   RelationReport report;
   Errors all, near;
   for (const Relation& relation : relations) {

@@ -36,7 +36,7 @@ class RelationsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Lines `t x y z qx qy qz qw` in rising order of t; lines that begin with # are comments. An empty file has no poses.
+// Lines `t x y z qx qy qz qw`, in any order of t; lines that begin with # are comments. An empty file has no poses.
 std::vector<TimedPose> parse_tum(std::string_view text);
 std::vector<TimedPose> read_tum(const std::filesystem::path& file);
 
@@ -68,8 +68,8 @@ inline constexpr double kNearRelation_s = 20.0;
 // Between a relation's time and the nearest pose: half a scan of an old scanner.
 inline constexpr double kRelationMatch_s = 0.05;
 
-// The poses in rising order of time.
-RelationReport judge_relations(const std::vector<TimedPose>& poses, const std::vector<Relation>& relations,
+// The poses in any order; of several with the same time the first counts.
+RelationReport judge_relations(std::vector<TimedPose> poses, const std::vector<Relation>& relations,
                                double near_s = kNearRelation_s, double match_s = kRelationMatch_s);
 
 }  // namespace pose_wall::tools

@@ -32,7 +32,8 @@ std::vector<TimedPose> odometry_of(const CarmenLog& log) {
 }
 
 void print_log(const CarmenLog& log) {
-  fmt::print("lines {}, scans {}", log.lines, log.scans.size());
+  fmt::print("lines {}, scans {}, stamps not later than the one before {}", log.lines, log.scans.size(),
+             log.stamps_back);
   for (std::size_t i = 0; i < static_cast<std::size_t>(CarmenSkip::kCount); ++i) {
     const auto reason = static_cast<CarmenSkip>(i);
     const CarmenSkipped& skipped = log.skip(reason);
