@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -22,8 +23,6 @@ namespace {
 // The SICK scanner's codes for "no range" in its mode of 1 cm: 8183 to 8191.
 constexpr double kSickCodes_m = 81.83;
 constexpr double kSickCodesEnd_m = 82.0;
-// As many beams with exactly the log's largest range are no coincidence.
-constexpr std::size_t kSameRangeBeams = 10;
 constexpr double kHalfTurn_rad = 180.0 * kRadPerDeg;
 // A microsecond: stamps are written with six digits.
 constexpr std::int64_t kLeastStep_ns = 1000;
@@ -140,6 +139,48 @@ CarmenScan robot_laser(Words words) {
   return scan;
 }
 
+// Where ranges of a log without a told range pile up at their far end.
+class RangeCounts {
+ public:
+  RangeCounts() : beams_(kCells) {}
+
+  void add(const std::vector<float>& ranges_m) {
+    for (const float range_m : ranges_m) {
+      const double cell = std::floor(static_cast<double>(range_m) / kCell_m + 0.5);
+      if (cell > 0.0 && cell < static_cast<double>(kCells)) ++beams_[static_cast<std::size_t>(cell)];
+    }
+  }
+
+  double range_max_m() const {
+    std::size_t top = kCells - 1;
+    while (top > 0 && beams_[top] == 0) --top;
+    const std::size_t pile = top - std::min(top, kPileCells);
+    const std::size_t below = pile - std::min(pile, kBelowCells);
+    const std::size_t in_pile = sum(pile, top + 1);
+    if (in_pile < kPileBeams || in_pile < sum(below, pile)) return kSickCodes_m;
+    const std::size_t highest = *std::max_element(at(pile), at(top + 1));
+    std::size_t edge = pile;
+    while (beams_[edge] == 0 || beams_[edge] < highest / kPileToItsEdge) ++edge;
+    return std::min(static_cast<double>(edge) * kCell_m, kSickCodes_m);
+  }
+
+ private:
+  static constexpr double kCell_m = 0.01;  // the scanners' resolution
+  static constexpr std::size_t kCells = 20'000;
+  // A pile is 0.25 m wide and as dense as ten times the 2.5 m below it, and no coincidence of a few beams.
+  static constexpr std::size_t kPileCells = 25;
+  static constexpr std::size_t kBelowCells = 250;
+  static constexpr std::size_t kPileBeams = 10;
+  static constexpr std::size_t kPileToItsEdge = 1000;
+
+  std::vector<std::size_t>::const_iterator at(std::size_t cell) const {
+    return beams_.begin() + static_cast<std::ptrdiff_t>(cell);
+  }
+  std::size_t sum(std::size_t from, std::size_t to) const { return std::accumulate(at(from), at(to), std::size_t{0}); }
+
+  std::vector<std::size_t> beams_;
+};
+
 class LogParser {
  public:
   void line(std::string_view line, std::size_t number) {
@@ -195,23 +236,14 @@ class LogParser {
     log_.scans.push_back(std::move(scan));
   }
 
-  // Of the scans that do not say it.
   void set_range_max() {
-    float largest = 0.0F;
-    std::size_t beams = 0;
+    RangeCounts counts;
     for (const CarmenScan& scan : log_.scans) {
-      if (scan.range_max_m > 0.0) continue;
-      for (const float range : scan.range_m) {
-        if (range > largest && std::isfinite(range)) {
-          largest = range;
-          beams = 0;
-        }
-        beams += range == largest ? 1U : 0U;
-      }
+      if (!(scan.range_max_m > 0.0)) counts.add(scan.range_m);
     }
-    const double told = beams >= kSameRangeBeams ? std::min(static_cast<double>(largest), kSickCodes_m) : kSickCodes_m;
+    const double range_max_m = counts.range_max_m();
     for (CarmenScan& scan : log_.scans) {
-      if (!(scan.range_max_m > 0.0)) scan.range_max_m = told;
+      if (!(scan.range_max_m > 0.0)) scan.range_max_m = range_max_m;
     }
   }
 
@@ -228,20 +260,19 @@ const char* carmen_skip_name(CarmenSkip reason) {
 
 bool parse_stamp_ns(std::string_view word, std::int64_t* stamp_ns) {
   constexpr std::int64_t kNsPerS = 1'000'000'000;
-  const std::size_t point = std::min(word.find('.'), word.size());
-  const bool is_negative = !word.empty() && word.front() == '-';
-  const std::string_view seconds = word.substr(is_negative ? 1 : 0, point - (is_negative ? 1 : 0));
-  const std::string_view digits = point < word.size() ? word.substr(point + 1) : std::string_view();
-  const auto is_digit = [](char sign) { return sign >= '0' && sign <= '9'; };
-  if (seconds.size() + digits.size() == 0 || !std::all_of(seconds.begin(), seconds.end(), is_digit) ||
-      !std::all_of(digits.begin(), digits.end(), is_digit)) {
-    return false;
+  constexpr double kSecondsMax = 9.0e9;  // below what 64 bits of nanoseconds hold
+  const std::optional<double> rough_s = parse_number<double>(word);
+  if (!rough_s || !(std::abs(*rough_s) < kSecondsMax)) return false;
+  if (word.find_first_of("eE") != std::string_view::npos) {  // written with few digits: no more are to be had
+    *stamp_ns = static_cast<std::int64_t>(*rough_s * static_cast<double>(kNsPerS));
+    return true;
   }
-  const std::optional<std::int64_t> whole = seconds.empty() ? 0 : parse_number<std::int64_t>(seconds);
-  if (!whole || *whole >= std::numeric_limits<std::int64_t>::max() / kNsPerS) return false;
-  std::int64_t part = 0;
-  for (std::size_t i = 0; i < 9; ++i) part = part * 10 + (i < digits.size() ? digits[i] - '0' : 0);
-  *stamp_ns = (*whole * kNsPerS + part) * (is_negative ? -1 : 1);
+  const std::size_t sign = word.front() == '-' || word.front() == '+' ? 1 : 0;
+  const std::size_t point = std::min(word.find('.'), word.size());
+  std::int64_t stamp = 0;
+  for (std::size_t i = sign; i < point; ++i) stamp = stamp * 10 + (word[i] - '0');
+  for (std::size_t i = 1; i <= 9; ++i) stamp = stamp * 10 + (point + i < word.size() ? word[point + i] - '0' : 0);
+  *stamp_ns = word.front() == '-' ? -stamp : stamp;
   return true;
 }
 

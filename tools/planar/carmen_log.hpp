@@ -17,9 +17,10 @@
 // FLASER does not say its angles. Beams turn to the left over half a turn; the first one looks to the right, at -pi/2.
 // An odd number (181, 361) includes the last beam at +pi/2, an even number (180, 360) stops one step before.
 //
-// FLASER does not say its range either. A SICK scanner writes a fixed number where nothing came back: the largest range
-// of the log where many beams have exactly that, and never more than 81.83 m (the codes of its faults lie above).
-// "Nothing came back" may be glass, a dark or slanted wall or open space, so it is unknown, not free.
+// FLASER does not say its range either. Scanners write a far number where nothing came back (50.00, 51.05
+// to 51.12, 81.83 to 81.91): where the ranges of the log pile up at their far end, the lower edge of the pile is the
+// range, and it is never more than 81.83 m (the SICK scanner's codes of faults lie above). "Nothing came back" may be
+// glass, a dark or slanted wall or open space, so it is unknown, not free.
 
 #pragma once
 
