@@ -17,7 +17,7 @@
 #include "planar/carmen_log.hpp"
 #include "test_files.hpp"
 
-namespace pose_wall::tools {
+namespace pose_wall::tools::planar_relations {
 namespace {
 
 using test::contains;
@@ -142,4 +142,4 @@ TEST(PlanarRelations, RawOdometryOfTheAcesBuildingHasItsPublishedError) {
 }
 
 }  // namespace
-}  // namespace pose_wall::tools
+}  // namespace pose_wall::tools::planar_relations

@@ -151,17 +151,18 @@ class RangeCounts {
     }
   }
 
-  double range_max_m() const {
+  // The lower edge; 0 where there is no pile.
+  double pile_m() const {
     std::size_t top = kCells - 1;
     while (top > 0 && beams_[top] == 0) --top;
     const std::size_t pile = top - std::min(top, kPileCells);
     const std::size_t below = pile - std::min(pile, kBelowCells);
     const std::size_t in_pile = sum(pile, top + 1);
-    if (in_pile < kPileBeams || in_pile < sum(below, pile)) return kSickCodes_m;
+    if (in_pile < kPileBeams || in_pile < sum(below, pile)) return 0.0;
     const std::size_t highest = *std::max_element(at(pile), at(top + 1));
     std::size_t edge = pile;
     while (beams_[edge] == 0 || beams_[edge] < highest / kPileToItsEdge) ++edge;
-    return std::min(static_cast<double>(edge) * kCell_m, kSickCodes_m);
+    return static_cast<double>(edge) * kCell_m - 0.5 * kCell_m;
   }
 
  private:
@@ -241,10 +242,27 @@ class LogParser {
     for (const CarmenScan& scan : log_.scans) {
       if (!(scan.range_max_m > 0.0)) counts.add(scan.range_m);
     }
-    const double range_max_m = counts.range_max_m();
+    const double pile_m = counts.pile_m();
+    const double range_max_m =
+        pile_m > 0.0 && reached_on_the_way(pile_m) ? std::min(pile_m, kSickCodes_m) : kSickCodes_m;
     for (CarmenScan& scan : log_.scans) {
       if (!(scan.range_max_m > 0.0)) scan.range_max_m = range_max_m;
     }
+  }
+
+  // Of a wall the ranges change as the machine drives; where nothing comes back they do not.
+  bool reached_on_the_way(double pile_m) const {
+    constexpr double kDriven_m = 2.0;  // several times the width of a pile
+    const CarmenScan* first = nullptr;
+    for (const CarmenScan& scan : log_.scans) {
+      const auto reaches = [pile_m](float range_m) { return static_cast<double>(range_m) >= pile_m; };
+      if (scan.range_max_m > 0.0 || std::none_of(scan.range_m.begin(), scan.range_m.end(), reaches)) continue;
+      if (first == nullptr) first = &scan;
+      const double dx_m = scan.odometry.x_m - first->odometry.x_m;
+      const double dy_m = scan.odometry.y_m - first->odometry.y_m;
+      if (dx_m * dx_m + dy_m * dy_m >= kDriven_m * kDriven_m) return true;
+    }
+    return false;
   }
 
   CarmenLog log_;
@@ -270,7 +288,10 @@ bool parse_stamp_ns(std::string_view word, std::int64_t* stamp_ns) {
   const std::size_t sign = word.front() == '-' || word.front() == '+' ? 1 : 0;
   const std::size_t point = std::min(word.find('.'), word.size());
   std::int64_t stamp = 0;
-  for (std::size_t i = sign; i < point; ++i) stamp = stamp * 10 + (word[i] - '0');
+  for (std::size_t i = sign; i < point; ++i) {
+    if (word[i] < '0' || word[i] > '9') return false;
+    stamp = stamp * 10 + (word[i] - '0');
+  }
   for (std::size_t i = 1; i <= 9; ++i) stamp = stamp * 10 + (point + i < word.size() ? word[point + i] - '0' : 0);
   *stamp_ns = word.front() == '-' ? -stamp : stamp;
   return true;
