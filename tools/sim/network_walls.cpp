@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/network_walls.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+namespace pose_wall::tools::sim {
+namespace {
+
+constexpr double kCell_m = 0.125;
+constexpr int kTileNodes = 64;
+// Beyond a wall the outline is known this far: more than the relief can reach.
+constexpr double kMargin_m = 1.3;
+constexpr double kReliefReach_m = 1.0;
+constexpr double kSmoothLining_m = 0.004;
+// Props and steel sets keep away from junctions, where there is no wall behind them.
+constexpr double kFromEnds_m = 4.5;
+
+// A strip of road: all within half_width of a line. An end may be cut off square.
+struct Strip {
+  std::vector<Place> line;
+  std::vector<double> half_width_m;
+  bool is_square_begin = false, is_square_end = false;
+};
+
+// How deep in the rock a point is; below 0 in the strip. Of one piece of it.
+class Piece {
+ public:
+  Piece(const Strip& strip, std::size_t i)
+      : a_(strip.line[i]),
+        along_(strip.line[i + 1] - strip.line[i]),
+        half_a_m_(strip.half_width_m[i]),
+        widens_m_(strip.half_width_m[i + 1] - strip.half_width_m[i]),
+        is_square_begin_(i == 0 && strip.is_square_begin),
+        is_square_end_(i + 2 == strip.line.size() && strip.is_square_end) {
+    length_m_ = along_.norm();
+    along_ /= std::max(length_m_, 1e-12);
+  }
+
+  double depth_m(const Place& p) const {
+    const Place from = p - a_;
+    const double s_m = from.dot(along_);
+    const double inside_m = std::clamp(s_m, 0.0, length_m_);
+    const double half_m = half_a_m_ + widens_m_ * inside_m / std::max(length_m_, 1e-12);
+    const double beside_m = std::abs(from.x() * along_.y() - from.y() * along_.x());
+    if (is_square_begin_ && s_m < 0.0) return std::max(-s_m, beside_m - half_m);
+    if (is_square_end_ && s_m > length_m_) return std::max(s_m - length_m_, beside_m - half_m);
+    return std::hypot(beside_m, s_m - inside_m) - half_m;
+  }
+
+  double half_width_m() const { return half_a_m_ + std::max(0.0, widens_m_); }
+  Place low() const { return a_.cwiseMin(a_ + length_m_ * along_); }
+  Place high() const { return a_.cwiseMax(a_ + length_m_ * along_); }
+
+ private:
+  Place a_, along_;
+  double length_m_ = 0.0, half_a_m_, widens_m_;
+  bool is_square_begin_, is_square_end_;
+};
+
+// Depth in the rock at the nodes of a fine grid, in tiles where there is road.
+class Field {
+ public:
+  void add(const Strip& strip) {
+    for (std::size_t i = 0; i + 1 < strip.line.size(); ++i) add(Piece(strip, i));
+  }
+
+  // Every node within the reach of the relief moves by it.
+  template <typename Relief>
+  void carve(Relief relief_m) {
+    for (auto& [key, tile] : tiles_) {
+      for (int row = 0; row < kTileNodes; ++row) {
+        for (int column = 0; column < kTileNodes; ++column) {
+          float& depth = tile[place_in_tile(column, row)];
+          if (std::abs(depth) >= static_cast<float>(kReliefReach_m)) continue;
+          depth -= static_cast<float>(relief_m(node_at(key, column, row)));
+        }
+      }
+    }
+  }
+
+  double depth_m(const Place& p) const {
+    const double u = p.x() / kCell_m, v = p.y() / kCell_m;
+    const auto i = static_cast<std::int64_t>(std::floor(u)), j = static_cast<std::int64_t>(std::floor(v));
+    const double a = u - static_cast<double>(i), b = v - static_cast<double>(j);
+    const double low = value(i, j) + (value(i + 1, j) - value(i, j)) * a;
+    const double high = value(i, j + 1) + (value(i + 1, j + 1) - value(i, j + 1)) * a;
+    return low + (high - low) * b;
+  }
+
+  // Marching squares; the open side lies to the left. In the order of tiles and cells.
+  std::vector<WallSegment> outline() const {
+    std::vector<std::int64_t> keys;
+    for (const auto& entry : tiles_) keys.push_back(entry.first);
+    std::sort(keys.begin(), keys.end());
+    std::vector<WallSegment> walls;
+    for (const std::int64_t key : keys) {
+      for (int row = 0; row < kTileNodes; ++row) {
+        for (int column = 0; column < kTileNodes; ++column) {
+          outline_of(column_of(key) * kTileNodes + column, row_of(key) * kTileNodes + row, &walls);
+        }
+      }
+    }
+    return walls;
+  }
+
+ private:
+  using Tile = std::array<float, kTileNodes * kTileNodes>;
+  static constexpr float kFar_m = 9.0F;
+  static constexpr std::int64_t kKeyRows = std::int64_t{1} << 24;
+
+  static std::int64_t key_of(std::int64_t column, std::int64_t row) { return column * kKeyRows + row; }
+  static std::int64_t row_of(std::int64_t key) { return ((key + kKeyRows / 2) & (kKeyRows - 1)) - kKeyRows / 2; }
+  static std::int64_t column_of(std::int64_t key) { return (key - row_of(key)) / kKeyRows; }
+  static std::size_t place_in_tile(int column, int row) { return static_cast<std::size_t>(row * kTileNodes + column); }
+  static std::int64_t tile_of(std::int64_t node) {
+    return node >= 0 ? node / kTileNodes : -((kTileNodes - 1 - node) / kTileNodes);
+  }
+
+  static Place node_at(std::int64_t key, int column, int row) {
+    return {kCell_m * static_cast<double>(column_of(key) * kTileNodes + column),
+            kCell_m * static_cast<double>(row_of(key) * kTileNodes + row)};
+  }
+
+  void add(const Piece& piece) {
+    const double reach_m = piece.half_width_m() + kMargin_m;
+    const Place low = piece.low() - Place::Constant(reach_m), high = piece.high() + Place::Constant(reach_m);
+    const auto node = [](double m) { return static_cast<std::int64_t>(std::floor(m / kCell_m)); };
+    for (std::int64_t tile_row = tile_of(node(low.y())); tile_row <= tile_of(node(high.y())); ++tile_row) {
+      for (std::int64_t tile_column = tile_of(node(low.x())); tile_column <= tile_of(node(high.x())); ++tile_column) {
+        const auto [entry, is_new] = tiles_.try_emplace(key_of(tile_column, tile_row));
+        Tile& tile = entry->second;
+        if (is_new) tile.fill(kFar_m);
+        const auto first = [](std::int64_t from, std::int64_t of_tile) {
+          return static_cast<int>(std::max<std::int64_t>(from - of_tile * kTileNodes, 0));
+        };
+        const auto last = [](std::int64_t to, std::int64_t of_tile) {
+          return static_cast<int>(std::min<std::int64_t>(to - of_tile * kTileNodes, kTileNodes - 1));
+        };
+        for (int row = first(node(low.y()), tile_row); row <= last(node(high.y()) + 1, tile_row); ++row) {
+          for (int column = first(node(low.x()), tile_column); column <= last(node(high.x()) + 1, tile_column);
+               ++column) {
+            float& depth = tile[place_in_tile(column, row)];
+            depth = std::min(depth, static_cast<float>(piece.depth_m(node_at(entry->first, column, row))));
+          }
+        }
+      }
+    }
+  }
+
+  double value(std::int64_t i, std::int64_t j) const {
+    const auto tile = tiles_.find(key_of(tile_of(i), tile_of(j)));
+    if (tile == tiles_.end()) return static_cast<double>(kFar_m);
+    return static_cast<double>(tile->second[place_in_tile(static_cast<int>(i - tile_of(i) * kTileNodes),
+                                                          static_cast<int>(j - tile_of(j) * kTileNodes))]);
+  }
+
+  // Where the outline crosses between two nodes: the same bits from both cells beside.
+  static Place crossing(std::int64_t i, std::int64_t j, bool is_along_x, double from, double to) {
+    const double share = from / (from - to);
+    return {kCell_m * (static_cast<double>(i) + (is_along_x ? share : 0.0)),
+            kCell_m * (static_cast<double>(j) + (is_along_x ? 0.0 : share))};
+  }
+
+  void outline_of(std::int64_t i, std::int64_t j, std::vector<WallSegment>* walls) const {
+    // Corners against the clock: 0 at (i, j), 1 at (i + 1, j), 2, 3 at (i, j + 1).
+    const double d[4] = {value(i, j), value(i + 1, j), value(i + 1, j + 1), value(i, j + 1)};
+    unsigned open = 0;
+    for (unsigned k = 0; k < 4; ++k) open |= d[k] < 0.0 ? 1U << k : 0U;
+    if (open == 0 || open == 15) return;
+    const auto side = [&](int k) {
+      switch (k) {
+        case 0:
+          return crossing(i, j, true, d[0], d[1]);
+        case 1:
+          return crossing(i + 1, j, false, d[1], d[2]);
+        case 2:
+          return crossing(i, j + 1, true, d[3], d[2]);
+        default:
+          return crossing(i, j, false, d[0], d[3]);
+      }
+    };
+    const auto add_wall = [&](int from, int to) { walls->push_back({side(from), side(to), WallKind::kRock}); };
+    // Two open corners across from each other: the middle decides whether they are joined.
+    const bool is_saddle = open == 5 || open == 10;
+    if (is_saddle) {
+      const bool is_joined = d[0] + d[1] + d[2] + d[3] < 0.0;
+      for (int k = 0; k < 4; ++k) {
+        // Cuts off the rock's corners where they are joined, the open ones where not. Corner k lies between side k - 1
+        // and side k.
+        const bool is_open = (open >> k & 1U) != 0;
+        if (is_open == is_joined) continue;
+        const int before = (k + 3) % 4;
+        is_open ? add_wall(k, before) : add_wall(before, k);
+      }
+      return;
+    }
+    // Against the clock, the outline leaves the cell where rock follows on open, and enters where open follows on rock.
+    int from = 0, to = 0;
+    for (int k = 0; k < 4; ++k) {
+      const bool is_open = (open >> k & 1U) != 0, is_next_open = (open >> ((k + 1) % 4) & 1U) != 0;
+      if (is_open && !is_next_open) from = k;
+      if (!is_open && is_next_open) to = k;
+    }
+    add_wall(from, to);
+  }
+
+  std::unordered_map<std::int64_t, Tile> tiles_;
+};
+
+// Where along an edge, with the wall to the left of the direction of travel or to the right.
+struct Station {
+  Place middle, ahead, to_wall;
+  double half_width_m;
+};
+
+Station station_of(const NetworkEdge& edge, double s_m, int side) {
+  std::size_t i = 1;
+  double before_m = 0.0;
+  while (i + 1 < edge.line.size() && before_m + (edge.line[i] - edge.line[i - 1]).norm() < s_m) {
+    before_m += (edge.line[i] - edge.line[i - 1]).norm();
+    ++i;
+  }
+  const Place step = edge.line[i] - edge.line[i - 1];
+  const double share = std::clamp((s_m - before_m) / step.norm(), 0.0, 1.0);
+  const Place ahead = step.normalized();
+  return {edge.line[i - 1] + share * step, ahead, static_cast<double>(side) * Place(-ahead.y(), ahead.x()),
+          edge.half_width_m[i - 1] + share * (edge.half_width_m[i] - edge.half_width_m[i - 1])};
+}
+
+// Even steps along both walls of every edge, the seed of a road and a side apart.
+template <typename Visit>
+void along_walls(const NetworkPlan& plan, const NetworkGraph& graph, double pitch_m, std::uint64_t seed, Visit visit) {
+  if (pitch_m <= 0.0) return;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const NetworkEdge& edge = graph.edges[i];
+    for (const int side : {1, -1}) {
+      // Alike roads draw the same numbers for the same edge of the road.
+      const bool is_even = (plan.alike || plan.twin_rock) && edge.road >= 0;
+      Random random(seed, (is_even ? 0x10000u : 2 * i) + (side > 0 ? 1u : 0u));
+      double s_m = kFromEnds_m + random.uniform(0.0, pitch_m);
+      for (; s_m < edge.length_m - kFromEnds_m; s_m += pitch_m) visit(station_of(edge, s_m, side), &random);
+    }
+  }
+}
+
+// A box in the plane, seen from outside.
+void add_box(const Place& centre, const Place& half_along, const Place& half_across, WallKind kind,
+             std::vector<WallSegment>* walls) {
+  const Place corner[4] = {centre - half_along - half_across, centre + half_along - half_across,
+                           centre + half_along + half_across, centre - half_along + half_across};
+  const bool is_left = half_along.x() * half_across.y() - half_along.y() * half_across.x() > 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const Place &a = corner[k], &b = corner[(k + 1) % 4];
+    walls->push_back(is_left ? WallSegment{b, a, kind} : WallSegment{a, b, kind});
+  }
+}
+
+void add_post(const Place& centre, double radius_m, std::vector<WallSegment>* walls) {
+  constexpr int kCorners = 10;
+  const auto corner = [&](int k) {
+    const double angle = 2.0 * M_PI * (k % kCorners) / kCorners;
+    return Place(centre + radius_m * Place(std::cos(angle), std::sin(angle)));
+  };
+  for (int k = 0; k < kCorners; ++k) walls->push_back({corner(k + 1), corner(k), WallKind::kProp});
+}
+
+std::vector<Strip> strips_of(const NetworkPlan& plan, const NetworkGraph& graph, std::uint64_t seed) {
+  std::vector<Strip> strips;
+  for (const NetworkEdge& edge : graph.edges) {
+    const bool ends_here = graph.nodes[edge.to].edges.size() == 1,
+               begins_here = graph.nodes[edge.from].edges.size() == 1;
+    strips.push_back({edge.line, edge.half_width_m, begins_here, ends_here});
+  }
+  along_walls(plan, graph, plan.niche_pitch_m, seed ^ 0x91c4eu, [&strips](const Station& at, Random* random) {
+    const double depth_m = random->uniform(0.6, 1.6), half_m = random->uniform(0.6, 1.6);
+    const Place begin = at.middle + 0.5 * at.half_width_m * at.to_wall;
+    const Place end = at.middle + (at.half_width_m + depth_m) * at.to_wall;
+    strips.push_back({{begin, end}, {half_m, half_m}, true, true});
+  });
+  return strips;
+}
+
+std::vector<WallSegment> things_of(const NetworkPlan& plan, const NetworkGraph& graph, const Field& field,
+                                   std::uint64_t seed) {
+  std::vector<WallSegment> things;
+  along_walls(plan, graph, plan.steel_pitch_m, seed ^ 0x57ee1u, [&](const Station& at, Random*) {
+    const double into_rock_m = 0.5;
+    if (!(field.depth_m(at.middle + (at.half_width_m + into_rock_m) * at.to_wall) > 0.0)) return;
+    const double middle_m = at.half_width_m + 0.5 * (into_rock_m - plan.steel_depth_m);
+    const double half_m = 0.5 * (into_rock_m + plan.steel_depth_m);
+    add_box(at.middle + middle_m * at.to_wall, 0.07 * at.ahead, half_m * at.to_wall, WallKind::kSteel, &things);
+  });
+  along_walls(plan, graph, plan.prop_pitch_m, seed ^ 0x9409u, [&](const Station& at, Random* random) {
+    const double standoff_m = random->uniform(0.3, 0.6), radius_m = random->uniform(0.08, 0.12);
+    const Place centre = at.middle + (at.half_width_m - standoff_m) * at.to_wall;
+    if (field.depth_m(centre) < -radius_m) add_post(centre, radius_m, &things);
+  });
+  return things;
+}
+
+}  // namespace
+
+std::vector<WallSegment> network_walls(const NetworkPlan& plan, const NetworkGraph& graph, std::uint64_t seed) {
+  Field field;
+  for (const Strip& strip : strips_of(plan, graph, seed)) field.add(strip);
+  const RoadMould mould(plan, seed);
+  const PlaneNoise rough(seed ^ 0x4006u, plan.roughness_length_m), wave(seed ^ 0x3a3eu, plan.wave_length_m);
+  const bool is_smooth = plan.lining == Lining::kSmooth;
+  const double rough_m = is_smooth ? kSmoothLining_m : plan.roughness_m, wave_m = is_smooth ? 0.0 : plan.wave_m;
+  field.carve([&](const Place& p) {
+    const Place at = plan.twin_rock ? mould.in_mould(p) : p;
+    return std::clamp(rough_m * rough.at(at) + wave_m * wave.at(at), -kReliefReach_m, kReliefReach_m);
+  });
+  std::vector<WallSegment> walls = field.outline();
+  const std::vector<WallSegment> things = things_of(plan, graph, field, seed);
+  walls.insert(walls.end(), things.begin(), things.end());
+  return walls;
+}
+
+}  // namespace pose_wall::tools::sim
