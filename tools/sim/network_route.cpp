@@ -16,6 +16,8 @@ namespace {
 constexpr double kRouteStep_m = 0.25;
 // A corner is rounded over this length to both sides: a turn of 90 degrees gets a radius of about this.
 constexpr double kCorner_m = 2.0;
+// From a heading face to the place where the machine turns: half its length and some more.
+constexpr double kTurnRoom_m = 3.2;
 constexpr double kAlikeStep_m = 1.0;
 constexpr double kAlikeHeading_rad = 3.0 * kRadPerDeg;
 constexpr double kAlikeWidth_m = 0.3;
@@ -62,8 +64,24 @@ std::vector<Place> rounded(const std::vector<Place>& line) {
   return smooth;
 }
 
-void append_leg(std::vector<Place>* line, Route* route) {
+// Takes the turn's room off the end, and leaves a metre at least.
+void keep_off_the_face(std::vector<Place>* line) {
+  double left_m = std::min(kTurnRoom_m, length_of(*line) - 1.0);
+  if (!(left_m > 0.0)) return;
+  while ((line->back() - (*line)[line->size() - 2]).norm() <= left_m) {
+    left_m -= (line->back() - (*line)[line->size() - 2]).norm();
+    line->pop_back();
+  }
+  const Place step = (*line)[line->size() - 2] - line->back();
+  line->back() += left_m / step.norm() * step;
+}
+
+void append_leg(const NetworkNode& from, const NetworkNode& to, std::vector<Place>* line, Route* route) {
   if (line->size() < 2) return;
+  if (to.edges.size() == 1) keep_off_the_face(line);
+  std::reverse(line->begin(), line->end());
+  if (from.edges.size() == 1) keep_off_the_face(line);
+  std::reverse(line->begin(), line->end());
   RouteLeg leg;
   leg.line = rounded(even_steps(*line, kRouteStep_m));
   leg.length_m = length_of(leg.line);
@@ -156,14 +174,17 @@ Route NetworkGraph::route_through(const std::vector<std::uint32_t>& way) const {
   Route route;
   route.nodes = way;
   std::vector<Place> line;
+  std::size_t begin = 0;
   for (std::size_t i = 1; i < way.size(); ++i) {
     const NetworkEdge& edge = edge_between(*this, way[i - 1], way[i]);
     std::vector<Place> part = edge.line;
     if (edge.from != way[i - 1]) std::reverse(part.begin(), part.end());
     line.insert(line.end(), part.begin() + (line.empty() ? 0 : 1), part.end());
-    if (i + 1 < way.size() && way[i + 1] == way[i - 1]) append_leg(&line, &route);  // back where it came from
+    const bool turns = i + 1 < way.size() && way[i + 1] == way[i - 1];  // back where it came from
+    if (!turns && i + 1 < way.size()) continue;
+    append_leg(nodes[way[begin]], nodes[way[i]], &line, &route);
+    begin = i;
   }
-  append_leg(&line, &route);
   return route;
 }
 

@@ -34,11 +34,15 @@ class Piece {
       : a_(strip.line[i]),
         along_(strip.line[i + 1] - strip.line[i]),
         half_a_m_(strip.half_width_m[i]),
-        widens_m_(strip.half_width_m[i + 1] - strip.half_width_m[i]),
-        is_square_begin_(i == 0 && strip.is_square_begin),
-        is_square_end_(i + 2 == strip.line.size() && strip.is_square_end) {
+        widens_m_(strip.half_width_m[i + 1] - strip.half_width_m[i]) {
     length_m_ = along_.norm();
     along_ /= std::max(length_m_, 1e-12);
+    // All pieces that are round where the strip is cut off.
+    const auto reaches = [&](const Place& end) { return (a_ - end).norm() < half_width_m() + 2.0 * length_m_ + 1.0; };
+    const std::size_t last = strip.line.size() - 1;
+    if (strip.is_square_begin && reaches(strip.line[0])) cut(strip.line[0], strip.line[0] - strip.line[1]);
+    if (strip.is_square_end && reaches(strip.line[last]))
+      cut(strip.line[last], strip.line[last] - strip.line[last - 1]);
   }
 
   double depth_m(const Place& p) const {
@@ -46,10 +50,9 @@ class Piece {
     const double s_m = from.dot(along_);
     const double inside_m = std::clamp(s_m, 0.0, length_m_);
     const double half_m = half_a_m_ + widens_m_ * inside_m / std::max(length_m_, 1e-12);
-    const double beside_m = std::abs(from.x() * along_.y() - from.y() * along_.x());
-    if (is_square_begin_ && s_m < 0.0) return std::max(-s_m, beside_m - half_m);
-    if (is_square_end_ && s_m > length_m_) return std::max(s_m - length_m_, beside_m - half_m);
-    return std::hypot(beside_m, s_m - inside_m) - half_m;
+    double depth = (from - inside_m * along_).norm() - half_m;
+    for (int i = 0; i < cuts_; ++i) depth = std::max(depth, (p - cut_at_[i]).dot(cut_out_[i]));
+    return depth;
   }
 
   double half_width_m() const { return half_a_m_ + std::max(0.0, widens_m_); }
@@ -57,9 +60,15 @@ class Piece {
   Place high() const { return a_.cwiseMax(a_ + length_m_ * along_); }
 
  private:
+  void cut(const Place& at, const Place& out) {
+    cut_at_[cuts_] = at;
+    cut_out_[cuts_++] = out.normalized();
+  }
+
   Place a_, along_;
   double length_m_ = 0.0, half_a_m_, widens_m_;
-  bool is_square_begin_, is_square_end_;
+  int cuts_ = 0;
+  Place cut_at_[2], cut_out_[2];
 };
 
 // Depth in the rock at the nodes of a fine grid, in tiles where there is road.
@@ -232,16 +241,17 @@ Station station_of(const NetworkEdge& edge, double s_m, int side) {
           edge.half_width_m[i - 1] + share * (edge.half_width_m[i] - edge.half_width_m[i - 1])};
 }
 
-// Even steps along both walls of every edge, the seed of a road and a side apart.
+// Even steps along both walls of every edge. In pairs: opposite each other.
 template <typename Visit>
-void along_walls(const NetworkPlan& plan, const NetworkGraph& graph, double pitch_m, std::uint64_t seed, Visit visit) {
+void along_walls(const NetworkPlan& plan, const NetworkGraph& graph, double pitch_m, bool in_pairs, std::uint64_t seed,
+                 Visit visit) {
   if (pitch_m <= 0.0) return;
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     const NetworkEdge& edge = graph.edges[i];
     for (const int side : {1, -1}) {
       // Alike roads draw the same numbers for the same edge of the road.
       const bool is_even = (plan.alike || plan.twin_rock) && edge.road >= 0;
-      Random random(seed, (is_even ? 0x10000u : 2 * i) + (side > 0 ? 1u : 0u));
+      Random random(seed, (is_even ? 0x10000u : 2 * i) + (side > 0 && !in_pairs ? 1u : 0u));
       double s_m = kFromEnds_m + random.uniform(0.0, pitch_m);
       for (; s_m < edge.length_m - kFromEnds_m; s_m += pitch_m) visit(station_of(edge, s_m, side), &random);
     }
@@ -276,7 +286,7 @@ std::vector<Strip> strips_of(const NetworkPlan& plan, const NetworkGraph& graph,
                begins_here = graph.nodes[edge.from].edges.size() == 1;
     strips.push_back({edge.line, edge.half_width_m, begins_here, ends_here});
   }
-  along_walls(plan, graph, plan.niche_pitch_m, seed ^ 0x91c4eu, [&strips](const Station& at, Random* random) {
+  along_walls(plan, graph, plan.niche_pitch_m, false, seed ^ 0x91c4eu, [&strips](const Station& at, Random* random) {
     const double depth_m = random->uniform(0.6, 1.6), half_m = random->uniform(0.6, 1.6);
     const Place begin = at.middle + 0.5 * at.half_width_m * at.to_wall;
     const Place end = at.middle + (at.half_width_m + depth_m) * at.to_wall;
@@ -288,14 +298,14 @@ std::vector<Strip> strips_of(const NetworkPlan& plan, const NetworkGraph& graph,
 std::vector<WallSegment> things_of(const NetworkPlan& plan, const NetworkGraph& graph, const Field& field,
                                    std::uint64_t seed) {
   std::vector<WallSegment> things;
-  along_walls(plan, graph, plan.steel_pitch_m, seed ^ 0x57ee1u, [&](const Station& at, Random*) {
+  along_walls(plan, graph, plan.steel_pitch_m, true, seed ^ 0x57ee1u, [&](const Station& at, Random*) {
     const double into_rock_m = 0.5;
     if (!(field.depth_m(at.middle + (at.half_width_m + into_rock_m) * at.to_wall) > 0.0)) return;
     const double middle_m = at.half_width_m + 0.5 * (into_rock_m - plan.steel_depth_m);
     const double half_m = 0.5 * (into_rock_m + plan.steel_depth_m);
     add_box(at.middle + middle_m * at.to_wall, 0.07 * at.ahead, half_m * at.to_wall, WallKind::kSteel, &things);
   });
-  along_walls(plan, graph, plan.prop_pitch_m, seed ^ 0x9409u, [&](const Station& at, Random* random) {
+  along_walls(plan, graph, plan.prop_pitch_m, false, seed ^ 0x9409u, [&](const Station& at, Random* random) {
     const double standoff_m = random->uniform(0.3, 0.6), radius_m = random->uniform(0.08, 0.12);
     const Place centre = at.middle + (at.half_width_m - standoff_m) * at.to_wall;
     if (field.depth_m(centre) < -radius_m) add_post(centre, radius_m, &things);
