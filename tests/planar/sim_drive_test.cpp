@@ -38,7 +38,7 @@ TEST(SimDrive, ArcsByHand) {
   // Half of one of radius 1 to the right.
   expect_pose(moved({}, M_PI, 0, -M_PI, 1), 0, -2, M_PI);
   // Sideways about a point ahead.
-  expect_pose(moved({}, 0, -1, 1, M_PI), -2, 0, M_PI);
+  expect_pose(moved({}, 0, -1, 1, M_PI), 2, 0, M_PI);
   expect_pose(moved({}, 1, 0, 1e-7, 1), 1, 5e-8, 1e-7, 1e-12);
 }
 

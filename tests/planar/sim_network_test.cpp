@@ -82,7 +82,7 @@ TEST(SimNetwork, RaysMeetWhatTryingAllWallsGives) {
       const PlaneHit quick = network.cast(from, direction(angle), far_m);
       const PlaneHit slow = network.wall_grid().cast_slowly(from, direction(angle), far_m);
       ASSERT_EQ(quick.range_m, slow.range_m) << "seed " << seed << ", ray " << i;
-      if (std::isfinite(quick.range_m)) ASSERT_EQ(quick.cosine, slow.cosine);
+      ASSERT_EQ(quick.cosine, slow.cosine);
     }
   }
 }
@@ -325,6 +325,7 @@ TEST(SimNetwork, ScansHaveTheirNoise) {
   std::vector<float> measured(360), truth(360), again(360);
   for (std::uint64_t i = 0; i < 200; ++i) {
     const Place p = somewhere(network, &random);
+    if (!network.is_open(p)) continue;
     const PlanePose at{p.x(), p.y(), random.uniform(-3, 3)};
     planar_scan(network, sensor, at, i, measured.data());
     planar_scan(network, sensor, at, i, again.data());

@@ -75,6 +75,8 @@ class RoadMould {
   Place in_mould(const Place& p) const;
   double spacing_m() const { return spacing_m_; }
   int roads() const { return roads_; }
+  // Length of all roads for one metre of the first: more or less than their number in a turn.
+  double roads_together() const;
 
  private:
   double swing_m(double along_m) const;

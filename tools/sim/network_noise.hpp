@@ -13,7 +13,8 @@
 
 namespace pose_wall::tools::sim {
 
-using Place = Eigen::Vector2d;  // in the plane of the network, m
+// In the plane of the network, m. Not aligned: its layout is the same whatever vector units a user compiles for.
+using Place = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 
 class PlaneNoise {
  public:

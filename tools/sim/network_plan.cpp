@@ -57,7 +57,7 @@ class Drawing {
     while (mould_.roads() > 1) {
       along_m += pitch_m * random_.uniform(0.85, 1.15);
       const double cross_m = plan_.crosscuts * (mould_.roads() - 1) * mould_.spacing_m();
-      if (mould_.roads() * (along_m + kHeading_m) + crosscuts_m_ + cross_m > for_columns_m) break;
+      if (mould_.roads_together() * (along_m + kHeading_m) + crosscuts_m_ + cross_m > for_columns_m) break;
       add_column(along_m, pitch_m, false);
     }
     add_drifts(end_of_roads_m());
@@ -75,11 +75,11 @@ class Drawing {
   double drift_share() const {
     if (plan_.dead_ends_m <= 0.0) return 0.0;
     const double per_m = 13.5 / plan_.dead_ends_m;
-    return per_m / (per_m + mould_.roads());
+    return per_m / (per_m + mould_.roads_together());
   }
 
   double end_of_roads_m() const {
-    const double even_m = (plan_.length_m - crosscuts_m_ - drifts_m_) / mould_.roads();
+    const double even_m = (plan_.length_m - crosscuts_m_ - drifts_m_) / mould_.roads_together();
     return std::max(last_m_ + kHeading_m, even_m);
   }
 
@@ -231,8 +231,12 @@ class Drawing {
 
 RoadMould::RoadMould(const NetworkPlan& plan, std::uint64_t seed) : bend_m_(plan.bend_m) {
   Random random(seed, 0x301d);
-  roads_ = plan.roads > 0 ? plan.roads : 2 + static_cast<int>(random.uniform(0.0, 3.0));
+  const int drawn = 2 + static_cast<int>(random.uniform(0.0, 3.0));
   spacing_m_ = plan.spacing_m > 0.0 ? plan.spacing_m : random.uniform(20.0, 36.0);
+  // As many as the length has room for, with the cross roads that join them.
+  const double per_road_m = spacing_m_ + 2.0 * kHeading_m;
+  const int room = std::max(1, static_cast<int>((0.7 * plan.length_m + spacing_m_) / per_road_m));
+  roads_ = plan.roads > 0 ? plan.roads : std::min(drawn, room);
   // A network is about as long as its length divided by its roads and their cross roads.
   const double extent_m = plan.length_m / (roads_ + (roads_ > 1 ? 0.5 * (roads_ - 1) : 0.0));
   // The innermost road must have room to turn.
@@ -251,6 +255,14 @@ double RoadMould::swing_m(double along_m) const {
   double swing = 0.0;
   for (int i = 0; i < 3; ++i) swing += std::sin(wave_per_m_[i] * along_m + phase_rad_[i]);
   return 0.6 * bend_m_ * swing;
+}
+
+double RoadMould::roads_together() const {
+  double roads = 0.0;
+  for (int road = 0; road < roads_; ++road) {
+    roads += radius_m_ == 0.0 ? 1.0 : std::abs(1.0 - road * spacing_m_ / radius_m_);
+  }
+  return roads;
 }
 
 Place RoadMould::bent(const Place& straight) const {

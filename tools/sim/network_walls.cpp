@@ -11,10 +11,10 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-constexpr double kCell_m = 0.125;
+constexpr double kNodes_m = 0.125;
 constexpr int kTileNodes = 64;
 // Beyond a wall the outline is known this far: more than the relief can reach.
-constexpr double kMargin_m = 1.3;
+constexpr double kOutlineMargin_m = 1.3;
 constexpr double kReliefReach_m = 1.0;
 constexpr double kSmoothLining_m = 0.004;
 // Props and steel sets keep away from junctions, where there is no wall behind them.
@@ -93,7 +93,7 @@ class Field {
   }
 
   double depth_m(const Place& p) const {
-    const double u = p.x() / kCell_m, v = p.y() / kCell_m;
+    const double u = p.x() / kNodes_m, v = p.y() / kNodes_m;
     const auto i = static_cast<std::int64_t>(std::floor(u)), j = static_cast<std::int64_t>(std::floor(v));
     const double a = u - static_cast<double>(i), b = v - static_cast<double>(j);
     const double low = value(i, j) + (value(i + 1, j) - value(i, j)) * a;
@@ -131,14 +131,14 @@ class Field {
   }
 
   static Place node_at(std::int64_t key, int column, int row) {
-    return {kCell_m * static_cast<double>(column_of(key) * kTileNodes + column),
-            kCell_m * static_cast<double>(row_of(key) * kTileNodes + row)};
+    return {kNodes_m * static_cast<double>(column_of(key) * kTileNodes + column),
+            kNodes_m * static_cast<double>(row_of(key) * kTileNodes + row)};
   }
 
   void add(const Piece& piece) {
-    const double reach_m = piece.half_width_m() + kMargin_m;
+    const double reach_m = piece.half_width_m() + kOutlineMargin_m;
     const Place low = piece.low() - Place::Constant(reach_m), high = piece.high() + Place::Constant(reach_m);
-    const auto node = [](double m) { return static_cast<std::int64_t>(std::floor(m / kCell_m)); };
+    const auto node = [](double m) { return static_cast<std::int64_t>(std::floor(m / kNodes_m)); };
     for (std::int64_t tile_row = tile_of(node(low.y())); tile_row <= tile_of(node(high.y())); ++tile_row) {
       for (std::int64_t tile_column = tile_of(node(low.x())); tile_column <= tile_of(node(high.x())); ++tile_column) {
         const auto [entry, is_new] = tiles_.try_emplace(key_of(tile_column, tile_row));
@@ -171,8 +171,8 @@ class Field {
   // Where the outline crosses between two nodes: the same bits from both cells beside.
   static Place crossing(std::int64_t i, std::int64_t j, bool is_along_x, double from, double to) {
     const double share = from / (from - to);
-    return {kCell_m * (static_cast<double>(i) + (is_along_x ? share : 0.0)),
-            kCell_m * (static_cast<double>(j) + (is_along_x ? 0.0 : share))};
+    return {kNodes_m * (static_cast<double>(i) + (is_along_x ? share : 0.0)),
+            kNodes_m * (static_cast<double>(j) + (is_along_x ? 0.0 : share))};
   }
 
   void outline_of(std::int64_t i, std::int64_t j, std::vector<WallSegment>* walls) const {
