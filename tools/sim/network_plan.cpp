@@ -266,7 +266,7 @@ double RoadMould::roads_together() const {
 }
 
 Place RoadMould::bent(const Place& straight) const {
-  const Place p(straight.x(), straight.y() + swing_m(straight.x()));
+  Place p(straight.x(), straight.y() + swing_m(straight.x()));
   if (radius_m_ == 0.0) return p;
   const double angle = p.x() / radius_m_, r = radius_m_ - p.y();
   return {r * std::sin(angle), radius_m_ - r * std::cos(angle)};

@@ -110,30 +110,38 @@ void SegmentGrid::meet(std::uint32_t segment, const Place& origin, const Place& 
   *best = {range_m, segment, turn / along.norm()};
 }
 
+// Leaves the cell over the side that the ray reaches first, which is at the result.
+double SegmentGrid::step(const Place& origin, const Place& direction, Cell* cell) const {
+  const auto to_side = [](double from, double way, double low, std::int64_t place) {
+    if (way == 0.0) return std::numeric_limits<double>::infinity();
+    return (low + kCell_m * static_cast<double>(place + (way > 0.0 ? 1 : 0)) - from) / way;
+  };
+  const double x_m = to_side(origin.x(), direction.x(), low_.x(), cell->column);
+  const double y_m = to_side(origin.y(), direction.y(), low_.y(), cell->row);
+  if (x_m < y_m) {
+    cell->column += direction.x() > 0.0 ? 1 : -1;
+  } else {
+    cell->row += direction.y() > 0.0 ? 1 : -1;
+  }
+  return std::min(x_m, y_m);
+}
+
 PlaneHit SegmentGrid::cast(const Place& origin, const Place& direction, double range_max_m, unsigned kinds) const {
   PlaneHit best;
   double t_m = 0.0;
-  const double slow_x = direction.x() != 0.0 ? 1.0 / direction.x() : kCell_m * 1e12;
-  const double slow_y = direction.y() != 0.0 ? 1.0 / direction.y() : kCell_m * 1e12;
   Cell cell = cell_of(origin);
-  for (int step = 0; step < kStepsMax && is_inside(cell); ++step) {
+  for (int i = 0; i < kStepsMax && is_inside(cell); ++i) {
     const std::size_t index = index_of(cell);
-    const std::uint8_t empty = empty_[index];
-    if (empty > 1) {
-      t_m += static_cast<double>(empty - 1) * kCell_m;
-      if (t_m > range_max_m) break;
+    if (empty_[index] > 1) {
+      t_m += static_cast<double>(empty_[index] - 1) * kCell_m;
       cell = cell_of(origin + t_m * direction);
-      continue;
+    } else {
+      for (std::uint32_t k = begin_[index]; k < begin_[index + 1]; ++k) {
+        meet(in_cells_[k], origin, direction, kinds, &best);
+      }
+      t_m = step(origin, direction, &cell);
     }
-    for (std::uint32_t i = begin_[index]; i < begin_[index + 1]; ++i)
-      meet(in_cells_[i], origin, direction, kinds, &best);
-    const double edge_x = low_.x() + kCell_m * static_cast<double>(cell.column + (direction.x() > 0.0 ? 1 : 0));
-    const double edge_y = low_.y() + kCell_m * static_cast<double>(cell.row + (direction.y() > 0.0 ? 1 : 0));
-    const double to_x = direction.x() != 0.0 ? (edge_x - origin.x()) * slow_x : std::abs(slow_x);
-    const double to_y = direction.y() != 0.0 ? (edge_y - origin.y()) * slow_y : std::abs(slow_y);
-    t_m = std::min(to_x, to_y);
     if (best.range_m <= t_m || t_m > range_max_m) break;
-    (to_x < to_y ? cell.column : cell.row) += (to_x < to_y ? direction.x() : direction.y()) > 0.0 ? 1 : -1;
   }
   if (!(best.range_m <= range_max_m)) return {};
   return best;

@@ -53,6 +53,7 @@ class SegmentGrid {
   Cell cell_of(const Place& p) const;
   bool is_inside(const Cell& cell) const;
   std::size_t index_of(const Cell& cell) const;
+  double step(const Place& origin, const Place& direction, Cell* cell) const;
   void sort_into_cells();
   void measure_empty_cells();
   void meet(std::uint32_t segment, const Place& origin, const Place& direction, unsigned kinds, PlaneHit* best) const;

@@ -125,10 +125,22 @@ class Field {
   static std::int64_t key_of(std::int64_t column, std::int64_t row) { return column * kKeyRows + row; }
   static std::int64_t row_of(std::int64_t key) { return ((key + kKeyRows / 2) & (kKeyRows - 1)) - kKeyRows / 2; }
   static std::int64_t column_of(std::int64_t key) { return (key - row_of(key)) / kKeyRows; }
-  static std::size_t place_in_tile(int column, int row) { return static_cast<std::size_t>(row * kTileNodes + column); }
+  static std::size_t place_in_tile(int column, int row) {
+    return static_cast<std::size_t>(row) * kTileNodes + static_cast<std::size_t>(column);
+  }
   static std::int64_t tile_of(std::int64_t node) {
     return node >= 0 ? node / kTileNodes : -((kTileNodes - 1 - node) / kTileNodes);
   }
+
+  struct NodeRange {
+    std::int64_t first, last;
+
+    // Counted from the tile's own first one.
+    NodeRange in_tile(std::int64_t tile) const {
+      return {std::max<std::int64_t>(first - tile * kTileNodes, 0),
+              std::min<std::int64_t>(last - tile * kTileNodes, kTileNodes - 1)};
+    }
+  };
 
   static Place node_at(std::int64_t key, int column, int row) {
     return {kNodes_m * static_cast<double>(column_of(key) * kTileNodes + column),
@@ -137,26 +149,24 @@ class Field {
 
   void add(const Piece& piece) {
     const double reach_m = piece.half_width_m() + kOutlineMargin_m;
-    const Place low = piece.low() - Place::Constant(reach_m), high = piece.high() + Place::Constant(reach_m);
-    const auto node = [](double m) { return static_cast<std::int64_t>(std::floor(m / kNodes_m)); };
-    for (std::int64_t tile_row = tile_of(node(low.y())); tile_row <= tile_of(node(high.y())); ++tile_row) {
-      for (std::int64_t tile_column = tile_of(node(low.x())); tile_column <= tile_of(node(high.x())); ++tile_column) {
-        const auto [entry, is_new] = tiles_.try_emplace(key_of(tile_column, tile_row));
-        Tile& tile = entry->second;
-        if (is_new) tile.fill(kFar_m);
-        const auto first = [](std::int64_t from, std::int64_t of_tile) {
-          return static_cast<int>(std::max<std::int64_t>(from - of_tile * kTileNodes, 0));
-        };
-        const auto last = [](std::int64_t to, std::int64_t of_tile) {
-          return static_cast<int>(std::min<std::int64_t>(to - of_tile * kTileNodes, kTileNodes - 1));
-        };
-        for (int row = first(node(low.y()), tile_row); row <= last(node(high.y()) + 1, tile_row); ++row) {
-          for (int column = first(node(low.x()), tile_column); column <= last(node(high.x()) + 1, tile_column);
-               ++column) {
-            float& depth = tile[place_in_tile(column, row)];
-            depth = std::min(depth, static_cast<float>(piece.depth_m(node_at(entry->first, column, row))));
-          }
-        }
+    const Place low = (piece.low() - Place::Constant(reach_m)) / kNodes_m;
+    const Place high = (piece.high() + Place::Constant(reach_m)) / kNodes_m;
+    const auto node = [](double at) { return static_cast<std::int64_t>(std::floor(at)); };
+    const NodeRange columns{node(low.x()), node(high.x()) + 1}, rows{node(low.y()), node(high.y()) + 1};
+    for (std::int64_t row = tile_of(rows.first); row <= tile_of(rows.last); ++row) {
+      for (std::int64_t column = tile_of(columns.first); column <= tile_of(columns.last); ++column) {
+        const auto [entry, is_new] = tiles_.try_emplace(key_of(column, row));
+        if (is_new) entry->second.fill(kFar_m);
+        add(piece, columns.in_tile(column), rows.in_tile(row), entry->first, &entry->second);
+      }
+    }
+  }
+
+  static void add(const Piece& piece, const NodeRange& columns, const NodeRange& rows, std::int64_t key, Tile* tile) {
+    for (auto row = static_cast<int>(rows.first); row <= static_cast<int>(rows.last); ++row) {
+      for (auto column = static_cast<int>(columns.first); column <= static_cast<int>(columns.last); ++column) {
+        float& depth = (*tile)[place_in_tile(column, row)];
+        depth = std::min(depth, static_cast<float>(piece.depth_m(node_at(key, column, row))));
       }
     }
   }
@@ -168,54 +178,52 @@ class Field {
                                                           static_cast<int>(j - tile_of(j) * kTileNodes))]);
   }
 
-  // Where the outline crosses between two nodes: the same bits from both cells beside.
-  static Place crossing(std::int64_t i, std::int64_t j, bool is_along_x, double from, double to) {
-    const double share = from / (from - to);
-    return {kNodes_m * (static_cast<double>(i) + (is_along_x ? share : 0.0)),
-            kNodes_m * (static_cast<double>(j) + (is_along_x ? 0.0 : share))};
-  }
+  // Corners against the clock: 0 at (i, j), 1 at (i + 1, j), 2, 3 at (i, j + 1). Side k lies between corner k and the
+  // next.
+  struct Square {
+    std::int64_t i, j;
+    double depth_m[4];
+
+    bool is_open(int corner) const { return depth_m[corner % 4] < 0.0; }
+
+    // Where the outline crosses a side: the same bits from both squares beside.
+    Place crossing(int side) const {
+      const bool is_along_x = side == 0 || side == 2;
+      const int from = side == 2 ? 3 : (side == 3 ? 0 : side);
+      const int to = side == 2 ? 2 : (side == 3 ? 3 : side + 1);
+      const double share = depth_m[from] / (depth_m[from] - depth_m[to]);
+      const Place begin(static_cast<double>(i + (side == 1 ? 1 : 0)), static_cast<double>(j + (side == 2 ? 1 : 0)));
+      return kNodes_m * (begin + (is_along_x ? Place(share, 0.0) : Place(0.0, share)));
+    }
+    WallSegment wall(int from_side, int to_side) const {
+      return {crossing(from_side), crossing(to_side), WallKind::kRock};
+    }
+  };
 
   void outline_of(std::int64_t i, std::int64_t j, std::vector<WallSegment>* walls) const {
-    // Corners against the clock: 0 at (i, j), 1 at (i + 1, j), 2, 3 at (i, j + 1).
-    const double d[4] = {value(i, j), value(i + 1, j), value(i + 1, j + 1), value(i, j + 1)};
-    unsigned open = 0;
-    for (unsigned k = 0; k < 4; ++k) open |= d[k] < 0.0 ? 1U << k : 0U;
-    if (open == 0 || open == 15) return;
-    const auto side = [&](int k) {
-      switch (k) {
-        case 0:
-          return crossing(i, j, true, d[0], d[1]);
-        case 1:
-          return crossing(i + 1, j, false, d[1], d[2]);
-        case 2:
-          return crossing(i, j + 1, true, d[3], d[2]);
-        default:
-          return crossing(i, j, false, d[0], d[3]);
-      }
-    };
-    const auto add_wall = [&](int from, int to) { walls->push_back({side(from), side(to), WallKind::kRock}); };
-    // Two open corners across from each other: the middle decides whether they are joined.
-    const bool is_saddle = open == 5 || open == 10;
-    if (is_saddle) {
-      const bool is_joined = d[0] + d[1] + d[2] + d[3] < 0.0;
-      for (int k = 0; k < 4; ++k) {
-        // Cuts off the rock's corners where they are joined, the open ones where not. Corner k lies between side k - 1
-        // and side k.
-        const bool is_open = (open >> k & 1U) != 0;
-        if (is_open == is_joined) continue;
-        const int before = (k + 3) % 4;
-        is_open ? add_wall(k, before) : add_wall(before, k);
-      }
-      return;
-    }
-    // Against the clock, the outline leaves the cell where rock follows on open, and enters where open follows on rock.
-    int from = 0, to = 0;
+    const Square square{i, j, {value(i, j), value(i + 1, j), value(i + 1, j + 1), value(i, j + 1)}};
+    int changes = 0, from = 0, to = 0;
+    // Against the clock, the outline enters the square where open turns to rock, and leaves it where rock turns to
+    // open.
     for (int k = 0; k < 4; ++k) {
-      const bool is_open = (open >> k & 1U) != 0, is_next_open = (open >> ((k + 1) % 4) & 1U) != 0;
-      if (is_open && !is_next_open) from = k;
-      if (!is_open && is_next_open) to = k;
+      if (square.is_open(k) == square.is_open(k + 1)) continue;
+      ++changes;
+      (square.is_open(k) ? from : to) = k;
     }
-    add_wall(from, to);
+    if (changes == 2) walls->push_back(square.wall(from, to));
+    if (changes == 4) outline_of_saddle(square, walls);
+  }
+
+  // Two open corners across from each other: the middle decides whether they are joined. If so, the outline cuts off
+  // the corners of rock, else the open ones. Corner k lies between side k - 1 and side k.
+  static void outline_of_saddle(const Square& square, std::vector<WallSegment>* walls) {
+    const double* d = square.depth_m;
+    const bool is_joined = d[0] + d[1] + d[2] + d[3] < 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const int before = (k + 3) % 4;
+      if (square.is_open(k) == is_joined) continue;
+      walls->push_back(square.is_open(k) ? square.wall(k, before) : square.wall(before, k));
+    }
   }
 
   std::unordered_map<std::int64_t, Tile> tiles_;
