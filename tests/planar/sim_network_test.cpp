@@ -118,6 +118,26 @@ TEST(SimNetwork, HasThePlannedLengthAndHangsTogether) {
   EXPECT_GT(loops, 200U);
 }
 
+// An opening that the graph does not know would make a closed loop look wrong.
+TEST(SimNetwork, RoadsMeetAtTheirNodesOnly) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    NetworkPlan plan = plan_of(400, seed);
+    plan.bend_m = 3.0 * static_cast<double>(seed % 5);
+    const NetworkGraph graph = draw_network(plan, seed);
+    for (const NetworkEdge& a : graph.edges) {
+      for (const NetworkEdge& b : graph.edges) {
+        const bool is_joined = a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to;
+        if (is_joined || (a.road >= 0 && a.road == b.road)) continue;
+        for (std::size_t i = 0; i < a.line.size(); ++i) {
+          for (std::size_t k = 0; k < b.line.size(); ++k) {
+            ASSERT_GT((a.line[i] - b.line[k]).norm() - a.half_width_m[i] - b.half_width_m[k], 1.0) << "seed " << seed;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(SimNetwork, RefusesPlansOutsideTheirLimits) {
   const auto refused = [](auto change) {
     NetworkPlan plan;

@@ -61,7 +61,8 @@ struct NetworkGraph {
   std::vector<AlikePair> alike_pairs(double least_m = 12.0) const;
 };
 
-// Centre lines of a plan. Throws std::invalid_argument for a plan outside its limits.
+// Centre lines of a plan. Roads that share no node have rock between them. Throws std::invalid_argument for a plan outside
+// its limits, or without room for cross roads.
 NetworkGraph draw_network(const NetworkPlan& plan, std::uint64_t seed);
 
 // From places of the network to places on straight roads that lie on each other: the mould of twin rock.
