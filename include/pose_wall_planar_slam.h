@@ -46,7 +46,8 @@ typedef struct pose_wall_planar_slam pose_wall_planar_slam;
 
 typedef struct pose_wall_planar_slam_settings {
   uint32_t struct_size;    /* sizeof(pose_wall_planar_slam_settings) */
-  uint32_t keyframes_most; /* 4096: the trail holds so many; 16 to 65536. A kilometre of road takes some 3300 */
+  uint32_t keyframes_most; /* 4096: the trail holds so many, of 360 surface points in the mean; 16 to 65536. A
+                              kilometre of road takes some 3300 */
   double keyframe_m;       /* 0.3: travel between two keyframes; 0.05 to 2 */
   double keyframe_rad;     /* 0.25: turn between two keyframes; 0.02 to 1 */
   double odometry_m;       /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
@@ -63,7 +64,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_slam_settings_check(const pose_wall_p
 
 /* ---------------------------------------------------------------------------------------------- life */
 
-/* Bytes of the block: some 2.9 kB a keyframe, and 9 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
+/* Bytes of the block: some 4.2 kB a keyframe, and 10 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
  * refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_memory_needed(const pose_wall_planar_slam_settings* settings,
                                                               uint64_t* bytes);
