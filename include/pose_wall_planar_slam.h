@@ -5,9 +5,9 @@
 /*
  * The SLAM of pose_wall_planar: from planar scans, with odometry or without, to the poses that they were taken from.
  *
- * Every scan is matched with the last metres of the trail. Every keyframe_m the trail gets a keyframe. Where the machine
+ * Every scan is matched with the last metres of the trail. Every keyframe_m the trail gets a keyframe. Where a machine
  * comes to a place that it has been to, the graph of all keyframes is solved anew, a round in each call. So poses of
- * keyframes change: solution counts that. A scan's final pose is its pose in its keyframe, by that keyframe's final pose.
+ * keyframes change: solution counts that. A scan's final pose is its in_keyframe, by that keyframe's final pose.
  *
  *     pose_wall_planar_slam_settings_init(&settings);
  *     pose_wall_planar_slam_memory_needed(&settings, &bytes);
@@ -19,9 +19,9 @@
  *
  * CLOSURES  a place is the same only if several looks agree about it over metres of travel, if what they saw holds the
  *           place along the road, too, and if no line of sight passes through what the other saw. Where later looks
- *           contradict a belief, it is taken back. Roads that look alike stay apart as long as odometry keeps them apart.
+ *           contradict a belief, it is taken back. Roads that look alike stay apart while odometry keeps them apart.
  * ODOMETRY  a pose of base in any frame that may drift, at the scan's time. It may stall, slip and catch up.
- * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009, and Hess and others, ICRA 2016. The graph
+ * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009; Hess and others, ICRA 2016. The graph
  *           and its solution: Lu and Milios 1997; Dellaert and others, IROS 2010. README.md of src/planar/slam.
  *
  * The other rules are those of pose_wall_planar.h.

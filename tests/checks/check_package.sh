@@ -83,7 +83,8 @@ dpkg-deb -x "$deb" "$work/deb"
 tar -xzf "$tgz" -C "$work/tgz/some"
 diff -r "$work/deb/usr" "$work/tgz/some" || complain "DEB and TGZ hold different files"
 mv "$work/deb/usr" "$work/a/b/moved"
-for file in lib/libpose_wall.a lib/libpose_wall_motion.a lib/libpose_wall_planar.a include/pose_wall.h include/pose_wall.hpp \
+for file in lib/libpose_wall.a lib/libpose_wall_motion.a lib/libpose_wall_planar.a \
+  include/pose_wall.h include/pose_wall.hpp \
   include/pose_wall_motion.h include/pose_wall_planar.h include/pose_wall_planar_slam.h \
   lib/pkgconfig/pose_wall.pc lib/pkgconfig/pose_wall_motion.pc lib/pkgconfig/pose_wall_planar.pc \
   lib/cmake/pose_wall/pose_wall-config.cmake share/doc/libpose-wall-dev/copyright \

@@ -3,8 +3,8 @@
 
 # cmake --install: headers, archives, package config, pkg-config files, bill of materials, what a controller needs; and
 # the command and the daemon where they are built. find_package(pose_wall) gives pose_wall::pose_wall,
-# pose_wall::pose_wall_motion and pose_wall::pose_wall_planar, and pose_wall::pose_wall_runtime where that is built. Components: development, command,
-# daemon; python, which only who names it gets (tools/python/CMakeLists.txt).
+# pose_wall::pose_wall_motion and pose_wall::pose_wall_planar, and pose_wall::pose_wall_runtime where that is built.
+# Components: development, command, daemon; python, which only who names it gets (tools/python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 include(pose_wall_sbom)
 
