@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "planar/route/planner.hpp"
+
+#include "base/math/finite.hpp"
+#include "base/math/larger.hpp"
+#include "planar/route/taut.hpp"
+
+namespace pose_wall::planar {
+namespace {
+
+// Sweeps of pulling taut, in rows of cells; one takes some 5 ns.
+constexpr std::uint64_t kRowsOfPulling = 4000000;
+
+Footprint footprint_of(const pose_wall_planar_plan_settings& s) {
+  return {s.front_m + s.margin_m, s.rear_m + s.margin_m, s.left_m + s.margin_m, s.right_m + s.margin_m};
+}
+
+std::uint32_t step_cells(const pose_wall_planar_plan_settings& s, std::uint32_t level) {
+  const auto cells = static_cast<std::uint32_t>(s.lattice_m / s.resolution_m + 0.5);
+  return level == 0 ? cells : cells / 2;
+}
+
+}  // namespace
+
+void Planner::lay_out(Arena& arena, const pose_wall_planar_plan_settings& settings) {
+  settings_ = settings;
+  const double reach_cells = footprint_of(settings).reach_m() / settings.resolution_m;
+  grid_.lay_out(arena, settings.width_max, settings.height_max);
+  sweeps_.lay_out(arena, settings.height_max);
+  lattice_[0].lay_out(arena, 32, reach_cells);
+  lattice_[1].lay_out(arena, 64, reach_cells);
+  narrow_ = Lattice::room_for_mask(arena, reach_cells);
+  const std::uint32_t finest = step_cells(settings, 1);
+  const std::uint32_t places = (settings.width_max / finest + 1) * (settings.height_max / finest + 1);
+  field_.lay_out(arena, places);
+  search_.lay_out(arena, places, settings.places_max, settings.open_max);
+  corners_ = arena.take<Corner>(kCornersMost);
+}
+
+void Planner::open() {
+  costs_ = {settings_.turn_cost_m_rad, settings_.reverse_cost, settings_.cusp_cost_m};
+  for (std::uint32_t level = 0; level < kLevels; ++level) {
+    lattice_[level].open(step_cells(settings_, level), settings_.resolution_m, footprint_of(settings_));
+  }
+  has_grid_ = false;
+}
+
+bool Planner::read(const pose_wall_planar_grid& grid) {
+  const double difference_m = grid.resolution_m - settings_.resolution_m;
+  const bool fits = difference_m < 1e-9 && difference_m > -1e-9 && grid.width <= settings_.width_max &&
+                    grid.height <= settings_.height_max;
+  if (!fits || !grid_.read(grid, settings_.occupied_from)) return false;
+  sweeps_.open(&grid_, footprint_of(settings_));
+  has_grid_ = true;
+  return true;
+}
+
+double Planner::clearance_m(const Eigen::Vector2d& at_m) const {
+  constexpr double kMost_m = 5.0;
+  if (!has_grid_) return not_a_number();
+  const Eigen::Vector2d at = grid_.in_cells(at_m);
+  const bool is_inside = at.x() > 0.0 && at.y() > 0.0 && at.x() < grid_.width() && at.y() < grid_.height();
+  if (!is_inside) return 0.0;
+  const auto column = static_cast<std::int32_t>(at.x() + 0.5), row = static_cast<std::int32_t>(at.y() + 0.5);
+  const auto most = static_cast<std::int32_t>(kMost_m / settings_.resolution_m);
+  return grid_.clearance(column, row, most) * settings_.resolution_m;
+}
+
+// On the spot, straight, on the spot.
+bool Planner::go_straight() {
+  for (const std::int32_t gear : {1, -1}) {
+    const double yaw_rad = driving_yaw(start_.place(), goal_.place(), gear, start_.yaw_rad);
+    const double length_m = (goal_.place() - start_.place()).norm();
+    const double first_rad = wrapped(yaw_rad - start_.yaw_rad), last_rad = wrapped(goal_.yaw_rad - yaw_rad);
+    const Pose2 leaving{start_.x_m, start_.y_m, yaw_rad}, arriving{goal_.x_m, goal_.y_m, yaw_rad};
+    const double cost_m =
+        costs_.of_stretch(length_m, gear) + costs_.of_turn(first_rad) + costs_.of_turn(last_rad);
+    if (count_ == 2 && cost_m >= lower_m_) continue;
+    const bool is_free = sweeps_.is_straight_free(leaving, gear * length_m) &&
+                         sweeps_.is_turn_free(start_, first_rad) && sweeps_.is_turn_free(arriving, last_rad);
+    if (!is_free) continue;
+    corners_[0] = {start_.x_m, start_.y_m, yaw_rad, first_rad, gear, 0};
+    corners_[1] = {goal_.x_m, goal_.y_m, goal_.yaw_rad, last_rad, 0, 0};
+    count_ = 2;
+    lower_m_ = cost_m;
+  }
+  // Worth it if hardly any way can be cheaper: length and turn at least.
+  const double least_m =
+      (goal_.place() - start_.place()).norm() + costs_.of_turn(wrapped(goal_.yaw_rad - start_.yaw_rad));
+  const bool is_best = count_ == 2 && lower_m_ <= settings_.weight * least_m + 1e-9;
+  if (is_best) {
+    lower_m_ = least_m;
+  } else {
+    count_ = 0;
+  }
+  return is_best;
+}
+
+bool Planner::spread(const Lattice& lattice, const Mask& circle) {
+  const Places places = Places::of(grid_, lattice.step_cells());
+  if (places.count() > field_.capacity()) return false;
+  field_.begin(&lattice, &grid_, &circle, places);
+  const DistanceField::Target about_goal = Search::around(grid_, lattice, goal_);
+  for (std::int32_t r = about_goal.row - about_goal.reach; r <= about_goal.row + about_goal.reach; ++r) {
+    for (std::int32_t c = about_goal.column - about_goal.reach; c <= about_goal.column + about_goal.reach; ++c) {
+      if (!places.holds(c, r)) continue;
+      const double step = lattice.step_cells();
+      const double distance_m = (grid_.in_map(c * step, r * step) - goal_.place()).norm();
+      field_.seed(places.number(c, r), static_cast<std::uint32_t>(distance_m / kUnits_m));
+    }
+  }
+  return field_.spread(Search::around(grid_, lattice, start_));
+}
+
+std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
+  Found found = Found::none;
+  for (std::uint32_t level = 0; level < kLevels && found != Found::way; ++level) {
+    const Lattice& lattice = lattice_[level];
+    if (!spread(lattice, lattice.circle())) continue;
+    const Search::Task task{&lattice, &grid_, &field_, &sweeps_, Places::of(grid_, lattice.step_cells()), costs_,
+                            settings_.weight, start_, goal_, settings_.expansions_max - result->expansions};
+    found = search_.run(task);
+    result->expansions += search_.expansions();
+    result->places = search_.places();
+    ++result->searches;
+    if (found == Found::work_spent) return POSE_WALL_PLAN_WORK_LIMIT;
+  }
+  if (found == Found::list_full) return POSE_WALL_PLAN_LIST_FULL;
+  if (found != Found::way) return POSE_WALL_PLAN_TOO_TIGHT;
+  count_ = search_.write(corners_);
+  lower_m_ = search_.least_cost_m();
+  result->search_cost_m = search_.cost_m();
+  return count_ > 0 ? POSE_WALL_PLAN_FOUND : POSE_WALL_PLAN_LIST_FULL;
+}
+
+void Planner::plan(const Pose2& start, const Pose2& goal, Span<pose_wall_planar_path_pose> poses,
+                   pose_wall_planar_plan_result* result) {
+  start_ = start;
+  goal_ = goal;
+  count_ = 0;
+  const double none = not_a_number();
+  *result = {sizeof(*result), POSE_WALL_PLAN_FOUND, 0, 0, 0, 0, 0, 0, none, none, none, none, none, {none, none, none},
+             none};
+  if (!sweeps_.is_pose_free(start)) {
+    result->outcome = POSE_WALL_PLAN_START_BLOCKED;
+  } else if (!sweeps_.is_pose_free(goal)) {
+    result->outcome = POSE_WALL_PLAN_GOAL_BLOCKED;
+  } else if (!go_straight()) {
+    result->outcome = search(result);
+  }
+  if (result->outcome == POSE_WALL_PLAN_TOO_TIGHT) explain(result);
+  if (result->outcome == POSE_WALL_PLAN_FOUND) finish(poses, result);
+}
+
+void Planner::finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_plan_result* result) {
+  if (count_ > 2) {
+    Taut taut(&sweeps_, costs_, corners_, count_, start_.yaw_rad, kRowsOfPulling);
+    taut.pull();
+    count_ = taut.count();
+  }
+  const Rounding rounding{settings_.radius_min_m, settings_.radius_max_m, settings_.pose_step_m};
+  const Written written = write_poses(corners_.first(count_), start_, costs_, rounding, &sweeps_, poses);
+  if (written.poses > poses.size()) result->outcome = POSE_WALL_PLAN_ROOM_SMALL;
+  result->poses = written.poses;
+  result->cusps = written.cusps;
+  result->spot_turns = written.spot_turns;
+  result->length_m = written.length_m;
+  result->turning_rad = written.turning_rad;
+  result->cost_m = written.cost_m;
+  if (result->searches == 0) result->search_cost_m = written.cost_m;
+  result->bound = lower_m_ > 0.0 ? larger(written.cost_m / lower_m_, 1.0) : 1.0;
+}
+
+// The circle of the machine may not pass either: then how wide is the widest way?
+void Planner::explain(pose_wall_planar_plan_result* result) {
+  const double machine_cells = footprint_of(settings_).inscribed_m() / settings_.resolution_m;
+  if (result->searches > 0) {
+    const Eigen::Vector2d nearest = search_.nearest_m();
+    result->place = {nearest.x(), nearest.y(), not_a_number()};
+    return;
+  }
+  double fits = 0.1, does_not = machine_cells;  // less than a cell: hardly more than a point
+  if (!is_wide_enough(fits)) {
+    result->outcome = POSE_WALL_PLAN_NOT_CONNECTED;
+    return;
+  }
+  constexpr std::uint32_t kHalvings = 10;
+  for (std::uint32_t k = 0; k < kHalvings && does_not - fits > 0.5; ++k) {
+    const double middle = 0.5 * (fits + does_not);
+    (is_wide_enough(middle) ? fits : does_not) = middle;
+  }
+  result->outcome = POSE_WALL_PLAN_TOO_NARROW;
+  if (is_wide_enough(fits)) find_bottleneck(result);
+}
+
+bool Planner::is_wide_enough(double radius_cells) {
+  lattice_[1].write_circle(radius_cells, &narrow_);
+  return spread(lattice_[1], narrow_);
+}
+
+// Down the field from the start to the goal: the place with the least room.
+void Planner::find_bottleneck(pose_wall_planar_plan_result* result) {
+  const Lattice& lattice = lattice_[1];
+  const std::int32_t step = lattice.step_cells();
+  const Places places = Places::of(grid_, step);
+  const auto most = static_cast<std::int32_t>(footprint_of(settings_).inscribed_m() / settings_.resolution_m) + 2;
+  std::uint32_t at = field_.nearest_of_target();
+  double least = 1e9;
+  for (std::uint32_t k = 0; k < places.count(); ++k) {
+    const std::int32_t column = places.column(at), row = places.row(at);
+    const double room = grid_.clearance(column * step, row * step, most);
+    if (room < least) {
+      least = room;
+      const Eigen::Vector2d place = grid_.in_map(column * step, row * step);
+      result->place = {place.x(), place.y(), not_a_number()};
+    }
+    const std::uint32_t next = field_.step_down(at);
+    if (next == at) break;
+    at = next;
+  }
+  result->width_m = 2.0 * least * settings_.resolution_m;
+}
+
+}  // namespace pose_wall::planar
