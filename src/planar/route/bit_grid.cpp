@@ -69,6 +69,30 @@ bool BitGrid::read(const pose_wall_planar_grid& grid, std::uint32_t occupied_fro
   return true;
 }
 
+void BitGrid::read_coarse(const BitGrid& of, std::int32_t step) {
+  width_ = (of.width_ + step - 1) / step;
+  height_ = (of.height_ + step - 1) / step;
+  stride_ = (static_cast<std::uint32_t>(width_) + 63) / 64;
+  resolution_m_ = of.resolution_m_ * step;
+  origin_m_ = of.origin_m_;
+  words_.first(stride_ * static_cast<std::uint32_t>(height_)).fill(0);
+  for (std::int32_t row = 0; row < of.height_; ++row) {
+    const std::uint64_t* const words = &of.words_[static_cast<std::uint32_t>(row) * of.stride_];
+    for (std::int32_t column = 0; column < width_; ++column) {
+      const std::int32_t first = column * step, last = first + step - 1;
+      if (last >= of.width_) {
+        block(row / step, column);
+        continue;
+      }
+      const std::int32_t bit = first & 63;
+      std::uint64_t bits = words[first >> 6] >> bit;
+      if (bit + step > 64) bits |= words[last >> 6] << (64 - bit);
+      if ((bits & (~0ULL >> (64 - step))) != 0) block(row / step, column);
+    }
+  }
+  for (std::int32_t column = 0; of.height_ % step != 0 && column < width_; ++column) block(height_ - 1, column);
+}
+
 // In cells along a row, from the corner's column to the nearest blocked cell; most if there is none nearer.
 double BitGrid::in_row(std::int32_t column, std::int32_t row, std::int32_t most) const {
   const std::int32_t left = column - most > 0 ? column - most : 0;

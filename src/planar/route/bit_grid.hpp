@@ -24,6 +24,9 @@ class BitGrid {
   // False for a grid that does not fit. Cells from occupied_from on, unknown ones and those of no meaning are blocked.
   bool read(const pose_wall_planar_grid& grid, std::uint32_t occupied_from);
 
+  // Squares of `step` cells of another grid as one cell each, blocked if one of them is or lies outside.
+  void read_coarse(const BitGrid& of, std::int32_t step);
+
   std::int32_t width() const { return width_; }
   std::int32_t height() const { return height_; }
   double resolution_m() const { return resolution_m_; }
@@ -50,6 +53,10 @@ class BitGrid {
   double clearance(std::int32_t column, std::int32_t row, std::int32_t most) const;
 
  private:
+  void block(std::int32_t row, std::int32_t column) {
+    words_[static_cast<std::uint32_t>(row) * stride_ + (static_cast<std::uint32_t>(column) >> 6)] |= 1ULL
+                                                                                                      << (column & 63);
+  }
   double in_row(std::int32_t column, std::int32_t row, std::int32_t most) const;
 
   Span<std::uint64_t> words_;

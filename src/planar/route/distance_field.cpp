@@ -14,7 +14,7 @@ void DistanceField::lay_out(Arena& arena, std::uint32_t places) {
   before_ = arena.take<std::uint32_t>(places);
 }
 
-void DistanceField::begin(const Lattice* lattice, const BitGrid* grid, const Mask* circle, const Places& places) {
+void DistanceField::begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places) {
   lattice_ = lattice;
   grid_ = grid;
   circle_ = circle;
@@ -30,8 +30,7 @@ void DistanceField::begin(const Lattice* lattice, const BitGrid* grid, const Mas
 bool DistanceField::is_free(std::uint32_t place, std::int32_t column, std::int32_t row) {
   if (distance_[place] == kBlocked) return false;
   if (distance_[place] != kUnknown) return true;
-  const std::int32_t step = lattice_->step_cells();
-  if (circle_->is_free(*grid_, column * step, row * step)) return true;
+  if (grid_.is_free(*circle_, column, row)) return true;
   distance_[place] = kBlocked;
   return false;
 }

@@ -45,7 +45,7 @@ class DistanceField {
   std::uint32_t capacity() const { return distance_.size(); }
 
   // begin, seeds, then spread. The field ends `beyond` of the distance behind the place where it first meets `target`.
-  void begin(const Lattice* lattice, const BitGrid* grid, const Mask* circle, const Places& places);
+  void begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places);
   void seed(std::uint32_t place, std::uint32_t distance);
   struct Target {
     std::int32_t column = 0, row = 0, reach = 0;  // a square of places
@@ -85,8 +85,8 @@ class DistanceField {
   bool is_cut_ = false;
   Places places_;
   const Lattice* lattice_ = nullptr;
-  const BitGrid* grid_ = nullptr;
-  const Mask* circle_ = nullptr;
+  LatticeGrid grid_;
+  const Shape* circle_ = nullptr;
 };
 
 }  // namespace pose_wall::planar

@@ -30,30 +30,74 @@ double Footprint::reach_m() const {
 
 Piece straight_piece(const Footprint& f, double forward_m, double backward_m) {
   const double front_m = f.front_m + forward_m, rear_m = -f.rear_m - backward_m;
-  return {{{front_m, f.left_m}, {rear_m, f.left_m}, {rear_m, -f.right_m}, {front_m, -f.right_m}}};
+  return {{{front_m, f.left_m}, {rear_m, f.left_m}, {rear_m, -f.right_m}, {front_m, -f.right_m}}, 4};
 }
 
-// A point (x, y) of the front half that turns by up to s either way and goes along by up to u comes no further to the
-// left than y + x s + (the arc's own bend), and no further to the front than x + |y| s + u.
-TurnPieces turn_pieces(const Footprint& f, double angle_rad, double stretch_m) {
-  const double s = 0.5 * magnitude(angle_rad), u = 0.5 * magnitude(stretch_m);
-  const double wide_m = larger(f.left_m, f.right_m);
-  const double more_m = wide_m * s * s + 0.5 * u * s;  // bend of the arc: u^2 / 2R with s = u / R
-  const double back_m = u + wide_m * s;
-  const auto half = [&](double length_m, double sign) {
-    const double tip_m = length_m + back_m, spread_m = more_m + (tip_m + u) * s;
-    const double base_m = more_m + u * s;
-    return Piece{{{-sign * back_m, f.left_m + base_m},
-                  {sign * tip_m, f.left_m + spread_m},
-                  {sign * tip_m, -f.right_m - spread_m},
-                  {-sign * back_m, -f.right_m - base_m}}};
-  };
-  return {{half(f.front_m, 1.0), half(f.rear_m, -1.0)}};
+namespace {
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// Andrew's monotone chain (1979) over eight points.
+Piece hull_of(Eigen::Vector2d (&points)[Piece::kCornersMost]) {
+  constexpr std::uint32_t kCount = Piece::kCornersMost;
+  for (std::uint32_t k = 1; k < kCount; ++k) {
+    const Eigen::Vector2d point = points[k];
+    std::uint32_t at = k;
+    for (; at > 0; --at) {
+      const Eigen::Vector2d& before = points[at - 1];
+      if (before.x() < point.x() || (before.x() == point.x() && before.y() <= point.y())) break;
+      points[at] = before;
+    }
+    points[at] = point;
+  }
+  Eigen::Vector2d hull[2 * kCount];
+  std::uint32_t count = 0;
+  for (std::uint32_t pass = 0, floor = 0; pass < 2; ++pass, floor = count - 1) {
+    for (std::uint32_t k = pass; k < kCount; ++k) {
+      const Eigen::Vector2d& point = points[pass == 0 ? k : kCount - 1 - k];
+      while (count >= floor + 2 && cross(hull[count - 2], hull[count - 1], point) <= 0.0) --count;
+      hull[count++] = point;
+    }
+  }
+  Piece piece;
+  piece.corners = count - 1 < kCount ? count - 1 : kCount;  // the last one is the first again
+  for (std::uint32_t k = 0; k < piece.corners; ++k) piece.corner[k] = hull[k];
+  return piece;
+}
+
+}  // namespace
+
+// Both ends of a step are turns about its centre. Their hull lacks what bulges over the chords; pushed away from the
+// centre by the cosine of half a step, the chords touch the bulges.
+ArcSteps arc_steps(const Footprint& f, double along_m, double turn_rad) {
+  constexpr double kTooWide_m = 0.003;  // by at most so much
+  const double centre_m = along_m / turn_rad, far_m = magnitude(centre_m) + f.reach_m();
+  const double half_most_rad = std::sqrt(2.0 * kTooWide_m / far_m);
+  ArcSteps steps;
+  steps.count = static_cast<std::uint32_t>(0.5 * magnitude(turn_rad) / half_most_rad) + 1;
+  const double half_rad = 0.5 * turn_rad / steps.count;
+  const Turn2 turn(half_rad);
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    const double tip_m = half == 0 ? f.front_m : -f.rear_m;
+    Eigen::Vector2d points[Piece::kCornersMost];
+    std::uint32_t count = 0;
+    for (const double x : {0.0, tip_m}) {
+      for (const double y : {f.left_m, -f.right_m}) {
+        const Eigen::Vector2d from_centre(x / turn.c, (y - centre_m) / turn.c), centre(0.0, centre_m);
+        points[count++] = turn * from_centre + centre;
+        points[count++] = turn.back(from_centre) + centre;
+      }
+    }
+    steps.half[half] = hull_of(points);
+  }
+  return steps;
 }
 
 void RowBounds::merge(const Piece& piece, std::int32_t first_row) const {
-  for (std::uint32_t k = 0; k < Piece::kCorners; ++k) {
-    Eigen::Vector2d a = piece.corner[k], b = piece.corner[(k + 1) % Piece::kCorners];
+  for (std::uint32_t k = 0; k < piece.corners; ++k) {
+    Eigen::Vector2d a = piece.corner[k], b = piece.corner[k + 1 < piece.corners ? k + 1 : 0];
     if (a.y() > b.y()) {
       const Eigen::Vector2d swap = a;
       a = b;
@@ -82,8 +126,9 @@ void Sweeps::lay_out(Arena& arena, std::uint32_t height_max) {
 bool Sweeps::is_free(const Piece& body, const Pose2& at) {
   const Turn2 turn(at.yaw_rad);
   Piece piece;
+  piece.corners = body.corners;
   Eigen::Vector2d least(1e9, 1e9), most(-1e9, -1e9);
-  for (std::uint32_t k = 0; k < Piece::kCorners; ++k) {
+  for (std::uint32_t k = 0; k < piece.corners; ++k) {
     piece.corner[k] = grid_->in_cells(turn * body.corner[k] + at.place());
     least = least.cwiseMin(piece.corner[k]);
     most = most.cwiseMax(piece.corner[k]);
@@ -91,6 +136,10 @@ bool Sweeps::is_free(const Piece& body, const Pose2& at) {
   const bool is_inside =
       least.x() >= 0.0 && least.y() >= 0.0 && most.x() < grid_->width() && most.y() < grid_->height();
   if (!is_inside) return false;
+  for (std::uint32_t k = 0; k < body.corners; ++k) {  // most that is not free is so at a corner
+    const Eigen::Vector2d& corner = piece.corner[k];
+    if (grid_->is_blocked(static_cast<std::int32_t>(corner.y()), static_cast<std::int32_t>(corner.x()))) return false;
+  }
   const auto first_row = static_cast<std::int32_t>(least.y());
   const auto rows = static_cast<std::uint32_t>(static_cast<std::int32_t>(most.y()) - first_row + 1);
   rows_ += rows + 10;
@@ -107,7 +156,18 @@ bool Sweeps::is_pose_free(const Pose2& at) {
   return is_free(straight_piece(footprint_, 0.0, 0.0), at);
 }
 
+// Rock between the ends is mostly met by the middle line already.
 bool Sweeps::is_straight_free(const Pose2& from, double along_m) {
+  constexpr double kProbe_m = 0.5;
+  const Turn2 turn(from.yaw_rad);
+  const auto probes = static_cast<std::uint32_t>(magnitude(along_m) / kProbe_m);
+  rows_ += probes;
+  for (std::uint32_t k = 1; k < probes; ++k) {
+    const Eigen::Vector2d at = grid_->in_cells(from.place() + along_m * k / probes * Eigen::Vector2d(turn.c, turn.s));
+    const bool is_inside = at.x() >= 0.0 && at.y() >= 0.0 && at.x() < grid_->width() && at.y() < grid_->height();
+    if (!is_inside) return false;
+    if (grid_->is_blocked(static_cast<std::int32_t>(at.y()), static_cast<std::int32_t>(at.x()))) return false;
+  }
   return is_free(straight_piece(footprint_, larger(along_m, 0.0), larger(-along_m, 0.0)), from);
 }
 
@@ -115,13 +175,11 @@ bool Sweeps::is_arc_free(const Pose2& from, double along_m, double turn_rad) {
   constexpr double kMostTurn_rad = 4.0 * kPi;
   if (!(magnitude(turn_rad) <= kMostTurn_rad)) return false;
   if (magnitude(turn_rad) < 1e-9) return is_straight_free(from, along_m);
-  const auto steps = static_cast<std::uint32_t>(magnitude(turn_rad) / kTurnStep_rad) + 1;
-  const double step_rad = turn_rad / steps, step_m = along_m / steps;
-  const TurnPieces pieces = turn_pieces(footprint_, step_rad, step_m);
-  for (std::uint32_t k = 0; k < steps; ++k) {
-    const double part = (k + 0.5) / steps;
+  const ArcSteps steps = arc_steps(footprint_, along_m, turn_rad);
+  for (std::uint32_t k = 0; k < steps.count; ++k) {
+    const double part = (k + 0.5) / steps.count;
     const Pose2 middle = along_arc(from, part * along_m, part * turn_rad);
-    if (!is_free(pieces.piece[0], middle) || !is_free(pieces.piece[1], middle)) return false;
+    if (!is_free(steps.half[0], middle) || !is_free(steps.half[1], middle)) return false;
   }
   return true;
 }

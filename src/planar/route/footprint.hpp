@@ -26,20 +26,21 @@ struct Footprint {
   double reach_m() const;      // the farthest corner
 };
 
-// A convex piece in cells. Corners go round it one way or the other.
+// A convex piece. Corners go round it one way or the other.
 struct Piece {
-  static constexpr std::uint32_t kCorners = 4;
-  Eigen::Vector2d corner[kCorners];
+  static constexpr std::uint32_t kCornersMost = 8;
+  Eigen::Vector2d corner[kCornersMost];
+  std::uint32_t corners = 0;
 };
-
-// Pieces of a turn by at most kTurnStep_rad about the middle yaw, in the machine's axes: front half and rear half. The
-// machine may also go along by half of `stretch_m` each way on an arc.
-constexpr double kTurnStep_rad = 0.07;  // the tip's chord is then 0.6 per mille of its distance within the arc
-struct TurnPieces {
-  Piece piece[2];
-};
-TurnPieces turn_pieces(const Footprint& footprint, double angle_rad, double stretch_m);
 Piece straight_piece(const Footprint& footprint, double forward_m, double backward_m);
+
+// An arc in even steps, and what the front half and the rear half of the machine sweep in one of them, in the machine's
+// axes at the middle of the step.
+struct ArcSteps {
+  std::uint32_t count = 1;
+  Piece half[2];
+};
+ArcSteps arc_steps(const Footprint& footprint, double along_m, double turn_rad);
 
 // Columns that a convex piece covers in each of the rows first_row + k, merged into low and high.
 struct RowBounds {

@@ -27,42 +27,8 @@ Vector vector_of(const Vector* eighths, std::uint32_t eighth, std::uint32_t k) {
   return v;
 }
 
-// Rows on each side of the middle, with some to spare for what turns sweep.
-std::int32_t reach_of(double reach_cells) {
-  return static_cast<std::int32_t>(reach_cells) + 3;
-}
 std::uint32_t rows_of(std::int32_t reach) {
   return static_cast<std::uint32_t>(2 * reach + 1);
-}
-
-void start(const RowBounds& bounds) {
-  bounds.clear(bounds.low.size());
-}
-
-void merge(const RowBounds& bounds, const Piece& body_m, double yaw_rad, double resolution_m, std::int32_t reach) {
-  const Turn2 turn(yaw_rad);
-  Piece piece;
-  for (std::uint32_t k = 0; k < Piece::kCorners; ++k) piece.corner[k] = turn * body_m.corner[k] / resolution_m;
-  bounds.merge(piece, -reach);
-}
-
-void finish(const RowBounds& bounds, std::int32_t reach, Mask* mask) {
-  std::uint32_t begin = 0, end = bounds.low.size();
-  while (begin < end && bounds.low[begin] > bounds.high[begin]) ++begin;
-  while (end > begin && bounds.low[end - 1] > bounds.high[end - 1]) --end;
-  mask->first_row = static_cast<std::int32_t>(begin) - reach;
-  mask->least = reach;
-  mask->most = -reach;
-  for (std::uint32_t k = begin; k < end; ++k) {
-    const auto first = static_cast<std::int16_t>(std::floor(bounds.low[k]));
-    const auto last = static_cast<std::int16_t>(std::floor(bounds.high[k]));
-    mask->first[k - begin] = first;
-    mask->last[k - begin] = last;
-    if (first < mask->least) mask->least = first;
-    if (last > mask->most) mask->most = last;
-  }
-  mask->first = mask->first.first(end - begin);  // over the same room, so that it may grow again
-  mask->last = mask->last.first(end - begin);
 }
 
 }  // namespace
@@ -80,25 +46,26 @@ bool Mask::is_free(const BitGrid& grid, std::int32_t column, std::int32_t row) c
   return true;
 }
 
-Mask Lattice::room_for_mask(Arena& arena, double reach_cells) {
-  const std::uint32_t rows = rows_of(reach_of(reach_cells));
-  Mask mask;
-  mask.first = arena.take<std::int16_t>(rows);
-  mask.last = arena.take<std::int16_t>(rows);
-  return mask;
+Shape Lattice::room_for_shape(Arena& arena) const {
+  const std::uint32_t rows = rows_of(reach_);
+  Shape shape;
+  for (Mask* mask : {&shape.exact, &shape.coarse}) {
+    mask->first = arena.take<std::int16_t>(rows);
+    mask->last = arena.take<std::int16_t>(rows);
+  }
+  return shape;
 }
 
 void Lattice::lay_out(Arena& arena, std::uint32_t headings, double reach_cells) {
   headings_ = headings;
-  reach_ = reach_of(reach_cells);
-  const std::uint32_t rows = rows_of(reach_);
+  reach_ = static_cast<std::int32_t>(reach_cells) + 3;  // with some to spare for what turns sweep
   for (std::uint32_t k = 0; k < headings; ++k) {
-    standing_[k] = room_for_mask(arena, reach_cells);
-    turning_[k] = room_for_mask(arena, reach_cells);
+    standing_[k] = room_for_shape(arena);
+    turning_[k] = room_for_shape(arena);
   }
-  circle_ = room_for_mask(arena, reach_cells);
-  bounds_.low = arena.take<double>(rows);
-  bounds_.high = arena.take<double>(rows);
+  circle_ = room_for_shape(arena);
+  bounds_.low = arena.take<double>(rows_of(reach_));
+  bounds_.high = arena.take<double>(rows_of(reach_));
 }
 
 void Lattice::open(std::uint32_t step_cells, double resolution_m, const Footprint& footprint) {
@@ -112,34 +79,65 @@ void Lattice::open(std::uint32_t step_cells, double resolution_m, const Footprin
     if (yaw_rad < 0.0) yaw_rad += 2.0 * kPi;
     heading_[k] = {v.x, v.y, yaw_rad, static_cast<std::uint32_t>(length_m / kUnits_m + 0.5)};
   }
-  for (std::uint32_t k = 0; k < headings_; ++k) {
-    start(bounds_);
-    merge(bounds_, straight_piece(footprint, 0.0, 0.0), heading_[k].yaw_rad, resolution_m, reach_);
-    finish(bounds_, reach_, &standing_[k]);
-    start(bounds_);
-    const auto steps = static_cast<std::uint32_t>(gap_rad(k) / kTurnStep_rad) + 1;
-    const TurnPieces pieces = turn_pieces(footprint, gap_rad(k) / steps, 0.0);
-    for (std::uint32_t i = 0; i < steps; ++i) {
-      const double yaw_rad = heading_[k].yaw_rad + (i + 0.5) * gap_rad(k) / steps;
-      for (const Piece& piece : pieces.piece) merge(bounds_, piece, yaw_rad, resolution_m, reach_);
+  for (const bool is_coarse : {false, true}) {
+    const double cell_m = is_coarse ? step_m_ : resolution_m;
+    for (std::uint32_t k = 0; k < headings_; ++k) {
+      bounds_.clear(bounds_.low.size());
+      merge(straight_piece(footprint, 0.0, 0.0), heading_[k].yaw_rad, cell_m);
+      finish(is_coarse ? &standing_[k].coarse : &standing_[k].exact);
+      bounds_.clear(bounds_.low.size());
+      const ArcSteps steps = arc_steps(footprint, 0.0, gap_rad(k));
+      for (std::uint32_t i = 0; i < steps.count; ++i) {
+        const double yaw_rad = heading_[k].yaw_rad + (i + 0.5) * gap_rad(k) / steps.count;
+        for (const Piece& piece : steps.half) merge(piece, yaw_rad, cell_m);
+      }
+      finish(is_coarse ? &turning_[k].coarse : &turning_[k].exact);
     }
-    finish(bounds_, reach_, &turning_[k]);
   }
   write_circle(footprint.inscribed_m() / resolution_m, &circle_);
 }
 
-// The cells that the circle touches: the machine touches them too, so a place where one is blocked has no free heading.
+void Lattice::merge(const Piece& body_m, double yaw_rad, double cell_m) const {
+  const Turn2 turn(yaw_rad);
+  Piece piece;
+  piece.corners = body_m.corners;
+  for (std::uint32_t k = 0; k < body_m.corners; ++k) piece.corner[k] = turn * body_m.corner[k] / cell_m;
+  bounds_.merge(piece, -reach_);
+}
 
-void Lattice::write_circle(double radius_cells, Mask* mask) const {
-  start(bounds_);
-  for (std::int32_t row = -reach_; row < reach_; ++row) {
-    const double far = row >= 0 ? row : -row - 1;  // nearest edge of the row: the circle is widest there
-    if (!(far < radius_cells)) continue;
-    const double half = std::sqrt(radius_cells * radius_cells - far * far);
-    bounds_.low[static_cast<std::uint32_t>(row + reach_)] = -half + 1e-9;
-    bounds_.high[static_cast<std::uint32_t>(row + reach_)] = half - 1e-9;
+void Lattice::finish(Mask* mask) const {
+  std::uint32_t begin = 0, end = bounds_.low.size();
+  while (begin < end && bounds_.low[begin] > bounds_.high[begin]) ++begin;
+  while (end > begin && bounds_.low[end - 1] > bounds_.high[end - 1]) --end;
+  mask->first_row = static_cast<std::int32_t>(begin) - reach_;
+  mask->least = reach_;
+  mask->most = -reach_;
+  for (std::uint32_t k = begin; k < end; ++k) {
+    const auto first = static_cast<std::int16_t>(std::floor(bounds_.low[k]));
+    const auto last = static_cast<std::int16_t>(std::floor(bounds_.high[k]));
+    mask->first[k - begin] = first;
+    mask->last[k - begin] = last;
+    if (first < mask->least) mask->least = first;
+    if (last > mask->most) mask->most = last;
   }
-  finish(bounds_, reach_, mask);
+  mask->first = mask->first.first(end - begin);  // over the same room, so that it may grow again
+  mask->last = mask->last.first(end - begin);
+}
+
+// The cells that the circle touches: the machine touches them too, so a place where one is blocked has no free heading.
+void Lattice::write_circle(double radius_cells, Shape* shape) const {
+  for (const bool is_coarse : {false, true}) {
+    bounds_.clear(bounds_.low.size());
+    const double radius = is_coarse ? radius_cells / step_cells_ : radius_cells;
+    for (std::int32_t row = -reach_; row < reach_; ++row) {
+      const double far = row >= 0 ? row : -row - 1;  // nearest edge of the row: the circle is widest there
+      if (!(far < radius)) continue;
+      const double half = std::sqrt(radius * radius - far * far);
+      bounds_.low[static_cast<std::uint32_t>(row + reach_)] = -half + 1e-9;
+      bounds_.high[static_cast<std::uint32_t>(row + reach_)] = half - 1e-9;
+    }
+    finish(is_coarse ? &shape->coarse : &shape->exact);
+  }
 }
 
 std::uint32_t Lattice::at_or_before(double yaw_rad) const {

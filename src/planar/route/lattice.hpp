@@ -35,6 +35,11 @@ struct Mask {
   bool is_free(const BitGrid& grid, std::int32_t column, std::int32_t row) const;
 };
 
+// A shape at a place of the lattice: most looks end with the coarse cells, as large as the steps between places.
+struct Shape {
+  Mask exact, coarse;
+};
+
 class Lattice {
  public:
   // headings: 32 or 64.
@@ -51,21 +56,37 @@ class Lattice {
   std::uint32_t at_or_before(double yaw_rad) const;
   double gap_rad(std::uint32_t k) const;  // from heading k to the next
 
-  const Mask& standing(std::uint32_t k) const { return standing_[k]; }
-  const Mask& turning(std::uint32_t k) const { return turning_[k]; }  // between heading k and the next
-  const Mask& circle() const { return circle_; }                      // inscribed: free wherever the machine fits
+  const Shape& standing(std::uint32_t k) const { return standing_[k]; }
+  const Shape& turning(std::uint32_t k) const { return turning_[k]; }  // between heading k and the next
+  const Shape& circle() const { return circle_; }                      // inscribed: free wherever the machine fits
 
   // A circle of another radius, within the reach.
-  static Mask room_for_mask(Arena& arena, double reach_cells);
-  void write_circle(double radius_cells, Mask* mask) const;
+  Shape room_for_shape(Arena& arena) const;
+  void write_circle(double radius_cells, Shape* shape) const;
 
  private:
   std::uint32_t headings_ = 0;
   std::int32_t step_cells_ = 1, reach_ = 0;
   double step_m_ = 0.0;
   Heading heading_[kHeadingsMost];
-  Mask standing_[kHeadingsMost], turning_[kHeadingsMost], circle_;
+  void merge(const Piece& body_m, double yaw_rad, double cell_m) const;
+  void finish(Mask* mask) const;
+
+  Shape standing_[kHeadingsMost], turning_[kHeadingsMost], circle_;
   RowBounds bounds_;
+};
+
+// The grid as a search over a lattice looks at it: with the coarse cells of that lattice.
+struct LatticeGrid {
+  const BitGrid* exact = nullptr;
+  const BitGrid* coarse = nullptr;
+  std::int32_t step_cells = 1;
+
+  // Column and row in steps.
+  bool is_free(const Shape& shape, std::int32_t column, std::int32_t row) const {
+    if (shape.coarse.is_free(*coarse, column, row)) return true;
+    return shape.exact.is_free(*exact, column * step_cells, row * step_cells);
+  }
 };
 
 }  // namespace pose_wall::planar

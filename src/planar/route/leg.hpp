@@ -27,7 +27,7 @@ struct Costs {
 struct Corner {
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0, turn_rad = 0.0;
   std::int32_t gear = 0;
-  std::int32_t reserved = 0;
+  std::uint32_t tried = 0;  // steps by which moving it was no use, a bit each
 
   Eigen::Vector2d place() const { return {x_m, y_m}; }
   Pose2 left_as() const { return {x_m, y_m, yaw_rad}; }

@@ -31,7 +31,8 @@ void Planner::lay_out(Arena& arena, const pose_wall_planar_plan_settings& settin
   sweeps_.lay_out(arena, settings.height_max);
   lattice_[0].lay_out(arena, 32, reach_cells);
   lattice_[1].lay_out(arena, 64, reach_cells);
-  narrow_ = Lattice::room_for_mask(arena, reach_cells);
+  narrow_ = lattice_[1].room_for_shape(arena);
+  coarse_.lay_out(arena, settings.width_max / step_cells(settings, 1) + 1, settings.height_max / step_cells(settings, 1) + 1);
   const std::uint32_t finest = step_cells(settings, 1);
   const std::uint32_t places = (settings.width_max / finest + 1) * (settings.height_max / finest + 1);
   field_.lay_out(arena, places);
@@ -98,10 +99,11 @@ bool Planner::go_straight() {
   return is_best;
 }
 
-bool Planner::spread(const Lattice& lattice, const Mask& circle) {
+bool Planner::spread(const Lattice& lattice, const Shape& circle) {
   const Places places = Places::of(grid_, lattice.step_cells());
   if (places.count() > field_.capacity()) return false;
-  field_.begin(&lattice, &grid_, &circle, places);
+  coarse_.read_coarse(grid_, lattice.step_cells());
+  field_.begin(&lattice, seen_by(lattice), &circle, places);
   const DistanceField::Target about_goal = Search::around(grid_, lattice, goal_);
   for (std::int32_t r = about_goal.row - about_goal.reach; r <= about_goal.row + about_goal.reach; ++r) {
     for (std::int32_t c = about_goal.column - about_goal.reach; c <= about_goal.column + about_goal.reach; ++c) {
@@ -119,7 +121,7 @@ std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
   for (std::uint32_t level = 0; level < kLevels && found != Found::way; ++level) {
     const Lattice& lattice = lattice_[level];
     if (!spread(lattice, lattice.circle())) continue;
-    const Search::Task task{&lattice, &grid_, &field_, &sweeps_, Places::of(grid_, lattice.step_cells()), costs_,
+    const Search::Task task{&lattice, seen_by(lattice), &field_, &sweeps_, Places::of(grid_, lattice.step_cells()), costs_,
                             settings_.weight, start_, goal_, settings_.expansions_max - result->expansions};
     found = search_.run(task);
     result->expansions += search_.expansions();

@@ -34,7 +34,8 @@ class Planner {
 
   bool go_straight();
   std::uint32_t search(pose_wall_planar_plan_result* result);
-  bool spread(const Lattice& lattice, const Mask& circle);
+  bool spread(const Lattice& lattice, const Shape& circle);
+  LatticeGrid seen_by(const Lattice& lattice) const { return {&grid_, &coarse_, lattice.step_cells()}; }
   void explain(pose_wall_planar_plan_result* result);
   bool is_wide_enough(double radius_cells);
   void find_bottleneck(pose_wall_planar_plan_result* result);
@@ -42,10 +43,10 @@ class Planner {
 
   pose_wall_planar_plan_settings settings_{};
   Costs costs_;
-  BitGrid grid_;
+  BitGrid grid_, coarse_;  // the coarse one: of the lattice that is searched
   Sweeps sweeps_;
   Lattice lattice_[kLevels];
-  Mask narrow_;  // a circle smaller than the machine
+  Shape narrow_;  // a circle smaller than the machine
   DistanceField field_;
   Search search_;
   Span<Corner> corners_;

@@ -39,7 +39,7 @@ DistanceField::Target Search::around(const BitGrid& grid, const Lattice& lattice
   return {static_cast<std::int32_t>(at.x() + 0.5), static_cast<std::int32_t>(at.y() + 0.5), kReach};
 }
 DistanceField::Target Search::around(const Pose2& pose) const {
-  return around(*task_.grid, *task_.lattice, pose);
+  return around(*task_.grid.exact, *task_.lattice, pose);
 }
 
 void Search::clear() {
@@ -81,7 +81,7 @@ std::uint32_t Search::entry_of(std::uint32_t place) {
 
 Eigen::Vector2d Search::place_m(std::uint32_t place) const {
   const double step = task_.lattice->step_cells();
-  return task_.grid->in_map(task_.places.column(place) * step, task_.places.row(place) * step);
+  return task_.grid.exact->in_map(task_.places.column(place) * step, task_.places.row(place) * step);
 }
 
 Eigen::Vector2d Search::nearest_m() const {
@@ -92,10 +92,8 @@ bool Search::is_standing_free(std::uint32_t entry, std::uint32_t heading) {
   const std::uint64_t bit = 1ULL << heading;
   if ((standing_known_[entry] & bit) == 0) {
     const std::uint32_t place = place_of_entry_[entry];
-    const std::int32_t step = task_.lattice->step_cells();
     standing_known_[entry] |= bit;
-    if (task_.lattice->standing(heading).is_free(*task_.grid, task_.places.column(place) * step,
-                                                 task_.places.row(place) * step)) {
+    if (task_.grid.is_free(task_.lattice->standing(heading), task_.places.column(place), task_.places.row(place))) {
       standing_free_[entry] |= bit;
     }
   }
@@ -106,10 +104,8 @@ bool Search::is_turning_free(std::uint32_t entry, std::uint32_t heading) {
   const std::uint64_t bit = 1ULL << heading;
   if ((turning_known_[entry] & bit) == 0) {
     const std::uint32_t place = place_of_entry_[entry];
-    const std::int32_t step = task_.lattice->step_cells();
     turning_known_[entry] |= bit;
-    if (task_.lattice->turning(heading).is_free(*task_.grid, task_.places.column(place) * step,
-                                                task_.places.row(place) * step)) {
+    if (task_.grid.is_free(task_.lattice->turning(heading), task_.places.column(place), task_.places.row(place))) {
       turning_free_[entry] |= bit;
     }
   }
@@ -148,6 +144,12 @@ void Search::reach(std::uint32_t entry, std::uint32_t heading, std::uint32_t gea
   open_.push(static_cast<std::uint32_t>(key), state.number);
 }
 
+// Far places by a slight turn, those around by any.
+bool Search::is_worth_joining(double length_m, double turn_rad) const {
+  constexpr double kSlight_rad = 0.6;
+  return magnitude(turn_rad) <= kSlight_rad || length_m <= 1.5 * task_.lattice->step_m();
+}
+
 // From the start straight to a place nearby and on the spot to the two headings about that direction.
 void Search::start_at(std::int32_t column, std::int32_t row, std::int32_t gear) {
   if (!task_.places.holds(column, row)) return;
@@ -156,6 +158,7 @@ void Search::start_at(std::int32_t column, std::int32_t row, std::int32_t gear) 
   const Eigen::Vector2d to = place_m(place);
   const double yaw_rad = driving_yaw(task_.start.place(), to, gear, task_.start.yaw_rad);
   const double length_m = (to - task_.start.place()).norm(), turn_rad = wrapped(yaw_rad - task_.start.yaw_rad);
+  if (!is_worth_joining(length_m, turn_rad)) return;
   const Pose2 leaving{task_.start.x_m, task_.start.y_m, yaw_rad}, there{to.x(), to.y(), yaw_rad};
   if (!task_.sweeps->is_straight_free(leaving, gear * length_m)) return;
   if (!task_.sweeps->is_turn_free(task_.start, turn_rad)) return;
@@ -248,6 +251,7 @@ void Search::arrive(const State& state, std::uint32_t cost, std::int32_t gear) {
   const double turn_rad = wrapped(yaw_rad - heading_rad), last_rad = wrapped(task_.goal.yaw_rad - yaw_rad);
   if (!(magnitude(turn_rad) <= kAbout_rad)) return;
   const double length_m = (task_.goal.place() - from).norm();
+  if (!is_worth_joining(length_m, last_rad)) return;
   double more_m = task_.costs.of_stretch(length_m, gear) + task_.costs.of_turn(turn_rad) + task_.costs.of_turn(last_rad);
   if (gears_ == 2 && gear != sign_of(state.gear)) more_m += task_.costs.cusp_m;
   const std::uint32_t sum = cost + units(more_m);

@@ -27,7 +27,7 @@ class Search {
 
   struct Task {
     const Lattice* lattice = nullptr;
-    const BitGrid* grid = nullptr;
+    LatticeGrid grid;
     const DistanceField* field = nullptr;
     Sweeps* sweeps = nullptr;
     Places places;
@@ -74,6 +74,7 @@ class Search {
   std::uint32_t turn_units(double turn_rad) const;
   std::uint32_t distance(const State& state) const;
   void reach(std::uint32_t entry, std::uint32_t heading, std::uint32_t gear, std::uint32_t cost, std::uint8_t how);
+  bool is_worth_joining(double length_m, double turn_rad) const;
   void start_from();
   void start_at(std::int32_t column, std::int32_t row, std::int32_t gear);
   void expand(const State& state);

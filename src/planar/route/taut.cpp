@@ -6,7 +6,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kGain_m = 1e-4;  // a change that saves less is none
+constexpr double kGain_m = 2e-3, kGainCut_m = 1e-2;  // a change that saves less is not worth its sweeps
 constexpr double kStepFirst_m = 0.8, kStepLast_m = 0.02;
 constexpr double kCutFirst_m = 3.0, kCutLast_m = 0.1;  // from a corner along its stretches
 constexpr double kCutTurn_rad = 0.05;                  // a corner that turns by less is not cut
@@ -66,19 +66,22 @@ bool Taut::try_change(const Change& change) {
   chain[last].turn_rad = wrapped(chain[last].yaw_rad - yaw_rad);
   const std::int32_t before = change.from == 0 ? 0 : corners_[change.from - 1].gear;
   cost_m += costs_.of_turn(chain[last].turn_rad) + cusps_about(before, chain, last, chain[last].gear);
-  if (!(cost_m < cost_between(change.from, change.to) - kGain_m)) return false;
+  const double gain_m = change.count == 2 ? kGainCut_m : kGain_m;
+  if (!(cost_m < cost_between(change.from, change.to) - gain_m)) return false;
   if (!is_way_free(chain, last + 1, arriving_rad)) return false;
   commit(change, chain);
   return true;
 }
 
+// Straight stretches first: they are cheap and fail most.
 bool Taut::is_way_free(const Corner* chain, std::uint32_t count, double arriving_rad) const {
+  for (std::uint32_t k = 0; k + 1 < count; ++k) {
+    if (!sweeps_->is_straight_free(chain[k].left_as(), chain[k].gear * length_of(chain[k], chain[k + 1]))) return false;
+  }
   double yaw_rad = arriving_rad;
   for (std::uint32_t k = 0; k < count; ++k) {
     if (!sweeps_->is_turn_free({chain[k].x_m, chain[k].y_m, yaw_rad}, chain[k].turn_rad)) return false;
     yaw_rad = chain[k].yaw_rad;
-    if (k + 1 == count) break;
-    if (!sweeps_->is_straight_free(chain[k].left_as(), chain[k].gear * length_of(chain[k], chain[k + 1]))) return false;
   }
   return true;
 }
@@ -93,6 +96,8 @@ void Taut::commit(const Change& change, const Corner* chain) {
     count_ += behind - change.to;
   }
   for (std::uint32_t k = 0; k < change.count + 2; ++k) corners_[change.from + k] = chain[k];
+  const std::uint32_t first = change.from > 0 ? change.from - 1 : 0;
+  for (std::uint32_t k = first; k < count_ && k <= behind + 1; ++k) corners_[k].tried = 0;
 }
 
 // From each corner straight to the farthest that is cheaper to reach so.
@@ -115,22 +120,33 @@ bool Taut::leave_out() {
   return has_changed;
 }
 
-bool Taut::move_corners(double step_m) {
-  static constexpr double kAbout[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {.7, .7}, {-.7, .7}, {.7, -.7}, {-.7, -.7}};
+// Towards the middle between its neighbours, away from it, and along the line through them.
+bool Taut::move_corner(std::uint32_t k, double step_m) {
+  const Eigen::Vector2d along = (corners_[k + 1].place() - corners_[k - 1].place()).normalized();
+  const Eigen::Vector2d off = corners_[k].place() - corners_[k - 1].place();
+  const Eigen::Vector2d left(-along.y(), along.x()), inwards = left.dot(off) > 0.0 ? -left : left;
+  bool has_changed = false;
+  for (const Eigen::Vector2d& direction : {inwards, along, Eigen::Vector2d(-along), Eigen::Vector2d(-inwards)}) {
+    Change change;
+    change.from = k - 1;
+    change.to = k + 1;
+    change.count = 1;
+    change.place_m[0] = corners_[k].place() + step_m * direction;
+    change.gear[0] = corners_[k - 1].gear;
+    change.gear[1] = corners_[k].gear;
+    has_changed = try_change(change) || has_changed;
+  }
+  return has_changed;
+}
+
+bool Taut::move_corners(double step_m, std::uint32_t tried_bit) {
   bool has_changed = false;
   for (std::uint32_t k = 1; k + 1 < count_ && !is_spent(); ++k) {
-    // Along the stretch that leads here, and across it.
-    const double c = cosine(corners_[k - 1].yaw_rad), s = sine(corners_[k - 1].yaw_rad);
-    for (const auto& about : kAbout) {
-      Change change;
-      change.from = k - 1;
-      change.to = k + 1;
-      change.count = 1;
-      change.place_m[0] =
-          corners_[k].place() + step_m * Eigen::Vector2d(c * about[0] - s * about[1], s * about[0] + c * about[1]);
-      change.gear[0] = corners_[k - 1].gear;
-      change.gear[1] = corners_[k].gear;
-      has_changed = try_change(change) || has_changed;
+    if ((corners_[k].tried & tried_bit) != 0) continue;
+    if (move_corner(k, step_m)) {
+      has_changed = true;
+    } else {
+      corners_[k].tried |= tried_bit;
     }
   }
   return has_changed;
@@ -172,9 +188,10 @@ void Taut::pull() {
   leave_out();
   for (std::uint32_t round = 0; round < kRounds && !is_spent(); ++round) {
     bool has_changed = false;
-    for (double step_m = kStepFirst_m; step_m > kStepLast_m; step_m *= 0.5) {
+    std::uint32_t tried_bit = 1;
+    for (double step_m = kStepFirst_m; step_m > kStepLast_m; step_m *= 0.5, tried_bit <<= 1) {
       for (std::uint32_t k = 0; k < kSweepsOfMoves; ++k) {
-        if (!move_corners(step_m)) break;
+        if (!move_corners(step_m, tried_bit)) break;
         has_changed = true;
       }
     }

@@ -47,7 +47,8 @@ class Taut {
   bool is_way_free(const Corner* chain, std::uint32_t count, double arriving_rad) const;
   void commit(const Change& change, const Corner* chain);
   bool leave_out();
-  bool move_corners(double step_m);
+  bool move_corners(double step_m, std::uint32_t tried_bit);
+  bool move_corner(std::uint32_t k, double step_m);
   bool cut_corners();
   bool cut_corner(std::uint32_t k, double before_m, double behind_m);
 
