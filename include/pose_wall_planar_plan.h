@@ -17,7 +17,8 @@
  *           found so, a second search has half the distance and 64 headings. The route is then pulled taut: corners
  *           are left out, cut and moved as long as the cost falls. Last, corners become curves where there is room.
  * BOUND     result.bound: the route costs at most so many times the cheapest route over the same places and headings.
- *           The search alone keeps it below `weight`. Pulling taut lowers it, often below 1: then bound is 1.
+ *           The search alone keeps it below `weight`, as far as that has grown. Pulling taut lowers it, at times below
+ *           1: then bound is 1.
  * TIME      src/planar/route/README.md has figures. The work is bounded by expansions_max, by the sizes of grid and
  *           lists, and by a fixed share for pulling taut.
  */
@@ -44,8 +45,9 @@ typedef struct pose_wall_planar_plan_settings {
   uint32_t places_max;      /* places that a search may enter, 1000 to 1000000; 60000. One takes 364 bytes */
   uint32_t open_max;        /* entries of the open list, 1000 to 10000000; 400000 */
   uint32_t expansions_max;  /* of both searches together, 1 to 100000000; 2000000 */
+  uint32_t hurry_after;     /* expansions after which the weight grows by a tenth, again and again, up to 3; 0: never,
+                               to 100000000; 25000 */
   uint32_t occupied_from;   /* per cent from which on a cell is occupied, 1 to 100; 50 */
-  uint32_t reserved;        /* 0 */
   double resolution_m;      /* of every grid, 0.01 to 1; 0.05 */
   double front_m;           /* the rectangle's edges from the turning centre, 0.1 to 20; 2.25 */
   double rear_m;            /* likewise; 2.25 */

@@ -22,6 +22,18 @@ class OpenList {
   static std::uint32_t key_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry >> 32); }
   static std::uint32_t number_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry); }
 
+  // New keys for all entries; those whose key is kDrop go. new_key_of(number) gives them.
+  static constexpr std::uint32_t kDrop = 0xFFFFFFFFU;
+  template <typename KeyOf>
+  void rekey(const KeyOf& new_key_of) {
+    const std::uint32_t old = count_;
+    count_ = 0;
+    for (std::uint32_t k = 0; k < old; ++k) {  // what is pushed lies before what is still to be read
+      const std::uint32_t number = number_of(entries_[k]), key = new_key_of(number);
+      if (key != kDrop) push(key, number);
+    }
+  }
+
   // There is room.
   void push(std::uint32_t key, std::uint32_t number) {
     const std::uint64_t entry = (static_cast<std::uint64_t>(key) << 32) | number;

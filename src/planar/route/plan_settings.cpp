@@ -26,6 +26,7 @@ constexpr CountRow kCounts[] = {
     ROW(places_max, 1000, 1000000, "1000 to 1000000"),
     ROW(open_max, 1000, 10000000, "1000 to 10000000"),
     ROW(expansions_max, 1, 100000000, "1 to 100000000"),
+    ROW(hurry_after, 0, 100000000, "0 to 100000000"),
     ROW(occupied_from, 1, 100, "1 to 100"),
 };
 constexpr NumberRow kNumbers[] = {
@@ -39,7 +40,6 @@ constexpr NumberRow kNumbers[] = {
 };
 #undef ROW
 
-constexpr pose_wall_planar_fault kReserved = {"reserved", "reserved must be 0"};
 constexpr pose_wall_planar_fault kRadius = {"radius_max_m", "radius_max_m must be from radius_min_m to 1000"};
 constexpr pose_wall_planar_fault kLattice = {
     "lattice_m", "lattice_m must be from 2 to 50 cells and at most an eighth of the machine's length"};
@@ -48,7 +48,6 @@ constexpr pose_wall_planar_fault kReach = {"resolution_m", "the machine must be 
 }  // namespace
 
 const pose_wall_planar_fault* fault_of(const pose_wall_planar_plan_settings& settings) {
-  if (settings.reserved != 0) return &kReserved;
   for (const CountRow& row : kCounts) {
     const std::uint32_t value = settings.*row.member;
     if (!(value >= row.least && value <= row.most)) return &row.fault;

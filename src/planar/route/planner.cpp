@@ -122,7 +122,7 @@ std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
     const Lattice& lattice = lattice_[level];
     if (!spread(lattice, lattice.circle())) continue;
     const Search::Task task{&lattice, seen_by(lattice), &field_, &sweeps_, Places::of(grid_, lattice.step_cells()), costs_,
-                            settings_.weight, start_, goal_, settings_.expansions_max - result->expansions};
+                            settings_.weight, settings_.hurry_after, start_, goal_, settings_.expansions_max - result->expansions};
     found = search_.run(task);
     result->expansions += search_.expansions();
     result->places = search_.places();

@@ -196,10 +196,23 @@ Found Search::run(const Task& task) {
     if (expansions_ == task_.expansions_most) return best_parent_ != kNone ? Found::way : Found::work_spent;
     ++expansions_;
     how_[state.number] |= kClosed;
+    if (task_.hurry_after > 0 && expansions_ % task_.hurry_after == 0) hurry();
     expand(state);
   }
   if (best_parent_ != kNone) return Found::way;
   return is_full_ ? Found::list_full : Found::none;
+}
+
+// What was put off comes nearer the front if it is nearer the goal. Nothing gets dearer than the last weight says.
+void Search::hurry() {
+  constexpr double kGrowth = 1.1, kWeightMost = 3.0;
+  if (task_.weight * kGrowth > kWeightMost) return;
+  task_.weight *= kGrowth;
+  open_.rekey([&](std::uint32_t number) {
+    if ((how_[number] & kClosed) != 0) return OpenList::kDrop;
+    const double key = cost_[number] + task_.weight * distance(state_of(number));
+    return key < static_cast<double>(kUnitsMost) ? static_cast<std::uint32_t>(key) : kUnitsMost;
+  });
 }
 
 void Search::expand(const State& state) {

@@ -32,7 +32,8 @@ class Search {
     Sweeps* sweeps = nullptr;
     Places places;
     Costs costs;
-    double weight = 1.0;  // of the distance to the goal
+    double weight = 1.0;            // of the distance to the goal
+    std::uint32_t hurry_after = 0;  // expansions after which the weight grows, again and again; 0: never
     Pose2 start, goal;
     std::uint32_t expansions_most = 0;
   };
@@ -81,6 +82,7 @@ class Search {
   void drive(const State& state, std::uint32_t cost, Move move);
   void turn(const State& state, std::uint32_t cost, Move move);
   void arrive(const State& state, std::uint32_t cost, std::int32_t gear);
+  void hurry();
   State parent_of(const State& state) const;
   void clear();
 
