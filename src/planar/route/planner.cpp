@@ -194,7 +194,7 @@ void Planner::explain(pose_wall_planar_plan_result* result) {
     (is_wide_enough(middle) ? fits : does_not) = middle;
   }
   result->outcome = POSE_WALL_PLAN_TOO_NARROW;
-  if (is_wide_enough(fits)) find_bottleneck(result);
+  if (is_wide_enough(fits)) find_bottleneck(fits, result);
 }
 
 bool Planner::is_wide_enough(double radius_cells) {
@@ -202,27 +202,31 @@ bool Planner::is_wide_enough(double radius_cells) {
   return spread(lattice_[1], narrow_);
 }
 
-// Down the field from the start to the goal: the place with the least room.
-void Planner::find_bottleneck(pose_wall_planar_plan_result* result) {
-  const Lattice& lattice = lattice_[1];
-  const std::int32_t step = lattice.step_cells();
+// Down the field from the start to the goal. Where the way cuts corners it is as near to the rock as in the narrow
+// stretch, but not for as long: the middle of the longest stretch with no more room is the place.
+void Planner::find_bottleneck(double fits_cells, pose_wall_planar_plan_result* result) {
+  const std::int32_t step = lattice_[1].step_cells();
   const Places places = Places::of(grid_, step);
-  const auto most = static_cast<std::int32_t>(footprint_of(settings_).inscribed_m() / settings_.resolution_m) + 2;
-  std::uint32_t at = field_.nearest_of_target();
-  double least = 1e9;
+  const auto most = static_cast<std::int32_t>(fits_cells) + 3;
+  const auto room_at = [&](std::uint32_t place) {
+    return grid_.clearance(places.column(place) * step, places.row(place) * step, most);
+  };
+  std::uint32_t at = field_.nearest_of_target(), longest = 0, longest_end = 0, run = 0;
   for (std::uint32_t k = 0; k < places.count(); ++k) {
-    const std::int32_t column = places.column(at), row = places.row(at);
-    const double room = grid_.clearance(column * step, row * step, most);
-    if (room < least) {
-      least = room;
-      const Eigen::Vector2d place = grid_.in_map(column * step, row * step);
-      result->place = {place.x(), place.y(), not_a_number()};
+    run = room_at(at) <= fits_cells + 1.0 ? run + 1 : 0;
+    if (run > longest) {
+      longest = run;
+      longest_end = k;
     }
     const std::uint32_t next = field_.step_down(at);
     if (next == at) break;
     at = next;
   }
-  result->width_m = 2.0 * least * settings_.resolution_m;
+  at = field_.nearest_of_target();
+  for (std::uint32_t k = 0; k + longest / 2 < longest_end; ++k) at = field_.step_down(at);
+  const Eigen::Vector2d middle = grid_.in_map(places.column(at) * step, places.row(at) * step);
+  result->place = {middle.x(), middle.y(), not_a_number()};
+  result->width_m = 2.0 * room_at(at) * settings_.resolution_m;
 }
 
 }  // namespace pose_wall::planar

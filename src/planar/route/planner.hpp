@@ -38,7 +38,7 @@ class Planner {
   LatticeGrid seen_by(const Lattice& lattice) const { return {&grid_, &coarse_, lattice.step_cells()}; }
   void explain(pose_wall_planar_plan_result* result);
   bool is_wide_enough(double radius_cells);
-  void find_bottleneck(pose_wall_planar_plan_result* result);
+  void find_bottleneck(double fits_cells, pose_wall_planar_plan_result* result);
   void finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_plan_result* result);
 
   pose_wall_planar_plan_settings settings_{};

@@ -175,10 +175,22 @@ void Search::start_at(std::int32_t column, std::int32_t row, std::int32_t gear) 
   }
 }
 
+// A place near enough to be joined with a pose. In a narrow road only those straight ahead or behind can be.
+bool Search::is_about(const Pose2& pose, std::int32_t column, std::int32_t row) const {
+  const DistanceField::Target target = around(pose);
+  if (target.holds(column, row)) return true;
+  const DistanceField::Target wide{target.column, target.row, kReachStraight};
+  if (!wide.holds(column, row)) return false;
+  const double step = task_.lattice->step_cells();
+  const Eigen::Vector2d off = task_.grid.exact->in_map(column * step, row * step) - pose.place();
+  return magnitude(Turn2(pose.yaw_rad).back(off).y()) <= 0.75 * task_.lattice->step_m();
+}
+
 void Search::start_from() {
   const DistanceField::Target target = around(task_.start);
-  for (std::int32_t row = target.row - kReach; row <= target.row + kReach; ++row) {
-    for (std::int32_t column = target.column - kReach; column <= target.column + kReach; ++column) {
+  for (std::int32_t row = target.row - kReachStraight; row <= target.row + kReachStraight; ++row) {
+    for (std::int32_t column = target.column - kReachStraight; column <= target.column + kReachStraight; ++column) {
+      if (!is_about(task_.start, column, row)) continue;
       for (const std::int32_t gear : {1, -1}) start_at(column, row, gear);
     }
   }
@@ -225,7 +237,7 @@ void Search::expand(const State& state) {
   drive(state, cost, kBackward);
   turn(state, cost, kLeft);
   turn(state, cost, kRight);
-  if (!around(task_.goal).holds(task_.places.column(place), task_.places.row(place))) return;
+  if (!is_about(task_.goal, task_.places.column(place), task_.places.row(place))) return;
   arrive(state, cost, 1);
   arrive(state, cost, -1);
 }

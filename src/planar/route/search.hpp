@@ -50,8 +50,8 @@ class Search {
   // Of the expanded places, the one that was nearest to the goal by the circle's distance.
   Eigen::Vector2d nearest_m() const;
 
-  // Start and goal are connected with places at most so many steps away.
-  static constexpr std::int32_t kReach = 6;
+  // Start and goal are connected with places at most so many steps away; straight ahead and behind with farther ones.
+  static constexpr std::int32_t kReach = 6, kReachStraight = 20;
   DistanceField::Target around(const Pose2& pose) const;
   static DistanceField::Target around(const BitGrid& grid, const Lattice& lattice, const Pose2& pose);
 
@@ -75,6 +75,7 @@ class Search {
   std::uint32_t turn_units(double turn_rad) const;
   std::uint32_t distance(const State& state) const;
   void reach(std::uint32_t entry, std::uint32_t heading, std::uint32_t gear, std::uint32_t cost, std::uint8_t how);
+  bool is_about(const Pose2& pose, std::int32_t column, std::int32_t row) const;
   bool is_worth_joining(double length_m, double turn_rad) const;
   void start_from();
   void start_at(std::int32_t column, std::int32_t row, std::int32_t gear);
