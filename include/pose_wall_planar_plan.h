@@ -11,16 +11,15 @@
  *           exactly, turns and curves to within 2 mm and always on the safe side.
  * COST      In metres: the length, times reverse_cost where it goes backwards; turn_cost_m_rad for each radian of
  *           turning, on the spot or in a curve; cusp_cost_m for each change between forwards and backwards.
- * METHOD    Weighted A* (Pohl 1970) over places lattice_m apart and 32 headings, along which the machine drives straight
- *           from place to place (a state lattice; Pivtoraiko, Knepper and Kelly 2009). The distance ahead is that of
- *           the inscribed circle, by Dijkstra's algorithm from the goal, and the turn that is left. If no route is
- *           found so, a second search has half the distance and 64 headings. The route is then pulled taut: corners
- *           are left out, cut and moved as long as the cost falls. Last, corners become curves where there is room.
- * BOUND     result.bound: the route costs at most so many times the cheapest route over the same places and headings.
- *           The search alone keeps it below `weight`, as far as that has grown. Pulling taut lowers it, at times below
- *           1: then bound is 1.
- * TIME      src/planar/route/README.md has figures. The work is bounded by expansions_max, by the sizes of grid and
- *           lists, and by a fixed share for pulling taut.
+ * METHOD    Weighted A* (Pohl 1970) over places lattice_m apart and 32 headings, along which the machine drives
+ * straight from place to place (a state lattice; Pivtoraiko, Knepper and Kelly 2009). The distance ahead is that of the
+ * inscribed circle, by Dijkstra's algorithm from the goal, and the turn that is left. If no route is found so, a second
+ * search has half the distance and 64 headings. The route is then pulled taut: corners are left out, cut and moved as
+ * long as the cost falls. Last, corners become curves where there is room. BOUND     result.bound: the route costs at
+ * most so many times the cheapest route over the same places and headings. The search alone keeps it below `weight`, as
+ * far as that has grown. Pulling taut lowers it, at times below 1: then bound is 1. TIME src/planar/route/README.md has
+ * figures. The work is bounded by expansions_max, by the sizes of grid and lists, and by a fixed share for pulling
+ * taut.
  */
 
 #ifndef POSE_WALL_PLANAR_PLAN_H
@@ -39,29 +38,29 @@ extern "C" {
 typedef struct pose_wall_planar_planner pose_wall_planar_planner;
 
 typedef struct pose_wall_planar_plan_settings {
-  uint32_t struct_size;     /* sizeof(pose_wall_planar_plan_settings) */
-  uint32_t width_max;       /* cells of a grid along x, 8 to 8192; 2048 */
-  uint32_t height_max;      /* and along y, 8 to 8192; 2048 */
-  uint32_t places_max;      /* places that a search may enter, 1000 to 1000000; 60000. One takes 364 bytes */
-  uint32_t open_max;        /* entries of the open list, 1000 to 10000000; 400000 */
-  uint32_t expansions_max;  /* of both searches together, 1 to 100000000; 2000000 */
-  uint32_t hurry_after;     /* expansions after which the weight grows by a tenth, again and again, up to 3; 0: never,
-                               to 100000000; 25000 */
-  uint32_t occupied_from;   /* per cent from which on a cell is occupied, 1 to 100; 50 */
-  double resolution_m;      /* of every grid, 0.01 to 1; 0.05 */
-  double front_m;           /* the rectangle's edges from the turning centre, 0.1 to 20; 2.25 */
-  double rear_m;            /* likewise; 2.25 */
-  double left_m;            /* likewise; 0.6 */
-  double right_m;           /* likewise; 0.6 */
-  double margin_m;          /* round the rectangle, 0 to 2; 0.1 */
-  double lattice_m;         /* between places, 2 to 50 cells, at most an eighth of the length; 0.25 */
-  double turn_cost_m_rad;   /* 0.01 to 100; 0.5 */
-  double reverse_cost;      /* 1 to 100; 1.2 */
-  double cusp_cost_m;       /* 0 to 100; 0.5 */
-  double weight;            /* of the distance ahead, 1 to 10; 1.1. Larger is faster and dearer */
-  double radius_min_m;      /* of curves in place of corners, 0.1 to 100; 1. A corner with room for less stays one */
-  double radius_max_m;      /* radius_min_m to 1000; 8 */
-  double pose_step_m;       /* between poses of the result, 0.05 to 10; 0.25 */
+  uint32_t struct_size;    /* sizeof(pose_wall_planar_plan_settings) */
+  uint32_t width_max;      /* cells of a grid along x, 8 to 8192; 2048 */
+  uint32_t height_max;     /* and along y, 8 to 8192; 2048 */
+  uint32_t places_max;     /* places that a search may enter, 1000 to 1000000; 60000. One takes 364 bytes */
+  uint32_t open_max;       /* entries of the open list, 1000 to 10000000; 400000 */
+  uint32_t expansions_max; /* of both searches together, 1 to 100000000; 2000000 */
+  uint32_t hurry_after;    /* expansions after which the weight grows by a tenth, again and again, up to 3; 0: never,
+                              to 100000000; 25000 */
+  uint32_t occupied_from;  /* per cent from which on a cell is occupied, 1 to 100; 50 */
+  double resolution_m;     /* of every grid, 0.01 to 1; 0.05 */
+  double front_m;          /* the rectangle's edges from the turning centre, 0.1 to 20; 2.25 */
+  double rear_m;           /* likewise; 2.25 */
+  double left_m;           /* likewise; 0.6 */
+  double right_m;          /* likewise; 0.6 */
+  double margin_m;         /* round the rectangle, 0 to 2; 0.1 */
+  double lattice_m;        /* between places, 2 to 50 cells, at most an eighth of the length; 0.25 */
+  double turn_cost_m_rad;  /* 0.01 to 100; 0.5 */
+  double reverse_cost;     /* 1 to 100; 1.2 */
+  double cusp_cost_m;      /* 0 to 100; 0.5 */
+  double weight;           /* of the distance ahead, 1 to 10; 1.1. Larger is faster and dearer */
+  double radius_min_m;     /* of curves in place of corners, 0.1 to 100; 1. A corner with room for less stays one */
+  double radius_max_m;     /* radius_min_m to 1000; 8 */
+  double pose_step_m;      /* between poses of the result, 0.05 to 10; 0.25 */
 } pose_wall_planar_plan_settings;
 
 /* The defaults above: the roadheader of 4.5 by 1.2 m. Fails iff settings is NULL. */
@@ -100,7 +99,8 @@ enum pose_wall_planar_plan_outcome {
   POSE_WALL_PLAN_GOAL_BLOCKED = 2,  /* likewise at the goal */
   POSE_WALL_PLAN_NOT_CONNECTED = 3, /* no free cells lead from the start to the goal */
   POSE_WALL_PLAN_TOO_NARROW = 4,    /* they do, but not even the inscribed circle passes: see place and width_m */
-  POSE_WALL_PLAN_TOO_TIGHT = 5,     /* the circle passes, the rectangle was not found to: place is how far it got */
+  POSE_WALL_PLAN_TOO_TIGHT = 5,     /* the circle passes, the rectangle was not found to: place is how far it got,
+                                       or the goal, if it cannot get away from there */
   POSE_WALL_PLAN_LIST_FULL = 6,     /* the open list or the room for places was full, and no route was found */
   POSE_WALL_PLAN_WORK_LIMIT = 7,    /* expansions_max was reached before a route was found */
   POSE_WALL_PLAN_ROOM_SMALL = 8     /* found, but the caller's room is smaller than result.poses: nothing written */

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright (c) 2026 the pose_wall authors */
 
-/* The tracker of pose_wall_planar: drives a machine on tracks along a route. pose_wall_planar.h is the manual of what all
- * parts share. The library drives nothing itself: commands go to the caller.
+/* The tracker of pose_wall_planar: drives a machine on tracks along a route. pose_wall_planar.h is the manual of what
+ * all parts share. The library drives nothing itself: commands go to the caller.
  *
  * POSES     of the turning centre, as in pose_wall_planar_plan.h, in the frame of the route.
  * METHOD    Regulated pursuit (Macenski, Singh, Martin and Gines 2023: speed falls with curvature, with nearness and
  *           towards stops), with the law of a path follower in place of a point ahead: the route's own curvature, and
  *           feedback of the cross error and of the heading that lets both fade without overshoot within settle_m of
  *           way. Commands of the last delay_s and since the pose's time have not shown yet: the pose is carried
- *           forward by them, through a model of the drive (Smith 1957). How much the tracks slip, and to which side, is learnt on the way.
- * STOPS     The machine stops at cusps, before and after turns on the spot, and at the end, within stop_within_m, and
- *           goes on when its speed has died down by the model, and by measurement where there is one.
- * FAILURES  Without a pose, with one that is not finite, too uncertain or too old, the command is 0 at once and the
- *           state NO_POSE; it goes on by itself with the next good pose. Too far from the route, or turned too far off
- *           it, the command is 0 and the state OFF_PATH until a new route is set.
- * SAFETY    The tracker avoids nothing. The obstacle stop is a part of its own (pose_wall_planar_stop.h).
- * COST      A step takes some 2 microseconds, without the clearance callback.
+ *           forward by them, through a model of the drive (Smith 1957). How much the tracks slip, and to which side, is
+ * learnt on the way. STOPS     The machine stops at cusps, before and after turns on the spot, and at the end, within
+ * stop_within_m, and goes on when its speed has died down by the model, and by measurement where there is one. FAILURES
+ * Without a pose, with one that is not finite, too uncertain or too old, the command is 0 at once and the state
+ * NO_POSE; it goes on by itself with the next good pose. Too far from the route, or turned too far off it, the command
+ * is 0 and the state OFF_PATH until a new route is set. SAFETY    The tracker avoids nothing. The obstacle stop is a
+ * part of its own (pose_wall_planar_stop.h). COST      A step takes some 2 microseconds, without the clearance
+ * callback.
  */
 
 #ifndef POSE_WALL_PLANAR_TRACK_H
@@ -39,26 +39,26 @@ typedef struct pose_wall_planar_tracker pose_wall_planar_tracker;
 typedef double (*pose_wall_planar_clearance)(void* context, double x_m, double y_m);
 
 typedef struct pose_wall_planar_track_settings {
-  uint32_t struct_size;        /* sizeof(pose_wall_planar_track_settings) */
-  uint32_t path_max;           /* poses of a route, 2 to 1000000; 8192 */
-  double speed_max_m_s;        /* 0.02 to 5; 0.5 */
-  double speed_min_m_s;        /* where it is narrow and before stops, 0.01 to speed_max_m_s; 0.05 */
-  double speed_change_m_s2;    /* of commands, and of stopping at cusps and the end, 0.02 to 5; 0.25 */
-  double turn_max_rad_s;       /* 0.02 to 3; 0.35 */
-  double turn_change_rad_s2;   /* of commands, 0.05 to 20; 1 */
-  double track_distance_m;     /* between the middles of both tracks, 0.2 to 10; 0.9 */
-  double settle_m;             /* way within which an error falls to a twentieth, 0.5 to 20; 1.6 */
-  double delay_s;              /* from a command to its effect, 0 to 1; 0.3. What poses are late is told by pose_ns */
-  double lag_s;                /* time constant of the drive behind that, 0 to 1; 0.15 */
-  double half_width_m;         /* of the machine, for clearances, 0 to 20; 0.6 */
-  double slow_below_m;         /* free room beside the machine below which it slows, 0 to 10; 0.5. At 0: speed_min */
-  double stop_within_m;        /* of a stop, 0.005 to 1; 0.03 */
-  double stop_within_rad;      /* of a turn on the spot, 0.002 to 0.5; 0.015 */
-  double off_path_m;           /* cross error that ends tracking, 0.05 to 10; 0.5 */
-  double off_path_rad;         /* heading error that ends tracking, 0.05 to 1.5; 0.7 */
-  double pose_level_max_m;     /* poses with a level (protection level, or what the caller takes) above it are none:
-                                  0.001 to 100; 0.5 */
-  double pose_age_max_s;       /* 0.02 to 10; 0.5 */
+  uint32_t struct_size;      /* sizeof(pose_wall_planar_track_settings) */
+  uint32_t path_max;         /* poses of a route, 2 to 1000000; 8192 */
+  double speed_max_m_s;      /* 0.02 to 5; 0.5 */
+  double speed_min_m_s;      /* where it is narrow and before stops, 0.01 to speed_max_m_s; 0.05 */
+  double speed_change_m_s2;  /* of commands, and of stopping at cusps and the end, 0.02 to 5; 0.25 */
+  double turn_max_rad_s;     /* 0.02 to 3; 0.35 */
+  double turn_change_rad_s2; /* of commands, 0.05 to 20; 1 */
+  double track_distance_m;   /* between the middles of both tracks, 0.2 to 10; 0.9 */
+  double settle_m;           /* way within which an error falls to a twentieth, 0.5 to 20; 1.6 */
+  double delay_s;            /* from a command to its effect, 0 to 1; 0.3. What poses are late is told by pose_ns */
+  double lag_s;              /* time constant of the drive behind that, 0 to 1; 0.15 */
+  double half_width_m;       /* of the machine, for clearances, 0 to 20; 0.6 */
+  double slow_below_m;       /* free room beside the machine below which it slows, 0 to 10; 0.5. At 0: speed_min */
+  double stop_within_m;      /* of a stop, 0.005 to 1; 0.03 */
+  double stop_within_rad;    /* of a turn on the spot, 0.002 to 0.5; 0.015 */
+  double off_path_m;         /* cross error that ends tracking, 0.05 to 10; 0.5 */
+  double off_path_rad;       /* heading error that ends tracking, 0.05 to 1.5; 0.7 */
+  double pose_level_max_m;   /* poses with a level (protection level, or what the caller takes) above it are none:
+                                0.001 to 100; 0.5 */
+  double pose_age_max_s;     /* 0.02 to 10; 0.5 */
 } pose_wall_planar_track_settings;
 
 POSE_WALL_CHECKED int32_t pose_wall_planar_track_settings_init(pose_wall_planar_track_settings* settings);
@@ -107,13 +107,13 @@ enum pose_wall_planar_track_slowed_by {
 };
 
 typedef struct pose_wall_planar_track_command {
-  uint32_t struct_size;     /* sizeof(pose_wall_planar_track_command) */
-  uint32_t state;           /* pose_wall_planar_track_state */
-  uint32_t slowed_by;       /* pose_wall_planar_track_slowed_by */
-  uint32_t pose_index;      /* of the route: the last pose that was passed */
-  double speed_m_s;         /* backwards negative; 0 unless following */
-  double turn_rad_s;        /* positive to the left */
-  double left_m_s;          /* the same as speeds of the two tracks */
+  uint32_t struct_size; /* sizeof(pose_wall_planar_track_command) */
+  uint32_t state;       /* pose_wall_planar_track_state */
+  uint32_t slowed_by;   /* pose_wall_planar_track_slowed_by */
+  uint32_t pose_index;  /* of the route: the last pose that was passed */
+  double speed_m_s;     /* backwards negative; 0 unless following */
+  double turn_rad_s;    /* positive to the left */
+  double left_m_s;      /* the same as speeds of the two tracks */
   double right_m_s;
   double cross_error_m;     /* of the pose given, to the left of the route as driven; NaN where none is known */
   double heading_error_rad; /* likewise, to the left */

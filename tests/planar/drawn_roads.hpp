@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Grids drawn by chance: networks of roads at any angle, mazes, and halls with blocks. All rock is 100, all free cells 0.
+// Grids drawn by chance: networks of roads at any angle, mazes, and halls with blocks. All rock is 100, all free cells
+// 0.
 
 #pragma once
 

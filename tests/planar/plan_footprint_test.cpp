@@ -22,7 +22,7 @@ using pose_wall::test::is_rectangle_free;
 using pose_wall::test::Rectangle;
 using pose_wall::test::rectangle_of;
 
-pose_wall_planar_plan_settings usual() {
+pose_wall_planar_plan_settings usual_plan() {
   pose_wall_planar_plan_settings settings;
   EXPECT_EQ(pose_wall_planar_plan_settings_init(&settings), POSE_WALL_OK);
   return settings;
@@ -48,7 +48,7 @@ bool is_way_free(const DrawnGrid& grid, const Rectangle& r, const Pose2& from, d
 }
 
 TEST(PlanFootprint, ASweepIsFreeOnlyIfAllPosesOfItAreAndBlockedOnlyIfTheyNearlyAre) {
-  const pose_wall_planar_plan_settings settings = usual();
+  const pose_wall_planar_plan_settings settings = usual_plan();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> part(0.0, 1.0);
   int free = 0, blocked = 0;
@@ -56,7 +56,8 @@ TEST(PlanFootprint, ASweepIsFreeOnlyIfAllPosesOfItAreAndBlockedOnlyIfTheyNearlyA
     const DrawnGrid grid = sprinkled(static_cast<std::uint32_t>(k), 20);
     GridSweeps checker(grid, settings);
     const Pose2 from{4.0 + 4.0 * part(random), 4.0 + 4.0 * part(random), 6.3 * part(random)};
-    const double along = k % 3 == 0 ? 0.0 : 3.0 * (part(random) - 0.5), turn = k % 3 == 1 ? 0.0 : 2.0 * (part(random) - 0.5);
+    const double along = k % 3 == 0 ? 0.0 : 3.0 * (part(random) - 0.5),
+                 turn = k % 3 == 1 ? 0.0 : 2.0 * (part(random) - 0.5);
     const bool is_free = checker.sweeps.is_arc_free(from, along, turn);
     const Rectangle body = rectangle_of(settings);
     (is_free ? free : blocked) += 1;
@@ -72,7 +73,7 @@ TEST(PlanFootprint, ASweepIsFreeOnlyIfAllPosesOfItAreAndBlockedOnlyIfTheyNearlyA
 
 TEST(PlanFootprint, OutsideTheGridNothingIsFree) {
   const DrawnGrid grid(12.0, 0);
-  GridSweeps checker(grid, usual());
+  GridSweeps checker(grid, usual_plan());
   EXPECT_TRUE(checker.sweeps.is_pose_free({6.0, 6.0, 0.3}));
   EXPECT_TRUE(checker.sweeps.is_pose_free({2.36, 6.0, 0.0}));
   EXPECT_FALSE(checker.sweeps.is_pose_free({2.34, 6.0, 0.0}));
@@ -117,7 +118,7 @@ TEST(PlanBitGrid, ClearanceIsThatOfTheNearestBlockedCellOrEdge) {
   std::mt19937 random(3);
   for (int round = 0; round < 60; ++round) {
     const DrawnGrid drawn = sprinkled(static_cast<std::uint32_t>(round), 20 + 10 * round);
-    GridSweeps checker(drawn, usual());
+    GridSweeps checker(drawn, usual_plan());
     for (int k = 0; k < 20; ++k) {
       const int column = static_cast<int>(random() % 241), row = static_cast<int>(random() % 241);
       double truth = std::min({40, column, row, 240 - column, 240 - row});

@@ -26,7 +26,7 @@ using pose_wall::test::rectangle_of;
 using pose_wall::test::TrialPlanner;
 using pose_wall::test::turned;
 
-pose_wall_planar_plan_settings small() {
+pose_wall_planar_plan_settings small_plan() {
   pose_wall_planar_plan_settings settings;
   EXPECT_EQ(pose_wall_planar_plan_settings_init(&settings), POSE_WALL_OK);
   settings.width_max = settings.height_max = 800;
@@ -101,7 +101,7 @@ DrawnGrid drawn_small(std::uint32_t seed) {
 }
 
 TEST(Plan, RoutesThroughDrawnGridsAreFreeAndTrue) {
-  const pose_wall_planar_plan_settings settings = small();
+  const pose_wall_planar_plan_settings settings = small_plan();
   TrialPlanner planner(settings);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> yaw(-3.1, 3.1);
@@ -138,7 +138,7 @@ TEST(Plan, RoutesThroughDrawnGridsAreFreeAndTrue) {
 TEST(Plan, AStraightRoadIsDrivenStraight) {
   DrawnGrid grid(40.0, 100);
   grid.box(1.0, 18.0, 39.0, 22.0, 0);
-  TrialPlanner planner(small());
+  TrialPlanner planner(small_plan());
   const pose_wall_planar_plan_result ahead = planner.plan(grid, {5.0, 20.0, 0.0}, {35.0, 20.0, 0.0});
   EXPECT_EQ(ahead.outcome, POSE_WALL_PLAN_FOUND);
   EXPECT_NEAR(ahead.length_m, 30.0, 1e-9);
@@ -154,7 +154,7 @@ TEST(Plan, AroundACornerTheLongMachineSwingsAndTheRouteIsNearlyTheShortest) {
   DrawnGrid grid(40.0, 100);
   grid.box(2.0, 4.0, 32.0, 8.4, 0);
   grid.box(27.6, 4.0, 32.0, 38.0, 0);
-  const pose_wall_planar_plan_settings settings = small();
+  const pose_wall_planar_plan_settings settings = small_plan();
   TrialPlanner planner(settings);
   const pose_wall_planar_pose start{6.0, 6.2, 0.0}, goal{29.8, 33.0, 0.5 * 3.14159265};
   const pose_wall_planar_plan_result result = planner.plan(grid, start, goal);
@@ -166,7 +166,7 @@ TEST(Plan, AroundACornerTheLongMachineSwingsAndTheRouteIsNearlyTheShortest) {
 
 TEST(Plan, StartIsGoal) {
   const DrawnGrid grid(20.0, 0);
-  TrialPlanner planner(small());
+  TrialPlanner planner(small_plan());
   const pose_wall_planar_plan_result result = planner.plan(grid, {8.0, 8.0, 1.0}, {8.0, 8.0, 1.0});
   EXPECT_EQ(result.outcome, POSE_WALL_PLAN_FOUND);
   EXPECT_EQ(result.poses, 1U);
@@ -179,7 +179,7 @@ TEST(Plan, StartIsGoal) {
 }
 
 TEST(Plan, WithoutARouteTheReasonIsGiven) {
-  const pose_wall_planar_plan_settings settings = small();
+  const pose_wall_planar_plan_settings settings = small_plan();
   TrialPlanner planner(settings);
   DrawnGrid wall(40.0, 0);
   wall.box(19.0, 0.0, 21.0, 40.0, 100);
@@ -216,11 +216,11 @@ TEST(Plan, LimitsEndTheSearchWithTheirOutcome) {
   bend.box(2.0, 4.0, 32.0, 8.4, 0);
   bend.box(27.6, 4.0, 32.0, 38.0, 0);
   const pose_wall_planar_pose start{6.0, 6.2, 0.0}, goal{29.8, 33.0, 1.57};
-  pose_wall_planar_plan_settings settings = small();
+  pose_wall_planar_plan_settings settings = small_plan();
   ASSERT_EQ(TrialPlanner(settings).plan(bend, start, goal).outcome, POSE_WALL_PLAN_FOUND);
   settings.expansions_max = 50;
   EXPECT_EQ(TrialPlanner(settings).plan(bend, start, goal).outcome, POSE_WALL_PLAN_WORK_LIMIT);
-  TrialPlanner planner(small());
+  TrialPlanner planner(small_plan());
   planner.poses.resize(3);
   const pose_wall_planar_plan_result result = planner.plan(bend, start, goal);
   EXPECT_EQ(result.outcome, POSE_WALL_PLAN_ROOM_SMALL);
@@ -233,14 +233,14 @@ TEST(Plan, LimitsEndTheSearchWithTheirOutcome) {
   hall.box(21.0, 28.0, 25.0, 29.7, 0);
   hall.box(21.0, 18.0, 22.7, 29.7, 0);
   const pose_wall_planar_pose inside{28.0, 28.0, 0.0};
-  settings = small();
+  settings = small_plan();
   settings.places_max = 1000;
   EXPECT_EQ(TrialPlanner(settings).plan(hall, start, inside).outcome, POSE_WALL_PLAN_LIST_FULL);
 }
 
 TEST(Plan, TheSameBitsFromAnyDirtAndAfterOtherPlans) {
   const DrawnGrid grid = pose_wall::test::drawn_network(4, 40.0), other = pose_wall::test::drawn_hall(5, 40.0, 30);
-  const pose_wall_planar_plan_settings settings = small();
+  const pose_wall_planar_plan_settings settings = small_plan();
   const pose_wall_planar_grid view = grid.view(-3.0, 7.0), other_view = other.view();
   const auto at = [&](std::size_t i) {
     return pose_wall_planar_pose{grid.places_xy[2 * i] - 3.0, grid.places_xy[2 * i + 1] + 7.0, 0.4};
@@ -266,7 +266,7 @@ TEST(Plan, TheSameBitsFromAnyDirtAndAfterOtherPlans) {
 }
 
 TEST(Plan, WrongArgumentsAreRefusedAndChangeNothing) {
-  const pose_wall_planar_plan_settings settings = small();
+  const pose_wall_planar_plan_settings settings = small_plan();
   TrialPlanner planner(settings);
   const DrawnGrid grid(20.0, 0);
   const pose_wall_planar_pose pose{8.0, 8.0, 0.0};
@@ -301,7 +301,7 @@ TEST(Plan, WrongArgumentsAreRefusedAndChangeNothing) {
 
 TEST(Plan, SettingsOutsideTheirRangesNameTheMember) {
   const auto fault_with = [](auto change) {
-    pose_wall_planar_plan_settings settings = small();
+    pose_wall_planar_plan_settings settings = small_plan();
     change(settings);
     pose_wall_planar_fault fault{"none", ""};
     const std::int32_t status = pose_wall_planar_plan_settings_check(&settings, &fault);

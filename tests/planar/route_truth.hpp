@@ -48,16 +48,16 @@ inline bool is_driven_on(std::int8_t cell, std::uint32_t occupied_from) {
   return cell >= 0 && static_cast<std::uint32_t>(cell) < occupied_from;
 }
 
-inline bool is_rectangle_free(const pose_wall_planar_grid& grid, std::uint32_t occupied_from, const Rectangle& r, double x,
-                              double y, double yaw) {
+inline bool is_rectangle_free(const pose_wall_planar_grid& grid, std::uint32_t occupied_from, const Rectangle& r,
+                              double x, double y, double yaw) {
   const double reach = std::hypot(std::max(r.front_m, r.rear_m), std::max(r.left_m, r.right_m));
   const auto cell_at = [&](double m, double origin) {
     return static_cast<int>(std::floor((m - origin) / grid.resolution_m));
   };
   for (int row = cell_at(y - reach, grid.origin_y_m); row <= cell_at(y + reach, grid.origin_y_m); ++row) {
     for (int column = cell_at(x - reach, grid.origin_x_m); column <= cell_at(x + reach, grid.origin_x_m); ++column) {
-      const bool is_inside = row >= 0 && column >= 0 && row < static_cast<int>(grid.height) &&
-                             column < static_cast<int>(grid.width);
+      const bool is_inside =
+          row >= 0 && column >= 0 && row < static_cast<int>(grid.height) && column < static_cast<int>(grid.width);
       if (is_inside) {
         const auto at = static_cast<std::size_t>(row) * grid.width + static_cast<std::size_t>(column);
         if (is_driven_on(grid.cells[at], occupied_from)) continue;

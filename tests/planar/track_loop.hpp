@@ -66,7 +66,7 @@ struct Moment {
   bool is_curve;
 };
 
-struct Run {
+struct LoopRun {
   std::vector<Moment> moments;
   std::uint32_t last_state = 0;
   pose_wall_planar_pose end{};
@@ -135,10 +135,11 @@ class Truth {
   const std::vector<pose_wall_planar_path_pose>& poses_;
 };
 
-inline Run run_loop(LoopTracker& tracker, const std::vector<pose_wall_planar_path_pose>& route,
-                    const pose_wall_planar_pose& start, const Ground& ground, std::uint32_t seed,
-                    pose_wall_planar_clearance clearance = nullptr, void* context = nullptr, double most_s = 3000.0) {
-  Run run;
+inline LoopRun run_loop(LoopTracker& tracker, const std::vector<pose_wall_planar_path_pose>& route,
+                        const pose_wall_planar_pose& start, const Ground& ground, std::uint32_t seed,
+                        pose_wall_planar_clearance clearance = nullptr, void* context = nullptr,
+                        double most_s = 3000.0) {
+  LoopRun run;
   if (pose_wall_planar_track_route(tracker.tracker, route.data(), static_cast<std::uint32_t>(route.size()), clearance,
                                    context) != POSE_WALL_OK) {
     return run;
@@ -154,7 +155,7 @@ inline Run run_loop(LoopTracker& tracker, const std::vector<pose_wall_planar_pat
   command.struct_size = sizeof(command);
   constexpr double kStep_s = 0.005;
   const double begin_s = 1000.0 * seed;  // a tracker's clock goes on from run to run
-  for (long k = 0; k * kStep_s < most_s; ++k) {
+  for (int k = 0; k * kStep_s < most_s; ++k) {
     const double now_s = begin_s + k * kStep_s;
     if (k % 20 == 0) {  // a pose each 0.1 s
       pose_wall_planar_pose noisy = machine.pose();
@@ -196,16 +197,16 @@ inline Run run_loop(LoopTracker& tracker, const std::vector<pose_wall_planar_pat
 }
 
 // Routes by hand: stretches of length, turned angle and gear; length 0 turns on the spot.
-struct Piece {
+struct RoutePiece {
   double length_m, turn_rad;
   int drive;
 };
 
-inline std::vector<pose_wall_planar_path_pose> route_of(const std::vector<Piece>& pieces,
+inline std::vector<pose_wall_planar_path_pose> route_of(const std::vector<RoutePiece>& pieces,
                                                         pose_wall_planar_pose at = {0.0, 0.0, 0.0}) {
   std::vector<pose_wall_planar_path_pose> route{{at, 0.0, 0.0, 0, 0}};
   double along = 0.0;
-  for (const Piece& piece : pieces) {
+  for (const RoutePiece& piece : pieces) {
     const int steps = piece.length_m > 0.0 ? std::max(1, static_cast<int>(piece.length_m / 0.25)) : 1;
     if (route.back().drive * piece.drive != 1 && route.size() > 1) route.back().flags |= POSE_WALL_PATH_STOP;
     for (int k = 0; k < steps; ++k) {
@@ -216,8 +217,8 @@ inline std::vector<pose_wall_planar_path_pose> route_of(const std::vector<Piece>
       at.yaw_rad = std::remainder(at.yaw_rad + turn, 2.0 * 3.14159265358979323846);
       along += s;
       const double curvature = piece.length_m > 0.0 ? piece.drive * piece.turn_rad / piece.length_m : 0.0;
-      const std::uint32_t flags =
-          piece.length_m > 0.0 ? 0U : (turn > 0.0 ? POSE_WALL_PATH_TURN_LEFT : POSE_WALL_PATH_TURN_RIGHT);
+      std::uint32_t flags = turn > 0.0 ? POSE_WALL_PATH_TURN_LEFT : POSE_WALL_PATH_TURN_RIGHT;
+      if (piece.length_m > 0.0) flags = 0;
       route.push_back({at, curvature, along, piece.length_m > 0.0 ? piece.drive : 0, flags});
     }
   }
@@ -229,7 +230,7 @@ inline std::vector<pose_wall_planar_path_pose> route_of(const std::vector<Piece>
 inline std::vector<pose_wall_planar_path_pose> drawn_route(std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> part(0.0, 1.0);
-  std::vector<Piece> pieces{{3.0, 0.0, 1}};
+  std::vector<RoutePiece> pieces{{3.0, 0.0, 1}};
   int drive = 1;
   for (int k = 0; k < 8; ++k) {
     const double kind = part(random), turn = (part(random) < 0.5 ? -1.0 : 1.0) * (0.3 + 1.3 * part(random));

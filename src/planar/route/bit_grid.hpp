@@ -55,7 +55,7 @@ class BitGrid {
  private:
   void block(std::int32_t row, std::int32_t column) {
     words_[static_cast<std::uint32_t>(row) * stride_ + (static_cast<std::uint32_t>(column) >> 6)] |= 1ULL
-                                                                                                      << (column & 63);
+                                                                                                     << (column & 63);
   }
   double in_row(std::int32_t column, std::int32_t row, std::int32_t most) const;
 

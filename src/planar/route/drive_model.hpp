@@ -51,7 +51,8 @@ class DriveModel {
   void follow(Drive* drive, const Rates& command, double step_s) const;
   Rates real(const Rates& rates) const;
   const Given& given(std::uint32_t k) const { return given_[(first_ + k) % kCommandsMost]; }
-  // The drive after the first seconds_s of the commands that are kept. visit(drive, seconds) for each piece behind them.
+  // The drive after the first seconds_s of the commands that are kept. visit(drive, seconds) for each piece behind
+  // them.
   template <typename Visit>
   Drive replay(double seconds_s, const Visit& visit) const;
   double seconds_to(double age_s) const { return kept_s_ - delay_s_ - age_s; }

@@ -3,8 +3,8 @@
 //
 // The places and headings that the search knows, with the machine's rectangle as rows of cells for each.
 //
-// Places are corners of cells, step_cells apart. A heading points exactly from a place to another one nearby, so driving
-// straight along a heading leads from place to place without rounding. Headings go round to the left from x.
+// Places are corners of cells, step_cells apart. A heading points exactly from a place to another one nearby, so
+// driving straight along a heading leads from place to place without rounding. Headings go round to the left from x.
 
 #pragma once
 

@@ -22,8 +22,8 @@ struct Costs {
   double of_turn(double turn_rad) const { return turn_m_rad * (turn_rad < 0.0 ? -turn_rad : turn_rad); }
 };
 
-// A place where the machine turns by turn_rad and leaves straight in `gear` (1 forwards, -1 backwards) with yaw_rad. The
-// last one of a route is left in no direction: gear 0 and the goal's yaw.
+// A place where the machine turns by turn_rad and leaves straight in `gear` (1 forwards, -1 backwards) with yaw_rad.
+// The last one of a route is left in no direction: gear 0 and the goal's yaw.
 struct Corner {
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0, turn_rad = 0.0;
   std::int32_t gear = 0;

@@ -47,8 +47,28 @@ extern "C" {
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_init(pose_wall_planar_plan_settings* settings) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = {sizeof(*settings), 2048, 2048, 60000, 400000, 2000000, 25000, 50, 0.05, 2.25, 2.25,
-               0.6,               0.6,  0.1,  0.25,  0.5,    1.2,     0.5, 1.1, 1.0,  8.0,  0.25};
+  *settings = {sizeof(*settings),
+               2048,
+               2048,
+               60000,
+               400000,
+               2000000,
+               25000,
+               50,
+               0.05,
+               2.25,
+               2.25,
+               0.6,
+               0.6,
+               0.1,
+               0.25,
+               0.5,
+               1.2,
+               0.5,
+               1.1,
+               1.0,
+               8.0,
+               0.25};
   return POSE_WALL_OK;
 }
 

@@ -17,8 +17,12 @@ struct CountRow {
   pose_wall_planar_fault fault;
 };
 
-#define ROW(member, least, most, text) \
-  { &pose_wall_planar_plan_settings::member, least, most, { #member, #member " must be from " text } }
+#define ROW(member, least, most, text)                      \
+  {                                                         \
+    &pose_wall_planar_plan_settings::member, least, most, { \
+#member, #member " must be from " text                \
+    }                                                       \
+  }
 
 constexpr CountRow kCounts[] = {
     ROW(width_max, 8, 8192, "8 to 8192"),
@@ -30,12 +34,18 @@ constexpr CountRow kCounts[] = {
     ROW(occupied_from, 1, 100, "1 to 100"),
 };
 constexpr NumberRow kNumbers[] = {
-    ROW(resolution_m, 0.01, 1.0, "0.01 to 1"),   ROW(front_m, 0.1, 20.0, "0.1 to 20"),
-    ROW(rear_m, 0.1, 20.0, "0.1 to 20"),         ROW(left_m, 0.1, 20.0, "0.1 to 20"),
-    ROW(right_m, 0.1, 20.0, "0.1 to 20"),        ROW(margin_m, 0.0, 2.0, "0 to 2"),
-    ROW(turn_cost_m_rad, 0.01, 100.0, "0.01 to 100"), ROW(reverse_cost, 1.0, 100.0, "1 to 100"),
-    ROW(cusp_cost_m, 0.0, 100.0, "0 to 100"),    ROW(weight, 1.0, 10.0, "1 to 10"),
-    ROW(radius_min_m, 0.1, 100.0, "0.1 to 100"), ROW(radius_max_m, 0.1, 1000.0, "radius_min_m to 1000"),
+    ROW(resolution_m, 0.01, 1.0, "0.01 to 1"),
+    ROW(front_m, 0.1, 20.0, "0.1 to 20"),
+    ROW(rear_m, 0.1, 20.0, "0.1 to 20"),
+    ROW(left_m, 0.1, 20.0, "0.1 to 20"),
+    ROW(right_m, 0.1, 20.0, "0.1 to 20"),
+    ROW(margin_m, 0.0, 2.0, "0 to 2"),
+    ROW(turn_cost_m_rad, 0.01, 100.0, "0.01 to 100"),
+    ROW(reverse_cost, 1.0, 100.0, "1 to 100"),
+    ROW(cusp_cost_m, 0.0, 100.0, "0 to 100"),
+    ROW(weight, 1.0, 10.0, "1 to 10"),
+    ROW(radius_min_m, 0.1, 100.0, "0.1 to 100"),
+    ROW(radius_max_m, 0.1, 1000.0, "radius_min_m to 1000"),
     ROW(pose_step_m, 0.05, 10.0, "0.05 to 10"),
 };
 #undef ROW

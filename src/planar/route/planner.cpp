@@ -32,7 +32,8 @@ void Planner::lay_out(Arena& arena, const pose_wall_planar_plan_settings& settin
   lattice_[0].lay_out(arena, 32, reach_cells);
   lattice_[1].lay_out(arena, 64, reach_cells);
   narrow_ = lattice_[1].room_for_shape(arena);
-  coarse_.lay_out(arena, settings.width_max / step_cells(settings, 1) + 1, settings.height_max / step_cells(settings, 1) + 1);
+  coarse_.lay_out(arena, settings.width_max / step_cells(settings, 1) + 1,
+                  settings.height_max / step_cells(settings, 1) + 1);
   const std::uint32_t finest = step_cells(settings, 1);
   const std::uint32_t places = (settings.width_max / finest + 1) * (settings.height_max / finest + 1);
   field_.lay_out(arena, places);
@@ -76,8 +77,7 @@ bool Planner::go_straight() {
     const double length_m = (goal_.place() - start_.place()).norm();
     const double first_rad = wrapped(yaw_rad - start_.yaw_rad), last_rad = wrapped(goal_.yaw_rad - yaw_rad);
     const Pose2 leaving{start_.x_m, start_.y_m, yaw_rad}, arriving{goal_.x_m, goal_.y_m, yaw_rad};
-    const double cost_m =
-        costs_.of_stretch(length_m, gear) + costs_.of_turn(first_rad) + costs_.of_turn(last_rad);
+    const double cost_m = costs_.of_stretch(length_m, gear) + costs_.of_turn(first_rad) + costs_.of_turn(last_rad);
     if (count_ == 2 && cost_m >= lower_m_) continue;
     const bool is_free = sweeps_.is_straight_free(leaving, gear * length_m) &&
                          sweeps_.is_turn_free(start_, first_rad) && sweeps_.is_turn_free(arriving, last_rad);
@@ -116,13 +116,40 @@ bool Planner::spread(const Lattice& lattice, const Shape& circle) {
   return field_.spread(Search::around(grid_, lattice, start_));
 }
 
+// Every way can be driven both ways. Where the machine got stuck at once on its way from the goal, no search from the
+// start could come, and it would look everywhere first.
+bool Planner::can_leave_goal(const Search::Task& task, pose_wall_planar_plan_result* result) {
+  constexpr std::uint32_t kExpansions = 500;
+  Search::Task probe = task;
+  probe.start = goal_;
+  probe.weight = 0.0;
+  probe.hurry_after = 0;
+  probe.is_probe = true;
+  if (probe.expansions_most > kExpansions) probe.expansions_most = kExpansions;
+  const bool is_left = search_.run(probe) != Found::none;
+  if (!is_left) result->expansions += search_.expansions();
+  return is_left;
+}
+
 std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
   Found found = Found::none;
+  is_goal_tight_ = false;
   for (std::uint32_t level = 0; level < kLevels && found != Found::way; ++level) {
     const Lattice& lattice = lattice_[level];
     if (!spread(lattice, lattice.circle())) continue;
-    const Search::Task task{&lattice, seen_by(lattice), &field_, &sweeps_, Places::of(grid_, lattice.step_cells()), costs_,
-                            settings_.weight, settings_.hurry_after, start_, goal_, settings_.expansions_max - result->expansions};
+    const Search::Task task{&lattice,
+                            seen_by(lattice),
+                            &field_,
+                            &sweeps_,
+                            Places::of(grid_, lattice.step_cells()),
+                            costs_,
+                            settings_.weight,
+                            settings_.hurry_after,
+                            start_,
+                            goal_,
+                            settings_.expansions_max - result->expansions};
+    is_goal_tight_ = !can_leave_goal(task, result);
+    if (is_goal_tight_) continue;
     found = search_.run(task);
     result->expansions += search_.expansions();
     result->places = search_.places();
@@ -143,8 +170,8 @@ void Planner::plan(const Pose2& start, const Pose2& goal, Span<pose_wall_planar_
   goal_ = goal;
   count_ = 0;
   const double none = not_a_number();
-  *result = {sizeof(*result), POSE_WALL_PLAN_FOUND, 0, 0, 0, 0, 0, 0, none, none, none, none, none, {none, none, none},
-             none};
+  *result = {
+      sizeof(*result), POSE_WALL_PLAN_FOUND, 0, 0, 0, 0, 0, 0, none, none, none, none, none, {none, none, none}, none};
   if (!sweeps_.is_pose_free(start)) {
     result->outcome = POSE_WALL_PLAN_START_BLOCKED;
   } else if (!sweeps_.is_pose_free(goal)) {
@@ -178,6 +205,10 @@ void Planner::finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_pl
 // The circle of the machine may not pass either: then how wide is the widest way?
 void Planner::explain(pose_wall_planar_plan_result* result) {
   const double machine_cells = footprint_of(settings_).inscribed_m() / settings_.resolution_m;
+  if (is_goal_tight_) {
+    result->place = pose_for_caller(goal_);
+    return;
+  }
   if (result->searches > 0) {
     const Eigen::Vector2d nearest = search_.nearest_m();
     result->place = {nearest.x(), nearest.y(), not_a_number()};

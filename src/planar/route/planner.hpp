@@ -34,6 +34,7 @@ class Planner {
 
   bool go_straight();
   std::uint32_t search(pose_wall_planar_plan_result* result);
+  bool can_leave_goal(const Search::Task& task, pose_wall_planar_plan_result* result);
   bool spread(const Lattice& lattice, const Shape& circle);
   LatticeGrid seen_by(const Lattice& lattice) const { return {&grid_, &coarse_, lattice.step_cells()}; }
   void explain(pose_wall_planar_plan_result* result);
@@ -53,7 +54,7 @@ class Planner {
   std::uint32_t count_ = 0;
   double lower_m_ = 0.0;
   Pose2 start_, goal_;
-  bool has_grid_ = false;
+  bool has_grid_ = false, is_goal_tight_ = false;
 };
 
 // Of a faulty member, or NULL.

@@ -63,7 +63,8 @@ class Writer {
     if (k + 1 >= corners_.size()) return {};
     const Corner& corner = corners_[k];
     const double turn_rad = magnitude(corner.turn_rad);
-    if (corner.gear != corners_[k - 1].gear || !(turn_rad > kTurnLeast_rad && turn_rad < kTurnMostRounded_rad)) return {};
+    if (corner.gear != corners_[k - 1].gear || !(turn_rad > kTurnLeast_rad && turn_rad < kTurnMostRounded_rad))
+      return {};
     const double before_m = (corner.place() - corners_[k - 1].place()).norm() - cut_behind_m;
     const double share = k + 2 == corners_.size() ? 1.0 : 0.5;
     const double behind_m = share * (corners_[k + 1].place() - corner.place()).norm();

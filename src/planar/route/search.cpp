@@ -237,7 +237,7 @@ void Search::expand(const State& state) {
   drive(state, cost, kBackward);
   turn(state, cost, kLeft);
   turn(state, cost, kRight);
-  if (!is_about(task_.goal, task_.places.column(place), task_.places.row(place))) return;
+  if (task_.is_probe || !is_about(task_.goal, task_.places.column(place), task_.places.row(place))) return;
   arrive(state, cost, 1);
   arrive(state, cost, -1);
 }
@@ -277,7 +277,8 @@ void Search::arrive(const State& state, std::uint32_t cost, std::int32_t gear) {
   if (!(magnitude(turn_rad) <= kAbout_rad)) return;
   const double length_m = (task_.goal.place() - from).norm();
   if (!is_worth_joining(length_m, last_rad)) return;
-  double more_m = task_.costs.of_stretch(length_m, gear) + task_.costs.of_turn(turn_rad) + task_.costs.of_turn(last_rad);
+  double more_m =
+      task_.costs.of_stretch(length_m, gear) + task_.costs.of_turn(turn_rad) + task_.costs.of_turn(last_rad);
   if (gears_ == 2 && gear != sign_of(state.gear)) more_m += task_.costs.cusp_m;
   const std::uint32_t sum = cost + units(more_m);
   if (sum >= best_) return;

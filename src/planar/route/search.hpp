@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Weighted A* over places, headings and gears (Pohl 1970): from the start to the goal, both of which lie between places.
+// Weighted A* over places, headings and gears (Pohl 1970): from the start to the goal, both of which lie between
+// places.
 
 #pragma once
 
@@ -36,6 +37,7 @@ class Search {
     std::uint32_t hurry_after = 0;  // expansions after which the weight grows, again and again; 0: never
     Pose2 start, goal;
     std::uint32_t expansions_most = 0;
+    bool is_probe = false;  // how far the machine gets from the start; no goal ends it
   };
   Found run(const Task& task);
 

@@ -40,8 +40,25 @@ extern "C" {
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_init(pose_wall_planar_track_settings* settings) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = {sizeof(*settings), 8192, 0.5, 0.05, 0.25, 0.35, 1.0, 0.9, 1.6,  0.3,
-               0.15,              0.6,  0.5, 0.03, 0.015, 0.5, 0.7, 0.5, 0.5};
+  *settings = {sizeof(*settings),
+               8192,
+               0.5,
+               0.05,
+               0.25,
+               0.35,
+               1.0,
+               0.9,
+               1.6,
+               0.3,
+               0.15,
+               0.6,
+               0.5,
+               0.03,
+               0.015,
+               0.5,
+               0.7,
+               0.5,
+               0.5};
   return POSE_WALL_OK;
 }
 

@@ -21,12 +21,12 @@ struct Leg {
 
 // A point of the route and how a pose lies to it.
 struct OnPath {
-  std::uint32_t index = 0;   // the last pose that was passed
-  double along_m = 0.0;      // of the route
-  double yaw_rad = 0.0;      // of the machine there
+  std::uint32_t index = 0;     // the last pose that was passed
+  double along_m = 0.0;        // of the route
+  double yaw_rad = 0.0;        // of the machine there
   double curvature_1_m = 0.0;  // there, to the machine's left
-  double cross_m = 0.0;      // to the left of the machine as it should stand
-  double heading_rad = 0.0;  // turned to the left against the route
+  double cross_m = 0.0;        // to the left of the machine as it should stand
+  double heading_rad = 0.0;    // turned to the left against the route
 };
 
 class TrackPath {

@@ -12,8 +12,12 @@ struct Row {
   pose_wall_planar_fault fault;
 };
 
-#define ROW(member, least, most, text) \
-  { &pose_wall_planar_track_settings::member, least, most, { #member, #member " must be from " text } }
+#define ROW(member, least, most, text)                       \
+  {                                                          \
+    &pose_wall_planar_track_settings::member, least, most, { \
+#member, #member " must be from " text                 \
+    }                                                        \
+  }
 
 constexpr Row kRows[] = {
     ROW(speed_max_m_s, 0.02, 5.0, "0.02 to 5"),

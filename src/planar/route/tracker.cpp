@@ -11,11 +11,11 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kStepMost_s = 0.5;     // a longer pause counts as so much
-constexpr double kTurnShare = 0.75;     // of turn_max, for the route's own curvature: the rest is for corrections
-constexpr double kSettled = 4.744;      // (1 + x) exp(-x) is a twentieth: both roots of the error at 1 / settle * x
+constexpr double kStepMost_s = 0.5;       // a longer pause counts as so much
+constexpr double kTurnShare = 0.75;       // of turn_max, for the route's own curvature: the rest is for corrections
+constexpr double kSettled = 4.744;        // (1 + x) exp(-x) is a twentieth: both roots of the error at 1 / settle * x
 constexpr double kCorrectMost_rad = 0.6;  // a cross error asks for no steeper heading towards the route
-constexpr double kBrake = 0.7;          // share of speed_change that stops are planned with
+constexpr double kBrake = 0.7;            // share of speed_change that stops are planned with
 
 double magnitude(double a) {
   return a < 0.0 ? -a : a;
@@ -56,9 +56,10 @@ void Tracker::take_route(const pose_wall_planar_path_pose* poses, std::uint32_t 
 
 double Tracker::step_seconds(std::int64_t now_ns) {
   const bool rises = has_time_ && now_ns > last_ns_;
-  const double step_s = rises ? static_cast<double>(static_cast<std::uint64_t>(now_ns) -
-                                                    static_cast<std::uint64_t>(last_ns_)) * kNanosecond_s
-                              : 0.0;
+  const double step_s =
+      rises ? static_cast<double>(static_cast<std::uint64_t>(now_ns) - static_cast<std::uint64_t>(last_ns_)) *
+                  kNanosecond_s
+            : 0.0;
   if (rises || !has_time_) last_ns_ = now_ns;
   has_time_ = true;
   return clamped(step_s, 0.0, kStepMost_s);
@@ -87,9 +88,10 @@ void Tracker::step(const pose_wall_planar_track_input& input, pose_wall_planar_t
   const double step_s = step_seconds(input.now_ns);
   model_.advance(step_s);
   const bool is_late = input.pose_ns <= last_ns_;
-  const double age_s = is_late ? static_cast<double>(static_cast<std::uint64_t>(last_ns_) -
-                                                     static_cast<std::uint64_t>(input.pose_ns)) * kNanosecond_s
-                               : 0.0;
+  const double age_s =
+      is_late ? static_cast<double>(static_cast<std::uint64_t>(last_ns_) - static_cast<std::uint64_t>(input.pose_ns)) *
+                    kNanosecond_s
+              : 0.0;
   if (phase_ == Phase::idle) {
     halt();
   } else if (!is_good(input, age_s)) {
@@ -130,7 +132,8 @@ void Tracker::drive(const Pose2& given, double age_s, double step_s, pose_wall_p
     const bool is_before = leg_.drive == 0 || at.along_m <= path_.end_m(leg_) + settings_.off_path_m;
     if (phase_ != Phase::done && !(is_on && is_before)) phase_ = Phase::off_path;
   }
-  if (phase_ == Phase::stopping && model_.stands() && !seen_to_move_) phase_ = leg_.last > leg_.first ? Phase::leg : Phase::done;
+  if (phase_ == Phase::stopping && model_.stands() && !seen_to_move_)
+    phase_ = leg_.last > leg_.first ? Phase::leg : Phase::done;
   command->state = POSE_WALL_TRACK_STOPPING;
   if (phase_ == Phase::leg && leg_.drive != 0) follow(ahead, step_s, command);
   if (phase_ == Phase::leg && leg_.drive == 0) turn(ahead, step_s, command);
@@ -195,8 +198,7 @@ void Tracker::follow(const Pose2& ahead, double step_s, pose_wall_planar_track_c
   const double before_m_s = magnitude(now_.speed_m_s);
   speed_m_s = towards(before_m_s, speed_m_s, settings_.speed_change_m_s2 * step_s);
   now_.speed_m_s = leg_.drive * speed_m_s;
-  const double turn_rad_s =
-      clamped(curvature_1_m * speed_m_s, -settings_.turn_max_rad_s, settings_.turn_max_rad_s);
+  const double turn_rad_s = clamped(curvature_1_m * speed_m_s, -settings_.turn_max_rad_s, settings_.turn_max_rad_s);
   now_.turn_rad_s = towards(now_.turn_rad_s, turn_rad_s, settings_.turn_change_rad_s2 * step_s);
 }
 

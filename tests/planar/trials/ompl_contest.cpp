@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The planner beside three of OMPL on drawn grids, BIT*, RRT*, and RRT-Connect with shortening: same footprint, same sweeps, same cost. A motion of OMPL turns on the
-// spot, drives straight forwards or backwards, and turns on the spot: chains of these come as near to any way of the
-// machine as one likes. Usage: ompl_contest [first seed] [seeds] [seconds of OMPL]
+// The planner beside three of OMPL on drawn grids, BIT*, RRT*, and RRT-Connect with shortening: same footprint, same
+// sweeps, same cost. A motion of OMPL turns on the spot, drives straight forwards or backwards, and turns on the spot:
+// chains of these come as near to any way of the machine as one likes. Usage: ompl_contest [first seed] [seeds]
+// [seconds of OMPL]
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/ProblemDefinition.h>
@@ -117,8 +118,8 @@ struct Won {
   double cost_m = std::nan(""), length_m = std::nan("");
 };
 
-Won run_ompl(const pose_wall::test::DrawnGrid& grid, pose_wall::planar::Sweeps* sweeps, const pose_wall_planar_pose& start,
-             const pose_wall_planar_pose& goal, double seconds, int which) {
+Won run_ompl(const pose_wall::test::DrawnGrid& grid, pose_wall::planar::Sweeps* sweeps,
+             const pose_wall_planar_pose& start, const pose_wall_planar_pose& goal, double seconds, int which) {
   const auto space = std::make_shared<TurnDriveSpace>();
   ob::RealVectorBounds bounds(2);
   bounds.setLow(0.0);
@@ -186,7 +187,9 @@ int main(int argc, char** argv) {
   settings.reverse_cost = 1.0;
   settings.cusp_cost_m = 0.0;
   pose_wall::test::TrialPlanner planner(settings);
-  std::printf("seed,outcome,ms,cost,length,bound,bit_cost,rrt_cost,shortened_cost,best_cost,best_length,cost_ratio,length_ratio\n");
+  std::printf(
+      "seed,outcome,ms,cost,length,bound,bit_cost,rrt_cost,shortened_cost,best_cost,best_length,cost_ratio,length_"
+      "ratio\n");
   for (std::uint32_t seed = first; seed < first + seeds; ++seed) {
     const pose_wall::test::DrawnGrid grid = pose_wall::test::drawn_grid(seed);
     pose_wall_planar_pose start, goal;
