@@ -14,8 +14,8 @@
 
 namespace {
 
-using pose_wall::planar::along_arc;
 using pose_wall::planar::Pose2;
+using pose_wall::planar::route::along_arc;
 using pose_wall::test::DrawnGrid;
 using pose_wall::test::GridSweeps;
 using pose_wall::test::is_rectangle_free;
@@ -99,7 +99,7 @@ TEST(PlanBitGrid, BitsAreTheCellsForAnyWidthAndThreshold) {
     for (std::int8_t& cell : cells) cell = static_cast<std::int8_t>(static_cast<int>(random() % 256) - 128);
     const pose_wall_planar_grid view{sizeof(view), width, 3, 0, 0.05, 0.0, 0.0, cells.data()};
     std::vector<std::uint64_t> block(64);
-    pose_wall::planar::BitGrid grid;
+    pose_wall::planar::route::BitGrid grid;
     pose_wall::Arena arena(block.data());
     grid.lay_out(arena, 256, 4);
     ASSERT_LE(arena.bytes(), block.size() * 8);

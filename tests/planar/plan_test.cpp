@@ -70,10 +70,10 @@ void expect_true_route(const DrawnGrid& grid, const pose_wall_planar_plan_settin
     const int steps = 1 + static_cast<int>(std::abs(way.along_m) / 0.05 + std::abs(way.turn_rad) / 0.02);
     for (int i = 1; i <= steps; ++i) {
       const double part = static_cast<double>(i) / steps;
-      const auto at = pose_wall::planar::along_arc(from, part * way.along_m, part * way.turn_rad);
+      const auto at = pose_wall::planar::route::along_arc(from, part * way.along_m, part * way.turn_rad);
       ASSERT_TRUE(is_rectangle_free(grid.view(), s.occupied_from, body, at.x_m, at.y_m, at.yaw_rad)) << "pose " << k;
     }
-    const auto end = pose_wall::planar::along_arc(from, way.along_m, way.turn_rad);
+    const auto end = pose_wall::planar::route::along_arc(from, way.along_m, way.turn_rad);
     ASSERT_NEAR(end.x_m, b.pose.x_m, 1e-6) << k;
     ASSERT_NEAR(end.y_m, b.pose.y_m, 1e-6) << k;
     ASSERT_NEAR(turned(end.yaw_rad, b.pose.yaw_rad), 0.0, 1e-3) << k;

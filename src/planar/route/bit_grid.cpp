@@ -8,7 +8,7 @@
 
 #include "base/math/finite.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 constexpr double kFarthest_m = 1e7;  // an origin beyond it leaves a double no room for millimetres
@@ -129,4 +129,4 @@ double BitGrid::clearance(std::int32_t column, std::int32_t row, std::int32_t mo
   return std::sqrt(best_squared);
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

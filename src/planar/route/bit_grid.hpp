@@ -12,7 +12,7 @@
 #include "base/containers/span.hpp"
 #include "pose_wall_planar_grid.h"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 // POSE_WALL_OK, POSE_WALL_E_NULL, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_E_GRID.
 std::int32_t check_grid(const pose_wall_planar_grid* grid);
@@ -66,4 +66,4 @@ class BitGrid {
   Eigen::Vector2d origin_m_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -6,7 +6,7 @@
 
 #include "planar/route/distance_field.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 void DistanceField::lay_out(Arena& arena, std::uint32_t places) {
   distance_ = arena.take<std::uint32_t>(places);
@@ -119,4 +119,4 @@ std::uint32_t DistanceField::step_down(std::uint32_t place) const {
   return best;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -13,7 +13,7 @@
 #include "planar/route/bit_grid.hpp"
 #include "planar/route/lattice.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 // Places of a lattice over a grid: column and row in steps, and their number.
 struct Places {
@@ -89,4 +89,4 @@ class DistanceField {
   const Shape* circle_ = nullptr;
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

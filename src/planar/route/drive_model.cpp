@@ -5,7 +5,7 @@
 
 #include "planar/route/footprint.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 constexpr double kLearnEach_m = 0.4;  // way between two lessons: noise of poses counts less over a longer one
@@ -129,4 +129,4 @@ void DriveModel::learn(const Pose2& pose, double age_s) {
   has_mark_ = true;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -9,7 +9,7 @@
 
 #include "planar/pose2.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 struct Rates {
   double speed_m_s = 0.0, turn_rad_s = 0.0;
@@ -69,4 +69,4 @@ class DriveModel {
   Drive drive_at_mark_;
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

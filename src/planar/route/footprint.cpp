@@ -7,7 +7,7 @@
 
 #include "base/math/larger.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 double smaller_of(double a, double b) {
@@ -192,4 +192,4 @@ Pose2 along_arc(const Pose2& from, double along_m, double turn_rad) {
   return {from.x_m + along_m * ratio * middle.c, from.y_m + along_m * ratio * middle.s, from.yaw_rad + turn_rad};
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -15,7 +15,7 @@
 #include "planar/pose2.hpp"
 #include "planar/route/bit_grid.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 // Edges of the rectangle from the turning centre, margins included. All are positive.
 struct Footprint {
@@ -86,4 +86,4 @@ class Sweeps {
 // Where base stands after an arc that turns by turn_rad over along_m.
 Pose2 along_arc(const Pose2& from, double along_m, double turn_rad);
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

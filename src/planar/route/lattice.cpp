@@ -7,7 +7,7 @@
 
 #include "base/math/elementary.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 // Directions of an eighth of a turn, the diagonal left out: short vectors that lie about evenly.
@@ -153,4 +153,4 @@ double Lattice::gap_rad(std::uint32_t k) const {
   return gap > 0.0 ? gap : gap + 2.0 * kPi;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

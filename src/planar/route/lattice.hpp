@@ -15,7 +15,7 @@
 #include "planar/route/bit_grid.hpp"
 #include "planar/route/footprint.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 constexpr std::uint32_t kHeadingsMost = 64;
 constexpr double kUnits_m = 1e-4;  // costs and lengths of the search are whole numbers of these
@@ -89,4 +89,4 @@ struct LatticeGrid {
   }
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

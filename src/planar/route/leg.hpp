@@ -11,7 +11,7 @@
 #include "base/containers/span.hpp"
 #include "planar/pose2.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 struct Costs {
   double turn_m_rad = 0.5;  // metres of way that a radian of turning is worth
@@ -40,4 +40,4 @@ inline double driving_yaw(const Eigen::Vector2d& a, const Eigen::Vector2d& b, st
   return gear < 0 ? arc_tangent2(-way.y(), -way.x()) : arc_tangent2(way.y(), way.x());
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

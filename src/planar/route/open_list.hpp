@@ -8,7 +8,7 @@
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 // A heap of fixed room with four children a node; the least key is on top. An entry is a key and a number in one word.
 class OpenList {
@@ -68,4 +68,4 @@ class OpenList {
   std::uint32_t count_ = 0;
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -11,7 +11,7 @@
 
 namespace {
 
-using pose_wall::planar::Planner;
+using pose_wall::planar::route::Planner;
 using HeldPlanner = pose_wall::planar::Held<Planner, 0x6E616C506D614C50ULL>;
 
 HeldPlanner* held_of(pose_wall_planar_planner* planner) {
@@ -76,7 +76,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_check(const pose_wall_pl
                                                               pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
   if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
-  const pose_wall_planar_fault* const found = pose_wall::planar::fault_of(*settings);
+  const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
   if (found == nullptr) return POSE_WALL_OK;
   if (fault != nullptr) *fault = *found;
   return POSE_WALL_E_VALUE_RANGE;
@@ -108,7 +108,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner
   const HeldPlanner::Inside inside(held_of(planner));
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK && result->struct_size != sizeof(*result)) status = POSE_WALL_E_STRUCT_SIZE;
-  if (status == POSE_WALL_OK) status = pose_wall::planar::check_grid(grid);
+  if (status == POSE_WALL_OK) status = pose_wall::planar::route::check_grid(grid);
   if (status == POSE_WALL_OK && !(is_pose(*start) && is_pose(*goal))) status = POSE_WALL_E_POSE;
   if (status != POSE_WALL_OK) return status;
   if (!inside.body().read(*grid)) return POSE_WALL_E_GRID;

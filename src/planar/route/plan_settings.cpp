@@ -3,7 +3,7 @@
 
 #include "planar/route/planner.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 struct NumberRow {
@@ -77,4 +77,4 @@ const pose_wall_planar_fault* fault_of(const pose_wall_planar_plan_settings& set
   return is_small ? nullptr : &kReach;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -7,7 +7,7 @@
 #include "base/math/larger.hpp"
 #include "planar/route/taut.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 // Sweeps of pulling taut, in rows of cells; one takes some 5 ns.
@@ -260,4 +260,4 @@ void Planner::find_bottleneck(double fits_cells, pose_wall_planar_plan_result* r
   result->width_m = 2.0 * room_at(at) * settings_.resolution_m;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

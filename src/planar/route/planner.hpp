@@ -16,7 +16,7 @@
 #include "planar/route/search.hpp"
 #include "pose_wall_planar_plan.h"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 class Planner {
  public:
@@ -60,4 +60,4 @@ class Planner {
 // Of a faulty member, or NULL.
 const pose_wall_planar_fault* fault_of(const pose_wall_planar_plan_settings& settings);
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -3,7 +3,7 @@
 
 #include "planar/route/poses.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 constexpr double kTurnMostRounded_rad = 2.3;  // a sharper corner is no curve
@@ -140,4 +140,4 @@ Written write_poses(Span<const Corner> corners, const Pose2& start, const Costs&
   return Writer(corners, start, costs, rounding, sweeps, out).write();
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -12,7 +12,7 @@
 #include "planar/route/leg.hpp"
 #include "pose_wall_planar_plan.h"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 struct Rounding {
   double radius_least_m = 1.0, radius_most_m = 8.0;
@@ -28,4 +28,4 @@ struct Written {
 Written write_poses(Span<const Corner> corners, const Pose2& start, const Costs& costs, const Rounding& rounding,
                     Sweeps* sweeps, Span<pose_wall_planar_path_pose> out);
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

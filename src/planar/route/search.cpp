@@ -3,7 +3,7 @@
 
 #include "planar/route/search.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 double magnitude(double a) {
@@ -371,4 +371,4 @@ std::uint32_t Search::write(Span<Corner> corners) const {
   return count;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

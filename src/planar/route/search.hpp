@@ -17,7 +17,7 @@
 #include "planar/route/leg.hpp"
 #include "planar/route/open_list.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 enum class Found : std::uint32_t { way, none, list_full, work_spent };
 
@@ -100,4 +100,4 @@ class Search {
   OpenList open_;
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

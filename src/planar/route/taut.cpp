@@ -3,7 +3,7 @@
 
 #include "planar/route/taut.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 constexpr double kGain_m = 2e-3, kGainCut_m = 1e-2;  // a change that saves less is not worth its sweeps
@@ -201,4 +201,4 @@ void Taut::pull() {
   }
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

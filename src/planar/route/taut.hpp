@@ -11,7 +11,7 @@
 #include "planar/route/footprint.hpp"
 #include "planar/route/leg.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 class Taut {
  public:
@@ -60,4 +60,4 @@ class Taut {
   std::uint64_t rows_end_;
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -12,7 +12,7 @@
 namespace {
 
 using pose_wall::is_finite;
-using pose_wall::planar::Tracker;
+using pose_wall::planar::route::Tracker;
 using HeldTracker = pose_wall::planar::Held<Tracker, 0x6B6361725440504CULL>;
 
 HeldTracker* held_of(pose_wall_planar_tracker* tracker) {
@@ -66,7 +66,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_check(const pose_wall_p
                                                                pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
   if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
-  const pose_wall_planar_fault* const found = pose_wall::planar::fault_of(*settings);
+  const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
   if (found == nullptr) return POSE_WALL_OK;
   if (fault != nullptr) *fault = *found;
   return POSE_WALL_E_VALUE_RANGE;

@@ -5,7 +5,7 @@
 
 #include "planar/route/footprint.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 constexpr std::uint32_t kStretchesMost = 64;  // searched in one step
@@ -93,4 +93,4 @@ double TrackPath::sharpest_1_m(const Leg& leg, const OnPath& at, double ahead_m)
   return sharpest;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -11,7 +11,7 @@
 #include "planar/pose2.hpp"
 #include "pose_wall_planar_plan.h"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 // Poses `first` to `last` of a route: driven one way, or a turn on the spot, without a stop between.
 struct Leg {
@@ -50,4 +50,4 @@ class TrackPath {
   Span<const pose_wall_planar_path_pose> poses_;
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

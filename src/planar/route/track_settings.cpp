@@ -3,7 +3,7 @@
 
 #include "planar/route/tracker.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 struct Row {
@@ -54,4 +54,4 @@ const pose_wall_planar_fault* fault_of(const pose_wall_planar_track_settings& se
   return settings.speed_min_m_s <= settings.speed_max_m_s ? nullptr : &kSlowest;
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -8,7 +8,7 @@
 
 #include "base/math/finite.hpp"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 namespace {
 
 constexpr double kStepMost_s = 0.5;       // a longer pause counts as so much
@@ -222,4 +222,4 @@ void Tracker::turn(const Pose2& ahead, double step_s, pose_wall_planar_track_com
       towards(now_.turn_rad_s, left_rad < 0.0 ? -rate_rad_s : rate_rad_s, settings_.turn_change_rad_s2 * step_s);
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -12,7 +12,7 @@
 #include "planar/route/track_path.hpp"
 #include "pose_wall_planar_track.h"
 
-namespace pose_wall::planar {
+namespace pose_wall::planar::route {
 
 class Tracker {
  public:
@@ -55,4 +55,4 @@ class Tracker {
 
 const pose_wall_planar_fault* fault_of(const pose_wall_planar_track_settings& settings);
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall::planar::route

@@ -47,7 +47,7 @@ Motion motion(const Pose2& a, const Pose2& b) {
   Motion best{};
   best.cost_m = 1e9;
   for (const int gear : {1, -1}) {
-    const double yaw = pose_wall::planar::driving_yaw(a.place(), b.place(), gear, a.yaw_rad);
+    const double yaw = pose_wall::planar::route::driving_yaw(a.place(), b.place(), gear, a.yaw_rad);
     const double length = (b.place() - a.place()).norm();
     const double first = wrapped(yaw - a.yaw_rad), last = wrapped(b.yaw_rad - yaw);
     const double cost = length + kTurn_m_rad * (std::abs(first) + std::abs(last));
@@ -84,7 +84,7 @@ class TurnDriveSpace : public ob::SE2StateSpace {
 
 class Validator : public ob::MotionValidator {
  public:
-  Validator(const ob::SpaceInformationPtr& si, pose_wall::planar::Sweeps* sweeps)
+  Validator(const ob::SpaceInformationPtr& si, pose_wall::planar::route::Sweeps* sweeps)
       : ob::MotionValidator(si), sweeps_(sweeps) {}
   bool checkMotion(const ob::State* s1, const ob::State* s2) const override {
     const Pose2 a = pose_of(s1), b = pose_of(s2);
@@ -98,7 +98,7 @@ class Validator : public ob::MotionValidator {
   }
 
  private:
-  pose_wall::planar::Sweeps* sweeps_;
+  pose_wall::planar::route::Sweeps* sweeps_;
 };
 
 class Cost : public ob::OptimizationObjective {
@@ -118,7 +118,7 @@ struct Won {
   double cost_m = std::nan(""), length_m = std::nan("");
 };
 
-Won run_ompl(const pose_wall::test::DrawnGrid& grid, pose_wall::planar::Sweeps* sweeps,
+Won run_ompl(const pose_wall::test::DrawnGrid& grid, pose_wall::planar::route::Sweeps* sweeps,
              const pose_wall_planar_pose& start, const pose_wall_planar_pose& goal, double seconds, int which) {
   const auto space = std::make_shared<TurnDriveSpace>();
   ob::RealVectorBounds bounds(2);

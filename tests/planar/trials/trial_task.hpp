@@ -46,8 +46,8 @@ struct TrialPlanner {
 // The library's own sweeps over a grid, for checks and for planners to compare with.
 struct GridSweeps {
   std::vector<unsigned char> block;
-  planar::BitGrid grid;
-  planar::Sweeps sweeps;
+  planar::route::BitGrid grid;
+  planar::route::Sweeps sweeps;
 
   GridSweeps(const DrawnGrid& drawn, const pose_wall_planar_plan_settings& s) {
     const auto lay_out = [&](void* at) {
