@@ -8,7 +8,7 @@
  *           turning centre, midway between the tracks: x forward, y left. A margin goes round the rectangle.
  * GRID      Cells from occupied_from on, unknown cells and all outside the grid are not driven on. A route is free when
  *           no part of the rectangle touches such a cell on the way, turns included. Straight stretches are checked
- *           exactly, turns and curves to within 2 mm and always on the safe side.
+ *           exactly, turns and curves to within 3 mm and always on the safe side.
  * COST      In metres: the length, times reverse_cost where it goes backwards; turn_cost_m_rad for each radian of
  *           turning, on the spot or in a curve; cusp_cost_m for each change between forwards and backwards.
  * METHOD    Weighted A* (Pohl 1970) over places lattice_m apart and 32 headings, along which the machine drives
@@ -41,7 +41,7 @@ typedef struct pose_wall_planar_plan_settings {
   uint32_t struct_size;    /* sizeof(pose_wall_planar_plan_settings) */
   uint32_t width_max;      /* cells of a grid along x, 8 to 8192; 2048 */
   uint32_t height_max;     /* and along y, 8 to 8192; 2048 */
-  uint32_t places_max;     /* places that a search may enter, 1000 to 1000000; 60000. One takes 364 bytes */
+  uint32_t places_max;     /* places that a search may enter, 1000 to 1000000; 60000. One takes 356 bytes */
   uint32_t open_max;       /* entries of the open list, 1000 to 10000000; 400000 */
   uint32_t expansions_max; /* of both searches together, 1 to 100000000; 2000000 */
   uint32_t hurry_after;    /* expansions after which the weight grows by a tenth, again and again, up to 3; 0: never,

@@ -10,7 +10,7 @@
 namespace pose_wall::planar::route {
 namespace {
 
-// Sweeps of pulling taut, in rows of cells; one takes some 5 ns.
+// Sweeps of pulling taut, in rows of cells; one takes some 9 ns.
 constexpr std::uint64_t kRowsOfPulling = 4000000;
 
 Footprint footprint_of(const pose_wall_planar_plan_settings& s) {
