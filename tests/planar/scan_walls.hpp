@@ -76,9 +76,10 @@ inline void measure_walls(const RingSensor& sensor, double rough_m, std::uint64_
     if (clean.empty() || !std::isfinite(ours) || scanner.view().returns[b] == 0) continue;
     std::sort(clean.begin(), clean.end());
     if (clean.back() > 15.0 || clean.back() - clean.front() > 0.5) continue;
-    const std::size_t n = clean.size(), k = n < 4 ? 0 : n < 8 ? 1 : n < 16 ? 2 : 3;
+    const std::size_t n = scanner.view().returns[b], rank = n < 4 ? 0 : n < 8 ? 1 : n < 16 ? 2 : 3;
+    const std::size_t k = std::min(rank, clean.size() - 1);
     double mean = 0.0;
-    for (const double c : clean) mean += c / static_cast<double>(n);
+    for (const double c : clean) mean += c / static_cast<double>(clean.size());
     WallErrors::Cell& cell = errors->cells[WallErrors::bin_of(clean.front())];
     cell.ours.add(ours - clean[k]);
     cell.from_mean.add(ours - mean);

@@ -45,7 +45,7 @@ class Finder {
   }
 
  private:
-  static Gathered empty() { return {{kNothing_m, kNothing_m, kNothing_m, kNothing_m}, 0.0F, 0.0F, kNothing_m, 0}; }
+  static Gathered empty() { return {all_four(kNothing_m), 0.0F, 0.0F, kNothing_m, 0}; }
 
   void begin() {
     const auto nan = static_cast<float>(not_a_number());
@@ -94,28 +94,30 @@ class Finder {
   template <typename Takes>
   void gather(const Takes& takes) {
     for (std::uint32_t i = 0; i < e_.return_count; ++i) {
-      const BandReturn& one = e_.returns[i];
+      const BandReturn one = e_.returns[i];
       if (!takes(one.beam)) continue;
+      const float nearest_m = e_.nearest_m[one.beam];
       const float slope_m = r_.slope_m[one.beam], steep_m = slope_m < 0.0F ? -slope_m : slope_m;
-      const float beyond_m = one.range_m - slope_m * kAsides * static_cast<float>(one.aside) - e_.nearest_m[one.beam];
+      const float beyond_m = one.range_m - slope_m * kAsides * static_cast<float>(one.aside) - nearest_m;
       Gathered& g = r_.gathered[one.beam];
       if (beyond_m > depth_m_ + steep_m) {
         if (one.range_m < g.behind_m) g.behind_m = one.range_m;
         continue;
       }
-      if (one.range_m < e_.nearest_m[one.beam]) continue;  // passed by
+      if (one.range_m < nearest_m) continue;  // passed by
       ++g.count;
       g.sum_m += beyond_m;
       g.sum_m2 += beyond_m * beyond_m;
-      keep_least(beyond_m, &g);
+      g.least_m = with(beyond_m, g.least_m);
     }
   }
 
-  static void keep_least(float beyond_m, Gathered* g) {
-    if (!(beyond_m < g->least_m[kRankMost - 1])) return;
-    std::uint32_t at = kRankMost - 1;
-    for (; at > 0 && g->least_m[at - 1] > beyond_m; --at) g->least_m[at] = g->least_m[at - 1];
-    g->least_m[at] = beyond_m;
+  // Into its place among the four least: each is the smaller of itself and of the larger of the newcomer and the one
+  // before it. Without branches, which would follow the noise.
+  static FourFloats with(float newcomer, FourFloats least) {
+    const FourFloats four = all_four(newcomer);
+    const FourFloats before = picked<4, 0, 1, 2>(least, four);
+    return smaller_of(least, larger_of(before, four));
   }
 
   bool mark_alone() {

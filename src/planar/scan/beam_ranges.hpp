@@ -6,11 +6,12 @@
 
 #pragma once
 
+#include "base/simd/four_floats.hpp"
 #include "planar/scan/evidence.hpp"
 
 namespace pose_wall::planar {
 
-constexpr std::uint32_t kRankMost = 4;       // the largest k
+constexpr std::uint32_t kRankMost = kFour;   // the largest k
 constexpr std::uint32_t kReturnsKnown = 64;  // more returns of a surface count as these
 
 // Expected k-th smallest of n standard normal numbers, and the k for n.
@@ -24,7 +25,7 @@ struct OrderStatistics {
 
 // The returns of a beam's nearest surface, moved to the middle of the beam.
 struct Gathered {
-  float least_m[kRankMost];  // ascending, beyond the beam's nearest
+  FourFloats least_m;  // ascending, beyond the beam's nearest
   float sum_m, sum_m2;
   float behind_m;  // the nearest return behind the surface
   std::uint32_t count;

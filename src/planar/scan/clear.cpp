@@ -53,13 +53,17 @@ class Gaps {
     }
   }
 
+  bool hides_anything() const { return count_ > 0; }
+
   ClearRange clear() const {
     if (count_ > kHidingMost) return {0.0F, 0.0F};
     double from_m = 0.0;
     for (std::uint32_t round = 0; round < count_; ++round) {
+      const double before_m = from_m;
       for (std::uint32_t i = 0; i < count_; ++i) {
         if (hiding_[i].from_m <= from_m && hiding_[i].to_m > from_m) from_m = hiding_[i].to_m;
       }
+      if (from_m == before_m) break;
     }
     double to_m = s_.reach_m;
     // Beyond this range the floor's tilt alone may lift it over the thing.
@@ -102,7 +106,29 @@ SlotEdges::SlotEdges() {
   }
 }
 
-ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const SlotEdges& edges) {
+CloseSlots::CloseSlots(const ClearScene& scene, const SlotEdges& edges) {
+  const auto hides = [&](std::uint32_t lower, std::uint32_t upper) {
+    Gaps gaps(scene);
+    gaps.between(edges.tangent[lower], edges.tangent[upper + 1]);
+    return gaps.hides_anything();
+  };
+  for (std::uint32_t upper = 0; upper < kSlots; ++upper) {
+    // By halves: the lower the ray below, the wider is the gap.
+    std::uint32_t hidden = 0, close = upper;  // all below `hidden` hide, those from `close` on do not
+    while (hidden < close) {
+      const std::uint32_t middle = (hidden + close) / 2;
+      if (hides(middle, upper)) {
+        hidden = middle + 1;
+      } else {
+        close = middle;
+      }
+    }
+    from[upper] = static_cast<std::uint16_t>(close);
+  }
+}
+
+ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const SlotEdges& edges,
+                       const CloseSlots& close) {
   Gaps gaps(scene);
   bool any = false;
   std::uint32_t last = 0;
@@ -110,9 +136,9 @@ ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const Sl
     for (std::uint32_t word = rays.word[w]; word != 0; word &= word - 1) {
       const std::uint32_t slot = 32 * w + static_cast<std::uint32_t>(__builtin_ctz(word));
       // Of a slot's rays the one that leaves the wider gap.
-      if (any) {
+      if (any && last < close.from[slot]) {
         gaps.between(edges.tangent[last], edges.tangent[slot + 1]);
-      } else {
+      } else if (!any) {
         gaps.below(edges.tangent[slot + 1]);
       }
       any = true;
@@ -127,8 +153,9 @@ ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const Sl
 void find_clear(const Evidence& evidence, const ClearScene& scene, const SlotEdges& edges, Span<ClearRange> alone,
                 Span<ClearRange> clear) {
   const std::uint32_t sectors = evidence.rays.size();
+  const CloseSlots close(scene, edges);
   for (std::uint32_t i = 0; i < sectors; ++i) {
-    alone[i] = clear_range(evidence.rays[i], scene, edges);
+    alone[i] = clear_range(evidence.rays[i], scene, edges, close);
     if (evidence.sector_end_m[i] < alone[i].to_m) alone[i].to_m = evidence.sector_end_m[i];
   }
   for (std::uint32_t i = 0; i < sectors; ++i) {

@@ -32,9 +32,11 @@ struct Block {
   static constexpr std::uint32_t kSize = 128;  // whole fours; all of it stays in the first cache
   float x[kSize], y[kSize], z[kSize];          // as the cloud has them
   std::int32_t fate[kSize];                    // HeightClass, or one of the below
-  float range_m[kSize], free_m[kSize], place[kSize];
-  std::int32_t beam[kSize], sector[kSize], slot[kSize];
+  float range_m[kSize], free_m[kSize];
+  std::int32_t beam[kSize], aside[kSize];      // place in the scan: beam, and kAsides of a step from its middle
+  std::int32_t word[kSize], slot[kSize];       // of the sector's rays
 };
+constexpr double kBorder = 0.01;  // of a step: places are floats of up to 6284 steps, and may fall to either side
 constexpr std::int32_t kDropped = -1, kOfBody = -2;
 
 // Which beam, height and slot a return has.
@@ -130,9 +132,13 @@ class Judge {
     place = place >= steps_ ? place - steps_ : place;
     place = place > zero ? place : zero;
     const FourInts beam = cut_off(place);
-    store_four(place - __builtin_convertvector(beam, FourFloats) - 0.5F, &b->place[k]);
     store_four(beam, &b->beam[k]);
-    store_four(cut_off(smaller_of(place * sectors_per_step_, all_four(sector_last_))), &b->sector[k]);
+    // The far edge of a beam is half a step away: of a kAsides less than that, so that it fits.
+    const FourFloats aside = (place - __builtin_convertvector(beam, FourFloats) - 0.5F) * (1.0F / kAsides);
+    const FourFloats most = all_four(32767.0F);
+    store_four(cut_off(larger_of(smaller_of(aside, most), -most)), &b->aside[k]);
+    const FourInts sector = cut_off(smaller_of(place * sectors_per_step_, all_four(sector_last_)));
+    store_four(sector * static_cast<std::int32_t>(kSlotWords), &b->word[k]);
   }
 
   static void put_slot(FourFloats rise, FourFloats range, std::uint32_t k, Block* b) {
@@ -158,7 +164,7 @@ class Pass {
         beams_(settings.beams),
         range_min_m_(static_cast<float>(settings.range_min_m)),
         range_max_m_(static_cast<float>(settings.range_max_m)),
-        sensor_above_m_(static_cast<float>(sensor_level_m(settings, floor).z() - settings.high_m())),
+        sensor_is_above_(sensor_level_m(settings, floor).z() > settings.high_m()),
         swap_(needs_swap(cloud)),
         plain_(is_plain_xyz32(cloud)),
         out_(*evidence) {}
@@ -200,8 +206,9 @@ class Pass {
 
   void take(std::uint32_t count, Block* b) {
     out_.counts.points_in += count;
-    for (std::uint32_t k = count; k % kFour != 0; ++k) b->x[k] = b->y[k] = b->z[k] = 0.0F;
-    for (std::uint32_t k = 0; k < count; k += kFour) judge_.judge(k, b);
+    for (std::uint32_t k = count; k < Block::kSize && k % kFour != 0; ++k) b->x[k] = b->y[k] = b->z[k] = 0.0F;
+    const Judge judge = judge_;  // a local copy, so that no store can seem to change it
+    for (std::uint32_t k = 0; k < count; k += kFour) judge.judge(k, b);
     for (std::uint32_t k = 0; k < count; ++k) {
       if (b->fate[k] >= 0) {
         put(*b, k);
@@ -213,46 +220,72 @@ class Pass {
 
   void put(const Block& b, std::uint32_t k) {
     const std::int32_t height = b.fate[k];
-    const float range_m = b.range_m[k];
     ++out_.counts.of[height];
-    const auto beam = static_cast<std::uint32_t>(b.beam[k]), sector = static_cast<std::uint32_t>(b.sector[k]);
-    const auto slot = static_cast<std::uint32_t>(b.slot[k]);
-    out_.rays[sector].word[slot / 32] |= 1U << slot % 32;
-    // A ray from above the band that ended above it never came down to what it should have seen.
-    const bool ends = height == kLow || height == kBand || (height > kBand && sensor_above_m_ > 0.0F);
-    if (ends && range_m < out_.sector_end_m[sector]) out_.sector_end_m[sector] = range_m;
+    const auto beam = static_cast<std::uint32_t>(b.beam[k]), slot = static_cast<std::uint32_t>(b.slot[k]);
+    SectorRays* const rays = out_.rays.data() + static_cast<std::uint32_t>(b.word[k]) / kSlotWords;
+    rays->word[slot / 32] |= 1U << slot % 32;
+    if (height > kBand && sensor_is_above_) end_sector(static_cast<std::uint32_t>(b.word[k]) / kSlotWords, b.range_m[k]);
     if (beam >= beams_) {
       ++out_.counts.out_of_scan;
-      return;
+    } else if (height == kBand) {
+      keep(b.range_m[k], beam, b.aside[k]);
+    } else {
+      if (b.free_m[k] > out_.free_m[beam]) out_.free_m[beam] = b.free_m[k];
+      if (height == kLow && b.range_m[k] < out_.low_m[beam]) out_.low_m[beam] = b.range_m[k];
+      if (height == kOverhead && b.range_m[k] < out_.overhead_m[beam]) out_.overhead_m[beam] = b.range_m[k];
     }
-    if (b.free_m[k] > out_.free_m[beam]) out_.free_m[beam] = b.free_m[k];
-    if (height == kFloor || height == kRoof) return;
-    if (!(range_m >= range_min_m_ && range_m <= range_max_m_)) ++out_.counts.out_of_scan;
-    if (height == kBand) return keep(range_m, beam, b.place[k]);
-    float* const nearest_m = height == kLow ? &out_.low_m[beam] : &out_.overhead_m[beam];
-    if (range_m < *nearest_m) *nearest_m = range_m;
   }
 
-  void keep(float range_m, std::uint32_t beam, float aside_steps) {
-    if (range_m > range_max_m_) return;  // its ray passed all of the scan
+  // A ray from above the band that ended above it never came down to what it should have seen.
+  void end_sector(std::uint32_t sector, float range_m) {
+    if (range_m < out_.sector_end_m[sector]) out_.sector_end_m[sector] = range_m;
+  }
+
+  void keep(float range_m, std::uint32_t beam, std::int32_t aside) {
+    if (!(range_m <= range_max_m_)) {  // its ray passed all of the scan
+      ++out_.counts.out_of_scan;
+      out_.free_m[beam] = range_max_m_;
+      return;
+    }
+    if (range_m < range_min_m_) ++out_.counts.out_of_scan;
     if (range_m < out_.nearest_m[beam]) out_.nearest_m[beam] = range_m;
     if (out_.return_count == out_.returns.size()) {
       ++out_.counts.uncounted;
       return;
     }
-    const float aside = aside_steps * (1.0F / kAsides);
-    const float most = 32767.0F;  // the far edge of a beam is half a step away, less than one of these
-    const float inside = aside < most ? (aside > -most ? aside : -most) : most;
-    out_.returns[out_.return_count++] = {range_m, static_cast<std::uint16_t>(beam), static_cast<std::int16_t>(inside)};
+    out_.returns[out_.return_count++] = {range_m, static_cast<std::uint16_t>(beam), static_cast<std::int16_t>(aside)};
   }
 
   const pose_wall_cloud& cloud_;
   Judge judge_;
   std::uint32_t beams_;
-  float range_min_m_, range_max_m_, sensor_above_m_;
+  float range_min_m_, range_max_m_;
+  bool sensor_is_above_;
   bool swap_, plain_;
   Evidence& out_;
 };
+
+// The nearest low thing or thing of each sector. A beam on the border of two counts in both. What lies beside the angles
+// of the scan was not kept, so that sectors that reach there end at the sensor.
+void end_sectors(const ScanSettings& s, Evidence* evidence) {
+  const double per_step = s.sectors / s.steps_of_turn;
+  const Span<float>& end_m = evidence->sector_end_m;
+  const auto shorten = [&](double place, float range_m) {
+    const auto sector = static_cast<std::uint32_t>(place * per_step);
+    float& end = end_m[sector < s.sectors ? sector : s.sectors - 1];
+    if (range_m < end) end = range_m;
+  };
+  for (std::uint32_t beam = 0; beam < s.beams; ++beam) {
+    const float near = evidence->nearest_m[beam], low = evidence->low_m[beam], range_m = near < low ? near : low;
+    if (!(range_m < kNothing_m)) continue;
+    shorten(beam > 0 ? beam - kBorder : 0.0, range_m);
+    shorten(beam + 1.0 + kBorder, range_m);
+  }
+  if (s.goes_round) return;
+  for (std::uint32_t beam = s.beams; beam < s.steps_of_turn; ++beam) shorten(beam, 0.0F);
+  shorten(s.beams, 0.0F);
+  shorten(s.steps_of_turn, 0.0F);
+}
 
 }  // namespace
 
@@ -282,6 +315,7 @@ void gather_evidence(const pose_wall_cloud& cloud, const ScanSettings& settings,
                      Evidence* evidence) {
   evidence->clear();
   Pass(cloud, settings, floor, evidence).run();
+  end_sectors(settings, evidence);
 }
 
 }  // namespace pose_wall::planar
