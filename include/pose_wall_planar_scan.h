@@ -19,10 +19,13 @@
  *
  * HEIGHTS   count from the measured floor, along its normal. The sensor's axes play no part. A return belongs to
  *             the floor      below floor_tolerance_m, which widens with the distance by the floor's uncertain tilt;
- *             low things     above that and below the band: the machine passes over them;
+ *             low things     above that and below the band: the machine passes over them, if they are near;
  *             the band       from h_vb - h_th to h_v_max + h_th: the machine would touch it. Only these are in the scan;
  *             overhead       above the band by less than overhead_m;
  *             the roof       above that.
+ *           Beyond the reach of the measured floor the ground may bend by bend_rad. There the band shrinks by as much at
+ *           both ends, by a third of it at most, and the returns that leave it are low or overhead. So a road that rises
+ *           or falls ahead makes no wall in the scan, and a low thing there is still reported, as low.
  *           The document counts the band from the sensor. Its min_height and max_height, with the measured height of
  *           the sensor (h_l) in them, are in the view.
  * LEVEL     the scan lies in the levelled frame of pose_wall.h: base, turned by roll and pitch. scan.sensor is the place
@@ -52,8 +55,8 @@
  *           hold_max_s of the stamps, its tilt growing by the config's hold_rate_angle. After that every beam is unknown.
  * CONFIG    of pose_wall_config: the extrinsic, range_min, body_box_1 to 4 (and body_box of cloud.inputs), range_noise,
  *           hold_rate_angle. A ray that ends on the machine itself shows nothing.
- * LIMITS    the floor is one plane: where the ground rises by more than the lower edge of the band, it is a thing. The
- *           motion of the machine during the scan is not removed.
+ * LIMITS    the floor is one plane: where the ground rises further than HEIGHTS allows for, it is a thing. The motion of the
+ *           machine during the scan is not removed.
  * COST      one pass over the cloud and one over its returns in the band. src/planar/scan/README.md has figures.
  */
 /* clang-format on */
@@ -78,6 +81,7 @@ typedef struct pose_wall_planar_floor {
   double height_m;      /* of the origin of base above it: -20 to 20 */
   double tilt_sigma_rad; /* standard deviation of roll and pitch, the larger: 0 to 0.5 */
   double tilt_level_rad; /* their protection level, the larger: 0 to infinite */
+  double reach_m;        /* the floor was seen up to this distance from base: 0 to infinite */
 } pose_wall_planar_floor;
 
 /* From an engine's result; measured is 0 where this frame measured no floor. Set floor->struct_size first. Fails iff:
@@ -115,6 +119,7 @@ typedef struct pose_wall_planar_scanner_settings {
   /* the floor */
   double hold_max_s;         /* 0.5; 0 to 10 */
   double tilt_level_max_rad; /* 0.0175; 0.001 to 0.2 */
+  double bend_rad;           /* 0.02; 0 to 0.2 */
 } pose_wall_planar_scanner_settings;
 
 /* Fails iff: NULL. */
@@ -140,12 +145,12 @@ typedef struct pose_wall_planar_scan_view {
   double sensor_height_m;  /* h_l, measured; NaN without a floor. So are the next two */
   double min_height_m;     /* the document's -(h_l - h_vb + h_th), from the sensor */
   double max_height_m;     /* the document's h_v_max - h_l + h_th */
-  double low_reach_m;      /* so far the floor's tilt is known well enough to tell low things from the floor */
+  double low_reach_m;      /* so far the tilt is known well enough to tell things lower than the band from the floor */
   const float* free_m;     /* 0: nothing was seen to pass */
   const float* bias_m;     /* what was added to the range; 0 where nothing was */
   const float* sigma_m;    /* scatter of the returns of this beam's surface: noise and relief; NaN where there is no range */
   const float* low_m;      /* nearest low thing; NaN: none */
-  const float* overhead_m; /* nearest return overhead; NaN: none */
+  const float* overhead_m; /* nearest return overhead, or in the top of the band where that shrinks; NaN: none */
   const float* alone_m;    /* a return alone, nearer than any surface; NaN: none */
   const float* clear_from_m; /* NaN: no guarantee */
   const float* clear_m;

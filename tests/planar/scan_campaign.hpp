@@ -87,7 +87,6 @@ inline Stretch stretch_of(const Thing& thing, double angle_rad) {
 struct Verdict {
   bool told = false;         // as a thing or as a low one
   bool false_clear = false;  // a beam through it is clear there, and it is not told
-  bool in_clear = false;     // a beam on each side of it is clear up to it and it was to be told
 };
 
 inline Verdict judge(const DrawnScene& drawn, const ScannerUnderTest& scanner, double noise_m) {
@@ -103,7 +102,7 @@ inline Verdict judge(const DrawnScene& drawn, const ScannerUnderTest& scanner, d
     for (const double aside : {0.0, -scan.angle_step_rad, scan.angle_step_rad}) {
       const Stretch s = stretch_of(thing, world_rad + aside);
       if (!std::isfinite(s.near_m)) continue;
-      for (const float range : {scan.range_m[beam], view.low_m[beam], view.alone_m[beam]}) {
+      for (const float range : {scan.range_m[beam], view.low_m[beam], view.overhead_m[beam], view.alone_m[beam]}) {
         const auto r = static_cast<double>(range);
         if (r >= s.near_m - slack_m && r <= s.far_m + slack_m) verdict.told = true;
       }
@@ -118,13 +117,13 @@ inline Verdict judge(const DrawnScene& drawn, const ScannerUnderTest& scanner, d
 }
 
 struct CampaignCell {
-  std::uint64_t things = 0, missed = 0, without_rays = 0, all_lost = 0, false_clear = 0;
+  std::uint64_t things = 0, missed = 0, without_rays = 0, all_lost = 0, on_floor = 0, false_clear = 0;
 };
 // By sensor, kind, size (0: below 0.3, 1: below 0.45, 2: more) and range (0: below 3, 1: 5, 2: 7.5, 3: 10).
 using CampaignKey = std::tuple<std::string, int, int, int>;
 struct Campaign {
   std::map<CampaignKey, CampaignCell> cells;
-  std::uint64_t scenes = 0, false_clear = 0, dark_false_clear = 0, missed = 0, told_with_rays = 0;
+  std::uint64_t scenes = 0, false_clear = 0, dark_false_clear = 0, missed = 0;
   std::uint64_t missed_with_returns = 0;
   double clear_far_m = 0.0;  // sum over beams of clear_m, and their number
   std::uint64_t clear_beams = 0, beams = 0;
@@ -154,8 +153,7 @@ class CampaignRunner {
       campaign->dark_false_clear += verdict.false_clear ? 1 : 0;
       return;
     }
-    std::uint64_t returns = 0;
-    for (const std::int32_t on : seen.thing) returns += on >= 0 ? 1 : 0;
+    const Returns returns = returns_of(drawn, seen);
     CampaignCell& cell = campaign->cells[key_of(drawn)];
     ++cell.things;
     if (verdict.false_clear) ++cell.false_clear, ++campaign->false_clear;
@@ -163,8 +161,10 @@ class CampaignRunner {
     ++cell.missed, ++campaign->missed;
     if (seen.rays_on_things == 0) {
       ++cell.without_rays;
-    } else if (returns == 0) {
+    } else if (returns.all == 0) {
       ++cell.all_lost;
+    } else if (returns.between == 0) {
+      ++cell.on_floor;
     } else {
       ++campaign->missed_with_returns;
     }
@@ -178,6 +178,25 @@ class CampaignRunner {
     set(&config, "extrinsic_roll", sensor.mount_roll_rad);
     set(&config, "range_noise", sensor.noise_m);
     return config;
+  }
+  // Of the thing: all that came back, and those of them that are surely neither at the floor nor over the band.
+  struct Returns {
+    std::uint64_t all = 0, between = 0;
+  };
+  Returns returns_of(const DrawnScene& drawn, const SeenScene& seen) const {
+    const Eigen::Matrix3d R = drawn.road.R_world_base() * rotation_zyx(sensor_.mount_roll_rad, 0.0, 0.0);
+    const double slack_m = 5.0 * sensor_.noise_m + 4.0 * kCampaignTilt_rad * kThingFarthest_m;
+    Returns out;
+    for (std::size_t i = 0; i < seen.points.size(); ++i) {
+      if (seen.thing[i] < 0) continue;
+      const auto& p = seen.points[i];
+      const Eigen::Vector3d q(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+      const double z_m = (R * q).z() + drawn.road.height_m;
+      ++out.all;
+      const double top_m = settings_.machine_height_m + settings_.margin_m;
+      if (z_m > settings_.floor_tolerance_m + slack_m && z_m < top_m - slack_m) ++out.between;
+    }
+    return out;
   }
   CampaignKey key_of(const DrawnScene& drawn) const {
     const int size = drawn.size_m < 0.3 ? 0 : drawn.size_m < 0.45 ? 1 : 2;

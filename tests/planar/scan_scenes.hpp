@@ -204,6 +204,7 @@ inline pose_wall_planar_floor floor_of(const RoadScene& scene, double sigma_rad,
   floor.height_m = scene.height_m;
   floor.tilt_sigma_rad = sigma_rad;
   floor.tilt_level_rad = 5.0 * sigma_rad;
+  floor.reach_m = 5.0;
   return floor;
 }
 

@@ -37,6 +37,7 @@ struct Block {
   std::int32_t word[kSize], slot[kSize];       // of the sector's rays
 };
 constexpr double kBorder = 0.01;  // of a step: places are floats of up to 6284 steps, and may fall to either side
+constexpr double kBandParts = 3.0;  // the middle one of the band's parts is there at any range
 constexpr std::int32_t kDropped = -1, kOfBody = -2;
 
 // Which beam, height and slot a return has.
@@ -52,6 +53,9 @@ class Judge {
         low_m_(static_cast<float>(s.low_m())),
         high_m_(static_cast<float>(s.high_m())),
         overhead_m_(static_cast<float>(s.high_m() + s.overhead_m)),
+        reach_m_(static_cast<float>(floor.reach_m)),
+        bend_(static_cast<float>(s.bend_rad)),
+        less_most_m_(static_cast<float>((s.high_m() - s.low_m()) / kBandParts)),
         angle_min_(static_cast<float>(s.angle_min_rad)),
         per_step_(static_cast<float>(1.0 / s.step_rad)),
         steps_(static_cast<float>(s.steps_of_turn)),
@@ -104,11 +108,13 @@ class Judge {
   }
 
   FourInts class_of(FourFloats height, FourFloats range) const {
-    const FourFloats ground = tolerance_m_ + tilt_ * range;
-    const FourFloats band = larger_of(all_four(low_m_), ground);
+    const FourFloats ground = tolerance_m_ + tilt_ * range, beyond = range - reach_m_;
+    const FourFloats bend = bend_ * larger_of(beyond, all_four(0.0F)), less = smaller_of(bend, all_four(less_most_m_));
+    const FourFloats band = larger_of(low_m_ + less, ground);
     const FourInts none = all_four_ints(0);
     // each comparison that holds is one class higher; a truth is -1
-    return none - ((height >= ground) + (height >= band) + (height > high_m_) + (height > overhead_m_));
+    return none - ((height >= ground) + (height >= band) + (height > high_m_ - less) + (height > high_m_) +
+                   (height > overhead_m_));
   }
 
   // So far the ray was inside the band: to its return, or to where it left through the bottom or the top.
@@ -118,8 +124,8 @@ class Judge {
     const FourTruths below = heights < band, above = heights > band;
     const FourFloats edge = below ? all_four(low_m_ - sensor_m_) : all_four(high_m_ - sensor_m_);
     const FourTruths was_inside = below ? (edge < zero) & (rise < edge) : (edge > zero) & (rise > edge);
-    // Raised by its tilt, the lower edge may be above low_m_: a return between the two was inside to its own range.
-    const FourTruths at_end = below & (height >= low_m_);
+    // Where the band shrinks, a return beside it was inside the whole band to its own range.
+    const FourTruths at_end = (below & (height >= low_m_)) | (above & (height <= high_m_));
     const FourFloats part = was_inside ? edge / rise : zero;
     return (below | above) & ~at_end ? part * range : range;
   }
@@ -150,7 +156,7 @@ class Judge {
   }
 
   FourTurns to_base_, to_level_;
-  float sensor_m_, near2_, tilt_, tolerance_m_, low_m_, high_m_, overhead_m_;
+  float sensor_m_, near2_, tilt_, tolerance_m_, low_m_, high_m_, overhead_m_, reach_m_, bend_, less_most_m_;
   float angle_min_, per_step_, steps_, sectors_per_step_, sector_last_;
   float body_[kBodyBoxes][6] = {};
   std::uint32_t boxes_ = 0;
@@ -224,15 +230,16 @@ class Pass {
     const auto beam = static_cast<std::uint32_t>(b.beam[k]), slot = static_cast<std::uint32_t>(b.slot[k]);
     SectorRays* const rays = out_.rays.data() + static_cast<std::uint32_t>(b.word[k]) / kSlotWords;
     rays->word[slot / 32] |= 1U << slot % 32;
-    if (height > kBand && sensor_is_above_) end_sector(static_cast<std::uint32_t>(b.word[k]) / kSlotWords, b.range_m[k]);
+    if (height == kHigh || (height > kBand && sensor_is_above_)) end_sector(static_cast<std::uint32_t>(b.word[k]) / kSlotWords, b.range_m[k]);
     if (beam >= beams_) {
       ++out_.counts.out_of_scan;
     } else if (height == kBand) {
       keep(b.range_m[k], beam, b.aside[k]);
     } else {
-      if (b.free_m[k] > out_.free_m[beam]) out_.free_m[beam] = b.free_m[k];
+      float& free_m = out_.free_m[beam];
+      free_m = b.free_m[k] > free_m ? b.free_m[k] : free_m;  // a store costs less than a branch that follows the rock
       if (height == kLow && b.range_m[k] < out_.low_m[beam]) out_.low_m[beam] = b.range_m[k];
-      if (height == kOverhead && b.range_m[k] < out_.overhead_m[beam]) out_.overhead_m[beam] = b.range_m[k];
+      if ((height == kHigh || height == kOverhead) && b.range_m[k] < out_.overhead_m[beam]) out_.overhead_m[beam] = b.range_m[k];
     }
   }
 
@@ -248,7 +255,8 @@ class Pass {
       return;
     }
     if (range_m < range_min_m_) ++out_.counts.out_of_scan;
-    if (range_m < out_.nearest_m[beam]) out_.nearest_m[beam] = range_m;
+    float& nearest_m = out_.nearest_m[beam];
+    nearest_m = range_m < nearest_m ? range_m : nearest_m;
     if (out_.return_count == out_.returns.size()) {
       ++out_.counts.uncounted;
       return;

@@ -37,7 +37,8 @@ struct BandReturn {
 };
 constexpr float kAsides = 1.0F / 65536.0F;
 
-enum HeightClass : std::int32_t { kFloor, kLow, kBand, kOverhead, kRoof, kHeightClasses };
+// kHigh: in the top of the band, where the roof may be instead.
+enum HeightClass : std::int32_t { kFloor, kLow, kBand, kHigh, kOverhead, kRoof, kHeightClasses };
 
 struct PassCounts {
   std::uint32_t points_in = 0, dropped = 0, of_body = 0, out_of_scan = 0, uncounted = 0;
@@ -62,6 +63,7 @@ struct FloorPose {
   Eigen::Matrix3d R_level_base = Eigen::Matrix3d::Identity();
   double base_height_m = 0.0;
   double tilt_rad = 0.0;  // the heights of far returns are uncertain by this times their range
+  double reach_m = 0.0;   // beyond this range the ground may bend
 };
 
 void gather_evidence(const pose_wall_cloud& cloud, const ScanSettings& settings, const FloorPose& floor,

@@ -59,6 +59,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_floor_of(const pose_wall_result* resul
     found.height_m = whole.floor.d_m;
     found.tilt_sigma_rad = larger(roll.sigma, pitch.sigma);
     found.tilt_level_rad = larger(roll.raw_protection_level, pitch.raw_protection_level);
+    found.reach_m = whole.floor.extent_max_m;
     found.measured = pose_wall::planar::check_floor(found) == POSE_WALL_OK ? 1 : 0;
   }
   pose_wall::write_struct(found, floor->struct_size, floor);

@@ -56,6 +56,7 @@ pose_wall_planar_scanner_settings default_scan_settings() {
   s.fill_rad = 0.0065;
   s.hold_max_s = 0.5;
   s.tilt_level_max_rad = 0.0175;
+  s.bend_rad = 0.02;
   return s;
 }
 
@@ -91,6 +92,7 @@ std::int32_t check_scan_settings(const pose_wall_planar_scanner_settings* settin
       {s.fill_rad, 0.0, 0.05, "fill_rad", "fill_rad must be from 0 to 0.05"},
       {s.hold_max_s, 0.0, 10.0, "hold_max_s", "hold_max_s must be from 0 to 10"},
       {s.tilt_level_max_rad, 0.001, 0.2, "tilt_level_max_rad", "tilt_level_max_rad must be from 0.001 to 0.2"},
+      {s.bend_rad, 0.0, 0.2, "bend_rad", "bend_rad must be from 0 to 0.2"},
   };
   for (const auto& row : rows) {
     if (row.value >= row.least && row.value <= row.most) continue;
@@ -129,6 +131,7 @@ ScanSettings scan_settings_of(const pose_wall_planar_scanner_settings& s) {
   out.reach_m = reach_m < s.clear_reach_m ? reach_m : s.clear_reach_m;
   out.hold_max_s = s.hold_max_s;
   out.tilt_level_max_rad = s.tilt_level_max_rad;
+  out.bend_rad = s.bend_rad;
   return out;
 }
 

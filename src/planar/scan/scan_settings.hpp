@@ -37,7 +37,7 @@ struct ScanSettings {
   Box body[4] = {};
 
   // the floor
-  double hold_max_s = 0.0, hold_rate_rad_s = 0.0, tilt_level_max_rad = 0.0;
+  double hold_max_s = 0.0, hold_rate_rad_s = 0.0, tilt_level_max_rad = 0.0, bend_rad = 0.0;
 };
 
 // POSE_WALL_OK, POSE_WALL_E_NULL, the codes of a struct_size or POSE_WALL_E_VALUE_RANGE.

@@ -12,6 +12,7 @@
 namespace pose_wall::planar {
 namespace {
 
+constexpr double kEndless_m = 1e6;   // longer than any range, and a float
 constexpr double kTiltSigmas = 3.0;  // the floor's tilt is within so many of its standard deviations
 
 bool is_within(double value, double least, double most) {
@@ -26,7 +27,7 @@ std::int32_t check_floor(const pose_wall_planar_floor& floor) {
   const double length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
   const bool fits = is_within(length2, 1.0 - 2.0 * kUnit, 1.0 + 2.0 * kUnit) && is_within(n[2], kLeastUp, 1.0 + kUnit) &&
                     is_within(floor.height_m, -kHighest_m, kHighest_m) &&
-                    is_within(floor.tilt_sigma_rad, 0.0, kTiltMost_rad) && floor.tilt_level_rad >= 0.0;
+                    is_within(floor.tilt_sigma_rad, 0.0, kTiltMost_rad) && floor.tilt_level_rad >= 0.0 && floor.reach_m >= 0.0;
   return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_POSE};
 }
 
@@ -67,6 +68,7 @@ std::uint32_t Scanner::take_floor(const pose_wall_planar_floor* floor, std::int6
     const Eigen::Vector3d up(floor->normal[0], floor->normal[1], floor->normal[2]);
     floor_.R_level_base = level_rotation(up);
     floor_.base_height_m = floor->height_m;
+    floor_.reach_m = floor->reach_m < kEndless_m ? floor->reach_m : kEndless_m;
     tilt_measured_rad_ = floor_.tilt_rad = kTiltSigmas * floor->tilt_sigma_rad;
     floor_stamp_ns_ = stamp_ns;
     has_floor_ = true;
@@ -185,7 +187,7 @@ void Scanner::describe(std::uint32_t floor_state, std::int64_t stamp_ns, pose_wa
   view->of_floor = counts.of[kFloor];
   view->of_low = counts.of[kLow];
   view->of_band = counts.of[kBand];
-  view->of_overhead = counts.of[kOverhead];
+  view->of_overhead = counts.of[kHigh] + counts.of[kOverhead];
   view->of_roof = counts.of[kRoof];
   view->out_of_scan = counts.out_of_scan;
   view->uncounted = counts.uncounted;
