@@ -34,7 +34,7 @@ constexpr double kThingLeast_m = 0.2, kThingFarthest_m = 10.0;
 inline DrawnScene draw_scene(Draw* draw, const pose_wall_planar_scanner_settings& settings) {
   DrawnScene out;
   RoadScene& road = out.road;
-  road.height_m = draw->between(1.0, 1.9);
+  road.height_m = draw->between(0.6, 2.3);  // also from above the band
   road.left_m = draw->between(1.5, 4.0);
   road.right_m = draw->between(1.5, 4.0);
   road.roof_m = draw->between(2.6, 4.5);

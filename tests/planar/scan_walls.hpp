@@ -49,7 +49,8 @@ inline void measure_walls(const RingSensor& sensor, double rough_m, std::uint64_
   set(&config, "range_noise", sensor.noise_m);
   const pose_wall_planar_scanner_settings settings = scan_settings();
   ScannerUnderTest scanner(config, settings);
-  const pose_wall_planar_floor floor = floor_of(road, 1e-5, &draw);
+  pose_wall_planar_floor floor = floor_of(road, 1e-5, &draw);
+  floor.reach_m = 100.0;  // the whole band at all ranges
   scanner.process(cloud_of(seen.points, 0), &floor);
   const Eigen::Matrix3d R_base_lidar = rotation_zyx(sensor.mount_roll_rad, 0.0, 0.0);
   const Eigen::Matrix3d R = rotation_zyx(road.roll_rad, road.pitch_rad, 0.0) * R_base_lidar;

@@ -22,6 +22,17 @@ inline pose_wall_planar_scanner_settings scan_settings() {
   return settings;
 }
 
+// The sensor at the origin of base, this high above a level floor of certain tilt that is plane far enough.
+inline pose_wall_planar_floor level_floor(double height_m = 1.5) {
+  pose_wall_planar_floor floor{};
+  floor.struct_size = sizeof(floor);
+  floor.measured = 1;
+  floor.normal[2] = 1.0;
+  floor.height_m = height_m;
+  floor.reach_m = 100.0;
+  return floor;
+}
+
 inline std::uint64_t bytes_of(const pose_wall_planar_scanner_settings& settings) {
   std::uint64_t bytes = 0;
   expect_ok(pose_wall_planar_scanner_memory_needed(&settings, &bytes));

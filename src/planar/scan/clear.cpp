@@ -19,20 +19,20 @@ class Gaps {
  public:
   explicit Gaps(const ClearScene& scene) : s_(scene) {}
 
-  // Between the rays of two neighbouring tangents.
-  void between(double a, double b) {
+  // Between the rays of two neighbouring tangents. False where nothing hides.
+  bool between(double a, double b) {
     const double gap = b - a, room_m = s_.sensor_m - s_.thing_m;  // above the thing
     const double overhead_m = s_.high_m - s_.sensor_m - s_.thing_m;
     double to_m = kEndless_m;
     if (b < -s_.tilt_rad) {  // downwards
-      if (s_.thing_m * (-b - s_.tilt_rad) >= gap * room_m && !(grounded_m(a) * (-b - s_.tilt_rad) < room_m)) return;
+      if (s_.thing_m * (-b - s_.tilt_rad) >= gap * room_m && !(grounded_m(a) * (-b - s_.tilt_rad) < room_m)) return false;
       to_m = room_m / (-b - s_.tilt_rad);
     } else if (a > 0.0) {  // upwards
-      if (s_.thing_m * a >= gap * overhead_m) return;
+      if (s_.thing_m * a >= gap * overhead_m) return false;
       to_m = overhead_m / a;
     }
     const double wide_m = s_.thing_m / gap, grounded = a < 0.0 ? grounded_m(a) : kEndless_m;
-    add({wide_m < grounded ? wide_m : grounded, to_m});
+    return add({wide_m < grounded ? wide_m : grounded, to_m});
   }
 
   // Below the lowest ray.
@@ -52,8 +52,6 @@ class Gaps {
       add({overhead_m / a, kEndless_m});
     }
   }
-
-  bool hides_anything() const { return count_ > 0; }
 
   ClearRange clear() const {
     if (count_ > kHidingMost) return {0.0F, 0.0F};
@@ -81,10 +79,11 @@ class Gaps {
     return above_m > 0.0 ? above_m / (s_.tilt_rad - a) : 0.0;
   }
 
-  void add(const Hiding& hiding) {
-    if (!(hiding.from_m < hiding.to_m) || hiding.from_m > s_.reach_m) return;
+  bool add(const Hiding& hiding) {
+    if (!(hiding.from_m < hiding.to_m) || hiding.from_m > s_.reach_m) return false;
     if (count_ < kHidingMost) hiding_[count_] = hiding;
     ++count_;
+    return true;
   }
 
   const ClearScene& s_;
@@ -106,29 +105,11 @@ SlotEdges::SlotEdges() {
   }
 }
 
-CloseSlots::CloseSlots(const ClearScene& scene, const SlotEdges& edges) {
-  const auto hides = [&](std::uint32_t lower, std::uint32_t upper) {
-    Gaps gaps(scene);
-    gaps.between(edges.tangent[lower], edges.tangent[upper + 1]);
-    return gaps.hides_anything();
-  };
-  for (std::uint32_t upper = 0; upper < kSlots; ++upper) {
-    // By halves: the lower the ray below, the wider is the gap.
-    std::uint32_t hidden = 0, close = upper;  // all below `hidden` hide, those from `close` on do not
-    while (hidden < close) {
-      const std::uint32_t middle = (hidden + close) / 2;
-      if (hides(middle, upper)) {
-        hidden = middle + 1;
-      } else {
-        close = middle;
-      }
-    }
-    from[upper] = static_cast<std::uint16_t>(close);
-  }
+CloseSlots::CloseSlots() {
+  for (std::uint32_t slot = 0; slot < kSlots; ++slot) from[slot] = static_cast<std::uint16_t>(slot);
 }
 
-ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const SlotEdges& edges,
-                       const CloseSlots& close) {
+ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const SlotEdges& edges, CloseSlots* close) {
   Gaps gaps(scene);
   bool any = false;
   std::uint32_t last = 0;
@@ -136,8 +117,8 @@ ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const Sl
     for (std::uint32_t word = rays.word[w]; word != 0; word &= word - 1) {
       const std::uint32_t slot = 32 * w + static_cast<std::uint32_t>(__builtin_ctz(word));
       // Of a slot's rays the one that leaves the wider gap.
-      if (any && last < close.from[slot]) {
-        gaps.between(edges.tangent[last], edges.tangent[slot + 1]);
+      if (any && last < close->from[slot]) {
+        if (!gaps.between(edges.tangent[last], edges.tangent[slot + 1])) close->from[slot] = static_cast<std::uint16_t>(last);
       } else if (!any) {
         gaps.below(edges.tangent[slot + 1]);
       }
@@ -153,9 +134,9 @@ ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const Sl
 void find_clear(const Evidence& evidence, const ClearScene& scene, const SlotEdges& edges, Span<ClearRange> alone,
                 Span<ClearRange> clear) {
   const std::uint32_t sectors = evidence.rays.size();
-  const CloseSlots close(scene, edges);
+  CloseSlots close;
   for (std::uint32_t i = 0; i < sectors; ++i) {
-    alone[i] = clear_range(evidence.rays[i], scene, edges, close);
+    alone[i] = clear_range(evidence.rays[i], scene, edges, &close);
     if (evidence.sector_end_m[i] < alone[i].to_m) alone[i].to_m = evidence.sector_end_m[i];
   }
   for (std::uint32_t i = 0; i < sectors; ++i) {

@@ -34,15 +34,15 @@ struct SlotEdges {
   double tangent[kSlots + 1];
 };
 
-// For each slot the lowest one below it between which and it nothing hides: most neighbours lie closer, and need no more.
+// Remembers, for each slot, how low the slot below it may be so that nothing hides between them: the rays of all sectors
+// have much the same slots, and the lower the ray below, the more hides.
 struct CloseSlots {
-  CloseSlots(const ClearScene& scene, const SlotEdges& edges);
-  std::uint16_t from[kSlots];
+  CloseSlots();
+  std::uint16_t from[kSlots];  // the lowest that was tried
 };
 
 // Of one sector, without its returns.
-ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const SlotEdges& edges,
-                       const CloseSlots& close);
+ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const SlotEdges& edges, CloseSlots* close);
 
 // Of all sectors, up to their returns; a direction is as clear as the least of its sector and the two beside it, since
 // a thing may cover it in part.

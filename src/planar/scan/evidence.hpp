@@ -20,8 +20,8 @@ constexpr float kNothing_m = 1e9F;  // the range of what was not seen: beyond an
 
 // The slots of elevation. They are finer near the horizon, since heights at a range go with its inverse: the slot of a
 // tangent t is (t / (|t| + kSlotBend) + 1) kSlots / 2.
-constexpr std::uint32_t kSlots = 256;
-constexpr double kSlotBend = 0.25;  // a slot is 0.002 at the horizon, 0.014 at 22 degrees
+constexpr std::uint32_t kSlots = 512;
+constexpr double kSlotBend = 0.25;  // a slot is 0.001 at the horizon, 0.007 at 22 degrees
 constexpr std::uint32_t kSlotWords = kSlots / 32;
 
 // Which elevations had a return, in one sector.
