@@ -117,7 +117,7 @@ inline Verdict judge(const DrawnScene& drawn, const ScannerUnderTest& scanner, d
 }
 
 struct CampaignCell {
-  std::uint64_t things = 0, missed = 0, without_rays = 0, all_lost = 0, on_floor = 0, false_clear = 0;
+  std::uint64_t things = 0, missed = 0, without_rays = 0, all_lost = 0, on_floor = 0, false_clear = 0, promised = 0;
 };
 // By sensor, kind, size (0: below 0.3, 1: below 0.45, 2: more) and range (0: below 3, 1: 5, 2: 7.5, 3: 10).
 using CampaignKey = std::tuple<std::string, int, int, int>;
@@ -125,6 +125,7 @@ struct Campaign {
   std::map<CampaignKey, CampaignCell> cells;
   std::uint64_t scenes = 0, false_clear = 0, dark_false_clear = 0, missed = 0;
   std::uint64_t missed_with_returns = 0;
+  std::uint64_t promised = 0, promise_broken = 0;  // clear without the thing, no return lost: it has to be told
   double clear_far_m = 0.0;  // sum over beams of clear_m, and their number
   std::uint64_t clear_beams = 0, beams = 0;
 };
@@ -143,8 +144,10 @@ class CampaignRunner {
     DrawnScene drawn = draw_scene(&draw, settings_);
     drawn.road.noise_m = sensor_.noise_m;
     drawn.road.things_are_dark = seed % 8 == 7;  // nothing comes back from it: it can only not be clear
-    const SeenScene seen = see(drawn.road, sensor_, rays_[seed % rays_.size()], seed);
+    const std::vector<Eigen::Vector3f>& rays = rays_[seed % rays_.size()];
     const pose_wall_planar_floor floor = floor_of(drawn.road, kCampaignTilt_rad, &draw);
+    const bool promised = drawn.road.lost == 0.0 && !drawn.road.things_are_dark && is_promised(drawn, rays, floor);
+    const SeenScene seen = see(drawn.road, sensor_, rays, seed);
     scanner_.process(cloud_of(seen.points, static_cast<std::int64_t>(seed)), &floor);
     const Verdict verdict = judge(drawn, scanner_, sensor_.noise_m);
     note_clear(campaign);
@@ -156,6 +159,8 @@ class CampaignRunner {
     const Returns returns = returns_of(drawn, seen);
     CampaignCell& cell = campaign->cells[key_of(drawn)];
     ++cell.things;
+    if (promised) ++cell.promised, ++campaign->promised;
+    if (promised && !verdict.told) ++campaign->promise_broken;
     if (verdict.false_clear) ++cell.false_clear, ++campaign->false_clear;
     if (verdict.told) return;
     ++cell.missed, ++campaign->missed;
@@ -179,6 +184,24 @@ class CampaignRunner {
     set(&config, "range_noise", sensor.noise_m);
     return config;
   }
+  // Whether the same road without the thing is clear all over its place, so that the thing has to be told.
+  bool is_promised(DrawnScene drawn, const std::vector<Eigen::Vector3f>& rays, const pose_wall_planar_floor& floor) {
+    const Thing thing = drawn.road.things[0];
+    drawn.road.things.clear();
+    scanner_.process(cloud_of(see(drawn.road, sensor_, rays, 1).points, 0), &floor);
+    std::uint32_t beams = 0;
+    for (std::uint32_t beam = 0; beam < scanner_.scan().beams; ++beam) {
+      const Stretch s = stretch_of(thing, scanner_.angle_of(beam) + drawn.road.yaw_rad);
+      if (!std::isfinite(s.near_m)) continue;
+      ++beams;
+      const pose_wall_planar_scan_view& view = scanner_.view();
+      const bool clear = static_cast<double>(view.clear_from_m[beam]) < s.near_m - 0.05 &&
+                         static_cast<double>(view.clear_m[beam]) > s.far_m + 0.05;
+      if (!clear) return false;
+    }
+    return beams > 0;
+  }
+
   // Of the thing: all that came back, and those of them that are surely neither at the floor nor over the band.
   struct Returns {
     std::uint64_t all = 0, between = 0;

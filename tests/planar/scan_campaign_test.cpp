@@ -18,6 +18,7 @@ TEST(ScanCampaign, NoThingIsMissedThatARayMetAndNoneIsWhereItIsClear) {
     EXPECT_EQ(campaign.missed_with_returns, 0U) << sensor.name;
     EXPECT_EQ(campaign.false_clear, 0U) << sensor.name;
     EXPECT_EQ(campaign.dark_false_clear, 0U) << sensor.name;
+    EXPECT_EQ(campaign.promise_broken, 0U) << sensor.name;
     EXPECT_LT(campaign.missed, campaign.scenes / 3) << sensor.name;
   }
 }
