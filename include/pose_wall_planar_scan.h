@@ -20,16 +20,16 @@
  * HEIGHTS   count from the measured floor, along its normal. The sensor's axes play no part. A return belongs to
  *             the floor      below floor_tolerance_m, which widens with the distance by the floor's uncertain tilt;
  *             low things     above that and below the band: the machine passes over them, if they are near;
- *             the band       from h_vb - h_th to h_v_max + h_th: the machine would touch it. Only these are in the scan;
+ *             the band       from h_vb - h_th to h_v_max + h_th: the machine would touch it. Only these are in a scan;
  *             overhead       above the band by less than overhead_m;
  *             the roof       above that.
- *           Beyond the reach of the measured floor the ground may bend by bend_rad. There the band shrinks by as much at
- *           both ends, by a third of it at most, and the returns that leave it are low or overhead. So a road that rises
- *           or falls ahead makes no wall in the scan, and a low thing there is still reported, as low.
- *           The document counts the band from the sensor. Its min_height and max_height, with the measured height of
- *           the sensor (h_l) in them, are in the view.
- * LEVEL     the scan lies in the levelled frame of pose_wall.h: base, turned by roll and pitch. scan.sensor is the place
- *           of the sensor in it; angles count from +X of base. Ranges are horizontal.
+ *           Beyond the reach of the measured floor the ground may bend by bend_rad. There the band shrinks by as much
+ *           at both ends, by a third of it at most, and the returns that leave it are low or overhead. So a road that
+ *           rises or falls ahead makes no wall in the scan, and a low thing there is still reported, as low. The
+ *           document counts the band from the sensor. Its min_height and max_height, with the measured height of the
+ *           sensor (h_l) in them, are in the view.
+ * LEVEL     the scan lies in the levelled frame of pose_wall.h: base, turned by roll and pitch. scan.sensor is the
+ *           place of the sensor in it; angles count from +X of base. Ranges are horizontal.
  * RANGE     A beam takes the k-th smallest range of the returns in its nearest surface: k is 1, 2, 3 and 4 from 1, 4, 8
  *           and 16 returns on. On average noise makes it too short (the smallest of 16 by 1.77 standard deviations).
  *           That is computed for each beam from k, the number of returns and the share of noise in their scatter, added
@@ -48,15 +48,16 @@
  *           return leaves a gap between the rays. It ends where two rays above each other are too far apart: 0.2 m over
  *           the step of the rings. It needs a floor that is plane within floor_tolerance_m, and it begins where the
  *           lowest ray comes below thing_m.
- * ALONE     a nearer return that has no other within 0.2 m, in its beam or the next ones, may be dust or a thin thing. It
- *           counts as a thing, or (POSE_WALL_PLANAR_ALONE_IS_APART) the scan shows the surface behind it. alone_m has
- *           it either way. Nothing is dropped.
- * FLOOR     the frame's floor counts if its level of tilt is within tilt_level_max_rad. Otherwise the last one is held for
- *           hold_max_s of the stamps, its tilt growing by the config's hold_rate_angle. After that every beam is unknown.
+ * ALONE     a nearer return that has no other within 0.2 m, in its beam or the next ones, may be dust or a thin thing.
+ *           It counts as a thing, or (POSE_WALL_PLANAR_ALONE_IS_APART) the scan shows the surface behind it. alone_m
+ *           has it either way. Nothing is dropped.
+ * FLOOR     the frame's floor counts if its level of tilt is within tilt_level_max_rad. Otherwise the last one is held
+ *           for hold_max_s of the stamps, its tilt growing by the config's hold_rate_angle. After that every beam is
+ *           unknown.
  * CONFIG    of pose_wall_config: the extrinsic, range_min, body_box_1 to 4 (and body_box of cloud.inputs), range_noise,
  *           hold_rate_angle. A ray that ends on the machine itself shows nothing.
- * LIMITS    the floor is one plane: where the ground rises further than HEIGHTS allows for, it is a thing. The motion of the
- *           machine during the scan is not removed.
+ * LIMITS    the floor is one plane: where the ground rises further than HEIGHTS allows for, it is a thing. The motion
+ *           of the machine during the scan is not removed.
  * COST      one pass over the cloud and one over its returns in the band. src/planar/scan/README.md has figures.
  */
 /* clang-format on */
@@ -75,10 +76,10 @@ extern "C" {
 
 /* The floor under base, as planar scan and others need it. */
 typedef struct pose_wall_planar_floor {
-  uint32_t struct_size; /* sizeof(pose_wall_planar_floor) */
-  uint32_t measured;    /* 1: in this frame. 0: the other members are not read */
-  double normal[3];     /* in base, unit within 0.001, pointing up, at most 60 degrees from +Z */
-  double height_m;      /* of the origin of base above it: -20 to 20 */
+  uint32_t struct_size;  /* sizeof(pose_wall_planar_floor) */
+  uint32_t measured;     /* 1: in this frame. 0: the other members are not read */
+  double normal[3];      /* in base, unit within 0.001, pointing up, at most 60 degrees from +Z */
+  double height_m;       /* of the origin of base above it: -20 to 20 */
   double tilt_sigma_rad; /* standard deviation of roll and pitch, the larger: 0 to 0.5 */
   double tilt_level_rad; /* their protection level, the larger: 0 to infinite */
   double reach_m;        /* the floor was seen up to this distance from base: 0 to infinite */
@@ -106,7 +107,7 @@ typedef struct pose_wall_planar_scanner_settings {
   double floor_tolerance_m; /* returns lower than this are the floor; 0.06; 0.01 to the band's lower edge */
   double overhead_m;        /* reported as overhead; 0.3; 0 to 10 */
   double thing_m;           /* the smallest thing of the guarantee; 0.2; above floor_tolerance_m, to 2 */
-  double clear_reach_m;     /* the guarantee goes no further, which a sector of thing_m / 2 this wide costs; 10; 1 to 50 */
+  double clear_reach_m; /* the guarantee goes no further, which a sector of thing_m / 2 this wide costs; 10; 1 to 50 */
 
   /* the scan, as in pointcloud_to_laserscan */
   double angle_min_rad;  /* -pi; -pi to pi */
@@ -139,19 +140,20 @@ enum pose_wall_planar_floor_state {
 
 /* Beside the scan. The arrays have scan.beams members, lie in the block and are valid until the next call. */
 typedef struct pose_wall_planar_scan_view {
-  uint32_t struct_size;    /* set by the caller to sizeof(pose_wall_planar_scan_view) */
-  uint32_t floor_state;    /* pose_wall_planar_floor_state */
-  double floor_age_s;      /* 0 if measured, NaN if none */
-  double sensor_height_m;  /* h_l, measured; NaN without a floor. So are the next two */
-  double min_height_m;     /* the document's -(h_l - h_vb + h_th), from the sensor */
-  double max_height_m;     /* the document's h_v_max - h_l + h_th */
-  double low_reach_m;      /* so far the tilt is known well enough to tell things lower than the band from the floor */
-  const float* free_m;     /* 0: nothing was seen to pass */
-  const float* bias_m;     /* what was added to the range; 0 where nothing was */
-  const float* sigma_m;    /* scatter of the returns of this beam's surface: noise and relief; NaN where there is no range */
-  const float* low_m;      /* nearest low thing; NaN: none */
-  const float* overhead_m; /* nearest return overhead, or in the top of the band where that shrinks; NaN: none */
-  const float* alone_m;    /* a return alone, nearer than any surface; NaN: none */
+  uint32_t struct_size;   /* set by the caller to sizeof(pose_wall_planar_scan_view) */
+  uint32_t floor_state;   /* pose_wall_planar_floor_state */
+  double floor_age_s;     /* 0 if measured, NaN if none */
+  double sensor_height_m; /* h_l, measured; NaN without a floor. So are the next two */
+  double min_height_m;    /* the document's -(h_l - h_vb + h_th), from the sensor */
+  double max_height_m;    /* the document's h_v_max - h_l + h_th */
+  double low_reach_m;     /* so far the tilt is known well enough to tell things lower than the band from the floor */
+  const float* free_m;    /* 0: nothing was seen to pass */
+  const float* bias_m;    /* what was added to the range; 0 where nothing was */
+  const float*
+      sigma_m;        /* scatter of the returns of this beam's surface: noise and relief; NaN where there is no range */
+  const float* low_m; /* nearest low thing; NaN: none */
+  const float* overhead_m;   /* nearest return overhead, or in the top of the band where that shrinks; NaN: none */
+  const float* alone_m;      /* a return alone, nearer than any surface; NaN: none */
   const float* clear_from_m; /* NaN: no guarantee */
   const float* clear_m;
   const uint16_t* returns; /* of the beam's nearest surface; 0: no range, or one from the neighbours */
@@ -210,8 +212,8 @@ int32_t pose_wall_planar_laserscan_of(const pose_wall_planar_scan* scan, pose_wa
 
 /* A scan for this message of a sensor that stands at `sensor` in base. sigma_m: of a range. Drivers fill in infinity
  * both for "nothing up to range_max" and for "no return", which on black rock is another thing. Where
- * infinite_is_open is 0, infinity counts as unknown: ranges_m, with room for count floats, then takes the ranges (it may
- * be NULL where infinite_is_open is 1). Fails iff: NULL, a message that is no scan (POSE_WALL_E_SCAN). */
+ * infinite_is_open is 0, infinity counts as unknown: ranges_m, with room for count floats, then takes the ranges (it
+ * may be NULL where infinite_is_open is 1). Fails iff: NULL, a message that is no scan (POSE_WALL_E_SCAN). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scan_of_laserscan(const pose_wall_planar_laserscan* message,
                                                              const pose_wall_planar_pose* sensor, double sigma_m,
                                                              int64_t stamp_ns, uint32_t infinite_is_open,

@@ -33,7 +33,7 @@ std::int32_t check_scan(const pose_wall_planar_scan* scan) {
   const std::int32_t status = check_struct_size(scan->struct_size, kScanSizes);
   if (status != POSE_WALL_OK) return status;
   if (scan->range_m == nullptr) return POSE_WALL_E_NULL;
-  constexpr double kTurn_rad = 2.0 * kPi, kRangeMost_m = 1000.0;
+  constexpr double kTurn_rad = 2.0 * kPi, kRangeMost_m = 1000.0;  // the header's limits
   const double step_rad = scan->angle_step_rad < 0.0 ? -scan->angle_step_rad : scan->angle_step_rad;
   const bool fits = scan->beams >= 1 && scan->beams <= POSE_WALL_PLANAR_BEAMS_MAX && is_pose(scan->sensor) &&
                     is_within(scan->angle_min_rad, -kTurn_rad, kTurn_rad) && step_rad > 0.0 &&

@@ -126,7 +126,7 @@ struct Campaign {
   std::uint64_t scenes = 0, false_clear = 0, dark_false_clear = 0, missed = 0;
   std::uint64_t missed_with_returns = 0;
   std::uint64_t promised = 0, promise_broken = 0;  // clear without the thing, no return lost: it has to be told
-  double clear_far_m = 0.0;  // sum over beams of clear_m, and their number
+  double clear_far_m = 0.0;                        // sum over beams of clear_m, and their number
   std::uint64_t clear_beams = 0, beams = 0;
 };
 

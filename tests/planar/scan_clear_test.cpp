@@ -102,7 +102,7 @@ TEST(ScanClear, WithoutRaysAllAroundThereIsNone) {
   const auto has = [](const ClearRange& clear) { return clear.from_m < clear.to_m; };
   EXPECT_FALSE(has(clear_of({}, scene_of(1.5))));
   EXPECT_FALSE(has(clear_of({0.0}, scene_of(1.5))));
-  EXPECT_FALSE(has(clear_of(even(0.0, 0.4, 0.005), scene_of(1.5))));   // nothing looks down
+  EXPECT_FALSE(has(clear_of(even(0.0, 0.4, 0.005), scene_of(1.5))));    // nothing looks down
   EXPECT_FALSE(has(clear_of(even(-0.4, -0.1, 0.005), scene_of(1.2))));  // nothing looks up
 }
 
@@ -141,8 +141,9 @@ TEST(ScanClear, NothingFitsBetweenRaysThatAreClear) {
     if (!(clear.from_m < clear.to_m)) continue;
     ++clear_cases;
     for (int i = 0; i <= 10; ++i, ++points) {
-      const double range_m = static_cast<double>(clear.from_m) +
-                             (static_cast<double>(clear.to_m) - static_cast<double>(clear.from_m)) * (0.001 + 0.0998 * i);
+      const double range_m =
+          static_cast<double>(clear.from_m) +
+          (static_cast<double>(clear.to_m) - static_cast<double>(clear.from_m)) * (0.001 + 0.0998 * i);
       ASSERT_FALSE(hides(tangents, scene, range_m)) << trial << " at " << range_m << " of " << clear.from_m << " to "
                                                     << clear.to_m << ", sensor " << scene.sensor_m;
     }

@@ -76,7 +76,8 @@ TEST(ScanEvidence, ARayProvesWhatItPassed) {
   EXPECT_NEAR(scanned.free_at(0.0), 9.0, 1e-3);
   EXPECT_NEAR(scanned.free_at(kPi / 2), 10.0 * 0.4 / 1.5, 1e-3);
   EXPECT_EQ(scanned.free_at(kPi), 0.0F);
-  for (std::uint32_t b = 0; b < scanned.scanner.scan().beams; ++b) EXPECT_TRUE(std::isnan(scanned.scanner.scan().range_m[b]));
+  for (std::uint32_t b = 0; b < scanned.scanner.scan().beams; ++b)
+    EXPECT_TRUE(std::isnan(scanned.scanner.scan().range_m[b]));
 }
 
 TEST(ScanEvidence, OpenIsOnlyWhatWasSeenToItsEnd) {
@@ -115,8 +116,8 @@ TEST(ScanEvidence, TheMachineItselfAndBadPointsAreLeftOut) {
   inputs.struct_size = sizeof(inputs);
   const double boom[6] = {1.0, 3.0, -0.3, 0.3, -1.0, 0.5};
   std::copy(boom, boom + 6, inputs.body_box[0]);
-  const Points points = {{0.8F, 0.1F, 0},      {2.0F, 0, 0},       {nan, 1, 1}, {infinite, 0, 0}, {0, 0, 0}, {0.1F, 0, 0},
-                         {5000.0F, 0, 0}, {1e30F, 0, 0}, {4.0F, 0, 0}};
+  const Points points = {{0.8F, 0.1F, 0}, {2.0F, 0, 0},    {nan, 1, 1},   {infinite, 0, 0}, {0, 0, 0},
+                         {0.1F, 0, 0},    {5000.0F, 0, 0}, {1e30F, 0, 0}, {4.0F, 0, 0}};
   ScannerUnderTest scanner(config);
   pose_wall_cloud cloud = cloud_of(points, 0);
   cloud.inputs = &inputs;
@@ -143,7 +144,8 @@ TEST(ScanEvidence, AnyLayoutOfTheCloudGivesTheSameScan) {
   layout.point_extra = 5;
   layout.rows = 2;
   layout.row_extra = 11;
-  const Points whole(seen.points.begin(), seen.points.begin() + static_cast<std::ptrdiff_t>(seen.points.size() / 2 * 2));
+  const Points whole(seen.points.begin(),
+                     seen.points.begin() + static_cast<std::ptrdiff_t>(seen.points.size() / 2 * 2));
   plain.process(cloud_of(whole, 0), &floor);
   const EncodedCloud encoded = encode(whole, layout, 0);
   other.process(encoded.cloud, &floor);
@@ -155,7 +157,8 @@ TEST(ScanEvidence, DirectionsAreWithinAHundredthOfABeam) {
   Draw draw(5);
   for (int i = 0; i < 20000; ++i) {
     const double angle_rad = draw.between(-kPi, kPi);
-    const Points one = {{static_cast<float>(6.0 * std::cos(angle_rad)), static_cast<float>(6.0 * std::sin(angle_rad)), 0}};
+    const Points one = {
+        {static_cast<float>(6.0 * std::cos(angle_rad)), static_cast<float>(6.0 * std::sin(angle_rad)), 0}};
     if (i >= 40) break;
     const Scanned scanned(one);
     const double place = (angle_rad + kPi) / 0.001 + 0.5, inside = place - std::floor(place);

@@ -168,6 +168,54 @@ TEST(ScanScanner, TheBlocksFormerContentsDoNotMatter) {
   }
 }
 
+// FNV-1a over the bytes of an array.
+std::uint64_t digest_of(const void* from, std::size_t bytes, std::uint64_t digest) {
+  const auto* const at = static_cast<const unsigned char*>(from);
+  for (std::size_t i = 0; i < bytes; ++i) digest = (digest ^ at[i]) * 0x100000001B3ULL;
+  return digest;
+}
+
+// A room of walls, floor and scattered returns whose coordinates are whole 1024ths: no library takes part in them.
+Points exact_points() {
+  pose_wall::Random random(42);
+  Points points;
+  const auto part = [&](std::uint32_t bound) { return static_cast<float>(random.below(bound)) / 1024.0F; };
+  for (int i = 0; i < 40000; ++i) {
+    const float along = part(20480) - 10.0F, up = part(3072) - 1.5F, off = part(32);
+    const std::uint32_t kind = random.below(8);
+    if (kind < 3) points.push_back({along, 2.5F + off, up});
+    if (kind >= 3 && kind < 6) points.push_back({along, -2.5F - off, up});
+    if (kind == 6) points.push_back({along, part(5120) - 2.5F, -1.5F + off});
+    if (kind == 7) points.push_back({along, part(5120) - 2.5F, up});
+  }
+  return points;
+}
+
+TEST(ScanScanner, TheSameBitsOnEveryMachine) {
+  pose_wall_config config = config_with();
+  set(&config, "extrinsic_x", 0.3);
+  set(&config, "extrinsic_roll", 0.02);
+  set(&config, "extrinsic_yaw", -0.4);
+  pose_wall_planar_scanner_settings settings = scan_settings();
+  settings.alone = POSE_WALL_PLANAR_ALONE_IS_APART;
+  ScannerUnderTest scanner(config, settings);
+  pose_wall_planar_floor floor = level_floor();
+  floor.normal[0] = 0.03;
+  floor.normal[2] = 0.99955;
+  floor.tilt_sigma_rad = 0.0007;
+  floor.reach_m = 5.0;
+  scanner.process(cloud_of(exact_points(), 0), &floor);
+  const pose_wall_planar_scan& scan = scanner.scan();
+  const pose_wall_planar_scan_view& view = scanner.view();
+  std::uint64_t digest = 0xCBF29CE484222325ULL;
+  for (const float* const values : {scan.range_m, scan.free_m, view.bias_m, view.sigma_m, view.low_m, view.overhead_m,
+                                    view.alone_m, view.clear_from_m, view.clear_m}) {
+    digest = digest_of(values, scan.beams * sizeof(float), digest);
+  }
+  EXPECT_GT(things_of(scan), 2000U);
+  EXPECT_EQ(digest, 0x548723EC7A8547A1ULL) << std::hex << digest;
+}
+
 TEST(ScanScanner, AnEmptyCloudAndOneOfGarbageAreScansToo) {
   ScannerUnderTest scanner(config_with());
   const pose_wall_planar_floor floor = level_floor();
@@ -197,8 +245,9 @@ TEST(ScanScanner, AnEmptyCloudAndOneOfGarbageAreScansToo) {
       ASSERT_TRUE(std::isfinite(scanner.view().bias_m[b]));
     }
     const pose_wall_planar_scan_view& view = scanner.view();
-    EXPECT_EQ(view.dropped + view.of_body + view.of_floor + view.of_low + view.of_band + view.of_overhead + view.of_roof,
-              view.points_in);
+    EXPECT_EQ(
+        view.dropped + view.of_body + view.of_floor + view.of_low + view.of_band + view.of_overhead + view.of_roof,
+        view.points_in);
   }
 }
 

@@ -47,8 +47,8 @@ inline std::vector<Eigen::Vector3f> rays_of(const RingSensor& sensor, std::uint6
   std::vector<Eigen::Vector3f> rays;
   const auto add = [&](double azimuth, double elevation_deg) {
     const double e = elevation_deg * M_PI / 180.0;
-    rays.emplace_back(Eigen::Vector3d(std::cos(e) * std::cos(azimuth), std::cos(e) * std::sin(azimuth), std::sin(e))
-                          .cast<float>());
+    rays.emplace_back(
+        Eigen::Vector3d(std::cos(e) * std::cos(azimuth), std::cos(e) * std::sin(azimuth), std::sin(e)).cast<float>());
   };
   Draw draw(seed);
   const double span = sensor.elevation_max_deg - sensor.elevation_min_deg;
@@ -72,7 +72,7 @@ struct Thing {
 struct RoadScene {
   double height_m = 1.5, left_m = 2.5, right_m = 2.5, roof_m = 3.5, ahead_m = 30.0, behind_m = 30.0;
   double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;  // of base in the world
-  double noise_m = 0.0, lost = 0.0;                      // share of returns that do not come back
+  double noise_m = 0.0, lost = 0.0;                       // share of returns that do not come back
   std::vector<Thing> things;
   bool things_are_dark = false;  // nothing comes back from them
   double rough_m = 0.0;          // standard deviation of the walls' relief
@@ -137,10 +137,10 @@ inline float meets(const Thing& t, const Eigen::Vector3f& ray, float height_m) {
 }
 
 struct SeenScene {
-  Points points;                        // in the lidar's frame
-  std::vector<float> range_free_m;      // horizontal, without noise, of each point
-  std::vector<std::int32_t> thing;      // that each point lies on; -1: the road
-  std::uint32_t rays_on_things = 0;     // also those that were lost
+  Points points;                     // in the lidar's frame
+  std::vector<float> range_free_m;   // horizontal, without noise, of each point
+  std::vector<std::int32_t> thing;   // that each point lies on; -1: the road
+  std::uint32_t rays_on_things = 0;  // also those that were lost
 };
 
 inline SeenScene see(const RoadScene& scene, const RingSensor& sensor, const std::vector<Eigen::Vector3f>& rays,

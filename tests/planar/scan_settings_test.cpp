@@ -13,8 +13,8 @@
 namespace {
 
 using pose_wall::kPi;
-using pose_wall::planar::ScanSettings;
 using pose_wall::planar::scan_settings_of;
+using pose_wall::planar::ScanSettings;
 
 pose_wall_planar_scanner_settings standard() {
   pose_wall_planar_scanner_settings settings;

@@ -61,8 +61,8 @@ inline void measure_walls(const RingSensor& sensor, double rough_m, std::uint64_
   std::vector<Beam> beams(scanner.scan().beams);
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
     const auto& q = seen.points[i];
-    const Eigen::Vector3d p = R * Eigen::Vector3d(static_cast<double>(q[0]), static_cast<double>(q[1]),
-                                                  static_cast<double>(q[2]));
+    const Eigen::Vector3d p =
+        R * Eigen::Vector3d(static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2]));
     const double z = p.z() + road.height_m;
     if (z < settings.ground_clearance_m - settings.margin_m + 0.02) continue;
     if (z > settings.machine_height_m + settings.margin_m - 0.02) continue;

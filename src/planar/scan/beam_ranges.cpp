@@ -11,10 +11,10 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kDepth_m = 0.2;      // of a surface: relief of rock, and what leans within the band
-constexpr double kDepthSigmas = 6.0;  // of a surface, where noise is more than its relief
-constexpr double kSteepest = 11.4;    // tan 85 degrees: a surface that a sensor sees more slantingly is none
-constexpr double kJoinSigmas = 4.0;   // by which two nearest ranges of one surface may differ
+constexpr double kDepth_m = 0.2;       // of a surface: relief of rock, and what leans within the band
+constexpr double kDepthSigmas = 6.0;   // of a surface, where noise is more than its relief
+constexpr double kSteepest = 11.4;     // tan 85 degrees: a surface that a sensor sees more slantingly is none
+constexpr double kJoinSigmas = 4.0;    // by which two nearest ranges of one surface may differ
 constexpr std::uint32_t kPooled = 32;  // beams to each side that share one scatter: some 2 to 6 degrees
 constexpr double kSureSigmas = 2.0;    // a scatter this far above that of noise shows relief
 
@@ -27,7 +27,11 @@ double lower_quantile(double p) {
 class Finder {
  public:
   Finder(const ScanSettings& settings, const OrderStatistics& statistics, Evidence* evidence, BeamRanges* ranges)
-      : s_(settings), statistics_(statistics), e_(*evidence), r_(*ranges), step_(static_cast<float>(settings.step_rad)) {
+      : s_(settings),
+        statistics_(statistics),
+        e_(*evidence),
+        r_(*ranges),
+        step_(static_cast<float>(settings.step_rad)) {
     const double depth_m = kDepthSigmas * s_.sigma_m;
     depth_m_ = static_cast<float>(depth_m > kDepth_m ? depth_m : kDepth_m);
   }

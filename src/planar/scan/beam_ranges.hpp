@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// From the returns of each beam to one range: the k-th smallest of its nearest surface, freed of what noise makes it too
-// short on average.
+// From the returns of each beam to one range: the k-th smallest of its nearest surface, freed of what noise makes it
+// too short on average.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace pose_wall::planar {
 
-constexpr std::uint32_t kRankMost = kFour;   // the largest k
+constexpr std::uint32_t kRankMost = kFour;   // the largest k: one register holds them
 constexpr std::uint32_t kReturnsKnown = 64;  // more returns of a surface count as these
 
 // Expected k-th smallest of n standard normal numbers, and the k for n.

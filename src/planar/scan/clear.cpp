@@ -6,7 +6,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kEndless_m = 1e9;        // longer than any scan
+constexpr double kEndless_m = 1e9;         // longer than any scan
 constexpr std::uint32_t kHidingMost = 24;  // gaps that hide something, of a sector; more of them: no guarantee
 
 // Ranges between from_m and to_m, where a gap hides a thing.
@@ -25,7 +25,8 @@ class Gaps {
     const double overhead_m = s_.high_m - s_.sensor_m - s_.thing_m;
     double to_m = kEndless_m;
     if (b < -s_.tilt_rad) {  // downwards
-      if (s_.thing_m * (-b - s_.tilt_rad) >= gap * room_m && !(grounded_m(a) * (-b - s_.tilt_rad) < room_m)) return false;
+      if (s_.thing_m * (-b - s_.tilt_rad) >= gap * room_m && !(grounded_m(a) * (-b - s_.tilt_rad) < room_m))
+        return false;
       to_m = room_m / (-b - s_.tilt_rad);
     } else if (a > 0.0) {  // upwards
       if (s_.thing_m * a >= gap * overhead_m) return false;
@@ -98,7 +99,7 @@ ClearRange least_of(const ClearRange& a, const ClearRange& b) {
 }  // namespace
 
 SlotEdges::SlotEdges() {
-  constexpr double kHalf = kSlots / 2;
+  constexpr double kHalf = kSlots / 2;  // to the horizon
   for (std::uint32_t i = 0; i <= kSlots; ++i) {
     const double bent = static_cast<double>(i) / kHalf - 1.0, straight = bent < 0.0 ? 1.0 + bent : 1.0 - bent;
     tangent[i] = straight > 0.0 ? kSlotBend * bent / straight : (bent < 0.0 ? -kEndless_m : kEndless_m);
@@ -118,7 +119,8 @@ ClearRange clear_range(const SectorRays& rays, const ClearScene& scene, const Sl
       const std::uint32_t slot = 32 * w + static_cast<std::uint32_t>(__builtin_ctz(word));
       // Of a slot's rays the one that leaves the wider gap.
       if (any && last < close->from[slot]) {
-        if (!gaps.between(edges.tangent[last], edges.tangent[slot + 1])) close->from[slot] = static_cast<std::uint16_t>(last);
+        if (!gaps.between(edges.tangent[last], edges.tangent[slot + 1]))
+          close->from[slot] = static_cast<std::uint16_t>(last);
       } else if (!any) {
         gaps.below(edges.tangent[slot + 1]);
       }

@@ -34,8 +34,8 @@ struct SlotEdges {
   double tangent[kSlots + 1];
 };
 
-// Remembers, for each slot, how low the slot below it may be so that nothing hides between them: the rays of all sectors
-// have much the same slots, and the lower the ray below, the more hides.
+// Remembers, for each slot, how low the slot below it may be so that nothing hides between them: the rays of all
+// sectors have much the same slots, and the lower the ray below, the more hides.
 struct CloseSlots {
   CloseSlots();
   std::uint16_t from[kSlots];  // the lowest that was tried

@@ -14,7 +14,7 @@ namespace pose_wall::planar {
 namespace {
 
 constexpr double kFarthest_m = 1000.0;  // no sensor measures further: a wrong unit, or a filling of no-returns
-constexpr std::uint32_t kBodyBoxes = 4 + POSE_WALL_INPUT_BOXES;
+constexpr std::uint32_t kBodyBoxes = 4 + POSE_WALL_INPUT_BOXES;  // the config's and the frame's
 
 // Within 1e-5 rad, 0.01 of the finest usual beam (Hastings, Approximations for Digital Computers, 1955).
 FourFloats arc_tangent2_of_four(FourFloats y, FourFloats x) {
@@ -33,12 +33,12 @@ struct Block {
   float x[kSize], y[kSize], z[kSize];          // as the cloud has them
   std::int32_t fate[kSize];                    // HeightClass, or one of the below
   float range_m[kSize], free_m[kSize];
-  std::int32_t beam[kSize], aside[kSize];      // place in the scan: beam, and kAsides of a step from its middle
-  std::int32_t word[kSize], slot[kSize];       // of the sector's rays
+  std::int32_t beam[kSize], aside[kSize];  // place in the scan: beam, and kAsides of a step from its middle
+  std::int32_t word[kSize], slot[kSize];   // of the sector's rays
 };
-constexpr double kBorder = 0.01;  // of a step: places are floats of up to 6284 steps, and may fall to either side
+constexpr double kBorder = 0.01;    // of a step: places are floats of up to 6284 steps, and may fall to either side
 constexpr double kBandParts = 3.0;  // the middle one of the band's parts is there at any range
-constexpr std::int32_t kDropped = -1, kOfBody = -2;
+constexpr std::int32_t kDropped = -1, kOfBody = -2;  // fates below all classes of height
 
 // Which beam, height and slot a return has.
 class Judge {
@@ -73,7 +73,7 @@ class Judge {
   void judge(std::uint32_t k, Block* b) const {
     FourFloats x = load_four(&b->x[k]), y = load_four(&b->y[k]), z = load_four(&b->z[k]);
     const FourFloats range2 = x * x + y * y + z * z, zero = all_four(0.0F);
-    constexpr auto kMost2 = static_cast<float>(kFarthest_m * kFarthest_m);
+    constexpr auto kMost2 = static_cast<float>(kFarthest_m * kFarthest_m);  // square of the range
     const FourTruths there = (range2 >= near2_) & (range2 <= kMost2) & (range2 > zero);
     x = there ? x : zero, y = there ? y : zero, z = there ? z : zero;
     FourInts fate = there ? all_four_ints(kBand) : all_four_ints(kDropped);
@@ -121,7 +121,7 @@ class Judge {
   FourFloats free_of(FourInts heights, FourFloats height, FourFloats rise, FourFloats range) const {
     const FourFloats zero = all_four(0.0F);
     const FourInts band = all_four_ints(kBand);
-    const FourTruths below = heights < band, above = heights > band;
+    const FourTruths below = heights<band, above = heights> band;
     const FourFloats edge = below ? all_four(low_m_ - sensor_m_) : all_four(high_m_ - sensor_m_);
     const FourTruths was_inside = below ? (edge < zero) & (rise < edge) : (edge > zero) & (rise > edge);
     // Where the band shrinks, a return beside it was inside the whole band to its own range.
@@ -148,7 +148,7 @@ class Judge {
   }
 
   static void put_slot(FourFloats rise, FourFloats range, std::uint32_t k, Block* b) {
-    constexpr float kHalf = kSlots / 2;
+    constexpr float kHalf = kSlots / 2;  // to the horizon
     const FourFloats run = magnitude_of(rise) + static_cast<float>(kSlotBend) * range;
     const FourFloats bent = run > 0.0F ? rise / run : run;
     const FourFloats slot = (bent + 1.0F) * kHalf;
@@ -173,6 +173,7 @@ class Pass {
         sensor_is_above_(sensor_level_m(settings, floor).z() > settings.high_m()),
         swap_(needs_swap(cloud)),
         plain_(is_plain_xyz32(cloud)),
+        in_a_row_(is_xyz32_in_a_row(cloud)),
         out_(*evidence) {}
 
   void run() {
@@ -180,9 +181,14 @@ class Pass {
     std::uint32_t gathered = 0;
     for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
       const unsigned char* point = row_of(cloud_, row);
-      for (std::uint32_t column = 0; column < cloud_.width; ++column, point += cloud_.point_step) {
-        read(point, gathered, &block);
-        if (++gathered < Block::kSize) continue;
+      for (std::uint32_t column = 0; column < cloud_.width;) {
+        const std::uint32_t room = Block::kSize - gathered, left = cloud_.width - column;
+        const std::uint32_t count = left < room ? left : room;
+        read(point, gathered, gathered + count, &block);
+        column += count;
+        point += static_cast<std::size_t>(count) * cloud_.point_step;
+        gathered += count;
+        if (gathered < Block::kSize) continue;
         take(gathered, &block);
         gathered = 0;
       }
@@ -191,7 +197,23 @@ class Pass {
   }
 
  private:
-  void read(const unsigned char* point, std::uint32_t k, Block* b) const {
+  // Points of one row, side by side.
+  void read(const unsigned char* point, std::uint32_t begin, std::uint32_t end, Block* b) const {
+    const std::size_t step = cloud_.point_step;
+    std::uint32_t k = begin;
+    for (; in_a_row_ && k + kFour <= end; k += kFour, point += kFour * step) {
+      FourFloats points[kFour], rows[kFour];
+      for (std::uint32_t i = 0; i < kFour; ++i)
+        std::memcpy(&points[i], point + cloud_.x.offset + i * step, sizeof(*points));
+      transpose(points[0], points[1], points[2], points[3], rows);
+      store_four(rows[0], &b->x[k]);
+      store_four(rows[1], &b->y[k]);
+      store_four(rows[2], &b->z[k]);
+    }
+    for (; k < end; ++k, point += step) read_one(point, k, b);
+  }
+
+  void read_one(const unsigned char* point, std::uint32_t k, Block* b) const {
     if (plain_) {
       std::memcpy(&b->x[k], point + cloud_.x.offset, sizeof(float));
       std::memcpy(&b->y[k], point + cloud_.y.offset, sizeof(float));
@@ -207,7 +229,7 @@ class Pass {
   float number(const unsigned char* point, const pose_wall_field& field) const {
     const double value = read_field(point, field, swap_);
     return value > -2.0 * kFarthest_m && value < 2.0 * kFarthest_m ? static_cast<float>(value)
-                                                                    : static_cast<float>(2.0 * kFarthest_m);
+                                                                   : static_cast<float>(2.0 * kFarthest_m);
   }
 
   void take(std::uint32_t count, Block* b) {
@@ -230,7 +252,8 @@ class Pass {
     const auto beam = static_cast<std::uint32_t>(b.beam[k]), slot = static_cast<std::uint32_t>(b.slot[k]);
     SectorRays* const rays = out_.rays.data() + static_cast<std::uint32_t>(b.word[k]) / kSlotWords;
     rays->word[slot / 32] |= 1U << slot % 32;
-    if (height == kHigh || (height > kBand && sensor_is_above_)) end_sector(static_cast<std::uint32_t>(b.word[k]) / kSlotWords, b.range_m[k]);
+    if (height == kHigh || (height > kBand && sensor_is_above_))
+      end_sector(static_cast<std::uint32_t>(b.word[k]) / kSlotWords, b.range_m[k]);
     if (beam >= beams_) {
       ++out_.counts.out_of_scan;
     } else if (height == kBand) {
@@ -239,7 +262,8 @@ class Pass {
       float& free_m = out_.free_m[beam];
       free_m = b.free_m[k] > free_m ? b.free_m[k] : free_m;  // a store costs less than a branch that follows the rock
       if (height == kLow && b.range_m[k] < out_.low_m[beam]) out_.low_m[beam] = b.range_m[k];
-      if ((height == kHigh || height == kOverhead) && b.range_m[k] < out_.overhead_m[beam]) out_.overhead_m[beam] = b.range_m[k];
+      if ((height == kHigh || height == kOverhead) && b.range_m[k] < out_.overhead_m[beam])
+        out_.overhead_m[beam] = b.range_m[k];
     }
   }
 
@@ -269,12 +293,12 @@ class Pass {
   std::uint32_t beams_;
   float range_min_m_, range_max_m_;
   bool sensor_is_above_;
-  bool swap_, plain_;
+  bool swap_, plain_, in_a_row_;
   Evidence& out_;
 };
 
-// The nearest low thing or thing of each sector. A beam on the border of two counts in both. What lies beside the angles
-// of the scan was not kept, so that sectors that reach there end at the sensor.
+// The nearest low thing or thing of each sector. A beam on the border of two counts in both. What lies beside the
+// angles of the scan was not kept, so that sectors that reach there end at the sensor.
 void end_sectors(const ScanSettings& s, Evidence* evidence) {
   const double per_step = s.sectors / s.steps_of_turn;
   const Span<float>& end_m = evidence->sector_end_m;

@@ -21,8 +21,8 @@ constexpr float kNothing_m = 1e9F;  // the range of what was not seen: beyond an
 // The slots of elevation. They are finer near the horizon, since heights at a range go with its inverse: the slot of a
 // tangent t is (t / (|t| + kSlotBend) + 1) kSlots / 2.
 constexpr std::uint32_t kSlots = 512;
-constexpr double kSlotBend = 0.25;  // a slot is 0.001 at the horizon, 0.007 at 22 degrees
-constexpr std::uint32_t kSlotWords = kSlots / 32;
+constexpr double kSlotBend = 0.25;                 // a slot is 0.001 at the horizon, 0.007 at 22 degrees
+constexpr std::uint32_t kSlotWords = kSlots / 32;  // one bit for each slot
 
 // Which elevations had a return, in one sector.
 struct SectorRays {
@@ -31,11 +31,11 @@ struct SectorRays {
 
 // A return in the band. Eight bytes: there are many.
 struct BandReturn {
-  float range_m;         // horizontal
+  float range_m;  // horizontal
   std::uint16_t beam;
   std::int16_t aside;  // from the beam's middle, in kAsides of a step
 };
-constexpr float kAsides = 1.0F / 65536.0F;
+constexpr float kAsides = 1.0F / 65536.0F;  // of a step: half a step to each side fits 16 bits
 
 // kHigh: in the top of the band, where the roof may be instead.
 enum HeightClass : std::int32_t { kFloor, kLow, kBand, kHigh, kOverhead, kRoof, kHeightClasses };

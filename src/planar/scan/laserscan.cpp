@@ -31,7 +31,8 @@ pose_wall_planar_scan scan_of(const pose_wall_planar_laserscan& message) {
   // belong to the same beams: some drivers give the end of the last beam instead of its middle.
   if (message.count > 1) {
     const double span_rad = static_cast<double>(message.angle_max) - scan.angle_min_rad;
-    const double step_rad = span_rad / (message.count - 1.0), off = (step_rad - scan.angle_step_rad) * (message.count - 1.0);
+    const double step_rad = span_rad / (message.count - 1.0),
+                 off = (step_rad - scan.angle_step_rad) * (message.count - 1.0);
     constexpr double kSame_rad = 1e-5;  // some times the rounding of an angle
     if (off > -kSame_rad && off < kSame_rad) scan.angle_step_rad = step_rad;
   }

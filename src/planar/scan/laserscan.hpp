@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include <cstdint>
+
 #include "pose_wall_planar_scan.h"
 
 namespace pose_wall::planar {

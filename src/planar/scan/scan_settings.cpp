@@ -14,8 +14,8 @@ namespace {
 
 constexpr StructSizes kSettingsSizes = {0, sizeof(pose_wall_planar_scanner_settings),
                                         sizeof(pose_wall_planar_scanner_settings)};
-constexpr double kTurn_rad = 2.0 * kPi;
-constexpr double kRounding = 1e-6;  // of a step: angles are written with few digits
+constexpr double kTurn_rad = 2.0 * kPi;  // all the way round
+constexpr double kRounding = 1e-6;       // of a step: angles are written with few digits
 
 std::int32_t refuse(const char* member, const char* rule, pose_wall_planar_fault* fault) {
   if (fault != nullptr) {  // member by member: on ARMv7 GCC keeps a pair in memory that could be written to

@@ -22,12 +22,13 @@ bool is_within(double value, double least, double most) {
 }  // namespace
 
 std::int32_t check_floor(const pose_wall_planar_floor& floor) {
-  constexpr double kUnit = 0.001, kLeastUp = 0.5, kHighest_m = 20.0, kTiltMost_rad = 0.5;
+  constexpr double kUnit = 0.001, kLeastUp = 0.5, kHighest_m = 20.0, kTiltMost_rad = 0.5;  // the header's limits
   const double* const n = floor.normal;
   const double length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-  const bool fits = is_within(length2, 1.0 - 2.0 * kUnit, 1.0 + 2.0 * kUnit) && is_within(n[2], kLeastUp, 1.0 + kUnit) &&
-                    is_within(floor.height_m, -kHighest_m, kHighest_m) &&
-                    is_within(floor.tilt_sigma_rad, 0.0, kTiltMost_rad) && floor.tilt_level_rad >= 0.0 && floor.reach_m >= 0.0;
+  const bool fits = is_within(length2, 1.0 - 2.0 * kUnit, 1.0 + 2.0 * kUnit) &&
+                    is_within(n[2], kLeastUp, 1.0 + kUnit) && is_within(floor.height_m, -kHighest_m, kHighest_m) &&
+                    is_within(floor.tilt_sigma_rad, 0.0, kTiltMost_rad) && floor.tilt_level_rad >= 0.0 &&
+                    floor.reach_m >= 0.0;
   return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_POSE};
 }
 

@@ -40,16 +40,16 @@ int things(std::uint64_t scenes, std::uint64_t seed) {
   }
   static const char* const sizes[] = {"0.2-0.3", "0.3-0.45", "0.45-"};
   static const char* const ranges[] = {"1.2-3", "3-5", "5-7.5", "7.5-10"};
-  std::printf("%-8s %-9s %-9s %-7s %7s %9s %9s %9s %9s %9s %9s\n", "sensor", "thing", "size m", "range m",
-              "things", "promised", "not told", "no ray", "all lost", "at edge", "clear");
+  std::printf("%-8s %-9s %-9s %-7s %7s %9s %9s %9s %9s %9s %9s\n", "sensor", "thing", "size m", "range m", "things",
+              "promised", "not told", "no ray", "all lost", "at edge", "clear");
   for (const auto& [key, cell] : campaign.cells) {
     const auto& [sensor, kind, size, range] = key;
     std::printf("%-8s %-9s %-9s %-7s %7llu %9llu %9llu %9llu %9llu %9llu %9llu\n", sensor.c_str(),
                 name_of(static_cast<ThingKind>(kind)), sizes[size], ranges[range],
                 static_cast<unsigned long long>(cell.things), static_cast<unsigned long long>(cell.promised),
-                static_cast<unsigned long long>(cell.missed),
-                static_cast<unsigned long long>(cell.without_rays), static_cast<unsigned long long>(cell.all_lost),
-                static_cast<unsigned long long>(cell.on_floor), static_cast<unsigned long long>(cell.false_clear));
+                static_cast<unsigned long long>(cell.missed), static_cast<unsigned long long>(cell.without_rays),
+                static_cast<unsigned long long>(cell.all_lost), static_cast<unsigned long long>(cell.on_floor),
+                static_cast<unsigned long long>(cell.false_clear));
   }
   return 0;
 }
@@ -70,8 +70,9 @@ int walls(std::uint64_t scenes, std::uint64_t seed) {
       }
     }
   }
-  std::printf("errors in m. ours and minimum: from the k-th smallest and the smallest range of the same rays without "
-              "noise. mean: ours from the mean of these\n");
+  std::printf(
+      "errors in m. ours and minimum: from the k-th smallest and the smallest range of the same rays without "
+      "noise. mean: ours from the mean of these\n");
   return 0;
 }
 
