@@ -44,6 +44,7 @@ inline DrawnScene draw_scene(Draw* draw, const pose_wall_planar_scanner_settings
   road.pitch_rad = draw->between(-0.12, 0.12);
   road.yaw_rad = draw->between(-M_PI, M_PI);
   road.lost = draw->below(2) == 0 ? 0.0 : draw->between(0.0, 0.2);
+  road.dust = draw->below(4) == 0 ? draw->between(0.0, 0.05) : 0.0;
   const double top_m = settings.machine_height_m + settings.margin_m;
   Thing thing;
   out.kind = static_cast<ThingKind>(draw->below(static_cast<std::uint32_t>(ThingKind::kinds)));
@@ -76,12 +77,21 @@ inline DrawnScene draw_scene(Draw* draw, const pose_wall_planar_scanner_settings
 struct Stretch {
   double near_m, far_m;
 };
-inline Stretch stretch_of(const Thing& thing, double angle_rad) {
+inline Stretch stretch_of(const PlacedThing& column, double angle_rad) {
   const Eigen::Vector3f ray(static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad)), 0.0F);
+  const auto near_m = static_cast<double>(meets(column, ray, 0.0F));
+  return {near_m, near_m + 2.0 * std::hypot(column.half_length, column.half_width)};
+}
+// Its outline, at all heights.
+inline PlacedThing column_of(const Thing& thing) {
   Thing column = thing;
   column.z0 = -1.0, column.z1 = 1.0;
-  const auto near_m = static_cast<double>(meets(column, ray, 0.0F));
-  return {near_m, near_m + 2.0 * std::hypot(thing.half_length, thing.half_width)};
+  return PlacedThing(column);
+}
+// Whether the thing can be in this direction of the world.
+inline bool may_be_at(const PlacedThing& column, double angle_rad) {
+  const auto c = static_cast<float>(std::cos(angle_rad)), s = static_cast<float>(std::sin(angle_rad));
+  return c * column.to_x + s * column.to_y >= column.cosine_least - 0.01F;
 }
 
 struct Verdict {
@@ -90,7 +100,7 @@ struct Verdict {
 };
 
 inline Verdict judge(const DrawnScene& drawn, const ScannerUnderTest& scanner, double noise_m) {
-  const Thing& thing = drawn.road.things[0];
+  const PlacedThing thing = column_of(drawn.road.things[0]);
   const pose_wall_planar_scan& scan = scanner.scan();
   const pose_wall_planar_scan_view& view = scanner.view();
   const double slack_m = 5.0 * noise_m + 0.02;
@@ -98,6 +108,7 @@ inline Verdict judge(const DrawnScene& drawn, const ScannerUnderTest& scanner, d
   bool clear_through = false;
   for (std::uint32_t beam = 0; beam < scan.beams; ++beam) {
     const double world_rad = scanner.angle_of(beam) + drawn.road.yaw_rad;
+    if (!may_be_at(thing, world_rad)) continue;
     // told: within a beam of its outline
     for (const double aside : {0.0, -scan.angle_step_rad, scan.angle_step_rad}) {
       const Stretch s = stretch_of(thing, world_rad + aside);
@@ -146,7 +157,7 @@ class CampaignRunner {
     drawn.road.things_are_dark = seed % 8 == 7;  // nothing comes back from it: it can only not be clear
     const std::vector<Eigen::Vector3f>& rays = rays_[seed % rays_.size()];
     const pose_wall_planar_floor floor = floor_of(drawn.road, kCampaignTilt_rad, &draw);
-    const bool promised = drawn.road.lost == 0.0 && !drawn.road.things_are_dark && is_promised(drawn, rays, floor);
+    const bool promised = drawn.road.lost == 0.0 && drawn.road.dust == 0.0 && !drawn.road.things_are_dark && is_promised(drawn, rays, floor);
     const SeenScene seen = see(drawn.road, sensor_, rays, seed);
     scanner_.process(cloud_of(seen.points, static_cast<std::int64_t>(seed)), &floor);
     const Verdict verdict = judge(drawn, scanner_, sensor_.noise_m);
@@ -186,7 +197,7 @@ class CampaignRunner {
   }
   // Whether the same road without the thing is clear all over its place, so that the thing has to be told.
   bool is_promised(DrawnScene drawn, const std::vector<Eigen::Vector3f>& rays, const pose_wall_planar_floor& floor) {
-    const Thing thing = drawn.road.things[0];
+    const PlacedThing thing = column_of(drawn.road.things[0]);
     drawn.road.things.clear();
     scanner_.process(cloud_of(see(drawn.road, sensor_, rays, 1).points, 0), &floor);
     std::uint32_t beams = 0;

@@ -72,7 +72,8 @@ struct Thing {
 struct RoadScene {
   double height_m = 1.5, left_m = 2.5, right_m = 2.5, roof_m = 3.5, ahead_m = 30.0, behind_m = 30.0;
   double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;  // of base in the world
-  double noise_m = 0.0, lost = 0.0;                       // share of returns that do not come back
+  double noise_m = 0.0;
+  double lost = 0.0, dust = 0.0;  // share of rays that do not come back, and that end in the air
   std::vector<Thing> things;
   bool things_are_dark = false;  // nothing comes back from them
   double rough_m = 0.0;          // standard deviation of the walls' relief
@@ -104,10 +105,24 @@ class WallRelief {
   Wave waves_[kWaves];
 };
 
+// A thing with what is the same for all rays.
+struct PlacedThing : Thing {
+  explicit PlacedThing(const Thing& thing)
+      : Thing(thing), c(static_cast<float>(std::cos(turn_rad))), s(static_cast<float>(std::sin(turn_rad))) {
+    const double away = std::hypot(x, y), reach = std::hypot(half_length, half_width);
+    to_x = static_cast<float>(x / away), to_y = static_cast<float>(y / away);
+    // beyond its outline, or all around where the sensor stands in it
+    cosine_least = reach < 0.9 * away ? static_cast<float>(std::sqrt(1.0 - reach * reach / (away * away)) - 1e-4) : -1.0F;
+  }
+  float c, s, to_x, to_y, cosine_least;
+};
+
 // Where a ray from the sensor meets the thing; infinite: nowhere.
-inline float meets(const Thing& t, const Eigen::Vector3f& ray, float height_m) {
+inline float meets(const PlacedThing& t, const Eigen::Vector3f& ray, float height_m) {
   constexpr float kNever = std::numeric_limits<float>::infinity();
-  const auto c = static_cast<float>(std::cos(t.turn_rad)), s = static_cast<float>(std::sin(t.turn_rad));
+  const float flat = std::sqrt(ray.x() * ray.x() + ray.y() * ray.y());
+  if (ray.x() * t.to_x + ray.y() * t.to_y < t.cosine_least * flat) return kNever;
+  const float c = t.c, s = t.s;
   const auto tx = static_cast<float>(t.x), ty = static_cast<float>(t.y);
   const float ox = -c * tx - s * ty, oy = s * tx - c * ty;  // the sensor in the thing's frame
   const float dx = c * ray.x() + s * ray.y(), dy = c * ray.y() - s * ray.x();
@@ -160,6 +175,8 @@ inline SeenScene see(const RoadScene& scene, const RingSensor& sensor, const std
   const auto left = static_cast<float>(scene.left_m), right = static_cast<float>(scene.right_m);
   const auto ahead = static_cast<float>(scene.ahead_m), behind = static_cast<float>(scene.behind_m);
   const auto lost = static_cast<std::uint32_t>(scene.lost * 4294967295.0);
+  const auto dust = static_cast<std::uint32_t>(scene.dust * 4294967295.0);
+  const std::vector<PlacedThing> things(scene.things.begin(), scene.things.end());
   SeenScene out;
   out.points.reserve(rays.size());
   out.range_free_m.reserve(rays.size());
@@ -176,13 +193,17 @@ inline SeenScene see(const RoadScene& scene, const RingSensor& sensor, const std
       t = ty * (1.0F - static_cast<float>(f) / (ray.y() > 0.0F ? left : right));
     }
     std::int32_t on = -1;
-    for (std::size_t k = 0; k < scene.things.size(); ++k) {
-      const float tk = meets(scene.things[k], ray, height);
+    for (std::size_t k = 0; k < things.size(); ++k) {
+      const float tk = meets(things[k], ray, height);
       if (tk < t) t = tk, on = static_cast<std::int32_t>(k);
     }
     if (on >= 0) ++out.rays_on_things;
     if (on >= 0 && scene.things_are_dark) continue;
     if (lost != 0 && static_cast<std::uint32_t>(lots.next() >> 32) < lost) continue;
+    if (dust != 0 && static_cast<std::uint32_t>(lots.next() >> 32) < dust) {
+      t *= static_cast<float>(static_cast<double>(lots.next() >> 11) * 0x1p-53);
+      on = -1;
+    }
     at = (at + stride) & 0xFFFFU;
     const float noisy = t + static_cast<float>(scene.noise_m) * normals[at];
     const Eigen::Vector3f p = noisy * ray_lidar;

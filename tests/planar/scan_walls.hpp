@@ -88,4 +88,44 @@ inline void measure_walls(const RingSensor& sensor, double rough_m, std::uint64_
   }
 }
 
+struct FalseThings {
+  std::uint64_t beams = 0, ours = 0, beams_by_axes = 0, by_axes = 0;
+};
+
+// Beams that end at the floor or the roof of a plain road, within the range of the scan, on a machine that is tilted by
+// so much; ours, and with the document's heights counted from the sensor along its own axes.
+inline void count_false_things(const RingSensor& sensor, double tilt_rad, std::uint64_t seed, FalseThings* counts) {
+  Draw draw(seed);
+  RoadScene road;
+  const double way_rad = draw.between(-M_PI, M_PI);
+  road.roll_rad = tilt_rad * std::cos(way_rad), road.pitch_rad = tilt_rad * std::sin(way_rad);
+  road.noise_m = sensor.noise_m;
+  const SeenScene seen = see(road, sensor, rays_of(sensor, seed), seed);
+  const pose_wall_planar_scanner_settings settings = scan_settings();
+  pose_wall_config config = config_with();
+  set(&config, "extrinsic_roll", sensor.mount_roll_rad);
+  ScannerUnderTest scanner(config, settings);
+  const pose_wall_planar_floor floor = floor_of(road, kCampaignTilt_rad, &draw);
+  scanner.process(cloud_of(seen.points, 0), &floor);
+  std::vector<double> by_axes(scanner.scan().beams, 1e9);
+  const Eigen::Matrix3d R = rotation_zyx(sensor.mount_roll_rad, 0.0, 0.0);
+  for (const auto& q : seen.points) {
+    const Eigen::Vector3d p = R * Eigen::Vector3d(static_cast<double>(q[0]), static_cast<double>(q[1]),
+                                                  static_cast<double>(q[2]));
+    const double low = -(road.height_m - settings.ground_clearance_m + settings.margin_m);
+    if (p.z() < low || p.z() > settings.machine_height_m - road.height_m + settings.margin_m) continue;
+    double& least = by_axes[scanner.beam_at(std::atan2(p.y(), p.x()))];
+    least = std::min(least, std::hypot(p.x(), p.y()));
+  }
+  for (std::uint32_t b = 0; b < scanner.scan().beams; ++b) {
+    const double a = scanner.angle_of(b), s = std::fabs(std::sin(a)), c = std::fabs(std::cos(a));
+    const double wall_m = std::min(road.left_m / std::max(s, 1e-9), road.ahead_m / std::max(c, 1e-9));
+    const double short_m = wall_m - 0.3 - 0.05 * wall_m;
+    if (std::isfinite(scanner.scan().range_m[b])) ++counts->beams;
+    if (by_axes[b] < 1e9) ++counts->beams_by_axes;
+    if (static_cast<double>(scanner.scan().range_m[b]) < short_m) ++counts->ours;
+    if (by_axes[b] < short_m) ++counts->by_axes;
+  }
+}
+
 }  // namespace pose_wall::test

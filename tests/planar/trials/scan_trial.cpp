@@ -5,6 +5,7 @@
 // usage: pose_wall_planar_scan_trial things [SCENES [SEED]]    things of 0.2 m or more within 10 m: told or missed
 //        pose_wall_planar_scan_trial walls [SCENES [SEED]]     error of a beam by range and roughness, beside the plain
 //                                                             minimum of pointcloud_to_laserscan
+//        pose_wall_planar_scan_trial tilt [SCENES [SEED]]      beams that end at floor or roof on a tilted machine
 //        pose_wall_planar_scan_trial cost [FRAMES]             time of a frame of an OS1-64
 
 #include <chrono>
@@ -26,6 +27,7 @@ int things(std::uint64_t scenes, std::uint64_t seed) {
     Campaign one;
     CampaignRunner runner(sensor);
     for (std::uint64_t i = 0; i < scenes / 3 + 1; ++i) runner.run(seed + i, &one);
+    seed += 1000003;  // other scenes for the next
     std::printf("%s: %llu scenes, clear in %.1f %% of the beams, to %.1f m in the mean\n", sensor.name,
                 static_cast<unsigned long long>(one.scenes),
                 100.0 * static_cast<double>(one.clear_beams) / static_cast<double>(one.beams),
@@ -76,6 +78,20 @@ int walls(std::uint64_t scenes, std::uint64_t seed) {
   return 0;
 }
 
+int tilt(std::uint64_t scenes, std::uint64_t seed) {
+  std::printf("of the beams with a range those that end at floor or roof, %%: ours, and with heights along the sensor's axes\n");
+  for (const RingSensor& sensor : {kScanOs1, kScanVlp16, kScanMid360}) {
+    for (const double tilt_deg : {0.0, 1.0, 2.0, 5.0, 10.0}) {
+      FalseThings counts;
+      for (std::uint64_t i = 0; i < scenes; ++i) count_false_things(sensor, tilt_deg * M_PI / 180.0, seed + i, &counts);
+      std::printf("%-8s tilted by %4.1f deg: %7.3f %7.3f\n", sensor.name, tilt_deg,
+                  100.0 * static_cast<double>(counts.ours) / static_cast<double>(counts.beams),
+                  100.0 * static_cast<double>(counts.by_axes) / static_cast<double>(counts.beams_by_axes));
+    }
+  }
+  return 0;
+}
+
 int cost(int frames) {
   RoadScene road;
   road.roll_rad = 0.03, road.pitch_rad = -0.02, road.noise_m = 0.012;
@@ -113,7 +129,8 @@ int main(int count, char** words) {
   const std::uint64_t seed = count > 3 ? std::strtoull(words[3], nullptr, 10) : 1;
   if (std::strcmp(what, "things") == 0) return things(number != 0 ? number : 3000, seed);
   if (std::strcmp(what, "walls") == 0) return walls(number != 0 ? number : 10, seed);
+  if (std::strcmp(what, "tilt") == 0) return tilt(number != 0 ? number : 10, seed);
   if (std::strcmp(what, "cost") == 0) return cost(number != 0 ? static_cast<int>(number) : 200);
-  std::fprintf(stderr, "usage: pose_wall_planar_scan_trial things|walls|cost [NUMBER [SEED]]\n");
+  std::fprintf(stderr, "usage: pose_wall_planar_scan_trial things|walls|tilt|cost [NUMBER [SEED]]\n");
   return 2;
 }
