@@ -136,6 +136,7 @@ struct Campaign {
   std::map<CampaignKey, CampaignCell> cells;
   std::uint64_t scenes = 0, false_clear = 0, dark_false_clear = 0, missed = 0;
   std::uint64_t missed_with_returns = 0;
+  std::uint64_t clear_behind = 0;  // beams that are clear beyond what they report
   std::uint64_t promised = 0, promise_broken = 0;  // clear without the thing, no return lost: it has to be told
   double clear_far_m = 0.0;                        // sum over beams of clear_m, and their number
   std::uint64_t clear_beams = 0, beams = 0;
@@ -241,6 +242,9 @@ class CampaignRunner {
     for (std::uint32_t beam = 0; beam < scanner_.scan().beams; ++beam) {
       const float clear_m = scanner_.view().clear_m[beam];
       ++campaign->beams;
+      for (const float reported_m : {scanner_.scan().range_m[beam], scanner_.view().low_m[beam]}) {
+        if (clear_m > reported_m + 0.2F) ++campaign->clear_behind;  // NaN fails; a bias is less
+      }
       if (clear_m > 0.0F) ++campaign->clear_beams, campaign->clear_far_m += static_cast<double>(clear_m);
     }
   }

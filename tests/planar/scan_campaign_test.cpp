@@ -14,11 +14,12 @@ TEST(ScanCampaign, NoThingIsMissedThatARayMetAndNoneIsWhereItIsClear) {
   for (const RingSensor& sensor : {kScanOs1, kScanVlp16, kScanMid360}) {
     Campaign campaign;
     CampaignRunner runner(sensor);
-    for (std::uint64_t seed = 1; seed <= 80; ++seed) runner.run(seed, &campaign);
+    for (std::uint64_t seed = 1; seed <= 120; ++seed) runner.run(seed, &campaign);
     EXPECT_EQ(campaign.missed_with_returns, 0U) << sensor.name;
     EXPECT_EQ(campaign.false_clear, 0U) << sensor.name;
     EXPECT_EQ(campaign.dark_false_clear, 0U) << sensor.name;
     EXPECT_EQ(campaign.promise_broken, 0U) << sensor.name;
+    EXPECT_EQ(campaign.clear_behind, 0U) << sensor.name;
     EXPECT_LT(campaign.missed, campaign.scenes / 3) << sensor.name;
   }
 }
