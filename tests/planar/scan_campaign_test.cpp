@@ -24,6 +24,14 @@ TEST(ScanCampaign, NoThingIsMissedThatARayMetAndNoneIsWhereItIsClear) {
   }
 }
 
+TEST(ScanCampaign, NoDirectionIsClearThroughAThingThatSwallowsAllLight) {
+  Campaign campaign;
+  CampaignRunner runner(kScanOs1);
+  for (std::uint64_t seed = 7; seed <= 8 * 250; seed += 8) runner.run(seed, &campaign);  // every eighth is dark
+  EXPECT_EQ(campaign.scenes, 250U);
+  EXPECT_EQ(campaign.dark_false_clear, 0U);
+}
+
 TEST(ScanCampaign, TheClearRangeIsOfUse) {
   // a plain road, an OS1-64: clear to 5 m and more in most directions that are not a wall
   CampaignRunner runner(kScanOs1);
