@@ -136,7 +136,7 @@ struct Campaign {
   std::map<CampaignKey, CampaignCell> cells;
   std::uint64_t scenes = 0, false_clear = 0, dark_false_clear = 0, missed = 0;
   std::uint64_t missed_with_returns = 0;
-  std::uint64_t clear_behind = 0;  // beams that are clear beyond what they report
+  std::uint64_t clear_behind = 0;                  // beams that are clear beyond what they report
   std::uint64_t promised = 0, promise_broken = 0;  // clear without the thing, no return lost: it has to be told
   double clear_far_m = 0.0;                        // sum over beams of clear_m, and their number
   std::uint64_t clear_beams = 0, beams = 0;
@@ -158,7 +158,8 @@ class CampaignRunner {
     drawn.road.things_are_dark = seed % 8 == 7;  // nothing comes back from it: it can only not be clear
     const std::vector<Eigen::Vector3f>& rays = rays_[seed % rays_.size()];
     const pose_wall_planar_floor floor = floor_of(drawn.road, kCampaignTilt_rad, &draw);
-    const bool promised = drawn.road.lost == 0.0 && drawn.road.dust == 0.0 && !drawn.road.things_are_dark && is_promised(drawn, rays, floor);
+    const bool promised = drawn.road.lost == 0.0 && drawn.road.dust == 0.0 && !drawn.road.things_are_dark &&
+                          is_promised(drawn, rays, floor);
     const SeenScene seen = see(drawn.road, sensor_, rays, seed);
     scanner_.process(cloud_of(seen.points, static_cast<std::int64_t>(seed)), &floor);
     const Verdict verdict = judge(drawn, scanner_, sensor_.noise_m);

@@ -112,7 +112,8 @@ struct PlacedThing : Thing {
     const double away = std::hypot(x, y), reach = std::hypot(half_length, half_width);
     to_x = static_cast<float>(x / away), to_y = static_cast<float>(y / away);
     // beyond its outline, or all around where the sensor stands in it
-    cosine_least = reach < 0.9 * away ? static_cast<float>(std::sqrt(1.0 - reach * reach / (away * away)) - 1e-4) : -1.0F;
+    cosine_least =
+        reach < 0.9 * away ? static_cast<float>(std::sqrt(1.0 - reach * reach / (away * away)) - 1e-4) : -1.0F;
   }
   float c, s, to_x, to_y, cosine_least;
 };

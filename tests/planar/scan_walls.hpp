@@ -110,8 +110,8 @@ inline void count_false_things(const RingSensor& sensor, double tilt_rad, std::u
   std::vector<double> by_axes(scanner.scan().beams, 1e9);
   const Eigen::Matrix3d R = rotation_zyx(sensor.mount_roll_rad, 0.0, 0.0);
   for (const auto& q : seen.points) {
-    const Eigen::Vector3d p = R * Eigen::Vector3d(static_cast<double>(q[0]), static_cast<double>(q[1]),
-                                                  static_cast<double>(q[2]));
+    const Eigen::Vector3d p =
+        R * Eigen::Vector3d(static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2]));
     const double low = -(road.height_m - settings.ground_clearance_m + settings.margin_m);
     if (p.z() < low || p.z() > settings.machine_height_m - road.height_m + settings.margin_m) continue;
     double& least = by_axes[scanner.beam_at(std::atan2(p.y(), p.x()))];

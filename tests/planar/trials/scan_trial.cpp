@@ -79,7 +79,9 @@ int walls(std::uint64_t scenes, std::uint64_t seed) {
 }
 
 int tilt(std::uint64_t scenes, std::uint64_t seed) {
-  std::printf("of the beams with a range those that end at floor or roof, %%: ours, and with heights along the sensor's axes\n");
+  std::printf(
+      "of the beams with a range those that end at floor or roof, %%: ours, and with heights along the sensor's "
+      "axes\n");
   for (const RingSensor& sensor : {kScanOs1, kScanVlp16, kScanMid360}) {
     for (const double tilt_deg : {0.0, 1.0, 2.0, 5.0, 10.0}) {
       FalseThings counts;
