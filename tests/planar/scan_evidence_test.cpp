@@ -7,6 +7,7 @@
 
 #include <limits>
 
+#include "base/math/elementary.hpp"
 #include "planar/scan_scenes.hpp"
 #include "planar/scanner_under_test.hpp"
 #include "support/engine_under_test.hpp"
