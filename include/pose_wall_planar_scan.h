@@ -50,7 +50,7 @@
  *           lowest ray comes below thing_m.
  * ALONE     a nearer return that has no other within 0.2 m, in its beam or the next ones, may be dust or a thin thing.
  *           It counts as a thing, or (POSE_WALL_PLANAR_ALONE_IS_APART) the scan shows the surface behind it. alone_m
- *           has it either way. Nothing is dropped.
+ *           has it either way, and behind_m the next return. Nothing is dropped.
  * FLOOR     the frame's floor counts if its level of tilt is within tilt_level_max_rad. Otherwise the last one is held
  *           for hold_max_s of the stamps, its tilt growing by the config's hold_rate_angle. After that every beam is
  *           unknown.
@@ -154,6 +154,7 @@ typedef struct pose_wall_planar_scan_view {
   const float* low_m; /* nearest low thing; NaN: none */
   const float* overhead_m;   /* nearest return overhead, or in the top of the band where that shrinks; NaN: none */
   const float* alone_m;      /* a return alone, nearer than any surface; NaN: none */
+  const float* behind_m;     /* nearest return in the band behind the range: a speck of dust hides none. NaN: none */
   const float* clear_from_m; /* NaN: no guarantee */
   const float* clear_m;
   const uint16_t* returns; /* of the beam's nearest surface; 0: no range, or one from the neighbours */

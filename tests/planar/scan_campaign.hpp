@@ -113,7 +113,8 @@ inline Verdict judge(const DrawnScene& drawn, const ScannerUnderTest& scanner, d
     for (const double aside : {0.0, -scan.angle_step_rad, scan.angle_step_rad}) {
       const Stretch s = stretch_of(thing, world_rad + aside);
       if (!std::isfinite(s.near_m)) continue;
-      for (const float range : {scan.range_m[beam], view.low_m[beam], view.overhead_m[beam], view.alone_m[beam]}) {
+      for (const float range :
+           {scan.range_m[beam], view.low_m[beam], view.overhead_m[beam], view.alone_m[beam], view.behind_m[beam]}) {
         const auto r = static_cast<double>(range);
         if (r >= s.near_m - slack_m && r <= s.far_m + slack_m) verdict.told = true;
       }

@@ -32,6 +32,13 @@ TEST(ScanCampaign, NoDirectionIsClearThroughAThingThatSwallowsAllLight) {
   EXPECT_EQ(campaign.dark_false_clear, 0U);
 }
 
+TEST(ScanCampaign, ASpeckOfDustInTheBeamOfAThingsOnlyHighReturnDoesNotHideIt) {
+  Campaign campaign;
+  CampaignRunner runner(kScanMid360);
+  runner.run(302011305, &campaign);  // found among 100,000
+  EXPECT_EQ(campaign.missed, 0U);
+}
+
 TEST(ScanCampaign, TheClearRangeIsOfUse) {
   // a plain road, an OS1-64: clear to 5 m and more in most directions that are not a wall
   CampaignRunner runner(kScanOs1);

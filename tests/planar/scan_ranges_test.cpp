@@ -92,6 +92,8 @@ TEST(ScanRanges, AReturnAloneIsAThingOrStandsApartAndIsNeverLost) {
     const std::uint32_t beam = scanner.beam_at(0.0);
     EXPECT_NEAR(scanner.view().alone_m[beam], 2.0, 1e-3);
     EXPECT_NEAR(scanner.scan().range_m[beam], alone == POSE_WALL_PLANAR_ALONE_IS_THING ? 2.0 : 6.0, 0.02);
+    const float farther_m = alone == POSE_WALL_PLANAR_ALONE_IS_THING ? scanner.view().behind_m[beam] : 6.0F;
+    EXPECT_NEAR(farther_m, 6.0, 0.02);
     EXPECT_EQ(scanner.view().returns[beam], alone == POSE_WALL_PLANAR_ALONE_IS_THING ? 1U : 9U);
     // either way nothing beyond it is clear
     EXPECT_FALSE(scanner.view().clear_m[beam] > 2.01F);
@@ -108,6 +110,7 @@ TEST(ScanRanges, AThinThingBeforeAWallHasItsOwnCount) {
   const std::uint32_t beam = scanner.beam_at(0.0);
   EXPECT_EQ(scanner.view().returns[beam], 5U);
   EXPECT_NEAR(scanner.scan().range_m[beam], 4.0, 0.02);
+  EXPECT_NEAR(scanner.view().behind_m[beam], 6.0, 0.02);
 }
 
 TEST(ScanRanges, WideBeamsOnASlantingWallAreMovedToTheirMiddle) {

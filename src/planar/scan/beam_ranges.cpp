@@ -56,6 +56,7 @@ class Finder {
     r_.range_m.fill(nan);
     r_.sigma_m.fill(nan);
     r_.alone_m.fill(nan);
+    r_.behind_m.fill(nan);
     r_.bias_m.fill(0.0F);
     r_.returns.fill(0);
   }
@@ -197,6 +198,7 @@ class Finder {
     r_.sigma_m[beam] = static_cast<float>(scatter.whole_m);
     r_.returns[beam] = static_cast<std::uint16_t>(count < 65535U ? count : 65535U);
     r_.range_m[beam] = range_m;
+    if (g.behind_m < kNothing_m) r_.behind_m[beam] = g.behind_m;
   }
 
   // A straight surface between two joined beams: its inverse range is straight, too, over such small angles.
@@ -234,6 +236,7 @@ void BeamRanges::lay_out(Arena& arena, std::uint32_t beams) {
   bias_m = arena.take<float>(beams);
   sigma_m = arena.take<float>(beams);
   alone_m = arena.take<float>(beams);
+  behind_m = arena.take<float>(beams);
   returns = arena.take<std::uint16_t>(beams);
   gathered = arena.take<Gathered>(beams);
   slope_m = arena.take<float>(beams);

@@ -43,6 +43,7 @@ struct BeamRanges {
 
   Span<float> range_m;  // NaN: none
   Span<float> bias_m, sigma_m, alone_m;
+  Span<float> behind_m;  // the nearest return behind the surface; NaN: none
   Span<std::uint16_t> returns;
 
   Span<Gathered> gathered;  // scratch, as are the below

@@ -136,8 +136,8 @@ void Scanner::show_clear() {
 void Scanner::show_nothing() {
   const auto nan = static_cast<float>(not_a_number());
   evidence_.clear();
-  for (const Span<float>& values : {ranges_.range_m, ranges_.sigma_m, ranges_.alone_m, evidence_.low_m,
-                                    evidence_.overhead_m, clear_from_m_, clear_m_}) {
+  for (const Span<float>& values : {ranges_.range_m, ranges_.sigma_m, ranges_.alone_m, ranges_.behind_m,
+                                    evidence_.low_m, evidence_.overhead_m, clear_from_m_, clear_m_}) {
     values.fill(nan);
   }
   ranges_.bias_m.fill(0.0F);
@@ -178,6 +178,7 @@ void Scanner::describe(std::uint32_t floor_state, std::int64_t stamp_ns, pose_wa
   view->low_m = evidence_.low_m.data();
   view->overhead_m = evidence_.overhead_m.data();
   view->alone_m = ranges_.alone_m.data();
+  view->behind_m = ranges_.behind_m.data();
   view->clear_from_m = clear_from_m_.data();
   view->clear_m = clear_m_.data();
   view->returns = ranges_.returns.data();
