@@ -165,7 +165,7 @@ typedef struct pose_wall_planar_stop_result {
   /* The machine may move along the given motion so that its fastest point has this speed. 0 while state is stop. */
   double allowed_speed_m_s;
   double allowed_turn_rad_s; /* the turn rate of that motion */
-  double rim_speed_m_s;      /* speed of the fastest point now, bounds included */
+  double rim_speed_m_s;      /* speed of the fastest point now, measured or commanded */
   double stop_speed_m_s;     /* above this speed the machine is stopped: no slack */
   double time_to_contact_s;  /* at this speed, without braking; infinite: none within the reach of the sweep */
 

@@ -163,12 +163,12 @@ void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_m
   });
 }
 
-// It, or a neighbour, has been there for long.
+// It, or a neighbour, was there for long. What went out of sight then is taken to be still there.
 bool Places::is_settled(const Place& place, std::uint32_t now_ms) const {
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       const Place* const near = known_at(place.ix + dx, place.iy + dy);
-      if (near == nullptr || near->thing_high_ms == 0 || now_ms - near->thing_high_ms > gap_ms_) continue;
+      if (near == nullptr || near->thing_high_ms == 0 || now_ms - near->thing_high_ms > memory_ms_) continue;
       if (near->thing_high_ms - near->first_ms >= settle_ms_) return true;
     }
   }

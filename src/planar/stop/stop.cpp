@@ -118,9 +118,7 @@ SweepMotion Stop::sweep_of(const Motion& motion, double* rim_m_s) const {
     const double speed = std::fabs(motion.speed_m_s[k]), turn = std::fabs(motion.turn_rad_s[k]);
     if (!(speed + turn > kStill)) continue;
     v = motion.speed_m_s[k], w = motion.turn_rad_s[k];
-    const double with_errors = rim_of(speed * (1.0 + settings_.speed_error_ratio) + settings_.speed_error_m_s,
-                                      turn * (1.0 + settings_.speed_error_ratio) + settings_.turn_error_rad_s);
-    *rim_m_s = larger(*rim_m_s, k == 0 ? with_errors : rim_of(speed, turn));
+    *rim_m_s = larger(*rim_m_s, rim_of(speed, turn));
   }
   const double rim = rim_of(v, w);
   if (rim > kStill) {
@@ -128,7 +126,8 @@ SweepMotion Stop::sweep_of(const Motion& motion, double* rim_m_s) const {
     sweep.turn_rad_m = w / rim;
   }
   const double along = sweep.velocity.dot(mount_.forward_base), lever_m = sweep_.radius_m();
-  sweep.speed_error_m_s = settings_.speed_error_m_s + settings_.speed_error_ratio * settings_.speed_max_m_s;
+  sweep.speed_error_ratio = settings_.speed_error_ratio;
+  sweep.speed_error_m_s = settings_.speed_error_m_s;
   sweep.turn_error_rad_s = settings_.turn_error_rad_s;
   if (motion.given[0] && motion.given[1]) {
     // In the plane of speed and turn by the lever: the part of the measured motion that the direction leaves.
@@ -136,7 +135,7 @@ SweepMotion Stop::sweep_of(const Motion& motion, double* rim_m_s) const {
     const double m = motion.speed_m_s[0], n = motion.turn_rad_s[0] * lever_m;
     double share = ab > 0.0 ? (m * a + n * b) / ab : 0.0;
     if (share < 0.0) share = 0.0;
-    sweep.speed_error_m_s += std::fabs(m - share * a);
+    sweep.aside_m_s = std::fabs(m - share * a);
     sweep.turn_error_rad_s += std::fabs(n - share * b) / lever_m;
   }
   return sweep;
@@ -238,7 +237,9 @@ void Stop::tell_nearest(const Hazard& hazard, pose_wall_planar_stop_result* resu
 
 // Stops at once; goes on only after restart_s without a reason to stop.
 void Stop::decide(std::uint32_t fatal, std::int64_t now_ns, pose_wall_planar_stop_result* r) {
-  const bool is_fast = !(r->rim_speed_m_s <= r->stop_speed_m_s);
+  // The sweep has the errors of a speed; the same ones may be in what was measured.
+  const double may_read = r->stop_speed_m_s * (1.0 + settings_.speed_error_ratio) + settings_.speed_error_m_s;
+  const bool is_fast = !(r->rim_speed_m_s <= may_read);
   if (is_fast) r->reasons |= POSE_WALL_PLANAR_STOP_R_SPEED;
   const bool may_move = fatal == 0 && r->stop_speed_m_s > 0.0 && !is_fast;
   const bool is_clear = may_move && r->allowed_speed_m_s >= settings_.restart_speed_m_s;

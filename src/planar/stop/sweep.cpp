@@ -46,7 +46,8 @@ void Sweep::set_motion(const SweepMotion& motion, double reaction_s) {
 }
 
 void Sweep::set_levels(const SweepMotion& motion, double reaction_s) {
-  const double longest_m = top_m_s_ * reaction_s + top_m_s_ * top_m_s_ / (2.0 * deceleration_);
+  const double fastest = top_m_s_ * (1.0 + motion.speed_error_ratio) + motion.speed_error_m_s;
+  const double longest_m = fastest * reaction_s + fastest * fastest / (2.0 * deceleration_);
   step_m_ = longest_m > kStepLeast_m * kSweepSlices ? longest_m / kSweepSlices : kStepLeast_m;
   const double turn = std::fabs(motion.turn_rad_m), speed = motion.velocity.norm();
   // Places within reach move past the footprint on arcs: by how much these leave their chords.
@@ -54,11 +55,12 @@ void Sweep::set_levels(const SweepMotion& motion, double reaction_s) {
   top_level_ = 0;
   for (std::uint32_t level = 0; level <= kSweepLevels; ++level) {
     const double rim = speed_of(level), time_s = reaction_s + rim / deceleration_;
-    const double path_m = motion.any ? 0.0 : rim * reaction_s + rim * rim / (2.0 * deceleration_);
+    const double fast = rim * (1.0 + motion.speed_error_ratio) + motion.speed_error_m_s;
+    const double path_m = motion.any || level == 0 ? 0.0 : fast * reaction_s + fast * fast / (2.0 * deceleration_);
     const double lever_m = radius_m_ + path_m;
-    double growth_m = motion.speed_error_m_s * time_s + motion.turn_error_rad_s * time_s * lever_m +
-                      turn * rim * scan_s_ * lever_m + sagitta_m;
-    if (motion.any) growth_m = longest_m;
+    const double turn_error = motion.turn_error_rad_s + motion.speed_error_ratio * turn * rim;
+    double growth_m = motion.aside_m_s * time_s + turn_error * time_s * lever_m + turn * rim * scan_s_ * lever_m;
+    growth_m = motion.any ? longest_m : growth_m + sagitta_m;
     path_[level] = path_m;
     slices_of_[level] = static_cast<std::uint32_t>(std::ceil(path_m / step_m_ - 1e-9));
     if (slices_of_[level] > kSweepSlices) slices_of_[level] = kSweepSlices;
@@ -146,7 +148,9 @@ bool Sweep::is_clear(float least_m, float now_m, const Hazard& hazard, std::uint
   if (level == 0) return true;
   const float walk_m = hazard.approach_m_s * time_[level];
   const float margin_m = hazard.margin_m + growth_[level] + walk_m;
-  // Already within the margin of a place that stands still: slowly, and not nearer.
+  // A place that was not seen, beside the way: what counts is that the machine does not go there.
+  if (hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN && least_m >= now_m - kNearer_m) return true;
+  // Already within the margin of a thing that stands still: slowly, and not nearer.
   const bool is_beside = now_m <= hazard.margin_m + growth_[1] && !(walk_m > 0.0F);
   if (is_beside) return least_m >= now_m - kNearer_m + (growth_[level] - growth_[1]);
   return least_m > margin_m;

@@ -28,7 +28,8 @@ constexpr double kSweepReach_m = 7.8;       // places are known this far around 
 struct SweepMotion {
   Eigen::Vector2d velocity = Eigen::Vector2d::UnitX();  // of base, for a rim speed of 1 m/s
   double turn_rad_m = 0.0;                              // likewise
-  double speed_error_m_s = 0.0, turn_error_rad_s = 0.0; // deviation
+  double speed_error_ratio = 0.0, speed_error_m_s = 0.0;  // along the arc: it may be so much faster
+  double turn_error_rad_s = 0.0, aside_m_s = 0.0;         // deviation from the arc
   bool any = false;                                     // every motion up to the top speed
 };
 

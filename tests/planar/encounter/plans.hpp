@@ -20,13 +20,16 @@ inline void draw_sensor(Plan* plan, Draw* draw) {
   const double which = draw->share();
   Sensor& s = plan->sensor;
   if (which < 0.7) {
-    s = {Pattern::vlp16, 2.0, draw->within(1.4, 1.7), 0.0, draw->within(0.40, 0.52), 1.25, 900};
+    s = {Pattern::vlp16, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.45, 0.55), 1.25, 900};
   } else if (which < 0.78) {
-    s = {Pattern::os1_64, 2.0, draw->within(1.4, 1.7), 0.0, draw->within(0.30, 0.45), 1.25, 0};
+    s = {Pattern::os1_64, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.35, 0.45), 1.25, 0};
   } else {
-    s = {Pattern::mid360, 2.0, draw->within(1.4, 1.7), 3.14159265, draw->within(0.0, 0.2), 1.25, 0};
+    s = {Pattern::mid360, 2.0, draw->within(1.4, 1.6), 3.14159265, draw->within(0.0, 0.2), 1.25, 0};
   }
-  if (plan->drive == Drive::spot) s = {Pattern::mid360, 0.0, 2.2, 3.14159265, 0.0, 3.14159265, 0};
+  // The tail swings: it has to be seen.
+  if (plan->drive == Drive::spot || plan->drive == Drive::curve) {
+    s = {Pattern::mid360, 0.0, 2.2, 3.14159265, 0.0, 3.14159265, 0};
+  }
   s.noise_m = draw->within(0.005, 0.02);
   s.dropout = draw->within(0.0, 0.05);
 }
@@ -34,7 +37,7 @@ inline void draw_sensor(Plan* plan, Draw* draw) {
 inline void draw_drive(Plan* plan, Draw* draw) {
   const double which = draw->share();
   Machine& m = plan->machine;
-  plan->drive = which < 0.6 ? Drive::straight : which < 0.9 ? Drive::curve : which < 0.96 ? Drive::spot : Drive::reverse;
+  plan->drive = which < 0.75 ? Drive::straight : which < 0.9 ? Drive::curve : which < 0.97 ? Drive::spot : Drive::reverse;
   const double sign = draw->happens(0.5) ? 1.0 : -1.0;
   if (plan->drive == Drive::straight) m.set_arc(1.0, draw->within(-0.01, 0.01));
   if (plan->drive == Drive::curve) m.set_arc(1.0, sign * draw->within(0.02, 0.25));

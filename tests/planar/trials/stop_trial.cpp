@@ -92,7 +92,7 @@ int false_stops(const Arguments& a, bool has_dust) {
   for (std::uint64_t k = 0; drove_s < hours * 3600.0 && k < 1000000; ++k, ++runs) {
     Draw draw(seed_of(a.seed + 77, k));
     Plan plan = pose_wall::test::draw_plan(&draw, settings);
-    if (plan.drive == pose_wall::test::Drive::spot || plan.drive == pose_wall::test::Drive::reverse) continue;
+    if (plan.drive != pose_wall::test::Drive::straight) continue;
     plan.world.things.clear(), plan.world.puddles.clear(), plan.world.dust.clear();
     plan.world.face_m = 1000.0;
     plan.loss = pose_wall::test::Loss::none;
