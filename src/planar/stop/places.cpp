@@ -44,9 +44,9 @@ void Places::forget() {
 }
 
 std::uint32_t Places::index_of(std::int32_t ix, std::int32_t iy) {
-  const std::int32_t a = ix % kPlacesAcross, b = iy % kPlacesAcross;
-  return static_cast<std::uint32_t>((a < 0 ? a + kPlacesAcross : a) +
-                                    kPlacesAcross * (b < 0 ? b + kPlacesAcross : b));
+  constexpr std::uint32_t kOffset = kPlacesAcross * 100000U;  // no machine goes as far: above 0
+  const std::uint32_t a = (static_cast<std::uint32_t>(ix) + kOffset) % kPlacesAcross;
+  return a + kPlacesAcross * ((static_cast<std::uint32_t>(iy) + kOffset) % kPlacesAcross);
 }
 
 Place& Places::place_at(std::int32_t ix, std::int32_t iy) {
@@ -137,20 +137,24 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
                       std::uint32_t now_ms) {
   const auto drift_m = static_cast<float>(track.drift_m);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
+  const float most_m = sight.seen_most_m();
+  const auto machine_m = static_cast<float>(sweep.radius_m());
   each_around(track, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
-    std::uint8_t seen = sight.seen(x - sx, y - sy);
-    const bool is_machine = sweep.distance_now(x, y) < -kInside_m;
+    const float dx = x - sx, dy = y - sy;
+    const bool is_near = dx * dx + dy * dy < most_m * most_m;
+    std::uint8_t seen = is_near ? sight.seen(dx, dy) : std::uint8_t{0};
+    const bool is_machine = x * x + y * y < machine_m * machine_m && sweep.distance_now(x, y) < -kInside_m;
     if (is_machine) seen = Sight::kLow;
-    if (seen == 0) return;
-    Place& place = place_at(ix, iy);
-    if (is_machine) place.thing_low_ms = place.thing_high_ms = 0;
-    if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
-    if ((seen & Sight::kLow) != 0) place.low_ms = now_ms, place.low_drift_m = drift_m;
-    const bool low_gone = (seen & Sight::kLow) != 0 && now_ms - place.thing_low_ms > delay_ms_;
-    if (low_gone) place.thing_low_ms = 0;
-    if (place.thing_high_ms != 0 && now_ms - place.thing_high_ms > delay_ms_ && sight.passed_high(x - sx, y - sy)) {
-      place.thing_high_ms = 0;
+    Place& place = places_[index_of(ix, iy)];
+    if (seen != 0) {
+      (void)place_at(ix, iy);
+      if (is_machine) place.thing_low_ms = place.thing_high_ms = 0;
+      if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
+      if ((seen & Sight::kLow) != 0) place.low_ms = now_ms, place.low_drift_m = drift_m;
+      if ((seen & Sight::kLow) != 0 && now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
     }
+    const bool may_go = place.thing_high_ms != 0 && now_ms - place.thing_high_ms > delay_ms_;
+    if (may_go && known_at(ix, iy) != nullptr && sight.passed_high(dx, dy)) place.thing_high_ms = 0;
   });
 }
 

@@ -15,7 +15,7 @@
 
 namespace pose_wall::planar {
 
-constexpr std::int32_t kPlacesAcross = 160;  // 16 m, in a ring: what falls out at one side comes in at the other
+constexpr std::uint32_t kPlacesAcross = 160;  // 16 m, in a ring: what falls out at one side comes in at the other
 constexpr double kPlace_m = 0.1;
 constexpr std::int32_t kPlacesAround = 79;   // to each side of base
 // From the middle of a place to its corner, and from the middle of a cell of the sight to its own.

@@ -112,6 +112,8 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
   const float H = sensor_height_m_, room_m = top_m_ - H, below_m = -band_m_;
   // Where no floor is seen it may be lower or higher than the plane: only near places can then be seen low.
   reach_m_ = ground.seen ? kRings * kRing_m : 0.5F * (thing_m_ - band_m_) / kink_ + 0.5F;
+  const float widest_m = half_width_m_ / static_cast<float>(kAzimuthMost_rad);
+  seen_most_m_ = (reach_m_ < widest_m ? reach_m_ : widest_m) + kRing_m;
   std::uint32_t used = 0;
   constexpr float kNearest_m = 0.05F;  // straight below the sensor there is no azimuth
   rays.each_four([&](const FourPlaces& p, FourTruths those) {

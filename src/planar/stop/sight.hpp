@@ -34,6 +34,8 @@ class Sight {
   // How a place at (x, y) about the sensor was seen in this frame: kLow where the smallest thing would have been hit,
   // kTall where a person would have been.
   std::uint8_t seen(float x, float y) const;
+  // No place is seen so further away than this.
+  float seen_most_m() const { return seen_most_m_; }
   // Whether rays passed there above thing_height_m.
   bool passed_high(float x, float y) const;
 
@@ -88,7 +90,7 @@ class Sight {
   Mount mount_;
   float sensor_height_m_ = 0.0F;
   float band_m_ = 0.0F, thing_m_ = 0.0F, tall_m_ = 0.0F, top_m_ = 0.0F;
-  float kink_ = 0.0F, reach_m_ = 0.0F, half_width_m_ = 0.0F;
+  float kink_ = 0.0F, reach_m_ = 0.0F, half_width_m_ = 0.0F, seen_most_m_ = 0.0F;
 };
 
 }  // namespace pose_wall::planar

@@ -20,15 +20,15 @@ inline void draw_sensor(Plan* plan, Draw* draw) {
   const double which = draw->share();
   Sensor& s = plan->sensor;
   if (which < 0.7) {
-    s = {Pattern::vlp16, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.45, 0.55), 1.25, 900};
+    s = Sensor(Pattern::vlp16, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.45, 0.55), 1.25, 900);
   } else if (which < 0.78) {
-    s = {Pattern::os1_64, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.35, 0.45), 1.25, 0};
+    s = Sensor(Pattern::os1_64, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.35, 0.45), 1.25, 0);
   } else {
-    s = {Pattern::mid360, 2.0, draw->within(1.4, 1.6), 3.14159265, draw->within(0.0, 0.2), 1.25, 0};
+    s = Sensor(Pattern::mid360, 2.0, draw->within(1.4, 1.6), 3.14159265, draw->within(0.0, 0.2), 1.25, 0);
   }
   // The tail swings: it has to be seen.
   if (plan->drive == Drive::spot || plan->drive == Drive::curve) {
-    s = {Pattern::mid360, 0.0, 2.2, 3.14159265, 0.0, 3.14159265, 0};
+    s = Sensor(Pattern::mid360, 0.0, 2.2, 3.14159265, 0.0, 3.14159265, 0);
   }
   s.noise_m = draw->within(0.005, 0.02);
   s.dropout = draw->within(0.0, 0.05);

@@ -18,6 +18,10 @@ namespace pose_wall::test {
 enum class Pattern { vlp16, os1_64, mid360 };
 
 struct Sensor {
+  Sensor() = default;
+  Sensor(Pattern of, double x, double z, double roll, double pitch, double sector, std::uint32_t turn)
+      : pattern(of), x_m(x), z_m(z), roll_rad(roll), pitch_rad(pitch), sector_rad(sector), columns(turn) {}
+
   Pattern pattern = Pattern::vlp16;
   double x_m = 2.0, z_m = 1.6;            // in base
   double roll_rad = 0.0, pitch_rad = 0.45; // of the mount; nose down is positive
@@ -28,22 +32,33 @@ struct Sensor {
 
   Eigen::Matrix3d R() const { return rotation_zyx(roll_rad, pitch_rad, 0.0); }
   // Unit directions in the lidar's frame. Those of a Mid-360 differ from frame to frame.
-  void directions(Draw* draw, std::vector<Vec3>* out) const;
+  void directions(Draw* draw, std::vector<Vec3>* out);
+
+ private:
+  std::vector<Vec3> ring_;
 };
 
-inline void Sensor::directions(Draw* draw, std::vector<Vec3>* out) const {
+inline void Sensor::directions(Draw* draw, std::vector<Vec3>* out) {
   const auto put = [&](double azimuth, double elevation) {
     const double c = std::cos(elevation);
     out->push_back({static_cast<float>(c * std::cos(azimuth)), static_cast<float>(c * std::sin(azimuth)),
                     static_cast<float>(std::sin(elevation))});
   };
   if (pattern == Pattern::mid360) {
-    if (!out->empty() && !draw->happens(1.0)) return;
-    out->clear();
+    // Some frames' directions in a ring: each frame begins anywhere in it.
     const auto points = static_cast<std::uint32_t>(20000 * sector_rad / 3.14159265);
-    for (std::uint32_t k = 0; k < points; ++k) {
-      put(draw->within(-sector_rad, sector_rad), draw->within(-0.122, 0.908));  // -7 to 52 degrees, upside down
+    constexpr std::uint32_t kFrames = 8;
+    if (ring_.size() != kFrames * points) {
+      out->swap(ring_);
+      out->clear();
+      for (std::uint32_t k = 0; k < kFrames * points; ++k) {
+        put(draw->within(-sector_rad, sector_rad), draw->within(-0.122, 0.908));  // -7 to 52 degrees, upside down
+      }
+      out->swap(ring_);
     }
+    out->resize(points);
+    std::uint32_t at = draw->below(kFrames * points);
+    for (Vec3& d : *out) d = ring_[at], at = at + 1 < kFrames * points ? at + 1 : 0;
     return;
   }
   if (!out->empty()) return;
@@ -61,7 +76,7 @@ inline void Sensor::directions(Draw* draw, std::vector<Vec3>* out) const {
 class Scan {
  public:
   // The machine at (x, y, yaw), leaning as the floor does.
-  void take(const Sensor& sensor, const World& world, double x_m, double y_m, double yaw_rad, double pitch_rad,
+  void take(Sensor& sensor, const World& world, double x_m, double y_m, double yaw_rad, double pitch_rad,
             double roll_rad, Draw* draw) {
     sensor.directions(draw, &directions_);
     const Eigen::Matrix3d R = rotation_zyx(roll_rad, pitch_rad, yaw_rad) * sensor.R();

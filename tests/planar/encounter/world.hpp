@@ -16,6 +16,25 @@ struct Vec3 {
   float x, y, z;
 };
 
+// Of a turn in 4096 steps: the casts' waves need no better one.
+class QuickSine {
+ public:
+  QuickSine() {
+    for (int k = 0; k < 4096; ++k) table_[k] = static_cast<float>(std::sin(k * (6.283185307179586 / 4096.0)));
+  }
+  float operator()(float rad) const {
+    return table_[static_cast<std::uint32_t>(static_cast<std::int32_t>(rad * (4096.0F / 6.2831853F) + 1e6F)) & 4095U];
+  }
+
+ private:
+  float table_[4096];
+};
+
+inline const QuickSine& quick_sine() {
+  static const QuickSine sine;
+  return sine;
+}
+
 // An upright cylinder (half_x is its radius, half_y < 0) or a box turned about the vertical, from bottom to top.
 struct Thing {
   double x_m, y_m, yaw_rad;
@@ -54,7 +73,7 @@ struct World {
 
   float floor_at(float x, float y) const {
     const auto k = static_cast<float>(6.2831853 / floor_length_m);
-    return static_cast<float>(floor_wave_m) * std::sin(k * x + 0.6F * k * y + static_cast<float>(floor_phase));
+    return static_cast<float>(floor_wave_m) * sine_(k * x + 0.6F * k * y + static_cast<float>(floor_phase));
   }
   // Slopes of the floor along x and y.
   void slopes_at(double x, double y, double* along, double* across) const {
@@ -64,13 +83,15 @@ struct World {
   float wall_at(float x) const {
     const auto k = static_cast<float>(6.2831853 / wall_length_m);
     return static_cast<float>(half_width_m) + static_cast<float>(wall_wave_m) *
-           std::sin(k * x + static_cast<float>(wall_phase));
+           sine_(k * x + static_cast<float>(wall_phase));
   }
 
   // Range of a ray (unit direction), 0 without a return.
   float cast(const Vec3& from, const Vec3& d, Draw* draw) const;
 
  private:
+  const QuickSine& sine_ = quick_sine();
+
   float to_road(const Vec3& from, const Vec3& d, float most, bool* is_floor) const;
   float to_thing(const Thing& thing, const Vec3& from, const Vec3& d, float most) const;
   bool is_wet(float x, float y, bool* mirrors) const {
@@ -117,8 +138,9 @@ inline float World::to_thing(const Thing& thing, const Vec3& from, const Vec3& d
       return;
     }
     const float a = (low - p) / v, b = (high - p) / v;
-    enter = std::fmax(enter, std::fmin(a, b));
-    leave = std::fmin(leave, std::fmax(a, b));
+    const float first = a < b ? a : b, last = a < b ? b : a;
+    enter = enter > first ? enter : first;
+    leave = leave < last ? leave : last;
   };
   if (thing.is_round()) {
     const auto r = static_cast<float>(thing.half_x_m);
@@ -126,8 +148,9 @@ inline float World::to_thing(const Thing& thing, const Vec3& from, const Vec3& d
     const float under = b * b - a * c;
     if (!(under > 0.0F && a > 1e-9F)) return most;
     const float root = std::sqrt(under);
-    enter = std::fmax(enter, (-b - root) / a);
-    leave = std::fmin(leave, (-b + root) / a);
+    const float first = (-b - root) / a, last = (-b + root) / a;
+    enter = enter > first ? enter : first;
+    leave = leave < last ? leave : last;
   } else {
     const auto cs = static_cast<float>(std::cos(thing.yaw_rad)), sn = static_cast<float>(std::sin(thing.yaw_rad));
     const auto hx = static_cast<float>(thing.half_x_m), hy = static_cast<float>(thing.half_y_m);
