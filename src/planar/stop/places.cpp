@@ -116,19 +116,26 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
   });
 }
 
-// visit(ix, iy, x and y in base): all places around base, row by row.
+// visit(ix, iy, x and y in base): the known places within a square around a point of base, row by row.
 template <typename Visit>
-void Places::each_around(const Track& track, const Visit& visit) const {
+void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
   const Turn2 turn(track.yaw_rad);
   const std::int32_t bx = place_of(track.x_m), by = place_of(track.y_m);
-  for (std::int32_t iy = by - kPlacesAround; iy <= by + kPlacesAround; ++iy) {
-    const std::int32_t ix = bx - kPlacesAround;
+  const Eigen::Vector2d middle = turn * middle_m + Eigen::Vector2d(track.x_m, track.y_m);
+  const auto bounded = [](double at_m, std::int32_t around) {
+    const std::int32_t place = place_of(at_m), least = around - kPlacesAround, most = around + kPlacesAround;
+    return place < least ? least : place > most ? most : place;
+  };
+  const std::int32_t first_x = bounded(middle.x() - half_m, bx), last_x = bounded(middle.x() + half_m, bx);
+  const std::int32_t first_y = bounded(middle.y() - half_m, by), last_y = bounded(middle.y() + half_m, by);
+  const auto step_x = static_cast<float>(turn.c * kPlace_m), step_y = static_cast<float>(-turn.s * kPlace_m);
+  for (std::int32_t iy = first_y; iy <= last_y; ++iy) {
     const Eigen::Vector2d first =
-        turn.back({(ix + 0.5) * kPlace_m - track.x_m, (iy + 0.5) * kPlace_m - track.y_m});
-    const auto step_x = static_cast<float>(turn.c * kPlace_m), step_y = static_cast<float>(-turn.s * kPlace_m);
-    const auto x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
-    for (std::int32_t k = 0; k <= 2 * kPlacesAround; ++k) {
-      visit(ix + k, iy, x + static_cast<float>(k) * step_x, y + static_cast<float>(k) * step_y);
+        turn.back({(first_x + 0.5) * kPlace_m - track.x_m, (iy + 0.5) * kPlace_m - track.y_m});
+    float x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
+    for (std::int32_t ix = first_x; ix <= last_x; ++ix) {
+      visit(ix, iy, x, y);
+      x += step_x, y += step_y;
     }
   }
 }
@@ -138,29 +145,30 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
   const auto drift_m = static_cast<float>(track.drift_m);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   const float most_m = sight.seen_most_m();
-  const auto machine_m = static_cast<float>(sweep.radius_m());
-  each_around(track, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  each_around(track, sensor_m, static_cast<double>(most_m), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     const float dx = x - sx, dy = y - sy;
-    const bool is_near = dx * dx + dy * dy < most_m * most_m;
-    std::uint8_t seen = is_near ? sight.seen(dx, dy) : std::uint8_t{0};
-    const bool is_machine = x * x + y * y < machine_m * machine_m && sweep.distance_now(x, y) < -kInside_m;
-    if (is_machine) seen = Sight::kLow;
-    Place& place = places_[index_of(ix, iy)];
-    if (seen != 0) {
-      (void)place_at(ix, iy);
-      if (is_machine) place.thing_low_ms = place.thing_high_ms = 0;
-      if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
-      if ((seen & Sight::kLow) != 0) place.low_ms = now_ms, place.low_drift_m = drift_m;
-      if ((seen & Sight::kLow) != 0 && now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
-    }
-    const bool may_go = place.thing_high_ms != 0 && now_ms - place.thing_high_ms > delay_ms_;
-    if (may_go && known_at(ix, iy) != nullptr && sight.passed_high(dx, dy)) place.thing_high_ms = 0;
+    if (!(dx * dx + dy * dy < most_m * most_m)) return;
+    const std::uint8_t seen = sight.seen(dx, dy);
+    if (seen == 0) return;
+    Place& place = place_at(ix, iy);
+    if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
+    if ((seen & Sight::kLow) == 0) return;
+    place.low_ms = now_ms, place.low_drift_m = drift_m;
+    if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
+  });
+  // Where the machine stands, nothing lies.
+  each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+    if (!(sweep.distance_now(x, y) < -kInside_m)) return;
+    Place& place = place_at(ix, iy);
+    place.low_ms = now_ms, place.low_drift_m = drift_m;
+    place.thing_low_ms = place.thing_high_ms = 0;
   });
 }
 
 void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms) {
   const auto drift_m = static_cast<float>(track.drift_m);
-  each_around(track, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  const double reach_m = sweep.radius_m() + static_cast<double>(confirm_m_);
+  each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) <= confirm_m_)) return;
     Place& place = place_at(ix, iy);
     place.low_ms = now_ms, place.low_drift_m = drift_m;
@@ -179,42 +187,50 @@ bool Places::is_settled(const Place& place, std::uint32_t now_ms) const {
   return false;
 }
 
-std::uint32_t Places::find_hazards(const Track& track, const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards,
-                                   Count* count, bool* full) const {
-  const float still_m = protection_m_ + kPlaceCorner_m, thing_m = still_m + kCellCorner_m;
-  const float still_reach_m = thing_m + drift_most_m_ + sweep.growth_m(0.0F);
-  const float walk_reach_m = still_reach_m + approach_m_s_ * (sweep.growth_m(1.0F) - sweep.growth_m(0.0F));
-  const auto drift_m = static_cast<float>(track.drift_m);
+// A high thing is gone where rays pass and nothing returned for the delay.
+void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const {
+  const bool may_go = place->thing_high_ms != 0 && now_ms - place->thing_high_ms > delay_ms_;
+  if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
+}
+
+// What a place is to the sweep: false if it is free.
+bool Places::is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const {
+  hazard->margin_m = protection_m_ + kPlaceCorner_m;
+  hazard->approach_m_s = 0.0F;
+  hazard->kind = POSE_WALL_PLANAR_STOP_UNSEEN;
+  if (place == nullptr) return true;
+  const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift_m, track, now_ms);
+  const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift_m, track, now_ms);
+  if (!is_low && !is_high) return !is_free(*place, track, now_ms);
+  hazard->margin_m += kCellCorner_m + static_cast<float>(track.drift_m) - place->thing_drift_m;
+  hazard->kind = static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) +
+                                            (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
+  if (is_high && !is_settled(*place, now_ms)) hazard->approach_m_s = approach_m_s_;
+  return true;
+}
+
+std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+                                   const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count) {
+  const float still_reach_m =
+      protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
+  const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
+  const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   std::uint32_t found = 0;
-  *full = false;
-  each_around(track, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
-    if (!sweep.concerns(x, y, walk_reach_m)) return;
+  each_around(track, {0.0, 0.0}, kSweepReach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+    const std::uint32_t index = index_of(ix, iy);
     const bool is_near = sweep.concerns(x, y, still_reach_m);
-    const Place* const place = known_at(ix, iy);
-    if (place == nullptr && !is_near) return;
-    Hazard hazard{x, y, still_m, 0.0F, index_of(ix, iy), POSE_WALL_PLANAR_STOP_UNSEEN};
-    if (place != nullptr) {
-      const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift_m, track, now_ms);
-      const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift_m, track, now_ms);
-      count->doubtful += place->doubt_ms == now_ms && is_near ? 1 : 0;
-      if (is_low || is_high) {
-        ++count->things;
-        hazard.margin_m = thing_m + drift_m - place->thing_drift_m;
-        hazard.kind = static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) +
-                                                 (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
-        if (is_high && !is_settled(*place, now_ms)) hazard.approach_m_s = approach_m_s_;
-        if (!is_near && !(hazard.approach_m_s > 0.0F)) return;
-      } else if (!is_near || is_free(*place, track, now_ms)) {
-        return;
-      }
-    }
+    if (!is_near && (places_[index].thing_high_ms == 0 || !sweep.concerns(x, y, walk_reach_m))) return;
+    Place* const place = known_at(ix, iy) != nullptr ? &places_[index] : nullptr;
+    if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
+    if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
+    Hazard hazard{x, y, 0.0F, 0.0F, index, 0};
+    if (!is_hazard(place, track, now_ms, &hazard)) return;
+    const bool is_blind = hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN;
+    if (!is_blind) ++count->things;
+    if (!is_near && !(hazard.approach_m_s > 0.0F)) return;
     if (sweep.distance_now(x, y) < kNotUnder_m) return;
-    if (hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN) ++count->blind;
-    if (found < hazards.size()) {
-      hazards[found++] = hazard;
-    } else {
-      *full = true;
-    }
+    if (is_blind) ++count->blind;
+    hazards[found++] = hazard;  // there is room for every place
   });
   return found;
 }

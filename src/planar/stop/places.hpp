@@ -55,10 +55,9 @@ class Places {
   struct Count {
     std::uint32_t things = 0, blind = 0, doubtful = 0;
   };
-  // All that is in the way of a sweep. `hazards` has room for kHazards; with more the first ones stay, and *full is
-  // set.
-  std::uint32_t find_hazards(const Track& track, const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards,
-                             Count* count, bool* full) const;
+  // All that is in the way of a sweep, and high things that are gone go. `hazards` has room for kHazards.
+  std::uint32_t find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+                             const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count);
 
   const Place& at(std::uint32_t index) const { return places_[index]; }
   // Across, of things that hang together around a place.
@@ -67,7 +66,9 @@ class Places {
 
  private:
   template <typename Visit>
-  void each_around(const Track& track, const Visit& visit) const;
+  void each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
+  void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
+  bool is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const;
   static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
   Place& place_at(std::int32_t ix, std::int32_t iy);
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;

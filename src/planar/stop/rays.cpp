@@ -30,9 +30,9 @@ FourPlaces Rays::four_of(const unsigned char* point, std::uint32_t left) const {
   FourPlaces p{};
   for (std::uint32_t lane = 0; lane < kFour && lane < left; ++lane) {
     const unsigned char* const at = point + std::size_t{lane} * cloud_.point_step;
-    p.x[lane] = static_cast<float>(read_field(at, cloud_.x, swap_));
-    p.y[lane] = static_cast<float>(read_field(at, cloud_.y, swap_));
-    p.z[lane] = static_cast<float>(read_field(at, cloud_.z, swap_));
+    p.x[lane] = number(at, cloud_.x);
+    p.y[lane] = number(at, cloud_.y);
+    p.z[lane] = number(at, cloud_.z);
   }
   return p;
 }
@@ -50,16 +50,15 @@ std::uint64_t Rays::print(std::uint32_t* returns) const {
   *returns = 0;
   for (std::uint64_t i = 0; i < points_; i += stride) {
     const unsigned char* const point = point_at(i);
-    const double xyz[3] = {read_field(point, cloud_.x, swap_), read_field(point, cloud_.y, swap_),
-                           read_field(point, cloud_.z, swap_)};
-    for (const double number : xyz) {
-      std::uint64_t bits;
-      std::memcpy(&bits, &number, sizeof(bits));
+    const float xyz[3] = {number(point, cloud_.x), number(point, cloud_.y), number(point, cloud_.z)};
+    for (const float value : xyz) {
+      std::uint32_t bits;
+      std::memcpy(&bits, &value, sizeof(bits));
       hash = (hash ^ bits) * 0x100000001B3ULL;
       hash ^= hash >> 29U;
     }
-    const double r2 = xyz[0] * xyz[0] + xyz[1] * xyz[1] + xyz[2] * xyz[2];
-    if (r2 > 0.0 && r2 < 1e12) ++*returns;
+    const float r2 = xyz[0] * xyz[0] + xyz[1] * xyz[1] + xyz[2] * xyz[2];
+    if (r2 > 0.0F && r2 < 1e12F) ++*returns;
   }
   return hash;
 }

@@ -19,10 +19,8 @@ class Rays {
   Rays(const pose_wall_cloud& cloud, const Mount& mount);
 
   std::uint64_t points() const { return points_; }
-  std::uint64_t first_point() const { return 0; }
 
-  // visit(FourPlaces from the sensor, FourTruths which are returns in range and not of the machine): points from `row`
-  // `first` on, at most one row.
+  // visit(FourPlaces from the sensor, FourTruths which of them are returns in range and not of the machine).
   template <typename Visit>
   void each_four(const Visit& visit) const {
     const bool row_is_plain = is_xyz32_in_a_row(cloud_);
@@ -66,6 +64,12 @@ class Rays {
   }
 
   FourPlaces four_of(const unsigned char* point, std::uint32_t left) const;
+  float number(const unsigned char* point, const pose_wall_field& field) const {
+    if (!plain_) return static_cast<float>(read_field(point, field, swap_));
+    float value;
+    std::memcpy(&value, point + field.offset, sizeof(value));
+    return value;
+  }
 
   FourPlaces in_base(const FourPlaces& p, FourTruths* those) const {
     const FourFloats r2 = p.x * p.x + p.y * p.y + p.z * p.z;

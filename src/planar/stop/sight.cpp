@@ -17,14 +17,15 @@ constexpr float kPlaceHalf_m = 0.0707F; // half the diagonal of a place of 0.1 m
 constexpr std::uint32_t kSides = 24;    // azimuths to each side at most, near the sensor
 // Doubtful: so many rays pass for each that returns, and it is a few.
 constexpr std::uint32_t kPassesEach = 4, kReturnsFew = 3;
+// One ray in the counts of a word, and their bits; as Sight has their shifts.
+constexpr std::uint64_t kLowOne = 1ULL, kTallOne = 1ULL << 16U, kHighOne = 1ULL << 32U;
+constexpr std::uint64_t kLowMask = 0xFFFFULL, kTallMask = 0xFFFFULL << 16U;
 constexpr std::uint8_t kFull = 255;     // counts of returns stay there
 
 }  // namespace
 
 void Sight::lay_out(Arena& arena) {
-  low_ = arena.take<std::uint16_t>(kCounts);
-  tall_ = arena.take<std::uint16_t>(kCounts);
-  high_ = arena.take<std::uint16_t>(kCounts);
+  passes_ = arena.take<std::uint64_t>(kCounts);
   low_return_ = arena.take<std::uint8_t>(kRingCells);
   high_return_ = arena.take<std::uint8_t>(kRingCells);
   seen_ = arena.take<std::uint8_t>(kRingCells);
@@ -49,7 +50,7 @@ void Sight::open(const StopSettings& settings, const Mount& mount) {
 }
 
 void Sight::clear() {
-  low_.fill(0), tall_.fill(0), high_.fill(0);
+  passes_.fill(0);
   low_return_.fill(0), high_return_.fill(0);
 }
 
@@ -60,47 +61,78 @@ std::uint32_t Sight::azimuth_of(float x, float y) {
   return static_cast<std::uint32_t>(p * (kAzimuths / 4.0F)) & (kAzimuths - 1U);
 }
 
-// One ray's count in the rings whose middles lie between two distances: it begins in one and ends in another.
-void Sight::pass(std::uint16_t* counts, float from_m, float to_m) {
-  constexpr float kMost_m = kRings * kRing_m;  // the last ring's end
-  if (!(from_m < to_m && from_m < kMost_m)) return;
-  const float last = (to_m < kMost_m ? to_m : kMost_m) / kRing_m + 0.5F;
-  const auto first = static_cast<std::uint32_t>(from_m / kRing_m + 0.5F), end = static_cast<std::uint32_t>(last);
-  if (first >= end) return;
-  ++counts[first * kAzimuths];
-  --counts[(end < kRings ? end : kRings) * kAzimuths];
+// The first ring whose middle lies at this distance or behind it, kRings at most.
+FourInts ring_from(FourFloats distance_m) {
+  const FourFloats last = all_four(static_cast<float>(kRings));
+  const FourFloats ring = distance_m * (1.0F / kRing_m) + 0.5F;
+  return cut_off(smaller_of(larger_of(ring, all_four(0.0F)), last));
 }
 
-// Where a ray from the sensor is in each band of heights. Heights fall or rise in a straight line.
-void Sight::put_passes(std::uint32_t azimuth, float height_m, float range_m) {
-  const float fall = (sensor_height_m_ - height_m) / range_m, H = sensor_height_m_;
-  const float end_m = height_m > band_m_ ? range_m - kBefore_m : range_m;
-  const float low_m = band_m_ + kHeightNoise_m, thing_m = thing_m_ - kHeightNoise_m;
-  constexpr float kLevel = 1e-4F;  // falls or rises less than a millimetre within reach
-  const auto at = [&](float level_m) { return (H - level_m) / fall; };
-  if (fall > kLevel) {
-    const float at_low_m = at(low_m), to_m = at_low_m < end_m ? at_low_m : end_m;
-    const float at_thing_m = at(thing_m), at_tall_m = H > tall_m_ ? at(tall_m_) : 0.0F;
-    pass(low_.data() + azimuth, at_thing_m > 0.0F ? at_thing_m : 0.0F, to_m);
-    pass(tall_.data() + azimuth, at_tall_m, to_m);
-    pass(high_.data() + azimuth, H > top_m_ ? at(top_m_) : 0.0F, at_thing_m < end_m ? at_thing_m : end_m);
-    return;
+FourInts azimuths_of(const FourPlaces& p) {
+  const FourFloats t = p.y / (magnitude_of(p.x) + magnitude_of(p.y));
+  const FourFloats at = p.x >= all_four(0.0F) ? 1.0F + t : 3.0F - t;
+  return cut_off(at * (kAzimuths / 4.0F)) & static_cast<std::int32_t>(kAzimuths - 1);
+}
+
+// Where rays that fall are in each band of heights: heights are straight lines from the sensor to the return.
+void Sight::put_falling(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those) {
+  const float H = sensor_height_m_;
+  const FourFloats per_m = range_m / (H - height_m);
+  const FourFloats end_m = height_m > all_four(band_m_) ? range_m - kBefore_m : range_m;
+  const auto from = [&](float level_m) { return ring_from(smaller_of((H - level_m) * per_m, end_m)); };
+  const FourInts top = from(top_m_), tall = from(tall_m_), thing = from(thing_m_ - kHeightNoise_m);
+  const FourInts low = from(band_m_ + kHeightNoise_m);
+  those &= top < low;
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (those[lane] == 0) continue;
+    std::uint64_t* const cells = passes_.data() + azimuth[lane];
+    cells[static_cast<std::uint32_t>(top[lane]) * kAzimuths] += kHighOne;
+    cells[static_cast<std::uint32_t>(tall[lane]) * kAzimuths] += kTallOne;
+    cells[static_cast<std::uint32_t>(thing[lane]) * kAzimuths] += kLowOne - kHighOne;
+    cells[static_cast<std::uint32_t>(low[lane]) * kAzimuths] -= kLowOne + kTallOne;
   }
-  if (!(H > low_m && H < top_m_)) return;
-  const float rise_to_top_m = fall < -kLevel ? at(top_m_) : end_m, rise_to_tall_m = fall < -kLevel ? at(tall_m_) : end_m;
-  const float rise_to_thing_m = fall < -kLevel ? at(thing_m) : end_m;
-  if (H < thing_m) pass(low_.data() + azimuth, 0.0F, rise_to_thing_m < end_m ? rise_to_thing_m : end_m);
-  if (H < tall_m_) pass(tall_.data() + azimuth, 0.0F, rise_to_tall_m < end_m ? rise_to_tall_m : end_m);
-  pass(high_.data() + azimuth, 0.0F, rise_to_top_m < end_m ? rise_to_top_m : end_m);
 }
 
-void Sight::put(float x, float y, float height_m, float range_m) {
-  const std::uint32_t azimuth = azimuth_of(x, y);
-  put_passes(azimuth, height_m, range_m);
-  if (!(height_m > band_m_ && height_m < top_m_ && range_m < kRings * kRing_m)) return;
-  const auto ring = static_cast<std::uint32_t>(range_m / kRing_m);
-  std::uint8_t& count = (height_m < thing_m_ ? low_return_ : high_return_)[ring * kAzimuths + azimuth];
-  if (count < kFull) ++count;
+// The same for one that rises or is level; it is in the machine's height from the sensor on.
+void Sight::put_level(std::uint32_t azimuth, float height_m, float range_m) {
+  const float H = sensor_height_m_, rise = (height_m - H) / range_m, low_m = band_m_ + kHeightNoise_m;
+  if (!(H > low_m && H < top_m_)) return;
+  constexpr float kLeast = 1e-4F;  // rises less than a millimetre within reach
+  const float end_m = height_m > band_m_ ? range_m - kBefore_m : range_m;
+  const auto until = [&](float level_m) {
+    const float at_m = rise > kLeast ? (level_m - H) / rise : end_m;
+    return static_cast<std::uint32_t>(ring_from(all_four(at_m < end_m ? at_m : end_m))[0]) * kAzimuths;
+  };
+  std::uint64_t* const cells = passes_.data() + azimuth;
+  cells[0] += kHighOne, cells[until(top_m_)] -= kHighOne;
+  if (H < tall_m_) cells[0] += kTallOne, cells[until(tall_m_)] -= kTallOne;
+  if (H < thing_m_ - kHeightNoise_m) cells[0] += kLowOne, cells[until(thing_m_ - kHeightNoise_m)] -= kLowOne;
+}
+
+void Sight::put_returns(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those) {
+  those &= (height_m > all_four(band_m_)) & (height_m < all_four(top_m_)) & (range_m < all_four(kRings * kRing_m));
+  if (!any_of(those)) return;
+  const FourInts ring = cut_off(range_m * (1.0F / kRing_m));
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (those[lane] == 0) continue;
+    const std::uint32_t at = static_cast<std::uint32_t>(ring[lane]);
+    const std::uint32_t cell = (at < kRings ? at : kRings - 1) * kAzimuths + static_cast<std::uint32_t>(azimuth[lane]);
+    std::uint8_t& count = (height_m[lane] < thing_m_ ? low_return_ : high_return_)[cell];
+    if (count < kFull) ++count;
+  }
+}
+
+void Sight::put(const FourPlaces& p, FourFloats height_m, FourFloats range_m, FourTruths those) {
+  const FourInts azimuth = azimuths_of(p);
+  constexpr float kLeast = 1e-4F;  // falls less than a millimetre within reach
+  const FourTruths falls = sensor_height_m_ - height_m > kLeast * range_m;
+  put_falling(azimuth, height_m, range_m, those & falls);
+  put_returns(azimuth, height_m, range_m, those);
+  const FourTruths level = those & ~falls;
+  if (!any_of(level)) return;
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (level[lane] != 0) put_level(static_cast<std::uint32_t>(azimuth[lane]), height_m[lane], range_m[lane]);
+  }
 }
 
 std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
@@ -121,10 +153,7 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
     used += sum_of_lanes(-those);
     // Below the floor: a mirror image, of which the way is unknown. Upwards and out of the machine's height: no use.
     those &= (height >= below_m) & (range > kNearest_m) & ((height < H) | (height - H <= room_m * range));
-    if (!any_of(those)) return;
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (those[lane] != 0) put(p.x[lane], p.y[lane], height[lane], range[lane]);
-    }
+    if (any_of(those)) put(p, height, range, those);
   });
   add_up();
   widen();
@@ -132,19 +161,15 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
 }
 
 void Sight::add_up() {
-  std::uint16_t* const counts[] = {low_.data(), tall_.data(), high_.data()};
-  for (std::uint16_t* const count : counts) {
-    for (std::uint32_t k = kAzimuths; k < kRingCells; ++k) {
-      count[k] = static_cast<std::uint16_t>(count[k] + count[k - kAzimuths]);
-    }
-  }
+  std::uint64_t* const cells = passes_.data();
+  for (std::uint32_t k = kAzimuths; k < kRingCells; ++k) cells[k] += cells[k - kAzimuths];
 }
 
 // A place is seen where any azimuth lets a ray pass that lies within the smallest thing, were it there.
 void Sight::widen() {
   std::uint8_t row[kAzimuths + 2 * kSides];
   for (std::uint32_t ring = 0; ring < kRings; ++ring) {
-    const std::uint16_t *low = low_.data() + ring * kAzimuths, *tall = tall_.data() + ring * kAzimuths;
+    const std::uint64_t* const passes = passes_.data() + ring * kAzimuths;
     std::uint8_t* const out = seen_.data() + ring * kAzimuths;
     const float r_m = (static_cast<float>(ring) + 0.5F) * kRing_m;
     const float steps = half_width_m_ / (r_m * static_cast<float>(kAzimuthMost_rad));
@@ -153,7 +178,8 @@ void Sight::widen() {
       continue;
     }
     for (std::uint32_t a = 0; a < kAzimuths; ++a) {
-      row[kSides + a] = static_cast<std::uint8_t>((low[a] != 0 ? kLow : 0) | ((low[a] | tall[a]) != 0 ? kTall : 0));
+      const bool is_low = (passes[a] & kLowMask) != 0, is_tall = (passes[a] & (kLowMask | kTallMask)) != 0;
+      row[kSides + a] = static_cast<std::uint8_t>((is_low ? kLow : 0) | (is_tall ? kTall : 0));
     }
     std::memcpy(row, row + kAzimuths, kSides);
     std::memcpy(row + kSides + kAzimuths, row + kSides, kSides);
@@ -180,7 +206,7 @@ std::uint8_t Sight::seen(float x, float y) const {
 
 bool Sight::passed_high(float x, float y) const {
   const auto ring = static_cast<std::uint32_t>(std::sqrt(x * x + y * y) / kRing_m);
-  return ring < kRings && high_[ring * kAzimuths + azimuth_of(x, y)] != 0;
+  return ring < kRings && count_of(ring * kAzimuths + azimuth_of(x, y), kHighShift) != 0;
 }
 
 Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t count,

@@ -54,19 +54,16 @@ class Sight {
         if (are_zero(low + eight) && are_zero(high + eight)) continue;
         for (std::uint32_t a = eight; a < eight + 8; ++a) {
           const std::uint32_t cell = ring * kAzimuths + a;
-          if (low[a] != 0) visit(returned(ring, a, false, low[a], low_[cell]));
-          if (high[a] != 0) visit(returned(ring, a, true, high[a], high_[cell]));
+          if (low[a] != 0) visit(returned(ring, a, false, low[a], count_of(cell, kLowShift)));
+          if (high[a] != 0) visit(returned(ring, a, true, high[a], count_of(cell, kHighShift)));
         }
       }
     }
   }
 
  private:
-  struct Cell {
-    std::uint32_t ring, azimuth;
-    float r_m;
-  };
-  struct Heights;
+  // Three counts of 16 bits in one word: a ray changes four words, whatever it passes. A count that wraps is too small.
+  static constexpr unsigned kLowShift = 0, kTallShift = 16, kHighShift = 32;  // bits
 
   static bool are_zero(const std::uint8_t* eight) {
     std::uint64_t word;
@@ -74,16 +71,20 @@ class Sight {
     return word == 0;
   }
   static std::uint32_t azimuth_of(float x, float y);
+  std::uint16_t count_of(std::uint32_t cell, unsigned shift) const {
+    return static_cast<std::uint16_t>(passes_[cell] >> shift);
+  }
   Return returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t count,
                   std::uint16_t passes) const;
   void clear();
   void add_up();
   void widen();
-  void pass(std::uint16_t* counts, float from_m, float to_m);
-  void put(float x, float y, float height_m, float range_m);
-  void put_passes(std::uint32_t azimuth, float height_m, float range_m);
+  void put(const FourPlaces& p, FourFloats height_m, FourFloats range_m, FourTruths those);
+  void put_falling(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
+  void put_level(std::uint32_t azimuth, float height_m, float range_m);
+  void put_returns(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
 
-  Span<std::uint16_t> low_, tall_, high_;        // rays by cell, one ring more than cells
+  Span<std::uint64_t> passes_;                   // rays by cell, one ring more than cells
   Span<std::uint8_t> low_return_, high_return_;  // saturated
   Span<std::uint8_t> seen_;                      // widened over azimuths
   float direction_x_[kAzimuths], direction_y_[kAzimuths];

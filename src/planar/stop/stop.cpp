@@ -194,11 +194,12 @@ void Stop::judge(const SweepMotion& motion, pose_wall_planar_stop_result* result
   // Its own speeds by the careful sweep, the stop by the other.
   sweep_.set_motion(motion, reaction_s(settings_) + settings_.slack_s);
   Places::Count count;
-  bool is_full = false;
-  const std::uint32_t found = places_.find_hazards(track_, sweep_, now_ms_, hazards_, &count, &is_full);
+  const Eigen::Vector2d sensor_m = mount_.sensor_base_m.head<2>();
+  const std::uint32_t found =
+      places_.find_hazards(sight_, track_, sensor_m, sweep_, now_ms_, hazards_, &count);
   const Span<const Hazard> hazards = hazards_.first(found);
   std::int32_t limiting = -1;
-  const std::uint32_t careful = is_full ? 0 : sweep_.highest_level(hazards, &limiting);
+  const std::uint32_t careful = sweep_.highest_level(hazards, &limiting);
   result->allowed_speed_m_s = sweep_.speed_of(careful);
   result->stop_speed_m_s = result->allowed_speed_m_s;
   if (limiting >= 0) {

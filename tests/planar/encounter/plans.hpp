@@ -19,10 +19,10 @@ inline pose_wall_planar_stop_settings encounter_settings() {
 inline void draw_sensor(Plan* plan, Draw* draw) {
   const double which = draw->share();
   Sensor& s = plan->sensor;
-  if (which < 0.7) {
-    s = Sensor(Pattern::vlp16, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.45, 0.55), 1.25, 900);
-  } else if (which < 0.78) {
-    s = Sensor(Pattern::os1_64, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.35, 0.45), 1.25, 0);
+  if (which < 0.85) {
+    s = Sensor(Pattern::vlp16, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.45, 0.55), 1.25, 600);
+  } else if (which < 0.9) {
+    s = Sensor(Pattern::os1_64, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.35, 0.45), 1.0, 0);
   } else {
     s = Sensor(Pattern::mid360, 2.0, draw->within(1.4, 1.6), 3.14159265, draw->within(0.0, 0.2), 1.25, 0);
   }
@@ -37,7 +37,7 @@ inline void draw_sensor(Plan* plan, Draw* draw) {
 inline void draw_drive(Plan* plan, Draw* draw) {
   const double which = draw->share();
   Machine& m = plan->machine;
-  plan->drive = which < 0.75 ? Drive::straight : which < 0.9 ? Drive::curve : which < 0.97 ? Drive::spot : Drive::reverse;
+  plan->drive = which < 0.85 ? Drive::straight : which < 0.93 ? Drive::curve : which < 0.97 ? Drive::spot : Drive::reverse;
   const double sign = draw->happens(0.5) ? 1.0 : -1.0;
   if (plan->drive == Drive::straight) m.set_arc(1.0, draw->within(-0.01, 0.01));
   if (plan->drive == Drive::curve) m.set_arc(1.0, sign * draw->within(0.02, 0.25));

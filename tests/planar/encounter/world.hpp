@@ -116,10 +116,11 @@ inline float World::to_road(const Vec3& from, const Vec3& d, float most, bool* i
     const float at = (static_cast<float>(roof_m) - from.z) / d.z;
     if (at < t) t = at;
   }
-  if (std::fabs(d.y) > 1e-4F) {
+  const float wall_m = static_cast<float>(half_width_m - wall_wave_m);
+  if (std::fabs(from.y + t * d.y) > wall_m && std::fabs(d.y) > 1e-4F) {
     const float side = d.y > 0.0F ? 1.0F : -1.0F;
     float at = (side * static_cast<float>(half_width_m) - from.y) / d.y;
-    for (int k = 0; k < 2; ++k) at = (side * wall_at(from.x + at * d.x) - from.y) / d.y;
+    at = (side * wall_at(from.x + at * d.x) - from.y) / d.y;
     if (at > 0.0F && at < t) t = at, *is_floor = false;
   }
   if (d.x > 1e-4F) {
