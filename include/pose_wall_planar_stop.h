@@ -19,15 +19,16 @@
  *
  * RULE      a status other than POSE_WALL_OK means: stop. So does silence of the caller: no result is no permission.
  * FREE      a place is free only where that was seen. A ray must have passed over it low enough to hit the smallest
- *           thing there, or a person. Places without such rays are blind. Blind places stop like things.
+ *           thing there; another one where a person would stand; and one below top_m, where something may hang. Places
+ *           without such rays are blind. Blind places stop like things.
  * SWEEP     the footprint along the arc of the motion, from now to standstill, without gaps between samples. It
  *           includes the turn of the tail. Margins grow with the bounds of speed and turn rate.
  * TIME      from the stamp to the first effect of the brakes may pass: scan_s + stale_s + delay_s + latency_s. The
  *           machine may be anywhere that it can reach in this time and the braking time.
  * DUST      returns between which most rays pass are doubtful. They count as soon as they persist in one place. That
  *           takes at most delay_s, which is part of TIME. Dense returns count at once.
- * MEMORY    of places: what was seen low beside the machine is remembered for memory_s, until the bounds of the motion
- *           since then reach drift_max_m. Low things there stay until they are seen gone. A person is excluded only by
+ * MEMORY    of places: what was seen low, or of what hangs, is remembered for memory_s, until the bounds of the motion
+ *           since then reach drift_max_m. Things stay until they are seen gone. A person is excluded only by
  *           rays of the last delay_s. After the start nothing is known of places that the sensor cannot see;
  *           pose_wall_planar_stop_confirm tells that someone has looked.
  * FRAMES    base as in pose_wall.h. Footprint, motion and results are in base; forward is forward_axis of the config.
@@ -199,7 +200,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_open(const pose_wall_config* con
 /* Forgets all, as if just opened. Fails iff: NULL, not open (POSE_WALL_E_ENGINE), POSE_WALL_E_BUSY. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* stop);
 
-/* Someone has looked: within confirm_m of the footprint nothing lies that is lower than tall_m. Known things stay.
+/* Someone has looked: within confirm_m of the footprint nothing lies lower than tall_m or hangs. Known things stay.
  * Fails as reset does. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop);
 

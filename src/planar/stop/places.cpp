@@ -74,7 +74,8 @@ bool Places::is_thing(const Place& place, const Track& track, std::uint32_t now_
 }
 
 bool Places::is_free(const Place& place, const Track& track, std::uint32_t now_ms) const {
-  return is_remembered(place.low_ms, place.low_drift_m, track, now_ms) && place.tall_ms != 0 &&
+  return is_remembered(place.low_ms, place.low_drift_m, track, now_ms) &&
+         is_remembered(place.top_ms, place.top_drift_m, track, now_ms) && place.tall_ms != 0 &&
          now_ms - place.tall_ms <= delay_ms_;
 }
 
@@ -152,6 +153,7 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
     if (seen == 0) return;
     Place& place = place_at(ix, iy);
     if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
+    if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
     if ((seen & Sight::kLow) == 0) return;
     place.low_ms = now_ms, place.low_drift_m = drift_m;
     if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
@@ -160,7 +162,7 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
   each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) < -kInside_m)) return;
     Place& place = place_at(ix, iy);
-    place.low_ms = now_ms, place.low_drift_m = drift_m;
+    place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
     place.thing_low_ms = place.thing_high_ms = 0;
   });
 }
@@ -171,7 +173,7 @@ void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_m
   each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) <= confirm_m_)) return;
     Place& place = place_at(ix, iy);
-    place.low_ms = now_ms, place.low_drift_m = drift_m;
+    place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
   });
 }
 
@@ -216,7 +218,8 @@ std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const
   const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   std::uint32_t found = 0;
-  each_around(track, {0.0, 0.0}, kSweepReach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  const double half_m = sweep.half_m() + static_cast<double>(walk_reach_m);
+  each_around(track, sweep.middle_m(), half_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     const std::uint32_t index = index_of(ix, iy);
     const bool is_near = sweep.concerns(x, y, still_reach_m);
     if (!is_near && (places_[index].thing_high_ms == 0 || !sweep.concerns(x, y, walk_reach_m))) return;

@@ -31,11 +31,12 @@ struct Place {
   std::int16_t ix, iy;        // which place of the ground this is
   std::uint32_t low_ms;       // seen free low; 0: never
   std::uint32_t tall_ms;      // seen free of people
+  std::uint32_t top_ms;       // seen free of what hangs
   std::uint32_t thing_low_ms, thing_high_ms;  // last return; 0: none, or seen gone
   std::uint32_t first_ms;     // of the high returns that go on until now
   std::uint32_t low_first_ms; // likewise of the low ones
   std::uint32_t doubt_first_ms, doubt_ms;     // doubtful returns
-  float low_drift_m, thing_drift_m;           // the track's, then
+  float low_drift_m, top_drift_m, thing_drift_m;  // the track's, then
 };
 
 class Places {

@@ -13,13 +13,14 @@ constexpr std::uint32_t kRingCells = kRings * kAzimuths;  // of one kind
 constexpr std::uint32_t kCounts = kRingCells + kAzimuths; // a ring behind the last: where passes end
 constexpr float kBefore_m = 0.2F;       // a ray that ends on a thing shows nothing so shortly before it
 constexpr float kHeightNoise_m = 0.02F; // of a ray, from its range and the floor's plane
+constexpr float kLevel = 1e-4F;         // a slope: less than a millimetre within reach
 constexpr float kPlaceHalf_m = 0.0707F; // half the diagonal of a place of 0.1 m
 constexpr std::uint32_t kSides = 24;    // azimuths to each side at most, near the sensor
 // Doubtful: so many rays pass for each that returns, and it is a few.
 constexpr std::uint32_t kPassesEach = 4, kReturnsFew = 3;
 // One ray in the counts of a word, and their bits; as Sight has their shifts.
-constexpr std::uint64_t kLowOne = 1ULL, kTallOne = 1ULL << 16U, kHighOne = 1ULL << 32U;
-constexpr std::uint64_t kLowMask = 0xFFFFULL, kTallMask = 0xFFFFULL << 16U;
+constexpr std::uint64_t kLowOne = 1ULL, kTallOne = 1ULL << 16U, kHighOne = 1ULL << 32U, kTopOne = 1ULL << 48U;
+constexpr std::uint64_t kLowMask = 0xFFFFULL, kTallMask = kLowMask << 16U, kTopMask = kLowMask << 48U;
 constexpr std::uint8_t kFull = 255;     // counts of returns stay there
 
 }  // namespace
@@ -37,6 +38,7 @@ void Sight::open(const StopSettings& settings, const Mount& mount) {
   thing_m_ = static_cast<float>(settings.thing_height_m);
   tall_m_ = static_cast<float>(settings.tall_m);
   top_m_ = static_cast<float>(settings.top_m);
+  hang_m_ = top_m_ - thing_m_ + kHeightNoise_m;
   kink_ = static_cast<float>(settings.kink_max_rad);
   half_width_m_ = static_cast<float>(0.5 * settings.thing_width_m) - kPlaceHalf_m;
   for (std::uint32_t a = 0; a < kAzimuths; ++a) {
@@ -81,32 +83,38 @@ void Sight::put_falling(FourInts azimuth, FourFloats height_m, FourFloats range_
   const FourFloats end_m = height_m > all_four(band_m_) ? range_m - kBefore_m : range_m;
   const auto from = [&](float level_m) { return ring_from(smaller_of((H - level_m) * per_m, end_m)); };
   const FourInts top = from(top_m_), tall = from(tall_m_), thing = from(thing_m_ - kHeightNoise_m);
-  const FourInts low = from(band_m_ + kHeightNoise_m);
+  const FourInts low = from(band_m_ + kHeightNoise_m), hang = from(hang_m_);
   those &= top < low;
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
     if (those[lane] == 0) continue;
     std::uint64_t* const cells = passes_.data() + azimuth[lane];
-    cells[static_cast<std::uint32_t>(top[lane]) * kAzimuths] += kHighOne;
+    cells[static_cast<std::uint32_t>(top[lane]) * kAzimuths] += kHighOne + kTopOne;
+    cells[static_cast<std::uint32_t>(hang[lane]) * kAzimuths] -= kTopOne;
     cells[static_cast<std::uint32_t>(tall[lane]) * kAzimuths] += kTallOne;
     cells[static_cast<std::uint32_t>(thing[lane]) * kAzimuths] += kLowOne - kHighOne;
     cells[static_cast<std::uint32_t>(low[lane]) * kAzimuths] -= kLowOne + kTallOne;
   }
 }
 
-// The same for one that rises or is level; it is in the machine's height from the sensor on.
-void Sight::put_level(std::uint32_t azimuth, float height_m, float range_m) {
-  const float H = sensor_height_m_, rise = (height_m - H) / range_m, low_m = band_m_ + kHeightNoise_m;
-  if (!(H > low_m && H < top_m_)) return;
-  constexpr float kLeast = 1e-4F;  // rises less than a millimetre within reach
-  const float end_m = height_m > band_m_ ? range_m - kBefore_m : range_m;
-  const auto until = [&](float level_m) {
-    const float at_m = rise > kLeast ? (level_m - H) / rise : end_m;
-    return static_cast<std::uint32_t>(ring_from(all_four(at_m < end_m ? at_m : end_m))[0]) * kAzimuths;
-  };
-  std::uint64_t* const cells = passes_.data() + azimuth;
-  cells[0] += kHighOne, cells[until(top_m_)] -= kHighOne;
-  if (H < tall_m_) cells[0] += kTallOne, cells[until(tall_m_)] -= kTallOne;
-  if (H < thing_m_ - kHeightNoise_m) cells[0] += kLowOne, cells[until(thing_m_ - kHeightNoise_m)] -= kLowOne;
+// The same for rays that rise or are level; they are in the machine's height from the sensor on.
+void Sight::put_level(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those) {
+  const float H = sensor_height_m_, thing_m = thing_m_ - kHeightNoise_m;
+  if (!(H > band_m_ + kHeightNoise_m && H < top_m_) || !any_of(those)) return;
+  const FourFloats least = kLevel * range_m, rise = height_m - H, per_m = range_m / (rise > least ? rise : least);
+  const FourFloats end_m = height_m > all_four(band_m_) ? range_m - kBefore_m : range_m;
+  const auto until = [&](float level_m) { return ring_from(smaller_of((level_m - H) * per_m, end_m)); };
+  const FourInts top = until(top_m_), tall = until(tall_m_), thing = until(thing_m);
+  const FourInts hang = H < hang_m_ ? until(hang_m_) : all_four_ints(0);
+  const std::uint64_t tall_one = H < tall_m_ ? kTallOne : 0U, low_one = H < thing_m ? kLowOne : 0U;
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (those[lane] == 0) continue;
+    std::uint64_t* const cells = passes_.data() + azimuth[lane];
+    cells[0] += kHighOne + tall_one + low_one;
+    cells[static_cast<std::uint32_t>(hang[lane]) * kAzimuths] += kTopOne;
+    cells[static_cast<std::uint32_t>(top[lane]) * kAzimuths] -= kHighOne + kTopOne;
+    if (tall_one != 0) cells[static_cast<std::uint32_t>(tall[lane]) * kAzimuths] -= tall_one;
+    if (low_one != 0) cells[static_cast<std::uint32_t>(thing[lane]) * kAzimuths] -= low_one;
+  }
 }
 
 void Sight::put_returns(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those) {
@@ -124,15 +132,10 @@ void Sight::put_returns(FourInts azimuth, FourFloats height_m, FourFloats range_
 
 void Sight::put(const FourPlaces& p, FourFloats height_m, FourFloats range_m, FourTruths those) {
   const FourInts azimuth = azimuths_of(p);
-  constexpr float kLeast = 1e-4F;  // falls less than a millimetre within reach
-  const FourTruths falls = sensor_height_m_ - height_m > kLeast * range_m;
+  const FourTruths falls = sensor_height_m_ - height_m > kLevel * range_m;
   put_falling(azimuth, height_m, range_m, those & falls);
+  put_level(azimuth, height_m, range_m, those & ~falls);
   put_returns(azimuth, height_m, range_m, those);
-  const FourTruths level = those & ~falls;
-  if (!any_of(level)) return;
-  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    if (level[lane] != 0) put_level(static_cast<std::uint32_t>(azimuth[lane]), height_m[lane], range_m[lane]);
-  }
 }
 
 std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
@@ -179,7 +182,8 @@ void Sight::widen() {
     }
     for (std::uint32_t a = 0; a < kAzimuths; ++a) {
       const bool is_low = (passes[a] & kLowMask) != 0, is_tall = (passes[a] & (kLowMask | kTallMask)) != 0;
-      row[kSides + a] = static_cast<std::uint8_t>((is_low ? kLow : 0) | (is_tall ? kTall : 0));
+      const bool is_top = (passes[a] & kTopMask) != 0;
+      row[kSides + a] = static_cast<std::uint8_t>((is_low ? kLow : 0) | (is_tall ? kTall : 0) | (is_top ? kTop : 0));
     }
     std::memcpy(row, row + kAzimuths, kSides);
     std::memcpy(row + kSides + kAzimuths, row + kSides, kSides);
@@ -210,7 +214,7 @@ bool Sight::passed_high(float x, float y) const {
 }
 
 Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t count,
-                              std::uint16_t passes) const {
+                              std::uint32_t passes) const {
   const float r_m = (static_cast<float>(ring) + 0.5F) * kRing_m;
   return {r_m * direction_x_[azimuth], r_m * direction_y_[azimuth], is_high,
           count <= kReturnsFew && passes >= kPassesEach * count};

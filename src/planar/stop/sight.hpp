@@ -29,10 +29,10 @@ class Sight {
   // Reads a frame. Returns how many returns were used.
   std::uint32_t look(const Rays& rays, const Ground& ground);
 
-  enum Seen : std::uint8_t { kLow = 1, kTall = 2 };
+  enum Seen : std::uint8_t { kLow = 1, kTall = 2, kTop = 4, kAll = 7 };
 
   // How a place at (x, y) about the sensor was seen in this frame: kLow where the smallest thing would have been hit,
-  // kTall where a person would have been.
+  // kTall where a person would have been, kTop where a thing that hangs into the machine's height would have been.
   std::uint8_t seen(float x, float y) const;
   // No place is seen so further away than this.
   float seen_most_m() const { return seen_most_m_; }
@@ -62,8 +62,9 @@ class Sight {
   }
 
  private:
-  // Three counts of 16 bits in one word: a ray changes four words, whatever it passes. A count that wraps is too small.
-  static constexpr unsigned kLowShift = 0, kTallShift = 16, kHighShift = 32;  // bits
+  // Four counts in one word: a ray changes five words, whatever it passes. Counts that overflow need 65,536 rays in one
+  // cell.
+  static constexpr unsigned kLowShift = 0, kTallShift = 16, kHighShift = 32, kTopShift = 48;  // bits
 
   static bool are_zero(const std::uint8_t* eight) {
     std::uint64_t word;
@@ -71,17 +72,17 @@ class Sight {
     return word == 0;
   }
   static std::uint32_t azimuth_of(float x, float y);
-  std::uint16_t count_of(std::uint32_t cell, unsigned shift) const {
+  std::uint32_t count_of(std::uint32_t cell, unsigned shift) const {
     return static_cast<std::uint16_t>(passes_[cell] >> shift);
   }
   Return returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t count,
-                  std::uint16_t passes) const;
+                  std::uint32_t passes) const;
   void clear();
   void add_up();
   void widen();
   void put(const FourPlaces& p, FourFloats height_m, FourFloats range_m, FourTruths those);
   void put_falling(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
-  void put_level(std::uint32_t azimuth, float height_m, float range_m);
+  void put_level(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
   void put_returns(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
 
   Span<std::uint64_t> passes_;                   // rays by cell, one ring more than cells
@@ -90,7 +91,7 @@ class Sight {
   float direction_x_[kAzimuths], direction_y_[kAzimuths];
   Mount mount_;
   float sensor_height_m_ = 0.0F;
-  float band_m_ = 0.0F, thing_m_ = 0.0F, tall_m_ = 0.0F, top_m_ = 0.0F;
+  float band_m_ = 0.0F, thing_m_ = 0.0F, tall_m_ = 0.0F, top_m_ = 0.0F, hang_m_ = 0.0F;
   float kink_ = 0.0F, reach_m_ = 0.0F, half_width_m_ = 0.0F, seen_most_m_ = 0.0F;
 };
 

@@ -52,6 +52,7 @@ void Sweep::set_levels(const SweepMotion& motion, double reaction_s) {
   const double turn = std::fabs(motion.turn_rad_m), speed = motion.velocity.norm();
   // Places within reach move past the footprint on arcs: by how much these leave their chords.
   const double sagitta_m = (speed + turn * kSweepReach_m) * turn * step_m_ * step_m_ / 8.0;
+  any_ = motion.any;
   top_level_ = 0;
   for (std::uint32_t level = 0; level <= kSweepLevels; ++level) {
     const double rim = speed_of(level), time_s = reaction_s + rim / deceleration_;
@@ -149,9 +150,9 @@ bool Sweep::is_clear(float least_m, float now_m, const Hazard& hazard, std::uint
   const float walk_m = hazard.approach_m_s * time_[level];
   const float margin_m = hazard.margin_m + growth_[level] + walk_m;
   // A place that was not seen, beside the way: what counts is that the machine does not go there.
-  if (hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN && least_m >= now_m - kNearer_m) return true;
+  if (hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN && least_m >= now_m - kNearer_m && !any_) return true;
   // Already within the margin of a thing that stands still: slowly, and not nearer.
-  const bool is_beside = now_m <= hazard.margin_m + growth_[1] && !(walk_m > 0.0F);
+  const bool is_beside = now_m <= hazard.margin_m + growth_[1] && !(walk_m > 0.0F) && !any_;
   if (is_beside) return least_m >= now_m - kNearer_m + (growth_[level] - growth_[1]);
   return least_m > margin_m;
 }

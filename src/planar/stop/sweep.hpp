@@ -52,6 +52,9 @@ class Sweep {
   bool concerns(float x_m, float y_m, float reach_m) const {
     return x_m >= low_x_ - reach_m && x_m <= high_x_ + reach_m && y_m >= low_y_ - reach_m && y_m <= high_y_ + reach_m;
   }
+  // The middle of the square around the whole sweep, and half its side.
+  Eigen::Vector2d middle_m() const { return Eigen::Vector2f(0.5F * (low_x_ + high_x_), 0.5F * (low_y_ + high_y_)).cast<double>(); }
+  double half_m() const { return 0.5 * static_cast<double>(larger_of_two(high_x_ - low_x_, high_y_ - low_y_)); }
   // How far margins grow at the top speed, for a hazard that approaches.
   float growth_m(float approach_m_s) const { return growth_[kSweepLevels] + approach_m_s * time_[kSweepLevels]; }
   // Distance from the footprint where it stands; negative inside.
@@ -66,6 +69,7 @@ class Sweep {
 
  private:
   struct Four;
+  static float larger_of_two(float a, float b) { return a > b ? a : b; }
   void set_levels(const SweepMotion& motion, double reaction_s);
   void set_slices(const SweepMotion& motion);
   Four lanes_of(Span<const Hazard> hazards, std::uint32_t first) const;
@@ -75,6 +79,7 @@ class Sweep {
   float least_of(const Hazard& hazard, std::uint32_t slices) const;
 
   std::uint32_t edges_ = 0, slices_ = 0, top_level_ = 0;
+  bool any_ = false;
   float normal_x_[kSweepEdges], normal_y_[kSweepEdges], offset_[kSweepEdges];
   double corner_x_[kSweepEdges], corner_y_[kSweepEdges];
   double radius_m_ = 0.0, top_m_s_ = 0.0, deceleration_ = 1.0, scan_s_ = 0.0, approach_m_s_ = 0.0;

@@ -102,8 +102,8 @@ class Encounter {
       watch(now_s, kStep_s);
       if (out_.contact) break;
       stood_s = plan_.machine.rim_m_s <= 0.0 ? stood_s + kStep_s : 0.0;
-      if (out_.moved_m > 0.0 && stood_s > 1.2 && !is_walking(now_s)) break;
-      if (out_.moved_m <= 0.0 && now_s > 2.9 && stood_s > 2.8) break;  // it never starts
+      if (out_.moved_m > 0.0 && stood_s > 0.8 && !is_walking(now_s)) break;
+      if (out_.moved_m <= 0.0 && now_s > 1.7 && stood_s > 1.6) break;  // it never starts
     }
     out_.reasons = stop_->result().reasons;
     return out_;

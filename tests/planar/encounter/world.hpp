@@ -23,7 +23,7 @@ class QuickSine {
     for (int k = 0; k < 4096; ++k) table_[k] = static_cast<float>(std::sin(k * (6.283185307179586 / 4096.0)));
   }
   float operator()(float rad) const {
-    return table_[static_cast<std::uint32_t>(static_cast<std::int32_t>(rad * (4096.0F / 6.2831853F) + 1e6F)) & 4095U];
+    return table_[static_cast<std::uint32_t>(static_cast<std::int32_t>(rad * (4096.0F / 6.2831853F) + 524288.0F)) & 4095U];
   }
 
  private:
