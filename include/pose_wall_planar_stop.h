@@ -51,7 +51,8 @@ extern "C" {
 
 #define POSE_WALL_PLANAR_STOP_CORNERS_MAX 12
 
-/* Extrinsic, forward_axis, range_min, range_max and the body boxes come from the engine's config. */
+/* Extrinsic, forward_axis, range_min, range_max and the body boxes come from the engine's config. Returns beyond
+ * range_max show nothing: give the sensor's own reach, or long roads are blind. */
 typedef struct pose_wall_planar_stop_settings {
   uint32_t struct_size; /* set by pose_wall_planar_stop_settings_init */
   uint32_t corners;     /* 3 to POSE_WALL_PLANAR_STOP_CORNERS_MAX corners of the footprint */
@@ -187,7 +188,7 @@ typedef struct pose_wall_planar_stop_result {
 
 typedef struct pose_wall_planar_stop pose_wall_planar_stop;
 
-/* Bytes of the block, at most 2 MiB. */
+/* Bytes of the block, at most 3 MiB. */
 uint64_t pose_wall_planar_stop_memory_needed(void);
 
 /* Places a stop in block, which may hold anything, stays the caller's and must not move. settings may be NULL:

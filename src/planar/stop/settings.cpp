@@ -98,7 +98,7 @@ StopSettings default_stop_settings() {
   s.latency_s = 0.2, s.stale_s = 0.25, s.scan_s = 0.1, s.delay_s = 0.3, s.slack_s = 0.3;
   s.restart_s = 1.0, s.restart_speed_m_s = 0.08;
   s.approach_m_s = 1.6, s.settle_s = 2.0;
-  s.memory_s = 60.0, s.drift_max_m = 0.3, s.confirm_m = 1.5, s.protection_m = 0.1;
+  s.memory_s = 60.0, s.drift_max_m = 0.3, s.confirm_m = 2.5, s.protection_m = 0.1;
   s.speed_error_ratio = 0.03, s.speed_error_m_s = 0.002, s.turn_error_rad_s = 0.002;
   return s;
 }

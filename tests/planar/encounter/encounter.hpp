@@ -62,6 +62,7 @@ class StopUnderTest {
     (void)pose_wall_config_set_number(&config, "extrinsic_roll", sensor.roll_rad);
     (void)pose_wall_config_set_number(&config, "extrinsic_pitch", sensor.pitch_rad);
     (void)pose_wall_config_set_number(&config, "range_min", 0.3);
+    (void)pose_wall_config_set_number(&config, "range_max", 100.0);
     if (pose_wall_planar_stop_open(&config, &settings, block_.data(), block_.size(), &stop_) != POSE_WALL_OK) {
       stop_ = nullptr;
     }

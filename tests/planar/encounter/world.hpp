@@ -163,7 +163,7 @@ inline float World::to_thing(const Thing& thing, const Vec3& from, const Vec3& d
 }
 
 inline float World::cast(const Vec3& from, const Vec3& d, Draw* draw) const {
-  constexpr float kMost = 80.0F;
+  constexpr float kMost = 100.0F;  // the sensor's reach
   bool is_floor = false;
   float t = to_road(from, d, kMost, &is_floor);
   for (const Thing& thing : things) {
