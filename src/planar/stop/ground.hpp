@@ -20,7 +20,7 @@ struct Ground {
 // The points that are looked at, about base, z above the tracks.
 struct FloorLooks {
   // Errors of the floor's roughness fall below those of its shape.
-  static constexpr std::uint32_t kMost = 2048;
+  static constexpr std::uint32_t kMost = 1024;
   float x[kMost], y[kMost], z[kMost];
   std::uint32_t count;
 };

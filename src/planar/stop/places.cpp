@@ -50,7 +50,11 @@ std::uint32_t Places::index_of(std::int32_t ix, std::int32_t iy) {
 }
 
 Place& Places::place_at(std::int32_t ix, std::int32_t iy) {
-  Place& place = places_[index_of(ix, iy)];
+  return place_at(ix, iy, index_of(ix, iy));
+}
+
+Place& Places::place_at(std::int32_t ix, std::int32_t iy, std::uint32_t index) {
+  Place& place = places_[index];
   const auto x = static_cast<std::int16_t>(ix), y = static_cast<std::int16_t>(iy);
   if (place.ix != x || place.iy != y) {
     place = Place{};
@@ -61,7 +65,7 @@ Place& Places::place_at(std::int32_t ix, std::int32_t iy) {
 
 const Place* Places::known_at(std::int32_t ix, std::int32_t iy) const {
   const Place& place = places_[index_of(ix, iy)];
-  return place.ix == static_cast<std::int16_t>(ix) && place.iy == static_cast<std::int16_t>(iy) ? &place : nullptr;
+  return is_of(place, ix, iy) ? &place : nullptr;
 }
 
 bool Places::is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const {
@@ -117,7 +121,7 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
   });
 }
 
-// visit(ix, iy, x and y in base): the known places within a square around a point of base, row by row.
+// visit(ix, iy, index, x and y in base): the places within a square around a point of base, row by row.
 template <typename Visit>
 void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
   const Turn2 turn(track.yaw_rad);
@@ -134,9 +138,12 @@ void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, do
     const Eigen::Vector2d first =
         turn.back({(first_x + 0.5) * kPlace_m - track.x_m, (iy + 0.5) * kPlace_m - track.y_m});
     float x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
+    std::uint32_t index = index_of(first_x, iy), column = index % kPlacesAcross;
     for (std::int32_t ix = first_x; ix <= last_x; ++ix) {
-      visit(ix, iy, x, y);
+      visit(ix, iy, index, x, y);
       x += step_x, y += step_y;
+      ++index, ++column;
+      if (column == kPlacesAcross) index -= kPlacesAcross, column = 0;
     }
   }
 }
@@ -146,12 +153,12 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
   const auto drift_m = static_cast<float>(track.drift_m);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   const float most_m = sight.seen_most_m();
-  each_around(track, sensor_m, static_cast<double>(most_m), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  each_around(track, sensor_m, static_cast<double>(most_m), [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
     const float dx = x - sx, dy = y - sy;
     if (!(dx * dx + dy * dy < most_m * most_m)) return;
     const std::uint8_t seen = sight.seen(dx, dy);
     if (seen == 0) return;
-    Place& place = place_at(ix, iy);
+    Place& place = place_at(ix, iy, index);
     if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
     if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
     if ((seen & Sight::kLow) == 0) return;
@@ -159,9 +166,9 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
     if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
   });
   // Where the machine stands, nothing lies.
-  each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
     if (!(sweep.distance_now(x, y) < -kInside_m)) return;
-    Place& place = place_at(ix, iy);
+    Place& place = place_at(ix, iy, index);
     place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
     place.thing_low_ms = place.thing_high_ms = 0;
   });
@@ -170,9 +177,9 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
 void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms) {
   const auto drift_m = static_cast<float>(track.drift_m);
   const double reach_m = sweep.radius_m() + static_cast<double>(confirm_m_);
-  each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
     if (!(sweep.distance_now(x, y) <= confirm_m_)) return;
-    Place& place = place_at(ix, iy);
+    Place& place = place_at(ix, iy, index);
     place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
   });
 }
@@ -219,11 +226,10 @@ std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   std::uint32_t found = 0;
   const double half_m = sweep.half_m() + static_cast<double>(walk_reach_m);
-  each_around(track, sweep.middle_m(), half_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
-    const std::uint32_t index = index_of(ix, iy);
+  each_around(track, sweep.middle_m(), half_m, [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
     const bool is_near = sweep.concerns(x, y, still_reach_m);
     if (!is_near && (places_[index].thing_high_ms == 0 || !sweep.concerns(x, y, walk_reach_m))) return;
-    Place* const place = known_at(ix, iy) != nullptr ? &places_[index] : nullptr;
+    Place* const place = is_of(places_[index], ix, iy) ? &places_[index] : nullptr;
     if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
     if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
     Hazard hazard{x, y, 0.0F, 0.0F, index, 0};

@@ -71,7 +71,11 @@ class Places {
   void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
   bool is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const;
   static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
+  static bool is_of(const Place& place, std::int32_t ix, std::int32_t iy) {
+    return place.ix == static_cast<std::int16_t>(ix) && place.iy == static_cast<std::int16_t>(iy);
+  }
   Place& place_at(std::int32_t ix, std::int32_t iy);
+  Place& place_at(std::int32_t ix, std::int32_t iy, std::uint32_t index);
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;
   void doubt(Place* place, std::uint32_t now_ms);
   bool is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const;

@@ -10,7 +10,7 @@ namespace pose_wall::planar {
 namespace {
 
 constexpr std::uint32_t kRingCells = kRings * kAzimuths;  // of one kind
-constexpr std::uint32_t kCounts = kRingCells + kAzimuths; // a ring behind the last: where passes end
+constexpr std::uint32_t kCounts = (kRings + 1) * kRow;    // a ring behind the last: where passes end
 constexpr float kBefore_m = 0.2F;       // a ray that ends on a thing shows nothing so shortly before it
 constexpr float kHeightNoise_m = 0.02F; // of a ray, from its range and the floor's plane
 constexpr float kLevel = 1e-4F;         // a slope: less than a millimetre within reach
@@ -88,11 +88,11 @@ void Sight::put_falling(FourInts azimuth, FourFloats height_m, FourFloats range_
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
     if (those[lane] == 0) continue;
     std::uint64_t* const cells = passes_.data() + azimuth[lane];
-    cells[static_cast<std::uint32_t>(top[lane]) * kAzimuths] += kHighOne + kTopOne;
-    cells[static_cast<std::uint32_t>(hang[lane]) * kAzimuths] -= kTopOne;
-    cells[static_cast<std::uint32_t>(tall[lane]) * kAzimuths] += kTallOne;
-    cells[static_cast<std::uint32_t>(thing[lane]) * kAzimuths] += kLowOne - kHighOne;
-    cells[static_cast<std::uint32_t>(low[lane]) * kAzimuths] -= kLowOne + kTallOne;
+    cells[static_cast<std::uint32_t>(top[lane]) * kRow] += kHighOne + kTopOne;
+    cells[static_cast<std::uint32_t>(hang[lane]) * kRow] -= kTopOne;
+    cells[static_cast<std::uint32_t>(tall[lane]) * kRow] += kTallOne;
+    cells[static_cast<std::uint32_t>(thing[lane]) * kRow] += kLowOne - kHighOne;
+    cells[static_cast<std::uint32_t>(low[lane]) * kRow] -= kLowOne + kTallOne;
   }
 }
 
@@ -110,10 +110,10 @@ void Sight::put_level(FourInts azimuth, FourFloats height_m, FourFloats range_m,
     if (those[lane] == 0) continue;
     std::uint64_t* const cells = passes_.data() + azimuth[lane];
     cells[0] += kHighOne + tall_one + low_one;
-    cells[static_cast<std::uint32_t>(hang[lane]) * kAzimuths] += kTopOne;
-    cells[static_cast<std::uint32_t>(top[lane]) * kAzimuths] -= kHighOne + kTopOne;
-    if (tall_one != 0) cells[static_cast<std::uint32_t>(tall[lane]) * kAzimuths] -= tall_one;
-    if (low_one != 0) cells[static_cast<std::uint32_t>(thing[lane]) * kAzimuths] -= low_one;
+    cells[static_cast<std::uint32_t>(hang[lane]) * kRow] += kTopOne;
+    cells[static_cast<std::uint32_t>(top[lane]) * kRow] -= kHighOne + kTopOne;
+    if (tall_one != 0) cells[static_cast<std::uint32_t>(tall[lane]) * kRow] -= tall_one;
+    if (low_one != 0) cells[static_cast<std::uint32_t>(thing[lane]) * kRow] -= low_one;
   }
 }
 
@@ -165,14 +165,14 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
 
 void Sight::add_up() {
   std::uint64_t* const cells = passes_.data();
-  for (std::uint32_t k = kAzimuths; k < kRingCells; ++k) cells[k] += cells[k - kAzimuths];
+  for (std::uint32_t k = kRow; k < kCounts; ++k) cells[k] += cells[k - kRow];
 }
 
 // A place is seen where any azimuth lets a ray pass that lies within the smallest thing, were it there.
 void Sight::widen() {
   std::uint8_t row[kAzimuths + 2 * kSides];
   for (std::uint32_t ring = 0; ring < kRings; ++ring) {
-    const std::uint64_t* const passes = passes_.data() + ring * kAzimuths;
+    const std::uint64_t* const passes = passes_.data() + ring * kRow;
     std::uint8_t* const out = seen_.data() + ring * kAzimuths;
     const float r_m = (static_cast<float>(ring) + 0.5F) * kRing_m;
     const float steps = half_width_m_ / (r_m * static_cast<float>(kAzimuthMost_rad));
@@ -210,7 +210,7 @@ std::uint8_t Sight::seen(float x, float y) const {
 
 bool Sight::passed_high(float x, float y) const {
   const auto ring = static_cast<std::uint32_t>(std::sqrt(x * x + y * y) / kRing_m);
-  return ring < kRings && count_of(ring * kAzimuths + azimuth_of(x, y), kHighShift) != 0;
+  return ring < kRings && count_of(ring * kRow + azimuth_of(x, y), kHighShift) != 0;
 }
 
 Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t count,

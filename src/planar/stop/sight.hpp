@@ -20,6 +20,7 @@ namespace pose_wall::planar {
 constexpr std::uint32_t kAzimuths = 512;       // a turn
 constexpr std::uint32_t kRings = 80;           // of 0.1 m: 8 m
 constexpr float kRing_m = 0.1F;                // as a place
+constexpr std::uint32_t kRow = kAzimuths + 8;  // words of a ring: no power of two, or all rings share a cache's set
 constexpr double kAzimuthMost_rad = 0.015625;  // the widest step: 2 * 4 / 512
 
 class Sight {
@@ -53,7 +54,7 @@ class Sight {
       for (std::uint32_t eight = 0; eight < kAzimuths; eight += 8) {
         if (are_zero(low + eight) && are_zero(high + eight)) continue;
         for (std::uint32_t a = eight; a < eight + 8; ++a) {
-          const std::uint32_t cell = ring * kAzimuths + a;
+          const std::uint32_t cell = ring * kRow + a;
           if (low[a] != 0) visit(returned(ring, a, false, low[a], count_of(cell, kLowShift)));
           if (high[a] != 0) visit(returned(ring, a, true, high[a], count_of(cell, kHighShift)));
         }

@@ -72,7 +72,7 @@ struct World {
   std::vector<Puddle> puddles;
 
   float floor_at(float x, float y) const {
-    const auto k = static_cast<float>(6.2831853 / floor_length_m);
+    const float k = 6.2831853F / static_cast<float>(floor_length_m);
     return static_cast<float>(floor_wave_m) * sine_(k * x + 0.6F * k * y + static_cast<float>(floor_phase));
   }
   // Slopes of the floor along x and y.
@@ -81,7 +81,7 @@ struct World {
     *along = c, *across = 0.6 * c;
   }
   float wall_at(float x) const {
-    const auto k = static_cast<float>(6.2831853 / wall_length_m);
+    const float k = 6.2831853F / static_cast<float>(wall_length_m);
     return static_cast<float>(half_width_m) + static_cast<float>(wall_wave_m) *
            sine_(k * x + static_cast<float>(wall_phase));
   }
@@ -109,8 +109,9 @@ inline float World::to_road(const Vec3& from, const Vec3& d, float most, bool* i
   float t = most;
   *is_floor = false;
   if (d.z < -1e-4F) {
-    float at = -from.z / d.z;
-    for (int k = 0; k < 2; ++k) at = (floor_at(from.x + at * d.x, from.y + at * d.y) - from.z) / d.z;
+    const float per_z = 1.0F / d.z;
+    float at = -from.z * per_z;
+    for (int k = 0; k < 2; ++k) at = (floor_at(from.x + at * d.x, from.y + at * d.y) - from.z) * per_z;
     if (at > 0.0F && at < t) t = at, *is_floor = true;
   } else if (d.z > 1e-4F) {
     const float at = (static_cast<float>(roof_m) - from.z) / d.z;
