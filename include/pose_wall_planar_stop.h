@@ -71,25 +71,25 @@ typedef struct pose_wall_planar_stop_settings {
   double slope_max_rad;  /* 0 to 0.35: largest slope of the floor against base */
   double kink_max_rad;   /* 0.01 to 0.35: where no floor is seen, it may rise or fall so much ahead of the machine */
 
-  double speed_max_m_s;      /* 0.05 to 3: top speed of any point of the footprint that is allowed */
-  double turn_max_rad_s;     /* 0.01 to 2 */
-  double deceleration_m_s2;  /* 0.1 to 10: least deceleration of the fastest point of the footprint */
-  double latency_s;          /* 0 to 2: from a result to the first effect of the brakes */
-  double stale_s;            /* 0.02 to 1: oldest frame. At least a frame's period and its own delay */
-  double scan_s;             /* 0 to 0.5: a point is measured up to so long before the stamp; 0: scan without skew */
-  double delay_s;            /* 0.1 to 2: in which sparse returns are told from dust; three frames at least */
-  double slack_s;            /* 0 to 2: allowed_speed_m_s is so much more careful than the stop */
-  double restart_s;          /* 0 to 60: clear for so long before a stop ends */
-  double restart_speed_m_s;  /* 0.01 to 1: allowed speed needed to end a stop */
-  double approach_m_s;       /* 0 to 3: speed of people towards the path; 0: nobody is there */
-  double settle_s;           /* 0.2 to 60: a thing that stood still for so long is not expected to walk */
-  double memory_s;           /* 0.1 to 600: low places are remembered for so long */
-  double drift_max_m;        /* 0.02 to 0.5: and while the machine's motion is known so well */
-  double confirm_m;          /* 0 to 3: width of the strip around the footprint that _confirm declares empty */
-  double protection_m;       /* 0.02 to 1: errors of range, extrinsic and footprint */
-  double speed_error_ratio;  /* 0 to 0.5: error of a given speed or turn rate, as a share of it */
-  double speed_error_m_s;    /* 0 to 0.5: and beside it while the machine moves */
-  double turn_error_rad_s;   /* 0 to 0.5 */
+  double speed_max_m_s;     /* 0.05 to 3: top speed of any point of the footprint that is allowed */
+  double turn_max_rad_s;    /* 0.01 to 2 */
+  double deceleration_m_s2; /* 0.1 to 10: least deceleration of the fastest point of the footprint */
+  double latency_s;         /* 0 to 2: from a result to the first effect of the brakes */
+  double stale_s;           /* 0.02 to 1: oldest frame. At least a frame's period and its own delay */
+  double scan_s;            /* 0 to 0.5: a point is measured up to so long before the stamp; 0: scan without skew */
+  double delay_s;           /* 0.1 to 2: in which sparse returns are told from dust; three frames at least */
+  double slack_s;           /* 0 to 2: allowed_speed_m_s is so much more careful than the stop */
+  double restart_s;         /* 0 to 60: clear for so long before a stop ends */
+  double restart_speed_m_s; /* 0.01 to 1: allowed speed needed to end a stop */
+  double approach_m_s;      /* 0 to 3: speed of people towards the path; 0: nobody is there */
+  double settle_s;          /* 0.2 to 60: a thing that stood still for so long is not expected to walk */
+  double memory_s;          /* 0.1 to 600: low places are remembered for so long */
+  double drift_max_m;       /* 0.02 to 0.5: and while the machine's motion is known so well */
+  double confirm_m;         /* 0 to 3: width of the strip around the footprint that _confirm declares empty */
+  double protection_m;      /* 0.02 to 1: errors of range, extrinsic and footprint */
+  double speed_error_ratio; /* 0 to 0.5: error of a given speed or turn rate, as a share of it */
+  double speed_error_m_s;   /* 0 to 0.5: and beside it while the machine moves */
+  double turn_error_rad_s;  /* 0 to 0.5 */
 } pose_wall_planar_stop_settings;
 
 /* A roadheader of 4.5 x 1.2 m. Fails iff: NULL. */
@@ -105,10 +105,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_check(const pose_wall_p
 /* The machine's motion, each part with its bit. Give both the measured motion and the command under way: the stop
  * covers all between them. Without any it assumes every motion that the settings allow. Speeds are along +x of base,
  * negative backwards; turns are to the left. */
-enum pose_wall_planar_stop_given {
-  POSE_WALL_PLANAR_STOP_MEASURED = 1,
-  POSE_WALL_PLANAR_STOP_COMMANDED = 2
-};
+enum pose_wall_planar_stop_given { POSE_WALL_PLANAR_STOP_MEASURED = 1, POSE_WALL_PLANAR_STOP_COMMANDED = 2 };
 typedef struct pose_wall_planar_stop_motion {
   uint32_t struct_size; /* sizeof(pose_wall_planar_stop_motion) */
   uint32_t given;       /* pose_wall_planar_stop_given bits */
@@ -148,11 +145,11 @@ const char* pose_wall_planar_stop_reason_text(uint32_t bit_index);
 
 /* Heights of a thing. */
 enum pose_wall_planar_stop_height {
-  POSE_WALL_PLANAR_STOP_NONE = 0,    /* nothing is in the way */
-  POSE_WALL_PLANAR_STOP_LOW = 1,     /* below thing_height_m */
-  POSE_WALL_PLANAR_STOP_HIGH = 2,    /* above, and perhaps hanging */
+  POSE_WALL_PLANAR_STOP_NONE = 0,     /* nothing is in the way */
+  POSE_WALL_PLANAR_STOP_LOW = 1,      /* below thing_height_m */
+  POSE_WALL_PLANAR_STOP_HIGH = 2,     /* above, and perhaps hanging */
   POSE_WALL_PLANAR_STOP_STANDING = 3, /* from below thing_height_m to above it */
-  POSE_WALL_PLANAR_STOP_UNSEEN = 4   /* a blind place */
+  POSE_WALL_PLANAR_STOP_UNSEEN = 4    /* a blind place */
 };
 
 typedef struct pose_wall_planar_stop_result {
@@ -178,12 +175,12 @@ typedef struct pose_wall_planar_stop_result {
   double nearest_age_s;      /* it has been there for so long */
   uint32_t nearest_height;   /* pose_wall_planar_stop_height */
   uint32_t points_in;
-  uint32_t points_used;      /* returns within range, not of the machine */
-  uint32_t thing_cells;      /* places of 0.1 m with a thing */
-  uint32_t blind_cells;      /* in the way at top speed */
+  uint32_t points_used; /* returns within range, not of the machine */
+  uint32_t thing_cells; /* places of 0.1 m with a thing */
+  uint32_t blind_cells; /* in the way at top speed */
   uint32_t doubtful_cells;
-  double floor_height_m;     /* of the floor under base, in base */
-  double floor_slope[2];     /* along x and y of base */
+  double floor_height_m; /* of the floor under base, in base */
+  double floor_slope[2]; /* along x and y of base */
 } pose_wall_planar_stop_result;
 
 typedef struct pose_wall_planar_stop pose_wall_planar_stop;

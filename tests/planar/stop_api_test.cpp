@@ -230,8 +230,8 @@ TEST(StopApi, DustIsNoThingAndAThinThingIsOneAfterTheDelay) {
       const float along = p.normalized().dot(at.cast<float>().normalized());
       if (along > most) most = along, best = k;
     }
-    const auto scale = static_cast<float>(at.norm()) /
-                       Eigen::Vector3f(points[best], points[best + 1], points[best + 2]).norm();
+    const auto scale =
+        static_cast<float>(at.norm()) / Eigen::Vector3f(points[best], points[best + 1], points[best + 2]).norm();
     for (std::size_t axis = 0; axis < 3; ++axis) points[best + axis] *= scale;
     return standing->again();
   };
@@ -307,8 +307,7 @@ TEST(StopApi, OpenRefusesWhatItCannotUse) {
   EXPECT_EQ(pose_wall_planar_stop_open(nullptr, nullptr, block.data(), block.size(), &stop), POSE_WALL_E_NULL);
   pose_wall_planar_stop_settings settings = encounter_settings();
   settings.deceleration_m_s2 = std::nan("");
-  EXPECT_EQ(pose_wall_planar_stop_open(&config, &settings, block.data(), block.size(), &stop),
-            POSE_WALL_E_VALUE_RANGE);
+  EXPECT_EQ(pose_wall_planar_stop_open(&config, &settings, block.data(), block.size(), &stop), POSE_WALL_E_VALUE_RANGE);
   EXPECT_EQ(stop, nullptr);
   EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.size(), &stop), POSE_WALL_OK);
   EXPECT_EQ(pose_wall_planar_stop_reset(stop), POSE_WALL_OK);
@@ -359,9 +358,9 @@ TEST(StopApi, TheSameFramesGiveTheSameBitsWhateverTheBlockHeld) {
       const pose_wall_planar_stop_motion motion{sizeof(motion), 1, 0.2, 0.01, 0.0, 0.0};
       const pose_wall_cloud cloud = scan.cloud((k + 1) * kFrame_ns);
       EXPECT_EQ(pose_wall_planar_stop_process(stop, &cloud, &motion, cloud.stamp_ns, &result), POSE_WALL_OK);
-      for (const double number : {result.stop_speed_m_s, result.floor_height_m, result.floor_slope[0],
-                                  result.nearest_distance_m, static_cast<double>(result.thing_cells),
-                                  static_cast<double>(result.blind_cells)}) {
+      for (const double number :
+           {result.stop_speed_m_s, result.floor_height_m, result.floor_slope[0], result.nearest_distance_m,
+            static_cast<double>(result.thing_cells), static_cast<double>(result.blind_cells)}) {
         numbers.push_back(std::isnan(number) ? -1.0 : number);
       }
     }

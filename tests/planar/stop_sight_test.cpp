@@ -150,8 +150,8 @@ TEST(StopSight, WhereAPlaceIsSeenAThingWouldHaveReturned) {
   std::uint32_t lows = 0, talls = 0;
   for (int k = 0; k < 90; ++k) {
     World world = flat();
-    Sensor sensor = k % 3 == 0 ? os1() : Sensor(Pattern::vlp16, 2.0, draw.within(1.3, 1.7), 0.0,
-                                                draw.within(0.3, 0.6), 1.2, 900);
+    Sensor sensor =
+        k % 3 == 0 ? os1() : Sensor(Pattern::vlp16, 2.0, draw.within(1.3, 1.7), 0.0, draw.within(0.3, 0.6), 1.2, 900);
     if (k % 3 == 2) sensor = Sensor(Pattern::mid360, 2.0, draw.within(1.3, 1.7), 3.14159265, 0.0, 1.2, 0);
     sensor.noise_m = 0.0, sensor.dropout = draw.within(0.0, 0.6);
     for (int p = 0; p < 8; ++p) {

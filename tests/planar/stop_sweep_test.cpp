@@ -26,8 +26,12 @@ using pose_wall::test::Draw;
 constexpr double kReaction_s = 0.8;
 
 Hazard thing_at(double x, double y, double margin_m, double approach_m_s = 0.0) {
-  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(margin_m),
-          static_cast<float>(approach_m_s), 0, POSE_WALL_PLANAR_STOP_STANDING};
+  return {static_cast<float>(x),
+          static_cast<float>(y),
+          static_cast<float>(margin_m),
+          static_cast<float>(approach_m_s),
+          0,
+          POSE_WALL_PLANAR_STOP_STANDING};
 }
 
 std::uint32_t level_with(const Sweep& sweep, const Hazard& hazard) {
@@ -107,8 +111,8 @@ TEST(StopSweep, NothingSlipsThroughBetweenSlicesAndLittleIsGivenAway) {
   std::uint32_t limited = 0, tight = 0;
   for (int k = 0; k < 4000; ++k) {
     StopSettings settings = default_stop_settings();
-    pose_wall::planar::set_rectangle(&settings, draw.within(-2.5, -0.5), draw.within(0.5, 2.5),
-                                     draw.within(-1.0, -0.3), draw.within(0.3, 1.0));
+    pose_wall::planar::set_rectangle(&settings, draw.within(-2.5, -0.5), draw.within(0.5, 2.5), draw.within(-1.0, -0.3),
+                                     draw.within(0.3, 1.0));
     Sweep sweep;
     sweep.open(settings);
     const SweepMotion motion = arc(settings, draw.within(-1.0, 1.0), draw.within(-1.0, 1.0));

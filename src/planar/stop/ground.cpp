@@ -9,8 +9,8 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kLeast = 60;    // with fewer on it the floor was not seen
-constexpr double kAround_m = 6.0;       // from the sensor: what the sweep needs
+constexpr std::uint32_t kLeast = 60;  // with fewer on it the floor was not seen
+constexpr double kAround_m = 6.0;     // from the sensor: what the sweep needs
 // Gates of the rounds, above the plane (below it twice as wide: things stand on floors):
 constexpr double kGates_m[] = {0.20, 0.12, 0.08, 0.06};
 // How well the machine's own plane is known, as so many points of the last gate:

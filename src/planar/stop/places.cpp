@@ -104,8 +104,7 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
   const Eigen::Vector2d origin = turn * sensor_m + Eigen::Vector2d(track.x_m, track.y_m);
   const auto drift_m = static_cast<float>(track.drift_m);
   sight.each_return([&](const Sight::Return& hit) {
-    const Eigen::Vector2d at =
-        turn * Eigen::Vector2d(static_cast<double>(hit.x), static_cast<double>(hit.y)) + origin;
+    const Eigen::Vector2d at = turn * Eigen::Vector2d(static_cast<double>(hit.x), static_cast<double>(hit.y)) + origin;
     Place& place = place_at(place_of(at.x()), place_of(at.y()));
     bool counts = !hit.is_doubtful;
     if (hit.is_doubtful) {
@@ -153,25 +152,27 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
   const auto drift_m = static_cast<float>(track.drift_m);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   const float most_m = sight.seen_most_m();
-  each_around(track, sensor_m, static_cast<double>(most_m), [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
-    const float dx = x - sx, dy = y - sy;
-    if (!(dx * dx + dy * dy < most_m * most_m)) return;
-    const std::uint8_t seen = sight.seen(dx, dy);
-    if (seen == 0) return;
-    Place& place = place_at(ix, iy, index);
-    if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
-    if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
-    if ((seen & Sight::kLow) == 0) return;
-    place.low_ms = now_ms, place.low_drift_m = drift_m;
-    if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
-  });
+  each_around(track, sensor_m, static_cast<double>(most_m),
+              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+                const float dx = x - sx, dy = y - sy;
+                if (!(dx * dx + dy * dy < most_m * most_m)) return;
+                const std::uint8_t seen = sight.seen(dx, dy);
+                if (seen == 0) return;
+                Place& place = place_at(ix, iy, index);
+                if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
+                if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
+                if ((seen & Sight::kLow) == 0) return;
+                place.low_ms = now_ms, place.low_drift_m = drift_m;
+                if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
+              });
   // Where the machine stands, nothing lies.
-  each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
-    if (!(sweep.distance_now(x, y) < -kInside_m)) return;
-    Place& place = place_at(ix, iy, index);
-    place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
-    place.thing_low_ms = place.thing_high_ms = 0;
-  });
+  each_around(track, {0.0, 0.0}, sweep.radius_m(),
+              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+                if (!(sweep.distance_now(x, y) < -kInside_m)) return;
+                Place& place = place_at(ix, iy, index);
+                place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
+                place.thing_low_ms = place.thing_high_ms = 0;
+              });
 }
 
 void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms) {
@@ -212,40 +213,40 @@ bool Places::is_hazard(const Place* place, const Track& track, std::uint32_t now
   const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift_m, track, now_ms);
   if (!is_low && !is_high) return !is_free(*place, track, now_ms);
   hazard->margin_m += kCellCorner_m + static_cast<float>(track.drift_m) - place->thing_drift_m;
-  hazard->kind = static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) +
-                                            (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
+  hazard->kind =
+      static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
   if (is_high && !is_settled(*place, now_ms)) hazard->approach_m_s = approach_m_s_;
   return true;
 }
 
 std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
                                    const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count) {
-  const float still_reach_m =
-      protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
+  const float still_reach_m = protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
   const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   std::uint32_t found = 0;
   const double half_m = sweep.half_m() + static_cast<double>(walk_reach_m);
-  each_around(track, sweep.middle_m(), half_m, [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
-    const bool is_near = sweep.concerns(x, y, still_reach_m);
-    if (!is_near && (places_[index].thing_high_ms == 0 || !sweep.concerns(x, y, walk_reach_m))) return;
-    Place* const place = is_of(places_[index], ix, iy) ? &places_[index] : nullptr;
-    if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
-    if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
-    Hazard hazard{x, y, 0.0F, 0.0F, index, 0};
-    if (!is_hazard(place, track, now_ms, &hazard)) return;
-    const bool is_blind = hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN;
-    if (!is_blind) ++count->things;
-    if (!is_near && !(hazard.approach_m_s > 0.0F)) return;
-    if (sweep.distance_now(x, y) < kNotUnder_m) return;
-    if (is_blind) ++count->blind;
-    hazards[found++] = hazard;  // there is room for every place
-  });
+  each_around(track, sweep.middle_m(), half_m,
+              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+                const bool is_near = sweep.concerns(x, y, still_reach_m);
+                if (!is_near && (places_[index].thing_high_ms == 0 || !sweep.concerns(x, y, walk_reach_m))) return;
+                Place* const place = is_of(places_[index], ix, iy) ? &places_[index] : nullptr;
+                if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
+                if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
+                Hazard hazard{x, y, 0.0F, 0.0F, index, 0};
+                if (!is_hazard(place, track, now_ms, &hazard)) return;
+                const bool is_blind = hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN;
+                if (!is_blind) ++count->things;
+                if (!is_near && !(hazard.approach_m_s > 0.0F)) return;
+                if (sweep.distance_now(x, y) < kNotUnder_m) return;
+                if (is_blind) ++count->blind;
+                hazards[found++] = hazard;  // there is room for every place
+              });
   return found;
 }
 
 double Places::size_around(std::uint32_t index, const Track& track, std::uint32_t now_ms) const {
-  constexpr std::int32_t kAround = 10;  // 1 m
+  constexpr std::int32_t kAround = 10;  // 1 m to each side
   const Place& middle = places_[index];
   std::int32_t low_x = 0, high_x = 0, low_y = 0, high_y = 0;
   for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {

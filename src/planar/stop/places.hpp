@@ -16,8 +16,8 @@
 namespace pose_wall::planar {
 
 constexpr std::uint32_t kPlacesAcross = 160;  // 16 m, in a ring: what falls out at one side comes in at the other
-constexpr double kPlace_m = 0.1;
-constexpr std::int32_t kPlacesAround = 79;   // to each side of base
+constexpr double kPlace_m = 0.1;              // a third of the smallest thing
+constexpr std::int32_t kPlacesAround = 79;    // to each side of base
 // From the middle of a place to its corner, and from the middle of a cell of the sight to its own.
 constexpr float kPlaceCorner_m = 0.0707F, kCellCorner_m = 0.0640F;
 
@@ -28,14 +28,14 @@ struct Track {
 };
 
 struct Place {
-  std::int16_t ix, iy;        // which place of the ground this is
-  std::uint32_t low_ms;       // seen free low; 0: never
-  std::uint32_t tall_ms;      // seen free of people
-  std::uint32_t top_ms;       // seen free of what hangs
-  std::uint32_t thing_low_ms, thing_high_ms;  // last return; 0: none, or seen gone
-  std::uint32_t first_ms;     // of the high returns that go on until now
-  std::uint32_t low_first_ms; // likewise of the low ones
-  std::uint32_t doubt_first_ms, doubt_ms;     // doubtful returns
+  std::int16_t ix, iy;                            // which place of the ground this is
+  std::uint32_t low_ms;                           // seen free low; 0: never
+  std::uint32_t tall_ms;                          // seen free of people
+  std::uint32_t top_ms;                           // seen free of what hangs
+  std::uint32_t thing_low_ms, thing_high_ms;      // last return; 0: none, or seen gone
+  std::uint32_t first_ms;                         // of the high returns that go on until now
+  std::uint32_t low_first_ms;                     // likewise of the low ones
+  std::uint32_t doubt_first_ms, doubt_ms;         // doubtful returns
   float low_drift_m, top_drift_m, thing_drift_m;  // the track's, then
 };
 
@@ -87,6 +87,7 @@ class Places {
   float drift_most_m_ = 0.0F, protection_m_ = 0.0F, approach_m_s_ = 0.0F, confirm_m_ = 0.0F;
 };
 
+// Every place at most:
 constexpr std::uint32_t kHazards = kPlacesAcross * kPlacesAcross;
 
 }  // namespace pose_wall::planar

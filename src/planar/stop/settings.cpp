@@ -18,8 +18,12 @@ struct Row {
   pose_wall_planar_fault fault;
 };
 
-#define POSE_WALL_STOP_ROW(member, least, most) \
-  { offsetof(StopSettings, member), least, most, {#member, #member " must be from " #least " to " #most} }
+#define POSE_WALL_STOP_ROW(member, least, most)             \
+  {                                                         \
+    offsetof(StopSettings, member), least, most, {          \
+#member, #member " must be from " #least " to " #most \
+    }                                                       \
+  }
 
 constexpr Row kRows[] = {POSE_WALL_STOP_ROW(floor_z_m, -10, 10),
                          POSE_WALL_STOP_ROW(top_m, 0.5, 6),

@@ -11,17 +11,18 @@ namespace {
 
 constexpr std::uint32_t kRingCells = kRings * kAzimuths;  // of one kind
 constexpr std::uint32_t kCounts = (kRings + 1) * kRow;    // a ring behind the last: where passes end
-constexpr float kBefore_m = 0.2F;       // a ray that ends on a thing shows nothing so shortly before it
-constexpr float kHeightNoise_m = 0.02F; // of a ray, from its range and the floor's plane
-constexpr float kLevel = 1e-4F;         // a slope: less than a millimetre within reach
-constexpr float kPlaceHalf_m = 0.0707F; // half the diagonal of a place of 0.1 m
-constexpr std::uint32_t kSides = 24;    // azimuths to each side at most, near the sensor
+constexpr float kBefore_m = 0.2F;        // a ray that ends on a thing shows nothing so shortly before it
+constexpr float kHeightNoise_m = 0.02F;  // of a ray, from its range and the floor's plane
+constexpr float kLevel = 1e-4F;          // a slope: less than a millimetre within reach
+constexpr float kPlaceHalf_m = 0.0707F;  // half the diagonal of a place of 0.1 m
+constexpr std::uint32_t kSides = 24;     // azimuths to each side at most, near the sensor
 // Doubtful: so many rays pass for each that returns, and it is a few.
 constexpr std::uint32_t kPassesEach = 4, kReturnsFew = 3;
 // One ray in the counts of a word, and their bits; as Sight has their shifts.
 constexpr std::uint64_t kLowOne = 1ULL, kTallOne = 1ULL << 16U, kHighOne = 1ULL << 32U, kTopOne = 1ULL << 48U;
+// And the bits of these counts:
 constexpr std::uint64_t kLowMask = 0xFFFFULL, kTallMask = kLowMask << 16U, kTopMask = kLowMask << 48U;
-constexpr std::uint8_t kFull = 255;     // counts of returns stay there
+constexpr std::uint8_t kFull = 255;  // counts of returns stay there
 
 }  // namespace
 
@@ -142,8 +143,7 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
   clear();
   const float a = static_cast<float>(ground.slope_x), b = static_cast<float>(ground.slope_y);
   const Eigen::Vector3d& s = mount_.sensor_base_m;
-  sensor_height_m_ =
-      static_cast<float>(s.z() - ground.height_m - ground.slope_x * s.x() - ground.slope_y * s.y());
+  sensor_height_m_ = static_cast<float>(s.z() - ground.height_m - ground.slope_x * s.x() - ground.slope_y * s.y());
   const float H = sensor_height_m_, room_m = top_m_ - H, below_m = -band_m_;
   // Where no floor is seen it may be lower or higher than the plane: only near places can then be seen low.
   reach_m_ = ground.seen ? kRings * kRing_m : 0.5F * (thing_m_ - band_m_) / kink_ + 0.5F;

@@ -17,9 +17,9 @@
 
 namespace pose_wall::planar {
 
-constexpr std::uint32_t kAzimuths = 512;       // a turn
-constexpr std::uint32_t kRings = 80;           // of 0.1 m: 8 m
-constexpr float kRing_m = 0.1F;                // as a place
+constexpr std::uint32_t kAzimuths = 512;       // steps of a turn
+constexpr std::uint32_t kRings = 80;           // up to 8 m from the sensor
+constexpr float kRing_m = 0.1F;                // as wide as a place
 constexpr std::uint32_t kRow = kAzimuths + 8;  // words of a ring: no power of two, or all rings share a cache's set
 constexpr double kAzimuthMost_rad = 0.015625;  // the widest step: 2 * 4 / 512
 

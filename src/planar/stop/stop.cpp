@@ -13,16 +13,17 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kReturnsLeast = 50;       // in a frame: a sensor that is covered or off has fewer
-constexpr std::uint32_t kPrintLeast = 8;          // returns that tell a frame from the one before
-constexpr std::uint32_t kMomentFirst_ms = 1000000; // the first frame's time: that of a place that was never seen is 0
-constexpr std::uint32_t kMomentMost_ms = 0xF0000000U; // after 46 days all is forgotten once
-constexpr double kFuture_s = 0.005;               // a stamp may lie so far ahead of the caller's clock
-constexpr double kGap_s = 1.0;                    // beyond stale_s: what the machine did in between is not known
-constexpr double kStill = 1e-9;                   // m/s and rad/s: it stands
+constexpr std::uint32_t kReturnsLeast = 50;         // in a frame: a sensor that is covered or off has fewer
+constexpr std::uint32_t kPrintLeast = 8;            // returns that tell a frame from the one before
+constexpr std::uint32_t kMomentFirst_ms = 1000000;  // the first frame's time: that of a place that was never seen is 0
+constexpr std::uint32_t kMomentMost_ms = 0xF0000000U;  // after 46 days all is forgotten once
+constexpr double kFuture_s = 0.005;                    // a stamp may lie so far ahead of the caller's clock
+constexpr double kGap_s = 1.0;                         // beyond stale_s: what the machine did in between is not known
+constexpr double kStill = 1e-9;                        // m/s and rad/s: it stands
 
-constexpr std::uint32_t kFatal = POSE_WALL_PLANAR_STOP_R_STALE | POSE_WALL_PLANAR_STOP_R_INVALID |
-                                 POSE_WALL_PLANAR_STOP_R_FROZEN;
+// Without a frame that can be used nothing is known:
+constexpr std::uint32_t kFatal =
+    POSE_WALL_PLANAR_STOP_R_STALE | POSE_WALL_PLANAR_STOP_R_INVALID | POSE_WALL_PLANAR_STOP_R_FROZEN;
 
 double larger(double a, double b) {
   return a > b ? a : b;
@@ -80,6 +81,7 @@ pose_wall_planar_stop_result Stop::begun(std::int64_t now_ns) const {
 Stop::Motion Stop::motion_of(const pose_wall_planar_stop_motion& m) const {
   Motion motion{};
   const double speed[2] = {m.speed_m_s, m.command_speed_m_s}, turn[2] = {m.turn_rad_s, m.command_turn_rad_s};
+  // Of the two kinds of motion:
   constexpr std::uint32_t kBits[2] = {POSE_WALL_PLANAR_STOP_MEASURED, POSE_WALL_PLANAR_STOP_COMMANDED};
   motion.is_known = m.given != 0;
   for (int k = 0; k < 2; ++k) {
@@ -195,8 +197,7 @@ void Stop::judge(const SweepMotion& motion, pose_wall_planar_stop_result* result
   sweep_.set_motion(motion, reaction_s(settings_) + settings_.slack_s);
   Places::Count count;
   const Eigen::Vector2d sensor_m = mount_.sensor_base_m.head<2>();
-  const std::uint32_t found =
-      places_.find_hazards(sight_, track_, sensor_m, sweep_, now_ms_, hazards_, &count);
+  const std::uint32_t found = places_.find_hazards(sight_, track_, sensor_m, sweep_, now_ms_, hazards_, &count);
   const Span<const Hazard> hazards = hazards_.first(found);
   std::int32_t limiting = -1;
   const std::uint32_t careful = sweep_.highest_level(hazards, &limiting);
@@ -300,8 +301,8 @@ void Stop::tick(std::int64_t now_ns, pose_wall_planar_stop_result* result) {
   last_.now_ns = now_ns;
   const double age_s = (static_cast<double>(now_ns) - static_cast<double>(last_ns_)) * kNanosecond_s;
   if (frames_ == 0 || !(age_s <= settings_.stale_s) || !(age_s >= -kFuture_s)) {
-    last_.reasons |= frames_ != 0 && !(age_s >= -kFuture_s) ? POSE_WALL_PLANAR_STOP_R_INVALID
-                                                           : POSE_WALL_PLANAR_STOP_R_STALE;
+    last_.reasons |=
+        frames_ != 0 && !(age_s >= -kFuture_s) ? POSE_WALL_PLANAR_STOP_R_INVALID : POSE_WALL_PLANAR_STOP_R_STALE;
     is_stopped_ = true;
     is_clear_ = false;
     last_.state = POSE_WALL_PLANAR_STOP_STOP;

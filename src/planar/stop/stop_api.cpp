@@ -37,6 +37,7 @@ Mine* mine(pose_wall_planar_stop* stop) {
 
 std::int32_t check_motion(const pose_wall_planar_stop_motion& motion) {
   if (motion.struct_size != sizeof(motion)) return POSE_WALL_E_STRUCT_SIZE;
+  // The bits of this header:
   constexpr std::uint32_t kKnown = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
   return (motion.given & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_INPUT};
 }

@@ -11,9 +11,9 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kStepLeast_m = 0.1;    // of the rim, between slices
-constexpr float kNearer_m = 0.01F;      // a place within its margin may come nearer by less than this
-constexpr float kFar_m = 1e9F;          // no distance
+constexpr double kStepLeast_m = 0.1;  // of the rim, between slices
+constexpr float kNearer_m = 0.01F;    // a place within its margin may come nearer by less than this
+constexpr float kFar_m = 1e9F;        // further than anything
 
 }  // namespace
 

@@ -21,22 +21,22 @@ namespace pose_wall::planar {
 
 constexpr std::uint32_t kSweepSlices = 64;  // steps of 0.1 m, or longer ones for a long path
 constexpr std::uint32_t kSweepLevels = 24;  // speeds that are tried: steps of 4 % of the top speed
-constexpr std::uint32_t kSweepEdges = POSE_WALL_PLANAR_STOP_CORNERS_MAX;
-constexpr double kSweepReach_m = 7.8;       // places are known this far around base
+constexpr std::uint32_t kSweepEdges = POSE_WALL_PLANAR_STOP_CORNERS_MAX;  // of the public header
+constexpr double kSweepReach_m = 7.8;                                     // places are known this far around base
 
 // The motion that a sweep is about: every motion s * twist + deviation, s from 0 to the rim speed.
 struct SweepMotion {
-  Eigen::Vector2d velocity = Eigen::Vector2d::UnitX();  // of base, for a rim speed of 1 m/s
-  double turn_rad_m = 0.0;                              // likewise
+  Eigen::Vector2d velocity = Eigen::Vector2d::UnitX();    // of base, for a rim speed of 1 m/s
+  double turn_rad_m = 0.0;                                // likewise
   double speed_error_ratio = 0.0, speed_error_m_s = 0.0;  // along the arc: it may be so much faster
   double turn_error_rad_s = 0.0, aside_m_s = 0.0;         // deviation from the arc
-  bool any = false;                                     // every motion up to the top speed
+  bool any = false;                                       // every motion up to the top speed
 };
 
 // A place in the way: thing or blind.
 struct Hazard {
-  float x_m, y_m;    // in base
-  float margin_m;    // its own size and the protection level
+  float x_m, y_m;  // in base
+  float margin_m;  // its own size and the protection level
   float approach_m_s;
   std::uint32_t place;
   std::uint32_t kind;
@@ -53,7 +53,9 @@ class Sweep {
     return x_m >= low_x_ - reach_m && x_m <= high_x_ + reach_m && y_m >= low_y_ - reach_m && y_m <= high_y_ + reach_m;
   }
   // The middle of the square around the whole sweep, and half its side.
-  Eigen::Vector2d middle_m() const { return Eigen::Vector2f(0.5F * (low_x_ + high_x_), 0.5F * (low_y_ + high_y_)).cast<double>(); }
+  Eigen::Vector2d middle_m() const {
+    return Eigen::Vector2f(0.5F * (low_x_ + high_x_), 0.5F * (low_y_ + high_y_)).cast<double>();
+  }
   double half_m() const { return 0.5 * static_cast<double>(larger_of_two(high_x_ - low_x_, high_y_ - low_y_)); }
   // How far margins grow at the top speed, for a hazard that approaches.
   float growth_m(float approach_m_s) const { return growth_[kSweepLevels] + approach_m_s * time_[kSweepLevels]; }

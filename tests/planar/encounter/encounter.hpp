@@ -21,9 +21,8 @@ enum class Loss { none, silent, frozen, delayed, covered, dirty };
 enum class Kind { clear, person_crosses, person_comes, person_starts, prop, box, muck, boom, dust, puddle, kinds };
 
 inline const char* name_of(Kind kind) {
-  static constexpr const char* kNames[] = {"clear",        "person_crosses", "person_comes", "person_starts",
-                                           "prop",         "box",            "muck",         "boom",
-                                           "dust",         "puddle"};
+  static constexpr const char* kNames[] = {"clear", "person_crosses", "person_comes", "person_starts", "prop",
+                                           "box",   "muck",           "boom",         "dust",          "puddle"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -43,9 +42,9 @@ struct Plan {
 struct Outcome {
   bool contact = false;
   double contact_m_s = 0.0, contact_s = 0.0, moved_m = 0.0, drove_s = 0.0, top_m_s = 0.0, lasted_s = 0.0;
-  std::uint32_t stops = 0, frames = 0;   // from motion
-  std::uint32_t stop_reasons = 0;        // of the last such
-  std::uint32_t reasons = 0;             // of the last frame
+  std::uint32_t stops = 0, frames = 0;  // from motion
+  std::uint32_t stop_reasons = 0;       // of the last such
+  std::uint32_t reasons = 0;            // of the last frame
   Kind touched = Kind::clear;
 };
 
@@ -199,12 +198,12 @@ class Encounter {
   void print(double now_s) const {
     const auto& r = stop_->result();
     const Machine& m = plan_.machine;
-    std::printf("%5.2f x %.2f y %.2f yaw %.2f rim %.2f | %s allowed %.2f stop %.2f reasons %03x things %u blind %u "
-                "doubt %u near (%.2f %.2f) d %.2f kind %u age %.1f floor %.3f %.3f %.3f\n",
-                now_s, m.x_m, m.y_m, m.yaw_rad, m.rim_m_s, pose_wall_planar_stop_state_name(r.state),
-                r.allowed_speed_m_s, r.stop_speed_m_s, r.reasons, r.thing_cells, r.blind_cells, r.doubtful_cells,
-                r.nearest_m[0], r.nearest_m[1], r.nearest_distance_m, r.nearest_height, r.nearest_age_s,
-                r.floor_height_m, r.floor_slope[0], r.floor_slope[1]);
+    std::printf(
+        "%5.2f x %.2f y %.2f yaw %.2f rim %.2f | %s allowed %.2f stop %.2f reasons %03x things %u blind %u "
+        "doubt %u near (%.2f %.2f) d %.2f kind %u age %.1f floor %.3f %.3f %.3f\n",
+        now_s, m.x_m, m.y_m, m.yaw_rad, m.rim_m_s, pose_wall_planar_stop_state_name(r.state), r.allowed_speed_m_s,
+        r.stop_speed_m_s, r.reasons, r.thing_cells, r.blind_cells, r.doubtful_cells, r.nearest_m[0], r.nearest_m[1],
+        r.nearest_distance_m, r.nearest_height, r.nearest_age_s, r.floor_height_m, r.floor_slope[0], r.floor_slope[1]);
     for (const Thing& t : plan_.world.things) {
       std::printf("        thing at (%.2f %.2f) half %.2f %.2f z %.2f..%.2f\n", t.x_m, t.y_m, t.half_x_m, t.half_y_m,
                   t.bottom_m, t.top_m);

@@ -40,8 +40,10 @@ struct Machine {
       wanted_ = queue_.front().rim;
       queue_.pop_front();
     }
-    if (rim_m_s > wanted_) rim_m_s = std::fmax(wanted_, rim_m_s - deceleration * seconds);
-    else rim_m_s = std::fmin(wanted_, rim_m_s + acceleration * seconds);
+    if (rim_m_s > wanted_)
+      rim_m_s = std::fmax(wanted_, rim_m_s - deceleration * seconds);
+    else
+      rim_m_s = std::fmin(wanted_, rim_m_s + acceleration * seconds);
     const double middle = yaw_rad + 0.5 * turn_rad_s() * seconds;
     x_m += std::cos(middle) * speed_m_s() * seconds;
     y_m += std::sin(middle) * speed_m_s() * seconds;

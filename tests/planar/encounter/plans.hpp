@@ -37,7 +37,10 @@ inline void draw_sensor(Plan* plan, Draw* draw) {
 inline void draw_drive(Plan* plan, Draw* draw) {
   const double which = draw->share();
   Machine& m = plan->machine;
-  plan->drive = which < 0.85 ? Drive::straight : which < 0.93 ? Drive::curve : which < 0.97 ? Drive::spot : Drive::reverse;
+  plan->drive = which < 0.85   ? Drive::straight
+                : which < 0.93 ? Drive::curve
+                : which < 0.97 ? Drive::spot
+                               : Drive::reverse;
   const double sign = draw->happens(0.5) ? 1.0 : -1.0;
   if (plan->drive == Drive::straight) m.set_arc(1.0, draw->within(-0.01, 0.01));
   if (plan->drive == Drive::curve) m.set_arc(1.0, sign * draw->within(0.02, 0.25));
@@ -92,7 +95,12 @@ inline void furnish(Plan* plan, Draw* draw) {
       w.things.push_back(round_thing(ahead, y, draw->within(0.075, 0.15), -0.1, 3.3));
       break;
     case Kind::box: {
-      Thing t{ahead, y, draw->within(0.0, 3.0), draw->within(0.15, 0.5), draw->within(0.15, 0.5), -0.1,
+      Thing t{ahead,
+              y,
+              draw->within(0.0, 3.0),
+              draw->within(0.15, 0.5),
+              draw->within(0.15, 0.5),
+              -0.1,
               draw->within(0.3, 1.2)};
       w.things.push_back(t);
       break;
@@ -105,7 +113,12 @@ inline void furnish(Plan* plan, Draw* draw) {
       break;
     case Kind::boom: {
       const double low = draw->within(0.4, 1.5);
-      Thing t{ahead, y, draw->within(-0.5, 0.5) + 1.57, draw->within(0.5, 1.5), draw->within(0.1, 0.25), low,
+      Thing t{ahead,
+              y,
+              draw->within(-0.5, 0.5) + 1.57,
+              draw->within(0.5, 1.5),
+              draw->within(0.1, 0.25),
+              low,
               low + draw->within(0.2, 0.5)};
       w.things.push_back(t);
       break;
@@ -114,8 +127,8 @@ inline void furnish(Plan* plan, Draw* draw) {
       break;
   }
   if (plan->kind == Kind::dust || draw->happens(0.15)) {
-    w.dust.push_back({ahead, draw->within(-1.5, 1.5), draw->within(0.3, 1.5), draw->within(0.5, 2.0),
-                      draw->within(0.002, 0.3)});
+    w.dust.push_back(
+        {ahead, draw->within(-1.5, 1.5), draw->within(0.3, 1.5), draw->within(0.5, 2.0), draw->within(0.002, 0.3)});
     if (plan->kind == Kind::dust && draw->happens(0.5)) {
       w.things.push_back(round_thing(ahead + draw->within(-1.0, 1.0), y, 0.2, -0.1, 1.7));
     }

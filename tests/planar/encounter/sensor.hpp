@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include "base/math/rotation.hpp"
@@ -23,60 +25,73 @@ struct Sensor {
       : pattern(of), x_m(x), z_m(z), roll_rad(roll), pitch_rad(pitch), sector_rad(sector), columns(turn) {}
 
   Pattern pattern = Pattern::vlp16;
-  double x_m = 2.0, z_m = 1.6;            // in base
-  double roll_rad = 0.0, pitch_rad = 0.45; // of the mount; nose down is positive
-  double sector_rad = 1.3;                // to each side of forward: what lies elsewhere is left out
-  std::uint32_t columns = 0;              // 0: the sensor's own
+  double x_m = 2.0, z_m = 1.6;              // in base
+  double roll_rad = 0.0, pitch_rad = 0.45;  // of the mount; nose down is positive
+  double sector_rad = 1.3;                  // to each side of forward: what lies elsewhere is left out
+  std::uint32_t columns = 0;                // 0: the sensor's own
   double noise_m = 0.015, dropout = 0.01;
   double dirt_from_rad = 0.0, dirt_to_rad = 0.0;  // azimuths without returns
 
   Eigen::Matrix3d R() const { return rotation_zyx(roll_rad, pitch_rad, 0.0); }
   // Unit directions in the lidar's frame. Those of a Mid-360 differ from frame to frame.
-  void directions(Draw* draw, std::vector<Vec3>* out);
-
- private:
-  std::vector<Vec3> ring_;
+  void directions(Draw* draw, std::vector<Vec3>* out) const;
 };
 
-inline void Sensor::directions(Draw* draw, std::vector<Vec3>* out) {
-  const auto put = [&](double azimuth, double elevation) {
-    const double c = std::cos(elevation);
-    out->push_back({static_cast<float>(c * std::cos(azimuth)), static_cast<float>(c * std::sin(azimuth)),
-                    static_cast<float>(std::sin(elevation))});
-  };
-  if (pattern == Pattern::mid360) {
-    // Some frames' directions in a ring: each frame begins anywhere in it.
-    const auto points = static_cast<std::uint32_t>(20000 * sector_rad / 3.14159265);
-    constexpr std::uint32_t kFrames = 8;
-    if (ring_.size() != kFrames * points) {
-      out->swap(ring_);
-      out->clear();
-      for (std::uint32_t k = 0; k < kFrames * points; ++k) {
-        put(draw->within(-sector_rad, sector_rad), draw->within(-0.122, 0.908));  // -7 to 52 degrees, upside down
+// All directions of a pattern within its sector; of a Mid-360 those of some frames. Made once.
+class Directions {
+ public:
+  static const std::vector<Vec3>& of(const Sensor& sensor) {
+    static std::map<std::tuple<int, std::uint32_t, double>, std::vector<Vec3>> known;
+    std::vector<Vec3>& made = known[{static_cast<int>(sensor.pattern), sensor.columns, sensor.sector_rad}];
+    if (made.empty()) make(sensor, &made);
+    return made;
+  }
+  static constexpr std::uint32_t kFrames = 16;  // of a Mid-360
+  static std::uint32_t frame_points(const Sensor& sensor) {
+    return static_cast<std::uint32_t>(20000 * sensor.sector_rad / 3.14159265);
+  }
+
+ private:
+  static void make(const Sensor& sensor, std::vector<Vec3>* out) {
+    const auto put = [&](double azimuth, double elevation) {
+      const double c = std::cos(elevation);
+      out->push_back({static_cast<float>(c * std::cos(azimuth)), static_cast<float>(c * std::sin(azimuth)),
+                      static_cast<float>(std::sin(elevation))});
+    };
+    if (sensor.pattern == Pattern::mid360) {
+      Draw draw(360);
+      for (std::uint32_t k = 0; k < kFrames * frame_points(sensor); ++k) {  // -7 to 52 degrees, upside down
+        put(draw.within(-sensor.sector_rad, sensor.sector_rad), draw.within(-0.122, 0.908));
       }
-      out->swap(ring_);
+      return;
     }
-    out->resize(points);
-    std::uint32_t at = draw->below(kFrames * points);
-    for (Vec3& d : *out) d = ring_[at], at = at + 1 < kFrames * points ? at + 1 : 0;
+    const bool is_16 = sensor.pattern == Pattern::vlp16;
+    const std::uint32_t rings = is_16 ? 16 : 64, turn = sensor.columns != 0 ? sensor.columns : is_16 ? 1800 : 1024;
+    const double low = is_16 ? -0.2618 : -0.3927, high = -low, step = 2.0 * 3.14159265358979 / turn;
+    for (std::uint32_t k = 0; k < turn; ++k) {
+      const double azimuth = (k + 0.5) * step - 3.14159265358979;
+      if (std::fabs(azimuth) > sensor.sector_rad) continue;
+      for (std::uint32_t r = 0; r < rings; ++r) put(azimuth, low + (high - low) * r / (rings - 1.0));
+    }
+  }
+};
+
+inline void Sensor::directions(Draw* draw, std::vector<Vec3>* out) const {
+  const std::vector<Vec3>& all = Directions::of(*this);
+  if (pattern != Pattern::mid360) {
+    if (out->empty()) *out = all;
     return;
   }
-  if (!out->empty()) return;
-  const bool is_16 = pattern == Pattern::vlp16;
-  const std::uint32_t rings = is_16 ? 16 : 64, turn = columns != 0 ? columns : is_16 ? 1800 : 1024;
-  const double low = is_16 ? -0.2618 : -0.3927, high = -low, step = 2.0 * 3.14159265358979 / turn;
-  for (std::uint32_t k = 0; k < turn; ++k) {
-    const double azimuth = (k + 0.5) * step - 3.14159265358979;
-    if (std::fabs(azimuth) > sector_rad) continue;
-    for (std::uint32_t r = 0; r < rings; ++r) put(azimuth, low + (high - low) * r / (rings - 1.0));
-  }
+  out->resize(Directions::frame_points(*this));
+  std::size_t at = draw->below(static_cast<std::uint32_t>(all.size()));
+  for (Vec3& d : *out) d = all[at], at = at + 1 < all.size() ? at + 1 : 0;
 }
 
 // A cloud of x, y, z and one float more, in the lidar's frame.
 class Scan {
  public:
   // The machine at (x, y, yaw), leaning as the floor does.
-  void take(Sensor& sensor, const World& world, double x_m, double y_m, double yaw_rad, double pitch_rad,
+  void take(const Sensor& sensor, const World& world, double x_m, double y_m, double yaw_rad, double pitch_rad,
             double roll_rad, Draw* draw) {
     sensor.directions(draw, &directions_);
     const Eigen::Matrix3d R = rotation_zyx(roll_rad, pitch_rad, yaw_rad) * sensor.R();

@@ -23,7 +23,8 @@ class QuickSine {
     for (int k = 0; k < 4096; ++k) table_[k] = static_cast<float>(std::sin(k * (6.283185307179586 / 4096.0)));
   }
   float operator()(float rad) const {
-    return table_[static_cast<std::uint32_t>(static_cast<std::int32_t>(rad * (4096.0F / 6.2831853F) + 524288.0F)) & 4095U];
+    return table_[static_cast<std::uint32_t>(static_cast<std::int32_t>(rad * (4096.0F / 6.2831853F) + 524288.0F)) &
+                  4095U];
   }
 
  private:
@@ -82,8 +83,8 @@ struct World {
   }
   float wall_at(float x) const {
     const float k = 6.2831853F / static_cast<float>(wall_length_m);
-    return static_cast<float>(half_width_m) + static_cast<float>(wall_wave_m) *
-           sine_(k * x + static_cast<float>(wall_phase));
+    return static_cast<float>(half_width_m) +
+           static_cast<float>(wall_wave_m) * sine_(k * x + static_cast<float>(wall_phase));
   }
 
   // Range of a ray (unit direction), 0 without a return.

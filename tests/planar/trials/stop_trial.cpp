@@ -73,11 +73,12 @@ int encounters(const Arguments& a) {
                 static_cast<unsigned long long>(runs[k]), static_cast<unsigned long long>(moved[k]),
                 static_cast<unsigned long long>(stopped[k]), static_cast<unsigned long long>(contacts[k]));
   }
-  std::printf("seed %llu: %llu encounters, %llu contacts, %llu frames, %.0f m, above 0.9 m/s in %llu, sensor lost in "
-              "%llu\n",
-              static_cast<unsigned long long>(a.seed), static_cast<unsigned long long>(end - first),
-              static_cast<unsigned long long>(total), static_cast<unsigned long long>(frames), metres,
-              static_cast<unsigned long long>(whole), static_cast<unsigned long long>(lost));
+  std::printf(
+      "seed %llu: %llu encounters, %llu contacts, %llu frames, %.0f m, above 0.9 m/s in %llu, sensor lost in "
+      "%llu\n",
+      static_cast<unsigned long long>(a.seed), static_cast<unsigned long long>(end - first),
+      static_cast<unsigned long long>(total), static_cast<unsigned long long>(frames), metres,
+      static_cast<unsigned long long>(whole), static_cast<unsigned long long>(lost));
   return total == 0 ? 0 : 1;
 }
 
