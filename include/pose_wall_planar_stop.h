@@ -82,7 +82,10 @@ typedef struct pose_wall_planar_stop_settings {
   double restart_s;         /* 0 to 60: clear for so long before a stop ends */
   double restart_speed_m_s; /* 0.01 to 1: allowed speed needed to end a stop */
   double approach_m_s;      /* 0 to 3: speed of people towards the path; 0: nobody is there */
-  double settle_s;          /* 0.2 to 60: a thing that stood still for so long is not expected to walk */
+  double settle_s;     /* 0.2 to 60: what stood still for so long and is part of something long, like a wall, is not
+                          expected to walk. What stands alone may walk at any time */
+  double creep_m_s;    /* 0 to 0.3: so slowly the machine may pass a thing that stood still alone for settle_s, however
+                          near. 0: never nearer than it could walk into the way */
   double memory_s;          /* 0.1 to 600: low places are remembered for so long */
   double drift_max_m;       /* 0.02 to 0.5: and while the machine's motion is known so well */
   double confirm_m;         /* 0 to 3: width of the strip around the footprint that _confirm declares empty */

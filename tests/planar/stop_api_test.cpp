@@ -82,7 +82,7 @@ class Standing {
 
 World road() {
   World world;
-  world.half_width_m = 3.0;
+  world.half_width_m = 3.0, world.wall_wave_m = 0.02;
   return world;
 }
 

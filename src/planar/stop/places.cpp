@@ -34,6 +34,8 @@ void Places::open(const StopSettings& settings) {
   protection_m_ = static_cast<float>(settings.protection_m);
   approach_m_s_ = static_cast<float>(settings.approach_m_s);
   confirm_m_ = static_cast<float>(settings.confirm_m);
+  // What is known already needs no delay to be believed; it has to come nearer only.
+  sooner_s_ = static_cast<float>(settings.scan_s + settings.delay_s);
   forget();
 }
 
@@ -197,6 +199,30 @@ bool Places::is_settled(const Place& place, std::uint32_t now_ms) const {
   return false;
 }
 
+bool Places::has_thing_around(std::int32_t ix, std::int32_t iy, const Track& track, std::uint32_t now_ms) const {
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      const Place* const near = known_at(ix + dx, iy + dy);
+      if (near != nullptr && is_remembered(near->thing_high_ms, near->thing_drift_m, track, now_ms)) return true;
+    }
+  }
+  return false;
+}
+
+// Whether it goes on in a straight line: half a metre to both sides, or a metre to one, along any of four axes. The
+// face of a wall does. A person does not, even with the back to a wall.
+bool Places::is_long(const Place& place, const Track& track, std::uint32_t now_ms) const {
+  constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
+  for (const auto& axis : kAxes) {
+    const auto goes_on = [&](std::int32_t times) {
+      return has_thing_around(place.ix + times * axis[0], place.iy + times * axis[1], track, now_ms);
+    };
+    const bool ahead = goes_on(1), behind = goes_on(-1);
+    if ((ahead && behind) || (ahead && goes_on(2)) || (behind && goes_on(-2))) return true;
+  }
+  return false;
+}
+
 // A high thing is gone where rays pass and nothing returned for the delay.
 void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const {
   const bool may_go = place->thing_high_ms != 0 && now_ms - place->thing_high_ms > delay_ms_;
@@ -206,7 +232,7 @@ void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uin
 // What a place is to the sweep: false if it is free.
 bool Places::is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const {
   hazard->margin_m = protection_m_ + kPlaceCorner_m;
-  hazard->approach_m_s = 0.0F;
+  hazard->approach_m_s = hazard->sooner_s = 0.0F;
   hazard->kind = POSE_WALL_PLANAR_STOP_UNSEEN;
   if (place == nullptr) return true;
   const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift_m, track, now_ms);
@@ -215,7 +241,11 @@ bool Places::is_hazard(const Place* place, const Track& track, std::uint32_t now
   hazard->margin_m += kCellCorner_m + static_cast<float>(track.drift_m) - place->thing_drift_m;
   hazard->kind =
       static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
-  if (is_high && !is_settled(*place, now_ms)) hazard->approach_m_s = approach_m_s_;
+  if (!is_high) return true;
+  const bool is_settled_there = is_settled(*place, now_ms);
+  if (is_settled_there && is_long(*place, track, now_ms)) return true;
+  hazard->approach_m_s = approach_m_s_;
+  hazard->sooner_s = is_settled_there ? sooner_s_ : 0.0F;
   return true;
 }
 
@@ -233,7 +263,7 @@ std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const
                 Place* const place = is_of(places_[index], ix, iy) ? &places_[index] : nullptr;
                 if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
                 if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
-                Hazard hazard{x, y, 0.0F, 0.0F, index, 0};
+                Hazard hazard{x, y, 0.0F, 0.0F, 0.0F, index, 0};
                 if (!is_hazard(place, track, now_ms, &hazard)) return;
                 const bool is_blind = hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN;
                 if (!is_blind) ++count->things;

@@ -80,11 +80,13 @@ class Places {
   void doubt(Place* place, std::uint32_t now_ms);
   bool is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const;
   bool is_settled(const Place& place, std::uint32_t now_ms) const;
+  bool has_thing_around(std::int32_t ix, std::int32_t iy, const Track& track, std::uint32_t now_ms) const;
+  bool is_long(const Place& place, const Track& track, std::uint32_t now_ms) const;
   bool is_free(const Place& place, const Track& track, std::uint32_t now_ms) const;
 
   Span<Place> places_;
   std::uint32_t memory_ms_ = 0, delay_ms_ = 0, settle_ms_ = 0, gap_ms_ = 0;
-  float drift_most_m_ = 0.0F, protection_m_ = 0.0F, approach_m_s_ = 0.0F, confirm_m_ = 0.0F;
+  float drift_most_m_ = 0.0F, protection_m_ = 0.0F, approach_m_s_ = 0.0F, confirm_m_ = 0.0F, sooner_s_ = 0.0F;
 };
 
 // Every place at most:

@@ -45,6 +45,7 @@ constexpr Row kRows[] = {POSE_WALL_STOP_ROW(floor_z_m, -10, 10),
                          POSE_WALL_STOP_ROW(restart_speed_m_s, 0.01, 1),
                          POSE_WALL_STOP_ROW(approach_m_s, 0, 3),
                          POSE_WALL_STOP_ROW(settle_s, 0.2, 60),
+                         POSE_WALL_STOP_ROW(creep_m_s, 0, 0.3),
                          POSE_WALL_STOP_ROW(memory_s, 0.1, 600),
                          POSE_WALL_STOP_ROW(drift_max_m, 0.02, 0.5),
                          POSE_WALL_STOP_ROW(confirm_m, 0, 3),
@@ -101,7 +102,7 @@ StopSettings default_stop_settings() {
   s.speed_max_m_s = 1.0, s.turn_max_rad_s = 0.4, s.deceleration_m_s2 = 1.0;
   s.latency_s = 0.2, s.stale_s = 0.25, s.scan_s = 0.1, s.delay_s = 0.3, s.slack_s = 0.3;
   s.restart_s = 1.0, s.restart_speed_m_s = 0.08;
-  s.approach_m_s = 1.6, s.settle_s = 2.0;
+  s.approach_m_s = 1.6, s.settle_s = 2.0, s.creep_m_s = 0.1;
   s.memory_s = 60.0, s.drift_max_m = 0.3, s.confirm_m = 2.5, s.protection_m = 0.1;
   s.speed_error_ratio = 0.03, s.speed_error_m_s = 0.002, s.turn_error_rad_s = 0.002;
   return s;

@@ -12,7 +12,7 @@ namespace pose_wall::test {
 inline pose_wall_planar_stop_settings encounter_settings() {
   pose_wall_planar_stop_settings settings;
   (void)pose_wall_planar_stop_settings_init(&settings);
-  settings.restart_s = 0.3, settings.settle_s = 1.0;  // encounters are short
+  settings.restart_s = 0.3, settings.settle_s = 1.0, settings.creep_m_s = 0.0;  // encounters are short
   return settings;
 }
 
@@ -20,7 +20,7 @@ inline void draw_sensor(Plan* plan, Draw* draw) {
   const double which = draw->share();
   Sensor& s = plan->sensor;
   if (which < 0.85) {
-    s = Sensor(Pattern::vlp16, 2.0, draw->within(1.4, 1.55), 0.0, draw->within(0.15, 0.2), 1.25, 600);
+    s = Sensor(Pattern::vlp16, 2.0, draw->within(1.4, 1.5), 0.0, draw->within(0.16, 0.2), 1.25, 600);
   } else if (which < 0.9) {
     s = Sensor(Pattern::os1_64, 2.0, draw->within(1.4, 1.6), 0.0, draw->within(0.26, 0.3), 1.0, 0);
   } else {

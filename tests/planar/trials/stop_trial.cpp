@@ -38,7 +38,8 @@ Arguments arguments_of(int argc, char** argv) {
 }
 
 std::uint64_t seed_of(std::uint64_t seed, std::uint64_t encounter) {
-  return seed * 0x9E3779B97F4A7C15ULL + encounter * 0xD1B54A32D192ED03ULL;
+  pose_wall::Random mixed(seed);
+  return pose_wall::Random(mixed.next() ^ (encounter * 0xD1B54A32D192ED03ULL)).next();
 }
 
 int encounters(const Arguments& a) {
