@@ -86,10 +86,10 @@ typedef struct pose_wall_planar_stop_settings {
                           expected to walk. What stands alone may walk at any time */
   double creep_m_s;    /* 0 to 0.3: so slowly the machine may pass a thing that stood still alone for settle_s, however
                           near. 0: never nearer than it could walk into the way */
-  double memory_s;          /* 0.1 to 600: low places are remembered for so long */
-  double drift_max_m;       /* 0.02 to 0.5: and while the machine's motion is known so well */
-  double confirm_m;         /* 0 to 3: width of the strip around the footprint that _confirm declares empty */
-  double protection_m;      /* 0.02 to 1: errors of range, extrinsic and footprint */
+  double memory_s;     /* 0.1 to 600: low places are remembered for so long */
+  double drift_max_m;  /* 0.02 to 0.5: and while the machine's motion is known so well */
+  double confirm_m;    /* 0 to 3: width of the strip around the footprint that _confirm declares empty */
+  double protection_m; /* 0.02 to 1: errors of range, extrinsic and footprint */
   double speed_error_ratio; /* 0 to 0.5: error of a given speed or turn rate, as a share of it */
   double speed_error_m_s;   /* 0 to 0.5: and beside it while the machine moves */
   double turn_error_rad_s;  /* 0 to 0.5 */

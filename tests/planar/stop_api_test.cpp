@@ -118,6 +118,20 @@ TEST(StopApi, TheSmallestThingStopsAndIsCalledLow) {
   EXPECT_EQ(result.nearest_height, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_LOW));
 }
 
+// Who has stood for long may walk off at any moment, even with the back to a wall. A wall does not.
+TEST(StopApi, APersonWhoStandsBesideTheWayKeepsTheMachineSlow) {
+  for (const double y : {1.7, 2.75}) {
+    World world = road();
+    world.things.push_back(round_thing(1.8 + 0.77 * y, y, 0.2, -0.1, 1.7));
+    Standing standing(world);
+    const auto result = standing.frames(40);
+    EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_NEARING, 0U) << y;
+    // Stands in 0.45 s + v / a, while the person comes near at 1.6 m/s.
+    EXPECT_LE(1.6 * (0.45 + result.stop_speed_m_s), y - 0.2 - 0.6) << y;
+    EXPECT_GT(result.nearest_age_s, 1.0);
+  }
+}
+
 TEST(StopApi, SilenceStops) {
   Standing standing(road());
   standing.frames(30);

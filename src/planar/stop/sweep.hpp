@@ -38,7 +38,7 @@ struct Hazard {
   float x_m, y_m;  // in base
   float margin_m;  // its own size and the protection level
   float approach_m_s;
-  float sooner_s;    // it is seen to come by so much sooner than the reaction time; more than 0 of what stood still
+  float sooner_s;  // it is seen to come by so much sooner than the reaction time; more than 0 of what stood still
   std::uint32_t place;
   std::uint32_t kind;
 };
