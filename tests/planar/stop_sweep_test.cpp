@@ -29,7 +29,8 @@ Hazard thing_at(double x, double y, double margin_m, double approach_m_s = 0.0) 
   return {static_cast<float>(x),
           static_cast<float>(y),
           static_cast<float>(margin_m),
-          static_cast<float>(approach_m_s), 0.0F,
+          static_cast<float>(approach_m_s),
+          0.0F,
           0,
           POSE_WALL_PLANAR_STOP_STANDING};
 }
