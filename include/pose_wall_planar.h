@@ -25,6 +25,8 @@
 #ifndef POSE_WALL_PLANAR_H
 #define POSE_WALL_PLANAR_H
 
+#include "pose_wall_planar_grid.h"
+#include "pose_wall_planar_map.h"
 #include "pose_wall_planar_slam.h"
 #include "pose_wall_planar_types.h"
 
