@@ -26,6 +26,7 @@
 #define POSE_WALL_PLANAR_H
 
 #include "pose_wall_planar_grid.h"
+#include "pose_wall_planar_localise.h"
 #include "pose_wall_planar_map.h"
 #include "pose_wall_planar_slam.h"
 #include "pose_wall_planar_types.h"
