@@ -14,60 +14,73 @@ Eigen::Vector2d as_double(const ScanPoint& point) {
   return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
 }
 
+// Sums of one round: of H the upper half.
 struct Normal {
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  double xx = 0.0, xy = 0.0, xt = 0.0, yy = 0.0, yt = 0.0, tt = 0.0;
+  double x = 0.0, y = 0.0, t = 0.0;
   double squares = 0.0;
   std::uint32_t explained = 0, seen = 0, all = 0;
+
+  Eigen::Matrix3d H() const {
+    Eigen::Matrix3d out;
+    out << xx, xy, xt, xy, yy, yt, xt, yt, tt;
+    return out;
+  }
 };
 
-void add_row(const Eigen::Vector2d& turned, const Eigen::Vector2d& d, double residual, double variance,
-             Normal* normal) {
+inline void add_row(double dx, double dy, double turn, double residual, double variance, Normal* sum) {
   // Cauchy's weight: what lies 2.4 sigmas off has half the weight of what fits (the usual 95 % constant).
-  constexpr double kCauchy2 = 2.385 * 2.385;
-  const double weight = 1.0 / (variance * (1.0 + residual * residual / (variance * kCauchy2)));
-  const Eigen::Vector3d row(d.x(), d.y(), turned.x() * d.y() - turned.y() * d.x());
-  normal->H += weight * row * row.transpose();
-  normal->g += weight * residual * row;
+  constexpr double kPerCauchy2 = 1.0 / (2.385 * 2.385);
+  const double weight = 1.0 / (variance + residual * residual * kPerCauchy2);
+  const double wx = weight * dx, wy = weight * dy, wt = weight * turn;
+  sum->xx += wx * dx;
+  sum->xy += wx * dy;
+  sum->xt += wx * turn;
+  sum->yy += wy * dy;
+  sum->yt += wy * turn;
+  sum->tt += wt * turn;
+  sum->x += wx * residual;
+  sum->y += wy * residual;
+  sum->t += wt * residual;
 }
 
-void add_point(const PlaceMap& map, const Eigen::Vector2d& turned, const Eigen::Vector2d& place, const FitRule& rule,
-               Normal* normal) {
-  const Eigen::Vector2d p = turned + place;
-  ++normal->all;
-  const Surface* const surface = map.near(p.x(), p.y());
+inline void add_point(const PlaceMap& map, const Eigen::Vector2d& turned, const Eigen::Vector2d& place,
+                      const FitRule& rule, Normal* sum) {
+  const double px = turned.x() + place.x(), py = turned.y() + place.y();
+  ++sum->all;
+  const Surface* const surface = map.near(px, py);
   if (surface == nullptr) {
-    if (map.is_seen(p.x(), p.y())) ++normal->seen;
+    if (map.is_seen(px, py)) ++sum->seen;
     return;
   }
-  ++normal->seen;
-  const Eigen::Vector2d off(p.x() - static_cast<double>(surface->x_m), p.y() - static_cast<double>(surface->y_m));
-  if (off.squaredNorm() > rule.reach_m * rule.reach_m) return;
-  const Eigen::Vector2d n(static_cast<double>(surface->normal_x), static_cast<double>(surface->normal_y));
+  ++sum->seen;
+  const double x = px - static_cast<double>(surface->x_m), y = py - static_cast<double>(surface->y_m);
+  if (x * x + y * y > rule.reach_m * rule.reach_m) return;
+  const auto nx = static_cast<double>(surface->normal_x), ny = static_cast<double>(surface->normal_y);
   const double noise_m2 = rule.sigma_m * rule.sigma_m;
-  const double across = n.dot(off), across_m2 = noise_m2 + static_cast<double>(surface->across_m2);
-  add_row(turned, n, across, across_m2, normal);
+  const double across = nx * x + ny * y, across_m2 = noise_m2 + static_cast<double>(surface->across_m2);
+  add_row(nx, ny, turned.x() * ny - turned.y() * nx, across, across_m2, sum);
   constexpr double kExplained = 3.0;  // sigmas
   if (across * across < kExplained * kExplained * across_m2) {
-    ++normal->explained;
-    normal->squares += across * across;
+    ++sum->explained;
+    sum->squares += across * across;
   }
   // A cluster without direction tells both ways; along a wall, where a point lies in its cell tells nothing.
   constexpr float kRound = 0.25F;
   if (surface->across_m2 > kRound * surface->along_m2) {
-    const Eigen::Vector2d t(-n.y(), n.x());
-    add_row(turned, t, t.dot(off), noise_m2 + static_cast<double>(surface->along_m2), normal);
+    add_row(-ny, nx, turned.x() * nx + turned.y() * ny, nx * y - ny * x,
+            noise_m2 + static_cast<double>(surface->along_m2), sum);
   }
 }
 
 Normal sum_up(const PlaceMap& map, const Look& look, const Pose2& pose, const FitRule& rule) {
-  Normal normal;
+  Normal sum;
   const Turn2 turn(pose.yaw_rad);
   const Eigen::Vector2d place = pose.place() - map.middle_m();
   for (std::uint32_t k = 0; k < look.point_count; k += rule.stride) {
-    add_point(map, turn * as_double(look.points[k]), place, rule, &normal);
+    add_point(map, turn * as_double(look.points[k]), place, rule, &sum);
   }
-  return normal;
+  return sum;
 }
 
 // Of one point; seen: whether the map knows its place.
@@ -140,14 +153,15 @@ Fit fit_pose(const PlaceMap& map, const Look& look, const Pose2& start, const Fi
     const Eigen::Vector3d off(out.pose.x_m - rule.prior.x_m, out.pose.y_m - rule.prior.y_m,
                               wrapped(out.pose.yaw_rad - rule.prior.yaw_rad));
     // A metre's information: directions without any stay where they are.
-    const Eigen::Matrix3d H = normal.H + rule.weight + Eigen::Matrix3d::Identity();
-    const Eigen::Vector3d step = H.inverse() * (normal.g + rule.weight * off);
+    const Eigen::Matrix3d H = normal.H() + rule.weight + Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d g(normal.x, normal.y, normal.t);
+    const Eigen::Vector3d step = H.inverse() * (g + rule.weight * off);
     if (!(step.squaredNorm() < 4.0)) break;
     out.pose = {out.pose.x_m - step.x(), out.pose.y_m - step.y(), wrapped(out.pose.yaw_rad - step.z())};
     if (std::abs(step.x()) < kStill_m && std::abs(step.y()) < kStill_m && std::abs(step.z()) < kStill_rad) break;
   }
   const Normal normal = sum_up(map, look, out.pose, rule);
-  out.information = normal.H;
+  out.information = normal.H();
   out.points = normal.seen;
   out.seen = normal.all > 0 ? static_cast<double>(normal.seen) / normal.all : 0.0;
   out.explained = normal.seen > 0 ? static_cast<double>(normal.explained) / normal.seen : 0.0;

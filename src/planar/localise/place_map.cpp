@@ -9,22 +9,10 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::int32_t kSide = PlaceMap::kAcross * PlaceMap::kTileCells;  // cells of the square
-constexpr double kHalf_m = PlaceMap::kCell_m * (kSide / 2);
 constexpr std::int32_t kReachCells = 5;  // kReach_m
 
-bool is_inside(double x_m, double y_m) {
-  constexpr double kMargin_m = 2.0;  // what spreads from a place stays inside, too
-  return x_m > kMargin_m - kHalf_m && x_m < kHalf_m - kMargin_m && y_m > kMargin_m - kHalf_m &&
-         y_m < kHalf_m - kMargin_m;
-}
-
-std::int32_t cell_of(double place_m) {
-  return static_cast<std::int32_t>(std::floor(place_m / PlaceMap::kCell_m)) + kSide / 2;
-}
-
 double middle_of(std::int32_t cell) {
-  return (cell - kSide / 2 + 0.5) * PlaceMap::kCell_m;
+  return (cell - PlaceMap::kAcross * PlaceMap::kTileCells / 2 + 0.5) * PlaceMap::kCell_m;
 }
 
 Eigen::Vector2d as_double(const ScanPoint& point) {
@@ -50,11 +38,6 @@ void PlaceMap::open() {
   middle_m_.setZero();
 }
 
-std::uint32_t PlaceMap::find(std::int32_t tile_x, std::int32_t tile_y) const {
-  if (tile_x < 0 || tile_x >= kAcross || tile_y < 0 || tile_y >= kAcross) return kNone;
-  return directory_[static_cast<std::uint32_t>(tile_y * kAcross + tile_x)];
-}
-
 std::uint32_t PlaceMap::make(std::int32_t tile_x, std::int32_t tile_y) {
   const std::uint32_t known = find(tile_x, tile_y);
   if (known != kNone || tile_count_ == tiles_most_) return known;
@@ -64,12 +47,6 @@ std::uint32_t PlaceMap::make(std::int32_t tile_x, std::int32_t tile_y) {
   Span<std::uint8_t>(seen_.data() + tile * kTileCoarseSize, kTileCoarseSize).fill(0);
   Span<std::uint8_t>(field_.data() + tile * kTileCoarseSize, kTileCoarseSize).fill(0);
   return tile;
-}
-
-std::uint32_t* PlaceMap::nearest_at(std::int32_t column, std::int32_t row) const {
-  const std::uint32_t tile = find(column / kTileCells, row / kTileCells);
-  if (tile == kNone) return nullptr;
-  return &nearest_[tile * kTileSize + static_cast<std::uint32_t>(row % kTileCells * kTileCells + column % kTileCells)];
 }
 
 // `column` and `row` count coarse cells.
@@ -229,12 +206,6 @@ void PlaceMap::finish() {
     spread_likelihood(cells_[k]);
   }
   is_finished_ = true;
-}
-
-const Surface* PlaceMap::near(double x_m, double y_m) const {
-  if (!is_inside(x_m, y_m)) return nullptr;
-  const std::uint32_t* const index = nearest_at(cell_of(x_m), cell_of(y_m));
-  return index != nullptr && *index != kNoSurface ? &surfaces_[*index] : nullptr;
 }
 
 bool PlaceMap::is_seen(double x_m, double y_m) const {

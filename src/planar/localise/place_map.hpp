@@ -45,7 +45,11 @@ class PlaceMap {
   const Eigen::Vector2d& middle_m() const { return middle_m_; }
 
   // Places below are given from the middle. A surface within kReach_m, or nullptr.
-  const Surface* near(double x_m, double y_m) const;
+  const Surface* near(double x_m, double y_m) const {
+    if (!is_inside(x_m, y_m)) return nullptr;
+    const std::uint32_t* const index = nearest_at(cell_of(x_m), cell_of(y_m));
+    return index != nullptr && *index != kNoSurface ? &surfaces_[*index] : nullptr;
+  }
   // Whether lines of sight went through the 40 cm about a place.
   bool is_seen(double x_m, double y_m) const;
   // A surface lies in this cell.
@@ -70,9 +74,27 @@ class PlaceMap {
   static constexpr std::uint32_t kTileCoarseSize = static_cast<std::uint32_t>(kTileCoarse * kTileCoarse);
   static constexpr std::uint32_t kCellsPerTile = 320;  // in the mean: two rough walls and what lies before them
 
-  std::uint32_t find(std::int32_t tile_x, std::int32_t tile_y) const;
+  static constexpr std::int32_t kSide = kAcross * kTileCells;  // cells of the square
+  static bool is_inside(double x_m, double y_m) {
+    constexpr double kMargin_m = 2.0;  // what spreads from a place stays inside, too
+    constexpr double kMost_m = kCell_m * (kSide / 2) - kMargin_m;
+    return x_m > -kMost_m && x_m < kMost_m && y_m > -kMost_m && y_m < kMost_m;
+  }
+  // Of a place inside, so that the sum is above 0 and the cast rounds down.
+  static std::int32_t cell_of(double place_m) {
+    return static_cast<std::int32_t>(place_m * (1.0 / kCell_m) + kSide / 2);
+  }
+  std::uint32_t find(std::int32_t tile_x, std::int32_t tile_y) const {
+    if (tile_x < 0 || tile_x >= kAcross || tile_y < 0 || tile_y >= kAcross) return kNone;
+    return directory_[static_cast<std::uint32_t>(tile_y * kAcross + tile_x)];
+  }
   std::uint32_t make(std::int32_t tile_x, std::int32_t tile_y);
-  std::uint32_t* nearest_at(std::int32_t column, std::int32_t row) const;
+  std::uint32_t* nearest_at(std::int32_t column, std::int32_t row) const {
+    const std::uint32_t tile = find(column / kTileCells, row / kTileCells);
+    if (tile == kNone) return nullptr;
+    const std::int32_t inside = row % kTileCells * kTileCells + column % kTileCells;
+    return &nearest_[tile * kTileSize + static_cast<std::uint32_t>(inside)];
+  }
   std::uint8_t* coarse_at(const Span<std::uint8_t>& of, std::int32_t column, std::int32_t row) const;
   void take_middle(const Eigen::Vector2d& place_m);
   bool put(const Eigen::Vector2d& p);

@@ -179,13 +179,33 @@ void PlaceSearch::note(std::uint32_t cell, std::uint32_t score) {
   peaks[at] = {static_cast<std::uint16_t>(yaw_), static_cast<std::uint16_t>(score)};
 }
 
+// Beside a better cell a seed would end in the same place. Along a road cells are alike, and all of them stay.
+bool PlaceSearch::is_peak(std::int32_t cell, const Peak& peak) const {
+  constexpr double kMuchBetter = 0.05;  // of the most likely
+  const std::uint32_t enough = peak.score + static_cast<std::uint32_t>(kMuchBetter * PlaceMap::kLikely * chosen_count_);
+  const auto apart = static_cast<std::uint32_t>(kPeakApart_rad / yaw_step_rad_);
+  const std::int32_t x = cell % kOwn, y = cell / kOwn;
+  for (std::int32_t v = std::max(0, y - 1); v <= std::min(kOwn - 1, y + 1); ++v) {
+    for (std::int32_t u = std::max(0, x - 1); u <= std::min(kOwn - 1, x + 1); ++u) {
+      const Peak* const others = &peaks_[static_cast<std::uint32_t>(v * kOwn + u) * kPeaks];
+      for (std::uint32_t k = 0; k < kPeaks; ++k) {
+        if (others[k].score <= enough) continue;
+        const std::uint32_t off = others[k].yaw > peak.yaw ? static_cast<std::uint32_t>(others[k].yaw - peak.yaw)
+                                                           : static_cast<std::uint32_t>(peak.yaw - others[k].yaw);
+        if (off <= apart || yaws_ - off <= apart) return false;
+      }
+    }
+  }
+  return true;
+}
+
 void PlaceSearch::harvest() {
   const std::int32_t x = block_ % kBlocks * kOwn, y = block_ / kBlocks * kOwn;
   for (std::uint32_t cell = 0; cell < static_cast<std::uint32_t>(kOwn * kOwn); ++cell) {
     for (std::uint32_t k = 0; k < kPeaks; ++k) {
       const Peak& peak = peaks_[cell * kPeaks + k];
-      if (peak.score < least_) continue;
       const auto own = static_cast<std::int32_t>(cell);
+      if (peak.score < least_ || !is_peak(own, peak)) continue;
       plant({static_cast<std::int16_t>(x + own % kOwn), static_cast<std::int16_t>(y + own / kOwn), peak.yaw, peak.score});
     }
   }
@@ -248,7 +268,7 @@ void PlaceSearch::keep(const Hypothesis& hypothesis) {
 }
 
 void PlaceSearch::refine(const PlaceMap& map, const Look& look, const Seed& seed) {
-  constexpr double kWide_m = 0.25, kNarrow_m = 0.08;
+  constexpr double kWide_m = 0.25, kNarrow_m = 0.08, kFine_m = 0.25;
   constexpr std::uint32_t kFewPoints = 64, kSomePoints = 128, kMorePoints = 320;
   constexpr std::int32_t kMiddle = PlaceMap::kAcross * PlaceMap::kTileCoarse / 2;
   Pose2 start{(seed.x - kMiddle + 0.5) * PlaceMap::kCoarse_m + map.middle_m().x(),
@@ -259,10 +279,13 @@ void PlaceSearch::refine(const PlaceMap& map, const Look& look, const Seed& seed
   if (!is_new(wide.pose)) return;
   rule = {kNarrow_m, 0.3, stride(kSomePoints), 4, {}};
   const Fit narrow = fit_pose(map, look, wide.pose, rule);
-  constexpr double kHopeful = 0.5;
+  constexpr double kHopeful = 0.5, kPlausible = 0.45;
   if (!(narrow.explained >= kHopeful)) return;
-  rule = {look.sigma_m, 0.25, stride(kMorePoints), 6, {}};
-  const Fit fine = fit_pose(map, look, narrow.pose, rule);
+  rule = {look.sigma_m, kFine_m, stride(kSomePoints), 4, {}};
+  const Fit first = fit_pose(map, look, narrow.pose, rule);
+  if (!(first.explained >= kPlausible)) return;
+  rule = {look.sigma_m, kFine_m, stride(kMorePoints), 4, {}};
+  const Fit fine = fit_pose(map, look, first.pose, rule);
   Hypothesis hypothesis;
   hypothesis.pose = fine.pose;
   hypothesis.verdict = judge_patches(map, look, fine.pose, &hypothesis.costs);

@@ -76,6 +76,7 @@ class PlaceSearch {
   void turn(const Look& look);
   void score(const Chunk& chunk);
   void note(std::uint32_t cell, std::uint32_t score);
+  bool is_peak(std::int32_t cell, const Peak& peak) const;
   void harvest();
   void plant(const Seed& seed);
   void refine(const PlaceMap& map, const Look& look, const Seed& seed);
