@@ -66,7 +66,7 @@ bool Localiser::settle(Span<const ScanPoint> points, const BeamScan& scan, const
   constexpr double kKnown_m = 0.1, kKnown_rad = 0.03;
   scan_look_.take(points, scan.origin_m, scan.sigma_m);
   tracker_.begin(now(verdict_.candidates[0].pose), kKnown_m, kKnown_rad);
-  return tracker_.follow(map_, scan_look_, odometry, room_.data()) == Track::tracked;
+  return tracker_.confirm(map_, scan_look_, odometry, room_.data()) == Track::tracked;
 }
 
 Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {

@@ -232,7 +232,7 @@ double seen_through(const PlaceMap& map, const Look& look, const Pose2& pose) {
   return look.sight_count > 0 ? static_cast<double>(through) / look.sight_count : 0.0;
 }
 
-Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, PatchCosts* room) {
+Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, double excluded, PatchCosts* room) {
   Slid out;
   const Eigen::Matrix3d& H = fit.information;
   const double yaw = H(2, 2) > 0.0 ? H(2, 2) : 1.0;
@@ -241,7 +241,6 @@ Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, PatchCosts*
   const double strong_rad = 0.5 * arc_tangent2(2.0 * xy, xx - yy);
   out.direction = {-sine(strong_rad), cosine(strong_rad)};
   constexpr double kShifts_m[] = {3.2, 1.6, 0.8, 0.4, 0.2};
-  constexpr double kExcluded = 4.0;  // standard errors
   judge_patches(map, look, fit.pose, &room[0]);
   for (const double shift_m : kShifts_m) {
     bool is_excluded = true;
@@ -250,7 +249,7 @@ Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, PatchCosts*
       shifted.x_m += sign * shift_m * out.direction.x();
       shifted.y_m += sign * shift_m * out.direction.y();
       judge_patches(map, look, shifted, &room[1]);
-      is_excluded = is_excluded && worse_by(look, room[0], room[1]) > kExcluded;
+      is_excluded = is_excluded && worse_by(look, room[0], room[1]) > excluded;
     }
     if (is_excluded) continue;
     out.reach_m = shift_m;

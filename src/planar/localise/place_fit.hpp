@@ -82,7 +82,7 @@ struct Slid {
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  // unit, in the map: where the fit holds least
   double reach_m = 0.0;                                  // largest shift that patches do not exclude
 };
-// `room` for two.
-Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, PatchCosts* room);
+// A shift is excluded if the mean patch fits worse by so many standard errors. `room` for two.
+Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, double excluded, PatchCosts* room);
 
 }  // namespace pose_wall::planar

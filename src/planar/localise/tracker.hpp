@@ -25,6 +25,9 @@ class Tracker {
   // One scan, in `look` from where base stands. odometry may be nullptr. `room` for two.
   Track follow(const PlaceMap& map, const Look& look, const Pose2* odometry, PatchCosts* room);
 
+  // The scan was taken where base was said to stand.
+  Track confirm(const PlaceMap& map, const Look& look, const Pose2* odometry, PatchCosts* room);
+
   const Pose2& pose() const { return pose_; }
   const Eigen::Matrix3d& covariance() const { return covariance_; }
   const Fit& fit() const { return fit_; }
@@ -32,6 +35,13 @@ class Tracker {
   double slide_m() const { return slide_m_; }
 
  private:
+  struct Along {
+    Eigen::Vector2d direction;
+    double sigma_m;
+  };
+
+  Track follow_to(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room);
+  Along uncertain_along() const;
   Pose2 predict(const Pose2* odometry);
   void place(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room);
   void update(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room);
@@ -44,7 +54,7 @@ class Tracker {
   PatchVerdict verdict_;
   double slide_m_ = 0.0, doubtful_m_ = 0.0;
   std::uint32_t contradicted_ = 0;
-  bool has_odometry_ = false;
+  bool has_odometry_ = false, has_step_ = false;
 };
 
 }  // namespace pose_wall::planar

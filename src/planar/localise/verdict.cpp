@@ -58,7 +58,7 @@ void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, Ver
   out->best.through = seen_through(map, look, best.pose);
   PatchCosts room[2];
   const FitRule rule{look.sigma_m, 0.25, 1, 1, {}};
-  out->best.slide_m = slide_of(map, look, fit_pose(map, look, best.pose, rule), room).reach_m;
+  out->best.slide_m = slide_of(map, look, fit_pose(map, look, best.pose, rule), kExcluded, room).reach_m;
   constexpr double kNoRival = 99.0;
   out->best.rival = kNoRival;
   for (std::uint32_t k = 0; k < all.size(); ++k) {

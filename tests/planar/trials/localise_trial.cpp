@@ -18,7 +18,7 @@ namespace {
 using namespace pose_wall::planar::test;
 
 struct Options {
-  int places = 200, per_network = 25, kind = -1;
+  int places = 200, per_network = 25, kind = -1, network = -1, restart = -1;
   std::uint64_t seed = 1;
   bool verbose = false;
 };
@@ -32,6 +32,8 @@ Options options_of(int argc, char** argv) {
     if (name == "--seed") out.seed = std::strtoull(value, nullptr, 10);
     if (name == "--kind") out.kind = std::atoi(value);
     if (name == "--per-network") out.per_network = std::atoi(value);
+    if (name == "--network") out.network = std::atoi(value);  // this one alone, and one restart in it
+    if (name == "--restart") out.restart = std::atoi(value);
     if (name == "--verbose") out.verbose = true;
   }
   return out;
@@ -44,6 +46,13 @@ int main(int argc, char** argv) {
   std::vector<Counts> inside(kKinds), outside(kKinds);
   const auto begun = std::chrono::steady_clock::now();
   int done = 0;
+  if (options.network >= 0) {
+    const World world(options.kind, static_cast<std::uint64_t>(options.network));
+    const Restart restart = world.draw_restart(static_cast<std::uint64_t>(options.restart));
+    const Outcome outcome = world.run(restart, true);
+    std::printf("mapped %d odometry %d wrong %d error %.2f m\n", restart.is_mapped, restart.has_odometry, outcome.wrong, outcome.error_m);
+    return outcome.wrong ? 1 : 0;
+  }
   for (std::uint64_t network = 0; done < options.places; ++network) {
     const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
     const World world(kind, options.seed * 100000 + network);
@@ -62,8 +71,8 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   for (int place = 0; place < 2; ++place) {
-    std::printf("%s\n%-14s %7s %7s | %8s %8s %8s | %8s %8s %8s %8s | %s\n", place == 0 ? "in the map" : "not in the map", "kind",
-                "places", "wrong", "standing", "2 m", "5 m", "unique", "ambig.", "unknown", "search", "mean error m");
+    std::printf("%s\n%-14s %7s %7s | %8s %8s %8s | %8s %8s %8s %8s | %s | %s\n", place == 0 ? "in the map" : "not in the map", "kind",
+                "places", "wrong", "standing", "2 m", "5 m", "unique", "ambig.", "unknown", "search", "mean error m", "tracked scans, rms m, over sigma, beyond 3 sigma");
     for (int kind = 0; kind < kKinds; ++kind) (place == 0 ? inside : outside)[static_cast<std::size_t>(kind)].print(kind_name(kind));
   }
   std::printf("%d places, %.1f s\n", done,
