@@ -25,7 +25,8 @@ enum pose_wall_planar_status {
   POSE_WALL_E_SCAN = -100,     /* a scan whose beams, angles or ranges are outside their limits */
   POSE_WALL_E_POSE = -101,     /* a pose or a covariance that is not finite, or no covariance */
   POSE_WALL_E_MAP_FILE = -102, /* saved bytes of another version, cut off or damaged */
-  POSE_WALL_E_GRID = -103      /* a grid whose size, cells or resolution are outside their limits */
+  POSE_WALL_E_GRID = -103,     /* a grid whose size, cells or resolution are outside their limits */
+  POSE_WALL_E_ORDER = -104     /* a call that comes too early or too late */
 };
 /* One English sentence, also for the codes of pose_wall.h; static storage. */
 const char* pose_wall_planar_status_text(int32_t status);

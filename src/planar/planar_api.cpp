@@ -22,6 +22,8 @@ POSE_WALL_EXPORT const char* pose_wall_planar_status_text(int32_t status) {
       return "the saved map is of another version, cut off or damaged";
     case POSE_WALL_E_GRID:
       return "the grid's size, cells or resolution are outside their limits";
+    case POSE_WALL_E_ORDER:
+      return "the call comes too early or too late";
     default:
       return pose_wall_status_text(status);
   }

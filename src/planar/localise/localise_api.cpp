@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The only extern "C" file of localisation: checks arguments, translates, calls.
+
+#include "pose_wall_planar_localise.h"
+
+#include <limits>
+
+#include "export.hpp"
+#include "planar/held.hpp"
+#include "planar/localise/localiser.hpp"
+
+namespace {
+
+using pose_wall::planar::CandidatePlace;
+using pose_wall::planar::check_scan;
+using pose_wall::planar::Localiser;
+using pose_wall::planar::LocaliseSettings;
+using pose_wall::planar::PlaceMap;
+using pose_wall::planar::Pose2;
+using pose_wall::planar::pose_for_caller;
+using pose_wall::planar::pose_of;
+using pose_wall::planar::read_beams;
+using pose_wall::planar::ScanPoint;
+using pose_wall::planar::Where;
+
+// What lives in the block: the localiser and its settings, for clear().
+struct Body {
+  Localiser localiser;
+  LocaliseSettings settings;
+
+  void lay_out(pose_wall::Arena& arena, const LocaliseSettings& with) { localiser.lay_out(arena, with); }
+};
+
+using Opened = pose_wall::planar::Held<Body, 0x65736C6163636F6CULL>;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+bool is_within(double value, double least, double most) {
+  return value >= least && value <= most;
+}
+
+bool is_pose(const pose_wall_planar_pose& pose) {
+  constexpr double kFarthest_m = 1e6, kMost_rad = 10000.0;  // as the header says; a turn is exact to 1e-12 there
+  return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
+         is_within(pose.yaw_rad, -kMost_rad, kMost_rad);
+}
+
+pose_wall_planar_localise_settings defaults() {
+  const LocaliseSettings own;
+  pose_wall_planar_localise_settings out{};
+  out.struct_size = sizeof(out);
+  out.tiles_most = own.tiles_most;
+  out.work = own.work;
+  out.odometry_m = own.odometry_m;
+  out.odometry_rad = own.odometry_rad;
+  return out;
+}
+
+// The caller's settings, or the defaults. Fails as pose_wall_planar_localise_settings_check does.
+std::int32_t take_settings(const pose_wall_planar_localise_settings* from, LocaliseSettings* out) {
+  if (from != nullptr) {
+    const std::int32_t status = pose_wall_planar_localise_settings_check(from, nullptr);
+    if (status != POSE_WALL_OK) return status;
+    out->tiles_most = from->tiles_most;
+    out->work = from->work;
+    out->odometry_m = from->odometry_m;
+    out->odometry_rad = from->odometry_rad;
+  }
+  return POSE_WALL_OK;
+}
+
+// Bodies of calls about an opened localisation. call(body) gives the status.
+template <typename Call>
+std::int32_t inside(const pose_wall_planar_localise* localise, Call call) {
+  if (localise == nullptr) return POSE_WALL_E_NULL;
+  const Opened::Inside held(reinterpret_cast<const Opened*>(localise));
+  return held.status() == POSE_WALL_OK ? call(held.body()) : held.status();
+}
+
+bool are_points(const float* xy_m, std::uint32_t points) {
+  constexpr float kFarthest_m = 2000.0F;
+  for (std::uint32_t k = 0; k < 2 * points; ++k) {
+    if (!(xy_m[k] >= -kFarthest_m && xy_m[k] <= kFarthest_m)) return false;
+  }
+  return true;
+}
+
+bool add_points(PlaceMap* map, const Pose2& pose, const float* xy_m, std::uint32_t points) {
+  constexpr std::uint32_t kAtOnce = 64;
+  ScanPoint room[kAtOnce];
+  bool fits = true;
+  for (std::uint32_t first = 0; first < points; first += kAtOnce) {
+    const std::uint32_t count = points - first < kAtOnce ? points - first : kAtOnce;
+    for (std::uint32_t k = 0; k < count; ++k) room[k] = {xy_m[2 * (first + k)], xy_m[2 * (first + k) + 1]};
+    fits = map->add(pose_wall::Span<const ScanPoint>(room, count), pose) && fits;
+  }
+  return fits;
+}
+
+bool is_grid(const pose_wall_planar_grid& grid) {
+  constexpr double kFarthest_m = 1e6;
+  return grid.width >= 1 && grid.width <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid.height >= 1 &&
+         grid.height <= POSE_WALL_PLANAR_GRID_SIDE_MAX && is_within(grid.resolution_m, 0.01, 1.0) &&
+         is_within(grid.origin_x_m, -kFarthest_m, kFarthest_m) && is_within(grid.origin_y_m, -kFarthest_m, kFarthest_m);
+}
+
+bool add_cells(PlaceMap* map, const pose_wall_planar_grid& grid) {
+  constexpr int kFree = 35, kThing = 65;  // as the header says
+  bool fits = true;
+  for (std::uint32_t row = 0; row < grid.height; ++row) {
+    for (std::uint32_t column = 0; column < grid.width; ++column) {
+      const int cell = grid.cells[static_cast<std::uint64_t>(row) * grid.width + column];
+      const Eigen::Vector2d place(grid.origin_x_m + (column + 0.5) * grid.resolution_m,
+                                  grid.origin_y_m + (row + 0.5) * grid.resolution_m);
+      if (cell >= kThing && cell <= 100) fits = map->add_surface(place) && fits;
+      if (cell >= 0 && cell <= kFree) fits = map->add_free(place) && fits;
+    }
+  }
+  return fits;
+}
+
+void write_place(const Localiser& own, pose_wall_planar_localise_result* out) {
+  const bool is_placed = out->state >= POSE_WALL_PLANAR_LOCALISE_UNIQUE;
+  out->pose = {kNone, kNone, kNone};
+  for (double& value : out->covariance) value = kNone;
+  out->fits = out->explained = out->misfit_m = out->slide_m = kNone;
+  if (is_placed) {
+    const auto& tracker = own.tracker();
+    out->pose = pose_for_caller(tracker.pose());
+    for (int k = 0; k < 9; ++k) out->covariance[k] = tracker.covariance()(k / 3, k % 3);
+    out->fits = tracker.verdict().fits;
+    out->explained = tracker.fit().explained;
+    out->misfit_m = tracker.fit().rms_m;
+    out->slide_m = tracker.slide_m();
+  } else if (own.verdict().count > 0) {
+    const auto& best = own.verdict().best;
+    out->fits = best.fits;
+    out->explained = best.explained;
+    out->misfit_m = best.rms_m;
+    out->slide_m = best.slide_m;
+  }
+}
+
+void write_result(const Localiser& own, Where where, std::int64_t stamp_ns, pose_wall_planar_localise_result* result) {
+  pose_wall_planar_localise_result out{};
+  out.struct_size = sizeof(out);
+  out.state = static_cast<std::uint32_t>(where);
+  out.stamp_ns = stamp_ns;
+  write_place(own, &out);
+  const auto& verdict = own.verdict();
+  out.rival = verdict.count > 0 ? verdict.best.rival : kNone;
+  out.progress = own.search().progress();
+  out.candidates = own.is_tracking() ? 0 : verdict.count;
+  out.candidates_all = own.is_tracking() ? 0 : verdict.all;
+  out.searches = own.searches();
+  out.lost = own.lost();
+  *result = out;
+}
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT const char* pose_wall_planar_localise_state_name(uint32_t state) {
+  constexpr const char* kNames[] = {"searching", "unknown", "ambiguous", "unique", "doubtful"};
+  return state < sizeof(kNames) / sizeof(kNames[0]) ? kNames[state] : "?";
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_planar_localise_settings* settings) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  *settings = defaults();
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wall_planar_localise_settings* settings,
+                                                                  pose_wall_planar_fault* fault) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  const struct {
+    double value, least, most;
+    const char *member, *rule;
+  } rows[] = {
+      {static_cast<double>(settings->tiles_most), 16, 16384, "tiles_most", "tiles_most must be from 16 to 16384"},
+      {static_cast<double>(settings->work), 1000, 1e9, "work", "work must be from 1000 to 1000000000"},
+      {static_cast<double>(settings->reserved), 0, 0, "reserved", "reserved must be 0"},
+      {settings->odometry_m, 0, 1, "odometry_m", "odometry_m must be from 0 to 1"},
+      {settings->odometry_rad, 0, 1, "odometry_rad", "odometry_rad must be from 0 to 1"}};
+  for (const auto& row : rows) {
+    if (is_within(row.value, row.least, row.most)) continue;
+    if (fault != nullptr) *fault = {row.member, row.rule};
+    return POSE_WALL_E_VALUE_RANGE;
+  }
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,
+                                                                 uint64_t* bytes) {
+  if (bytes == nullptr) return POSE_WALL_E_NULL;
+  LocaliseSettings own;
+  const std::int32_t status = take_settings(settings, &own);
+  if (status == POSE_WALL_OK) *bytes = Opened::bytes(own);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_open(const pose_wall_planar_localise_settings* settings, void* block,
+                                                        uint64_t block_bytes, pose_wall_planar_localise** localise) {
+  if (block == nullptr || localise == nullptr) return POSE_WALL_E_NULL;
+  LocaliseSettings own;
+  std::int32_t status = take_settings(settings, &own);
+  Opened* placed = nullptr;
+  if (status == POSE_WALL_OK) status = Opened::place(block, block_bytes, &placed, own);
+  if (status != POSE_WALL_OK) return status;
+  placed->body().settings = own;
+  placed->body().localiser.open(own);
+  *localise = reinterpret_cast<pose_wall_planar_localise*>(placed);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_clear(pose_wall_planar_localise* localise) {
+  return inside(localise, [](Body& body) {
+    body.localiser.open(body.settings);
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise* localise,
+                                                       const pose_wall_planar_pose* pose, const float* xy_m,
+                                                       uint32_t points) {
+  if (pose == nullptr || xy_m == nullptr) return POSE_WALL_E_NULL;
+  if (!is_pose(*pose)) return POSE_WALL_E_POSE;
+  if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_E_SCAN;
+  return inside(localise, [&](Body& body) {
+    PlaceMap& map = body.localiser.map();
+    if (map.is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    return add_points(&map, pose_of(*pose), xy_m, points) ? std::int32_t{POSE_WALL_OK}
+                                                          : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_localise* localise,
+                                                            const pose_wall_planar_grid* grid) {
+  if (grid == nullptr) return POSE_WALL_E_NULL;
+  if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
+  if (grid->cells == nullptr) return POSE_WALL_E_NULL;
+  if (!is_grid(*grid)) return POSE_WALL_E_GRID;
+  return inside(localise, [&](Body& body) {
+    PlaceMap& map = body.localiser.map();
+    if (map.is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    return add_cells(&map, *grid) ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_finish(pose_wall_planar_localise* localise) {
+  return inside(localise, [](Body& body) {
+    PlaceMap& map = body.localiser.map();
+    if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_E_ORDER};
+    map.finish();
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_localise* localise,
+                                                           const pose_wall_planar_scan* scan,
+                                                           const pose_wall_planar_pose* odometry,
+                                                           pose_wall_planar_localise_result* result) {
+  if (result == nullptr) return POSE_WALL_E_NULL;
+  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  const std::int32_t status = check_scan(scan);
+  if (status != POSE_WALL_OK) return status;
+  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_E_POSE;
+  return inside(localise, [&](Body& body) {
+    Localiser& own = body.localiser;
+    if (!own.map().is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
+    const Where where = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
+    write_result(own, where, scan->stamp_ns, result);
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_planar_localise* localise,
+                                                             uint32_t number, pose_wall_planar_candidate* candidate) {
+  if (candidate == nullptr) return POSE_WALL_E_NULL;
+  if (candidate->struct_size != sizeof(*candidate)) return POSE_WALL_E_STRUCT_SIZE;
+  return inside(localise, [&](const Body& body) {
+    const Localiser& own = body.localiser;
+    if (own.is_tracking() || number >= own.verdict().count) return std::int32_t{POSE_WALL_E_INDEX};
+    const CandidatePlace& place = own.verdict().candidates[number];
+    pose_wall_planar_candidate out{};
+    out.struct_size = sizeof(out);
+    out.pose = pose_for_caller(own.now(place.pose));
+    out.weight = place.weight;
+    out.worse_by = place.worse_by > 0.0 ? place.worse_by : 0.0;
+    out.fits = place.fits;
+    out.spread_m = place.spread_m;
+    *candidate = out;
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_place(pose_wall_planar_localise* localise,
+                                                         const pose_wall_planar_pose* base, double sigma_m,
+                                                         double sigma_rad) {
+  if (base == nullptr) return POSE_WALL_E_NULL;
+  if (!is_pose(*base)) return POSE_WALL_E_POSE;
+  if (!is_within(sigma_m, 0.001, 1.0) || !is_within(sigma_rad, 0.001, 0.5)) return POSE_WALL_E_VALUE_RANGE;
+  return inside(localise, [&](Body& body) {
+    body.localiser.place(pose_of(*base), sigma_m, sigma_rad);
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_forget(pose_wall_planar_localise* localise) {
+  return inside(localise, [](Body& body) {
+    body.localiser.forget();
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+}  // extern "C"

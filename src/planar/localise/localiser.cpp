@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "planar/localise/localiser.hpp"
+
+#include <cmath>
+
+namespace pose_wall::planar {
+namespace {
+
+constexpr double kSpacing_m = 0.05;  // of points along a surface
+
+}  // namespace
+
+void Localiser::lay_out(Arena& arena, const LocaliseSettings& settings) {
+  map_.lay_out(arena, settings.tiles_most);
+  matcher_.lay_out(arena);
+  recent_.lay_out(arena);
+  search_.lay_out(arena);
+  look_.lay_out(arena);
+  scan_look_.lay_out(arena);
+  beams_ = arena.take<Beam>(POSE_WALL_PLANAR_BEAMS_MAX);
+  scan_points_ = arena.take<ScanPoint>(kMatchPointsMost);
+  room_ = arena.take<PatchCosts>(2);
+}
+
+void Localiser::open(const LocaliseSettings& settings) {
+  settings_ = settings;
+  map_.open();
+  recent_.open();
+  search_.open();
+  tracker_.open({settings.odometry_m, settings.odometry_rad});
+  searches_ = lost_ = 0;
+  forget();
+}
+
+void Localiser::forget() {
+  recent_.clear();
+  search_.open();
+  verdict_ = Verdict();
+  looked_from_ = Pose2();
+  looked_at_m_ = looked_at_rad_ = 0.0;
+  is_tracking_ = has_looked_ = false;
+  scans_since_look_ = 0;
+  where_ = Where::searching;
+}
+
+void Localiser::place(const Pose2& pose, double sigma_m, double sigma_rad) {
+  forget();
+  tracker_.begin(pose, sigma_m, sigma_rad);
+  is_tracking_ = true;
+  where_ = Where::doubtful;
+}
+
+// A new search needs something new: metres, turns, or time in which things may have moved.
+bool Localiser::is_due() const {
+  constexpr double kTravel_m = 1.0, kTurn_rad = 0.7;
+  constexpr std::uint32_t kScans = 50;
+  if (!has_looked_) return true;
+  return recent_.travel_m() - looked_at_m_ >= kTravel_m || recent_.turned_rad() - looked_at_rad_ >= kTurn_rad ||
+         scans_since_look_ >= kScans;
+}
+
+// The one place, if the present scan agrees.
+bool Localiser::settle(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
+  constexpr double kKnown_m = 0.1, kKnown_rad = 0.03;
+  scan_look_.take(points, scan.origin_m, scan.sigma_m);
+  tracker_.begin(now(verdict_.candidates[0].pose), kKnown_m, kKnown_rad);
+  return tracker_.confirm(map_, scan_look_, odometry, room_.data()) == Track::tracked;
+}
+
+Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
+  if (!recent_.follow(points, scan, odometry, matcher_)) {
+    search_.open();
+    has_looked_ = false;
+    where_ = Where::searching;
+    verdict_ = Verdict();
+  }
+  ++scans_since_look_;
+  if (!search_.is_under_way() && is_due()) {
+    recent_.look(points, scan, &look_);
+    looked_from_ = recent_.pose();
+    looked_at_m_ = recent_.travel_m();
+    looked_at_rad_ = recent_.turned_rad();
+    has_looked_ = true;
+    scans_since_look_ = 0;
+    search_.begin(map_, look_);
+  }
+  if (!search_.is_under_way() || !search_.go_on(map_, look_, settings_.work)) return where_;
+  ++searches_;
+  judge(map_, look_, search_, &verdict_);
+  if (verdict_.finding == Finding::unknown) return Where::unknown;
+  if (verdict_.finding == Finding::ambiguous || !settle(points, scan, odometry)) return Where::ambiguous;
+  is_tracking_ = true;
+  return Where::unique;
+}
+
+Where Localiser::track(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
+  scan_look_.take(points, scan.origin_m, scan.sigma_m);
+  const Track track = tracker_.follow(map_, scan_look_, odometry, room_.data());
+  if (track == Track::lost) {
+    ++lost_;
+    forget();
+    return wander(points, scan, odometry);
+  }
+  return track == Track::tracked ? Where::unique : Where::doubtful;
+}
+
+Where Localiser::process(const BeamScan& scan, const Pose2* odometry) {
+  const Span<const ScanPoint> points = even_points(scan, kSpacing_m, scan_points_);
+  where_ = is_tracking_ ? track(points, scan, odometry) : wander(points, scan, odometry);
+  return where_;
+}
+
+}  // namespace pose_wall::planar

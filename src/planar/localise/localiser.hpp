@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The story of a scan: where the place is known, the tracker follows it. Where it is not, the last metres are searched
+// for in the whole map, again and again as they grow, until one place is left.
+
+#pragma once
+
+#include <cstdint>
+
+#include "planar/localise/recent.hpp"
+#include "planar/localise/tracker.hpp"
+#include "planar/localise/verdict.hpp"
+
+namespace pose_wall::planar {
+
+struct LocaliseSettings {
+  std::uint32_t tiles_most = 1024;
+  std::uint32_t work = 40000;  // steps of search in a call
+  double odometry_m = 0.1, odometry_rad = 0.3;
+};
+
+enum class Where : std::uint32_t { searching, unknown, ambiguous, unique, doubtful };
+
+class Localiser {
+ public:
+  void lay_out(Arena& arena, const LocaliseSettings& settings);
+  void open(const LocaliseSettings& settings);
+  PlaceMap& map() { return map_; }
+  const PlaceMap& map() const { return map_; }
+  Span<Beam> beams() const { return beams_; }
+
+  Where process(const BeamScan& scan, const Pose2* odometry);
+  // Base stands here, as somebody says; scans can contradict.
+  void place(const Pose2& pose, double sigma_m, double sigma_rad);
+  // Forgets where base stands.
+  void forget();
+
+  Where where() const { return where_; }
+  const Tracker& tracker() const { return tracker_; }
+  bool is_tracking() const { return is_tracking_; }
+  const Verdict& verdict() const { return verdict_; }
+  const PlaceSearch& search() const { return search_; }
+  // Where a candidate's place has moved to since the look was taken.
+  Pose2 now(const Pose2& at_look) const { return compose(at_look, between(looked_from_, recent_.pose())); }
+  std::uint32_t searches() const { return searches_; }
+  std::uint32_t lost() const { return lost_; }
+
+ private:
+  Where wander(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry);
+  Where track(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry);
+  bool is_due() const;
+  bool settle(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry);
+
+  LocaliseSettings settings_;
+  PlaceMap map_;
+  Matcher matcher_;
+  Recent recent_;
+  PlaceSearch search_;
+  Tracker tracker_;
+  Look look_, scan_look_;
+  Verdict verdict_;
+  Span<Beam> beams_;
+  Span<ScanPoint> scan_points_;
+  Span<PatchCosts> room_;
+  Pose2 looked_from_;
+  double looked_at_m_ = 0.0, looked_at_rad_ = 0.0;
+  Where where_ = Where::searching;
+  bool is_tracking_ = false, has_looked_ = false;
+  std::uint32_t searches_ = 0, lost_ = 0, scans_since_look_ = 0;
+};
+
+}  // namespace pose_wall::planar

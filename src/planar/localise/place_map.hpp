@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The whole saved map for localisation: surfaces in cells of a decimetre (a normal-distributions transform: Biber and
+// Strasser, IROS 2003), which places were seen, and a coarse field of likelihood for the search. Tiles hold what there
+// is, so a road costs by its length and not by the square around it.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "base/containers/arena.hpp"
+#include "planar/match/surface_map.hpp"
+#include "planar/pose2.hpp"
+
+namespace pose_wall::planar {
+
+class PlaceMap {
+ public:
+  static constexpr double kCell_m = 0.1;
+  static constexpr std::int32_t kTileCells = 64;  // to a side
+  static constexpr std::int32_t kShrink = 4;      // cells in a coarse one
+  static constexpr double kCoarse_m = kCell_m * kShrink;
+  static constexpr std::int32_t kTileCoarse = kTileCells / kShrink;
+  static constexpr std::int32_t kAcross = 640;  // tiles of the square that a map may lie in: 4 km
+  static constexpr double kReach_m = 0.5;       // of a surface: places nearer than this find it
+  static constexpr std::uint8_t kLikely = 3;    // the most of the coarse field
+
+  void lay_out(Arena& arena, std::uint32_t tiles_most);
+  // An empty map, also in memory that may hold anything.
+  void open();
+  // False where tiles or cells ran out, or a point lies outside the square: the map then lacks it.
+  bool add(Span<const ScanPoint> points, const Pose2& pose);
+  // A place that was seen to be free, and one where a surface is; for maps of cells. The first place sets the middle.
+  bool add_free(const Eigen::Vector2d& place_m);
+  bool add_surface(const Eigen::Vector2d& place_m);
+  // After the last of them.
+  void finish();
+
+  bool is_empty() const { return used_ == 0; }
+  bool is_finished() const { return is_finished_; }
+  std::uint32_t tiles() const { return tile_count_; }
+  std::uint32_t surfaces() const { return used_; }
+  const Eigen::Vector2d& middle_m() const { return middle_m_; }
+
+  // Places below are given from the middle. A surface within kReach_m, or nullptr.
+  const Surface* near(double x_m, double y_m) const {
+    if (!is_inside(x_m, y_m)) return nullptr;
+    const std::uint32_t* const index = nearest_at(cell_of(x_m), cell_of(y_m));
+    return index != nullptr && *index != kNoSurface ? &surfaces_[*index] : nullptr;
+  }
+  // Whether lines of sight went through the 40 cm about a place.
+  bool is_seen(double x_m, double y_m) const;
+  // A surface lies in this cell.
+  bool is_surface(double x_m, double y_m) const;
+
+  // Rows of kTileCoarse coarse cells of a tile. No such tile: nullptr.
+  const std::uint8_t* likelihood_row(std::int32_t tile_x, std::int32_t tile_y, std::int32_t row) const;
+  // Bit x: the coarse cell is open and was seen, so a machine may stand there.
+  std::uint32_t standable_row(std::int32_t tile_x, std::int32_t tile_y, std::int32_t row) const;
+  bool has_tile(std::int32_t tile_x, std::int32_t tile_y) const { return find(tile_x, tile_y) != kNone; }
+
+ private:
+  struct Cell {
+    float x_m, y_m, xx_m2, xy_m2, yy_m2;  // sums about the cell's middle
+    std::uint32_t count;
+    std::int32_t column, row;
+  };
+
+  static constexpr std::uint32_t kNone = 0xFFFF;
+  static constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
+  static constexpr std::uint32_t kTileSize = static_cast<std::uint32_t>(kTileCells * kTileCells);
+  static constexpr std::uint32_t kTileCoarseSize = static_cast<std::uint32_t>(kTileCoarse * kTileCoarse);
+  static constexpr std::uint32_t kCellsPerTile = 320;  // in the mean: two rough walls and what lies before them
+
+  static constexpr std::int32_t kSide = kAcross * kTileCells;  // cells of the square
+  static bool is_inside(double x_m, double y_m) {
+    constexpr double kMargin_m = 2.0;  // what spreads from a place stays inside, too
+    constexpr double kMost_m = kCell_m * (kSide / 2) - kMargin_m;
+    return x_m > -kMost_m && x_m < kMost_m && y_m > -kMost_m && y_m < kMost_m;
+  }
+  // Of a place inside, so that the sum is above 0 and the cast rounds down.
+  static std::int32_t cell_of(double place_m) {
+    return static_cast<std::int32_t>(place_m * (1.0 / kCell_m) + kSide / 2);
+  }
+  std::uint32_t find(std::int32_t tile_x, std::int32_t tile_y) const {
+    if (tile_x < 0 || tile_x >= kAcross || tile_y < 0 || tile_y >= kAcross) return kNone;
+    return directory_[static_cast<std::uint32_t>(tile_y * kAcross + tile_x)];
+  }
+  std::uint32_t make(std::int32_t tile_x, std::int32_t tile_y);
+  std::uint32_t* nearest_at(std::int32_t column, std::int32_t row) const {
+    const std::uint32_t tile = find(column / kTileCells, row / kTileCells);
+    if (tile == kNone) return nullptr;
+    const std::int32_t inside = row % kTileCells * kTileCells + column % kTileCells;
+    return &nearest_[tile * kTileSize + static_cast<std::uint32_t>(inside)];
+  }
+  std::uint8_t* coarse_at(const Span<std::uint8_t>& of, std::int32_t column, std::int32_t row) const;
+  void take_middle(const Eigen::Vector2d& place_m);
+  bool put(const Eigen::Vector2d& p);
+  bool see(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m);
+  bool see_at(const Eigen::Vector2d& p);
+  void make_surface(std::uint32_t index);
+  void spread(std::uint32_t index);
+  void spread_likelihood(const Cell& cell);
+
+  Eigen::Vector2d middle_m_ = Eigen::Vector2d::Zero();
+  Span<std::uint16_t> directory_;
+  Span<std::uint32_t> nearest_;  // of each cell of each tile: a surface
+  Span<std::uint8_t> seen_, field_;
+  Span<Cell> cells_;
+  Span<Surface> surfaces_;
+  std::uint32_t tile_count_ = 0, tiles_most_ = 0, used_ = 0;
+  bool has_middle_ = false, is_finished_ = false;
+};
+
+}  // namespace pose_wall::planar

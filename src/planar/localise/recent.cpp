@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "planar/localise/recent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pose_wall::planar {
+namespace {
+
+constexpr double kKeyframe_m = 0.3, kKeyframe_rad = 0.25;
+constexpr double kLookBack_m = 8.0;
+
+Eigen::Vector2d as_double(const ScanPoint& point) {
+  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
+}
+
+double length_of(const Pose2& step) {
+  return step.place().norm();
+}
+
+}  // namespace
+
+void Recent::lay_out(Arena& arena) {
+  near_.lay_out(arena);
+  kept_ = arena.take<Kept>(kKeyframesMost);
+  points_ = arena.take<ScanPoint>(kKeyframesMost * kMatchPointsMost);
+}
+
+void Recent::open() {
+  near_.open();
+  clear();
+}
+
+void Recent::clear() {
+  first_ = count_ = 0;
+  pose_ = last_step_ = odometry_ = Pose2();
+  travel_m_ = turned_rad_ = 0.0;
+  has_odometry_ = false;
+}
+
+Span<const ScanPoint> Recent::points_of(std::uint32_t k) const {
+  const std::uint32_t slot = (first_ + k) % kKeyframesMost;
+  return Span<const ScanPoint>(points_.data() + slot * kMatchPointsMost, kept_[slot].count);
+}
+
+double Recent::look_back_m() const {
+  return count_ > 0 ? std::min(kLookBack_m, travel_m_ - kept(0).travel_m) : 0.0;
+}
+
+Refined Recent::match(Span<const ScanPoint> points, const BeamScan& scan, const Prior& prior,
+                      const Matcher& matcher) const {
+  constexpr double kGood = 0.85, kFar_m = 0.6, kFar_rad = 0.6;
+  constexpr std::uint32_t kNodes = 128;
+  const Refined near = matcher.refine(points, near_, prior.pose, prior, scan.sigma_m);
+  if (near.is_valid && near.explained > kGood) return near;
+  const Found found = matcher.search(points, near_, {prior.pose, kFar_m, kFar_rad, kNodes});
+  const Refined far = matcher.refine(points, near_, found.pose, Prior{found.pose, Eigen::Matrix3d::Zero()}, scan.sigma_m);
+  return far.is_valid && (!near.is_valid || far.misfit < near.misfit) ? far : near;
+}
+
+bool Recent::follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, const Matcher& matcher) {
+  constexpr double kContinues = 0.5;
+  constexpr double kStep_m = 0.02, kStep_rad = 0.02, kShare_m = 0.1, kShare_rad = 0.3, kInertia_m = 0.15,
+                   kInertia_rad = 0.1;
+  bool continues = true;
+  if (count_ > 0) {
+    const bool knows = odometry != nullptr && has_odometry_;
+    const Pose2 step = knows ? between(odometry_, *odometry) : last_step_;
+    Prior prior{compose(pose_, step), Eigen::Matrix3d::Zero()};
+    const double sigma_m = knows ? kStep_m + kShare_m * length_of(step) : kInertia_m;
+    const double sigma_rad = knows ? kStep_rad + kShare_rad * std::abs(step.yaw_rad) : kInertia_rad;
+    prior.information.diagonal() << 1.0 / (sigma_m * sigma_m), 1.0 / (sigma_m * sigma_m), 1.0 / (sigma_rad * sigma_rad);
+    const Refined placed = match(points, scan, prior, matcher);
+    continues = placed.is_valid && placed.explained >= kContinues;
+    if (continues) {
+      last_step_ = between(pose_, placed.pose);
+      pose_ = placed.pose;
+      travel_m_ += length_of(last_step_);
+      turned_rad_ += std::abs(last_step_.yaw_rad);
+    } else {
+      clear();
+    }
+  }
+  has_odometry_ = odometry != nullptr;
+  if (odometry != nullptr) odometry_ = *odometry;
+  keep(points);
+  return continues;
+}
+
+void Recent::keep(Span<const ScanPoint> points) {
+  if (count_ > 0) {
+    const Pose2 since = between(kept(count_ - 1).pose, pose_);
+    if (length_of(since) < kKeyframe_m && std::abs(since.yaw_rad) < kKeyframe_rad) return;
+  }
+  if (count_ == kKeyframesMost) {
+    first_ = (first_ + 1) % kKeyframesMost;
+    --count_;
+  }
+  const std::uint32_t slot = (first_ + count_) % kKeyframesMost;
+  kept_[slot] = {pose_, travel_m_, points.size()};
+  std::copy(points.begin(), points.end(), points_.begin() + slot * kMatchPointsMost);
+  ++count_;
+  draw();
+}
+
+void Recent::draw() {
+  near_.begin(pose_.place());
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    if (travel_m_ - kept(k).travel_m < kLookBack_m) near_.add(points_of(k), kept(k).pose);
+  }
+  near_.finish();
+}
+
+void Recent::look(Span<const ScanPoint> points, const BeamScan& scan, Look* out) const {
+  std::uint32_t first = 0, all = points.size();
+  while (first < count_ && travel_m_ - kept(first).travel_m > kLookBack_m) ++first;
+  // The last keyframe may be this very scan.
+  const bool is_kept = count_ > 0 && length_of(between(kept(count_ - 1).pose, pose_)) == 0.0;
+  const std::uint32_t end = is_kept ? count_ - 1 : count_;
+  for (std::uint32_t k = first; k < end; ++k) all += kept(k).count;
+  // Half of the room is the present scan's, which nothing can have moved.
+  const std::uint32_t own = std::min(points.size(), all > kLookPointsMost ? kLookPointsMost / 2 : kLookPointsMost);
+  const std::uint32_t own_stride = own > 0 ? (points.size() + own - 1) / own : 1;
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < points.size() && count < kLookPointsMost; k += own_stride) out->points[count++] = points[k];
+  const std::uint32_t others = all - points.size(), room = kLookPointsMost - count;
+  const std::uint32_t stride = room > 0 ? std::max(1U, (others + room - 1) / room) : 1;
+  std::uint32_t seen = 0;
+  for (std::uint32_t k = first; k < end; ++k) {
+    const Pose2 in_base = between(pose_, kept(k).pose);
+    const Turn2 turn(in_base.yaw_rad);
+    for (const ScanPoint& point : points_of(k)) {
+      if (seen++ % stride != 0 || count == kLookPointsMost) continue;
+      const Eigen::Vector2d p = turn * as_double(point) + in_base.place();
+      out->points[count++] = {static_cast<float>(p.x()), static_cast<float>(p.y())};
+    }
+  }
+  out->sigma_m = scan.sigma_m;
+  out->sort_into_patches(count);
+  out->take_sights(points, scan.origin_m);
+}
+
+}  // namespace pose_wall::planar

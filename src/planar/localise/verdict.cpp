@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "planar/localise/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math/elementary.hpp"
+
+namespace pose_wall::planar {
+namespace {
+
+constexpr double kExcluded = 4.0;  // standard errors of the mean patch
+constexpr double kPlausible = 0.6;  // share of patches that fit, of a place that may be right
+// Of the one place: what share of patches fits, lies in seen parts; how many; how far it may slide.
+constexpr double kFits = 0.85, kSeen = 0.75, kThroughMost = 0.1, kHolds_m = 0.3;
+constexpr std::uint32_t kPatchesLeast = 16;
+
+bool is_same(const CandidatePlace& candidate, const Pose2& pose) {
+  constexpr double kChain_m = 0.7, kYaw_rad = 0.2;
+  const double apart_m = (candidate.pose.place() - pose.place()).norm();
+  return apart_m < candidate.spread_m + kChain_m && std::abs(wrapped(candidate.pose.yaw_rad - pose.yaw_rad)) < kYaw_rad;
+}
+
+void add(const Hypothesis& hypothesis, double worse, Verdict* out) {
+  for (std::uint32_t k = 0; k < out->count; ++k) {
+    CandidatePlace& known = out->candidates[k];
+    if (!is_same(known, hypothesis.pose)) continue;
+    known.spread_m = std::max(known.spread_m, (known.pose.place() - hypothesis.pose.place()).norm());
+    return;
+  }
+  ++out->all;
+  if (out->count == kCandidatesMost) return;
+  const double weight = exponential(-0.5 * (worse > 0.0 ? worse * worse : 0.0));
+  out->candidates[out->count++] = {hypothesis.pose, weight, worse, hypothesis.verdict.fits, 0.0};
+}
+
+bool holds(const Verdict& verdict, const PlaceSearch& search) {
+  const Evidence& best = verdict.best;
+  return search.is_whole() && verdict.all == 1 && best.fits >= kFits && best.seen >= kSeen &&
+         best.through <= kThroughMost && best.slide_m <= kHolds_m && best.patches >= kPatchesLeast &&
+         verdict.candidates[0].spread_m <= kHolds_m;
+}
+
+}  // namespace
+
+void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, Verdict* out) {
+  *out = Verdict();
+  const Span<const Hypothesis> all = search.hypotheses();
+  if (all.size() == 0) return;
+  const Hypothesis& best = all[0];
+  out->best.fits = best.verdict.fits;
+  out->best.explained = best.explained;
+  out->best.seen = best.verdict.judged > 0 ? static_cast<double>(best.verdict.seen) / best.verdict.judged : 0.0;
+  out->best.rms_m = best.rms_m;
+  out->best.patches = best.verdict.seen;
+  out->best.through = seen_through(map, look, best.pose);
+  PatchCosts room[2];
+  const FitRule rule{look.sigma_m, 0.25, 1, 1, {}};
+  out->best.slide_m = slide_of(map, look, fit_pose(map, look, best.pose, rule), kExcluded, room).reach_m;
+  constexpr double kNoRival = 99.0;
+  out->best.rival = kNoRival;
+  for (std::uint32_t k = 0; k < all.size(); ++k) {
+    const double worse = k == 0 ? 0.0 : worse_by(look, best.costs, all[k].costs);
+    if (k > 0 && out->count > 0 && !is_same(out->candidates[0], all[k].pose)) {
+      out->best.rival = std::min(out->best.rival, worse);
+    }
+    if (worse <= kExcluded && all[k].verdict.fits >= (k == 0 ? 0.0 : 0.5 * best.verdict.fits)) add(all[k], worse, out);
+  }
+  double sum = 0.0;
+  for (std::uint32_t k = 0; k < out->count; ++k) sum += out->candidates[k].weight;
+  for (std::uint32_t k = 0; k < out->count; ++k) out->candidates[k].weight /= sum;
+  if (!(best.verdict.fits >= kPlausible)) {
+    out->finding = Finding::unknown;
+    return;
+  }
+  out->finding = holds(*out, search) ? Finding::unique : Finding::ambiguous;
+}
+
+}  // namespace pose_wall::planar

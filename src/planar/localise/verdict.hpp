@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What a whole search says: one place, several, or none.
+
+#pragma once
+
+#include <cstdint>
+
+#include "planar/localise/place_search.hpp"
+
+namespace pose_wall::planar {
+
+enum class Finding : std::uint32_t { unknown, ambiguous, unique };
+
+struct CandidatePlace {
+  Pose2 pose;             // of base when the look was taken
+  double weight = 0.0;    // all together 1
+  double worse_by = 0.0;  // standard errors of the mean patch, than the best
+  double fits = 0.0;      // share of the patches
+  double spread_m = 0.0;  // how far apart the places are that stand for this one
+};
+
+constexpr std::uint32_t kCandidatesMost = 32;
+
+// Evidence that the finding rests on.
+struct Evidence {
+  double fits = 0.0, explained = 0.0, seen = 0.0, rms_m = 0.0, through = 0.0, slide_m = 0.0;
+  double rival = 0.0;  // standard errors by which the best other place fits worse
+  std::uint32_t patches = 0;
+};
+
+struct Verdict {
+  Finding finding = Finding::unknown;
+  CandidatePlace candidates[kCandidatesMost];
+  std::uint32_t count = 0;
+  std::uint32_t all = 0;  // also those that had no room
+  Evidence best;
+};
+
+void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, Verdict* out);
+
+}  // namespace pose_wall::planar

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Restarts in simulated networks of roads: how often is the place unique, ambiguous or unknown, and is unique right?
+// usage: pose_wall_planar_localise_trial [--places N] [--seed S] [--kind K] [--per-network N] [--verbose]
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "localise_world.hpp"
+
+namespace {
+
+using namespace pose_wall::planar::test;
+
+struct Options {
+  int places = 200, per_network = 25, kind = -1, network = -1, restart = -1;
+  std::uint64_t seed = 1;
+  bool verbose = false;
+};
+
+Options options_of(int argc, char** argv) {
+  Options out;
+  for (int k = 1; k < argc; ++k) {
+    const std::string name = argv[k];
+    const char* const value = k + 1 < argc ? argv[k + 1] : "0";
+    if (name == "--places") out.places = std::atoi(value);
+    if (name == "--seed") out.seed = std::strtoull(value, nullptr, 10);
+    if (name == "--kind") out.kind = std::atoi(value);
+    if (name == "--per-network") out.per_network = std::atoi(value);
+    if (name == "--network") out.network = std::atoi(value);  // this one alone, and one restart in it
+    if (name == "--restart") out.restart = std::atoi(value);
+    if (name == "--verbose") out.verbose = true;
+  }
+  return out;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Options options = options_of(argc, argv);
+  std::vector<Counts> inside(kKinds), outside(kKinds);
+  const auto begun = std::chrono::steady_clock::now();
+  int done = 0;
+  if (options.network >= 0) {
+    const World world(options.kind, static_cast<std::uint64_t>(options.network));
+    const Restart restart = world.draw_restart(static_cast<std::uint64_t>(options.restart));
+    const Outcome outcome = world.run(restart, true);
+    std::printf("mapped %d odometry %d wrong %d error %.2f m\n", restart.is_mapped, restart.has_odometry, outcome.wrong, outcome.error_m);
+    return outcome.wrong ? 1 : 0;
+  }
+  for (std::uint64_t network = 0; done < options.places; ++network) {
+    const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
+    const World world(kind, options.seed * 100000 + network);
+    for (int k = 0; k < options.per_network && done < options.places; ++k, ++done) {
+      const Restart restart = world.draw_restart(static_cast<std::uint64_t>(k));
+      const Outcome outcome = world.run(restart, options.verbose);
+      Counts& counts = (restart.is_mapped ? inside : outside)[static_cast<std::size_t>(kind)];
+      counts.add(outcome);
+      if (outcome.wrong) {
+        std::printf("WRONG kind %s network %llu restart %d mapped %d: %.2f m %.3f rad at %.2f m, evidence fits %.2f rival %.2f\n",
+                    kind_name(kind), static_cast<unsigned long long>(options.seed * 100000 + network), k,
+                    restart.is_mapped, outcome.error_m, outcome.error_rad, outcome.wrong_at_m, outcome.fits,
+                    outcome.rival);
+      }
+    }
+    std::fflush(stdout);
+  }
+  for (int place = 0; place < 2; ++place) {
+    std::printf("%s\n%-14s %7s %7s | %8s %8s %8s | %8s %8s %8s %8s | %s | %s\n", place == 0 ? "in the map" : "not in the map", "kind",
+                "places", "wrong", "standing", "2 m", "5 m", "unique", "ambig.", "unknown", "search", "mean error m", "tracked scans, rms m, over sigma, beyond 3 sigma");
+    for (int kind = 0; kind < kKinds; ++kind) (place == 0 ? inside : outside)[static_cast<std::size_t>(kind)].print(kind_name(kind));
+  }
+  std::printf("%d places, %.1f s\n", done,
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+}
