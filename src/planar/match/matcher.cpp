@@ -38,6 +38,7 @@ void Matcher::lay_out(Arena& arena) {
   nodes_ = arena.take<Node>(kSearchNodesMost);
   parents_ = arena.take<Node>(kSearchNodesMost);
   patches_ = arena.take<Patch>(kPatchesMost);
+  patch_of_ = arena.take<std::uint32_t>(kMatchPointsMost);
   offsets_ = arena.take<Offset>(kSearchPointsMost);
   chosen_ = arena.take<ScanPoint>(kSearchPointsMost);
 }
@@ -291,25 +292,36 @@ Refined Matcher::refine(Span<const ScanPoint> points, const SurfaceMap& map, con
   return out;
 }
 
-// By how many of its standard errors the mean patch fits worse when shifted.
-double Matcher::agreed_gain(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& match,
-                            const Eigen::Vector2d& shift, double noise_m2) const {
-  const Turn2 turn(match.yaw_rad);
-  const Eigen::Vector2d place = match.place() - map.middle_m();
+// Sorts the points by patches of a square metre. Points beyond the last patch have none.
+std::uint32_t Matcher::make_patches(Span<const ScanPoint> points, const Turn2& turn,
+                                    const Eigen::Vector2d& place) const {
   std::uint32_t count = 0;
-  for (const ScanPoint& point : points) {
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2d p =
-        turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + place;
+        turn * Eigen::Vector2d(static_cast<double>(points[i].x_m), static_cast<double>(points[i].y_m)) + place;
     const auto column = static_cast<std::int32_t>(std::floor(p.x())),
                row = static_cast<std::int32_t>(std::floor(p.y()));
     std::uint32_t k = 0;
     while (k < count && (patches_[k].column != column || patches_[k].row != row)) ++k;
-    if (k == patches_.size()) continue;
-    if (k == count) patches_[count++] = {column, row, 0.0};
-    patches_[k].gain += misfit(p + shift, map, noise_m2) - misfit(p, map, noise_m2);
+    if (k == count && count < patches_.size()) patches_[count++] = {column, row, 0.0};
+    patch_of_[i] = k;
+  }
+  return count;
+}
+
+// By how many of its standard errors the mean patch fits worse when shifted.
+double Matcher::agreed_gain(const Patched& patched, const Eigen::Vector2d& shift) const {
+  for (std::uint32_t k = 0; k < patched.patches; ++k) patches_[k].gain = 0.0;
+  for (std::uint32_t i = 0; i < patched.points.size(); ++i) {
+    if (patch_of_[i] == patched.patches) continue;
+    const ScanPoint& point = patched.points[i];
+    const Eigen::Vector2d p =
+        patched.turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + patched.place;
+    patches_[patch_of_[i]].gain +=
+        misfit(p + shift, patched.map, patched.noise_m2) - misfit(p, patched.map, patched.noise_m2);
   }
   double sum = 0.0, squares = 0.0;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (std::uint32_t k = 0; k < patched.patches; ++k) {
     sum += patches_[k].gain;
     squares += patches_[k].gain * patches_[k].gain;
   }
@@ -325,11 +337,14 @@ Slide Matcher::slide(Span<const ScanPoint> points, const SurfaceMap& map, const 
   const double xy = H(0, 1) - H(0, 2) * H(1, 2) / yaw;
   const double strong_rad = 0.5 * arc_tangent2(2.0 * xy, xx - yy);
   out.direction = {-sine(strong_rad), cosine(strong_rad)};
+  const Turn2 turn(match.pose.yaw_rad);
+  const Eigen::Vector2d place = match.pose.place() - map.middle_m();
+  const Patched patched{points, map, turn, place, sigma_m * sigma_m, make_patches(points, turn, place)};
   constexpr double kShifts_m[] = {3.2, 1.6, 0.8, 0.4, 0.2, 0.1};
   constexpr double kExcluded = 4.0;  // standard errors
   for (const double shift_m : kShifts_m) {
-    const double ahead = agreed_gain(points, map, match.pose, shift_m * out.direction, sigma_m * sigma_m);
-    const double behind = agreed_gain(points, map, match.pose, -shift_m * out.direction, sigma_m * sigma_m);
+    const double ahead = agreed_gain(patched, shift_m * out.direction);
+    const double behind = agreed_gain(patched, -shift_m * out.direction);
     if (ahead > kExcluded && behind > kExcluded) continue;
     out.reach_m = shift_m;
     break;

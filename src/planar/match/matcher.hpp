@@ -97,11 +97,21 @@ class Matcher {
 
   static constexpr std::uint32_t kSearchPointsMost = 240;
 
-  double agreed_gain(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& match,
-                     const Eigen::Vector2d& shift, double noise_m2) const;
+  // Placed points by their patches.
+  struct Patched {
+    Span<const ScanPoint> points;
+    const SurfaceMap& map;
+    Turn2 turn;
+    Eigen::Vector2d place;
+    double noise_m2;
+    std::uint32_t patches;
+  };
+  std::uint32_t make_patches(Span<const ScanPoint> points, const Turn2& turn, const Eigen::Vector2d& place) const;
+  double agreed_gain(const Patched& patched, const Eigen::Vector2d& shift) const;
   static constexpr std::uint32_t kPatchesMost = 128;
 
   Span<Patch> patches_;
+  Span<std::uint32_t> patch_of_;
   Span<Node> nodes_, parents_;
   Span<Offset> offsets_;
   Span<ScanPoint> chosen_;

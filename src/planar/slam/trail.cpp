@@ -56,7 +56,9 @@ Trail::Range Trail::around(std::uint32_t k, double reach_m, std::uint32_t most, 
 
 void Trail::draw(SurfaceMap* map, std::uint32_t k, Range range) const {
   map->begin(poses_[k].place());
-  for (std::uint32_t i = range.first; i <= range.last; ++i) map->add(points(i), poses_[i]);
+  // Neighbours' lines of sight go through the same cells.
+  constexpr std::uint32_t kSightEvery = 3;
+  for (std::uint32_t i = range.first; i <= range.last; ++i) map->add(points(i), poses_[i], (i - k) % kSightEvery == 0);
   map->finish();
 }
 
