@@ -16,7 +16,7 @@ namespace {
 constexpr double kTilesMost = 65536.0;  // of pose_wall_planar_map_settings
 
 // The corners about all that the scans reach.
-struct Corners {
+struct ReachedBox {
   double x_min_m = 0.0, y_min_m = 0.0, x_max_m = 0.0, y_max_m = 0.0;
   bool is_empty = true;
 
@@ -29,9 +29,9 @@ struct Corners {
   }
 };
 
-Corners corners_of(const std::vector<KeptScan>& scans, const std::vector<pose_wall_planar_pose>& poses,
+ReachedBox corners_of(const std::vector<KeptScan>& scans, const std::vector<pose_wall_planar_pose>& poses,
                    double beam_max_m) {
-  Corners corners;
+  ReachedBox corners;
   for (std::size_t k = 0; k < scans.size(); ++k) {
     const pose_wall_planar_scan& scan = scans[k].scan;
     const pose_wall_planar_pose sensor = combined(poses.at(k), scan.sensor);
@@ -46,7 +46,7 @@ Corners corners_of(const std::vector<KeptScan>& scans, const std::vector<pose_wa
   return corners;
 }
 
-std::uint32_t tiles_for(const Corners& corners, double cell_m) {
+std::uint32_t tiles_for(const ReachedBox& corners, double cell_m) {
   const double tile_m = POSE_WALL_PLANAR_TILE_SIDE * cell_m;
   // Two more on each side: one for a part of a tile, one for the cells behind a range's end.
   const double across = std::ceil((corners.x_max_m - corners.x_min_m) / tile_m) + 2.0;

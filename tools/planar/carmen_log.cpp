@@ -370,7 +370,9 @@ pose_wall_planar_scan planar_scan_of(const CarmenScan& scan, const pose_wall_pla
 }
 
 pose_wall_planar_pose carmen_sensor_pose(const CarmenLog& log) {
-  if (const std::optional<pose_wall_planar_pose> place = place_in_all_scans(log)) return *place;
+  const std::optional<pose_wall_planar_pose> place = place_in_all_scans(log);
+  // At 0 the log may have copied one pose into both.
+  if (place && (place->x_m != 0.0 || place->y_m != 0.0 || place->yaw_rad != 0.0)) return *place;
   const auto offset = log.params.find("robot_frontlaser_offset");
   if (offset == log.params.end()) return {0.0, 0.0, 0.0};
   const std::optional<double> x_m = parse_number<double>(offset->second.value);

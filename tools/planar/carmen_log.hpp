@@ -103,8 +103,8 @@ CarmenLog parse_carmen_log(std::string_view text);
 pose_wall_planar_scan planar_scan_of(const CarmenScan& scan, const pose_wall_planar_pose& sensor, double sigma_m,
                                      std::vector<float>* range_m);
 
-// The scanner's place in base: where every scan has the scanner at the same place of the robot, that place. Else (the
-// poses of the scanner are corrected) x from the log's parameter robot_frontlaser_offset, or 0.
+// The scanner's place in base: where every scan has the scanner at one place of the robot, that place. Else (the poses
+// are the robot's, or corrected) x from the log's parameter robot_frontlaser_offset, or 0.
 pose_wall_planar_pose carmen_sensor_pose(const CarmenLog& log);
 
 // Seconds with all digits as nanoseconds: "976052857.436207". False for what is no such number.

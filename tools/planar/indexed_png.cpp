@@ -6,6 +6,9 @@
 
 #include "planar/indexed_png.hpp"
 
+#include <cstddef>
+#include <utility>
+
 #include "bags/crc32.hpp"
 
 namespace pose_wall::tools {
@@ -19,7 +22,7 @@ void add_chunk(std::string* png, const std::string& kind, const std::string& con
   add_big_endian(png, static_cast<std::uint32_t>(content.size()));
   const std::string checked = kind + content;
   *png += checked;
-  add_big_endian(png, crc32_of(checked));
+  add_big_endian(png, crc32({reinterpret_cast<const std::byte*>(checked.data()), checked.size()}));
 }
 
 // Bits from the lowest on.

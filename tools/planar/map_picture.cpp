@@ -45,7 +45,7 @@ struct Window {
   std::uint32_t column = 0, row = 0, column_end = 0, row_end = 0;
 };
 
-struct Corners {
+struct ShownBox {
   double x_min_m = INFINITY, y_min_m = INFINITY, x_max_m = -INFINITY, y_max_m = -INFINITY;
   void include(double x_m, double y_m) {
     x_min_m = std::min(x_min_m, x_m);
@@ -65,7 +65,7 @@ Window window_of(const MapScene& scene) {
   const pose_wall_planar_grid& grid = scene.grid;
   const Window all{0, 0, grid.width, grid.height};
   if (!(scene.margin_m > 0.0)) return all;
-  Corners corners;
+  ShownBox corners;
   for (const MapLine& line : scene.lines) {
     for (const MapPlace& place : line.places) corners.include(place.x_m, place.y_m);
   }
