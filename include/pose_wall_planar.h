@@ -27,7 +27,9 @@
 
 #include "pose_wall_planar_grid.h"
 #include "pose_wall_planar_map.h"
+#include "pose_wall_planar_plan.h"
 #include "pose_wall_planar_slam.h"
+#include "pose_wall_planar_track.h"
 #include "pose_wall_planar_types.h"
 
 #endif /* POSE_WALL_PLANAR_H */

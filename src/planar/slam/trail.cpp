@@ -9,7 +9,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kPointsPerKeyframe = 200;  // in the mean
+constexpr std::uint32_t kPointsPerKeyframe = 360;  // in the mean: a whole turn in a road
 constexpr std::uint32_t kEdgesPerKeyframe = 3;     // one to the last, others to old ones
 
 }  // namespace
