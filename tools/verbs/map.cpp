@@ -102,8 +102,8 @@ std::string summary_text(const ScanTrail& trail, const BuiltMap& built, bool wit
   table.add_row({tr("doubtful scans"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_DOUBTFUL), scans)});
   table.add_row({tr("blind scans"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_BLIND), scans)});
   table.add_row({tr("points on known surfaces"), fmt::format("{:.1f} %", 100.0 * trail.explained_mean())});
-  table.add_row({tr("time a scan, mean"), fmt::format("{:.2f} ms", trail.mean_ms())});
-  table.add_row({tr("time a scan, worst"), fmt::format("{:.2f} ms", trail.worst_ms())});
+  table.add_row({tr("processor time a scan, mean"), fmt::format("{:.2f} ms", trail.mean_ms())});
+  table.add_row({tr("processor time a scan, worst"), fmt::format("{:.2f} ms", trail.worst_ms())});
   table.add_row({tr("memory of the trail"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(trail.block_bytes()))});
   table.add_row({tr("map"), fmt::format("{:.1f} x {:.1f} m, {:.2f} m", map.width * map.resolution_m,
                                         map.height * map.resolution_m, map.resolution_m)});
