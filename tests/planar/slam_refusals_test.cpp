@@ -72,12 +72,12 @@ TEST(SlamRefusals, ABlockThatIsSmallOrCrookedIsRefused) {
 }
 
 TEST(SavedTrail, NoDamageIsTakenIn) {
-  const sim::NetworkRun run = driven(small_plan(), 10.0, 4);
+  const sim::NetworkRun run = driven(small_plan(), 16.0, 4);
   const OpenedSlam from(64), to(64);
   for (std::size_t i = 0; i < run.scans(); ++i) from.process(run, i);
   const std::vector<unsigned char> saved = from.saved(), empty = to.saved();
   std::vector<unsigned char> damaged = saved;
-  for (std::size_t k = 0; k < saved.size(); k += 1 + saved.size() / 700) {
+  for (std::size_t k = 0; k < saved.size(); k += 1 + saved.size() / 200) {
     damaged[k] ^= static_cast<unsigned char>(1U << (k % 8));
     EXPECT_EQ(pose_wall_planar_slam_load(to.get(), damaged.data(), damaged.size(), nullptr), POSE_WALL_E_MAP_FILE) << k;
     damaged[k] = saved[k];
