@@ -67,6 +67,7 @@ std::optional<SourcedScan> CarmenScans::next() {
   scan.time = from.stamp;
   scan.scan = planar_scan_of(from, sensor_, kSigma_m, &scan.range_m);
   scan.odometry = from.odometry;
+  scan.place = sensor_;
   return scan;
 }
 

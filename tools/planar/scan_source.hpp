@@ -21,6 +21,7 @@ struct SourcedScan {
   std::vector<float> range_m;
   pose_wall_planar_scan scan{};  // without its ranges, which view() gives
   std::optional<pose_wall_planar_pose> odometry;
+  pose_wall_planar_pose place{};  // in base, of what the scan's pose is: the scanner of a log; else base itself
   std::string error;             // why there is no scan; empty: there is one
 
   pose_wall_planar_scan view() const {

@@ -13,6 +13,8 @@
 namespace pose_wall::tools {
 namespace {
 
+constexpr std::size_t kKeptBeamsMost = 50'000'000;  // 0.2 GB
+
 std::uint64_t bytes_for(const pose_wall_planar_slam_settings& settings) {
   std::uint64_t bytes = 0;
   require_ok(pose_wall_planar_slam_memory_needed(&settings, &bytes), translatable("the settings of the map"));
@@ -42,7 +44,8 @@ ScanTrail::ScanTrail(const pose_wall_planar_slam_settings& settings) : block_(by
 }
 
 const pose_wall_planar_slam_result& ScanTrail::add(const pose_wall_planar_scan& scan,
-                                                   const pose_wall_planar_pose* odometry, std::string time) {
+                                                   const pose_wall_planar_pose* odometry,
+                                                   const pose_wall_planar_pose& place, std::string time) {
   const double started_ms = processor_ms();
   const std::int32_t status = pose_wall_planar_slam_process(slam_, &scan, odometry, &last_);
   const double ms = processor_ms() - started_ms;
@@ -50,8 +53,12 @@ const pose_wall_planar_slam_result& ScanTrail::add(const pose_wall_planar_scan& 
   ms_sum_ += ms;
   worst_ms_ = std::max(worst_ms_, ms);
   explained_sum_ += last_.explained;
-  scans_.push_back({std::move(time), last_.state, last_.keyframe, last_.in_keyframe});
-  if (last_.is_keyframe != 0) keyframe_scans_.emplace_back(scan);
+  scans_.push_back({std::move(time), last_.state, last_.keyframe, combined(last_.in_keyframe, place)});
+  // A full trail matches scans and keeps none of them; they have no place in the map for sure.
+  if (last_.is_keyframe != 0 || (kept_beams_ < kKeptBeamsMost && last_.is_full == 0)) {
+    kept_scans_.emplace_back(scan, last_);
+    kept_beams_ += scan.beams;
+  }
   return last_;
 }
 
@@ -69,6 +76,13 @@ std::vector<pose_wall_planar_pose> ScanTrail::scan_poses() const {
   const std::vector<pose_wall_planar_pose> keyframes = keyframe_poses();
   std::vector<pose_wall_planar_pose> poses;
   for (const TrailScan& scan : scans_) poses.push_back(combined(keyframes.at(scan.keyframe), scan.in_keyframe));
+  return poses;
+}
+
+std::vector<pose_wall_planar_pose> ScanTrail::kept_poses() const {
+  const std::vector<pose_wall_planar_pose> keyframes = keyframe_poses();
+  std::vector<pose_wall_planar_pose> poses;
+  for (const KeptScan& kept : kept_scans_) poses.push_back(combined(keyframes.at(kept.keyframe), kept.in_keyframe));
   return poses;
 }
 

@@ -17,11 +17,16 @@ namespace pose_wall::tools {
 
 // A scan with its ranges.
 struct KeptScan {
+  std::uint32_t keyframe = 0;
+  pose_wall_planar_pose in_keyframe{};  // of base
   pose_wall_planar_scan scan{};
   std::vector<float> range_m;
 
-  explicit KeptScan(const pose_wall_planar_scan& from)
-      : scan(from), range_m(from.range_m, from.range_m + from.beams) {}
+  KeptScan(const pose_wall_planar_scan& from, const pose_wall_planar_slam_result& at)
+      : keyframe(at.keyframe),
+        in_keyframe(at.in_keyframe),
+        scan(from),
+        range_m(from.range_m, from.range_m + from.beams) {}
   pose_wall_planar_scan view() const {
     pose_wall_planar_scan whole = scan;
     whole.range_m = range_m.data();
@@ -33,7 +38,7 @@ struct TrailScan {
   std::string time;  // as the input writes it
   std::uint32_t state = 0;
   std::uint32_t keyframe = 0;
-  pose_wall_planar_pose in_keyframe{};
+  pose_wall_planar_pose in_keyframe{};  // of what the scan's pose is
 };
 
 struct Closure {
@@ -45,9 +50,9 @@ class ScanTrail {
   // Throws PlanarError.
   explicit ScanTrail(const pose_wall_planar_slam_settings& settings);
 
-  // odometry may be nullptr. Throws PlanarError for a scan that the library refuses; the trail is then unchanged.
+  // odometry may be nullptr. place: in base, of what the scan's pose is to be. Throws PlanarError for a scan that the library refuses; the trail is then unchanged.
   const pose_wall_planar_slam_result& add(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry,
-                                          std::string time);
+                                          const pose_wall_planar_pose& place, std::string time);
   // Goes on with the graph until it rests.
   void settle();
 
@@ -60,8 +65,9 @@ class ScanTrail {
   std::vector<pose_wall_planar_pose> scan_poses() const;
   double travel_m() const;
   std::vector<Closure> closures() const;  // that are believed
-  // Of each keyframe, in their order.
-  const std::vector<KeptScan>& keyframe_scans() const { return keyframe_scans_; }
+  // For the map, with the pose of base at each: every scan while memory allows it, then those of keyframes.
+  const std::vector<KeptScan>& kept_scans() const { return kept_scans_; }
+  std::vector<pose_wall_planar_pose> kept_poses() const;
 
   std::size_t count(std::uint32_t state) const;
   double explained_mean() const;  // over all scans but the first
@@ -76,7 +82,8 @@ class ScanTrail {
   pose_wall_planar_slam* slam_ = nullptr;
   pose_wall_planar_slam_result last_{};
   std::vector<TrailScan> scans_;
-  std::vector<KeptScan> keyframe_scans_;
+  std::vector<KeptScan> kept_scans_;
+  std::size_t kept_beams_ = 0;
   double explained_sum_ = 0.0, ms_sum_ = 0.0, worst_ms_ = 0.0;
 };
 

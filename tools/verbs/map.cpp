@@ -75,7 +75,7 @@ void add_scans(const MapOptions& options, ScanSource& source, MapWork* work) {
     }
     const bool with_odometry = scan->odometry && !options.no_odometry;
     try {
-      work->trail.add(scan->view(), with_odometry ? &*scan->odometry : nullptr, scan->time);
+      work->trail.add(scan->view(), with_odometry ? &*scan->odometry : nullptr, scan->place, scan->time);
     } catch (const PlanarError& error) {
       refuse(error.what());
     }
@@ -198,7 +198,7 @@ int map_scans(MapOptions options) {
                                                               : tr("no scan could be read; nothing is written"));
   }
   work.trail.settle();
-  const BuiltMap built = build_map(work.trail.keyframe_scans(), work.trail.keyframe_poses(), options.cell_m);
+  const BuiltMap built = build_map(work.trail.kept_scans(), work.trail.kept_poses(), options.cell_m);
   if (poses) poses->write(poses_text(work.trail));
   if (!options.output.empty()) write_folder(options, work.trail, built);
   if (!options.frames.quiet) {
@@ -241,6 +241,7 @@ void add_map(CLI::App& app, int& exit_code) {
          "  pose_wall map -c road/pose_wall.yaml -o map road/frames\n"
          "INPUT is frames as for `run`, or one log of CARMEN (FLASER, ROBOTLASER1; .clf, .log, also packed by gzip).\n"
          "Of frames, each becomes a planar scan about the measured floor.\n"
+         "The pose of a log's scan is that of its scanner, as FLASER has it, else that of base.\n"
          "Every scan is matched with the last metres. Where the machine comes back to a place, the closure is believed\n"
          "after several looks agree, and taken back where later looks contradict it.\n"
          "--set also takes keyframe_m (0.3), keyframe_rad (0.25), and by how much odometry errs: odometry_m (0.1, by\n"
