@@ -11,6 +11,7 @@
 
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
+#include "planar/plane_pose.hpp"
 #include "planar/setting_words.hpp"
 
 namespace pose_wall::tools {
@@ -101,6 +102,39 @@ PlannedRoute RoutePlanner::plan(const pose_wall_planar_grid& grid, const pose_wa
   }
   route.poses.resize(route.is_found() ? route.result.poses : 0);
   return route;
+}
+
+std::optional<BlockingCell> blocking_cell(const pose_wall_planar_grid& grid,
+                                          const pose_wall_planar_plan_settings& settings,
+                                          const pose_wall_planar_pose& at) {
+  // A cell is covered where its middle is nearer than half its diagonal.
+  const double beside_m = settings.margin_m + 0.7072 * grid.resolution_m;
+  std::optional<BlockingCell> found;
+  for (std::uint32_t row = 0; row < grid.height; ++row) {
+    for (std::uint32_t column = 0; column < grid.width; ++column) {
+      const std::int8_t cell = grid.cells[std::size_t{row} * grid.width + column];
+      const bool is_unknown = cell < 0;
+      if (!is_unknown && cell < static_cast<int>(settings.occupied_from)) continue;
+      const MapPlace middle{grid.origin_x_m + (column + 0.5) * grid.resolution_m,
+                            grid.origin_y_m + (row + 0.5) * grid.resolution_m};
+      const pose_wall_planar_pose in_machine = seen_from(at, {middle.x_m, middle.y_m, 0.0});
+      const bool is_covered = in_machine.x_m < settings.front_m + beside_m &&
+                              in_machine.x_m > -settings.rear_m - beside_m &&
+                              in_machine.y_m < settings.left_m + beside_m &&
+                              in_machine.y_m > -settings.right_m - beside_m;
+      if (!is_covered) continue;
+      if (!is_unknown) return BlockingCell{middle, false};
+      if (!found) found = BlockingCell{middle, true};
+    }
+  }
+  return found;
+}
+
+std::string blocking_text(const std::optional<BlockingCell>& cell) {
+  if (!cell) return tr("The edge of the map is in its way.");
+  return cell->is_unknown
+             ? say("An unknown cell at x {:.2f} m, y {:.2f} m is in its way.", cell->middle.x_m, cell->middle.y_m)
+             : say("A thing at x {:.2f} m, y {:.2f} m is in its way.", cell->middle.x_m, cell->middle.y_m);
 }
 
 std::string no_route_text(const pose_wall_planar_plan_result& result) {

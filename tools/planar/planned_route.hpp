@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,21 @@ class RoutePlanner {
   pose_wall_planar_planner* planner_ = nullptr;
 };
 
+// A cell that a machine does not fit beside.
+struct BlockingCell {
+  MapPlace middle;
+  bool is_unknown = false;
+};
+// The first that the machine with its margin covers at this pose, things before unknown cells; none: it fits, or only
+// the edge of the map is in its way.
+std::optional<BlockingCell> blocking_cell(const pose_wall_planar_grid& grid,
+                                          const pose_wall_planar_plan_settings& settings,
+                                          const pose_wall_planar_pose& at);
+
 // Why there is no route, and what to do, in sentences.
 std::string no_route_text(const pose_wall_planar_plan_result& result);
+// Of a start or goal that is blocked: by what.
+std::string blocking_text(const std::optional<BlockingCell>& cell);
 
 // pose, x_m, y_m, yaw_rad, curvature_1_m, along_m, drive, stop, cusp, turn: one row a pose.
 std::string route_as_csv(const PlannedRoute& route);

@@ -39,6 +39,7 @@ struct PlanOptions {
   std::string output;   // file; empty: none
   std::string picture;  // file; empty: none
   std::vector<std::string> settings;
+  bool free_specks = false;
   bool quiet = false;
 };
 
@@ -58,6 +59,19 @@ std::string route_table(const PlannedRoute& route, const RoutePlanner& planner) 
   return table.text();
 }
 
+// Of a start or goal where the machine does not fit.
+std::optional<BlockingCell> blocking_of(const MapFile& map, const pose_wall_planar_plan_settings& settings,
+                                        const PlannedRoute& route, const pose_wall_planar_pose& from,
+                                        const pose_wall_planar_pose& to) {
+  if (route.result.outcome == POSE_WALL_PLAN_START_BLOCKED) return blocking_cell(map.grid(), settings, from);
+  if (route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED) return blocking_cell(map.grid(), settings, to);
+  return std::nullopt;
+}
+
+bool is_blocked(const PlannedRoute& route) {
+  return route.result.outcome == POSE_WALL_PLAN_START_BLOCKED || route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED;
+}
+
 MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedRoute& route,
                   const pose_wall_planar_plan_settings& settings, const pose_wall_planar_pose& from,
                   const pose_wall_planar_pose& to) {
@@ -66,11 +80,14 @@ MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedR
   scene.title = std::filesystem::path(options.map).filename().string();
   scene.subtitle = route.is_found() ? say("route of {:.1f} m, {} changes of direction, {} turns on the spot",
                                           route.result.length_m, route.result.cusps, route.result.spot_turns)
-                                    : no_route_text(route.result);
+                                    : say("no route: {}", pose_wall_planar_plan_outcome_name(route.result.outcome));
   scene.margin_m = kShown_m;
   draw_route(route, settings, &scene);
   scene.machines.push_back({from, machine_outline(settings), kTrailColour, tr("start")});
   scene.machines.push_back({to, machine_outline(settings), kClosureColour, tr("goal")});
+  if (const std::optional<BlockingCell> cell = blocking_of(map, settings, route, from, to)) {
+    scene.dots.push_back({cell->middle, kBadColour, tr("here")});
+  }
   if (std::isfinite(route.result.place.x_m) && !route.is_found()) {
     scene.dots.push_back({{route.result.place.x_m, route.result.place.y_m}, kBadColour, tr("here")});
   }
@@ -80,7 +97,8 @@ MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedR
 int plan_route(PlanOptions options) {
   const pose_wall_planar_pose from = pose_of_word(options.from, "--from");
   const pose_wall_planar_pose to = pose_of_word(options.to, "--to");
-  const MapFile map = read_map_files(options.map);
+  MapFile map = read_map_files(options.map);
+  const std::size_t specks = options.free_specks ? free_specks(&map) : 0;
   const pose_wall_planar_plan_settings settings = take_plan_settings(map.grid(), &options.settings);
   std::vector<std::filesystem::path> read = {options.map};
   std::optional<OutputFile> output, picture;
@@ -91,11 +109,15 @@ int plan_route(PlanOptions options) {
   if (!options.picture.empty()) picture.emplace(options.picture, read, "--picture");
   if (!options.quiet && !map.note.empty()) fmt::print(stderr, "{}: {}\n", options.map, map.note);
 
+  if (!options.quiet && options.free_specks) fmt::print(stderr, "{}", say("{} specks count as free\n", specks));
+
   RoutePlanner planner(settings);
   const PlannedRoute route = planner.plan(map.grid(), from, to);
   if (picture) picture->write(map_picture(scene_of(options, map, route, settings, from, to)));
   if (!route.is_found()) {
-    fmt::print(stderr, "{}", say("pose_wall plan: no route. {}\n", no_route_text(route.result)));
+    const std::string by =
+        is_blocked(route) ? " " + blocking_text(blocking_of(map, settings, route, from, to)) : "";
+    fmt::print(stderr, "{}", say("pose_wall plan: no route. {}{}\n", no_route_text(route.result), by));
     return kExitNotUsable;
   }
   if (output) output->write(route_as_csv(route));
@@ -120,6 +142,8 @@ void add_plan(CLI::App& app, int& exit_code) {
       ->check(svg_file());
   verb->add_option("-s,--set", options->settings, tr("KEY=VALUE of the planner; may be repeated"))
       ->allow_extra_args(false);
+  verb->add_flag("--free-specks", options->free_specks,
+                 tr("Count unknown cells in the open as free: people that walked by leave such specks"));
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
   verb->footer(
       tr("Examples:\n"
