@@ -91,6 +91,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
                        tr("Display program version information and exit"));
   add_run(app, exit_code);
   add_motion(app, exit_code);
+  add_scan(app, exit_code);
   add_map(app, exit_code);
   add_plan(app, exit_code);
   add_doctor(app, exit_code);

@@ -9,6 +9,7 @@
 
 #include "language/language.hpp"
 #include "planar/carmen_scans.hpp"
+#include "planar/cloud_scans.hpp"
 #include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools {
@@ -36,7 +37,11 @@ std::unique_ptr<ScanSource> open_scans(const FrameOptions& options, const std::v
     std::error_code ignored;
     return std::filesystem::is_regular_file(input, ignored) && is_carmen_log(input);
   });
-  if (log == inputs.end()) throw std::invalid_argument(tr("no log of CARMEN among the inputs"));
+  if (log == inputs.end()) {
+    FrameOptions for_engine = options;
+    const pose_wall_planar_scanner_settings settings = take_scanner_settings(&for_engine.settings);
+    return std::make_unique<CloudScans>(for_engine, settings);
+  }
   require_log_alone(options, verb_settings);
   return std::make_unique<CarmenScans>(*log);
 }
