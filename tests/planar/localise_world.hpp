@@ -293,6 +293,36 @@ class World {
     return out;
   }
 
+  struct Kidnapping {
+    bool was_tracked = false, noticed = false, found = false, wrong = false;
+    int scans = 0;  // until it was noticed
+  };
+  // Tracked at one place, then carried to another while nobody looks; there it stands for ten scans and drives 5 m.
+  Kidnapping kidnap(const Restart& from, const Restart& to) const {
+    Localiser& own = *localiser_;
+    Kidnapping out;
+    const Outcome before = run(from, false);
+    if (before.wrong || before.after_5m != Where::unique) return out;
+    out.was_tracked = true;
+    std::vector<float> ranges;
+    Pose2 odometry;
+    sim::PlanePose last = pose_at(to, 0.0);
+    for (int k = 0; k < 10 + 20; ++k) {
+      const sim::PlanePose at = pose_at(to, k < 10 ? 0.0 : 0.25 * (k - 9));
+      odometry = compose(odometry, between({last.x_m, last.y_m, last.yaw_rad}, {at.x_m, at.y_m, at.yaw_rad}));
+      last = at;
+      const pose_wall_planar_scan scan = scan_at(at, to.things, to.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
+      const Where where = own.process(read_beams(scan, own.beams()), to.has_odometry ? &odometry : nullptr);
+      const Pose2 off = between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose());
+      const bool is_right = off.place().norm() < 0.5 && std::abs(off.yaw_rad) < 0.1;
+      if (!out.noticed) ++out.scans;
+      out.noticed = out.noticed || where != Where::unique || is_right;
+      out.found = where == Where::unique && is_right;
+      out.wrong = out.wrong || (out.noticed && where == Where::unique && !is_right);
+    }
+    return out;
+  }
+
   // For people who look for the reason.
   static void show(const Localiser& own, const sim::PlanePose& at, Where where, double driven_m) {
     const Evidence& best = own.verdict().best;

@@ -20,7 +20,7 @@ using namespace pose_wall::planar::test;
 struct Options {
   int places = 200, per_network = 25, kind = -1, network = -1, restart = -1;
   std::uint64_t seed = 1;
-  bool verbose = false;
+  bool verbose = false, kidnap = false;
 };
 
 Options options_of(int argc, char** argv) {
@@ -34,15 +34,47 @@ Options options_of(int argc, char** argv) {
     if (name == "--per-network") out.per_network = std::atoi(value);
     if (name == "--network") out.network = std::atoi(value);  // this one alone, and one restart in it
     if (name == "--restart") out.restart = std::atoi(value);
+    if (name == "--kidnap") out.kidnap = true;
     if (name == "--verbose") out.verbose = true;
   }
   return out;
+}
+
+// Carried from place to place: after how many scans is it noticed?
+void kidnap(const Options& options) {
+  int tracked[kKinds] = {}, unnoticed[kKinds] = {}, found[kKinds] = {}, wrong[kKinds] = {}, after[kKinds][31] = {};
+  int done = 0;
+  for (std::uint64_t network = 0; done < options.places; ++network) {
+    const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
+    const World world(kind, options.seed * 100000 + network);
+    for (int k = 0; k < options.per_network && done < options.places; ++k, ++done) {
+      const auto number = static_cast<std::uint64_t>(2 * k);
+      const auto outcome = world.kidnap(world.draw_restart(number), world.draw_restart(number + 1));
+      if (!outcome.was_tracked) continue;
+      ++tracked[kind];
+      unnoticed[kind] += outcome.noticed ? 0 : 1;
+      found[kind] += outcome.found ? 1 : 0;
+      wrong[kind] += outcome.wrong ? 1 : 0;
+      ++after[kind][outcome.scans];
+    }
+  }
+  for (int kind = 0; kind < kKinds; ++kind) {
+    if (tracked[kind] == 0) continue;
+    std::printf("%-14s %5d carried; noticed after 1 scan %d, 2 %d, 3 %d, 4 to 30 %d, never %d; found again %d; wrong after it %d\n",
+                kind_name(kind), tracked[kind], after[kind][1], after[kind][2], after[kind][3],
+                tracked[kind] - after[kind][1] - after[kind][2] - after[kind][3] - unnoticed[kind], unnoticed[kind],
+                found[kind], wrong[kind]);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const Options options = options_of(argc, argv);
+  if (options.kidnap) {
+    kidnap(options);
+    return 0;
+  }
   std::vector<Counts> inside(kKinds), outside(kKinds);
   const auto begun = std::chrono::steady_clock::now();
   int done = 0;
