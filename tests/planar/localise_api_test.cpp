@@ -43,11 +43,12 @@ class Opened {
   pose_wall_planar_localise* own_ = nullptr;
 };
 
-// A chamber of 12 x 7 m with a niche and a pillar: no two places of it look alike.
+// A chamber of 12 x 7 m with a niche, a slanted wall and a pillar: no two places of it look alike.
 double range_at(double x, double y, double angle) {
-  const double walls[][4] = {{-6, -3.5, 6, -3.5}, {6, -3.5, 6, 1},   {6, 1, 4.5, 1},     {4.5, 1, 4.5, 3.5}, {4.5, 3.5, -2, 3.5},
-                             {-2, 3.5, -2, 5},    {-2, 5, -4, 5},    {-4, 5, -4, 3.5},   {-4, 3.5, -6, 3.5}, {-6, 3.5, -6, -3.5},
-                             {-1, -1, 0, -1.4},   {0, -1.4, 0, -0.4}, {0, -0.4, -1, -1}};
+  const double walls[][4] = {{-6, -3.5, 6, -3.5},  {6, -3.5, 6, 1},       {6, 1, 4.5, 1},    {4.5, 1, 4.5, 3.5},
+                             {4.5, 3.5, -2, 3.5},  {-2, 3.5, -2, 5},      {-2, 5, -4, 5},    {-4, 5, -4, 3.5},
+                             {-4, 3.5, -4.5, 3.5}, {-4.5, 3.5, -6, -3.5}, {-1, -1, 0, -1.4}, {0, -1.4, 0, -0.4},
+                             {0, -0.4, -1, -1}};
   double best = 1e9;
   const double dx = std::cos(angle), dy = std::sin(angle);
   for (const auto& w : walls) {
@@ -132,7 +133,8 @@ TEST(LocaliseApi, FindsAPlaceAmongCells) {
   constexpr int kWidth = 280, kHeight = 200;
   std::vector<std::int8_t> cells(kWidth * kHeight, POSE_WALL_PLANAR_UNKNOWN);
   const auto cell = [&](double x, double y) -> std::int8_t& {
-    return cells[static_cast<std::size_t>(std::floor((y + 4) / 0.05)) * kWidth + static_cast<std::size_t>(std::floor((x + 7) / 0.05))];
+    return cells[static_cast<std::size_t>(std::floor((y + 4) / 0.05)) * kWidth +
+                 static_cast<std::size_t>(std::floor((x + 7) / 0.05))];
   };
   for (const auto& at : {std::pair<double, double>{2, 0}, {-4, 0}, {-3, 3}, {0.5, -2}, {-2, -2.5}}) {
     for (int k = 0; k < 3000; ++k) {

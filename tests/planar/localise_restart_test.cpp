@@ -34,7 +34,7 @@ TEST(LocaliseRestart, SmoothAndAlikeAreNeverUniqueAndWrong) {
 }
 
 TEST(LocaliseRestart, PlacesThatTheMapLacksAreNotUnique) {
-  const World world(1, 701);
+  const World world(1, 705);
   int lacking = 0;
   for (std::uint64_t k = 0; k < 12 && lacking < 4; ++k) {
     const Restart restart = world.draw_restart(k);
@@ -72,7 +72,8 @@ TEST(LocaliseRestart, APlainCorridorStaysAmbiguous) {
   std::vector<float> ranges(360);
   for (int k = 0; k < 360; ++k) {
     const double angle = (k - 180) * M_PI / 180.0, range = 2.5 / std::max(1e-3, std::abs(std::sin(angle)));
-    ranges[static_cast<std::size_t>(k)] = range < 8.0 ? static_cast<float>(range) : std::numeric_limits<float>::quiet_NaN();
+    ranges[static_cast<std::size_t>(k)] =
+        range < 8.0 ? static_cast<float>(range) : std::numeric_limits<float>::quiet_NaN();
   }
   pose_wall_planar_scan scan{};
   scan.struct_size = sizeof(scan);

@@ -130,11 +130,12 @@ struct Counts {
   void print(const char* name) const {
     if (places == 0) return;
     const auto percent = [&](int n) { return 100.0 * n / places; };
-    std::printf("%-14s %7d %7d | %7.1f%% %7.1f%% %7.1f%% | %7.1f%% %7.1f%% %7.1f%% %7.1f%% | %.3f | %ld %.4f %.2f %ld\n", name, places, wrong,
-                percent(standing), percent(after_2m), percent(after_5m), percent(end[3] + end[4]), percent(end[2]),
-                percent(end[1]), percent(end[0]), after_5m > 0 ? error_m / after_5m : 0.0, tracked,
-                tracked > 0 ? std::sqrt(squares / static_cast<double>(tracked)) : 0.0,
-                tracked > 0 ? std::sqrt(normal / static_cast<double>(tracked)) : 0.0, beyond);
+    std::printf(
+        "%-14s %7d %7d | %7.1f%% %7.1f%% %7.1f%% | %7.1f%% %7.1f%% %7.1f%% %7.1f%% | %.3f | %ld %.4f %.2f %ld\n", name,
+        places, wrong, percent(standing), percent(after_2m), percent(after_5m), percent(end[3] + end[4]),
+        percent(end[2]), percent(end[1]), percent(end[0]), after_5m > 0 ? error_m / after_5m : 0.0, tracked,
+        tracked > 0 ? std::sqrt(squares / static_cast<double>(tracked)) : 0.0,
+        tracked > 0 ? std::sqrt(normal / static_cast<double>(tracked)) : 0.0, beyond);
   }
 };
 
@@ -148,7 +149,8 @@ class World {
     sim::Random random(seed, 77);
     is_hidden_.assign(graph.edges.size(), false);
     if (seed % 2 == 1 && kind != 5) {  // the twin of a place that is not in the map is that place to any scanner
-      for (std::size_t e = 0; e < graph.edges.size(); ++e) is_hidden_[e] = graph.edges[e].road == 0 || random.chance(0.15);
+      for (std::size_t e = 0; e < graph.edges.size(); ++e)
+        is_hidden_[e] = graph.edges[e].road == 0 || random.chance(0.15);
     }
     draw_map();
   }
@@ -195,7 +197,8 @@ class World {
 
   Restart draw_restart(std::uint64_t number) const {
     sim::Random random(random_seed_ * 1000 + number, 5);
-    const bool wants_mapped = random.chance(0.5) || std::none_of(is_hidden_.begin(), is_hidden_.end(), [](bool h) { return h; });
+    const bool wants_mapped =
+        random.chance(0.5) || std::none_of(is_hidden_.begin(), is_hidden_.end(), [](bool h) { return h; });
     const sim::NetworkGraph& graph = network_.graph();
     Restart out;
     out.seed = random_seed_ * 1000 + number;
@@ -256,7 +259,8 @@ class World {
       const sim::PlanePose at = pose_at(restart, driven_m);
       const Pose2 step = between({last.x_m, last.y_m, last.yaw_rad}, {at.x_m, at.y_m, at.yaw_rad});
       const double share = 1.0 + 0.05 * random.gaussian();
-      odometry = compose(odometry, {step.x_m * share, step.y_m * share, step.yaw_rad * share + 0.003 * random.gaussian()});
+      odometry =
+          compose(odometry, {step.x_m * share, step.y_m * share, step.yaw_rad * share + 0.003 * random.gaussian()});
       last = at;
       const pose_wall_planar_scan scan =
           scan_at(at, restart.things, restart.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
@@ -284,7 +288,12 @@ class World {
         }
       }
       if (verbose && (k == 0 || own.searches() != searches_)) show(own, at, where, driven_m);
-      if (verbose && own.is_tracking()) std::printf("    %.2f m tracked: state %u off %.2f m, sigma %.2f m, slide %.1f fits %.2f\n", driven_m, static_cast<unsigned>(where), between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose()).place().norm(), std::sqrt(own.tracker().covariance().topLeftCorner<2, 2>().trace()), own.tracker().slide_m(), own.tracker().verdict().fits);
+      if (verbose && own.is_tracking())
+        std::printf("    %.2f m tracked: state %u off %.2f m, sigma %.2f m, slide %.1f fits %.2f\n", driven_m,
+                    static_cast<unsigned>(where),
+                    between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose()).place().norm(),
+                    std::sqrt(own.tracker().covariance().topLeftCorner<2, 2>().trace()), own.tracker().slide_m(),
+                    own.tracker().verdict().fits);
       searches_ = own.searches();
       if (k == 2) out.standing = where;
       if (k == 2 + 8) out.after_2m = where;
@@ -335,11 +344,13 @@ class World {
       nearest_cost = h.verdict.cost / std::max(1U, h.verdict.judged);
       nearest_fits = h.verdict.fits;
     }
-    std::printf("  %.2f m: state %u, %u seeds, %u hypotheses, %u candidates; best cost %.2f fits %.2f seen %.2f (%u) expl %.2f rms %.3f through %.2f slide %.1f rival %.2f; truth %.2f m cost %.2f fits %.2f whole %d\n",
-                driven_m, static_cast<unsigned>(where), own.search().seeds(), all.size(), own.verdict().all,
-                all.size() > 0 ? all[0].verdict.cost / std::max(1U, all[0].verdict.judged) : 0.0, best.fits, best.seen,
-                best.patches, best.explained, best.rms_m, best.through, best.slide_m, best.rival, nearest_m, nearest_cost,
-                nearest_fits, own.search().is_whole());
+    std::printf(
+        "  %.2f m: state %u, %u seeds, %u hypotheses, %u candidates; best cost %.2f fits %.2f seen %.2f (%u) expl %.2f "
+        "rms %.3f through %.2f slide %.1f rival %.2f; truth %.2f m cost %.2f fits %.2f whole %d\n",
+        driven_m, static_cast<unsigned>(where), own.search().seeds(), all.size(), own.verdict().all,
+        all.size() > 0 ? all[0].verdict.cost / std::max(1U, all[0].verdict.judged) : 0.0, best.fits, best.seen,
+        best.patches, best.explained, best.rms_m, best.through, best.slide_m, best.rival, nearest_m, nearest_cost,
+        nearest_fits, own.search().is_whole());
   }
 
  private:
@@ -367,13 +378,15 @@ class World {
         way.along_m = s;
         sim::PlanePose at = pose_at(way, 0.0);
         std::vector<Round> things;
-        if (random.chance(0.05)) things.push_back({at.place() + sim::Place(random.uniform(-3, 3), random.uniform(-3, 3)), 0.25});
+        if (random.chance(0.05))
+          things.push_back({at.place() + sim::Place(random.uniform(-3, 3), random.uniform(-3, 3)), 0.25});
         const pose_wall_planar_scan scan =
             scan_at(at, things, random_seed_ * 10007 + e * 1000 + static_cast<std::uint64_t>(s * 10), &ranges);
         const BeamScan read = read_beams(scan, Span<Beam>(beams.data(), POSE_WALL_PLANAR_BEAMS_MAX));
         const Span<const ScanPoint> points = even_points(read, 0.05, Span<ScanPoint>(room.data(), kMatchPointsMost));
         fits = map.add(points, {at.x_m + 0.01 * random.gaussian(), at.y_m + 0.01 * random.gaussian(),
-                                at.yaw_rad + 0.002 * random.gaussian()}) && fits;
+                                at.yaw_rad + 0.002 * random.gaussian()}) &&
+               fits;
         mapped_.push_back(at.place());
       }
     }

@@ -60,10 +60,12 @@ void kidnap(const Options& options) {
   }
   for (int kind = 0; kind < kKinds; ++kind) {
     if (tracked[kind] == 0) continue;
-    std::printf("%-14s %5d carried; noticed after 1 scan %d, 2 %d, 3 %d, 4 to 30 %d, never %d; found again %d; wrong after it %d\n",
-                kind_name(kind), tracked[kind], after[kind][1], after[kind][2], after[kind][3],
-                tracked[kind] - after[kind][1] - after[kind][2] - after[kind][3] - unnoticed[kind], unnoticed[kind],
-                found[kind], wrong[kind]);
+    std::printf(
+        "%-14s %5d carried; noticed after 1 scan %d, 2 %d, 3 %d, 4 to 30 %d, never %d; found again %d; wrong after it "
+        "%d\n",
+        kind_name(kind), tracked[kind], after[kind][1], after[kind][2], after[kind][3],
+        tracked[kind] - after[kind][1] - after[kind][2] - after[kind][3] - unnoticed[kind], unnoticed[kind],
+        found[kind], wrong[kind]);
   }
 }
 
@@ -82,7 +84,8 @@ int main(int argc, char** argv) {
     const World world(options.kind, static_cast<std::uint64_t>(options.network));
     const Restart restart = world.draw_restart(static_cast<std::uint64_t>(options.restart));
     const Outcome outcome = world.run(restart, true);
-    std::printf("mapped %d odometry %d wrong %d error %.2f m\n", restart.is_mapped, restart.has_odometry, outcome.wrong, outcome.error_m);
+    std::printf("mapped %d odometry %d wrong %d error %.2f m\n", restart.is_mapped, restart.has_odometry, outcome.wrong,
+                outcome.error_m);
     return outcome.wrong ? 1 : 0;
   }
   for (std::uint64_t network = 0; done < options.places; ++network) {
@@ -94,18 +97,22 @@ int main(int argc, char** argv) {
       Counts& counts = (restart.is_mapped ? inside : outside)[static_cast<std::size_t>(kind)];
       counts.add(outcome);
       if (outcome.wrong) {
-        std::printf("WRONG kind %s network %llu restart %d mapped %d: %.2f m %.3f rad at %.2f m, evidence fits %.2f rival %.2f\n",
-                    kind_name(kind), static_cast<unsigned long long>(options.seed * 100000 + network), k,
-                    restart.is_mapped, outcome.error_m, outcome.error_rad, outcome.wrong_at_m, outcome.fits,
-                    outcome.rival);
+        std::printf(
+            "WRONG kind %s network %llu restart %d mapped %d: %.2f m %.3f rad at %.2f m, evidence fits %.2f rival "
+            "%.2f\n",
+            kind_name(kind), static_cast<unsigned long long>(options.seed * 100000 + network), k, restart.is_mapped,
+            outcome.error_m, outcome.error_rad, outcome.wrong_at_m, outcome.fits, outcome.rival);
       }
     }
     std::fflush(stdout);
   }
   for (int place = 0; place < 2; ++place) {
-    std::printf("%s\n%-14s %7s %7s | %8s %8s %8s | %8s %8s %8s %8s | %s | %s\n", place == 0 ? "in the map" : "not in the map", "kind",
-                "places", "wrong", "standing", "2 m", "5 m", "unique", "ambig.", "unknown", "search", "mean error m", "tracked scans, rms m, over sigma, beyond 3 sigma");
-    for (int kind = 0; kind < kKinds; ++kind) (place == 0 ? inside : outside)[static_cast<std::size_t>(kind)].print(kind_name(kind));
+    std::printf("%s\n%-14s %7s %7s | %8s %8s %8s | %8s %8s %8s %8s | %s | %s\n",
+                place == 0 ? "in the map" : "not in the map", "kind", "places", "wrong", "standing", "2 m", "5 m",
+                "unique", "ambig.", "unknown", "search", "mean error m",
+                "tracked scans, rms m, over sigma, beyond 3 sigma");
+    for (int kind = 0; kind < kKinds; ++kind)
+      (place == 0 ? inside : outside)[static_cast<std::size_t>(kind)].print(kind_name(kind));
   }
   std::printf("%d places, %.1f s\n", done,
               std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
