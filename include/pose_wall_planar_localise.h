@@ -50,7 +50,7 @@ typedef struct pose_wall_planar_localise pose_wall_planar_localise;
 
 typedef struct pose_wall_planar_localise_settings {
   uint32_t struct_size; /* sizeof(pose_wall_planar_localise_settings) */
-  uint32_t tiles_most; /* 1024: tiles of 6.4 m that the map may have; 16 to 16384. A kilometre of road takes some 400 */
+  uint32_t tiles_most; /* 1024: tiles of 6.4 m that the map may have; 16 to 16384. A kilometre of road takes some 300 */
   uint32_t work;       /* 40000: steps of search in a call; 1000 to 1000000000 */
   uint32_t reserved;   /* 0 */
   double odometry_m;   /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
@@ -67,7 +67,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_settings_check(const pose_wa
 
 /* ---------------------------------------------------------------------------------------------- life */
 
-/* Bytes of the block: some 36 kB a tile, and 9 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
+/* Bytes of the block: some 31 kB a tile, and 10 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
  * refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,
                                                                   uint64_t* bytes);

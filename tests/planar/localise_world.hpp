@@ -12,9 +12,11 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "planar/localise/localiser.hpp"
+#include "planar/slam/slam.hpp"
 #include "sim/drive_route.hpp"
 #include "sim/network.hpp"
 #include "sim/network_scan.hpp"
@@ -141,8 +143,9 @@ struct Counts {
 
 class World {
  public:
-  World(int kind, std::uint64_t seed)
-      : random_seed_(seed), network_(plan_of(kind, lengths(seed)), seed), localiser_(settings()) {
+  World(int kind, std::uint64_t seed) : World(kind, seed, lengths(seed), 768) {}
+  World(int kind, std::uint64_t seed, double length_m, std::uint32_t tiles_most, bool by_slam = false)
+      : random_seed_(seed), network_(plan_of(kind, length_m), seed), localiser_(settings(tiles_most)) {
     sensor_.noise_m = 0.015;
     // In every second network one of the roads is not in the map.
     const sim::NetworkGraph& graph = network_.graph();
@@ -152,12 +155,12 @@ class World {
       for (std::size_t e = 0; e < graph.edges.size(); ++e)
         is_hidden_[e] = graph.edges[e].road == 0 || random.chance(0.15);
     }
-    draw_map();
+    by_slam ? draw_map_by_slam() : draw_map();
   }
 
-  static LocaliseSettings settings() {
+  static LocaliseSettings settings(std::uint32_t tiles_most) {
     LocaliseSettings out;
-    out.tiles_most = 768;
+    out.tiles_most = tiles_most;
     out.work = 1u << 30;
     return out;
   }
@@ -165,6 +168,7 @@ class World {
 
   const sim::Network& network() const { return network_; }
   Localiser& localiser() const { return *localiser_; }
+  std::uint64_t bytes() const { return localiser_.bytes(); }
 
   sim::PlanePose pose_at(const Restart& restart, double driven_m) const {
     const sim::NetworkEdge& edge = network_.graph().edges[restart.edge];
@@ -266,7 +270,7 @@ class World {
           scan_at(at, restart.things, restart.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
       const Where where = own.process(read_beams(scan, own.beams()), restart.has_odometry ? &odometry : nullptr);
       if (own.is_tracking() && restart.is_mapped) {
-        const Pose2 apart = between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose());
+        const Pose2 apart = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
         const double variance = own.tracker().covariance()(0, 0) + own.tracker().covariance()(1, 1);
         const double error2 = apart.place().squaredNorm();
         ++out.tracked;
@@ -275,7 +279,7 @@ class World {
         out.normal += error2 / variance;
       }
       if (where == Where::unique) {
-        const Pose2 off = between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose());
+        const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
         out.error_m = off.place().norm();
         out.error_rad = std::abs(off.yaw_rad);
         const bool wrong = !(out.error_m < 0.5 && out.error_rad < 0.1);
@@ -291,7 +295,7 @@ class World {
       if (verbose && own.is_tracking())
         std::printf("    %.2f m tracked: state %u off %.2f m, sigma %.2f m, slide %.1f fits %.2f\n", driven_m,
                     static_cast<unsigned>(where),
-                    between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose()).place().norm(),
+                    between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose()).place().norm(),
                     std::sqrt(own.tracker().covariance().topLeftCorner<2, 2>().trace()), own.tracker().slide_m(),
                     own.tracker().verdict().fits);
       searches_ = own.searches();
@@ -322,7 +326,7 @@ class World {
       last = at;
       const pose_wall_planar_scan scan = scan_at(at, to.things, to.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
       const Where where = own.process(read_beams(scan, own.beams()), to.has_odometry ? &odometry : nullptr);
-      const Pose2 off = between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose());
+      const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
       const bool is_right = off.place().norm() < 0.5 && std::abs(off.yaw_rad) < 0.1;
       if (!out.noticed) ++out.scans;
       out.noticed = out.noticed || where != Where::unique || is_right;
@@ -394,7 +398,57 @@ class World {
     if (!fits) std::printf("the map does not hold all of the network: %u tiles\n", map.tiles());
   }
 
+  // By SLAM on a drive through all of the network with odometry that slips.
+  void draw_map_by_slam() {
+    is_hidden_.assign(is_hidden_.size(), false);
+    const sim::Route route = network_.graph().tour(0, 1.3 * network_.graph().length_m, random_seed_);
+    sim::RunSettings run_settings;
+    run_settings.sensor = sensor_;
+    const sim::NetworkRun run = sim::drive(network_, route, run_settings, random_seed_);
+    SlamSettings slam_settings;
+    slam_settings.keyframes_most = 8192;
+    Slam slam;
+    Arena measure(nullptr);
+    slam.lay_out(measure, slam_settings);
+    std::unique_ptr<unsigned char, decltype(&std::free)> block(
+        static_cast<unsigned char*>(std::aligned_alloc(64, (measure.bytes() + 63) / 64 * 64)), &std::free);
+    Arena arena(block.get());
+    slam.lay_out(arena, slam_settings);
+    slam.open(slam_settings);
+    std::vector<Pose2> truths;
+    for (std::size_t i = 0; i < run.scans(); ++i) {
+      pose_wall_planar_scan scan{};
+      std::vector<float> unused;
+      scan = scan_at(run.at_scan(i).truth, {}, 1, &unused);
+      scan.range_m = run.ranges_of(i);
+      const sim::PlanePose& odometry = run.at_scan(i).odometry;
+      const Pose2 given{odometry.x_m, odometry.y_m, odometry.yaw_rad};
+      const SlamStep step = slam.process(read_beams(scan, localiser_->beams()), &given);
+      const sim::PlanePose& truth = run.at_scan(i).truth;
+      if (step.is_keyframe) truths.push_back({truth.x_m, truth.y_m, truth.yaw_rad});
+    }
+    slam.settle();
+    for (std::uint32_t k = 0; k < slam.trail().size(); ++k) {
+      localiser_->map().add(slam.trail().points(k), slam.trail().pose(k));
+      mapped_.push_back({truths[k].x_m, truths[k].y_m});
+      in_map_.push_back({truths[k], slam.trail().pose(k)});
+    }
+    localiser_->map().finish();
+  }
+
+  // Where the map has a true pose: by the nearest keyframe that looked from there.
+  Pose2 in_map(const Pose2& truth) const {
+    if (in_map_.empty()) return truth;
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < in_map_.size(); ++k) {
+      const auto apart = [&](std::size_t i) { return (in_map_[i].first.place() - truth.place()).squaredNorm(); };
+      if (apart(k) < apart(nearest)) nearest = k;
+    }
+    return compose(in_map_[nearest].second, between(in_map_[nearest].first, truth));
+  }
+
   std::uint64_t random_seed_;
+  std::vector<std::pair<Pose2, Pose2>> in_map_;  // of keyframes: true, and as SLAM has them
   sim::Network network_;
   sim::PlanarSensor sensor_;
   mutable OpenedLocaliser localiser_;

@@ -4,10 +4,12 @@
 // Restarts in simulated networks of roads: how often is the place unique, ambiguous or unknown, and is unique right?
 // usage: pose_wall_planar_localise_trial [--places N] [--seed S] [--kind K] [--per-network N] [--verbose]
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -15,12 +17,13 @@
 
 namespace {
 
+using namespace pose_wall::planar;
 using namespace pose_wall::planar::test;
 
 struct Options {
   int places = 200, per_network = 25, kind = -1, network = -1, restart = -1;
   std::uint64_t seed = 1;
-  bool verbose = false, kidnap = false;
+  bool verbose = false, kidnap = false, cost = false, slam = false;
 };
 
 Options options_of(int argc, char** argv) {
@@ -34,10 +37,60 @@ Options options_of(int argc, char** argv) {
     if (name == "--per-network") out.per_network = std::atoi(value);
     if (name == "--network") out.network = std::atoi(value);  // this one alone, and one restart in it
     if (name == "--restart") out.restart = std::atoi(value);
+    if (name == "--cost") out.cost = true;
+    if (name == "--slam") out.slam = true;
     if (name == "--kidnap") out.kidnap = true;
     if (name == "--verbose") out.verbose = true;
   }
   return out;
+}
+
+double processor_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Processor time of calls with the default share of work, in a kilometre of roads.
+void cost(const Options& options) {
+  const double begun = processor_s();
+  const World world(std::max(0, options.kind), 2 * options.seed, 1000.0, 1024);
+  std::printf("map of a kilometre: %u tiles, %u surfaces, block %.1f MB, made in %.2f s with its scans\n",
+              world.localiser().map().tiles(), world.localiser().map().surfaces(),
+              static_cast<double>(world.bytes()) * 1e-6, processor_s() - begun);
+  Localiser& own = world.localiser();
+  own.set_work(LocaliseSettings().work);
+  std::vector<double> searching_ms, tracking_ms;
+  std::vector<float> ranges;
+  int calls = 0, restarts = 0;
+  for (; restarts < options.places; ++restarts) {
+    const Restart restart = world.draw_restart(static_cast<std::uint64_t>(restarts));
+    own.forget();
+    for (int k = 0, tracked = 0; k < 600 && tracked < 20; ++k) {
+      const auto at = world.pose_at(restart, std::min(5.0, 0.05 * k));
+      const pose_wall_planar_scan scan =
+          world.scan_at(at, restart.things, restart.seed * 1000 + static_cast<std::uint64_t>(k), &ranges);
+      const BeamScan read = read_beams(scan, own.beams());
+      const bool was_tracking = own.is_tracking();
+      const double start = processor_s();
+      own.process(read, nullptr);
+      (was_tracking ? tracking_ms : searching_ms).push_back(1e3 * (processor_s() - start));
+      tracked += was_tracking ? 1 : 0;
+      calls += was_tracking ? 0 : 1;
+    }
+  }
+  const auto show = [](const char* name, std::vector<double> ms) {
+    if (ms.empty()) return;
+    std::sort(ms.begin(), ms.end());
+    double sum = 0.0;
+    for (const double one : ms) sum += one;
+    std::printf("%s: %zu calls, mean %.2f ms, median %.2f, 99 %% %.2f, worst %.2f\n", name, ms.size(),
+                sum / static_cast<double>(ms.size()), ms[ms.size() / 2], ms[ms.size() * 99 / 100], ms.back());
+  };
+  std::printf("%d restarts, %.1f calls each until a place is tracked\n", restarts,
+              static_cast<double>(calls) / restarts);
+  show("searching", searching_ms);
+  show("tracking", tracking_ms);
 }
 
 // Carried from place to place: after how many scans is it noticed?
@@ -73,6 +126,10 @@ void kidnap(const Options& options) {
 
 int main(int argc, char** argv) {
   const Options options = options_of(argc, argv);
+  if (options.cost) {
+    cost(options);
+    return 0;
+  }
   if (options.kidnap) {
     kidnap(options);
     return 0;
@@ -90,7 +147,8 @@ int main(int argc, char** argv) {
   }
   for (std::uint64_t network = 0; done < options.places; ++network) {
     const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
-    const World world(kind, options.seed * 100000 + network);
+    const std::uint64_t seed = options.seed * 100000 + network;
+    const World world(kind, seed, World::lengths(seed), 768, options.slam);
     for (int k = 0; k < options.per_network && done < options.places; ++k, ++done) {
       const Restart restart = world.draw_restart(static_cast<std::uint64_t>(k));
       const Outcome outcome = world.run(restart, options.verbose);
