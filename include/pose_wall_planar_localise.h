@@ -50,11 +50,11 @@ typedef struct pose_wall_planar_localise pose_wall_planar_localise;
 
 typedef struct pose_wall_planar_localise_settings {
   uint32_t struct_size; /* sizeof(pose_wall_planar_localise_settings) */
-  uint32_t tiles_most;  /* 1024: tiles of 6.4 m that the map may have; 16 to 16384. A kilometre of road takes some 400 */
-  uint32_t work;        /* 40000: steps of search in a call; 1000 to 1000000000 */
-  uint32_t reserved;    /* 0 */
-  double odometry_m;    /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
-  double odometry_rad;  /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
+  uint32_t tiles_most; /* 1024: tiles of 6.4 m that the map may have; 16 to 16384. A kilometre of road takes some 300 */
+  uint32_t work;       /* 40000: steps of search in a call; 1000 to 1000000000 */
+  uint32_t reserved;   /* 0 */
+  double odometry_m;   /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
+  double odometry_rad; /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
 } pose_wall_planar_localise_settings;
 
 /* The defaults. Fails iff: NULL. */
@@ -67,7 +67,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_settings_check(const pose_wa
 
 /* ---------------------------------------------------------------------------------------------- life */
 
-/* Bytes of the block: some 36 kB a tile, and 9 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
+/* Bytes of the block: some 31 kB a tile, and 10 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
  * refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,
                                                                   uint64_t* bytes);
@@ -89,15 +89,15 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_clear(pose_wall_planar_local
 /* A keyframe of a trail: what was seen from where, as pose_wall_planar_slam_keyframe and pose_wall_planar_slam_points
  * give it. xy_m holds x, y, x, y ... of the surface points in base. The map's square of 4 km has the first keyframe in
  * its middle. Fails iff: POSE_WALL_E_POSE (not finite, or beyond 1e6 m), POSE_WALL_E_SCAN (points not finite or beyond
- * 2000 m; more than 6284), POSE_WALL_E_BLOCK_SMALL (more than tiles_most, or outside the square: the map lacks a part of
- * the keyframe), POSE_WALL_E_ORDER (the map is finished). */
+ * 2000 m; more than 6284), POSE_WALL_E_BLOCK_SMALL (more than tiles_most, or outside the square: the map lacks a part
+ * of the keyframe), POSE_WALL_E_ORDER (the map is finished). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_add(pose_wall_planar_localise* localise,
                                                         const pose_wall_planar_pose* pose, const float* xy_m,
                                                         uint32_t points);
 
 /* Cells of a grid, as pose_wall_planar_map or a PGM file has them: 65 per cent and more are a surface, 35 and less are
- * free. Cells of 5 cm hold less of the rock's relief than a trail does. Fails as pose_wall_planar_localise_add does, and
- * with POSE_WALL_E_GRID. */
+ * free. Cells of 5 cm hold less of the rock's relief than a trail does. Fails as pose_wall_planar_localise_add does,
+ * and with POSE_WALL_E_GRID. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_localise* localise,
                                                              const pose_wall_planar_grid* grid);
 
@@ -109,7 +109,8 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_finish(pose_wall_planar_loca
 
 enum pose_wall_planar_localise_state {
   POSE_WALL_PLANAR_LOCALISE_SEARCHING = 0, /* no search has ended since the restart, or since the place was lost */
-  POSE_WALL_PLANAR_LOCALISE_UNKNOWN = 1,   /* no place of the map fits: the machine stands elsewhere, or sees too little */
+  POSE_WALL_PLANAR_LOCALISE_UNKNOWN =
+      1, /* no place of the map fits: the machine stands elsewhere, or sees too little */
   POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS = 2, /* several places fit, or one that is not certain: see the candidates */
   POSE_WALL_PLANAR_LOCALISE_UNIQUE = 3,    /* one place; it is tracked, and the last scan agrees */
   POSE_WALL_PLANAR_LOCALISE_DOUBTFUL = 4   /* tracked, but the last scan does not say that it is right */
@@ -118,21 +119,21 @@ enum pose_wall_planar_localise_state {
 const char* pose_wall_planar_localise_state_name(uint32_t state);
 
 typedef struct pose_wall_planar_localise_result {
-  uint32_t struct_size; /* sizeof(pose_wall_planar_localise_result): set it before the call */
-  uint32_t state;       /* pose_wall_planar_localise_state */
-  int64_t stamp_ns;     /* the scan's */
+  uint32_t struct_size;       /* sizeof(pose_wall_planar_localise_result): set it before the call */
+  uint32_t state;             /* pose_wall_planar_localise_state */
+  int64_t stamp_ns;           /* the scan's */
   pose_wall_planar_pose pose; /* of base in map: UNIQUE and DOUBTFUL. NaN otherwise */
-  double covariance[9]; /* of x, y, yaw in the axes of map; row by row. NaN without a pose */
-  double fits;          /* share of the patches in seen parts of the map that fit at the level of noise; NaN: none */
-  double explained;     /* share of the points there that lie on surfaces; NaN: none */
-  double misfit_m;      /* root mean square of these points' distances from the surfaces; NaN: none */
-  double slide_m;       /* how far the pose may slide along the road by what is seen; 0: not at all; NaN: none */
-  double rival;         /* of the last search: standard errors by which the next best place fits worse; NaN: none */
-  double progress;      /* of the present search, 0 to 1 */
-  uint32_t candidates;  /* of the last search, that can be asked for; 0 while a place is tracked */
+  double covariance[9];       /* of x, y, yaw in the axes of map; row by row. NaN without a pose */
+  double fits;             /* share of the patches in seen parts of the map that fit at the level of noise; NaN: none */
+  double explained;        /* share of the points there that lie on surfaces; NaN: none */
+  double misfit_m;         /* root mean square of these points' distances from the surfaces; NaN: none */
+  double slide_m;          /* how far the pose may slide along the road by what is seen; 0: not at all; NaN: none */
+  double rival;            /* of the last search: standard errors by which the next best place fits worse; NaN: none */
+  double progress;         /* of the present search, 0 to 1 */
+  uint32_t candidates;     /* of the last search, that can be asked for; 0 while a place is tracked */
   uint32_t candidates_all; /* also those beyond 32 */
-  uint32_t searches;    /* that have ended */
-  uint32_t lost;        /* times that a place was lost */
+  uint32_t searches;       /* that have ended */
+  uint32_t lost;           /* times that a place was lost */
 } pose_wall_planar_localise_result;
 
 /* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_E_SCAN, POSE_WALL_E_POSE (odometry not finite or
@@ -143,21 +144,21 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_process(pose_wall_planar_loc
                                                             pose_wall_planar_localise_result* result);
 
 typedef struct pose_wall_planar_candidate {
-  uint32_t struct_size; /* sizeof(pose_wall_planar_candidate): set it before the call */
-  uint32_t reserved;    /* 0 */
+  uint32_t struct_size;       /* sizeof(pose_wall_planar_candidate): set it before the call */
+  uint32_t reserved;          /* 0 */
   pose_wall_planar_pose pose; /* of base in map, now */
-  double weight;        /* of all candidates together 1 */
-  double worse_by;      /* standard errors by which it fits worse than the best: 0 to 4 */
-  double fits;          /* share of the patches that fit */
-  double spread_m;      /* places this far along the road count as the same candidate */
+  double weight;              /* of all candidates together 1 */
+  double worse_by;            /* standard errors by which it fits worse than the best: 0 to 4 */
+  double fits;                /* share of the patches that fit */
+  double spread_m;            /* places this far along the road count as the same candidate */
 } pose_wall_planar_candidate;
 
 /* A place that the last search did not exclude, the best first. Fails iff: struct_size, POSE_WALL_E_INDEX. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_candidate(const pose_wall_planar_localise* localise,
                                                               uint32_t number, pose_wall_planar_candidate* candidate);
 
-/* Somebody knows where base stands: it is tracked from there, DOUBTFUL until a scan agrees. Fails iff: POSE_WALL_E_POSE,
- * POSE_WALL_E_VALUE_RANGE (sigma_m not from 0.001 to 1, sigma_rad not from 0.001 to 0.5). */
+/* Somebody knows where base stands: it is tracked from there, DOUBTFUL until a scan agrees. Fails iff:
+ * POSE_WALL_E_POSE, POSE_WALL_E_VALUE_RANGE (sigma_m not from 0.001 to 1, sigma_rad not from 0.001 to 0.5). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_place(pose_wall_planar_localise* localise,
                                                           const pose_wall_planar_pose* base, double sigma_m,
                                                           double sigma_rad);

@@ -12,9 +12,11 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "planar/localise/localiser.hpp"
+#include "planar/slam/slam.hpp"
 #include "sim/drive_route.hpp"
 #include "sim/network.hpp"
 #include "sim/network_scan.hpp"
@@ -130,32 +132,35 @@ struct Counts {
   void print(const char* name) const {
     if (places == 0) return;
     const auto percent = [&](int n) { return 100.0 * n / places; };
-    std::printf("%-14s %7d %7d | %7.1f%% %7.1f%% %7.1f%% | %7.1f%% %7.1f%% %7.1f%% %7.1f%% | %.3f | %ld %.4f %.2f %ld\n", name, places, wrong,
-                percent(standing), percent(after_2m), percent(after_5m), percent(end[3] + end[4]), percent(end[2]),
-                percent(end[1]), percent(end[0]), after_5m > 0 ? error_m / after_5m : 0.0, tracked,
-                tracked > 0 ? std::sqrt(squares / static_cast<double>(tracked)) : 0.0,
-                tracked > 0 ? std::sqrt(normal / static_cast<double>(tracked)) : 0.0, beyond);
+    std::printf(
+        "%-14s %7d %7d | %7.1f%% %7.1f%% %7.1f%% | %7.1f%% %7.1f%% %7.1f%% %7.1f%% | %.3f | %ld %.4f %.2f %ld\n", name,
+        places, wrong, percent(standing), percent(after_2m), percent(after_5m), percent(end[3] + end[4]),
+        percent(end[2]), percent(end[1]), percent(end[0]), after_5m > 0 ? error_m / after_5m : 0.0, tracked,
+        tracked > 0 ? std::sqrt(squares / static_cast<double>(tracked)) : 0.0,
+        tracked > 0 ? std::sqrt(normal / static_cast<double>(tracked)) : 0.0, beyond);
   }
 };
 
 class World {
  public:
-  World(int kind, std::uint64_t seed)
-      : random_seed_(seed), network_(plan_of(kind, lengths(seed)), seed), localiser_(settings()) {
+  World(int kind, std::uint64_t seed) : World(kind, seed, lengths(seed), 768) {}
+  World(int kind, std::uint64_t seed, double length_m, std::uint32_t tiles_most, bool by_slam = false)
+      : random_seed_(seed), network_(plan_of(kind, length_m), seed), localiser_(settings(tiles_most)) {
     sensor_.noise_m = 0.015;
     // In every second network one of the roads is not in the map.
     const sim::NetworkGraph& graph = network_.graph();
     sim::Random random(seed, 77);
     is_hidden_.assign(graph.edges.size(), false);
     if (seed % 2 == 1 && kind != 5) {  // the twin of a place that is not in the map is that place to any scanner
-      for (std::size_t e = 0; e < graph.edges.size(); ++e) is_hidden_[e] = graph.edges[e].road == 0 || random.chance(0.15);
+      for (std::size_t e = 0; e < graph.edges.size(); ++e)
+        is_hidden_[e] = graph.edges[e].road == 0 || random.chance(0.15);
     }
-    draw_map();
+    by_slam ? draw_map_by_slam() : draw_map();
   }
 
-  static LocaliseSettings settings() {
+  static LocaliseSettings settings(std::uint32_t tiles_most) {
     LocaliseSettings out;
-    out.tiles_most = 768;
+    out.tiles_most = tiles_most;
     out.work = 1u << 30;
     return out;
   }
@@ -163,6 +168,7 @@ class World {
 
   const sim::Network& network() const { return network_; }
   Localiser& localiser() const { return *localiser_; }
+  std::uint64_t bytes() const { return localiser_.bytes(); }
 
   sim::PlanePose pose_at(const Restart& restart, double driven_m) const {
     const sim::NetworkEdge& edge = network_.graph().edges[restart.edge];
@@ -195,7 +201,8 @@ class World {
 
   Restart draw_restart(std::uint64_t number) const {
     sim::Random random(random_seed_ * 1000 + number, 5);
-    const bool wants_mapped = random.chance(0.5) || std::none_of(is_hidden_.begin(), is_hidden_.end(), [](bool h) { return h; });
+    const bool wants_mapped =
+        random.chance(0.5) || std::none_of(is_hidden_.begin(), is_hidden_.end(), [](bool h) { return h; });
     const sim::NetworkGraph& graph = network_.graph();
     Restart out;
     out.seed = random_seed_ * 1000 + number;
@@ -256,13 +263,14 @@ class World {
       const sim::PlanePose at = pose_at(restart, driven_m);
       const Pose2 step = between({last.x_m, last.y_m, last.yaw_rad}, {at.x_m, at.y_m, at.yaw_rad});
       const double share = 1.0 + 0.05 * random.gaussian();
-      odometry = compose(odometry, {step.x_m * share, step.y_m * share, step.yaw_rad * share + 0.003 * random.gaussian()});
+      odometry =
+          compose(odometry, {step.x_m * share, step.y_m * share, step.yaw_rad * share + 0.003 * random.gaussian()});
       last = at;
       const pose_wall_planar_scan scan =
           scan_at(at, restart.things, restart.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
       const Where where = own.process(read_beams(scan, own.beams()), restart.has_odometry ? &odometry : nullptr);
       if (own.is_tracking() && restart.is_mapped) {
-        const Pose2 apart = between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose());
+        const Pose2 apart = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
         const double variance = own.tracker().covariance()(0, 0) + own.tracker().covariance()(1, 1);
         const double error2 = apart.place().squaredNorm();
         ++out.tracked;
@@ -271,7 +279,7 @@ class World {
         out.normal += error2 / variance;
       }
       if (where == Where::unique) {
-        const Pose2 off = between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose());
+        const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
         out.error_m = off.place().norm();
         out.error_rad = std::abs(off.yaw_rad);
         const bool wrong = !(out.error_m < 0.5 && out.error_rad < 0.1);
@@ -284,11 +292,46 @@ class World {
         }
       }
       if (verbose && (k == 0 || own.searches() != searches_)) show(own, at, where, driven_m);
-      if (verbose && own.is_tracking()) std::printf("    %.2f m tracked: state %u off %.2f m, sigma %.2f m, slide %.1f fits %.2f\n", driven_m, static_cast<unsigned>(where), between({at.x_m, at.y_m, at.yaw_rad}, own.tracker().pose()).place().norm(), std::sqrt(own.tracker().covariance().topLeftCorner<2, 2>().trace()), own.tracker().slide_m(), own.tracker().verdict().fits);
+      if (verbose && own.is_tracking())
+        std::printf("    %.2f m tracked: state %u off %.2f m, sigma %.2f m, slide %.1f fits %.2f\n", driven_m,
+                    static_cast<unsigned>(where),
+                    between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose()).place().norm(),
+                    std::sqrt(own.tracker().covariance().topLeftCorner<2, 2>().trace()), own.tracker().slide_m(),
+                    own.tracker().verdict().fits);
       searches_ = own.searches();
       if (k == 2) out.standing = where;
       if (k == 2 + 8) out.after_2m = where;
       if (k == 2 + 20) out.after_5m = where;
+    }
+    return out;
+  }
+
+  struct Kidnapping {
+    bool was_tracked = false, noticed = false, found = false, wrong = false;
+    int scans = 0;  // until it was noticed
+  };
+  // Tracked at one place, then carried to another while nobody looks; there it stands for ten scans and drives 5 m.
+  Kidnapping kidnap(const Restart& from, const Restart& to) const {
+    Localiser& own = *localiser_;
+    Kidnapping out;
+    const Outcome before = run(from, false);
+    if (before.wrong || before.after_5m != Where::unique) return out;
+    out.was_tracked = true;
+    std::vector<float> ranges;
+    Pose2 odometry;
+    sim::PlanePose last = pose_at(to, 0.0);
+    for (int k = 0; k < 10 + 20; ++k) {
+      const sim::PlanePose at = pose_at(to, k < 10 ? 0.0 : 0.25 * (k - 9));
+      odometry = compose(odometry, between({last.x_m, last.y_m, last.yaw_rad}, {at.x_m, at.y_m, at.yaw_rad}));
+      last = at;
+      const pose_wall_planar_scan scan = scan_at(at, to.things, to.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
+      const Where where = own.process(read_beams(scan, own.beams()), to.has_odometry ? &odometry : nullptr);
+      const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
+      const bool is_right = off.place().norm() < 0.5 && std::abs(off.yaw_rad) < 0.1;
+      if (!out.noticed) ++out.scans;
+      out.noticed = out.noticed || where != Where::unique || is_right;
+      out.found = where == Where::unique && is_right;
+      out.wrong = out.wrong || (out.noticed && where == Where::unique && !is_right);
     }
     return out;
   }
@@ -305,11 +348,13 @@ class World {
       nearest_cost = h.verdict.cost / std::max(1U, h.verdict.judged);
       nearest_fits = h.verdict.fits;
     }
-    std::printf("  %.2f m: state %u, %u seeds, %u hypotheses, %u candidates; best cost %.2f fits %.2f seen %.2f (%u) expl %.2f rms %.3f through %.2f slide %.1f rival %.2f; truth %.2f m cost %.2f fits %.2f whole %d\n",
-                driven_m, static_cast<unsigned>(where), own.search().seeds(), all.size(), own.verdict().all,
-                all.size() > 0 ? all[0].verdict.cost / std::max(1U, all[0].verdict.judged) : 0.0, best.fits, best.seen,
-                best.patches, best.explained, best.rms_m, best.through, best.slide_m, best.rival, nearest_m, nearest_cost,
-                nearest_fits, own.search().is_whole());
+    std::printf(
+        "  %.2f m: state %u, %u seeds, %u hypotheses, %u candidates; best cost %.2f fits %.2f seen %.2f (%u) expl %.2f "
+        "rms %.3f through %.2f slide %.1f rival %.2f; truth %.2f m cost %.2f fits %.2f whole %d\n",
+        driven_m, static_cast<unsigned>(where), own.search().seeds(), all.size(), own.verdict().all,
+        all.size() > 0 ? all[0].verdict.cost / std::max(1U, all[0].verdict.judged) : 0.0, best.fits, best.seen,
+        best.patches, best.explained, best.rms_m, best.through, best.slide_m, best.rival, nearest_m, nearest_cost,
+        nearest_fits, own.search().is_whole());
   }
 
  private:
@@ -337,13 +382,15 @@ class World {
         way.along_m = s;
         sim::PlanePose at = pose_at(way, 0.0);
         std::vector<Round> things;
-        if (random.chance(0.05)) things.push_back({at.place() + sim::Place(random.uniform(-3, 3), random.uniform(-3, 3)), 0.25});
+        if (random.chance(0.05))
+          things.push_back({at.place() + sim::Place(random.uniform(-3, 3), random.uniform(-3, 3)), 0.25});
         const pose_wall_planar_scan scan =
             scan_at(at, things, random_seed_ * 10007 + e * 1000 + static_cast<std::uint64_t>(s * 10), &ranges);
         const BeamScan read = read_beams(scan, Span<Beam>(beams.data(), POSE_WALL_PLANAR_BEAMS_MAX));
         const Span<const ScanPoint> points = even_points(read, 0.05, Span<ScanPoint>(room.data(), kMatchPointsMost));
         fits = map.add(points, {at.x_m + 0.01 * random.gaussian(), at.y_m + 0.01 * random.gaussian(),
-                                at.yaw_rad + 0.002 * random.gaussian()}) && fits;
+                                at.yaw_rad + 0.002 * random.gaussian()}) &&
+               fits;
         mapped_.push_back(at.place());
       }
     }
@@ -351,7 +398,57 @@ class World {
     if (!fits) std::printf("the map does not hold all of the network: %u tiles\n", map.tiles());
   }
 
+  // By SLAM on a drive through all of the network with odometry that slips.
+  void draw_map_by_slam() {
+    is_hidden_.assign(is_hidden_.size(), false);
+    const sim::Route route = network_.graph().tour(0, 1.3 * network_.graph().length_m, random_seed_);
+    sim::RunSettings run_settings;
+    run_settings.sensor = sensor_;
+    const sim::NetworkRun run = sim::drive(network_, route, run_settings, random_seed_);
+    SlamSettings slam_settings;
+    slam_settings.keyframes_most = 8192;
+    Slam slam;
+    Arena measure(nullptr);
+    slam.lay_out(measure, slam_settings);
+    std::unique_ptr<unsigned char, decltype(&std::free)> block(
+        static_cast<unsigned char*>(std::aligned_alloc(64, (measure.bytes() + 63) / 64 * 64)), &std::free);
+    Arena arena(block.get());
+    slam.lay_out(arena, slam_settings);
+    slam.open(slam_settings);
+    std::vector<Pose2> truths;
+    for (std::size_t i = 0; i < run.scans(); ++i) {
+      pose_wall_planar_scan scan{};
+      std::vector<float> unused;
+      scan = scan_at(run.at_scan(i).truth, {}, 1, &unused);
+      scan.range_m = run.ranges_of(i);
+      const sim::PlanePose& odometry = run.at_scan(i).odometry;
+      const Pose2 given{odometry.x_m, odometry.y_m, odometry.yaw_rad};
+      const SlamStep step = slam.process(read_beams(scan, localiser_->beams()), &given);
+      const sim::PlanePose& truth = run.at_scan(i).truth;
+      if (step.is_keyframe) truths.push_back({truth.x_m, truth.y_m, truth.yaw_rad});
+    }
+    slam.settle();
+    for (std::uint32_t k = 0; k < slam.trail().size(); ++k) {
+      localiser_->map().add(slam.trail().points(k), slam.trail().pose(k));
+      mapped_.push_back({truths[k].x_m, truths[k].y_m});
+      in_map_.push_back({truths[k], slam.trail().pose(k)});
+    }
+    localiser_->map().finish();
+  }
+
+  // Where the map has a true pose: by the nearest keyframe that looked from there.
+  Pose2 in_map(const Pose2& truth) const {
+    if (in_map_.empty()) return truth;
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < in_map_.size(); ++k) {
+      const auto apart = [&](std::size_t i) { return (in_map_[i].first.place() - truth.place()).squaredNorm(); };
+      if (apart(k) < apart(nearest)) nearest = k;
+    }
+    return compose(in_map_[nearest].second, between(in_map_[nearest].first, truth));
+  }
+
   std::uint64_t random_seed_;
+  std::vector<std::pair<Pose2, Pose2>> in_map_;  // of keyframes: true, and as SLAM has them
   sim::Network network_;
   sim::PlanarSensor sensor_;
   mutable OpenedLocaliser localiser_;

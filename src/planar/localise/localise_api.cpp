@@ -280,8 +280,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
   });
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_planar_localise* localise,
-                                                             uint32_t number, pose_wall_planar_candidate* candidate) {
+POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_planar_localise* localise, uint32_t number,
+                                                             pose_wall_planar_candidate* candidate) {
   if (candidate == nullptr) return POSE_WALL_E_NULL;
   if (candidate->struct_size != sizeof(*candidate)) return POSE_WALL_E_STRUCT_SIZE;
   return inside(localise, [&](const Body& body) {

@@ -29,6 +29,7 @@ class Localiser {
   PlaceMap& map() { return map_; }
   const PlaceMap& map() const { return map_; }
   Span<Beam> beams() const { return beams_; }
+  void set_work(std::uint32_t work) { settings_.work = work; }
 
   Where process(const BeamScan& scan, const Pose2* odometry);
   // Base stands here, as somebody says; scans can contradict.

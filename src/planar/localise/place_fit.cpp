@@ -211,8 +211,9 @@ double worse_by(const Look& look, const PatchCosts& best, const PatchCosts& othe
 }
 
 double seen_through(const PlaceMap& map, const Look& look, const Pose2& pose) {
-  constexpr double kStep_m = 0.1, kBefore_m = 0.5, kBefore = 0.05;  // of the range: a wall met at a low angle
-  constexpr std::uint32_t kStepsMost = 400, kHitsLeast = 2;
+  constexpr double kStep_m = 0.5 * PlaceMap::kCell_m, kBefore_m = 0.5,
+                   kBefore = 0.05;  // of the range: a wall met at a low angle
+  constexpr std::uint32_t kStepsMost = 600, kFirst = 6, kHitsLeast = 2;
   std::uint32_t through = 0;
   const Turn2 turn(pose.yaw_rad);
   const Eigen::Vector2d place = turn * as_double(look.sight_from) + pose.place() - map.middle_m();
@@ -223,7 +224,7 @@ double seen_through(const PlaceMap& map, const Look& look, const Pose2& pose) {
     const Eigen::Vector2d unit = way / range_m;
     const std::uint32_t steps = std::min(kStepsMost, static_cast<std::uint32_t>(end_m / kStep_m));
     std::uint32_t hits = 0;
-    for (std::uint32_t i = 3; i <= steps && hits < kHitsLeast; ++i) {
+    for (std::uint32_t i = kFirst; i <= steps && hits < kHitsLeast; ++i) {
       const Eigen::Vector2d p = place + unit * (kStep_m * i);
       hits += map.is_surface(p.x(), p.y()) ? 1U : 0U;
     }

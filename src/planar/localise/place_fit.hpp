@@ -63,11 +63,11 @@ struct PatchVerdict {
 
 // Gauss and Newton with Cauchy's weights.
 struct FitRule {
-  double sigma_m;           // of a point
-  double reach_m;           // farther surfaces do not count
-  std::uint32_t stride;     // every so manieth point
-  std::uint32_t rounds;     // at most
-  Pose2 prior;              // what is known before, with
+  double sigma_m;                                    // of a point
+  double reach_m;                                    // farther surfaces do not count
+  std::uint32_t stride;                              // every so manieth point
+  std::uint32_t rounds;                              // at most
+  Pose2 prior;                                       // what is known before, with
   Eigen::Matrix3d weight = Eigen::Matrix3d::Zero();  // its information
 };
 

@@ -206,7 +206,8 @@ void PlaceSearch::harvest() {
       const Peak& peak = peaks_[cell * kPeaks + k];
       const auto own = static_cast<std::int32_t>(cell);
       if (peak.score < least_ || !is_peak(own, peak)) continue;
-      plant({static_cast<std::int16_t>(x + own % kOwn), static_cast<std::int16_t>(y + own / kOwn), peak.yaw, peak.score});
+      plant(
+          {static_cast<std::int16_t>(x + own % kOwn), static_cast<std::int16_t>(y + own / kOwn), peak.yaw, peak.score});
     }
   }
 }
@@ -232,9 +233,8 @@ bool PlaceSearch::is_new(const Pose2& pose) {
   const auto y = static_cast<std::int64_t>(std::floor(pose.y_m / kPlace_m));
   const auto yaw = static_cast<std::int64_t>(std::floor((wrapped(pose.yaw_rad) + kPi) / kYaw_rad));
   constexpr std::int64_t kHalf = 1 << 20;
-  const std::uint64_t key =
-      (static_cast<std::uint64_t>(x + kHalf) << 40U) ^ (static_cast<std::uint64_t>(y + kHalf) << 16U) ^
-      static_cast<std::uint64_t>(yaw);
+  const std::uint64_t key = (static_cast<std::uint64_t>(x + kHalf) << 40U) ^
+                            (static_cast<std::uint64_t>(y + kHalf) << 16U) ^ static_cast<std::uint64_t>(yaw);
   const std::uint64_t mixed = key * 0x9E3779B97F4A7C15ULL;  // the golden ratio
   const auto tag = static_cast<std::uint32_t>(mixed | 1U);
   auto at = static_cast<std::uint32_t>(mixed >> 48U) % kBins;

@@ -45,9 +45,9 @@ class PlaceSearch {
 
  private:
   enum class Stage : std::uint32_t { kIdle, kCoarse, kFine, kEnded };
-  static constexpr std::int32_t kBlockTiles = 8;                                         // own tiles of a block, a side
-  static constexpr std::int32_t kOwn = kBlockTiles * PlaceMap::kTileCoarse;              // coarse cells
-  static constexpr std::int32_t kMargin = 64;                                            // coarse cells about them
+  static constexpr std::int32_t kBlockTiles = 8;                             // own tiles of a block, a side
+  static constexpr std::int32_t kOwn = kBlockTiles * PlaceMap::kTileCoarse;  // coarse cells
+  static constexpr std::int32_t kMargin = 64;                                // coarse cells about them
   static constexpr std::int32_t kWide = kOwn + 2 * kMargin;
   static constexpr std::int32_t kBlocks = PlaceMap::kAcross / kBlockTiles;
   static constexpr std::uint32_t kPointsMost = 64;

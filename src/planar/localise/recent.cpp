@@ -56,7 +56,8 @@ Refined Recent::match(Span<const ScanPoint> points, const BeamScan& scan, const 
   const Refined near = matcher.refine(points, near_, prior.pose, prior, scan.sigma_m);
   if (near.is_valid && near.explained > kGood) return near;
   const Found found = matcher.search(points, near_, {prior.pose, kFar_m, kFar_rad, kNodes});
-  const Refined far = matcher.refine(points, near_, found.pose, Prior{found.pose, Eigen::Matrix3d::Zero()}, scan.sigma_m);
+  const Refined far =
+      matcher.refine(points, near_, found.pose, Prior{found.pose, Eigen::Matrix3d::Zero()}, scan.sigma_m);
   return far.is_valid && (!near.is_valid || far.misfit < near.misfit) ? far : near;
 }
 
@@ -124,7 +125,8 @@ void Recent::look(Span<const ScanPoint> points, const BeamScan& scan, Look* out)
   const std::uint32_t own = std::min(points.size(), all > kLookPointsMost ? kLookPointsMost / 2 : kLookPointsMost);
   const std::uint32_t own_stride = own > 0 ? (points.size() + own - 1) / own : 1;
   std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < points.size() && count < kLookPointsMost; k += own_stride) out->points[count++] = points[k];
+  for (std::uint32_t k = 0; k < points.size() && count < kLookPointsMost; k += own_stride)
+    out->points[count++] = points[k];
   const std::uint32_t others = all - points.size(), room = kLookPointsMost - count;
   const std::uint32_t stride = room > 0 ? std::max(1U, (others + room - 1) / room) : 1;
   std::uint32_t seen = 0;

@@ -21,9 +21,9 @@ class Recent {
   // False: the scan does not continue what was seen before. The frame then begins anew with it.
   bool follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, const Matcher& matcher);
   const Pose2& pose() const { return pose_; }
-  double travel_m() const { return travel_m_; }    // since the beginning
+  double travel_m() const { return travel_m_; }  // since the beginning
   double turned_rad() const { return turned_rad_; }
-  double look_back_m() const;                      // travel that a look holds now
+  double look_back_m() const;  // travel that a look holds now
   // What the last metres and the scan that was followed last saw, from where base stands now.
   void look(Span<const ScanPoint> points, const BeamScan& scan, Look* out) const;
 

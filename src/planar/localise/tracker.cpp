@@ -152,7 +152,8 @@ Track Tracker::judge(double step_m) {
   contradicted_ = track == Track::contradicted ? contradicted_ + 1 : track == Track::blind ? contradicted_ : 0;
   doubtful_m_ = track == Track::tracked ? 0.0 : doubtful_m_ + step_m;
   const double place_m2 = covariance_(0, 0) + covariance_(1, 1);
-  const bool is_lost = contradicted_ >= kContradictions || !(doubtful_m_ < kPatience_m) || !(place_m2 < kLost_m * kLost_m);
+  const bool is_lost =
+      contradicted_ >= kContradictions || !(doubtful_m_ < kPatience_m) || !(place_m2 < kLost_m * kLost_m);
   return is_lost ? Track::lost : track;
 }
 

@@ -11,7 +11,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kExcluded = 4.0;  // standard errors of the mean patch
+constexpr double kExcluded = 4.0;   // standard errors of the mean patch
 constexpr double kPlausible = 0.6;  // share of patches that fit, of a place that may be right
 // Of the one place: what share of patches fits, lies in seen parts; how many; how far it may slide.
 constexpr double kFits = 0.85, kSeen = 0.75, kThroughMost = 0.1, kHolds_m = 0.3;

@@ -4,10 +4,12 @@
 // Restarts in simulated networks of roads: how often is the place unique, ambiguous or unknown, and is unique right?
 // usage: pose_wall_planar_localise_trial [--places N] [--seed S] [--kind K] [--per-network N] [--verbose]
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -15,12 +17,13 @@
 
 namespace {
 
+using namespace pose_wall::planar;
 using namespace pose_wall::planar::test;
 
 struct Options {
   int places = 200, per_network = 25, kind = -1, network = -1, restart = -1;
   std::uint64_t seed = 1;
-  bool verbose = false;
+  bool verbose = false, kidnap = false, cost = false, slam = false;
 };
 
 Options options_of(int argc, char** argv) {
@@ -34,15 +37,103 @@ Options options_of(int argc, char** argv) {
     if (name == "--per-network") out.per_network = std::atoi(value);
     if (name == "--network") out.network = std::atoi(value);  // this one alone, and one restart in it
     if (name == "--restart") out.restart = std::atoi(value);
+    if (name == "--cost") out.cost = true;
+    if (name == "--slam") out.slam = true;
+    if (name == "--kidnap") out.kidnap = true;
     if (name == "--verbose") out.verbose = true;
   }
   return out;
+}
+
+double processor_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Processor time of calls with the default share of work, in a kilometre of roads.
+void cost(const Options& options) {
+  const double begun = processor_s();
+  const World world(std::max(0, options.kind), 2 * options.seed, 1000.0, 1024);
+  std::printf("map of a kilometre: %u tiles, %u surfaces, block %.1f MB, made in %.2f s with its scans\n",
+              world.localiser().map().tiles(), world.localiser().map().surfaces(),
+              static_cast<double>(world.bytes()) * 1e-6, processor_s() - begun);
+  Localiser& own = world.localiser();
+  own.set_work(LocaliseSettings().work);
+  std::vector<double> searching_ms, tracking_ms;
+  std::vector<float> ranges;
+  int calls = 0, restarts = 0;
+  for (; restarts < options.places; ++restarts) {
+    const Restart restart = world.draw_restart(static_cast<std::uint64_t>(restarts));
+    own.forget();
+    for (int k = 0, tracked = 0; k < 600 && tracked < 20; ++k) {
+      const auto at = world.pose_at(restart, std::min(5.0, 0.05 * k));
+      const pose_wall_planar_scan scan =
+          world.scan_at(at, restart.things, restart.seed * 1000 + static_cast<std::uint64_t>(k), &ranges);
+      const BeamScan read = read_beams(scan, own.beams());
+      const bool was_tracking = own.is_tracking();
+      const double start = processor_s();
+      own.process(read, nullptr);
+      (was_tracking ? tracking_ms : searching_ms).push_back(1e3 * (processor_s() - start));
+      tracked += was_tracking ? 1 : 0;
+      calls += was_tracking ? 0 : 1;
+    }
+  }
+  const auto show = [](const char* name, std::vector<double> ms) {
+    if (ms.empty()) return;
+    std::sort(ms.begin(), ms.end());
+    double sum = 0.0;
+    for (const double one : ms) sum += one;
+    std::printf("%s: %zu calls, mean %.2f ms, median %.2f, 99 %% %.2f, worst %.2f\n", name, ms.size(),
+                sum / static_cast<double>(ms.size()), ms[ms.size() / 2], ms[ms.size() * 99 / 100], ms.back());
+  };
+  std::printf("%d restarts, %.1f calls each until a place is tracked\n", restarts,
+              static_cast<double>(calls) / restarts);
+  show("searching", searching_ms);
+  show("tracking", tracking_ms);
+}
+
+// Carried from place to place: after how many scans is it noticed?
+void kidnap(const Options& options) {
+  int tracked[kKinds] = {}, unnoticed[kKinds] = {}, found[kKinds] = {}, wrong[kKinds] = {}, after[kKinds][31] = {};
+  int done = 0;
+  for (std::uint64_t network = 0; done < options.places; ++network) {
+    const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
+    const World world(kind, options.seed * 100000 + network);
+    for (int k = 0; k < options.per_network && done < options.places; ++k, ++done) {
+      const auto number = static_cast<std::uint64_t>(2 * k);
+      const auto outcome = world.kidnap(world.draw_restart(number), world.draw_restart(number + 1));
+      if (!outcome.was_tracked) continue;
+      ++tracked[kind];
+      unnoticed[kind] += outcome.noticed ? 0 : 1;
+      found[kind] += outcome.found ? 1 : 0;
+      wrong[kind] += outcome.wrong ? 1 : 0;
+      ++after[kind][outcome.scans];
+    }
+  }
+  for (int kind = 0; kind < kKinds; ++kind) {
+    if (tracked[kind] == 0) continue;
+    std::printf(
+        "%-14s %5d carried; noticed after 1 scan %d, 2 %d, 3 %d, 4 to 30 %d, never %d; found again %d; wrong after it "
+        "%d\n",
+        kind_name(kind), tracked[kind], after[kind][1], after[kind][2], after[kind][3],
+        tracked[kind] - after[kind][1] - after[kind][2] - after[kind][3] - unnoticed[kind], unnoticed[kind],
+        found[kind], wrong[kind]);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const Options options = options_of(argc, argv);
+  if (options.cost) {
+    cost(options);
+    return 0;
+  }
+  if (options.kidnap) {
+    kidnap(options);
+    return 0;
+  }
   std::vector<Counts> inside(kKinds), outside(kKinds);
   const auto begun = std::chrono::steady_clock::now();
   int done = 0;
@@ -50,30 +141,36 @@ int main(int argc, char** argv) {
     const World world(options.kind, static_cast<std::uint64_t>(options.network));
     const Restart restart = world.draw_restart(static_cast<std::uint64_t>(options.restart));
     const Outcome outcome = world.run(restart, true);
-    std::printf("mapped %d odometry %d wrong %d error %.2f m\n", restart.is_mapped, restart.has_odometry, outcome.wrong, outcome.error_m);
+    std::printf("mapped %d odometry %d wrong %d error %.2f m\n", restart.is_mapped, restart.has_odometry, outcome.wrong,
+                outcome.error_m);
     return outcome.wrong ? 1 : 0;
   }
   for (std::uint64_t network = 0; done < options.places; ++network) {
     const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
-    const World world(kind, options.seed * 100000 + network);
+    const std::uint64_t seed = options.seed * 100000 + network;
+    const World world(kind, seed, World::lengths(seed), 768, options.slam);
     for (int k = 0; k < options.per_network && done < options.places; ++k, ++done) {
       const Restart restart = world.draw_restart(static_cast<std::uint64_t>(k));
       const Outcome outcome = world.run(restart, options.verbose);
       Counts& counts = (restart.is_mapped ? inside : outside)[static_cast<std::size_t>(kind)];
       counts.add(outcome);
       if (outcome.wrong) {
-        std::printf("WRONG kind %s network %llu restart %d mapped %d: %.2f m %.3f rad at %.2f m, evidence fits %.2f rival %.2f\n",
-                    kind_name(kind), static_cast<unsigned long long>(options.seed * 100000 + network), k,
-                    restart.is_mapped, outcome.error_m, outcome.error_rad, outcome.wrong_at_m, outcome.fits,
-                    outcome.rival);
+        std::printf(
+            "WRONG kind %s network %llu restart %d mapped %d: %.2f m %.3f rad at %.2f m, evidence fits %.2f rival "
+            "%.2f\n",
+            kind_name(kind), static_cast<unsigned long long>(options.seed * 100000 + network), k, restart.is_mapped,
+            outcome.error_m, outcome.error_rad, outcome.wrong_at_m, outcome.fits, outcome.rival);
       }
     }
     std::fflush(stdout);
   }
   for (int place = 0; place < 2; ++place) {
-    std::printf("%s\n%-14s %7s %7s | %8s %8s %8s | %8s %8s %8s %8s | %s | %s\n", place == 0 ? "in the map" : "not in the map", "kind",
-                "places", "wrong", "standing", "2 m", "5 m", "unique", "ambig.", "unknown", "search", "mean error m", "tracked scans, rms m, over sigma, beyond 3 sigma");
-    for (int kind = 0; kind < kKinds; ++kind) (place == 0 ? inside : outside)[static_cast<std::size_t>(kind)].print(kind_name(kind));
+    std::printf("%s\n%-14s %7s %7s | %8s %8s %8s | %8s %8s %8s %8s | %s | %s\n",
+                place == 0 ? "in the map" : "not in the map", "kind", "places", "wrong", "standing", "2 m", "5 m",
+                "unique", "ambig.", "unknown", "search", "mean error m",
+                "tracked scans, rms m, over sigma, beyond 3 sigma");
+    for (int kind = 0; kind < kKinds; ++kind)
+      (place == 0 ? inside : outside)[static_cast<std::size_t>(kind)].print(kind_name(kind));
   }
   std::printf("%d places, %.1f s\n", done,
               std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());

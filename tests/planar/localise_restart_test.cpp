@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: a restart in a rough road is unique and right; in a smooth one it is ambiguous until something holds it; a
+// place that the map lacks is never unique; being carried away is noticed; the work of a call is bounded.
+
+#include <gtest/gtest.h>
+
+#include "localise_world.hpp"
+
+namespace pose_wall::planar::test {
+namespace {
+
+int count(const World& world, int places, int* wrong) {
+  int unique = 0;
+  for (int k = 0; k < places; ++k) {
+    const Outcome outcome = world.run(world.draw_restart(static_cast<std::uint64_t>(k)), false);
+    unique += outcome.after_5m == Where::unique ? 1 : 0;
+    *wrong += outcome.wrong ? 1 : 0;
+  }
+  return unique;
+}
+
+TEST(LocaliseRestart, RoughRockIsUniqueAndRight) {
+  int wrong = 0;
+  EXPECT_GE(count(World(0, 700), 6, &wrong), 5);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(LocaliseRestart, SmoothAndAlikeAreNeverUniqueAndWrong) {
+  int wrong = 0;
+  for (const int kind : {1, 2, 4, 5}) count(World(kind, 700 + 2 * static_cast<std::uint64_t>(kind)), 3, &wrong);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(LocaliseRestart, PlacesThatTheMapLacksAreNotUnique) {
+  const World world(1, 705);
+  int lacking = 0;
+  for (std::uint64_t k = 0; k < 12 && lacking < 4; ++k) {
+    const Restart restart = world.draw_restart(k);
+    if (restart.is_mapped) continue;
+    ++lacking;
+    EXPECT_NE(world.run(restart, false).after_5m, Where::unique);
+  }
+  EXPECT_GE(lacking, 2);
+}
+
+TEST(LocaliseRestart, BeingCarriedAwayIsNoticed) {
+  const World world(0, 700);
+  const World::Kidnapping carried = world.kidnap(world.draw_restart(1), world.draw_restart(2));
+  ASSERT_TRUE(carried.was_tracked);
+  EXPECT_TRUE(carried.noticed);
+  EXPECT_LE(carried.scans, 3);
+  EXPECT_FALSE(carried.wrong);
+  EXPECT_TRUE(carried.found);
+}
+
+// One corridor with plain walls and no ends in sight: every place of it, both ways.
+TEST(LocaliseRestart, APlainCorridorStaysAmbiguous) {
+  LocaliseSettings settings;
+  settings.work = 1U << 30;
+  settings.tiles_most = 128;
+  OpenedLocaliser localiser(settings);
+  std::vector<ScanPoint> walls;
+  for (double x = -8.0; x < 8.0; x += 0.05) {
+    walls.push_back({static_cast<float>(x), 2.5F});
+    walls.push_back({static_cast<float>(x), -2.5F});
+  }
+  const Span<const ScanPoint> points(walls.data(), static_cast<std::uint32_t>(walls.size()));
+  for (int k = 0; k < 30; ++k) ASSERT_TRUE(localiser->map().add(points, {2.0 * k, 0.0, 0.0}));
+  localiser->map().finish();
+  std::vector<float> ranges(360);
+  for (int k = 0; k < 360; ++k) {
+    const double angle = (k - 180) * M_PI / 180.0, range = 2.5 / std::max(1e-3, std::abs(std::sin(angle)));
+    ranges[static_cast<std::size_t>(k)] =
+        range < 8.0 ? static_cast<float>(range) : std::numeric_limits<float>::quiet_NaN();
+  }
+  pose_wall_planar_scan scan{};
+  scan.struct_size = sizeof(scan);
+  scan.beams = 360;
+  scan.angle_min_rad = -M_PI;
+  scan.angle_step_rad = M_PI / 180.0;
+  scan.range_max_m = 30.0;
+  scan.sigma_m = 0.02;
+  scan.range_m = ranges.data();
+  EXPECT_EQ(localiser->process(read_beams(scan, localiser->beams()), nullptr), Where::ambiguous);
+  EXPECT_GE(localiser->verdict().all, 2U);
+  EXPECT_GE(localiser->verdict().best.slide_m, 1.6);
+  double weight = 0.0;
+  for (std::uint32_t k = 0; k < localiser->verdict().count; ++k) weight += localiser->verdict().candidates[k].weight;
+  EXPECT_NEAR(weight, 1.0, 1e-9);
+}
+
+// The same answer whatever the share of work in a call, and no more than a share in any.
+TEST(LocaliseRestart, WorkIsSharedOutOverCalls) {
+  const World world(0, 700);
+  Localiser& own = world.localiser();
+  const Restart restart = world.draw_restart(3);
+  std::vector<float> ranges;
+  const sim::PlanePose at = world.pose_at(restart, 0.0);
+  const pose_wall_planar_scan scan = world.scan_at(at, {}, 1, &ranges);
+  own.forget();
+  own.set_work(1U << 30);
+  ASSERT_EQ(own.process(read_beams(scan, own.beams()), nullptr), Where::unique);
+  const Pose2 whole = own.tracker().pose();
+  own.forget();
+  own.set_work(20000);
+  Where where = Where::searching;
+  int calls = 0;
+  double progress = 0.0;
+  for (; calls < 1000 && where == Where::searching; ++calls) {
+    where = own.process(read_beams(scan, own.beams()), nullptr);
+    EXPECT_GE(own.search().progress(), progress);
+    progress = own.search().progress();
+  }
+  EXPECT_EQ(where, Where::unique);
+  EXPECT_GT(calls, 3);
+  EXPECT_LT(between(whole, own.tracker().pose()).place().norm(), 0.02);
+  own.set_work(1U << 30);
+}
+
+}  // namespace
+}  // namespace pose_wall::planar::test
