@@ -59,6 +59,14 @@ std::vector<std::string> plan_setting_names() {
   return names_of(kPlanWords);
 }
 
+void require_plan_settings(const std::vector<std::string>& words) {
+  const std::vector<std::string> names = plan_setting_names();
+  for (const std::string& word : words) {
+    const std::string name = named_value(word).name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) refuse_unknown_setting(name, names);
+  }
+}
+
 pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& grid, std::vector<std::string>* words) {
   if (std::max(grid.width, grid.height) > kSideMost) {
     throw std::invalid_argument(say("the map has {} x {} cells; the planner takes up to {} a side. Make it with larger "
@@ -72,7 +80,7 @@ pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& g
   settings.resolution_m = grid.resolution_m;
   settings.lattice_m = std::max(settings.lattice_m, 2.0 * grid.resolution_m);
   take_settings(kPlanWords, pose_wall_planar_plan_settings_check, words, &settings);
-  if (!words->empty()) refuse_unknown_setting(named_value(words->front()).name, plan_setting_names());
+  require_plan_settings(*words);
   pose_wall_planar_fault fault{};
   if (pose_wall_planar_plan_settings_check(&settings, &fault) != POSE_WALL_OK) {
     throw std::invalid_argument(fault.rule != nullptr ? fault.rule : tr("the value is refused"));

@@ -95,6 +95,7 @@ MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedR
 }
 
 int plan_route(PlanOptions options) {
+  require_plan_settings(options.settings);
   const pose_wall_planar_pose from = pose_of_word(options.from, "--from");
   const pose_wall_planar_pose to = pose_of_word(options.to, "--to");
   MapFile map = read_map_files(options.map);
