@@ -37,6 +37,7 @@ void Slam::open(const SlamSettings& settings) {
   rounds_left_ = solution_ = resumes_at_ = doubtful_ = 0;
   resumes_ = false;
   has_odometry_ = false;
+  scatter_ = 1.0;
 }
 
 Prior Slam::prior_of(const Pose2& from, const Pose2& step, double sigma_m, double sigma_rad) const {
@@ -68,6 +69,19 @@ std::uint32_t Slam::predict(const Pose2* odometry, Prediction* predictions) cons
   return count + 1;
 }
 
+// Range noise and what the surfaces scatter beyond it: a scan of a cloud cuts rough walls at many heights.
+double Slam::noise_m(const BeamScan& scan) const {
+  return scan.sigma_m * scatter_;
+}
+
+// So much scatter that all but a few points are explained (Robbins and Monro 1951). Within limits: crowds are no
+// scatter.
+void Slam::learn_scatter(const Refined& placed) {
+  constexpr double kExplained = 0.92, kGain = 0.2, kMost = 3.0;
+  if (placed.is_valid)
+    scatter_ = std::min(kMost, std::max(1.0, scatter_ * (1.0 + kGain * (kExplained - placed.explained))));
+}
+
 // The match that scan and predictions together like best. Where the scan is not explained even then, the best place
 // that the machine can have reached joins in.
 Refined Slam::place(Span<const ScanPoint> points, const BeamScan& scan, const Prediction* predictions,
@@ -88,7 +102,7 @@ Refined Slam::place(Span<const ScanPoint> points, const BeamScan& scan, const Pr
   Refined best;
   double least = 0.0;
   const auto offer = [&](const Pose2& start, const Prior& prior) {
-    const Refined match = matcher_.refine(points, near_, start, prior, scan.sigma_m);
+    const Refined match = matcher_.refine(points, near_, start, prior, noise_m(scan));
     const double cost = cost_of(match);
     if (!match.is_valid || (best.is_valid && cost >= least)) return;
     best = match;
@@ -147,6 +161,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
     placed = place(points, scan, predictions, count);
     follow(placed.pose, odometry, predictions[0]);
     if (!placed.is_valid || placed.explained < kTrusted) ++doubtful_;
+    learn_scatter(placed);
     prior = predictions[0].prior;
   }
   if (odometry != nullptr) odometry_ = *odometry;
@@ -156,7 +171,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
   if (is_due(placed)) {
-    const Slide slide = matcher_.slide(points, near_, placed, scan.sigma_m);
+    const Slide slide = matcher_.slide(points, near_, placed, noise_m(scan));
     begin_keyframe(points, scan, matcher_.information(placed, slide) + prior.information);
     step.is_keyframe = true;
     const std::uint32_t believed = loops_.believed();

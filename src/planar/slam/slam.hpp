@@ -57,6 +57,8 @@ class Slam {
   Refined place(Span<const ScanPoint> points, const BeamScan& scan, const Prediction* predictions,
                 std::uint32_t count) const;
   void follow(const Pose2& pose, const Pose2* odometry, const Prediction& first);
+  double noise_m(const BeamScan& scan) const;
+  void learn_scatter(const Refined& placed);
   bool is_due(const Refined& placed) const;
   void begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information);
   void tie_to_saved(const Eigen::Matrix3d& information);
@@ -77,6 +79,7 @@ class Slam {
   Pose2 pose_, odometry_, last_step_;
   Pose2 since_agreed_;          // how the machine moved since odometry last agreed with a scan
   Pose2 agreed_odometry_;       // what it said then
+  double scatter_ = 1.0;        // of points about surfaces, in range noises
   std::uint32_t doubtful_ = 0;  // scans since the last keyframe that fitted badly
   std::uint32_t rounds_left_ = 0, solution_ = 0;
   std::uint32_t resumes_at_ = 0;  // the keyframe that the machine stands near after that

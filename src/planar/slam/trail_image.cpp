@@ -129,6 +129,31 @@ bool is_trail(const Head& head, Reader reader) {
 
 constexpr int kUpper[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
 
+void read_keyframes(Reader* reader, Span<Keyframe> keyframes, Span<Pose2> poses) {
+  std::uint32_t first = 0;
+  for (std::uint32_t k = 0; k < keyframes.size(); ++k) {
+    Keyframe& keyframe = keyframes[k];
+    keyframe.stamp_ns = static_cast<std::int64_t>(reader->get(8));
+    keyframe.first = first;
+    keyframe.count = reader->get_u32();
+    first += keyframe.count;
+    poses[k] = reader->get_pose();
+    keyframe.travel_m = reader->get_double();
+    keyframe.doubt_rad = reader->get_double();
+  }
+}
+
+void read_edge(Reader* reader, Edge* edge) {
+  edge->from = reader->get_u32();
+  edge->to = reader->get_u32();
+  edge->is_closure = reader->get_u32() == 1;
+  edge->step = reader->get_pose();
+  for (const auto& at : kUpper) {
+    edge->information(at[0], at[1]) = reader->get_double();
+    edge->information(at[1], at[0]) = edge->information(at[0], at[1]);
+  }
+}
+
 }  // namespace
 
 std::uint64_t TrailImage::bytes(const Trail& trail) {
@@ -182,32 +207,12 @@ std::int32_t TrailImage::read(const unsigned char* from, std::uint64_t bytes, Tr
   trail->count_ = head.keyframes;
   trail->point_count_ = head.points;
   trail->edge_count_ = head.edges;
-  std::uint32_t first = 0;
-  for (std::uint32_t k = 0; k < head.keyframes; ++k) {
-    Keyframe& keyframe = trail->keyframes_[k];
-    keyframe.stamp_ns = static_cast<std::int64_t>(reader.get(8));
-    keyframe.first = first;
-    keyframe.count = reader.get_u32();
-    first += keyframe.count;
-    trail->poses_[k] = reader.get_pose();
-    keyframe.travel_m = reader.get_double();
-    keyframe.doubt_rad = reader.get_double();
+  read_keyframes(&reader, trail->keyframes_.first(head.keyframes), trail->poses_);
+  for (ScanPoint& point : trail->points_.first(head.points)) {
+    point.x_m = reader.get_float();
+    point.y_m = reader.get_float();
   }
-  for (std::uint32_t k = 0; k < head.points; ++k) {
-    trail->points_[k].x_m = reader.get_float();
-    trail->points_[k].y_m = reader.get_float();
-  }
-  for (std::uint32_t k = 0; k < head.edges; ++k) {
-    Edge& edge = trail->edges_[k];
-    edge.from = reader.get_u32();
-    edge.to = reader.get_u32();
-    edge.is_closure = reader.get_u32() == 1;
-    edge.step = reader.get_pose();
-    for (const auto& at : kUpper) {
-      edge.information(at[0], at[1]) = reader.get_double();
-      edge.information(at[1], at[0]) = edge.information(at[0], at[1]);
-    }
-  }
+  for (Edge& edge : trail->edges_.first(head.edges)) read_edge(&reader, &edge);
   return POSE_WALL_OK;
 }
 
