@@ -42,8 +42,8 @@ struct DrawnRoom {
 
   // Robot at `at`, scanner offset_m ahead of it.
   static std::string line(const std::string& stamp, const pose_wall_planar_pose& at, double offset_m = 0.0) {
-    const pose_wall_planar_pose laser{at.x_m + offset_m * std::cos(at.yaw_rad), at.y_m + offset_m * std::sin(at.yaw_rad),
-                                      at.yaw_rad};
+    const pose_wall_planar_pose laser{at.x_m + offset_m * std::cos(at.yaw_rad),
+                                      at.y_m + offset_m * std::sin(at.yaw_rad), at.yaw_rad};
     std::string text = "FLASER 180";
     for (int beam = 0; beam < 180; ++beam) {
       text += fmt::format(" {:.3f}", range_m(laser, (beam - 90) * kHalfTurn_rad / 180.0));

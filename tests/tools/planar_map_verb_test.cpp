@@ -111,10 +111,9 @@ TEST(MapVerb, PrintsTheErrorsAgainstRelations) {
   const TempFolder folder;
   const std::string log = folder.write("room.clf", DrawnRoom::log(30));
   const pose_wall_planar_pose step = seen_from(DrawnRoom::pose(0), DrawnRoom::pose(20));
-  const std::string relations =
-      folder.write("r", fmt::format("{} {} {} {} 0 0 0 {}\n", DrawnRoom::stamp(0), DrawnRoom::stamp(20), step.x_m,
-                                    step.y_m, step.yaw_rad) +
-                            "5 6 0 0 0 0 0 0\n");
+  const std::string relations = folder.write("r", fmt::format("{} {} {} {} 0 0 0 {}\n", DrawnRoom::stamp(0),
+                                                              DrawnRoom::stamp(20), step.x_m, step.y_m, step.yaw_rad) +
+                                                      "5 6 0 0 0 0 0 0\n");
   const Ran ran = command({"map", "--relations", relations, log});
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
   EXPECT_TRUE(contains(ran.printed, "near (< 20 s)") && contains(ran.printed, "all")) << ran.printed;

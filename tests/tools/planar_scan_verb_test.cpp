@@ -31,9 +31,9 @@ using test::text_of;
 
 TEST(ScanVerb, FramesOfARoadShowItsWalls) {
   const TempFolder folder;
-  ASSERT_EQ(command({"sim", "-q", "--scene", "clean", "--sensor", "vlp16", "-n", "2", "-o", folder.file("road")})
-                .exit_status,
-            0);
+  ASSERT_EQ(
+      command({"sim", "-q", "--scene", "clean", "--sensor", "vlp16", "-n", "2", "-o", folder.file("road")}).exit_status,
+      0);
   const Ran ran = command({"scan", "-c", folder.file("road/pose_wall.yaml"), "-s", "angle_step_rad=0.01", "-o",
                            folder.file("s.csv"), "--picture", folder.file("s.svg"), folder.file("road/frames")});
   ASSERT_EQ(ran.exit_status, 0) << ran.errors;

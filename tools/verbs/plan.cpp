@@ -116,8 +116,7 @@ int plan_route(PlanOptions options) {
   const PlannedRoute route = planner.plan(map.grid(), from, to);
   if (picture) picture->write(map_picture(scene_of(options, map, route, settings, from, to)));
   if (!route.is_found()) {
-    const std::string by =
-        is_blocked(route) ? " " + blocking_text(blocking_of(map, settings, route, from, to)) : "";
+    const std::string by = is_blocked(route) ? " " + blocking_text(blocking_of(map, settings, route, from, to)) : "";
     fmt::print(stderr, "{}", say("pose_wall plan: no route. {}{}\n", no_route_text(route.result), by));
     return kExitNotUsable;
   }
@@ -158,7 +157,8 @@ void add_plan(CLI::App& app, int& exit_code) {
          "drive of a pose is 1 forwards, -1 backwards, 0 a turn on the spot that leads to it.\n"
          "Exit status: 0 done, 1 the map could not be read or a file not written, 2 bad usage, 3 there is no route\n"
          "(stderr has the reason, the picture the place)."));
-  verb->callback([options, &exit_code] { exit_code = done_or_complaint("plan", [&] { return plan_route(*options); }); });
+  verb->callback(
+      [options, &exit_code] { exit_code = done_or_complaint("plan", [&] { return plan_route(*options); }); });
 }
 
 }  // namespace pose_wall::tools
