@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "pose_wall_planar_types.h"
 
@@ -58,6 +59,16 @@ struct DrawnRoom {
     return {2.0 * std::sin(angle_rad), 2.0 - 2.0 * std::cos(angle_rad), angle_rad};
   }
   static std::string stamp(int number) { return fmt::format("9760528{:02}.4{:05}", number / 10, number % 10); }
+
+  // The same scans again and again, under stamps that rise.
+  static std::string long_log(int scans) {
+    constexpr int kDrawn = 126;  // once round
+    std::vector<std::string> drawn;
+    for (int k = 0; k < kDrawn; ++k) drawn.push_back(line("{}", pose(k)));
+    std::string text;
+    for (int k = 0; k < scans; ++k) text += fmt::format(fmt::runtime(drawn[static_cast<std::size_t>(k % kDrawn)]), k);
+    return text;
+  }
 
   static std::string log(int scans, double offset_m = 0.0) {
     std::string text = "# made for a test\n";

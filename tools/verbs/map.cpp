@@ -180,19 +180,38 @@ std::vector<Relation> read_relations_of(const MapOptions& options) {
   return options.relations.empty() ? std::vector<Relation>{} : read_relations(options.relations);
 }
 
-int map_scans(MapOptions options) {
-  pose_wall_planar_slam_settings settings = take_slam_settings(&options.frames.settings);
-  const std::vector<Relation> relations = read_relations_of(options);
-  const std::unique_ptr<ScanSource> source = open_scans(options.frames, slam_setting_names());
-  std::vector<std::filesystem::path> read = source->files();
+// Opens the file of the poses and makes the folder, so that what cannot be written is known before the work.
+std::unique_ptr<OutputFile> open_outputs(const MapOptions& options, const ScanSource& source) {
+  std::vector<std::filesystem::path> read = source.files();
   if (!options.relations.empty()) read.emplace_back(options.relations);
-  std::optional<OutputFile> poses;
-  if (!options.poses.empty()) poses.emplace(options.poses, read, "--poses");
+  std::unique_ptr<OutputFile> poses;
+  if (!options.poses.empty()) poses = std::make_unique<OutputFile>(options.poses, read, "--poses");
   if (!options.output.empty()) make_output_folder(options.output);
-  for (const std::string& error : source->errors()) fmt::print(stderr, "pose_wall map: {}\n", error);
+  return poses;
+}
+
+void print_start(const MapOptions& options, const ScanSource& source) {
+  for (const std::string& error : source.errors()) fmt::print(stderr, "pose_wall map: {}\n", error);
+  if (options.frames.quiet) return;
+  for (const std::string& note : source.notes()) fmt::print(stderr, "{}\n", note);
+}
+
+void print_end(const MapOptions& options, const MapWork& work, const BuiltMap& built, const ScanSource& source,
+               const std::vector<Relation>& relations) {
   if (!options.frames.quiet) {
-    for (const std::string& note : source->notes()) fmt::print(stderr, "{}\n", note);
+    fmt::print("{}", summary_text(work.trail, built, !options.no_odometry && source.has_odometry()));
+    for (const std::string& warning : warnings_of(work, built)) fmt::print(stderr, "pose_wall map: {}\n", warning);
   }
+  if (options.relations.empty()) return;
+  fmt::print("{}{}", options.frames.quiet ? "" : "\n", relation_table(relations_of(work.trail, relations)));
+}
+
+int map_scans(MapOptions options) {
+  const pose_wall_planar_slam_settings settings = take_slam_settings(&options.frames.settings);
+  const std::unique_ptr<ScanSource> source = open_scans(options.frames, slam_setting_names());
+  const std::vector<Relation> relations = read_relations_of(options);
+  const std::unique_ptr<OutputFile> poses = open_outputs(options, *source);
+  print_start(options, *source);
 
   const InterruptWatch watch;
   MapWork work{ScanTrail(settings_for(settings, source->scans()))};
@@ -205,13 +224,7 @@ int map_scans(MapOptions options) {
   const BuiltMap built = build_map(work.trail.kept_scans(), work.trail.kept_poses(), options.cell_m);
   if (poses) poses->write(poses_text(work.trail));
   if (!options.output.empty()) write_folder(options, work.trail, built);
-  if (!options.frames.quiet) {
-    fmt::print("{}", summary_text(work.trail, built, !options.no_odometry && source->has_odometry()));
-    for (const std::string& warning : warnings_of(work, built)) fmt::print(stderr, "pose_wall map: {}\n", warning);
-  }
-  if (!options.relations.empty()) {
-    fmt::print("{}{}", options.frames.quiet ? "" : "\n", relation_table(relations_of(work.trail, relations)));
-  }
+  print_end(options, work, built, *source, relations);
   if (InterruptWatch::is_interrupted()) {
     fmt::print(stderr, "{}",
                say("interrupted after {} of {} scans; what is written shows these\n", work.trail.scans().size(),

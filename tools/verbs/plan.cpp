@@ -147,7 +147,7 @@ void add_plan(CLI::App& app, int& exit_code) {
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
   verb->footer(
       tr("Examples:\n"
-         "  pose_wall plan map/map.yaml --from 0,0,0 --to -12.5,3,180 -o route.csv --picture route.svg\n"
+         "  pose_wall plan map/map.yaml --from 0,0,0 --to 12.5,-3,180 -o route.csv --picture route.svg\n"
          "  pose_wall plan map/map.yaml --from 0,0,0 --to 20,0,0 -s front_m=1.8 -s rear_m=2.7 -s margin_m=0.2\n"
          "Yaw counts from x to y.\n"
          "The machine is a rectangle: front_m, rear_m (2.25), left_m, right_m (0.6), with margin_m (0.1) round it.\n"
