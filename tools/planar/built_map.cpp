@@ -30,7 +30,7 @@ struct ReachedBox {
 };
 
 ReachedBox corners_of(const std::vector<KeptScan>& scans, const std::vector<pose_wall_planar_pose>& poses,
-                   double beam_max_m) {
+                      double beam_max_m) {
   ReachedBox corners;
   for (std::size_t k = 0; k < scans.size(); ++k) {
     const pose_wall_planar_scan& scan = scans[k].scan;
@@ -80,9 +80,10 @@ class OpenMap {
     const double width = std::round((box.x_max_m - box.x_min_m) / cell_m);
     const double height = std::round((box.y_max_m - box.y_min_m) / cell_m);
     if (std::max(width, height) > POSE_WALL_PLANAR_GRID_SIDE_MAX) {
-      throw PlanarError(say("the map is {:.0f} x {:.0f} m; its image holds {} cells a side. Larger cells: --cell {:.2f}",
-                            box.x_max_m - box.x_min_m, box.y_max_m - box.y_min_m, POSE_WALL_PLANAR_GRID_SIDE_MAX,
-                            1.01 * cell_m * std::max(width, height) / POSE_WALL_PLANAR_GRID_SIDE_MAX));
+      throw PlanarError(
+          say("the map is {:.0f} x {:.0f} m; its image holds {} cells a side. Larger cells: --cell {:.2f}",
+              box.x_max_m - box.x_min_m, box.y_max_m - box.y_min_m, POSE_WALL_PLANAR_GRID_SIDE_MAX,
+              1.01 * cell_m * std::max(width, height) / POSE_WALL_PLANAR_GRID_SIDE_MAX));
     }
     MapFile& map = built->map;
     map.width = static_cast<std::uint32_t>(width);

@@ -14,7 +14,7 @@
 namespace pose_wall::tools {
 
 struct BuiltMap {
-  MapFile map;                         // without a note
+  MapFile map;  // without a note
   std::uint64_t cells_seen = 0, things = 0;
   std::uint64_t beams_not_stored = 0;  // the map had no tile for them: its file is not whole
   std::uint64_t block_bytes = 0;

@@ -54,8 +54,8 @@ bool is_motion_on(const LoadedConfig& loaded) {
 std::string seconds_of(std::int64_t stamp_ns) {
   constexpr std::int64_t kNsPerS = 1'000'000'000;
   const bool is_negative = stamp_ns < 0;
-  const std::uint64_t ns = is_negative ? std::uint64_t{0} - static_cast<std::uint64_t>(stamp_ns)
-                                       : static_cast<std::uint64_t>(stamp_ns);
+  const std::uint64_t ns =
+      is_negative ? std::uint64_t{0} - static_cast<std::uint64_t>(stamp_ns) : static_cast<std::uint64_t>(stamp_ns);
   return fmt::format("{}{}.{:09}", is_negative ? "-" : "", ns / kNsPerS, ns % kNsPerS);
 }
 
@@ -134,10 +134,10 @@ std::optional<SourcedScan> CloudScans::next() {
 }
 
 std::vector<std::string> CloudScans::notes() const {
-  return {say("{} frames become scans: things from {:.2f} to {:.2f} m above the floor, steps of {:.2f}°, up to {:.0f} m",
-              inputs_.frames(), settings_.ground_clearance_m - settings_.margin_m,
-              settings_.machine_height_m + settings_.margin_m, settings_.angle_step_rad * kDegPerRad,
-              settings_.range_max_m)};
+  return {say(
+      "{} frames become scans: things from {:.2f} to {:.2f} m above the floor, steps of {:.2f}°, up to {:.0f} m",
+      inputs_.frames(), settings_.ground_clearance_m - settings_.margin_m,
+      settings_.machine_height_m + settings_.margin_m, settings_.angle_step_rad * kDegPerRad, settings_.range_max_m)};
 }
 
 }  // namespace pose_wall::tools

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Frames of a LiDAR as planar scans: the engine measures the floor, and the points of the machine's height become a scan.
+// Frames of a LiDAR as planar scans: the engine measures the floor, and the points of the machine's height become a
+// scan.
 
 #pragma once
 

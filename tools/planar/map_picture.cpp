@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "planar/indexed_png.hpp"
 #include "picture/palette.hpp"
 #include "picture/parts.hpp"
 #include "picture/svg.hpp"
 #include "picture/viewport.hpp"
+#include "planar/indexed_png.hpp"
 #include "report/columns.hpp"
 
 namespace pose_wall::tools {
@@ -119,9 +119,9 @@ void draw_machine(Svg& svg, const Page& page, const MapMachine& machine) {
   for (const MapPlace& p : outline) corners.push_back(page(placed(machine.base, p)));
   svg.polygon(corners, machine.outline_m.empty() ? machine.colour : std::string_view("none"), {machine.colour, 2.0});
   if (!machine.outline_m.empty()) {
-    const MapPlace nose{std::max_element(outline.begin(), outline.end(), [](const MapPlace& a, const MapPlace& b) {
-                          return a.x_m < b.x_m;
-                        })->x_m,
+    const MapPlace nose{std::max_element(outline.begin(), outline.end(),
+                                         [](const MapPlace& a, const MapPlace& b) { return a.x_m < b.x_m; })
+                            ->x_m,
                         0.0};
     svg.line(page(placed(machine.base, {0.0, 0.0})), page(placed(machine.base, nose)), {machine.colour, 2.0});
   }

@@ -59,11 +59,20 @@ std::vector<std::string> plan_setting_names() {
   return names_of(kPlanWords);
 }
 
+void require_plan_settings(const std::vector<std::string>& words) {
+  const std::vector<std::string> names = plan_setting_names();
+  for (const std::string& word : words) {
+    const std::string name = named_value(word).name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) refuse_unknown_setting(name, names);
+  }
+}
+
 pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& grid, std::vector<std::string>* words) {
   if (std::max(grid.width, grid.height) > kSideMost) {
-    throw std::invalid_argument(say("the map has {} x {} cells; the planner takes up to {} a side. Make it with larger "
-                                    "cells: pose_wall map --cell",
-                                    grid.width, grid.height, kSideMost));
+    throw std::invalid_argument(
+        say("the map has {} x {} cells; the planner takes up to {} a side. Make it with larger "
+            "cells: pose_wall map --cell",
+            grid.width, grid.height, kSideMost));
   }
   pose_wall_planar_plan_settings settings{};
   require_ok(pose_wall_planar_plan_settings_init(&settings), translatable("the settings of the route"));
@@ -72,7 +81,7 @@ pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& g
   settings.resolution_m = grid.resolution_m;
   settings.lattice_m = std::max(settings.lattice_m, 2.0 * grid.resolution_m);
   take_settings(kPlanWords, pose_wall_planar_plan_settings_check, words, &settings);
-  if (!words->empty()) refuse_unknown_setting(named_value(words->front()).name, plan_setting_names());
+  require_plan_settings(*words);
   pose_wall_planar_fault fault{};
   if (pose_wall_planar_plan_settings_check(&settings, &fault) != POSE_WALL_OK) {
     throw std::invalid_argument(fault.rule != nullptr ? fault.rule : tr("the value is refused"));
@@ -118,10 +127,9 @@ std::optional<BlockingCell> blocking_cell(const pose_wall_planar_grid& grid,
       const MapPlace middle{grid.origin_x_m + (column + 0.5) * grid.resolution_m,
                             grid.origin_y_m + (row + 0.5) * grid.resolution_m};
       const pose_wall_planar_pose in_machine = seen_from(at, {middle.x_m, middle.y_m, 0.0});
-      const bool is_covered = in_machine.x_m < settings.front_m + beside_m &&
-                              in_machine.x_m > -settings.rear_m - beside_m &&
-                              in_machine.y_m < settings.left_m + beside_m &&
-                              in_machine.y_m > -settings.right_m - beside_m;
+      const bool is_covered =
+          in_machine.x_m < settings.front_m + beside_m && in_machine.x_m > -settings.rear_m - beside_m &&
+          in_machine.y_m < settings.left_m + beside_m && in_machine.y_m > -settings.right_m - beside_m;
       if (!is_covered) continue;
       if (!is_unknown) return BlockingCell{middle, false};
       if (!found) found = BlockingCell{middle, true};
@@ -140,20 +148,23 @@ std::string blocking_text(const std::optional<BlockingCell>& cell) {
 std::string no_route_text(const pose_wall_planar_plan_result& result) {
   switch (result.outcome) {
     case POSE_WALL_PLAN_START_BLOCKED:
-      return tr("The machine does not fit at the start: with its margin it stands on cells that are occupied or "
-                "unknown. Another --from, or a smaller --set margin_m.");
+      return tr(
+          "The machine does not fit at the start: with its margin it stands on cells that are occupied or "
+          "unknown. Another --from, or a smaller --set margin_m.");
     case POSE_WALL_PLAN_GOAL_BLOCKED:
-      return tr("The machine does not fit at the goal: with its margin it would stand on cells that are occupied or "
-                "unknown. Another --to, or a smaller --set margin_m.");
+      return tr(
+          "The machine does not fit at the goal: with its margin it would stand on cells that are occupied or "
+          "unknown. Another --to, or a smaller --set margin_m.");
     case POSE_WALL_PLAN_NOT_CONNECTED:
       return tr("No free cells lead from the start to the goal: a wall or unknown ground lies between them.");
     case POSE_WALL_PLAN_TOO_NARROW:
       return say("The widest way is too narrow: at x {:.2f} m, y {:.2f} m it is {:.2f} m wide.", result.place.x_m,
                  result.place.y_m, result.width_m);
     case POSE_WALL_PLAN_TOO_TIGHT:
-      return say("The machine cannot turn through: the search got as far as x {:.2f} m, y {:.2f} m. A corner is too "
-                 "tight for its length.",
-                 result.place.x_m, result.place.y_m);
+      return say(
+          "The machine cannot turn through: the search got as far as x {:.2f} m, y {:.2f} m. A corner is too "
+          "tight for its length.",
+          result.place.x_m, result.place.y_m);
     case POSE_WALL_PLAN_LIST_FULL:
       return say("The search ran out of room after {} places. --set places_max and open_max give it more.",
                  result.places);
@@ -166,8 +177,8 @@ std::string no_route_text(const pose_wall_planar_plan_result& result) {
 }
 
 std::string route_as_csv(const PlannedRoute& route) {
-  std::string csv = csv_line(
-      {"pose", "x_m", "y_m", "yaw_rad", "curvature_1_m", "along_m", "drive", "stop", "cusp", "turn"});
+  std::string csv =
+      csv_line({"pose", "x_m", "y_m", "yaw_rad", "curvature_1_m", "along_m", "drive", "stop", "cusp", "turn"});
   std::size_t number = 0;
   for (const pose_wall_planar_path_pose& at : route.poses) {
     csv += csv_line({std::to_string(number++), csv_number(at.pose.x_m), csv_number(at.pose.y_m),

@@ -17,6 +17,8 @@
 namespace pose_wall::tools {
 
 std::vector<std::string> plan_setting_names();
+// Throws std::invalid_argument for a word whose name is none of them.
+void require_plan_settings(const std::vector<std::string>& words);
 
 // The defaults, with sizes and resolution for this grid and the settings that `words` holds; these are taken out of it.
 // Throws std::invalid_argument.

@@ -7,9 +7,11 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "config_file/key_table.hpp"
 #include "language/language.hpp"
 #include "planar/carmen_scans.hpp"
 #include "planar/cloud_scans.hpp"
+#include "planar/setting_words.hpp"
 #include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools {
@@ -29,6 +31,21 @@ void require_log_alone(const FrameOptions& options, const std::vector<std::strin
   }
 }
 
+// A name that no table has may be meant for one of the planar library: the config's own answer knows only its keys.
+void compare_settings(const std::vector<std::string>& words, const std::vector<std::string>& verb_settings) {
+  std::vector<std::string> planar = scanner_setting_names();
+  planar.insert(planar.end(), verb_settings.begin(), verb_settings.end());
+  const std::vector<std::string> keys = config_key_names();
+  for (const std::string& word : words) {
+    const std::string name = named_value(word).name;
+    const std::string meant = nearest_word(name, planar);
+    if (meant.empty() || std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
+    const std::string key = nearest_word(name, keys);
+    if (!key.empty() && edit_distance(name, key) <= edit_distance(name, meant)) continue;
+    throw std::invalid_argument(say("--set {}: there is no such setting{}", name, did_you_mean(name, planar)));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<ScanSource> open_scans(const FrameOptions& options, const std::vector<std::string>& verb_settings) {
@@ -40,6 +57,7 @@ std::unique_ptr<ScanSource> open_scans(const FrameOptions& options, const std::v
   if (log == inputs.end()) {
     FrameOptions for_engine = options;
     const pose_wall_planar_scanner_settings settings = take_scanner_settings(&for_engine.settings);
+    compare_settings(for_engine.settings, verb_settings);
     return std::make_unique<CloudScans>(for_engine, settings);
   }
   require_log_alone(options, verb_settings);

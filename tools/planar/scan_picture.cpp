@@ -30,7 +30,8 @@ constexpr double kLeastShown_m = 3.0;
 // Along beam `beam` of the scan, in base.
 MapPlace along_beam(const SourcedScan& scan, std::size_t beam, double range_m) {
   const pose_wall_planar_pose& sensor = scan.scan.sensor;
-  const double angle_rad = sensor.yaw_rad + scan.scan.angle_min_rad + static_cast<double>(beam) * scan.scan.angle_step_rad;
+  const double angle_rad =
+      sensor.yaw_rad + scan.scan.angle_min_rad + static_cast<double>(beam) * scan.scan.angle_step_rad;
   return {sensor.x_m + range_m * std::cos(angle_rad), sensor.y_m + range_m * std::sin(angle_rad)};
 }
 

@@ -16,13 +16,13 @@
 namespace pose_wall::tools {
 
 struct SourcedScan {
-  std::string name;              // for messages: "aces.clf:12", "a.pcd"
-  std::string time;              // s, with all the digits that the input has
+  std::string name;  // for messages: "aces.clf:12", "a.pcd"
+  std::string time;  // s, with all the digits that the input has
   std::vector<float> range_m;
   pose_wall_planar_scan scan{};  // without its ranges, which view() gives
   std::optional<pose_wall_planar_pose> odometry;
   pose_wall_planar_pose place{};  // in base, of what the scan's pose is: the scanner of a log; else base itself
-  std::string error;             // why there is no scan; empty: there is one
+  std::string error;              // why there is no scan; empty: there is one
 
   pose_wall_planar_scan view() const {
     pose_wall_planar_scan whole = scan;

@@ -50,7 +50,8 @@ class ScanTrail {
   // Throws PlanarError.
   explicit ScanTrail(const pose_wall_planar_slam_settings& settings);
 
-  // odometry may be nullptr. place: in base, of what the scan's pose is to be. Throws PlanarError for a scan that the library refuses; the trail is then unchanged.
+  // odometry may be nullptr. place: in base, of what the scan's pose is to be. Throws PlanarError for a scan that the
+  // library refuses; the trail is then unchanged.
   const pose_wall_planar_slam_result& add(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry,
                                           const pose_wall_planar_pose& place, std::string time);
   // Goes on with the graph until it rests.

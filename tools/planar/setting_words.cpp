@@ -39,8 +39,8 @@ void refuse_setting(const std::string& word, const pose_wall_planar_fault& fault
 }
 
 void refuse_unknown_setting(const std::string& name, const std::vector<std::string>& known) {
-  throw std::invalid_argument(say("--set {}: there is no such setting{}; settings: {}", name,
-                                  did_you_mean(name, known), fmt::format("{}", fmt::join(known, ", "))));
+  throw std::invalid_argument(say("--set {}: there is no such setting{}; settings: {}", name, did_you_mean(name, known),
+                                  fmt::format("{}", fmt::join(known, ", "))));
 }
 
 }  // namespace pose_wall::tools

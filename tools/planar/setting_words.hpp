@@ -18,8 +18,8 @@ namespace pose_wall::tools {
 template <typename Settings>
 struct SettingWord {
   const char* name;
-  double Settings::* number = nullptr;
-  std::uint32_t Settings::* count = nullptr;
+  double Settings::*number = nullptr;
+  std::uint32_t Settings::*count = nullptr;
 };
 
 struct NamedValue {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "frames/whole_file.hpp"
 #include "language/language.hpp"
 #include "planar/built_map.hpp"
 #include "planar/map_picture.hpp"
@@ -22,7 +23,6 @@
 #include "planar/scan_inputs.hpp"
 #include "planar/scan_trail.hpp"
 #include "planar/slam_settings.hpp"
-#include "frames/whole_file.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
@@ -104,10 +104,12 @@ std::string summary_text(const ScanTrail& trail, const BuiltMap& built, bool wit
   table.add_row({tr("points on known surfaces"), fmt::format("{:.1f} %", 100.0 * trail.explained_mean())});
   table.add_row({tr("processor time a scan, mean"), fmt::format("{:.2f} ms", trail.mean_ms())});
   table.add_row({tr("processor time a scan, worst"), fmt::format("{:.2f} ms", trail.worst_ms())});
-  table.add_row({tr("memory of the trail"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(trail.block_bytes()))});
+  table.add_row(
+      {tr("memory of the trail"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(trail.block_bytes()))});
   table.add_row({tr("map"), fmt::format("{:.1f} x {:.1f} m, {:.2f} m", map.width * map.resolution_m,
                                         map.height * map.resolution_m, map.resolution_m)});
-  table.add_row({tr("memory of the map"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(built.block_bytes))});
+  table.add_row(
+      {tr("memory of the map"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(built.block_bytes))});
   return table.text();
 }
 
@@ -116,18 +118,20 @@ std::vector<std::string> warnings_of(const MapWork& work, const BuiltMap& built)
   const std::size_t doubtful = work.trail.count(POSE_WALL_PLANAR_SLAM_DOUBTFUL);
   const std::size_t trails = work.trail.count(POSE_WALL_PLANAR_SLAM_FIRST);
   if (work.trail.last().is_full != 0) {
-    warnings.push_back(say("the trail is full after {} keyframes; later scans changed nothing in the map. A larger "
-                           "--set keyframe_m takes a longer way",
-                           work.trail.last().keyframes));
+    warnings.push_back(
+        say("the trail is full after {} keyframes; later scans changed nothing in the map. A larger "
+            "--set keyframe_m takes a longer way",
+            work.trail.last().keyframes));
   }
   if (trails > 1) warnings.push_back(say("{} scans began a new trail; between them the way is unknown", trails - 1));
   if (10 * doubtful > work.trail.scans().size()) {
-    warnings.push_back(tr("many scans fit badly: is the sensor's place right, do people fill the view, are scans "
-                          "missing?"));
+    warnings.push_back(
+        tr("many scans fit badly: is the sensor's place right, do people fill the view, are scans "
+           "missing?"));
   }
   if (built.beams_not_stored > 0) {
-    warnings.push_back(say("{} beams found no room in the map: its file is not whole. Larger cells: --cell",
-                           built.beams_not_stored));
+    warnings.push_back(
+        say("{} beams found no room in the map: its file is not whole. Larger cells: --cell", built.beams_not_stored));
   }
   return warnings;
 }
@@ -176,19 +180,38 @@ std::vector<Relation> read_relations_of(const MapOptions& options) {
   return options.relations.empty() ? std::vector<Relation>{} : read_relations(options.relations);
 }
 
-int map_scans(MapOptions options) {
-  pose_wall_planar_slam_settings settings = take_slam_settings(&options.frames.settings);
-  const std::vector<Relation> relations = read_relations_of(options);
-  const std::unique_ptr<ScanSource> source = open_scans(options.frames, slam_setting_names());
-  std::vector<std::filesystem::path> read = source->files();
+// Opens the file of the poses and makes the folder, so that what cannot be written is known before the work.
+std::unique_ptr<OutputFile> open_outputs(const MapOptions& options, const ScanSource& source) {
+  std::vector<std::filesystem::path> read = source.files();
   if (!options.relations.empty()) read.emplace_back(options.relations);
-  std::optional<OutputFile> poses;
-  if (!options.poses.empty()) poses.emplace(options.poses, read, "--poses");
+  std::unique_ptr<OutputFile> poses;
+  if (!options.poses.empty()) poses = std::make_unique<OutputFile>(options.poses, read, "--poses");
   if (!options.output.empty()) make_output_folder(options.output);
-  for (const std::string& error : source->errors()) fmt::print(stderr, "pose_wall map: {}\n", error);
+  return poses;
+}
+
+void print_start(const MapOptions& options, const ScanSource& source) {
+  for (const std::string& error : source.errors()) fmt::print(stderr, "pose_wall map: {}\n", error);
+  if (options.frames.quiet) return;
+  for (const std::string& note : source.notes()) fmt::print(stderr, "{}\n", note);
+}
+
+void print_end(const MapOptions& options, const MapWork& work, const BuiltMap& built, const ScanSource& source,
+               const std::vector<Relation>& relations) {
   if (!options.frames.quiet) {
-    for (const std::string& note : source->notes()) fmt::print(stderr, "{}\n", note);
+    fmt::print("{}", summary_text(work.trail, built, !options.no_odometry && source.has_odometry()));
+    for (const std::string& warning : warnings_of(work, built)) fmt::print(stderr, "pose_wall map: {}\n", warning);
   }
+  if (options.relations.empty()) return;
+  fmt::print("{}{}", options.frames.quiet ? "" : "\n", relation_table(relations_of(work.trail, relations)));
+}
+
+int map_scans(MapOptions options) {
+  const pose_wall_planar_slam_settings settings = take_slam_settings(&options.frames.settings);
+  const std::unique_ptr<ScanSource> source = open_scans(options.frames, slam_setting_names());
+  const std::vector<Relation> relations = read_relations_of(options);
+  const std::unique_ptr<OutputFile> poses = open_outputs(options, *source);
+  print_start(options, *source);
 
   const InterruptWatch watch;
   MapWork work{ScanTrail(settings_for(settings, source->scans()))};
@@ -201,16 +224,11 @@ int map_scans(MapOptions options) {
   const BuiltMap built = build_map(work.trail.kept_scans(), work.trail.kept_poses(), options.cell_m);
   if (poses) poses->write(poses_text(work.trail));
   if (!options.output.empty()) write_folder(options, work.trail, built);
-  if (!options.frames.quiet) {
-    fmt::print("{}", summary_text(work.trail, built, !options.no_odometry && source->has_odometry()));
-    for (const std::string& warning : warnings_of(work, built)) fmt::print(stderr, "pose_wall map: {}\n", warning);
-  }
-  if (!options.relations.empty()) {
-    fmt::print("{}{}", options.frames.quiet ? "" : "\n", relation_table(relations_of(work.trail, relations)));
-  }
+  print_end(options, work, built, *source, relations);
   if (InterruptWatch::is_interrupted()) {
-    fmt::print(stderr, "{}", say("interrupted after {} of {} scans; what is written shows these\n",
-                                 work.trail.scans().size(), source->scans()));
+    fmt::print(stderr, "{}",
+               say("interrupted after {} of {} scans; what is written shows these\n", work.trail.scans().size(),
+                   source->scans()));
     return kExitInterrupted;
   }
   return source->errors().empty() && work.unreadable == 0 ? kExitDone : kExitUnreadable;
@@ -228,26 +246,27 @@ void add_map(CLI::App& app, int& exit_code) {
   verb->add_option("--poses", options->poses,
                    tr("File for the final pose of every scan in TUM format: rows `t x y z qx qy qz qw`, t as the input "
                       "writes it"));
-  verb->add_option("--relations", options->relations,
-                   tr("True relations between poses (`t1 t2 x y z roll pitch yaw`): the errors against them are printed"))
+  verb->add_option(
+          "--relations", options->relations,
+          tr("True relations between poses (`t1 t2 x y z roll pitch yaw`): the errors against them are printed"))
       ->check(existing_file());
   verb->add_flag("--no-odometry", options->no_odometry, tr("Leave out the odometry of a log"));
   verb->add_option("--cell", options->cell_m, tr("Side of a cell of the map, m"))
       ->capture_default_str()
       ->check(number_within(0.02, 0.5));
-  verb->footer(
-      tr("Examples:\n"
-         "  pose_wall map aces.clf.gz -o aces --poses aces.tum --relations aces.relations\n"
-         "  pose_wall map -c road/pose_wall.yaml -o map road/frames\n"
-         "INPUT is frames as for `run`, or one log of CARMEN (FLASER, ROBOTLASER1; .clf, .log, also packed by gzip).\n"
-         "Of frames, each becomes a planar scan about the measured floor.\n"
-         "The pose of a log's scan is that of its scanner, as FLASER has it, else that of base.\n"
-         "Every scan is matched with the last metres. Where the machine comes back to a place, the closure is believed\n"
-         "after several looks agree, and taken back where later looks contradict it.\n"
-         "--set also takes keyframe_m (0.3), keyframe_rad (0.25), and by how much odometry errs: odometry_m (0.1, by\n"
-         "the way), odometry_rad (0.3, by the turn).\n"
-         "Exit status: 0 done, 1 an input could not be read (the others are mapped) or a file not written,\n"
-         "2 bad usage or config, 130 interrupted by Ctrl-C: files show the scans so far."));
+  verb->footer(tr(
+      "Examples:\n"
+      "  pose_wall map aces.clf.gz -o aces --poses aces.tum --relations aces.relations\n"
+      "  pose_wall map -c road/pose_wall.yaml -o map road/frames\n"
+      "INPUT is frames as for `run`, or one log of CARMEN (FLASER, ROBOTLASER1; .clf, .log, also packed by gzip).\n"
+      "Of frames, each becomes a planar scan about the measured floor.\n"
+      "The pose of a log's scan is that of its scanner, as FLASER has it, else that of base.\n"
+      "Every scan is matched with the last metres. Where the machine comes back to a place, the closure is believed\n"
+      "after several looks agree, and taken back where later looks contradict it.\n"
+      "--set also takes keyframe_m (0.3), keyframe_rad (0.25), and by how much odometry errs: odometry_m (0.1, by\n"
+      "the way), odometry_rad (0.3, by the turn).\n"
+      "Exit status: 0 done, 1 an input could not be read (the others are mapped) or a file not written,\n"
+      "2 bad usage or config, 130 interrupted by Ctrl-C: files show the scans so far."));
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("map", [&] { return map_scans(*options); }); });
 }
 

@@ -95,6 +95,7 @@ MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedR
 }
 
 int plan_route(PlanOptions options) {
+  require_plan_settings(options.settings);
   const pose_wall_planar_pose from = pose_of_word(options.from, "--from");
   const pose_wall_planar_pose to = pose_of_word(options.to, "--to");
   MapFile map = read_map_files(options.map);
@@ -115,8 +116,7 @@ int plan_route(PlanOptions options) {
   const PlannedRoute route = planner.plan(map.grid(), from, to);
   if (picture) picture->write(map_picture(scene_of(options, map, route, settings, from, to)));
   if (!route.is_found()) {
-    const std::string by =
-        is_blocked(route) ? " " + blocking_text(blocking_of(map, settings, route, from, to)) : "";
+    const std::string by = is_blocked(route) ? " " + blocking_text(blocking_of(map, settings, route, from, to)) : "";
     fmt::print(stderr, "{}", say("pose_wall plan: no route. {}{}\n", no_route_text(route.result), by));
     return kExitNotUsable;
   }
@@ -147,9 +147,9 @@ void add_plan(CLI::App& app, int& exit_code) {
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
   verb->footer(
       tr("Examples:\n"
-         "  pose_wall plan map/map.yaml --from 0,0,0 --to=-12.5,3,180 -o route.csv --picture route.svg\n"
+         "  pose_wall plan map/map.yaml --from 0,0,0 --to 12.5,-3,180 -o route.csv --picture route.svg\n"
          "  pose_wall plan map/map.yaml --from 0,0,0 --to 20,0,0 -s front_m=1.8 -s rear_m=2.7 -s margin_m=0.2\n"
-         "Yaw counts from x to y. A value that begins with a minus needs the =, as above.\n"
+         "Yaw counts from x to y.\n"
          "The machine is a rectangle: front_m, rear_m (2.25), left_m, right_m (0.6), with margin_m (0.1) round it.\n"
          "It drives forwards and backwards, in curves, and turns on the spot. Unknown cells are not driven on.\n"
          "Further settings: lattice_m, turn_cost_m_rad, reverse_cost, cusp_cost_m, weight, radius_min_m,\n"
@@ -157,7 +157,8 @@ void add_plan(CLI::App& app, int& exit_code) {
          "drive of a pose is 1 forwards, -1 backwards, 0 a turn on the spot that leads to it.\n"
          "Exit status: 0 done, 1 the map could not be read or a file not written, 2 bad usage, 3 there is no route\n"
          "(stderr has the reason, the picture the place)."));
-  verb->callback([options, &exit_code] { exit_code = done_or_complaint("plan", [&] { return plan_route(*options); }); });
+  verb->callback(
+      [options, &exit_code] { exit_code = done_or_complaint("plan", [&] { return plan_route(*options); }); });
 }
 
 }  // namespace pose_wall::tools

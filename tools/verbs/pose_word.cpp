@@ -43,8 +43,7 @@ pose_wall_planar_pose pose_of_word(const std::string& word, const char* option) 
 
 CLI::Validator svg_file() {
   const auto fault = [](const std::string& path) -> std::string {
-    return std::filesystem::path(path).extension() == ".svg" ? ""
-                                                             : say("'{}': a file ending in .svg is allowed", path);
+    return std::filesystem::path(path).extension() == ".svg" ? "" : say("'{}': a file ending in .svg is allowed", path);
   };
   return CLI::Validator(fault, "", "");
 }

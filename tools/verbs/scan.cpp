@@ -46,12 +46,15 @@ struct ScanOptions {
 // Beside the range, where the scan is of a cloud.
 struct BeamColumn {
   const char* name;
-  const float* pose_wall_planar_scan_view::* values;
+  const float* pose_wall_planar_scan_view::*values;
 };
 constexpr BeamColumn kBeamColumns[] = {
-    {"free_m", &pose_wall_planar_scan_view::free_m},       {"bias_m", &pose_wall_planar_scan_view::bias_m},
-    {"sigma_m", &pose_wall_planar_scan_view::sigma_m},     {"low_m", &pose_wall_planar_scan_view::low_m},
-    {"overhead_m", &pose_wall_planar_scan_view::overhead_m}, {"alone_m", &pose_wall_planar_scan_view::alone_m},
+    {"free_m", &pose_wall_planar_scan_view::free_m},
+    {"bias_m", &pose_wall_planar_scan_view::bias_m},
+    {"sigma_m", &pose_wall_planar_scan_view::sigma_m},
+    {"low_m", &pose_wall_planar_scan_view::low_m},
+    {"overhead_m", &pose_wall_planar_scan_view::overhead_m},
+    {"alone_m", &pose_wall_planar_scan_view::alone_m},
     {"clear_from_m", &pose_wall_planar_scan_view::clear_from_m},
     {"clear_m", &pose_wall_planar_scan_view::clear_m},
 };
@@ -77,7 +80,10 @@ std::string number_or_inf(double value) {
 std::string csv_rows(std::size_t number, const SourcedScan& scan, const pose_wall_planar_scan_view* view) {
   std::string rows;
   for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
-    std::vector<std::string> cells = {std::to_string(number), scan.name, scan.time, std::to_string(beam),
+    std::vector<std::string> cells = {std::to_string(number),
+                                      scan.name,
+                                      scan.time,
+                                      std::to_string(beam),
                                       csv_number(angle_of(scan, beam)),
                                       number_or_inf(static_cast<double>(scan.range_m[beam]))};
     for (const BeamColumn& column : kBeamColumns) {
