@@ -295,7 +295,12 @@ void PlaceSearch::refine(const PlaceMap& map, const Look& look, const Seed& seed
 // The best first, each fitted once more with all points.
 void PlaceSearch::sort_out(const PlaceMap& map, const Look& look) {
   const auto better = [](const Hypothesis& a, const Hypothesis& b) { return a.verdict.cost < b.verdict.cost; };
-  std::sort(hypotheses_.begin(), hypotheses_.begin() + hypothesis_count_, better);
+  // By a heap: std::sort calls itself, and the stack is bounded.
+  const auto sort = [&](std::uint32_t count) {
+    std::make_heap(hypotheses_.begin(), hypotheses_.begin() + count, better);
+    std::sort_heap(hypotheses_.begin(), hypotheses_.begin() + count, better);
+  };
+  sort(hypothesis_count_);
   constexpr std::uint32_t kBest = 32;
   for (std::uint32_t k = 0; k < std::min(kBest, hypothesis_count_); ++k) {
     Hypothesis& own = hypotheses_[k];
@@ -307,7 +312,7 @@ void PlaceSearch::sort_out(const PlaceMap& map, const Look& look) {
     own.rms_m = fit.rms_m;
     own.verdict = judge_patches(map, look, fit.pose, &own.costs);
   }
-  std::sort(hypotheses_.begin(), hypotheses_.begin() + std::min(kBest, hypothesis_count_), better);
+  sort(std::min(kBest, hypothesis_count_));
 }
 
 bool PlaceSearch::go_on(const PlaceMap& map, const Look& look, std::uint64_t steps) {
