@@ -88,9 +88,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_clear(pose_wall_planar_local
 
 /* A keyframe of a trail: what was seen from where, as pose_wall_planar_slam_keyframe and pose_wall_planar_slam_points
  * give it. xy_m holds x, y, x, y ... of the surface points in base. The map's square of 4 km has the first keyframe in
- * its middle. Fails iff: POSE_WALL_E_POSE (not finite, or beyond 1e6 m), POSE_WALL_E_SCAN (points not finite or beyond
- * 2000 m; more than 6284), POSE_WALL_E_BLOCK_SMALL (more than tiles_most, or outside the square: the map lacks a part
- * of the keyframe), POSE_WALL_E_ORDER (the map is finished). */
+ * its middle. Fails iff: POSE_WALL_E_ORDER (the map is finished), POSE_WALL_E_POSE (not finite, or beyond 1e6 m);
+ * POSE_WALL_E_SCAN: points not finite or beyond 2000 m, or more than 6284;
+ * POSE_WALL_E_BLOCK_SMALL: more than tiles_most, or outside the square. The map then lacks a part of the keyframe. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_add(pose_wall_planar_localise* localise,
                                                         const pose_wall_planar_pose* pose, const float* xy_m,
                                                         uint32_t points);

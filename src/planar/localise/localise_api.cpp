@@ -107,14 +107,14 @@ bool is_grid(const pose_wall_planar_grid& grid) {
 }
 
 bool add_cells(PlaceMap* map, const pose_wall_planar_grid& grid) {
-  constexpr int kFree = 35, kThing = 65;  // as the header says
+  constexpr std::int8_t kFree = 35, kThing = 65, kMost = 100;  // as the header says
   bool fits = true;
   for (std::uint32_t row = 0; row < grid.height; ++row) {
     for (std::uint32_t column = 0; column < grid.width; ++column) {
-      const int cell = grid.cells[static_cast<std::uint64_t>(row) * grid.width + column];
+      const std::int8_t cell = grid.cells[static_cast<std::uint64_t>(row) * grid.width + column];
       const Eigen::Vector2d place(grid.origin_x_m + (column + 0.5) * grid.resolution_m,
                                   grid.origin_y_m + (row + 0.5) * grid.resolution_m);
-      if (cell >= kThing && cell <= 100) fits = map->add_surface(place) && fits;
+      if (cell >= kThing && cell <= kMost) fits = map->add_surface(place) && fits;
       if (cell >= 0 && cell <= kFree) fits = map->add_free(place) && fits;
     }
   }

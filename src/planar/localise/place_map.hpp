@@ -72,7 +72,8 @@ class PlaceMap {
   static constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
   static constexpr std::uint32_t kTileSize = static_cast<std::uint32_t>(kTileCells * kTileCells);
   static constexpr std::uint32_t kTileCoarseSize = static_cast<std::uint32_t>(kTileCoarse * kTileCoarse);
-  static constexpr std::uint32_t kCellsPerTile = 256;  // in the mean; a rough road needs 132, a map of SLAM up to half more
+  // In the mean. Rough roads need 132.
+  static constexpr std::uint32_t kCellsPerTile = 256;
 
   static constexpr std::int32_t kSide = kAcross * kTileCells;  // cells of the square
   static bool is_inside(double x_m, double y_m) {
