@@ -292,7 +292,7 @@ std::optional<pose_wall_planar_pose> place_in_all_scans(const CarmenLog& log) {
     if (!is_same) return std::nullopt;
   }
   // Digits that the log's rounding left are no place.
-  const auto rounded = [](double value) { return std::round(value * 1e4) * 1e-4; };
+  const auto rounded = [](double value) { return std::round(value * 1e4) * 1e-4 + 0.0; };
   return pose_wall_planar_pose{rounded(first.x_m), rounded(first.y_m), rounded(first.yaw_rad)};
 }
 
