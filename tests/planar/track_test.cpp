@@ -16,7 +16,7 @@
 namespace {
 
 using pose_wall::test::drawn_route;
-using pose_wall::test::Ground;
+using pose_wall::test::DrivenGround;
 using pose_wall::test::LoopRun;
 using pose_wall::test::LoopTracker;
 using pose_wall::test::Moment;
@@ -29,10 +29,10 @@ pose_wall_planar_track_settings usual_track() {
   return settings;
 }
 
-Ground drawn_ground(std::uint32_t seed) {
+DrivenGround drawn_ground(std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> slip(0.05, 0.20);
-  Ground ground;
+  DrivenGround ground;
   ground.slip_left = slip(random);
   ground.slip_right = slip(random);
   ground.slip_wave = 0.02;
@@ -58,7 +58,7 @@ TEST(Track, OnCurvesWithSlipDelayAndNoiseItStaysWithinFiveCentimetres) {
 TEST(Track, DoesNotOscillate) {
   for (const int drive : {1, -1}) {
     for (const double delay : {0.0, 0.15, 0.3, 0.45}) {  // the tracker believes 0.3
-      Ground ground;
+      DrivenGround ground;
       ground.delay_s = delay;
       const auto route = route_of({{60.0, 0.0, drive}});
       LoopTracker tracker(usual_track());
@@ -75,7 +75,7 @@ TEST(Track, AnErrorFadesWithinItsWayAndDoesNotOvershoot) {
     for (const double aside : {0.3, -0.3}) {
       pose_wall_planar_track_settings settings = usual_track();
       settings.settle_m = settle;
-      Ground ground;
+      DrivenGround ground;
       ground.pose_sigma_m = ground.pose_sigma_rad = 0.0;
       const auto route = route_of({{20.0, 0.0, 1}});
       LoopTracker tracker(settings);
@@ -92,7 +92,7 @@ TEST(Track, AnErrorFadesWithinItsWayAndDoesNotOvershoot) {
 }
 
 TEST(Track, LearnsSlipAndDrift) {
-  Ground ground;
+  DrivenGround ground;
   ground.slip_left = 0.05;
   ground.slip_right = 0.20;
   const auto route = route_of({{40.0, 0.0, 1}});
@@ -111,7 +111,7 @@ TEST(Track, SlowsInNarrowPlacesInCurvesAndBeforeStops) {
   const pose_wall_planar_track_settings settings = usual_track();
   const auto route = route_of({{20.0, 0.0, 1}, {1.57, 1.57, 1}, {6.0, 0.0, 1}});
   LoopTracker tracker(settings);
-  const LoopRun run = run_loop(tracker, route, {0.0, 0.0, 0.0}, Ground(), 1, room_of_a_narrow_place);
+  const LoopRun run = run_loop(tracker, route, {0.0, 0.0, 0.0}, DrivenGround(), 1, room_of_a_narrow_place);
   double open = 0.0, narrow = 0.0, curve = 0.0, last = 0.0;
   bool was_slowed_by[4] = {};
   for (const Moment& m : run.moments) {
