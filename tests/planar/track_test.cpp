@@ -16,7 +16,7 @@
 namespace {
 
 using pose_wall::test::drawn_route;
-using pose_wall::test::DrivenGround;
+using DrivenGround = pose_wall::test::Ground;
 using pose_wall::test::LoopRun;
 using pose_wall::test::LoopTracker;
 using pose_wall::test::Moment;
